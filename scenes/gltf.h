@@ -1,0 +1,24 @@
+// glTF 2.0 in: .gltf with files or data URIs, and .glb, into a Scene. (The only user of tinygltf.)
+//
+// Read: the default scene (or the one asked for), its node hierarchy with any matrix or TRS, triangles, strips and
+// fans, indexed or not, strided and sparse accessors, metallic-roughness materials with the extensions
+// KHR_materials_emissive_strength, _ior, _specular, _transmission, KHR_texture_transform, KHR_lights_punctual,
+// perspective and orthographic cameras. Negative determinants keep the front in front.
+// What is left out is named in Scene::warnings or Scene::ignored.
+// Throws InputError (FILE: WHERE: WHAT) for anything that is not a well-formed file with finite geometry.
+#pragma once
+
+#include "scenes/scene.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace meninas {
+
+struct GltfSettings {
+  std::optional<std::string> scene; ///< name or index of the scene in the file; the file's default otherwise
+};
+
+Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings = {});
+
+} // namespace meninas

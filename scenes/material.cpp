@@ -1,0 +1,27 @@
+#include "scenes/material.h"
+
+namespace meninas {
+
+bool is_mirror(const Material& material) {
+  return material.metallic > 0.0 && material.roughness <= ideal_mirror_roughness &&
+         glm::any(glm::greaterThan(material.base_color, Rgb(0.0)));
+}
+
+bool is_emitter(const Material& material) {
+  return glm::any(glm::greaterThan(material.emission, Rgb(0.0)));
+}
+
+bool is_glossy(const Material& material) {
+  return material.metallic > 0.0 && material.roughness > ideal_mirror_roughness;
+}
+
+Rgb diffuse_reflectance(const Material& material) {
+  if (is_glossy(material)) return material.base_color;
+  return material.base_color * (1.0 - material.metallic);
+}
+
+Rgb mirror_reflectance(const Material& material) {
+  return is_mirror(material) ? material.base_color * material.metallic : Rgb(0.0);
+}
+
+} // namespace meninas

@@ -1,0 +1,96 @@
+// The scene: what is there, in world space, as plain values. Filled by load_gltf or by hand.
+//
+// Triangles are counter-clockwise seen from the front. Degenerate triangles (no area at the precision of
+// their vertices) are not in the list, only counted. References between objects are indices, never pointers.
+#pragma once
+
+#include "scenes/camera.h"
+#include "scenes/material.h"
+#include "scenes/types.h"
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace meninas {
+
+struct Vertex {
+  Point3 position{0.0};
+  std::array<glm::vec2, 2> texcoord{}; ///< TEXCOORD_0 and TEXCOORD_1
+};
+
+struct Triangle {
+  std::array<VertexId, 3> vertices{};
+  MaterialId material = none<MaterialId>;
+  NodeId node = none<NodeId>;
+};
+
+/// A glTF node that carries a mesh; its name is how a user asks for it. Unnamed nodes are `node12`.
+struct Node {
+  std::string name;
+};
+
+/// An encoded image, kept as the bytes of its file; decoded where it is used.
+struct Texture {
+  std::string name; ///< of the image or its file, for messages
+  std::vector<std::byte> encoded;
+  bool repeat_u = true;
+  bool repeat_v = true;
+};
+
+enum class PunctualKind { point, spot, directional };
+
+/// KHR_lights_punctual. Intensity is W/sr for point and spot, irradiance W/m^2 for directional lights.
+struct PunctualLight {
+  std::string name;
+  PunctualKind kind = PunctualKind::point;
+  Rgb intensity{1.0};
+  Point3 position{0.0};
+  Direction direction{0.0, 0.0, -1.0};
+  double inner_cone = 0.0; ///< radians
+  double outer_cone = 0.785398163397448;
+};
+
+struct Scene {
+  std::string file; ///< as the user named it, for messages
+  std::vector<Vertex> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<Material> materials;
+  std::vector<Node> nodes;
+  std::vector<Camera> cameras;
+  std::vector<PunctualLight> lights;
+  std::vector<Texture> textures;
+  std::vector<std::string> warnings; ///< what was read in a way the user may not expect, one line each
+  std::vector<std::string> ignored;  ///< names of extensions and features that were left out
+  std::size_t degenerate_triangles = 0;
+
+  /// Bound on the rounding error of the positions, in metres: floats in the file, moved by the node matrices.
+  /// Geometry is only distinguished above it (coplanar, coincident, degenerate).
+  double position_error = 0.0;
+};
+
+inline const Point3& position(const Scene& scene, VertexId vertex) {
+  return scene.vertices[index(vertex)].position;
+}
+
+inline const Material& material_of(const Scene& scene, TriangleId triangle) {
+  return scene.materials[index(scene.triangles[index(triangle)].material)];
+}
+
+std::array<Point3, 3> corners(const Scene& scene, TriangleId triangle);
+
+/// Half the cross product of two edges: its length is the area, its direction the front.
+Vec3 area_vector(const std::array<Point3, 3>& corners);
+
+Bounds bounds_of(const Scene& scene);
+
+/// A hash of all that light depends on (geometry, materials, textures, lights), not of cameras and names.
+/// A solution carries it, so that it can be refused when it belongs to another scene.
+std::uint64_t content_hash(const Scene& scene);
+
+/// The node of that name; throws UsageError with the nearest known name as a hint.
+NodeId find_node(const Scene& scene, const std::string& name);
+const Camera& find_camera(const Scene& scene, const std::string& name);
+
+} // namespace meninas
