@@ -1,0 +1,40 @@
+// The planar mirrors of a scene: coplanar ideal-mirror surfaces of one reflectance merged into one mirror each.
+//
+// A mirror's window is the set of convex polygons through which its mirror world is seen. The front of a mirror reflects;
+// a double-sided mirror is two mirrors, back to back. Curved mirrors are many small planes: beyond `max_mirrors` planes
+// only large ones are enumerated, the rest are facets, which rays follow exactly all the same but which get no mirror world.
+#pragma once
+
+#include "mirror/convex_polygon.h"
+#include "scenes/surfaces.h"
+
+#include <string>
+#include <vector>
+
+namespace meninas {
+
+enum class MirrorId : std::uint32_t {};
+
+struct MirrorSettings {
+  int max_mirrors = 64;              ///< planes that may be enumerated
+  double smallest_share = 0.01;      ///< of the mirrors' total area, asked of each once there are more planes than that
+};
+
+struct Mirror {
+  Plane plane; ///< normal towards the reflecting side
+  PlaneId plane_class = none<PlaneId>;
+  Rgb reflectance{1.0};
+  double area = 0.0;
+  std::vector<ConvexPolygon> window; ///< convex, disjoint, counter-clockwise seen from the reflecting side
+  std::vector<NodeId> nodes;
+};
+
+struct MirrorSet {
+  std::vector<Mirror> mirrors;                              ///< largest first
+  std::vector<std::array<MirrorId, 2>> mirror_of_surface;   ///< by SurfaceId, for its front and its back; none for facets and the rest
+  std::size_t facets = 0;                                   ///< mirror surfaces that are not enumerated
+};
+
+MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces, const MirrorSettings& settings = {});
+
+} // namespace meninas

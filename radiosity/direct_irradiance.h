@@ -1,0 +1,45 @@
+// Direct irradiance: the light of emitters and of their images in the mirror worlds, computed from the source.
+//
+//   D(x) = sum_w tau_w sum_e E_e F(x, T_w e clipped) V(x, w, e)
+//
+// F is Lambert's closed form for a point and a polygon, V the visible fraction: low-discrepancy points on the clipped image, weighted by
+// the cosines and distance of the form factor they stand for, each tested along every leg of the folded path. Few points where all
+// agree, more in penumbrae.
+#pragma once
+
+#include "radiosity/form_factors.h"
+
+namespace meninas {
+
+struct DirectSettings {
+  int points = 4;            ///< receiving points per element, a power of two
+  int shadow_rays = 16;      ///< per emitter image and point where it matters most; images that bring less get fewer
+  int penumbra_rays = 64;    ///< when the first ones disagree
+  std::uint32_t seed = 0;
+};
+
+/// A point that receives light on one side of a plane.
+struct Receiver {
+  Point3 position;
+  Direction normal;
+  PlaneId plane_class = none<PlaneId>;
+};
+
+/// Storage reused from point to point; one for each thread.
+struct DirectWorkspace {
+  std::vector<VirtualLight> lights;
+  std::vector<double> form_factors;
+  std::vector<Leg> legs;
+  std::uint64_t shadow_rays = 0;
+};
+
+Rgb direct_irradiance(const LightScene& light, const Receiver& receiver, const DirectSettings& settings,
+                      std::uint32_t seed, DirectWorkspace& workspace);
+
+struct DirectIrradiance {
+  std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element
+  std::uint64_t shadow_rays = 0;
+};
+DirectIrradiance direct_irradiance(const LightScene& light, const DirectSettings& settings);
+
+} // namespace meninas

@@ -1,0 +1,41 @@
+// From element values to a continuous field of irradiance over every patch side.
+//
+// `average`: a vertex takes the mean of the elements around it, in its own surface; on the boundary of a surface the mean is extrapolated
+// from the elements behind, never below 0. `gather`: the irradiance is gathered at the vertex itself, direct light by closed form, the
+// rest by rays over the element radiosities, so that the field is right at its vertices.
+// Vertices that see nothing but the black insides of things that stand on them hold no value; the field is interpolated from the others.
+// Between vertices the field is bilinear in quads, linear in triangles. It is irradiance, W/m^2: reflectance is applied at the hit.
+#pragma once
+
+#include "radiosity/direct_irradiance.h"
+#include "radiosity/solve.h"
+
+namespace meninas {
+
+enum class Interpolation { average, gather };
+
+struct InterpolationSettings {
+  Interpolation method = Interpolation::gather;
+  int rays = 512; ///< per vertex, for `gather`
+};
+
+/// Irradiance by ElementVertexId. The mesh it belongs to must outlive it.
+struct DiffuseField {
+  std::vector<glm::vec3> irradiance;
+};
+
+struct InterpolatedField {
+  DiffuseField field;
+  std::uint64_t form_factor_rays = 0;
+  std::uint64_t shadow_rays = 0;
+};
+
+/// `radiosity` is B by ElementId, emission left out; `irradiance` is H by ElementId.
+InterpolatedField interpolate(const LightScene& light, const std::vector<Rgb>& radiosity,
+                              const std::vector<Rgb>& irradiance, const FormFactorSettings& form_factors,
+                              const DirectSettings& direct, const InterpolationSettings& settings);
+
+/// The field at a point of a side.
+glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv);
+
+} // namespace meninas

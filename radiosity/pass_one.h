@@ -1,0 +1,60 @@
+// Pass one in one call: from the scene to the continuous field of irradiance, with its figures.
+#pragma once
+
+#include "radiosity/interpolation.h"
+#include "radiosity/plan.h"
+
+#include <functional>
+
+namespace meninas {
+
+/// Called with the stage's name and the fraction of it that is done; may be empty. Never affects the result.
+using Progress = std::function<void(std::string_view stage, double fraction)>;
+
+struct PassOneSettings {
+  PlanSettings plan;
+  MeshSettings mesh;
+  FormFactorSettings form_factors;
+  DirectSettings direct;
+  SolverSettings solver;
+  InterpolationSettings interpolation;
+};
+
+struct EnergyBalance {
+  Rgb emitted{0.0}, absorbed{0.0}, escaped{0.0}, mirror_absorbed{0.0}; ///< W
+  double imbalance = 0.0; ///< (emitted - absorbed - escaped - mirror_absorbed) / emitted, worst channel by size
+};
+
+struct ClosureError {
+  double mean_error = 0.0; ///< of |1 - (landed + escaped + black + cut)| over the rows
+  double max_error = 0.0;
+  double cut = 0.0;        ///< mean fraction of a row cut at the last mirror bounce
+};
+
+struct PassOneSeconds {
+  double mesh = 0.0, form_factors = 0.0, solve = 0.0, interpolate = 0.0;
+};
+
+struct RadiositySolution {
+  std::vector<Rgb> radiosity;  ///< B by ElementId, emission included
+  std::vector<Rgb> irradiance; ///< H by ElementId
+  DiffuseField field;
+  SolverResult solver; ///< its radiosity is moved out
+  EnergyBalance energy;
+  ClosureError closure;
+  PassOneSeconds seconds;
+  std::uint64_t form_factor_rays = 0;
+  std::uint64_t shadow_rays = 0;
+};
+
+/// Area means of one node over all of its sides.
+struct NodeLight {
+  std::string name;
+  double area = 0.0;
+  Rgb emitted{0.0}, radiosity{0.0}, irradiance{0.0};
+};
+std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh, const RadiositySolution& solution);
+
+RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings, const Progress& progress = {});
+
+} // namespace meninas

@@ -1,0 +1,41 @@
+// The plan: what the scene contains, and so which transport has to be modelled. What a scene does not need is not run.
+#pragma once
+
+#include "mirror/worlds.h"
+#include "scenes/surfaces.h"
+
+#include <string>
+#include <vector>
+
+namespace meninas {
+
+struct PlannedMirror {
+  std::string name; ///< the node, or nodes joined by '+'
+  double area = 0.0;
+  Rgb reflectance{0.0};
+};
+
+struct TransportPlan {
+  MirrorSet mirrors;
+  WorldTree worlds;
+  std::vector<PlannedMirror> mirror_list;
+  std::size_t emitters = 0; ///< emitting patch sides
+  std::size_t punctual_lights = 0;
+  std::size_t glossy = 0;       ///< materials that are metals too rough for a mirror
+  std::size_t transmissive = 0; ///< materials
+  std::size_t textured = 0;     ///< materials
+  int bands = 1;                ///< 1 when everything is grey
+  bool closed = false;          ///< every edge of the geometry has a face on both sides
+  std::vector<std::string> stages;
+  std::vector<std::string> ignored;
+  std::vector<std::string> warnings; ///< the scene's own and the plan's
+};
+
+struct PlanSettings {
+  MirrorSettings mirrors;
+  WorldSettings worlds;
+};
+
+TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces, const PlanSettings& settings = {});
+
+} // namespace meninas

@@ -1,0 +1,39 @@
+// Pass two: the picture. Camera rays meet the diffuse field or a mirror; mirrors are followed in chains until the path
+// lands on the field, escapes, or its throughput falls below the visible threshold.
+//
+//   L(pixel) = mean over samples of  prod_k rho_s(k) (L_e + rho_d H / pi)   at the landing point
+//
+// Samples are stratified in the pixel and seeded by hash(pixel, seed); tiles run in parallel and each writes its own pixels.
+#pragma once
+
+#include "image/image.h"
+#include "radiosity/interpolation.h"
+#include "radiosity/pass_one.h"
+
+namespace meninas {
+
+enum class RenderMode {
+  radiosity, ///< pass one alone, Gouraud-shaded: mirrors are black
+  hybrid     ///< mirrors followed
+};
+
+struct RenderSettings {
+  RenderMode mode = RenderMode::hybrid;
+  int width = 512;
+  int height = 512;
+  int samples = 16; ///< per pixel, a power of two
+  double min_throughput = 1.0 / 1024.0; ///< of a specular path, below which it ends
+  int max_bounces = 1000;
+  std::uint32_t seed = 0;
+};
+
+struct Rendering {
+  Image image; ///< radiance
+  std::uint64_t camera_rays = 0;
+  std::uint64_t specular_rays = 0;
+};
+
+Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera,
+                 const RenderSettings& settings, const Progress& progress = {});
+
+} // namespace meninas

@@ -1,0 +1,35 @@
+// The two passes, from scene to picture: the page to read first is two_pass.cpp.
+#pragma once
+
+#include "radiosity/pass_one.h"
+#include "raytrace/render.h"
+
+#include <memory>
+#include <optional>
+
+namespace meninas {
+
+struct TwoPassSettings {
+  PassOneSettings pass_one;
+  RenderSettings render;
+};
+
+/// Everything about a scene that does not depend on the view, prepared once and kept together.
+struct PreparedScene {
+  Scene scene;
+  SurfaceModel surfaces;
+  TransportPlan plan;
+  ElementMesh mesh;
+  std::optional<RayScene> rays;
+  std::optional<LightScene> light; ///< refers to the members above: a PreparedScene stays where it was made
+};
+std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings);
+
+struct TwoPassResult {
+  RadiositySolution solution;
+  Rendering rendering;
+};
+TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera, const TwoPassSettings& settings,
+                       const Progress& progress = {});
+
+} // namespace meninas
