@@ -8,27 +8,31 @@
 
 namespace meninas {
 
-/// Up to `capacity` vertices in order. A clip that would exceed it keeps the polygon unclipped by that plane: a window of
-/// depth k has at most 4 (k + 1) corners, so chains up to depth 15 of quads are exact.
+/// Up to `capacity` vertices in order. A clip adds at most one vertex; the (rare) one that would exceed the capacity is left out, so the
+/// polygon stays convex and errs on the large side: quads through chains of quads are exact up to depth 10 at the least.
 struct ConvexPolygon {
-  static constexpr std::size_t capacity = 64;
+  static constexpr std::size_t capacity = 48;
   std::array<Point3, capacity> vertices;
   std::size_t size = 0;
 
   ConvexPolygon() = default;
   explicit ConvexPolygon(std::span<const Point3> corners);
+  ConvexPolygon(const ConvexPolygon& other) { *this = other; }
+  ConvexPolygon& operator=(const ConvexPolygon& other); ///< copies the vertices in use only
+
   std::span<const Point3> span() const { return {vertices.data(), size}; }
   bool empty() const { return size < 3; }
+  void push_back(const Point3& vertex) { vertices[size++] = vertex; }
 };
 
-/// The part of the polygon where signed_distance(plane, x) >= 0; empty if that has no area.
-ConvexPolygon clip(const ConvexPolygon& polygon, const Plane& plane);
+/// The part of the polygon where dot(normal, x - origin) >= 0; empty if that has no area.
+ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec3& normal);
 
 /// The part of the polygon inside the cone from the apex through the window: one clip per edge of the window.
-/// The window is counter-clockwise or clockwise seen from the apex; an apex in the window's plane sees nothing.
+/// The window may be of either orientation; an apex in the window's plane sees nothing.
 ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex, const ConvexPolygon& window);
 
-/// Vector area: half the sum of cross products; its length is the area.
+/// Half the sum of the cross products of the edges: its length is the area.
 Vec3 area_vector(std::span<const Point3> polygon);
 
 } // namespace meninas

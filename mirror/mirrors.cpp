@@ -1,0 +1,88 @@
+#include "mirror/mirrors.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace meninas {
+
+namespace {
+
+/// Surfaces of one plane, one facing and one reflectance are one mirror.
+using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double>;
+
+struct Candidate {
+  Mirror mirror;
+  std::vector<std::pair<SurfaceId, int>> faces; ///< surface, and 0 for its front, 1 for its back
+};
+
+Plane flipped(const Plane& plane) { return {-plane.normal, -plane.offset}; }
+
+void add_face(Candidate& candidate, const SurfaceModel& model, SurfaceId id, int face) {
+  const Surface& surface = model.surfaces[index(id)];
+  candidate.faces.emplace_back(id, face);
+  candidate.mirror.area += surface.area;
+  for (const PatchId patch_id : surface.patches) {
+    const Patch& patch = model.patches[index(patch_id)];
+    ConvexPolygon polygon(polygon_of(patch));
+    if (face == 1) std::reverse(polygon.vertices.begin(), polygon.vertices.begin() + static_cast<std::ptrdiff_t>(polygon.size));
+    candidate.mirror.window.push_back(polygon);
+    auto& nodes = candidate.mirror.nodes;
+    if (std::find(nodes.begin(), nodes.end(), patch.node) == nodes.end()) nodes.push_back(patch.node);
+  }
+}
+
+/// Every mirror plane of the scene, in the order of its first surface.
+std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& model) {
+  std::vector<Candidate> candidates;
+  std::map<MirrorKey, std::size_t> known;
+  for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
+    const Surface& surface = model.surfaces[s];
+    const Material& material = scene.materials[index(surface.material)];
+    if (!is_mirror(material)) continue;
+    const Rgb reflectance = mirror_reflectance(material);
+    for (int face = 0; face < (material.double_sided ? 2 : 1); ++face) {
+      const Plane plane = face == 0 ? surface.plane : flipped(surface.plane);
+      const bool along = glm::dot(plane.normal, model.planes[index(surface.plane_class)].normal) > 0.0;
+      const MirrorKey key{index(surface.plane_class), along, reflectance.r, reflectance.g, reflectance.b};
+      const auto [place, is_new] = known.emplace(key, candidates.size());
+      if (is_new) {
+        candidates.emplace_back();
+        candidates.back().mirror.plane = plane;
+        candidates.back().mirror.plane_class = surface.plane_class;
+        candidates.back().mirror.reflectance = reflectance;
+      }
+      add_face(candidates[place->second], model, static_cast<SurfaceId>(s), face);
+    }
+  }
+  return candidates;
+}
+
+} // namespace
+
+MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces, const MirrorSettings& settings) {
+  MirrorSet set;
+  set.mirror_of_surface.assign(surfaces.surfaces.size(), {none<MirrorId>, none<MirrorId>});
+  auto candidates = mirror_planes(scene, surfaces);
+
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.mirror.area > b.mirror.area; });
+  double total_area = 0.0;
+  for (const auto& candidate : candidates) total_area += candidate.mirror.area;
+  const auto limit = static_cast<std::size_t>(settings.max_mirrors);
+  const double least = candidates.size() > limit ? settings.smallest_share * total_area : 0.0;
+
+  for (auto& candidate : candidates) {
+    if (set.mirrors.size() >= limit || candidate.mirror.area < least) {
+      set.facets += candidate.faces.size();
+      continue;
+    }
+    const auto id = static_cast<MirrorId>(set.mirrors.size());
+    for (const auto& [surface, face] : candidate.faces)
+      set.mirror_of_surface[index(surface)][static_cast<std::size_t>(face)] = id;
+    set.mirrors.push_back(std::move(candidate.mirror));
+  }
+  return set;
+}
+
+} // namespace meninas
