@@ -1,4 +1,7 @@
 # Every package the project uses, from Debian 12 by the ordinary find_package.
+# A library that the installed static libraries link must be named in meninas-config.cmake.in too.
+option(MENINAS_BUILD_TESTS "Build the tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
+
 find_package(glm REQUIRED)
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
@@ -19,7 +22,7 @@ foreach(directory IN LISTS oiio_includes)
 endforeach()
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${existing_includes}")
 
-if(PROJECT_IS_TOP_LEVEL)
+if(MENINAS_BUILD_TESTS)
   find_package(GTest REQUIRED)
   find_package(benchmark REQUIRED)
   include(GoogleTest)

@@ -1,34 +1,54 @@
-# How everything here is compiled: C++20, warnings and sanitizers, on one interface target that the folders link privately.
+# How everything here is compiled: C++20, warnings and sanitizers, and the two functions every folder calls.
+include(GNUInstallDirs)
+
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
 option(MENINAS_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 set(MENINAS_SANITIZE "" CACHE STRING "Sanitizers to compile with, as for -fsanitize= (e.g. address,undefined)")
 
-add_library(meninas_options INTERFACE)
-target_compile_options(meninas_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+# Release objects carry no paths, so checkouts in different folders can share them.
+# Debug information names its folder, and a debugger must not be sent to another checkout.
+find_program(MENINAS_CCACHE ccache)
+if(PROJECT_IS_TOP_LEVEL AND MENINAS_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${MENINAS_CCACHE})
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    set(CMAKE_CXX_COMPILER_LAUNCHER
+      env CCACHE_NOHASHDIR=1 "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" ${MENINAS_CCACHE})
+  endif()
+endif()
+
 # Contracted multiply-adds would give different bits on different processors.
-target_compile_options(meninas_options INTERFACE -ffp-contract=off)
-if(MENINAS_WARNINGS_AS_ERRORS)
-  target_compile_options(meninas_options INTERFACE -Werror)
-endif()
+add_compile_options(-ffp-contract=off)
 if(MENINAS_SANITIZE)
-  target_compile_options(meninas_options INTERFACE -fsanitize=${MENINAS_SANITIZE} -fno-omit-frame-pointer)
-  target_link_options(meninas_options INTERFACE -fsanitize=${MENINAS_SANITIZE})
+  add_compile_options(-fsanitize=${MENINAS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${MENINAS_SANITIZE})
 endif()
+
+add_library(meninas_options INTERFACE)
+target_compile_options(meninas_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  $<$<BOOL:${MENINAS_WARNINGS_AS_ERRORS}>:-Werror>)
+# The standard library checks its preconditions wherever speed is not the point.
+target_compile_definitions(meninas_options INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
 
 # meninas_library(scenes a.cpp b.cpp): the library of one folder; includes are written from the project's root.
 function(meninas_library folder)
   add_library(meninas_${folder} STATIC ${ARGN})
   add_library(meninas::${folder} ALIAS meninas_${folder})
   target_include_directories(meninas_${folder} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/meninas>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/meninas>)
   target_compile_features(meninas_${folder} PUBLIC cxx_std_20)
   target_link_libraries(meninas_${folder} PRIVATE $<BUILD_INTERFACE:meninas_options>)
   set_target_properties(meninas_${folder} PROPERTIES EXPORT_NAME ${folder})
+  install(TARGETS meninas_${folder} EXPORT meninas-targets)
 endfunction()
 
 # meninas_tests(scenes a_test.cpp): the tests of one folder, one executable, found by CTest one by one.
