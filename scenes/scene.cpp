@@ -1,0 +1,182 @@
+#include "scenes/scene.h"
+
+#include "scenes/errors.h"
+#include "scenes/names.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+
+namespace meninas {
+namespace {
+
+/// Mixes 64-bit words one after another; the order of the words counts.
+class ContentHash {
+public:
+  void add(std::uint64_t word) {
+    // Multiplying spreads low bits upwards (the constants of splitmix64), the shifts bring high bits down again.
+    state_ = (state_ ^ word) * 0xbf58476d1ce4e5b9ULL;
+    state_ ^= state_ >> 29;
+    state_ *= 0x94d049bb133111ebULL;
+    state_ ^= state_ >> 32;
+  }
+  /// Adding zero turns -0.0 into 0.0, which is the same number.
+  void add(double x) { add(std::bit_cast<std::uint64_t>(x + 0.0)); }
+  void add(const Vec2& x) {
+    add(x.x);
+    add(x.y);
+  }
+  void add(const Vec3& x) {
+    add(x.x);
+    add(x.y);
+    add(x.z);
+  }
+  std::uint64_t value() const { return state_; }
+
+private:
+  std::uint64_t state_ = 0x9e3779b97f4a7c15ULL;
+};
+
+std::uint64_t word(bool x) { return x ? 1 : 0; }
+
+void add_texture_use(ContentHash& hash, const std::optional<TextureUse>& use) {
+  hash.add(word(use.has_value()));
+  if (!use) {
+    return;
+  }
+  hash.add(std::uint64_t{index(use->texture)});
+  hash.add(static_cast<std::uint64_t>(use->texcoord_set));
+  hash.add(use->offset);
+  hash.add(use->rotation);
+  hash.add(use->scale);
+}
+
+void add_material(ContentHash& hash, const Material& material) {
+  hash.add(material.base_color);
+  hash.add(material.metallic);
+  hash.add(material.roughness);
+  hash.add(material.emission);
+  hash.add(word(material.double_sided));
+  hash.add(material.ior);
+  hash.add(material.specular);
+  hash.add(material.specular_color);
+  hash.add(material.transmission);
+  hash.add(static_cast<std::uint64_t>(material.alpha_mode));
+  hash.add(material.alpha_cutoff);
+  add_texture_use(hash, material.base_color_texture);
+  add_texture_use(hash, material.metallic_roughness_texture);
+  add_texture_use(hash, material.emissive_texture);
+}
+
+void add_light(ContentHash& hash, const PunctualLight& light) {
+  hash.add(static_cast<std::uint64_t>(light.kind));
+  hash.add(light.intensity);
+  hash.add(light.position);
+  hash.add(light.direction);
+  hash.add(light.inner_cone);
+  hash.add(light.outer_cone);
+}
+
+void add_texture(ContentHash& hash, const Texture& texture) {
+  hash.add(word(texture.repeat_u));
+  hash.add(word(texture.repeat_v));
+  hash.add(std::uint64_t{texture.encoded.size()});
+  std::uint64_t packed = 0;
+  for (std::size_t i = 0; i < texture.encoded.size(); ++i) {
+    packed = packed << 8 | std::to_integer<std::uint64_t>(texture.encoded[i]);
+    if (i % 8 == 7 || i + 1 == texture.encoded.size()) {
+      hash.add(packed);
+      packed = 0;
+    }
+  }
+}
+
+void add_geometry(ContentHash& hash, const Scene& scene) {
+  hash.add(std::uint64_t{scene.vertices.size()});
+  for (const Vertex& vertex : scene.vertices) {
+    hash.add(vertex.position);
+    for (const glm::vec2& texcoord : vertex.texcoord) {
+      hash.add(Vec2(texcoord));
+    }
+  }
+  hash.add(std::uint64_t{scene.triangles.size()});
+  for (const Triangle& triangle : scene.triangles) {
+    for (const VertexId vertex : triangle.vertices) {
+      hash.add(std::uint64_t{index(vertex)});
+    }
+    hash.add(std::uint64_t{index(triangle.material)});
+  }
+}
+
+/// The place of `name` among the things of one kind, or the error that names the nearest.
+template <typename Thing>
+std::size_t find_named(const Scene& scene, const std::vector<Thing>& things, std::string_view kind,
+                       const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (things[i].name == name) {
+      return i;
+    }
+    names.push_back(things[i].name);
+  }
+  std::string message = fmt::format("no {} '{}'", kind, name);
+  if (const auto nearest = nearest_name(name, names)) {
+    message += fmt::format(", did you mean '{}'?", *nearest);
+  } else if (names.empty()) {
+    message += fmt::format(", the scene has no {}s", kind);
+  } else {
+    message += names.size() == 1 ? fmt::format(", there is only '{}'", names.front())
+                                 : fmt::format(" among {} {}s such as '{}'", names.size(), kind, names.front());
+  }
+  throw UsageError(scene.file, message);
+}
+
+} // namespace
+
+std::array<Point3, 3> corners(const Scene& scene, TriangleId triangle) {
+  const auto& vertices = scene.triangles[index(triangle)].vertices;
+  return {position(scene, vertices[0]), position(scene, vertices[1]), position(scene, vertices[2])};
+}
+
+Vec3 area_vector(const std::array<Point3, 3>& corners) {
+  return 0.5 * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+}
+
+Bounds bounds_of(const Scene& scene) {
+  Bounds bounds;
+  for (const Triangle& triangle : scene.triangles) {
+    for (const VertexId vertex : triangle.vertices) {
+      bounds.low = glm::min(bounds.low, position(scene, vertex));
+      bounds.high = glm::max(bounds.high, position(scene, vertex));
+    }
+  }
+  return bounds;
+}
+
+std::uint64_t content_hash(const Scene& scene) {
+  ContentHash hash;
+  add_geometry(hash, scene);
+  hash.add(std::uint64_t{scene.materials.size()});
+  for (const Material& material : scene.materials) {
+    add_material(hash, material);
+  }
+  hash.add(std::uint64_t{scene.textures.size()});
+  for (const Texture& texture : scene.textures) {
+    add_texture(hash, texture);
+  }
+  hash.add(std::uint64_t{scene.lights.size()});
+  for (const PunctualLight& light : scene.lights) {
+    add_light(hash, light);
+  }
+  return hash.value();
+}
+
+NodeId find_node(const Scene& scene, const std::string& name) {
+  return static_cast<NodeId>(find_named(scene, scene.nodes, "node", name));
+}
+
+const Camera& find_camera(const Scene& scene, const std::string& name) {
+  return scene.cameras[find_named(scene, scene.cameras, "camera", name)];
+}
+
+} // namespace meninas
