@@ -72,6 +72,8 @@ struct RayFrame {
   double scale = 1.0; ///< frame units per metre
 };
 
+struct FrameGeometry;
+
 class RayScene {
 public:
   RayScene(const Scene& scene, const SurfaceModel& surfaces);
@@ -80,6 +82,7 @@ public:
   RayScene& operator=(RayScene&&) noexcept;
 
   const RayFrame& frame() const;
+  const FrameGeometry& geometry() const; ///< the triangles in the frame, scenes/frame_geometry.h
 
   struct Impl; ///< Embree's handles, defined in ray_scene.cpp alone
   const Impl& impl() const { return *impl_; }

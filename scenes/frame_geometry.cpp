@@ -1,0 +1,80 @@
+#include "scenes/frame_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+// Floats in [-1, 1] are rounded by at most 3e-8 per coordinate, of the origin and of three vertices alike,
+// and Embree's arithmetic adds as much again.
+constexpr double float_noise = 4e-7;
+
+RayFrame frame_of(const Scene& scene) {
+  Point3 low(std::numeric_limits<double>::infinity());
+  Point3 high(-std::numeric_limits<double>::infinity());
+  for (const auto& triangle : scene.triangles)
+    for (const auto vertex : triangle.vertices) {
+      low = glm::min(low, position(scene, vertex));
+      high = glm::max(high, position(scene, vertex));
+    }
+  if (scene.triangles.empty()) return {};
+  const auto size = high - low;
+  const auto largest = std::max({size.x, size.y, size.z});
+  const auto scale = 2.0 / largest;
+  return {low + 0.5 * size, std::isfinite(scale) && scale > 0.0 ? scale : 1.0};
+}
+
+// A plane class with faces both ways, or with double-sided ones, may hold sheets modelled as two.
+std::vector<bool> classes_with_sheets(const Scene& scene, const SurfaceModel& surfaces) {
+  std::vector<bool> along(surfaces.planes.size(), false);
+  std::vector<bool> against(surfaces.planes.size(), false);
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const auto plane = index(surfaces.plane_of_triangle[t]);
+    const auto both = material_of(scene, TriangleId{t}).double_sided;
+    const auto forward =
+        glm::dot(area_vector(corners(scene, TriangleId{t})), surfaces.planes[plane].normal) >= 0.0;
+    if (forward || both) along[plane] = true;
+    if (!forward || both) against[plane] = true;
+  }
+  for (std::size_t plane = 0; plane < along.size(); ++plane) along[plane] = along[plane] && against[plane];
+  return along;
+}
+
+} // namespace
+
+FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfaces) {
+  expects(surfaces.plane_of_triangle.size() == scene.triangles.size(),
+          "the surfaces belong to another scene");
+  FrameGeometry geometry;
+  geometry.frame = frame_of(scene);
+  geometry.noise = float_noise + 2.0 * geometry.frame.scale * surfaces.tolerance;
+
+  geometry.positions.reserve(scene.vertices.size());
+  for (const auto& vertex : scene.vertices)
+    geometry.positions.push_back(to_frame(geometry.frame, vertex.position));
+
+  const auto sheets = classes_with_sheets(scene, surfaces);
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const auto& v = scene.triangles[t].vertices;
+    const auto plane = index(surfaces.plane_of_triangle[t]);
+    geometry.triangles.push_back({index(v[0]), index(v[1]), index(v[2])});
+    geometry.facts.push_back({plane, !material_of(scene, TriangleId{t}).double_sided, sheets[plane]});
+  }
+
+  for (const auto& plane : surfaces.planes) {
+    const glm::vec3 normal(plane.normal);
+    geometry.plane_normals.push_back(plane.normal);
+    geometry.lifts.push_back({normal.x, normal.y, normal.z});
+  }
+  geometry.lifts.push_back({});
+  return geometry;
+}
+
+std::array<Point3, 3> corners_of(const FrameGeometry& geometry, std::uint32_t triangle) {
+  const auto& v = geometry.triangles[triangle];
+  return {geometry.positions[v[0]], geometry.positions[v[1]], geometry.positions[v[2]]};
+}
+
+} // namespace meninas

@@ -1,0 +1,36 @@
+// The triangles of a scene in the frame of its ray queries: recentred and rescaled so that the bounds fit into [-1, 1].
+#pragma once
+
+#include "scenes/ray_scene.h"
+
+namespace meninas {
+
+struct TriangleFacts {
+  std::uint32_t plane = index(none<PlaneId>);
+  bool single_sided = false;
+  bool in_sheet = false; ///< its plane class has a face the other way: it may be one side of a sheet
+};
+
+struct FrameNormal {
+  float x = 0.0F, y = 0.0F, z = 0.0F, unused = 0.0F;
+};
+
+struct FrameGeometry {
+  RayFrame frame;
+  std::vector<Point3> positions; ///< of the vertices, in the frame
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<TriangleFacts> facts;     ///< per triangle
+  std::vector<Direction> plane_normals; ///< per plane class
+  std::vector<FrameNormal> lifts;       ///< the same in floats, and one of length zero for rays that leave no plane
+  double noise = 0.0;                   ///< heights below it are rounding, in frame units
+};
+
+FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfaces);
+
+std::array<Point3, 3> corners_of(const FrameGeometry& geometry, std::uint32_t triangle);
+
+inline Point3 to_frame(const RayFrame& frame, const Point3& x) {
+  return (x - frame.centre) * frame.scale;
+}
+
+} // namespace meninas

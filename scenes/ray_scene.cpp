@@ -1,0 +1,503 @@
+#include "scenes/ray_scene.h"
+
+#include "scenes/contacts.h"
+#include "scenes/errors.h"
+#include "scenes/frame_geometry.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+// The frame maps the scene into [-1, 1], where floats are rounded by at most 3e-8 per coordinate.
+// Origins are lifted off the plane they leave by `lift`, a few such roundings, so that the plane is hardly ever hit again;
+// where it is, the query is repeated with a filter that knows the plane.
+constexpr float lift = 5e-7F;
+
+// Surfaces nearer to an origin than `reach` touch it.
+constexpr double reach = 2e-6;
+
+constexpr auto no_index = std::numeric_limits<std::uint32_t>::max();
+constexpr auto infinity = std::numeric_limits<float>::infinity();
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+struct ReleaseGeometry {
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+template <typename Handle, typename Release>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
+
+struct LaneRay {
+  glm::vec3 origin;
+  glm::vec3 direction;
+  float near = 0.0F;
+  float far = infinity;
+  std::uint32_t leaving = no_index;
+};
+
+struct LaneHit {
+  std::uint32_t triangle = no_index;
+  float distance = infinity;
+  float b1 = 0.0F, b2 = 0.0F;
+  bool front = true;
+};
+
+} // namespace
+
+struct RayScene::Impl {
+  Owned<RTCDevice, ReleaseDevice> device;
+  Owned<RTCScene, ReleaseScene> scene;
+  FrameGeometry geometry;
+};
+
+namespace {
+
+using Impl = RayScene::Impl;
+
+// --- Filters: what a repeated query must not hit
+
+enum class BackRule { hit, ignore };
+
+/// Hits in the plane that is left, in the planes of touching triangles and, by the rule, on backs are rejected.
+/// Where only one plane is looked for, all others are rejected.
+struct Rejection : RTCIntersectContext {
+  const Impl* impl = nullptr;
+  const std::uint32_t* leaving = nullptr; ///< by lane
+  const Contacts* contacts = nullptr;
+  BackRule backs = BackRule::hit;
+  std::uint32_t only_plane = no_index;
+};
+
+bool is_back(const RTCFilterFunctionNArguments& args, unsigned lane) {
+  const auto n = args.N;
+  return RTCHitN_Ng_x(args.hit, n, lane) * RTCRayN_dir_x(args.ray, n, lane) +
+             RTCHitN_Ng_y(args.hit, n, lane) * RTCRayN_dir_y(args.ray, n, lane) +
+             RTCHitN_Ng_z(args.hit, n, lane) * RTCRayN_dir_z(args.ray, n, lane) >=
+         0.0F;
+}
+
+bool touches(const Contacts* contacts, std::uint32_t plane) {
+  return contacts && std::ranges::any_of(contacts->others, [&](const ContactTriangle& contact) {
+           return index(contact.plane) == plane;
+         });
+}
+
+void reject_hits(const RTCFilterFunctionNArguments* args) {
+  const auto& rule = *static_cast<const Rejection*>(args->context);
+  for (unsigned lane = 0; lane < args->N; ++lane) {
+    if (args->valid[lane] == 0) continue;
+    const auto facts = rule.impl->geometry.facts[RTCHitN_primID(args->hit, args->N, lane)];
+    const auto ray = RTCRayN_id(args->ray, args->N, lane);
+    const auto rejected = facts.plane == rule.leaving[ray] || touches(rule.contacts, facts.plane) ||
+                          (rule.only_plane != no_index && facts.plane != rule.only_plane) ||
+                          (rule.backs == BackRule::ignore && facts.single_sided && is_back(*args, lane));
+    if (rejected) args->valid[lane] = 0;
+  }
+}
+
+Rejection make_rejection(const Impl& impl, const std::uint32_t* leaving) {
+  Rejection rejection;
+  rtcInitIntersectContext(&rejection);
+  rejection.filter = reject_hits;
+  rejection.impl = &impl;
+  rejection.leaving = leaving;
+  return rejection;
+}
+
+LaneHit trace(const Impl& impl, const LaneRay& ray, Rejection& rejection) {
+  RTCRayHit query{};
+  query.ray = {ray.origin.x,    ray.origin.y,    ray.origin.z,    ray.near, ray.direction.x, ray.direction.y,
+               ray.direction.z, 0.0F, ray.far, ~0U,      0U,              0U};
+  query.hit.primID = no_index;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl.scene.get(), &rejection, &query);
+  const glm::vec3 normal{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
+  return {query.hit.primID, query.ray.tfar, query.hit.u, query.hit.v, glm::dot(normal, ray.direction) < 0.0F};
+}
+
+// --- Contacts: what touches the origin of a ray
+
+struct ContactQuery {
+  const Impl* impl;
+  Point3 origin;
+  std::uint32_t leaving;
+  Contacts found;
+};
+
+bool collect_contact(RTCPointQueryFunctionArguments* args) {
+  auto& query = *static_cast<ContactQuery*>(args->userPtr);
+  const auto corners = corners_of(query.impl->geometry, args->primID);
+  if (distance_to(corners, query.origin) > reach) return false;
+
+  const auto& facts = query.impl->geometry.facts[args->primID];
+  auto& list = facts.plane == query.leaving ? query.found.own : query.found.others;
+  const auto known = std::ranges::any_of(
+      list, [&](const ContactTriangle& contact) { return index(contact.triangle) == args->primID; });
+  if (!known)
+    list.push_back({TriangleId{args->primID}, PlaneId{facts.plane},
+                    facts.single_sided ? Sidedness::single : Sidedness::both, corners});
+  return false;
+}
+
+Contacts contacts_of(const Impl& impl, const glm::vec3& origin, std::uint32_t leaving) {
+  ContactQuery query{&impl, Point3(origin), leaving, {}};
+  RTCPointQuery point{origin.x, origin.y, origin.z, 0.0F, static_cast<float>(2.0 * reach)};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(impl.scene.get(), &point, &context, collect_contact, &query);
+  return std::move(query.found);
+}
+
+/// The contacts of the last origin asked for: the rays of a packet often share theirs.
+struct ContactMemory {
+  glm::vec3 origin{std::numeric_limits<float>::quiet_NaN()};
+  std::uint32_t leaving = no_index;
+  Contacts contacts;
+};
+
+const Contacts& remembered_contacts(const Impl& impl, ContactMemory& memory, const glm::vec3& origin,
+                                    std::uint32_t leaving) {
+  if (memory.origin != origin || memory.leaving != leaving)
+    memory = {origin, leaving, contacts_of(impl, origin, leaving)};
+  return memory.contacts;
+}
+
+std::optional<ContactTriangle> blocked_at_once(const Impl& impl, const Contacts& contacts,
+                                               const LaneRay& ray) {
+  if (contacts.others.empty()) return std::nullopt;
+  return blocking_contact(
+      contacts, {Point3(ray.origin), Vec3(ray.direction), impl.geometry.plane_normals[ray.leaving]},
+      impl.geometry.noise);
+}
+
+// --- The nearest hit of one ray, with all care
+
+/// A back that shares its plane with a front is one side of a sheet, and the side that faces the ray is hit.
+LaneHit facing_side(const Impl& impl, const LaneRay& ray, const LaneHit& back) {
+  auto rejection = make_rejection(impl, &ray.leaving);
+  rejection.backs = BackRule::ignore;
+  rejection.only_plane = impl.geometry.facts[back.triangle].plane;
+  auto around = ray;
+  around.near = 0.99F * back.distance;
+  around.far = std::min(ray.far, 1.01F * back.distance);
+  const auto face = trace(impl, around, rejection);
+  return face.triangle == no_index ? back : face;
+}
+
+LaneHit careful_hit(const Impl& impl, const LaneRay& ray, Backs backs, ContactMemory& memory) {
+  auto rejection = make_rejection(impl, &ray.leaving);
+  rejection.backs = backs == Backs::transparent ? BackRule::ignore : BackRule::hit;
+
+  // Surfaces that touch the origin are met at distance zero or not at all.
+  if (ray.leaving != no_index) {
+    const auto& contacts = remembered_contacts(impl, memory, ray.origin, ray.leaving);
+    if (const auto wall = blocked_at_once(impl, contacts, ray)) {
+      const auto front = glm::dot(area_vector(wall->corners), Vec3(ray.direction)) < 0.0;
+      const auto weights = nearest_barycentric(wall->corners, Point3(ray.origin));
+      if (front || backs == Backs::absorb || wall->sidedness == Sidedness::both)
+        return {index(wall->triangle), 0.0F, static_cast<float>(weights.x), static_cast<float>(weights.y), front};
+    }
+    rejection.contacts = &contacts;
+  }
+
+  const auto hit = trace(impl, ray, rejection);
+  if (hit.triangle == no_index || hit.front) return hit;
+  const auto& facts = impl.geometry.facts[hit.triangle];
+  return facts.single_sided && facts.in_sheet ? facing_side(impl, ray, hit) : hit;
+}
+
+// --- Packets
+
+LaneRay lane_ray(const RayPacket& packet, std::size_t lane) {
+  return {{packet.origin_x[lane], packet.origin_y[lane], packet.origin_z[lane]},
+          {packet.direction_x[lane], packet.direction_y[lane], packet.direction_z[lane]},
+          0.0F,
+          packet.max_distance[lane],
+          packet.leaving[lane]};
+}
+
+void store(HitPacket& hits, std::size_t lane, const LaneHit& hit) {
+  hits.triangle[lane] = hit.triangle;
+  hits.distance[lane] = hit.distance;
+  hits.b1[lane] = hit.b1;
+  hits.b2[lane] = hit.b2;
+  hits.front[lane] = hit.front ? 1 : 0;
+}
+
+/// Copies the rays of a packet; lanes that are not rays (not finite, no direction) are left out.
+void load(const RayPacket& packet, RTCRay16& rays, int* valid) {
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    rays.org_x[k] = packet.origin_x[k];
+    rays.org_y[k] = packet.origin_y[k];
+    rays.org_z[k] = packet.origin_z[k];
+    rays.dir_x[k] = packet.direction_x[k];
+    rays.dir_y[k] = packet.direction_y[k];
+    rays.dir_z[k] = packet.direction_z[k];
+    rays.tnear[k] = 0.0F;
+    rays.time[k] = 0.0F;
+    rays.tfar[k] = packet.max_distance[k];
+    rays.mask[k] = ~0U;
+    rays.id[k] = static_cast<unsigned>(k);
+    rays.flags[k] = 0U;
+  }
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const auto steps = std::abs(rays.dir_x[k]) + std::abs(rays.dir_y[k]) + std::abs(rays.dir_z[k]);
+    const auto place = std::abs(rays.org_x[k]) + std::abs(rays.org_y[k]) + std::abs(rays.org_z[k]);
+    const auto is_ray = (steps > 0.0F) & (steps < infinity) & (place < infinity) & (rays.tfar[k] > 0.0F) &
+                        (k < packet.count);
+    valid[k] = is_ray ? -1 : 0;
+  }
+}
+
+/// Moves origins off the planes they leave, towards the side their ray goes to.
+void lift_origins(const Impl& impl, const RayPacket& packet, RTCRay16& rays) {
+  const auto no_plane = static_cast<std::uint32_t>(impl.geometry.lifts.size() - 1);
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const auto& n = impl.geometry.lifts[std::min(packet.leaving[k], no_plane)];
+    const auto side = n.x * rays.dir_x[k] + n.y * rays.dir_y[k] + n.z * rays.dir_z[k] < 0.0F ? -lift : lift;
+    rays.org_x[k] += side * n.x;
+    rays.org_y[k] += side * n.y;
+    rays.org_z[k] += side * n.z;
+  }
+}
+
+struct Doubts {
+  std::uint32_t careful = 0; ///< lanes to be traced again one by one
+  std::uint32_t through = 0; ///< lanes that met a transparent back
+};
+
+void read_hits(const RTCRayHit16& traced, HitPacket& hits) {
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    hits.triangle[k] = traced.hit.primID[k];
+    hits.distance[k] = traced.ray.tfar[k];
+    hits.b1[k] = traced.hit.u[k];
+    hits.b2[k] = traced.hit.v[k];
+  }
+  for (std::size_t k = 0; k < packet_size; ++k)
+    hits.front[k] = traced.hit.Ng_x[k] * traced.ray.dir_x[k] + traced.hit.Ng_y[k] * traced.ray.dir_y[k] +
+                        traced.hit.Ng_z[k] * traced.ray.dir_z[k] <
+                    0.0F;
+}
+
+/// Which lanes the bare query cannot settle: misses and short hits of rays that leave a surface, hits in the plane they
+/// leave, and backs.
+Doubts find_doubts(const Impl& impl, const RayPacket& packet, const HitPacket& hits, const int* valid,
+                   Backs backs) {
+  Doubts doubts;
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    if (valid[k] == 0) continue;
+    const auto bit = 1U << k;
+    const auto triangle = hits.triangle[k];
+    const auto leaves = packet.leaving[k] != no_index;
+    if (triangle == no_index) {
+      if (leaves) doubts.careful |= bit;
+      continue;
+    }
+    const auto& facts = impl.geometry.facts[triangle];
+    const auto back = hits.front[k] == 0 && facts.single_sided;
+    if (back && !leaves && backs == Backs::transparent)
+      doubts.through |= bit;
+    else if ((leaves && facts.plane == packet.leaving[k]) || back)
+      doubts.careful |= bit;
+    else if (leaves && hits.distance[k] * glm::length(lane_ray(packet, k).direction) < static_cast<float>(reach))
+      doubts.careful |= bit;
+  }
+  return doubts;
+}
+
+void clear_hits(RTCHit16& hit) {
+  std::fill_n(hit.Ng_x, packet_size, 0.0F);
+  std::fill_n(hit.Ng_y, packet_size, 0.0F);
+  std::fill_n(hit.Ng_z, packet_size, 0.0F);
+  std::fill_n(hit.u, packet_size, 0.0F);
+  std::fill_n(hit.v, packet_size, 0.0F);
+  std::fill_n(hit.primID, packet_size, no_index);
+  std::fill_n(hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
+  std::fill_n(hit.instID[0], packet_size, RTC_INVALID_GEOMETRY_ID);
+}
+
+/// Goes on behind the backs that the lanes of `through` met.
+void trace_through(const Impl& impl, const RayPacket& packet, RTCRayHit16& traced, HitPacket& hits,
+                   std::uint32_t through) {
+  alignas(64) int valid[packet_size];
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    valid[k] = (through >> k) & 1U ? -1 : 0;
+    if (valid[k] == 0) continue;
+    traced.ray.tnear[k] = 0.99F * traced.ray.tfar[k];
+    traced.ray.tfar[k] = packet.max_distance[k];
+    traced.hit.primID[k] = no_index;
+    traced.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  auto rejection = make_rejection(impl, packet.leaving);
+  rejection.backs = BackRule::ignore;
+  rtcIntersect16(valid, impl.scene.get(), &rejection, &traced);
+  read_hits(traced, hits);
+}
+
+} // namespace
+
+void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits, Backs backs,
+                  Coherence coherence) {
+  const auto& impl = rays.impl();
+  RTCRayHit16 traced;
+  alignas(64) int valid[packet_size];
+  load(packet, traced.ray, valid);
+  lift_origins(impl, packet, traced.ray);
+  clear_hits(traced.hit);
+
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  if (coherence == Coherence::coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, impl.scene.get(), &context, &traced);
+  read_hits(traced, hits);
+
+  const auto doubts = find_doubts(impl, packet, hits, valid, backs);
+  if (doubts.through != 0) trace_through(impl, packet, traced, hits, doubts.through);
+  if (doubts.careful == 0) return;
+  ContactMemory memory;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    if ((doubts.careful >> k) & 1U) store(hits, k, careful_hit(impl, lane_ray(packet, k), backs, memory));
+}
+
+namespace {
+
+/// Hits in the planes at both ends do not block; hits that touch an end are left to its contacts.
+struct LegRejection : RTCIntersectContext {
+  const Impl* impl = nullptr;
+  const RayPacket* packet = nullptr;
+  std::uint32_t touching = 0; ///< lanes with a hit that touches an end
+};
+
+void reject_ends(const RTCFilterFunctionNArguments* args) {
+  auto& rule = *static_cast<LegRejection*>(args->context);
+  const auto& packet = *rule.packet;
+  for (unsigned lane = 0; lane < args->N; ++lane) {
+    if (args->valid[lane] == 0) continue;
+    const auto plane = rule.impl->geometry.facts[RTCHitN_primID(args->hit, args->N, lane)].plane;
+    const auto k = RTCRayN_id(args->ray, args->N, lane);
+    if (plane == packet.leaving[k] || plane == packet.arriving[k]) {
+      args->valid[lane] = 0;
+      continue;
+    }
+    const auto length = glm::length(lane_ray(packet, k).direction);
+    const auto distance = RTCRayN_tfar(args->ray, args->N, lane);
+    const auto at_start = packet.leaving[k] != no_index && distance * length < static_cast<float>(reach);
+    const auto at_end = packet.arriving[k] != no_index &&
+                        (packet.max_distance[k] - distance) * length < static_cast<float>(reach);
+    if (!at_start && !at_end) continue;
+    args->valid[lane] = 0;
+    rule.touching |= 1U << k;
+  }
+}
+
+bool blocked_at_an_end(const Impl& impl, const RayPacket& packet, std::size_t lane, ContactMemory& memory) {
+  auto ray = lane_ray(packet, lane);
+  if (ray.leaving != no_index &&
+      blocked_at_once(impl, remembered_contacts(impl, memory, ray.origin, ray.leaving), ray))
+    return true;
+  ray.origin += ray.far * ray.direction;
+  ray.direction = -ray.direction;
+  ray.leaving = packet.arriving[lane];
+  return ray.leaving != no_index &&
+         blocked_at_once(impl, contacts_of(impl, ray.origin, ray.leaving), ray);
+}
+
+} // namespace
+
+std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence coherence) {
+  const auto& impl = rays.impl();
+  RTCRay16 traced;
+  alignas(64) int valid[packet_size];
+  load(packet, traced, valid);
+
+  LegRejection context;
+  rtcInitIntersectContext(&context);
+  context.filter = reject_ends;
+  context.impl = &impl;
+  context.packet = &packet;
+  if (coherence == Coherence::coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded16(valid, impl.scene.get(), &context, &traced);
+
+  // Embree marks what is occluded by a far end of minus infinity.
+  std::uint32_t blocked = 0;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    if (valid[k] != 0 && traced.tfar[k] < 0.0F) blocked |= 1U << k;
+
+  ContactMemory memory;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    if (((context.touching & ~blocked) >> k) & 1U)
+      if (blocked_at_an_end(impl, packet, k, memory)) blocked |= 1U << k;
+  return blocked;
+}
+
+// --- Construction
+
+namespace {
+
+void check(RTCDevice device) {
+  const auto code = rtcGetDeviceError(device);
+  if (code == RTC_ERROR_NONE) return;
+  throw OutputError("", "ray queries",
+                    code == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory for the triangles of the scene"
+                                                    : "Embree cannot be used on this machine");
+}
+
+Owned<RTCGeometry, ReleaseGeometry> make_mesh(RTCDevice device, const FrameGeometry& geometry) {
+  Owned<RTCGeometry, ReleaseGeometry> mesh(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+  check(device);
+  auto* positions = static_cast<glm::vec3*>(
+      rtcSetNewGeometryBuffer(mesh.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
+                              geometry.positions.size()));
+  check(device);
+  std::ranges::transform(geometry.positions, positions, [](const Point3& x) { return glm::vec3(x); });
+  auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(
+      rtcSetNewGeometryBuffer(mesh.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(std::uint32_t), geometry.triangles.size()));
+  check(device);
+  std::ranges::copy(geometry.triangles, triangles);
+  rtcSetGeometryBuildQuality(mesh.get(), RTC_BUILD_QUALITY_HIGH);
+  rtcCommitGeometry(mesh.get());
+  check(device);
+  return mesh;
+}
+
+} // namespace
+
+RayScene::RayScene(const Scene& scene, const SurfaceModel& surfaces) : impl_(std::make_unique<Impl>()) {
+  impl_->geometry = make_frame_geometry(scene, surfaces);
+  impl_->device.reset(rtcNewDevice(nullptr));
+  check(impl_->device.get());
+  impl_->scene.reset(rtcNewScene(impl_->device.get()));
+  check(impl_->device.get());
+
+  // Robust traversal is watertight along shared edges.
+  rtcSetSceneFlags(impl_->scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                                  RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcSetSceneBuildQuality(impl_->scene.get(), RTC_BUILD_QUALITY_HIGH);
+  if (!impl_->geometry.triangles.empty()) {
+    const auto mesh = make_mesh(impl_->device.get(), impl_->geometry);
+    rtcAttachGeometry(impl_->scene.get(), mesh.get());
+  }
+  rtcCommitScene(impl_->scene.get());
+  check(impl_->device.get());
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+const RayFrame& RayScene::frame() const { return impl_->geometry.frame; }
+const FrameGeometry& RayScene::geometry() const { return impl_->geometry; }
+
+RayScene make_ray_scene(const Scene& scene, const SurfaceModel& surfaces) { return {scene, surfaces}; }
+
+} // namespace meninas
