@@ -1,4 +1,4 @@
-// glTF 2.0 in: .gltf with files or data URIs, and .glb, into a Scene. (The only user of tinygltf.)
+// glTF 2.0 in: .gltf with files or data URIs, and .glb, into a Scene.
 //
 // Read: the default scene (or the one asked for), its node hierarchy with any matrix or TRS, triangles, strips and
 // fans, indexed or not, strided and sparse accessors, metallic-roughness materials with the extensions
@@ -15,8 +15,15 @@
 
 namespace meninas {
 
+/// Which files a glTF file may name: a stranger's file must not make the program read the user's others.
+enum class ExternalFiles { inside_folder, anywhere };
+
 struct GltfSettings {
-  std::optional<std::string> scene; ///< name or index of the scene in the file; the file's default otherwise
+  std::optional<std::string>
+      scene; ///< name or index of the scene in the file; the file's default otherwise
+  ExternalFiles external_files = ExternalFiles::inside_folder;
+  std::uint64_t memory_limit = std::uint64_t{4}
+                               << 30; ///< bytes; files and geometry that need more are refused
 };
 
 Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings = {});

@@ -1,0 +1,144 @@
+// .glb chunks and JSON text, from bytes that may be anything.
+#include "scenes/gltf_document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meninas::gltf {
+
+// Deeper nesting has no use in glTF; it would let a small file exhaust the stack.
+static constexpr int deepest_nesting = 200;
+
+static constexpr std::uint32_t glb_magic = 0x46546C67; // "glTF"
+static constexpr std::uint32_t json_chunk = 0x4E4F534A;
+static constexpr std::uint32_t binary_chunk = 0x004E4942;
+
+static std::uint32_t little_endian(std::span<const unsigned char> bytes, std::size_t at) {
+  return bytes[at] | (bytes[at + 1] << 8) | (bytes[at + 2] << 16) |
+         (static_cast<std::uint32_t>(bytes[at + 3]) << 24);
+}
+
+static std::string line_and_column(std::span<const unsigned char> text, std::size_t byte) {
+  const auto before = text.first(std::min(byte == 0 ? 0 : byte - 1, text.size()));
+  const auto line = 1 + std::ranges::count(before, '\n');
+  const auto last_break = std::find(before.rbegin(), before.rend(), '\n');
+  return fmt::format("line {}, column {}", line, 1 + (last_break - before.rbegin()));
+}
+
+static Json parse_json(const std::string& file, std::span<const unsigned char> text) {
+  const auto bounded = [&](int depth, Json::parse_event_t event, const Json&) {
+    const bool opens =
+        event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    if (opens && depth > deepest_nesting)
+      throw InputError(file, "JSON",
+                       fmt::format("is nested more than {} levels deep", deepest_nesting));
+    return true;
+  };
+  try {
+    return Json::parse(text.begin(), text.end(), bounded);
+  } catch (const Json::parse_error& error) {
+    throw InputError(file, line_and_column(text, error.byte), "the JSON text is not valid here");
+  } catch (const Json::out_of_range&) {
+    throw InputError(file, "JSON", "a number is too large for a double");
+  }
+}
+
+static std::string looks_like(std::span<const unsigned char> bytes) {
+  const auto begins = [&](std::initializer_list<int> magic) {
+    return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+  };
+  if (begins({0x89, 'P', 'N', 'G'}))
+    return "it is a PNG image";
+  if (begins({0xFF, 0xD8, 0xFF}))
+    return "it is a JPEG image";
+  if (begins({0x76, 0x2F, 0x31, 0x01}))
+    return "it is an OpenEXR image";
+  if (begins({'P', 'K', 3, 4}))
+    return "it is a ZIP archive";
+  if (begins({'B', 'L', 'E', 'N', 'D', 'E', 'R'}))
+    return "it is a Blender file; export it as glTF first";
+  return "it begins with neither '{' nor 'glTF'";
+}
+
+static void check_asset(const std::string& file, const Json& root) {
+  const auto* asset = root.is_object() ? find(root, "asset") : nullptr;
+  const auto* version = asset && asset->is_object() ? find(*asset, "version") : nullptr;
+  if (!version || !version->is_string())
+    throw InputError(file, "asset", "not a glTF file: it is JSON without an asset.version");
+  if (!version->get_ref<const std::string&>().starts_with("2."))
+    throw InputError(file, "asset",
+                     fmt::format("glTF version '{}' is not read, only 2.x",
+                                 one_line(version->get<std::string>())));
+  const auto* minimum = find(*asset, "minVersion");
+  if (minimum && *minimum != "2.0")
+    throw InputError(file, "asset",
+                     "the file asks for a reader of a newer glTF than 2.0 (minVersion)");
+}
+
+static Container split_glb(const std::string& file, std::span<const unsigned char> bytes) {
+  if (bytes.size() < 12)
+    throw InputError(file, "GLB header", fmt::format("truncated: {} of 12 bytes", bytes.size()));
+  const auto version = little_endian(bytes, 4);
+  if (version != 2)
+    throw InputError(file, "GLB header", fmt::format("version {} is not read, only 2", version));
+  const std::size_t length = little_endian(bytes, 8);
+  if (length > bytes.size())
+    throw InputError(
+        file, "GLB header",
+        fmt::format("truncated: it announces {} bytes, the file has {}", length, bytes.size()));
+  if (length < bytes.size())
+    throw InputError(file, "GLB header",
+                     fmt::format("it announces {} bytes, the file has {}", length, bytes.size()));
+
+  std::optional<Json> root;
+  std::optional<Bytes> binary;
+  std::size_t at = 12;
+  for (int chunk = 0; at < length; ++chunk) {
+    const auto where = fmt::format("GLB chunk {}", chunk);
+    if (length - at < 8)
+      throw InputError(file, where, fmt::format("truncated: {} of 8 header bytes", length - at));
+    const std::size_t size = little_endian(bytes, at);
+    const auto type = little_endian(bytes, at + 4);
+    at += 8;
+    if (size > length - at)
+      throw InputError(
+          file, where,
+          fmt::format("truncated: it announces {} bytes, {} are left", size, length - at));
+    if (chunk == 0 && type != json_chunk)
+      throw InputError(file, where, "the first chunk is not JSON");
+    const auto content = bytes.subspan(at, size);
+    if (chunk == 0)
+      root = parse_json(file, content);
+    if (type == binary_chunk && !binary)
+      binary = Bytes(content.begin(), content.end());
+    at += size;
+  }
+  if (!root)
+    throw InputError(file, "GLB", "has no JSON chunk");
+  return {std::move(*root), std::move(binary)};
+}
+
+Container parse_container(const std::string& file, Bytes bytes) {
+  if (bytes.empty())
+    throw InputError(file, "", "not a glTF file: it is empty");
+  Container container;
+  if (bytes.size() >= 4 && little_endian(bytes, 0) == glb_magic) {
+    container = split_glb(file, bytes);
+  } else {
+    std::span<const unsigned char> text = bytes;
+    if (text.size() >= 3 && text[0] == 0xEF && text[1] == 0xBB && text[2] == 0xBF)
+      text = text.subspan(3);
+    const auto is_blank = [](unsigned char c) {
+      return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+    };
+    const auto first = std::ranges::find_if_not(text, is_blank);
+    if (first == text.end() || *first != '{')
+      throw InputError(file, "", fmt::format("not a glTF file: {}", looks_like(bytes)));
+    container.root = parse_json(file, text);
+  }
+  check_asset(file, container.root);
+  return container;
+}
+
+} // namespace meninas::gltf

@@ -1,0 +1,319 @@
+// Triangles of every mesh node, in world space.
+#include "scenes/gltf_accessors.h"
+#include "scenes/gltf_stages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas::gltf {
+
+namespace {
+
+enum class Mode : std::uint64_t { points, lines, line_loop, line_strip, triangles, strip, fan };
+
+using Corners = std::array<std::uint32_t, 3>;
+
+/// One primitive as it stands in the file, in the coordinates of its mesh.
+struct Part {
+  std::vector<Vec3> positions;
+  std::vector<std::array<glm::vec2, 2>> texcoords;
+  std::vector<Corners> triangles;
+  MaterialId material = none<MaterialId>;
+};
+
+/// A primitive and how to speak of it.
+struct PrimitivePlace {
+  const Document& document;
+  const Json& json;
+  std::string where; ///< meshes[0] 'Wall', primitive 2
+  std::string node;
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(document.file, where, what);
+  }
+};
+
+// Coordinates whose fourth powers leave the range of doubles cannot be computed with.
+constexpr double largest_coordinate = 1e60;
+
+} // namespace
+
+static Mode mode_of(const PrimitivePlace& at) {
+  const auto mode = size_or(at.json, "mode", 4);
+  if (mode > 6)
+    at.fail(fmt::format("mode {} does not exist", mode));
+  return static_cast<Mode>(mode);
+}
+
+static std::size_t position_accessor(const PrimitivePlace& at) {
+  const auto accessor = index_at(at.json["attributes"], "POSITION");
+  if (!accessor)
+    at.fail("no POSITION attribute");
+  const auto& json = element(at.document.root, "accessors", *accessor);
+  if (!json.contains("bufferView") && find(at.json, {"extensions", "KHR_draco_mesh_compression"}))
+    at.fail("its data is only there in KHR_draco_mesh_compression, which is not decoded");
+  return *accessor;
+}
+
+static std::size_t triangles_in(Mode mode, std::uint64_t corners) {
+  if (corners < 3)
+    return 0;
+  return mode == Mode::triangles ? corners / 3 : corners - 2;
+}
+
+static std::vector<Vec3> decode_positions(const PrimitivePlace& at, std::size_t accessor) {
+  const auto decoded = decode_vectors(at.document, accessor, 3);
+  std::vector<Vec3> positions(decoded.size());
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    const auto* p = &decoded.values[3 * k];
+    positions[k] = {p[0], p[1], p[2]};
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+      at.fail(fmt::format("POSITION {} (of {}) is not finite", k,
+                          place(at.document.root, "accessors", accessor)));
+  }
+  return positions;
+}
+
+static std::vector<std::array<glm::vec2, 2>>
+decode_texcoords(const PrimitivePlace& at, std::size_t count, Findings& findings) {
+  std::vector<std::array<glm::vec2, 2>> texcoords(count);
+  for (std::size_t set = 0; set < 2; ++set) {
+    const auto accessor = index_at(at.json["attributes"], fmt::format("TEXCOORD_{}", set));
+    if (!accessor)
+      continue;
+    const auto decoded = decode_vectors(at.document, *accessor, 2);
+    for (std::size_t k = 0; k < count; ++k) {
+      const glm::vec2 uv(decoded.values[2 * k], decoded.values[2 * k + 1]);
+      if (std::isfinite(uv.x) && std::isfinite(uv.y))
+        texcoords[k][set] = uv;
+      else
+        findings.about("texture coordinates that are not finite are read as 0 in nodes", at.node);
+    }
+  }
+  return texcoords;
+}
+
+static void check_attribute_counts(const PrimitivePlace& at, std::size_t position) {
+  const auto expected = accessor_count(at.document, position);
+  for (const auto& [name, accessor] : at.json["attributes"].items()) {
+    const auto count = accessor_count(at.document, size_value(accessor));
+    if (count != expected)
+      at.fail(fmt::format("{} has {} elements, POSITION has {}", one_line(name), count, expected));
+  }
+}
+
+static std::vector<std::uint32_t> decode_corners(const PrimitivePlace& at, std::size_t vertices) {
+  std::vector<std::uint32_t> corners;
+  const auto accessor = index_at(at.json, "indices");
+  if (!accessor) {
+    corners.resize(vertices);
+    for (std::size_t k = 0; k < vertices; ++k)
+      corners[k] = static_cast<std::uint32_t>(k);
+    return corners;
+  }
+  corners = decode_indices(at.document, *accessor);
+  const auto outside =
+      std::ranges::find_if(corners, [&](std::uint32_t corner) { return corner >= vertices; });
+  if (outside != corners.end())
+    at.fail(fmt::format("index {} ({} of {}) is out of range: there are {} vertices", *outside,
+                        outside - corners.begin(), place(at.document.root, "accessors", *accessor),
+                        vertices));
+  return corners;
+}
+
+/// glTF 2.0, 3.7.2.1: every second triangle of a strip is turned round, so that all face the same way.
+static std::vector<Corners> triangulate(Mode mode, std::span<const std::uint32_t> corners) {
+  std::vector<Corners> triangles(triangles_in(mode, corners.size()));
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    if (mode == Mode::triangles)
+      triangles[k] = {corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]};
+    else if (mode == Mode::strip)
+      triangles[k] = {corners[k], corners[k + 1 + k % 2], corners[k + 2 - k % 2]};
+    else
+      triangles[k] = {corners[k + 1], corners[k + 2], corners[0]};
+  }
+  return triangles;
+}
+
+static void report_left_out(const PrimitivePlace& at, Scene& scene, Findings& findings) {
+  const auto leave_out = [&](const std::string& feature) {
+    findings.about(feature + " are left out in nodes", at.node);
+    if (std::ranges::find(scene.ignored, feature) == scene.ignored.end())
+      scene.ignored.push_back(feature);
+  };
+  if (const auto* targets = find(at.json, "targets"); targets && !targets->empty())
+    leave_out("morph targets");
+  if (at.json["attributes"].contains("COLOR_0"))
+    leave_out("vertex colours");
+}
+
+static std::optional<Part> decode_primitive(const PrimitivePlace& at, Scene& scene,
+                                            Findings& findings) {
+  const auto mode = mode_of(at);
+  if (mode < Mode::triangles) {
+    findings.about("points and lines are left out in nodes", at.node);
+    return std::nullopt;
+  }
+  const auto accessor = position_accessor(at);
+  check_attribute_counts(at, accessor);
+  report_left_out(at, scene, findings);
+
+  Part part;
+  part.positions = decode_positions(at, accessor);
+  part.texcoords = decode_texcoords(at, part.positions.size(), findings);
+  const auto corners = decode_corners(at, part.positions.size());
+  if (mode == Mode::triangles && corners.size() % 3 != 0)
+    findings.about("vertices over after the last whole triangle are left out in nodes", at.node);
+  part.triangles = triangulate(mode, corners);
+  if (const auto material = index_at(at.json, "material"))
+    part.material = static_cast<MaterialId>(*material);
+  return part;
+}
+
+static double largest_of(const Vec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// Half the distance between neighbouring floats at x.
+static double half_ulp(double x) {
+  return x > 0.0 ? std::ldexp(1.0, std::max(std::ilogb(x), -126) - 24) : 0.0;
+}
+
+/// Rounding of local coordinates to floats, stretched by the matrix, and of the product with the matrix in doubles.
+static double position_error(const Part& part, const glm::dmat4& world) {
+  double local = 0.0;
+  for (const auto& p : part.positions)
+    local = std::max(local, largest_of(p));
+  const glm::dmat3 linear(world);
+  const auto rows = glm::transpose(linear);
+  double stretch = 0.0; // the largest sum of a row bounds the change of any coordinate
+  for (int row = 0; row < 3; ++row)
+    stretch =
+        std::max(stretch, std::abs(rows[row].x) + std::abs(rows[row].y) + std::abs(rows[row].z));
+  return half_ulp(local) * stretch + 4e-16 * (stretch * local + largest_of(Vec3(world[3])));
+}
+
+/// A mirrored node shows its triangles turned round, unless they are turned round once more (glTF 2.0, 3.7.4).
+static bool is_mirrored(const glm::dmat4& world) {
+  const glm::dmat3 linear(world);
+  const auto largest =
+      std::max({largest_of(linear[0]), largest_of(linear[1]), largest_of(linear[2])});
+  return largest > 0.0 && glm::determinant(linear / largest) < 0.0;
+}
+
+/// Its shortest height is below the error of the corners: neither a plane nor a front can be told.
+static bool is_degenerate(const std::array<Point3, 3>& p, double error) {
+  const auto longest =
+      std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
+  return !(2.0 * glm::length(area_vector(p)) > error * longest);
+}
+
+static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat4& world,
+                     NodeId node, Scene& scene, Findings& findings) {
+  const auto error = position_error(part, world);
+  const bool mirrored = is_mirrored(world);
+  std::vector<Point3> placed(part.positions.size());
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    placed[k] = Point3(world * glm::dvec4(part.positions[k], 1.0));
+    if (!(largest_of(placed[k]) < largest_coordinate))
+      at.fail(
+          fmt::format("vertex {} is over {:g} m away in node {}", k, largest_coordinate, at.node));
+  }
+
+  // Vertices join the scene when the first triangle that stays needs them.
+  std::vector<VertexId> ids(placed.size(), none<VertexId>);
+  std::size_t kept = 0;
+  for (auto corners : part.triangles) {
+    if (mirrored)
+      std::swap(corners[1], corners[2]);
+    if (is_degenerate({placed[corners[0]], placed[corners[1]], placed[corners[2]]}, error))
+      continue;
+    Triangle triangle{.material = part.material, .node = node};
+    for (std::size_t c = 0; c < 3; ++c) {
+      auto& id = ids[corners[c]];
+      if (id == none<VertexId>) {
+        id = static_cast<VertexId>(scene.vertices.size());
+        scene.vertices.push_back({placed[corners[c]], part.texcoords[corners[c]]});
+      }
+      triangle.vertices[c] = id;
+    }
+    scene.triangles.push_back(triangle);
+    ++kept;
+  }
+  if (kept > 0)
+    scene.position_error = std::max(scene.position_error, error);
+  const auto dropped = part.triangles.size() - kept;
+  scene.degenerate_triangles += dropped;
+  if (dropped > 0)
+    findings.about("triangles without area are left out in nodes", at.node);
+}
+
+template <typename Visit>
+static void each_primitive(const Document& document, const PlacedNode& node, std::size_t mesh,
+                           Visit visit) {
+  const auto& primitives = element(document.root, "meshes", mesh)["primitives"];
+  const auto name = name_of(element(document.root, "nodes", node.index));
+  for (std::size_t k = 0; k < primitives.size(); ++k)
+    visit(PrimitivePlace{document, primitives[k],
+                         fmt::format("{}, primitive {}", place(document.root, "meshes", mesh), k),
+                         name.empty() ? fmt::format("node{}", node.index) : name});
+}
+
+/// Instances multiply, so a small file can ask for any amount of memory; it is counted before anything is decoded.
+static void check_memory(const Document& document, std::span<const PlacedNode> nodes) {
+  constexpr double per_vertex = sizeof(Vertex) + 2 * sizeof(Point3) +
+                                sizeof(std::array<glm::vec2, 2>) + 3 * sizeof(double) +
+                                sizeof(VertexId);
+  constexpr double per_corner = sizeof(std::uint32_t);
+  constexpr double per_triangle = sizeof(Triangle) + sizeof(Corners);
+  double bytes = 0.0;
+  double vertices = 0.0;
+  for (const auto& node : nodes) {
+    const auto mesh = index_at(element(document.root, "nodes", node.index), "mesh");
+    if (!mesh)
+      continue;
+    each_primitive(document, node, *mesh, [&](const PrimitivePlace& at) {
+      const auto mode = mode_of(at);
+      if (mode < Mode::triangles)
+        return;
+      const auto count = accessor_count(document, position_accessor(at));
+      const auto indices = index_at(at.json, "indices");
+      const auto corners = indices ? accessor_count(document, *indices) : count;
+      vertices += static_cast<double>(count);
+      bytes += per_vertex * static_cast<double>(count) + per_corner * static_cast<double>(corners) +
+               per_triangle * static_cast<double>(triangles_in(mode, corners));
+    });
+  }
+  const auto limit = static_cast<double>(document.settings.memory_limit);
+  if (bytes > limit || vertices >= static_cast<double>(index(none<VertexId>)))
+    throw InputError(document.file, "geometry",
+                     fmt::format("needs about {:.0f} MiB, the memory limit is {:.0f} MiB",
+                                 bytes / (1 << 20), limit / (1 << 20)));
+}
+
+void read_geometry(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
+                   Findings& findings) {
+  check_memory(document, nodes);
+  std::vector<std::string> names;
+  for (const auto& node : nodes) {
+    const auto& json = element(document.root, "nodes", node.index);
+    const auto mesh = index_at(json, "mesh");
+    if (!mesh)
+      continue;
+    const auto id = static_cast<NodeId>(names.size());
+    const auto name = name_of(json);
+    names.push_back(name.empty() ? fmt::format("node{}", node.index) : name);
+    if (json.contains("skin"))
+      findings.about("skins are left out, the rest pose is shown, in nodes", names.back());
+    each_primitive(document, node, *mesh, [&](const PrimitivePlace& at) {
+      if (const auto part = decode_primitive(at, scene, findings))
+        add_part(at, *part, node.world, id, scene, findings);
+    });
+  }
+  for (auto& name : unique_names(names))
+    scene.nodes.push_back({std::move(name)});
+}
+
+} // namespace meninas::gltf

@@ -1,0 +1,158 @@
+// Textures: the encoded bytes of their images, kept once per image and wrapping.
+#include "scenes/gltf_accessors.h"
+#include "scenes/gltf_stages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <tuple>
+
+namespace meninas::gltf {
+
+static constexpr std::uint64_t clamp_to_edge = 33071;
+static constexpr std::uint64_t mirrored_repeat = 33648;
+static constexpr std::uint64_t repeat = 10497;
+
+std::optional<TextureUse> read_texture_use(const Document& document, const Json& owner,
+                                           std::string_view key, const std::string& material,
+                                           Findings& findings) {
+  const auto* json = find(owner, key);
+  if (!json)
+    return std::nullopt;
+  TextureUse use;
+  const auto index = *index_at(*json, "index");
+  use.texture = static_cast<TextureId>(index);
+  auto set = size_or(*json, "texCoord", 0);
+  if (const auto* transform = find(*json, {"extensions", "KHR_texture_transform"})) {
+    const auto offset = numbers_at(*transform, "offset");
+    const auto scale = numbers_at(*transform, "scale");
+    if (!offset.empty())
+      use.offset = {offset[0], offset[1]};
+    if (!scale.empty())
+      use.scale = {scale[0], scale[1]};
+    use.rotation = number_or(*transform, "rotation", 0.0);
+    set = size_or(*transform, "texCoord", set);
+  }
+  if (set > 1) {
+    findings.about("textures with texCoord above 1 are left out in materials", material);
+    return std::nullopt;
+  }
+  use.texcoord_set = static_cast<int>(set);
+  if (!index_at(element(document.root, "textures", index), "source")) {
+    findings.about("textures without an image that can be read are left out in materials",
+                   material);
+    return std::nullopt;
+  }
+  return use;
+}
+
+static bool repeats(const Json& root, std::size_t texture, std::string_view axis,
+                    Findings& findings) {
+  const auto sampler = index_at(element(root, "textures", texture), "sampler");
+  if (!sampler)
+    return true;
+  const auto wrap = size_or(element(root, "samplers", *sampler), axis, repeat);
+  if (wrap == mirrored_repeat)
+    findings.about("mirrored wrapping is read as repeated in textures",
+                   place(root, "textures", texture));
+  else if (wrap != repeat && wrap != clamp_to_edge)
+    findings.about("unknown wrapping is read as repeated in textures",
+                   place(root, "textures", texture));
+  return wrap != clamp_to_edge;
+}
+
+static std::string name_of_image(const Json& image, std::size_t index) {
+  const auto name = name_of(image);
+  if (!name.empty())
+    return name;
+  const auto uri = text_or(image, "uri", "data:");
+  return uri.starts_with("data:") ? fmt::format("image{}", index) : one_line(uri);
+}
+
+static Resource read_image(const Document& document, std::size_t index) {
+  const auto& image = element(document.root, "images", index);
+  if (const auto* uri = find(image, "uri"))
+    return read_uri(uri->get<std::string>(), document.folder, document.settings);
+  const auto view = index_at(image, "bufferView");
+  if (!view)
+    return {{}, "neither uri nor bufferView"};
+  const auto bytes = view_bytes(document, *view);
+  return {{bytes.begin(), bytes.end()}, ""};
+}
+
+namespace {
+
+/// Textures of the scene by image and wrapping; a missing image is looked for once.
+class TextureShelf {
+public:
+  TextureShelf(const Document& document, Scene& scene, Findings& findings)
+      : document_(document), scene_(scene), findings_(findings) {}
+
+  TextureId of(std::size_t texture) {
+    const auto image = *index_at(element(document_.root, "textures", texture), "source");
+    const bool u = repeats(document_.root, texture, "wrapS", findings_);
+    const bool v = repeats(document_.root, texture, "wrapT", findings_);
+    const auto [found, is_new] = ids_.try_emplace({image, u, v}, none<TextureId>);
+    if (is_new)
+      found->second = add(image, u, v);
+    return found->second;
+  }
+
+private:
+  TextureId add(std::size_t image, bool u, bool v) {
+    const auto where = place(document_.root, "images", image);
+    const auto resource = read_image(document_, image);
+    if (!resource.problem.empty() || resource.bytes.empty()) {
+      findings_.say(
+          fmt::format("{}: {}; the factor alone is used", where,
+                      resource.problem.empty() ? "the image is empty" : resource.problem));
+      return none<TextureId>;
+    }
+    bytes_ += resource.bytes.size();
+    if (bytes_ > document_.settings.memory_limit)
+      throw InputError(document_.file, where, "the images are over the memory limit");
+    Texture texture;
+    texture.name = name_of_image(element(document_.root, "images", image), image);
+    texture.repeat_u = u;
+    texture.repeat_v = v;
+    texture.encoded.resize(resource.bytes.size());
+    std::ranges::transform(resource.bytes, texture.encoded.begin(),
+                           [](unsigned char c) { return std::byte{c}; });
+    scene_.textures.push_back(std::move(texture));
+    return static_cast<TextureId>(scene_.textures.size() - 1);
+  }
+
+  const Document& document_;
+  Scene& scene_;
+  Findings& findings_;
+  std::map<std::tuple<std::size_t, bool, bool>, TextureId> ids_;
+  std::uint64_t bytes_ = 0;
+};
+
+} // namespace
+
+void read_textures(const Document& document, Scene& scene, Findings& findings) {
+  TextureShelf shelf(document, scene, findings);
+  std::size_t textured = 0;
+  for (auto& material : scene.materials) {
+    bool uses_one = false;
+    for (auto* use : {&material.base_color_texture, &material.metallic_roughness_texture,
+                      &material.emissive_texture}) {
+      if (!*use)
+        continue;
+      (*use)->texture = shelf.of(index((*use)->texture));
+      if ((*use)->texture == none<TextureId>)
+        use->reset();
+      uses_one = uses_one || *use;
+    }
+    if (uses_one)
+      ++textured;
+  }
+  if (textured > 0)
+    findings.say(fmt::format("textures are not applied yet: {} material{} their factors", textured,
+                             textured == 1 ? " uses" : "s use"));
+}
+
+} // namespace meninas::gltf
