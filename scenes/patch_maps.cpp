@@ -30,13 +30,11 @@ Vec2 triangle_uv_at(const Patch& patch, const Point3& x) {
                              squared);
 }
 
-/// The v of the line of constant v on which x lies, where `start` + v `side` begins that line and `base` + v `widening` is its
-/// direction.
+/// The root of constant + linear t + quadratic t^2 in [0, 1] at which it rises, clamped.
 ///
-/// f(v) = cross(x - start - v side, base + v widening) is negative where the line passes below x and positive where it
-/// passes above, so in a convex quad it has one root in [0, 1], at which it rises: f'(v) = +sqrt(discriminant).
-/// Of the two forms of that root each is free of cancellation where the other is not; near a parallelogram the quadratic term
-/// vanishes and the form in use does not divide by it.
+/// Its slope there is the square root of the discriminant.
+/// Of the two forms of the root each is free of cancellation where the other is not, and neither divides by a vanishing
+/// quadratic term.
 double rising_root(double constant, double linear, double quadratic) {
   if (!(constant < 0.0)) {
     return 0.0;
@@ -49,20 +47,48 @@ double rising_root(double constant, double linear, double quadratic) {
   return std::clamp(root, 0.0, 1.0);
 }
 
+/// A quad p(s, t) = corner + s base + t side + s t widening, seen with `base` to `side` counter-clockwise about the normal.
+struct BilinearFrame {
+  Vec3 base;
+  Vec3 side;
+  Vec3 widening;
+  Direction normal;
+};
+
+/// (s, t) of the point at h from the corner: t first, by the line of constant t through the point, then s along that line.
+///
+/// f(t) = cross(h - t side, base + t widening) is negative where the line passes below the point and positive where it passes
+/// above, so in a convex quad it has one root in [0, 1], at which it rises.
+Vec2 solve_bilinear(const BilinearFrame& q, const Vec3& h) {
+  const auto cross = [&](const Vec3& a, const Vec3& b) { return glm::dot(q.normal, glm::cross(a, b)); };
+  const double t = rising_root(cross(h, q.base), cross(h, q.widening) - cross(q.side, q.base),
+                               -cross(q.side, q.widening));
+  const Vec3 line = q.base + t * q.widening;
+  const double squared = glm::dot(line, line);
+  const double s = squared > 0.0 ? glm::dot(h - t * q.side, line) / squared : 0.0;
+  return {std::clamp(s, 0.0, 1.0), t};
+}
+
+/// 1 for opposite sides of one length, 0 where one of them is a point.
+double evenness(const Vec3& a, const Vec3& b) {
+  const double la = glm::length(a);
+  const double lb = glm::length(b);
+  return std::min(la, lb) / std::max(la, lb);
+}
+
 Vec2 quad_uv_at(const Patch& patch, const Point3& x) {
   const auto& p = patch.corners;
-  const Vec3 normal = glm::normalize(glm::cross(p[2] - p[0], p[3] - p[1]));
-  const auto cross = [&](const Vec3& a, const Vec3& b) { return glm::dot(normal, glm::cross(a, b)); };
+  const Direction normal = glm::normalize(glm::cross(p[2] - p[0], p[3] - p[1]));
   const Vec3 base = p[1] - p[0];
   const Vec3 side = p[3] - p[0];
   const Vec3 widening = (p[0] - p[1]) + (p[2] - p[3]);
   const Vec3 h = x - p[0];
-  // cross(h, base) < 0 where x is on the inner side of the base.
-  const double v = rising_root(cross(h, base), cross(h, widening) - cross(side, base), -cross(side, widening));
-  const Vec3 line = base + v * widening;
-  const double squared = glm::dot(line, line);
-  const double u = squared > 0.0 ? glm::dot(h - v * side, line) / squared : 0.0;
-  return {std::clamp(u, 0.0, 1.0), v};
+  // Lines that shrink to a point near one end of the quad say little there, so the more even ones are looked for.
+  if (evenness(base, p[2] - p[3]) >= evenness(side, p[2] - p[1])) {
+    return solve_bilinear({base, side, widening, normal}, h);
+  }
+  const Vec2 vu = solve_bilinear({side, base, widening, -normal}, h);
+  return {vu.y, vu.x};
 }
 
 } // namespace
