@@ -28,8 +28,10 @@ struct Receiver {
 /// Storage reused from point to point; one for each thread.
 struct DirectWorkspace {
   std::vector<VirtualLight> lights;
-  std::vector<double> form_factors;
+  std::vector<double> form_factors; ///< unoccluded, by light
+  std::vector<double> brought;      ///< brightest channel of what each light brings unoccluded
   std::vector<Leg> legs;
+  std::array<std::vector<Leg>, 16> folded; ///< the legs of sixteen segments at a time
   std::uint64_t shadow_rays = 0;
 };
 
@@ -40,6 +42,6 @@ struct DirectIrradiance {
   std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element
   std::uint64_t shadow_rays = 0;
 };
-DirectIrradiance direct_irradiance(const LightScene& light, const DirectSettings& settings);
+DirectIrradiance direct_irradiance(const LightScene& light, const DirectSettings& settings, const Progress& progress = {});
 
 } // namespace meninas

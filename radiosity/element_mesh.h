@@ -20,9 +20,9 @@ enum class ElementVertexId : std::uint32_t {};
 enum class Facing : std::uint8_t { front = 0, back = 1 };
 
 struct MeshSettings {
-  double element_size = 0.0;         ///< longest wanted edge in metres; 0: derived from `elements_across`
-  int elements_across = 48;          ///< elements along the diagonal's share of a typical wall, when element_size is 0
-  std::size_t max_elements = 4'000'000;
+  double element_size = 0.0;      ///< wanted edge length in metres; 0: from `target_elements`
+  double target_elements = 16000; ///< about how many elements share the meshed area when element_size is 0
+  std::size_t max_elements = 4'000'000; ///< a chosen size that needs more is refused (UsageError)
 };
 
 struct MeshSide {
@@ -51,7 +51,7 @@ struct ElementMesh {
   std::vector<ElementCorners> corners;               ///< by ElementId
   std::vector<double> area;                          ///< by ElementId, m^2
   std::vector<Point3> vertices;                      ///< by ElementVertexId
-  std::vector<SideId> side_of_vertex;                ///< one of the sides that share it
+  std::vector<ElementId> element_of_vertex;          ///< one of the elements that share it
   double element_size = 0.0;                         ///< what was used, metres
 };
 
@@ -66,7 +66,7 @@ struct ElementPoint {
 };
 ElementPoint locate(const MeshSide& side, Vec2 uv);
 
-/// The point of an element, and the (u, v) of its patch, at (s, t).
+/// The (u, v) of its patch for the point (s, t) of an element; `local_element` counts from the side's first.
 Vec2 patch_uv_of(const MeshSide& side, std::uint32_t local_element, Vec2 st);
 
 } // namespace meninas

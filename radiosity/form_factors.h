@@ -9,9 +9,10 @@
 // (direct_irradiance.h); `gathered_emission` holds the emission that no closed form owns (deep worlds, facets, large emitters).
 #pragma once
 
-#include "mirror/virtual_lights.h"
-#include "radiosity/element_mesh.h"
-#include "scenes/ray_scene.h"
+#include "radiosity/light_scene.h"
+
+#include <functional>
+#include <string_view>
 
 namespace meninas {
 
@@ -47,23 +48,9 @@ struct FormFactors {
   std::uint64_t rays_traced = 0;        ///< legs, reflected ones included
 };
 
-/// Everything pass one looks things up in while it gathers; all of it outlives the call.
-struct LightScene {
-  const Scene& scene;
-  const SurfaceModel& surfaces;
-  const RayScene& rays;
-  const MirrorSet& mirrors;
-  const WorldTree& worlds;
-  const ElementMesh& mesh;
-  std::vector<Emitter> emitters;         ///< those whose light is computed from the source
-  std::vector<std::uint8_t> from_source; ///< by SideId: its emission is owned by the closed form in enumerated worlds
-};
+/// Called with the stage's name and the fraction of it that is done, from any thread; may be empty. Never affects the result.
+using Progress = std::function<void(std::string_view stage, double fraction)>;
 
-/// Emitters are taken from the source when they are few and small; those that are most of what is seen (more than half of
-/// the meshed area) are gathered like everything else, which is then exact where all walls glow.
-LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
-                            const MirrorSet& mirrors, const WorldTree& worlds, const ElementMesh& mesh);
-
-FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings);
+FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings, const Progress& progress = {});
 
 } // namespace meninas

@@ -4,12 +4,7 @@
 #include "radiosity/interpolation.h"
 #include "radiosity/plan.h"
 
-#include <functional>
-
 namespace meninas {
-
-/// Called with the stage's name and the fraction of it that is done; may be empty. Never affects the result.
-using Progress = std::function<void(std::string_view stage, double fraction)>;
 
 struct PassOneSettings {
   PlanSettings plan;

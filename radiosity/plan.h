@@ -25,7 +25,7 @@ struct TransportPlan {
   std::size_t transmissive = 0; ///< materials
   std::size_t textured = 0;     ///< materials
   int bands = 1;                ///< 1 when everything is grey
-  bool closed = false;          ///< every edge of the geometry has a face on both sides
+  bool closed = false;          ///< faces without a gap enclose everything, so no light can escape
   std::vector<std::string> stages;
   std::vector<std::string> ignored;
   std::vector<std::string> warnings; ///< the scene's own and the plan's

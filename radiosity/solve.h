@@ -35,6 +35,6 @@ SolverResult solve(const Transport& transport, const std::vector<Rgb>& source, c
                    const SolverSettings& settings = {});
 
 /// T x for every row, by band.
-std::vector<Rgb> apply(const Transport& transport, const std::vector<Rgb>& x);
+std::vector<Rgb> apply_transport(const Transport& transport, const std::vector<Rgb>& x);
 
 } // namespace meninas

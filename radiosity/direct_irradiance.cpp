@@ -1,0 +1,174 @@
+#include "radiosity/direct_irradiance.h"
+
+#include "radiosity/gather_rays.h"
+#include "radiosity/point_form_factor.h"
+#include "scenes/sampling.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
+
+/// A point of a convex polygon with density one over its area: a fan triangle by area, then a point in it.
+Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample) {
+  const double total = glm::dot(area, area);
+  double before = 0.0;
+  for (std::size_t k = 2; k < polygon.size; ++k) {
+    const Vec3 edge_a = polygon.vertices[k - 1] - polygon.vertices[0], edge_b = polygon.vertices[k] - polygon.vertices[0];
+    const double share = 0.5 * glm::dot(glm::cross(edge_a, edge_b), area) / total;
+    if (sample.x < before + share || k + 1 == polygon.size) {
+      const double u = share > 0.0 ? std::clamp((sample.x - before) / share, 0.0, 1.0) : 0.5;
+      const double root = std::sqrt(u);
+      return polygon.vertices[0] + root * (1.0 - sample.y) * edge_a + root * sample.y * edge_b;
+    }
+    before += share;
+  }
+  return polygon.vertices[0];
+}
+
+/// Sums of the weights of the samples so far, and of those that arrive.
+struct VisibleShare {
+  double all = 0.0, seen = 0.0;
+  int samples = 0, arrived = 0;
+};
+
+/// Tests up to sixteen folded segments, leg by leg; bit k of the result is set where segment k is blocked.
+std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>, 16>& folded, std::uint32_t count,
+                      std::uint64_t& rays) {
+  const RayFrame& frame = light.rays.frame();
+  std::uint32_t result = 0;
+  RayPacket packet;
+  packet.count = count;
+  for (std::size_t step = 0; step < folded[0].size(); ++step) {
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const Leg& leg = folded[k][step];
+      const Vec3 from = (leg.from - frame.centre) * frame.scale, along = (leg.to - leg.from) * frame.scale;
+      packet.origin_x[k] = static_cast<float>(from.x);
+      packet.origin_y[k] = static_cast<float>(from.y);
+      packet.origin_z[k] = static_cast<float>(from.z);
+      packet.direction_x[k] = static_cast<float>(along.x);
+      packet.direction_y[k] = static_cast<float>(along.y);
+      packet.direction_z[k] = static_cast<float>(along.z);
+      packet.max_distance[k] = 1.0F;
+      packet.leaving[k] = index(leg.leaving);
+      packet.arriving[k] = index(leg.arriving);
+    }
+    result |= occluded(light.rays, packet, Coherence::coherent);
+    rays += count;
+    if (result == (1U << count) - 1U) break;
+  }
+  return result;
+}
+
+/// Adds samples number `begin` to `end` of one image to its visible share.
+void sample_visibility(const LightScene& light, const VirtualLight& image, const Receiver& receiver, int begin, int end,
+                       std::uint32_t seed, DirectWorkspace& work, VisibleShare& share) {
+  const Emitter& emitter = light.emitters[image.emitter];
+  const Vec3 area = area_vector(image.polygon.span());
+  for (int first = begin; first < end; first += 16) {
+    const int count = std::min(16, end - first);
+    std::array<double, 16> weight{};
+    for (int k = 0; k < count; ++k) {
+      const auto sample = sobol4(static_cast<std::uint32_t>(first + k), seed);
+      const Point3 y = point_on(image.polygon, area, Vec2(sample[0], sample[1]));
+
+      // The share of the form factor this point stands for: both cosines over the square of the distance.
+      const Vec3 to = y - receiver.position;
+      const double distance2 = glm::dot(to, to);
+      const double cosines = std::max(0.0, glm::dot(to, receiver.normal)) * std::max(0.0, -glm::dot(to, image.normal));
+      weight[static_cast<std::size_t>(k)] = distance2 > 0.0 ? cosines / (distance2 * distance2) : 0.0;
+      fold_legs(light.worlds, light.mirrors, image.world, receiver.position, receiver.plane_class, y, emitter.plane_class,
+                work.folded[static_cast<std::size_t>(k)]);
+    }
+    const std::uint32_t dark = blocked(light, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
+    for (int k = 0; k < count; ++k) {
+      share.all += weight[static_cast<std::size_t>(k)];
+      if (((dark >> k) & 1U) == 0U) share.seen += weight[static_cast<std::size_t>(k)];
+    }
+    share.samples += count;
+    share.arrived += count - std::popcount(dark);
+  }
+}
+
+double visible_fraction(const LightScene& light, const VirtualLight& image, const Receiver& receiver, int samples,
+                        int penumbra_samples, std::uint32_t seed, DirectWorkspace& work) {
+  VisibleShare share;
+  sample_visibility(light, image, receiver, 0, samples, seed, work, share);
+  const bool agree = share.arrived == 0 || share.arrived == share.samples;
+  if (!agree && penumbra_samples > samples)
+    sample_visibility(light, image, receiver, samples, penumbra_samples, seed, work, share);
+  if (share.arrived == share.samples) return 1.0;
+  return share.all > 0.0 ? share.seen / share.all : 0.0;
+}
+
+} // namespace
+
+Rgb direct_irradiance(const LightScene& light, const Receiver& receiver, const DirectSettings& settings,
+                      std::uint32_t seed, DirectWorkspace& work) {
+  virtual_lights(light.worlds, light.emitters, receiver.position, receiver.normal, work.lights);
+
+  // What every image would bring without blockers decides how many shadow rays it is worth.
+  work.form_factors.clear();
+  work.brought.clear();
+  double most = 0.0;
+  for (const auto& image : work.lights) {
+    const Rgb source = light.worlds.worlds[index(image.world)].throughput * light.emitters[image.emitter].radiosity;
+    work.form_factors.push_back(point_form_factor(receiver.position, receiver.normal, image.polygon.span()));
+    work.brought.push_back(work.form_factors.back() * largest(source));
+    most = std::max(most, work.brought.back());
+  }
+
+  Rgb sum(0.0);
+  for (std::size_t k = 0; k < work.lights.size(); ++k) {
+    if (work.brought[k] <= 0.0) continue;
+    const VirtualLight& image = work.lights[k];
+    const double worth = work.brought[k] / most;
+    const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
+    const int penumbra = static_cast<int>(std::lround(settings.penumbra_rays * worth));
+    const auto image_seed = hash(seed, image.emitter, index(image.world));
+    const double visible = visible_fraction(light, image, receiver, samples, penumbra, image_seed, work);
+    sum += visible * work.form_factors[k] * light.worlds.worlds[index(image.world)].throughput *
+           light.emitters[image.emitter].radiosity;
+  }
+  return sum;
+}
+
+DirectIrradiance direct_irradiance(const LightScene& light, const DirectSettings& settings, const Progress& progress) {
+  constexpr std::size_t chunk_size = 64;
+  const std::size_t size = element_count(light.mesh);
+  DirectIrradiance result;
+  result.irradiance.assign(size, Rgb(0.0));
+  if (light.emitters.empty()) return result;
+
+  const std::size_t chunks = (size + chunk_size - 1) / chunk_size;
+  tbb::enumerable_thread_specific<DirectWorkspace> workspaces;
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    DirectWorkspace& work = workspaces.local();
+    const std::size_t end = std::min(size, (c + 1) * chunk_size);
+    for (std::size_t i = c * chunk_size; i < end; ++i) {
+      const ReceiverArea area = receiver_of(light, static_cast<ElementId>(i));
+      const auto seed = hash(static_cast<std::uint32_t>(i), settings.seed, 0xd17ec7);
+      for (int p = 0; p < settings.points; ++p) {
+        const auto sample = sobol4(static_cast<std::uint32_t>(p), seed);
+        const Receiver receiver{point_in(area, Vec2(sample[0], sample[1])), area.normal, area.plane_class};
+        result.irradiance[i] += direct_irradiance(light, receiver, settings, hash(seed, static_cast<std::uint32_t>(p), 1), work);
+      }
+      result.irradiance[i] /= settings.points;
+    }
+    if (progress) progress("direct light", static_cast<double>(++done) / static_cast<double>(chunks));
+  });
+  for (const auto& work : workspaces) result.shadow_rays += work.shadow_rays;
+  return result;
+}
+
+} // namespace meninas

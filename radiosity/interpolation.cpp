@@ -1,0 +1,175 @@
+#include "radiosity/interpolation.h"
+
+#include "radiosity/gather_rays.h"
+#include "radiosity/vertex_fill.h"
+#include "scenes/sampling.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace meninas {
+
+namespace {
+
+Point3 centre_of(const ElementMesh& mesh, ElementId element) {
+  const auto& corners = mesh.corners[index(element)];
+  const int count = corners[3] == corners[2] ? 3 : 4;
+  Point3 sum(0.0);
+  for (int c = 0; c < count; ++c) sum += mesh.vertices[index(corners[static_cast<std::size_t>(c)])];
+  return sum / double(count);
+}
+
+/// The elements around every vertex, in one list.
+struct VertexElements {
+  std::vector<std::uint32_t> begin; ///< vertices + 1
+  std::vector<ElementId> elements;
+};
+
+VertexElements elements_around(const ElementMesh& mesh) {
+  VertexElements around;
+  around.begin.assign(mesh.vertices.size() + 1, 0);
+  const auto for_each_corner = [&mesh](auto&& visit) {
+    for (std::size_t e = 0; e < mesh.corners.size(); ++e) {
+      const auto& corners = mesh.corners[e];
+      for (std::size_t c = 0; c < (corners[3] == corners[2] ? 3U : 4U); ++c) visit(static_cast<ElementId>(e), corners[c]);
+    }
+  };
+  for_each_corner([&](ElementId, ElementVertexId vertex) { ++around.begin[index(vertex) + 1]; });
+  for (std::size_t v = 1; v < around.begin.size(); ++v) around.begin[v] += around.begin[v - 1];
+  around.elements.resize(around.begin.back());
+  auto place = around.begin;
+  for_each_corner([&](ElementId element, ElementVertexId vertex) { around.elements[place[index(vertex)]++] = element; });
+  return around;
+}
+
+std::span<const ElementId> around(const VertexElements& all, std::size_t vertex) {
+  return std::span(all.elements).subspan(all.begin[vertex], all.begin[vertex + 1] - all.begin[vertex]);
+}
+
+/// Mean of the elements around; at the border of a surface extrapolated from the elements behind: twice the mean at the
+/// vertex less the mean one ring further in.
+std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh, const std::vector<Rgb>& irradiance) {
+  const VertexElements all = elements_around(mesh);
+  std::vector<Rgb> mean(mesh.vertices.size(), Rgb(0.0));
+  std::vector<Point3> centre(mesh.vertices.size(), Point3(0.0));
+  for (std::size_t v = 0; v < mean.size(); ++v) {
+    const auto elements = around(all, v);
+    for (const ElementId element : elements) {
+      mean[v] += irradiance[index(element)] / double(elements.size());
+      centre[v] += centre_of(mesh, element) / double(elements.size());
+    }
+  }
+
+  std::vector<glm::vec3> value(mean.begin(), mean.end());
+  for (std::size_t v = 0; v < mean.size(); ++v) {
+    // A vertex inside its surface lies at the centre of its elements; on the border they all lie to one side.
+    const Vec3 inward = centre[v] - mesh.vertices[v];
+    const double reach = glm::length(inward);
+    if (reach < 0.2 * mesh.element_size * 0.5) continue;
+
+    // The steepest use of the corners of those elements: the one furthest along the inward direction carries the inner mean.
+    double furthest = 0.0;
+    std::size_t inner = v;
+    for (const ElementId element : around(all, v))
+      for (const auto corner : mesh.corners[index(element)]) {
+        const double along = glm::dot(mesh.vertices[index(corner)] - mesh.vertices[v], inward) / reach;
+        if (along > furthest) {
+          furthest = along;
+          inner = index(corner);
+        }
+      }
+    const double further = glm::dot(centre[inner] - centre[v], inward) / reach;
+    if (inner == v || further <= 0.25 * reach) continue;
+    const double step = std::min(reach / further, 1.0);
+    value[v] = glm::max(glm::vec3(mean[v] + step * (mean[v] - mean[inner])), glm::vec3(0.0F));
+  }
+  return value;
+}
+
+/// Where a vertex gathers: drawn a little towards the middle of one of its elements, so that it is inside its own surface and
+/// not in the wall that stands on its edge.
+Point3 gathering_point(const ElementMesh& mesh, const VertexElements& all, std::size_t vertex) {
+  constexpr double inset = 0.02;
+  const auto elements = around(all, vertex);
+  Point3 centre(0.0);
+  for (const ElementId element : elements) centre += centre_of(mesh, element) / double(elements.size());
+  return glm::mix(mesh.vertices[vertex], centre, inset);
+}
+
+struct VertexWorkspace {
+  GatherWorkspace gather;
+  DirectWorkspace direct;
+  std::uint64_t rays = 0;
+};
+
+} // namespace
+
+static InterpolatedField gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
+                                            const std::vector<Rgb>& irradiance, const FormFactorSettings& form_factors,
+                                            const DirectSettings& direct, const InterpolationSettings& settings) {
+  constexpr float covered = 0.9F; // of the hemisphere black: the vertex is inside something that stands on its surface
+  constexpr std::size_t chunk_size = 64;
+  const ElementMesh& mesh = light.mesh;
+  const VertexElements all = elements_around(mesh);
+  const DirectionNet net = make_direction_net(settings.rays);
+  const auto rays = static_cast<float>(net.points.size());
+
+  InterpolatedField result;
+  result.field.irradiance.assign(mesh.vertices.size(), glm::vec3(0.0F));
+  std::vector<std::uint8_t> valid(mesh.vertices.size(), 1);
+  tbb::enumerable_thread_specific<VertexWorkspace> workspaces;
+  tbb::parallel_for(std::size_t{0}, (mesh.vertices.size() + chunk_size - 1) / chunk_size, [&](std::size_t c) {
+    VertexWorkspace& work = workspaces.local();
+    for (std::size_t v = c * chunk_size; v < std::min(mesh.vertices.size(), (c + 1) * chunk_size); ++v) {
+      const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(mesh.element_of_vertex[v])])];
+      ReceiverArea point;
+      point.corner = gathering_point(mesh, all, v);
+      point.normal = side.normal;
+      point.plane_class = side.plane_class;
+      const auto seed = hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27);
+      gather_rays(light, net, point, seed, form_factors, work.gather);
+
+      // What lands is reflected light of the element, and emission that no closed form owns.
+      const GatheredRays& gathered = work.gather.result;
+      Rgb sum(0.0);
+      bool lit = gathered.landings.empty();
+      for (const auto& landing : gathered.landings) {
+        sum += Rgb(landing.throughput) * radiosity[landing.element] + gathered_emission(light, landing);
+        lit |= irradiance[landing.element] != Rgb(0.0);
+      }
+      sum /= std::max(1.0, double(rays) - gathered.cut);
+      const Receiver receiver{point.corner, point.normal, point.plane_class};
+      const Rgb from_source = direct_irradiance(light, receiver, direct, hash(seed, 1), work.direct);
+      result.field.irradiance[v] = glm::vec3(sum + from_source);
+      const bool enclosed = static_cast<float>(gathered.black) > covered * rays || !lit;
+      valid[v] = enclosed && from_source == Rgb(0.0) ? 0 : 1;
+      work.rays += gathered.traced;
+    }
+  });
+  for (const auto& work : workspaces) {
+    result.form_factor_rays += work.rays;
+    result.shadow_rays += work.direct.shadow_rays;
+  }
+  fill_vertices(mesh, valid, result.field.irradiance);
+  return result;
+}
+
+InterpolatedField interpolate(const LightScene& light, const std::vector<Rgb>& radiosity,
+                              const std::vector<Rgb>& irradiance, const FormFactorSettings& form_factors,
+                              const DirectSettings& direct, const InterpolationSettings& settings) {
+  if (settings.method == Interpolation::average) return {{average_at_vertices(light.mesh, irradiance)}, 0, 0};
+  return gather_at_vertices(light, radiosity, irradiance, form_factors, direct, settings);
+}
+
+glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv) {
+  const ElementPoint at = locate(mesh.sides[index(side)], uv);
+  const auto& corners = mesh.corners[index(at.element)];
+  const auto value = [&](int c) { return field.irradiance[index(corners[static_cast<std::size_t>(c)])]; };
+  const auto s = static_cast<float>(at.st.x), t = static_cast<float>(at.st.y);
+  if (mesh.sides[index(side)].triangle) return (1.0F - s - t) * value(0) + s * value(1) + t * value(2);
+  return (1.0F - t) * ((1.0F - s) * value(0) + s * value(1)) + t * ((1.0F - s) * value(3) + s * value(2));
+}
+
+} // namespace meninas

@@ -1,0 +1,31 @@
+// Everything light is looked up in while it is gathered: geometry, rays, mirrors, mesh, and who computes which emitter.
+//
+// Emitters are taken from the source (closed form, direct_irradiance.h) when they are few and small, as lamps and windows are.
+// When emitters make up more than half of the meshed area they are gathered by rays like everything else, which is exact
+// where all walls glow. No light path is in both: `from_source` says which.
+#pragma once
+
+#include "mirror/virtual_lights.h"
+#include "radiosity/element_mesh.h"
+#include "radiosity/landing.h"
+#include "scenes/ray_scene.h"
+
+namespace meninas {
+
+/// Refers to objects that outlive it.
+struct LightScene {
+  const Scene& scene;
+  const SurfaceModel& surfaces;
+  const RayScene& rays;
+  const MirrorSet& mirrors;
+  const WorldTree& worlds;
+  const ElementMesh& mesh;
+  LandingTable landing;
+  std::vector<Emitter> emitters;         ///< those whose light is computed from the source
+  std::vector<std::uint8_t> from_source; ///< by SideId: 1 where the closed form owns its emission in the enumerated worlds
+};
+
+LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
+                            const MirrorSet& mirrors, const WorldTree& worlds, const ElementMesh& mesh);
+
+} // namespace meninas

@@ -1,0 +1,118 @@
+#include "radiosity/pass_one.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+/// Seconds since it was made or last asked.
+class Stopwatch {
+public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    return seconds;
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+ClosureError closure_error(const std::vector<RowClosure>& rows) {
+  ClosureError error;
+  for (const auto& row : rows) {
+    const double leak = std::abs(1.0 - (double{row.landed} + row.escaped + row.black + row.cut));
+    error.mean_error += leak / double(rows.size());
+    error.max_error = std::max(error.max_error, leak);
+    error.cut += row.cut / double(rows.size());
+  }
+  return error;
+}
+
+/// What leaves an element follows the fractions of its own rays; what is absorbed follows what the elements receive. The two agree as
+/// far as the sampled form factors are reciprocal: the imbalance measures that.
+EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& solution, const std::vector<RowClosure>& rows) {
+  EnergyBalance energy;
+  for (std::size_t i = 0; i < mesh.area.size(); ++i) {
+    const MeshSide& side = mesh.sides[index(mesh.side_of_element[i])];
+    const Rgb leaving = mesh.area[i] * solution.radiosity[i];
+    energy.emitted += mesh.area[i] * side.emission;
+    energy.absorbed += mesh.area[i] * (1.0 - side.reflectance) * solution.irradiance[i];
+    energy.absorbed += double{rows[i].black} * leaving;
+    energy.escaped += double{rows[i].escaped} * leaving;
+    energy.mirror_absorbed += Rgb(rows[i].mirror_absorbed) * leaving;
+  }
+  const Rgb left = energy.emitted - energy.absorbed - energy.escaped - energy.mirror_absorbed;
+  for (int band = 0; band < 3; ++band) {
+    if (energy.emitted[band] <= 0.0) continue;
+    const double share = left[band] / energy.emitted[band];
+    if (std::abs(share) > std::abs(energy.imbalance)) energy.imbalance = share;
+  }
+  return energy;
+}
+
+} // namespace
+
+RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings, const Progress& progress) {
+  const ElementMesh& mesh = light.mesh;
+  RadiositySolution solution;
+  Stopwatch watch;
+
+  // Eq. 1, split by who owns the path: direct light from the source, gathered emission, and reflected light by the transport.
+  const DirectIrradiance direct = direct_irradiance(light, settings.direct, progress);
+  const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
+  solution.seconds.form_factors = watch.lap();
+
+  std::vector<Rgb> first(mesh.area.size()), source(mesh.area.size()), reflectance(mesh.area.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    reflectance[i] = mesh.sides[index(mesh.side_of_element[i])].reflectance;
+    first[i] = direct.irradiance[i] + factors.gathered_emission[i];
+    source[i] = reflectance[i] * first[i];
+  }
+  solution.solver = solve(factors.transport, source, reflectance, settings.solver);
+  const std::vector<Rgb> reflected = std::move(solution.solver.radiosity);
+
+  // H = first light + T B, and B = E + what is reflected.
+  solution.irradiance = apply_transport(factors.transport, reflected);
+  solution.radiosity = reflected;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    solution.irradiance[i] += first[i];
+    solution.radiosity[i] += mesh.sides[index(mesh.side_of_element[i])].emission;
+  }
+  solution.seconds.solve = watch.lap();
+
+  auto interpolated = interpolate(light, reflected, solution.irradiance, settings.form_factors, settings.direct, settings.interpolation);
+  solution.field = std::move(interpolated.field);
+  solution.seconds.interpolate = watch.lap();
+
+  solution.closure = closure_error(factors.closure);
+  solution.energy = energy_balance(mesh, solution, factors.closure);
+  solution.form_factor_rays = factors.rays_traced + interpolated.form_factor_rays;
+  solution.shadow_rays = direct.shadow_rays + interpolated.shadow_rays;
+  return solution;
+}
+
+std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh, const RadiositySolution& solution) {
+  std::vector<NodeLight> nodes(scene.nodes.size());
+  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n].name = scene.nodes[n].name;
+  for (std::size_t i = 0; i < mesh.area.size(); ++i) {
+    const MeshSide& side = mesh.sides[index(mesh.side_of_element[i])];
+    NodeLight& node = nodes[index(side.node)];
+    node.area += mesh.area[i];
+    node.emitted += mesh.area[i] * side.emission;
+    node.radiosity += mesh.area[i] * solution.radiosity[i];
+    node.irradiance += mesh.area[i] * solution.irradiance[i];
+  }
+  for (auto& node : nodes) {
+    if (node.area <= 0.0) continue;
+    node.emitted /= node.area;
+    node.radiosity /= node.area;
+    node.irradiance /= node.area;
+  }
+  return nodes;
+}
+
+} // namespace meninas

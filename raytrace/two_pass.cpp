@@ -1,0 +1,29 @@
+#include "raytrace/two_pass.h"
+
+namespace meninas {
+
+std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings) {
+  auto prepared = std::make_unique<PreparedScene>();
+  prepared->scene = std::move(scene);
+
+  // What is there, and which transport it needs; what it does not need is not run.
+  prepared->surfaces = find_surfaces(prepared->scene);
+  prepared->plan = plan_transport(prepared->scene, prepared->surfaces, settings.plan);
+  prepared->rays.emplace(make_ray_scene(prepared->scene, prepared->surfaces));
+  prepared->mesh = make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh);
+  prepared->light.emplace(make_light_scene(prepared->scene, prepared->surfaces, *prepared->rays, prepared->plan.mirrors,
+                                           prepared->plan.worlds, prepared->mesh));
+  return prepared;
+}
+
+TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera, const TwoPassSettings& settings,
+                       const Progress& progress) {
+  // Pass one: diffuse radiosity, with the light that arrives directly and through every mirror world.
+  auto solution = solve_pass_one(*prepared.light, settings.pass_one, progress);
+
+  // Pass two: specular light, followed from the eye until it lands on the diffuse field.
+  auto rendering = render(*prepared.light, solution.field, camera, settings.render, progress);
+  return {std::move(solution), std::move(rendering)};
+}
+
+} // namespace meninas
