@@ -83,7 +83,7 @@ std::optional<ContactTriangle> blocking_contact(const Contacts& contacts, const 
     const auto approach = -glm::dot(departure.direction, normal) *
                           own_side(contacts, wall, normal, departure.origin, noise);
     const auto further = approach == steepest && blocker && wall.triangle < blocker->triangle;
-    if (approach <= 0.0 || (approach <= steepest && !further)) continue;
+    if (approach <= noise || (approach <= steepest && !further)) continue;
     if (!rises_above(wall, departure, noise)) continue;
     blocker = wall;
     steepest = approach;

@@ -29,7 +29,7 @@ struct Contacts {
   std::vector<ContactTriangle> others;
 };
 
-/// A point that leaves a plane of the given normal along a direction.
+/// A point that leaves a plane of the given normal along a direction: of unit length for a ray, up to the end for a leg.
 struct Departure {
   Point3 origin;
   Vec3 direction;

@@ -57,6 +57,7 @@ struct RayScene::Impl {
   Owned<RTCDevice, ReleaseDevice> device;
   Owned<RTCScene, ReleaseScene> scene;
   FrameGeometry geometry;
+  float noise = 0.0F; ///< of the geometry
 };
 
 namespace {
@@ -77,12 +78,18 @@ struct Rejection : RTCIntersectContext {
   std::uint32_t only_plane = no_index;
 };
 
+glm::vec3 normal_of(const RTCFilterFunctionNArguments& args, unsigned lane) {
+  return {RTCHitN_Ng_x(args.hit, args.N, lane), RTCHitN_Ng_y(args.hit, args.N, lane),
+          RTCHitN_Ng_z(args.hit, args.N, lane)};
+}
+
+glm::vec3 direction_of(const RTCFilterFunctionNArguments& args, unsigned lane) {
+  return {RTCRayN_dir_x(args.ray, args.N, lane), RTCRayN_dir_y(args.ray, args.N, lane),
+          RTCRayN_dir_z(args.ray, args.N, lane)};
+}
+
 bool is_back(const RTCFilterFunctionNArguments& args, unsigned lane) {
-  const auto n = args.N;
-  return RTCHitN_Ng_x(args.hit, n, lane) * RTCRayN_dir_x(args.ray, n, lane) +
-             RTCHitN_Ng_y(args.hit, n, lane) * RTCRayN_dir_y(args.ray, n, lane) +
-             RTCHitN_Ng_z(args.hit, n, lane) * RTCRayN_dir_z(args.ray, n, lane) >=
-         0.0F;
+  return glm::dot(normal_of(args, lane), direction_of(args, lane)) >= 0.0F;
 }
 
 bool touches(const Contacts* contacts, std::uint32_t plane) {
@@ -171,12 +178,12 @@ const Contacts& remembered_contacts(const Impl& impl, ContactMemory& memory, con
   return memory.contacts;
 }
 
+/// The contact that blocks what departs from an origin over `extent`: a leg's whole length, or a ray's unit direction.
 std::optional<ContactTriangle> blocked_at_once(const Impl& impl, const Contacts& contacts,
-                                               const LaneRay& ray) {
+                                               const LaneRay& ray, const Vec3& extent) {
   if (contacts.others.empty()) return std::nullopt;
-  return blocking_contact(
-      contacts, {Point3(ray.origin), Vec3(ray.direction), impl.geometry.plane_normals[ray.leaving]},
-      impl.geometry.noise);
+  return blocking_contact(contacts, {Point3(ray.origin), extent, impl.geometry.plane_normals[ray.leaving]},
+                          impl.geometry.noise);
 }
 
 // --- The nearest hit of one ray, with all care
@@ -200,7 +207,7 @@ LaneHit careful_hit(const Impl& impl, const LaneRay& ray, Backs backs, ContactMe
   // Surfaces that touch the origin are met at distance zero or not at all.
   if (ray.leaving != no_index) {
     const auto& contacts = remembered_contacts(impl, memory, ray.origin, ray.leaving);
-    if (const auto wall = blocked_at_once(impl, contacts, ray)) {
+    if (const auto wall = blocked_at_once(impl, contacts, ray, glm::normalize(Vec3(ray.direction)))) {
       const auto front = glm::dot(area_vector(wall->corners), Vec3(ray.direction)) < 0.0;
       const auto weights = nearest_barycentric(wall->corners, Point3(ray.origin));
       if (front || backs == Backs::absorb || wall->sidedness == Sidedness::both)
@@ -270,28 +277,31 @@ void lift_origins(const Impl& impl, const RayPacket& packet, RTCRay16& rays) {
   }
 }
 
+/// Reads a traced packet; `touching` are the lanes whose hit lies in a plane that their origin lies in as well.
+void read_hits(const RTCRayHit16& traced, float noise, HitPacket& hits, std::uint8_t* touching) {
+  const auto& [ray, hit] = traced;
+  std::copy_n(hit.primID, packet_size, hits.triangle);
+  std::copy_n(ray.tfar, packet_size, hits.distance);
+  std::copy_n(hit.u, packet_size, hits.b1);
+  std::copy_n(hit.v, packet_size, hits.b2);
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const auto slope = hit.Ng_x[k] * ray.dir_x[k] + hit.Ng_y[k] * ray.dir_y[k] + hit.Ng_z[k] * ray.dir_z[k];
+    const auto squared = hit.Ng_x[k] * hit.Ng_x[k] + hit.Ng_y[k] * hit.Ng_y[k] + hit.Ng_z[k] * hit.Ng_z[k];
+    const auto height = slope * ray.tfar[k];
+    hits.front[k] = slope < 0.0F;
+    touching[k] = height * height < noise * noise * squared;
+  }
+}
+
 struct Doubts {
   std::uint32_t careful = 0; ///< lanes to be traced again one by one
   std::uint32_t through = 0; ///< lanes that met a transparent back
 };
 
-void read_hits(const RTCRayHit16& traced, HitPacket& hits) {
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    hits.triangle[k] = traced.hit.primID[k];
-    hits.distance[k] = traced.ray.tfar[k];
-    hits.b1[k] = traced.hit.u[k];
-    hits.b2[k] = traced.hit.v[k];
-  }
-  for (std::size_t k = 0; k < packet_size; ++k)
-    hits.front[k] = traced.hit.Ng_x[k] * traced.ray.dir_x[k] + traced.hit.Ng_y[k] * traced.ray.dir_y[k] +
-                        traced.hit.Ng_z[k] * traced.ray.dir_z[k] <
-                    0.0F;
-}
-
-/// Which lanes the bare query cannot settle: misses and short hits of rays that leave a surface, hits in the plane they
-/// leave, and backs.
+/// Which lanes the bare query cannot settle: of rays that leave a surface the misses, the hits in the plane they leave and
+/// those that touch their origin; and backs.
 Doubts find_doubts(const Impl& impl, const RayPacket& packet, const HitPacket& hits, const int* valid,
-                   Backs backs) {
+                   const std::uint8_t* touching, Backs backs) {
   Doubts doubts;
   for (std::size_t k = 0; k < packet_size; ++k) {
     if (valid[k] == 0) continue;
@@ -306,9 +316,7 @@ Doubts find_doubts(const Impl& impl, const RayPacket& packet, const HitPacket& h
     const auto back = hits.front[k] == 0 && facts.single_sided;
     if (back && !leaves && backs == Backs::transparent)
       doubts.through |= bit;
-    else if ((leaves && facts.plane == packet.leaving[k]) || back)
-      doubts.careful |= bit;
-    else if (leaves && hits.distance[k] * glm::length(lane_ray(packet, k).direction) < static_cast<float>(reach))
+    else if (back || (leaves && (facts.plane == packet.leaving[k] || touching[k] != 0)))
       doubts.careful |= bit;
   }
   return doubts;
@@ -340,7 +348,8 @@ void trace_through(const Impl& impl, const RayPacket& packet, RTCRayHit16& trace
   auto rejection = make_rejection(impl, packet.leaving);
   rejection.backs = BackRule::ignore;
   rtcIntersect16(valid, impl.scene.get(), &rejection, &traced);
-  read_hits(traced, hits);
+  std::uint8_t touching[packet_size];
+  read_hits(traced, impl.noise, hits, touching);
 }
 
 } // namespace
@@ -358,9 +367,10 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
   rtcInitIntersectContext(&context);
   if (coherence == Coherence::coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(valid, impl.scene.get(), &context, &traced);
-  read_hits(traced, hits);
+  std::uint8_t touching[packet_size];
+  read_hits(traced, impl.noise, hits, touching);
 
-  const auto doubts = find_doubts(impl, packet, hits, valid, backs);
+  const auto doubts = find_doubts(impl, packet, hits, valid, touching, backs);
   if (doubts.through != 0) trace_through(impl, packet, traced, hits, doubts.through);
   if (doubts.careful == 0) return;
   ContactMemory memory;
@@ -370,7 +380,7 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
 
 namespace {
 
-/// Hits in the planes at both ends do not block; hits that touch an end are left to its contacts.
+/// Hits in the planes at both ends do not block; hits on triangles in whose plane an end lies are left to its contacts.
 struct LegRejection : RTCIntersectContext {
   const Impl* impl = nullptr;
   const RayPacket* packet = nullptr;
@@ -388,11 +398,13 @@ void reject_ends(const RTCFilterFunctionNArguments* args) {
       args->valid[lane] = 0;
       continue;
     }
-    const auto length = glm::length(lane_ray(packet, k).direction);
+    // How far the leg climbs from its start to the hit, and from there to its end, over the plane of the triangle
+    const auto normal = normal_of(*args, lane);
+    const auto slope = std::abs(glm::dot(normal, direction_of(*args, lane)));
+    const auto least = rule.impl->noise * glm::length(normal);
     const auto distance = RTCRayN_tfar(args->ray, args->N, lane);
-    const auto at_start = packet.leaving[k] != no_index && distance * length < static_cast<float>(reach);
-    const auto at_end = packet.arriving[k] != no_index &&
-                        (packet.max_distance[k] - distance) * length < static_cast<float>(reach);
+    const auto at_start = packet.leaving[k] != no_index && distance * slope < least;
+    const auto at_end = packet.arriving[k] != no_index && (packet.max_distance[k] - distance) * slope < least;
     if (!at_start && !at_end) continue;
     args->valid[lane] = 0;
     rule.touching |= 1U << k;
@@ -401,14 +413,15 @@ void reject_ends(const RTCFilterFunctionNArguments* args) {
 
 bool blocked_at_an_end(const Impl& impl, const RayPacket& packet, std::size_t lane, ContactMemory& memory) {
   auto ray = lane_ray(packet, lane);
-  if (ray.leaving != no_index &&
-      blocked_at_once(impl, remembered_contacts(impl, memory, ray.origin, ray.leaving), ray))
-    return true;
+  const auto extent = static_cast<double>(ray.far) * Vec3(ray.direction);
+  if (ray.leaving != no_index) {
+    const auto& contacts = remembered_contacts(impl, memory, ray.origin, ray.leaving);
+    if (blocked_at_once(impl, contacts, ray, extent)) return true;
+  }
   ray.origin += ray.far * ray.direction;
-  ray.direction = -ray.direction;
   ray.leaving = packet.arriving[lane];
   return ray.leaving != no_index &&
-         blocked_at_once(impl, contacts_of(impl, ray.origin, ray.leaving), ray);
+         blocked_at_once(impl, contacts_of(impl, ray.origin, ray.leaving), ray, -extent);
 }
 
 } // namespace
@@ -474,6 +487,7 @@ Owned<RTCGeometry, ReleaseGeometry> make_mesh(RTCDevice device, const FrameGeome
 
 RayScene::RayScene(const Scene& scene, const SurfaceModel& surfaces) : impl_(std::make_unique<Impl>()) {
   impl_->geometry = make_frame_geometry(scene, surfaces);
+  impl_->noise = static_cast<float>(impl_->geometry.noise);
   impl_->device.reset(rtcNewDevice(nullptr));
   check(impl_->device.get());
   impl_->scene.reset(rtcNewScene(impl_->device.get()));
