@@ -1,9 +1,9 @@
 // A solution as a file: a GLB any viewer shows (COLOR_0) that keeps the exact irradiance (_IRRADIANCE) with the settings
 // of its mesh and the hash of its scene, so that one solve serves any number of views.
 //
-// One primitive per patch side is not needed: one mesh holds all element vertices (POSITION, COLOR_0, _IRRADIANCE as VEC3 float)
-// and the elements' triangles. `extras` of the asset holds {"meninas": {version, scene_hash, mesh settings, figures}}.
-// load_solution rebuilds nothing: it checks that hash, settings and vertex count belong to the given scene and throws InputError if not.
+// One mesh of one primitive holds all element vertices (POSITION, COLOR_0 and _IRRADIANCE as VEC3 float) and the elements'
+// triangles. COLOR_0 is the radiosity, exposed for display and linear. `extras` of the asset holds {"meninas": {version,
+// scene_hash, data_hash, mesh settings, counts, figures of the solve}}.
 #pragma once
 
 #include "radiosity/pass_one.h"
@@ -15,11 +15,20 @@ namespace meninas {
 void write_solution(const std::filesystem::path& file, const Scene& scene, const ElementMesh& mesh,
                     const RadiositySolution& solution, const MeshSettings& settings);
 
-/// The mesh settings a solution was made with, after checking that it is this scene's.
+/// What a solution was made with, and what the solve said about itself.
 struct StoredSolution {
   MeshSettings mesh;
+  std::size_t elements = 0;
   DiffuseField field;
+  SolverResult solver; ///< without its radiosity
+  EnergyBalance energy;
+  ClosureError closure;
 };
+
+/// Throws InputError when the file is damaged, or belongs to another scene or another version of the program.
 StoredSolution read_solution(const std::filesystem::path& file, const Scene& scene);
+
+/// Throws InputError unless the solution has a value for every vertex of the mesh made with its settings.
+void check_belongs(const std::filesystem::path& file, const StoredSolution& solution, const ElementMesh& mesh);
 
 } // namespace meninas

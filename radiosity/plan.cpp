@@ -1,0 +1,208 @@
+#include "radiosity/plan.h"
+
+#include "radiosity/closedness.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace meninas {
+namespace {
+
+/// A dielectric with a smoother coat than this shows visible reflections, which are not traced yet.
+constexpr double visible_coat_roughness = 0.2;
+
+bool is_grey(const Rgb& colour) { return colour.r == colour.g && colour.g == colour.b; }
+
+bool has_visible_coat(const Material& material) {
+  return material.metallic < 1.0 && material.specular > 0.0 && material.transmission == 0.0 &&
+         material.roughness <= visible_coat_roughness;
+}
+
+/// Materials that are on some triangle, by their place in the scene.
+std::vector<const Material*> used_materials(const Scene& scene) {
+  std::set<MaterialId> used;
+  for (const Triangle& triangle : scene.triangles) {
+    used.insert(triangle.material);
+  }
+  std::vector<const Material*> materials;
+  for (const MaterialId id : used) {
+    materials.push_back(&scene.materials[index(id)]);
+  }
+  return materials;
+}
+
+std::string plural(std::size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+/// 'A', 'B' and 3 more
+std::string quoted(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 6;
+  std::vector<std::string> first;
+  for (const std::string& name : names) {
+    if (first.size() < most && std::ranges::find(first, '\'' + name + '\'') == first.end()) {
+      first.push_back('\'' + name + '\'');
+    }
+  }
+  const std::size_t distinct = std::set<std::string>(names.begin(), names.end()).size();
+  const std::string rest =
+      distinct > first.size() ? fmt::format(" and {} more", distinct - first.size()) : "";
+  return fmt::format("{}{}", fmt::join(first, ", "), rest);
+}
+
+template <typename Predicate>
+std::vector<std::string> names_where(const std::vector<const Material*>& materials,
+                                     Predicate&& holds) {
+  std::vector<std::string> names;
+  for (const Material* material : materials) {
+    if (holds(*material)) {
+      names.push_back(material->name.empty() ? "unnamed" : material->name);
+    }
+  }
+  return names;
+}
+
+std::vector<PlannedMirror> list_mirrors(const Scene& scene, const MirrorSet& mirrors) {
+  std::vector<PlannedMirror> list;
+  for (const Mirror& mirror : mirrors.mirrors) {
+    std::vector<std::string> names;
+    for (const NodeId node : mirror.nodes) {
+      names.push_back(scene.nodes[index(node)].name);
+    }
+    list.push_back({fmt::format("{}", fmt::join(names, "+")), mirror.area, mirror.reflectance});
+  }
+  return list;
+}
+
+std::size_t count_emitters(const Scene& scene, const SurfaceModel& surfaces) {
+  std::size_t sides = 0;
+  for (const Patch& patch : surfaces.patches) {
+    const Material& material = scene.materials[index(patch.material)];
+    if (is_emitter(material)) {
+      sides += material.double_sided ? 2 : 1;
+    }
+  }
+  return sides;
+}
+
+/// Nodes with mirror planes that are not enumerated, and how many planes each has.
+std::map<NodeId, std::set<PlaneId>> faceted_nodes(const Scene& scene, const SurfaceModel& surfaces,
+                                                  const MirrorSet& mirrors) {
+  std::map<NodeId, std::set<PlaneId>> planes;
+  for (std::size_t s = 0; s < surfaces.surfaces.size(); ++s) {
+    const Surface& surface = surfaces.surfaces[s];
+    const Material& material = scene.materials[index(surface.material)];
+    const auto& faces = mirrors.mirror_of_surface[s];
+    const bool is_facet = faces[0] == none<MirrorId> && faces[1] == none<MirrorId>;
+    if (!is_mirror(material) || !is_facet) {
+      continue;
+    }
+    for (const PatchId patch : surface.patches) {
+      planes[surfaces.patches[index(patch)].node].insert(surface.plane_class);
+    }
+  }
+  return planes;
+}
+
+void warn_of_facets(const Scene& scene, const SurfaceModel& surfaces, TransportPlan& plan) {
+  if (plan.mirrors.facets == 0) {
+    return;
+  }
+  for (const auto& [node, planes] : faceted_nodes(scene, surfaces, plan.mirrors)) {
+    plan.warnings.push_back(fmt::format(
+        "'{}' is a curved or faceted mirror of {}: followed by rays, not enumerated",
+        scene.nodes[index(node)].name, plural(planes.size(), "plane")));
+  }
+}
+
+void warn_of_lights(const Scene& scene, TransportPlan& plan) {
+  if (plan.emitters == 0) {
+    plan.warnings.push_back("nothing emits light: the picture will be black");
+  }
+  std::vector<std::string> names;
+  for (const PunctualLight& light : scene.lights) {
+    names.push_back(light.name.empty() ? "unnamed" : light.name);
+  }
+  if (!names.empty()) {
+    plan.warnings.push_back("point, spot and directional lights are not modelled yet: " +
+                            quoted(names));
+  }
+}
+
+void warn_of_materials(const std::vector<const Material*>& materials, TransportPlan& plan) {
+  if (const auto names = names_where(materials, is_glossy); !names.empty()) {
+    plan.warnings.push_back("metals too rough for a mirror reflect diffusely: " + quoted(names));
+  }
+  if (const auto names = names_where(materials, has_visible_coat); !names.empty()) {
+    plan.warnings.push_back("smooth dielectric coats are not traced yet: " + quoted(names));
+  }
+}
+
+/// What will run, and why, in the order in which it runs.
+std::vector<std::string> describe_stages(const SurfaceModel& surfaces, const TransportPlan& plan) {
+  std::vector<std::string> stages;
+  const std::size_t worlds = plan.worlds.worlds.size() - 1;
+  stages.push_back(fmt::format("mesh: {} divided into elements",
+                               plural(surfaces.surfaces.size(), "surface")));
+  if (worlds > 0) {
+    stages.push_back(fmt::format("mirror worlds: {} of {}, {} deep", plural(worlds, "world"),
+                                 plural(plan.mirror_list.size(), "mirror"),
+                                 std::ranges::max(plan.worlds.worlds, {}, &MirrorWorld::depth).depth));
+  }
+  const bool mirrors = worlds > 0 || plan.mirrors.facets > 0;
+  stages.push_back(mirrors ? "form factors: by rays, continued through mirrors"
+                           : "form factors: by rays, no mirror to follow");
+  if (plan.emitters > 0) {
+    stages.push_back(fmt::format("direct light: {}{}", plural(plan.emitters, "emitter"),
+                                 worlds > 0 ? ", also seen in mirrors" : ""));
+  }
+  stages.push_back(fmt::format("solve: {}", plan.bands == 1 ? "one band, all is grey" : "three bands"));
+  stages.push_back("interpolation: irradiance between the vertices of the elements");
+  stages.push_back(mirrors ? "picture: camera rays, followed through mirrors"
+                           : "picture: camera rays, no mirror to follow");
+  return stages;
+}
+
+} // namespace
+
+TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
+                             const PlanSettings& settings) {
+  TransportPlan plan;
+  plan.mirrors = find_mirrors(scene, surfaces, settings.mirrors);
+  plan.worlds = mirror_worlds(plan.mirrors, settings.worlds);
+  plan.mirror_list = list_mirrors(scene, plan.mirrors);
+  plan.emitters = count_emitters(scene, surfaces);
+  plan.punctual_lights = scene.lights.size();
+
+  const auto materials = used_materials(scene);
+  const auto count = [&](auto&& holds) {
+    return static_cast<std::size_t>(std::ranges::count_if(materials, holds, [](const Material* m) -> const Material& { return *m; }));
+  };
+  plan.glossy = count(is_glossy);
+  plan.transmissive = count([](const Material& m) { return m.transmission > 0.0; });
+  plan.textured = count([](const Material& m) {
+    return m.base_color_texture || m.metallic_roughness_texture || m.emissive_texture;
+  });
+  const std::size_t grey = count([](const Material& m) {
+    return is_grey(diffuse_reflectance(m)) && is_grey(mirror_reflectance(m)) && is_grey(m.emission);
+  });
+  plan.bands = grey == materials.size() ? 1 : 3;
+  plan.closed = is_closed(scene, 0.5 * surfaces.tolerance);
+
+  plan.ignored = scene.ignored;
+  plan.warnings = scene.warnings;
+  warn_of_lights(scene, plan);
+  if (scene.cameras.empty()) {
+    plan.warnings.push_back("no camera: a default view of the whole scene is used");
+  }
+  warn_of_materials(materials, plan);
+  warn_of_facets(scene, surfaces, plan);
+  plan.stages = describe_stages(surfaces, plan);
+  return plan;
+}
+
+} // namespace meninas
