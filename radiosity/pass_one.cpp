@@ -1,25 +1,12 @@
 #include "radiosity/pass_one.h"
 
-#include <chrono>
+#include "scenes/stopwatch.h"
+
 #include <cmath>
 
 namespace meninas {
 
 namespace {
-
-/// Seconds since it was made or last asked.
-class Stopwatch {
-public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
-  }
-
-private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 ClosureError closure_error(const std::vector<RowClosure>& rows) {
   ClosureError error;

@@ -27,7 +27,7 @@ struct ClosureError {
 };
 
 struct PassOneSeconds {
-  double mesh = 0.0, form_factors = 0.0, solve = 0.0, interpolate = 0.0;
+  double form_factors = 0.0, solve = 0.0, interpolate = 0.0;
 };
 
 struct RadiositySolution {

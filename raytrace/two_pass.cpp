@@ -1,18 +1,25 @@
 #include "raytrace/two_pass.h"
 
+#include "scenes/stopwatch.h"
+
 namespace meninas {
 
 std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings) {
   auto prepared = std::make_unique<PreparedScene>();
   prepared->scene = std::move(scene);
+  Stopwatch watch;
 
   // What is there, and which transport it needs; what it does not need is not run.
   prepared->surfaces = find_surfaces(prepared->scene);
   prepared->plan = plan_transport(prepared->scene, prepared->surfaces, settings.plan);
+  prepared->seconds.plan = watch.lap();
+
+  // Elements to light, and rays over the input geometry, not over the elements.
   prepared->rays.emplace(make_ray_scene(prepared->scene, prepared->surfaces));
   prepared->mesh = make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh);
   prepared->light.emplace(make_light_scene(prepared->scene, prepared->surfaces, *prepared->rays, prepared->plan.mirrors,
                                            prepared->plan.worlds, prepared->mesh));
+  prepared->seconds.mesh = watch.lap();
   return prepared;
 }
 

@@ -14,6 +14,11 @@ struct TwoPassSettings {
   RenderSettings render;
 };
 
+struct PreparationSeconds {
+  double plan = 0.0; ///< surfaces and plan
+  double mesh = 0.0; ///< elements, and what rays need to meet them
+};
+
 /// Everything about a scene that does not depend on the view, prepared once and kept together.
 struct PreparedScene {
   Scene scene;
@@ -22,6 +27,7 @@ struct PreparedScene {
   ElementMesh mesh;
   std::optional<RayScene> rays;
   std::optional<LightScene> light; ///< refers to the members above: a PreparedScene stays where it was made
+  PreparationSeconds seconds;
 };
 std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings);
 
