@@ -17,15 +17,20 @@ static double srgb_to_linear(double encoded) {
 }
 
 float srgb_encode(float linear) {
-  if (!(linear > 0.0F)) return 0.0F;
-  if (linear >= 1.0F) return 1.0F;
+  if (!(linear > 0.0F))
+    return 0.0F;
+  if (linear >= 1.0F)
+    return 1.0F;
   const double value = linear;
-  return static_cast<float>(value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055);
+  return static_cast<float>(value <= 0.0031308 ? 12.92 * value
+                                               : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055);
 }
 
 float srgb_decode(float encoded) {
-  if (!(encoded > 0.0F)) return 0.0F;
-  if (encoded >= 1.0F) return 1.0F;
+  if (!(encoded > 0.0F))
+    return 0.0F;
+  if (encoded >= 1.0F)
+    return 1.0F;
   return static_cast<float>(srgb_to_linear(encoded));
 }
 
@@ -35,7 +40,8 @@ std::vector<std::uint8_t> display_codes(const Image& picture, double exposure) {
   // A value rounds to code k or above when it reaches the linear value of k - 1/2, so its code is the number of such
   // thresholds it reaches: exact rounding without a power for every pixel.
   std::array<double, 255> thresholds{};
-  for (std::size_t k = 0; k < thresholds.size(); ++k) thresholds[k] = srgb_to_linear((static_cast<double>(k) + 0.5) / 255.0);
+  for (std::size_t k = 0; k < thresholds.size(); ++k)
+    thresholds[k] = srgb_to_linear((static_cast<double>(k) + 0.5) / 255.0);
 
   const double scale = std::exp2(exposure);
   std::vector<std::uint8_t> codes;
@@ -43,8 +49,10 @@ std::vector<std::uint8_t> display_codes(const Image& picture, double exposure) {
   for (const auto& pixel : picture.pixels)
     for (int c = 0; c < 3; ++c) {
       expects(!std::isnan(pixel[c]), "no displayed value is NaN");
-      const double value = pixel[c] > 0.0F ? std::min(pixel[c], std::numeric_limits<float>::max()) * scale : 0.0;
-      codes.push_back(static_cast<std::uint8_t>(std::ranges::upper_bound(thresholds, value) - thresholds.begin()));
+      const double value =
+          pixel[c] > 0.0F ? std::min(pixel[c], std::numeric_limits<float>::max()) * scale : 0.0;
+      codes.push_back(static_cast<std::uint8_t>(std::ranges::upper_bound(thresholds, value) -
+                                                thresholds.begin()));
     }
   return codes;
 }
@@ -86,7 +94,8 @@ struct Histogram {
 static int luminance_bin(double luminance) {
   int exponent = 0;
   const double mantissa = 2.0 * std::frexp(luminance, &exponent); // in [1, 2)
-  const int within = std::min(static_cast<int>(bins_per_stop * std::log2(mantissa)), bins_per_stop - 1);
+  const int within =
+      std::min(static_cast<int>(bins_per_stop * std::log2(mantissa)), bins_per_stop - 1);
   return (exponent - 1 - lowest_exponent) * bins_per_stop + within;
 }
 
@@ -94,7 +103,8 @@ static Histogram luminance_histogram(const Image& picture) {
   Histogram histogram;
   for (const auto& pixel : picture.pixels) {
     const double luminance = 0.2126 * pixel.r + 0.7152 * pixel.g + 0.0722 * pixel.b;
-    if (!(luminance > 0.0) || !std::isfinite(luminance)) continue;
+    if (!(luminance > 0.0) || !std::isfinite(luminance))
+      continue;
     ++histogram.counts[static_cast<std::size_t>(luminance_bin(luminance))];
     ++histogram.total;
   }
@@ -106,14 +116,16 @@ static int percentile_bin(const Histogram& histogram, double share) {
   const auto rank = static_cast<std::int64_t>(share * static_cast<double>(histogram.total - 1));
   std::int64_t below = 0;
   int bin = 0;
-  while (below + histogram.counts[static_cast<std::size_t>(bin)] <= rank) below += histogram.counts[static_cast<std::size_t>(bin++)];
+  while (below + histogram.counts[static_cast<std::size_t>(bin)] <= rank)
+    below += histogram.counts[static_cast<std::size_t>(bin++)];
   return bin;
 }
 
 /// Mean distance from `origin`, in bins, of the pixels between two shares of the ranking from dark to bright.
 static double trimmed_mean_bin(const Histogram& histogram, int origin, double from, double to) {
   const auto first = static_cast<std::int64_t>(from * static_cast<double>(histogram.total));
-  const auto last = std::max(first + 1, static_cast<std::int64_t>(to * static_cast<double>(histogram.total)));
+  const auto last =
+      std::max(first + 1, static_cast<std::int64_t>(to * static_cast<double>(histogram.total)));
   std::int64_t below = 0, sum = 0;
   for (std::size_t bin = 0; bin < histogram.counts.size(); ++bin) {
     const auto upto = below + histogram.counts[bin];
@@ -126,7 +138,8 @@ static double trimmed_mean_bin(const Histogram& histogram, int origin, double fr
 
 double automatic_exposure(const Image& picture) {
   auto histogram = luminance_histogram(picture);
-  if (histogram.total == 0) return 0.0;
+  if (histogram.total == 0)
+    return 0.0;
 
   // Leave out what is black beside the bright parts.
   const int bright = percentile_bin(histogram, 0.995);
@@ -138,7 +151,8 @@ double automatic_exposure(const Image& picture) {
   // In stops, relative to the lower edge of the bin `bright`; a pixel is on average in the middle of its bin.
   const double half_bin = 0.5 / bins_per_stop;
   const double middle = half_bin + trimmed_mean_bin(histogram, bright, 0.40, 0.90) / bins_per_stop;
-  const double highlights = half_bin + static_cast<double>(percentile_bin(histogram, 0.95) - bright) / bins_per_stop;
+  const double highlights =
+      half_bin + static_cast<double>(percentile_bin(histogram, 0.95) - bright) / bins_per_stop;
   const double keyed = std::log2(key) - middle;
   const double relief = std::clamp(0.5 * (keyed + highlights), 0.0, most_relief);
 

@@ -32,20 +32,28 @@ void preload_image_io() { image_io::preload(); }
 
 PictureFormat picture_format(const fs::path& file) {
   auto extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  if (extension == ".exr") return PictureFormat::exr;
-  if (extension == ".png") return PictureFormat::png;
-  throw OutputError(file.string(), "", extension.empty()
-                                           ? "a picture's name must end in .exr or .png"
-                                           : fmt::format("cannot write pictures as '{}', only .exr and .png", extension));
+  std::ranges::transform(extension, extension.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  });
+  if (extension == ".exr")
+    return PictureFormat::exr;
+  if (extension == ".png")
+    return PictureFormat::png;
+  throw OutputError(
+      file.string(), "",
+      extension.empty()
+          ? "a picture's name must end in .exr or .png"
+          : fmt::format("cannot write pictures as '{}', only .exr and .png", extension));
 }
 
 static void expect_picture(const Image& picture) {
   expects(picture.width > 0 && picture.height > 0, "a picture that is written has pixels");
-  expects(picture.pixels.size() == static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height),
+  expects(picture.pixels.size() ==
+              static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height),
           "a picture has width * height pixels");
-  const bool no_nan = std::ranges::none_of(
-      picture.pixels, [](const glm::vec3& pixel) { return std::isnan(pixel.r) || std::isnan(pixel.g) || std::isnan(pixel.b); });
+  const bool no_nan = std::ranges::none_of(picture.pixels, [](const glm::vec3& pixel) {
+    return std::isnan(pixel.r) || std::isnan(pixel.g) || std::isnan(pixel.b);
+  });
   expects(no_nan, "no pixel that is written is NaN");
 }
 
@@ -53,9 +61,11 @@ static void expect_layers(const Image& picture, std::span<const Layer> layers) {
   std::set<std::string_view> names;
   for (const auto& layer : layers) {
     expect_picture(layer.image);
-    expects(layer.image.width == picture.width && layer.image.height == picture.height, "a layer has the picture's size");
+    expects(layer.image.width == picture.width && layer.image.height == picture.height,
+            "a layer has the picture's size");
     // EXR allows names of 255 bytes, of which ".R" takes two.
-    expects(!layer.name.empty() && layer.name.size() <= 253 && layer.name.find('\0') == std::string::npos,
+    expects(!layer.name.empty() && layer.name.size() <= 253 &&
+                layer.name.find('\0') == std::string::npos,
             "a layer has a name that fits an EXR channel");
     expects(names.insert(layer.name).second, "layers have different names");
   }
@@ -64,7 +74,8 @@ static void expect_layers(const Image& picture, std::span<const Layer> layers) {
 static void expect_attributes(const Attributes& attributes) {
   std::set<std::string_view> keys;
   for (const auto& [key, value] : attributes) {
-    expects(!key.empty() && key.size() + attribute_prefix.size() <= 255, "an attribute has a key that fits an EXR header");
+    expects(!key.empty() && key.size() + attribute_prefix.size() <= 255,
+            "an attribute has a key that fits an EXR header");
     expects((key + value).find('\0') == std::string::npos, "an attribute is text");
     expects(keys.insert(key).second, "attributes have different keys");
   }
@@ -72,18 +83,22 @@ static void expect_attributes(const Attributes& attributes) {
 
 /// Writes what the module encoded; the reason it gives when it could not is the user's to read.
 static void write_encoded(const fs::path& file, image_io::Encoded encoded) {
-  if (encoded.owner == nullptr) throw OutputError(file.string(), "", fmt::format("cannot write: {}", encoded.error));
-  const auto release = [](image_io::Encoded* owned) { image_io::module_table().release_encoded(owned); };
+  if (encoded.owner == nullptr)
+    throw OutputError(file.string(), "", fmt::format("cannot write: {}", encoded.error));
+  const auto release = [](image_io::Encoded* owned) {
+    image_io::module_table().release_encoded(owned);
+  };
   const std::unique_ptr<image_io::Encoded, decltype(release)> owner(&encoded, release);
   write_whole_file(file, std::as_bytes(std::span(encoded.bytes, encoded.size)));
 }
 
-void write_exr(const fs::path& file, const Image& picture, std::span<const Layer> layers, PixelType type,
-               const Attributes& attributes) {
+void write_exr(const fs::path& file, const Image& picture, std::span<const Layer> layers,
+               PixelType type, const Attributes& attributes) {
   expect_picture(picture);
   expect_layers(picture, layers);
   expect_attributes(attributes);
-  if (picture_format(file) != PictureFormat::exr) throw OutputError(file.string(), "", "an EXR's name must end in .exr");
+  if (picture_format(file) != PictureFormat::exr)
+    throw OutputError(file.string(), "", "an EXR's name must end in .exr");
 
   std::vector<std::string> texts;
   texts.reserve(layers.size() + attributes.size());
@@ -92,7 +107,9 @@ void write_exr(const fs::path& file, const Image& picture, std::span<const Layer
     planes.push_back({texts.emplace_back(layer.name + ".").c_str(), &layer.image.pixels.front().r});
   std::vector<image_io::TextPair> header;
   for (const auto& [key, value] : attributes)
-    if (!value.empty()) header.push_back({texts.emplace_back(std::string(attribute_prefix) + key).c_str(), value.c_str()});
+    if (!value.empty())
+      header.push_back(
+          {texts.emplace_back(std::string(attribute_prefix) + key).c_str(), value.c_str()});
 
   const image_io::ExrRequest request{
       .width = picture.width,
@@ -108,10 +125,13 @@ void write_exr(const fs::path& file, const Image& picture, std::span<const Layer
 
 void write_png(const fs::path& file, const Image& picture, double exposure) {
   expect_picture(picture);
-  if (picture_format(file) != PictureFormat::png) throw OutputError(file.string(), "", "a PNG's name must end in .png");
+  if (picture_format(file) != PictureFormat::png)
+    throw OutputError(file.string(), "", "a PNG's name must end in .png");
   const auto code_values = display_codes(picture, exposure);
-  const image_io::PngRequest request{
-      .width = picture.width, .height = picture.height, .rgb = code_values.data(), .software = software};
+  const image_io::PngRequest request{.width = picture.width,
+                                     .height = picture.height,
+                                     .rgb = code_values.data(),
+                                     .software = software};
   write_encoded(file, image_io::module_table().encode_png(&request));
 }
 
@@ -140,18 +160,22 @@ using Components = std::array<int, 3>;
 class ChannelReader {
 public:
   ChannelReader(const image_io::Decoded& decoded, Encoding encoding) : decoded_(decoded) {
-    if (encoding == Encoding::linear || decoded.code_values == 0) return;
+    if (encoding == Encoding::linear || decoded.code_values == 0)
+      return;
     const int last = decoded.code_values;
     for (int code = 0; code <= last; ++code)
       linear_.push_back(srgb_decode(static_cast<float>(code) / static_cast<float>(last)));
   }
   float value(std::size_t pixel, int channel) const {
-    return decoded_.pixels[pixel * static_cast<std::size_t>(decoded_.channels) + static_cast<std::size_t>(channel)];
+    return decoded_.pixels[pixel * static_cast<std::size_t>(decoded_.channels) +
+                           static_cast<std::size_t>(channel)];
   }
   float linear(std::size_t pixel, int channel) const {
     const float stored = value(pixel, channel);
-    if (linear_.empty()) return stored;
-    return linear_[static_cast<std::size_t>(std::lround(stored * static_cast<float>(decoded_.code_values)))];
+    if (linear_.empty())
+      return stored;
+    return linear_[static_cast<std::size_t>(
+        std::lround(stored * static_cast<float>(decoded_.code_values)))];
   }
 
 private:
@@ -162,27 +186,34 @@ private:
 } // namespace
 
 static DecodedPicture decode(std::span<const std::byte> bytes, const std::string& name) {
-  DecodedPicture decoded(new image_io::Decoded(image_io::module_table().decode(bytes.data(), bytes.size(), limits)));
-  if (decoded->owner == nullptr) throw InputError(name, "", fmt::format("cannot read the picture: {}", decoded->error));
+  DecodedPicture decoded(
+      new image_io::Decoded(image_io::module_table().decode(bytes.data(), bytes.size(), limits)));
+  if (decoded->owner == nullptr)
+    throw InputError(name, "", fmt::format("cannot read the picture: {}", decoded->error));
   return decoded;
 }
 
 /// Channel number by name. Some decoders leave grey pictures unnamed, so one or two channels are grey (and alpha).
 static std::map<std::string, int, std::less<>> channel_numbers(const image_io::Decoded& decoded) {
   std::map<std::string, int, std::less<>> numbers;
-  for (int channel = 0; channel < decoded.channels; ++channel) numbers.emplace(decoded.channel_names[channel], channel);
+  for (int channel = 0; channel < decoded.channels; ++channel)
+    numbers.emplace(decoded.channel_names[channel], channel);
   if (decoded.code_values != 0 && decoded.channels <= 2) {
     numbers.clear();
     numbers.emplace("Y", 0);
-    if (decoded.channels == 2) numbers.emplace("A", 1);
+    if (decoded.channels == 2)
+      numbers.emplace("A", 1);
   }
   return numbers;
 }
 
 /// Takes PREFIX R, G and B out of the channels that are left, if all three are there.
-static std::optional<Components> take_colour(std::map<std::string, int, std::less<>>& channels, const std::string& prefix) {
-  const auto r = channels.find(prefix + "R"), g = channels.find(prefix + "G"), b = channels.find(prefix + "B");
-  if (r == channels.end() || g == channels.end() || b == channels.end()) return std::nullopt;
+static std::optional<Components> take_colour(std::map<std::string, int, std::less<>>& channels,
+                                             const std::string& prefix) {
+  const auto r = channels.find(prefix + "R"), g = channels.find(prefix + "G"),
+             b = channels.find(prefix + "B");
+  if (r == channels.end() || g == channels.end() || b == channels.end())
+    return std::nullopt;
   const Components components{r->second, g->second, b->second};
   channels.erase(r);
   channels.erase(g);
@@ -190,22 +221,28 @@ static std::optional<Components> take_colour(std::map<std::string, int, std::les
   return components;
 }
 
-static Components take_picture(std::map<std::string, int, std::less<>>& channels, const std::string& name) {
-  if (const auto colour = take_colour(channels, "")) return *colour;
+static Components take_picture(std::map<std::string, int, std::less<>>& channels,
+                               const std::string& name) {
+  if (const auto colour = take_colour(channels, ""))
+    return *colour;
   const auto grey = channels.find("Y");
   if (grey == channels.end()) {
     std::vector<std::string> some;
     for (const auto& [channel, number] : channels)
-      if (some.size() < 8) some.push_back(channel);
-    if (some.size() < channels.size()) some.emplace_back("...");
-    throw InputError(name, "", fmt::format("holds no channels R, G and B, only {}", fmt::join(some, ", ")));
+      if (some.size() < 8)
+        some.push_back(channel);
+    if (some.size() < channels.size())
+      some.emplace_back("...");
+    throw InputError(name, "",
+                     fmt::format("holds no channels R, G and B, only {}", fmt::join(some, ", ")));
   }
   const Components components{grey->second, grey->second, grey->second};
   channels.erase(grey);
   return components;
 }
 
-static Image extract(const image_io::Decoded& decoded, const ChannelReader& reader, const Components& components) {
+static Image extract(const image_io::Decoded& decoded, const ChannelReader& reader,
+                     const Components& components) {
   Image image(decoded.width, decoded.height);
   for (std::size_t pixel = 0; pixel < image.pixels.size(); ++pixel)
     for (int c = 0; c < 3; ++c)
@@ -216,13 +253,17 @@ static Image extract(const image_io::Decoded& decoded, const ChannelReader& read
 static std::vector<std::byte> read_bytes(const fs::path& file) {
   std::error_code error;
   const auto status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) throw InputError(file.string(), "", "no such file");
-  if (fs::is_directory(status)) throw InputError(file.string(), "", "is a folder, not a picture");
-  if (!fs::is_regular_file(status)) throw InputError(file.string(), "", "cannot be read as a picture: it is not an ordinary file");
+  if (status.type() == fs::file_type::not_found)
+    throw InputError(file.string(), "", "no such file");
+  if (fs::is_directory(status))
+    throw InputError(file.string(), "", "is a folder, not a picture");
+  if (!fs::is_regular_file(status))
+    throw InputError(file.string(), "", "cannot be read as a picture: it is not an ordinary file");
 
   std::ifstream stream(file, std::ios::binary);
   const auto size = fs::file_size(file, error);
-  if (!stream || error) throw InputError(file.string(), "", "cannot be opened for reading");
+  if (!stream || error)
+    throw InputError(file.string(), "", "cannot be opened for reading");
   std::vector<std::byte> bytes(size);
   if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
     throw InputError(file.string(), "", "cannot be read to its end");
@@ -240,12 +281,14 @@ ImageFile read_image(const fs::path& file) {
   result.picture = extract(*decoded, reader, take_picture(channels, name));
   std::vector<std::string> layer_names;
   for (const auto& [channel, number] : channels)
-    if (channel.size() > 2 && channel.ends_with(".R")) layer_names.push_back(channel.substr(0, channel.size() - 2));
+    if (channel.size() > 2 && channel.ends_with(".R"))
+      layer_names.push_back(channel.substr(0, channel.size() - 2));
   std::ranges::sort(layer_names);
   for (const auto& layer : layer_names)
     if (const auto components = take_colour(channels, layer + "."))
       result.layers.push_back({layer, extract(*decoded, reader, *components)});
-  for (const auto& [channel, number] : channels) result.ignored_channels.push_back(channel);
+  for (const auto& [channel, number] : channels)
+    result.ignored_channels.push_back(channel);
 
   for (const auto& [key, value] : std::span(decoded->attributes, decoded->attribute_count))
     if (std::string_view(key).starts_with(attribute_prefix))
@@ -254,7 +297,8 @@ ImageFile read_image(const fs::path& file) {
   return result;
 }
 
-Bitmap decode_image(std::span<const std::byte> encoded, Encoding encoding, const std::string& name) {
+Bitmap decode_image(std::span<const std::byte> encoded, Encoding encoding,
+                    const std::string& name) {
   const auto decoded = decode(encoded, name);
   const ChannelReader reader(*decoded, encoding);
   auto channels = channel_numbers(*decoded);
@@ -262,7 +306,8 @@ Bitmap decode_image(std::span<const std::byte> encoded, Encoding encoding, const
   const auto alpha = channels.find("A");
 
   Bitmap bitmap{decoded->width, decoded->height, {}};
-  bitmap.pixels.resize(static_cast<std::size_t>(bitmap.width) * static_cast<std::size_t>(bitmap.height));
+  bitmap.pixels.resize(static_cast<std::size_t>(bitmap.width) *
+                       static_cast<std::size_t>(bitmap.height));
   for (std::size_t pixel = 0; pixel < bitmap.pixels.size(); ++pixel)
     bitmap.pixels[pixel] = {reader.linear(pixel, colour[0]), reader.linear(pixel, colour[1]),
                             reader.linear(pixel, colour[2]),

@@ -2,9 +2,9 @@
 
 #include "scenes/errors.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <dlfcn.h>
 #include <filesystem>
 #include <future>
 #include <string>
@@ -24,12 +24,15 @@ static std::vector<fs::path> module_candidates() {
   std::vector<fs::path> candidates;
   std::error_code error;
   auto folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (int level = 0; level < 4 && folder.has_relative_path(); ++level, folder = folder.parent_path()) {
+  for (int level = 0; level < 4 && folder.has_relative_path();
+       ++level, folder = folder.parent_path()) {
     const auto candidate = folder / MENINAS_MODULE_FOLDER / module_name;
-    if (fs::exists(candidate, error)) candidates.push_back(candidate);
+    if (fs::exists(candidate, error))
+      candidates.push_back(candidate);
   }
   const auto installed = fs::path(MENINAS_INSTALLED_MODULE_FOLDER) / module_name;
-  if (fs::exists(installed, error)) candidates.push_back(installed);
+  if (fs::exists(installed, error))
+    candidates.push_back(installed);
   candidates.emplace_back(module_name);
   return candidates;
 }
@@ -41,12 +44,15 @@ static const Table* open_module() {
   void* module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (module == nullptr) {
     const char* reason = dlerror();
-    throw InputError(file.string(), "", fmt::format("cannot open the module that reads and writes pictures: {}", reason));
+    throw InputError(
+        file.string(), "",
+        fmt::format("cannot open the module that reads and writes pictures: {}", reason));
   }
   const auto entry = reinterpret_cast<EntryPoint>(dlsym(module, entry_point));
   const Table* table = entry == nullptr ? nullptr : entry();
   if (table == nullptr || table->seam_version != seam_version)
-    throw InputError(file.string(), "", "the module that reads and writes pictures belongs to another build");
+    throw InputError(file.string(), "",
+                     "the module that reads and writes pictures belongs to another build");
   return table;
 }
 

@@ -1,4 +1,5 @@
 // The module behind image_io.h, and the only user of OpenImageIO.
+#include "image/exr_header.h"
 #include "image/image_io.h"
 #include "image/png_pixels.h"
 
@@ -37,12 +38,16 @@ constexpr const char* file_name = "memory";
 std::string one_line(std::string text) {
   const auto quoted = '"' + std::string(file_name) + '"';
   for (const auto& mention : {" (" + quoted + ")", " " + quoted, quoted + " "})
-    for (auto place = text.find(mention); place != std::string::npos; place = text.find(mention)) text.erase(place, mention.size());
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+    for (auto place = text.find(mention); place != std::string::npos; place = text.find(mention))
+      text.erase(place, mention.size());
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
+    text.pop_back();
   std::string line;
   for (const char c : text) {
-    if (c == '\n') line += "; ";
-    else if (static_cast<unsigned char>(c) >= 0x20) line += c;
+    if (c == '\n')
+      line += "; ";
+    else if (static_cast<unsigned char>(c) >= 0x20)
+      line += c;
   }
   return line;
 }
@@ -78,49 +83,63 @@ Result guarded(Work work) {
 const char* format_of(std::string_view bytes) {
   using namespace std::literals;
   constexpr std::pair<std::string_view, const char*> signatures[] = {
-      {"\x76\x2f\x31\x01"sv, "openexr"}, {"\x89PNG\r\n\x1a\n"sv, "png"}, {"\xff\xd8\xff"sv, "jpeg"},
-      {"#?RADIANCE"sv, "hdr"},           {"#?RGBE"sv, "hdr"},
+      {"\x76\x2f\x31\x01"sv, "openexr"},
+      {"\x89PNG\r\n\x1a\n"sv, "png"},
+      {"\xff\xd8\xff"sv, "jpeg"},
+      {"#?RADIANCE"sv, "hdr"},
+      {"#?RGBE"sv, "hdr"},
   };
   for (const auto& [signature, format] : signatures)
-    if (bytes.starts_with(signature)) return format;
+    if (bytes.starts_with(signature))
+      return format;
   return nullptr;
 }
 
 void check_limits(const OIIO::ImageSpec& spec, const Limits& limits) {
   if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1)
     throw std::runtime_error("holds no flat picture");
-  const auto size = std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels of " +
-                    std::to_string(spec.nchannels) + " channels";
+  const auto size = std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                    " pixels of " + std::to_string(spec.nchannels) + " channels";
   if (spec.width > limits.side || spec.height > limits.side)
-    throw std::runtime_error(size + " are too many; a side may have " + std::to_string(limits.side));
+    throw std::runtime_error(size + " are too many; a side may have " +
+                             std::to_string(limits.side));
   const auto values = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                       static_cast<std::size_t>(spec.nchannels);
   if (values > limits.values)
-    throw std::runtime_error(size + " are too many; all together may be " + std::to_string(limits.values) + " values");
+    throw std::runtime_error(size + " are too many; all together may be " +
+                             std::to_string(limits.values) + " values");
 }
 
 /// Code values are what an 8 or 16 bit file stores, to be read as sRGB; float files are linear.
 int code_values_of(const OIIO::ImageSpec& spec) {
-  if (spec.format.is_floating_point()) return 0;
+  if (spec.format.is_floating_point())
+    return 0;
   return spec.format.basesize() == 1 ? 255 : 65535;
 }
 
 void copy_header(const OIIO::ImageSpec& spec, DecodedStorage& storage) {
-  for (const auto& name : spec.channelnames) storage.names.push_back(name);
+  for (const auto& name : spec.channelnames)
+    storage.names.push_back(name);
   storage.names.resize(static_cast<std::size_t>(spec.nchannels));
-  for (const auto& name : storage.names) storage.name_pointers.push_back(name.c_str());
+  for (const auto& name : storage.names)
+    storage.name_pointers.push_back(name.c_str());
   for (const auto& attribute : spec.extra_attribs)
     if (attribute.type() == OIIO::TypeString)
       storage.attributes.emplace_back(attribute.name().string(), attribute.get_string());
-  for (const auto& [key, value] : storage.attributes) storage.attribute_pointers.push_back({key.c_str(), value.c_str()});
+  for (const auto& [key, value] : storage.attributes)
+    storage.attribute_pointers.push_back({key.c_str(), value.c_str()});
 }
 
 void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) {
   const char* format = format_of(bytes);
-  if (format == nullptr) throw std::runtime_error("not a picture: neither EXR, PNG, JPEG nor HDR");
+  if (format == nullptr)
+    throw std::runtime_error("not a picture: neither EXR, PNG, JPEG nor HDR");
   auto input = OIIO::ImageInput::create(format);
-  if (!input || !input->supports("ioproxy")) fail(OIIO::geterror(), std::string("cannot decode ") + format);
+  if (!input || !input->supports("ioproxy"))
+    fail(OIIO::geterror(), std::string("cannot decode ") + format);
 
+  if (std::string_view(format) == "openexr")
+    check_exr_header(bytes, limits);
   std::vector<std::uint8_t> png;
   if (std::string_view(format) == "png") {
     png = png_pixel_chunks(bytes);
@@ -133,16 +152,20 @@ void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) 
   config.attribute("oiio:UnassociatedAlpha", 1);
   OIIO::ImageSpec spec;
   input->set_ioproxy(&reader);
-  if (!input->open(file_name, spec, config)) fail(input->geterror(), "cannot be opened");
+  if (!input->open(file_name, spec, config))
+    fail(input->geterror(), "cannot be opened");
   check_limits(spec, limits);
 
   // The buffer is not cleared, so a header that promises more than the file holds costs address space only.
   auto storage = std::make_unique<DecodedStorage>();
-  const auto values = static_cast<std::size_t>(spec.image_pixels()) * static_cast<std::size_t>(spec.nchannels);
+  const auto values =
+      static_cast<std::size_t>(spec.image_pixels()) * static_cast<std::size_t>(spec.nchannels);
   storage->pixels = std::make_unique_for_overwrite<float[]>(values);
-  const bool complete = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, storage->pixels.get());
+  const bool complete =
+      input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, storage->pixels.get());
   // A truncated JPEG counts as read, with the missing part grey and a message left behind.
-  if (!complete || input->has_error()) fail(input->geterror(), "cannot be decoded");
+  if (!complete || input->has_error())
+    fail(input->geterror(), "cannot be decoded");
 
   copy_header(spec, *storage);
   result = {.owner = nullptr,
@@ -160,7 +183,8 @@ void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) 
 
 OIIO::ImageSpec exr_spec(const ExrRequest& request) {
   const auto type = request.storage == Storage::half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
-  OIIO::ImageSpec spec(request.width, request.height, static_cast<int>(3 * request.plane_count), type);
+  OIIO::ImageSpec spec(request.width, request.height, static_cast<int>(3 * request.plane_count),
+                       type);
   spec.channelnames.clear();
   for (std::size_t k = 0; k < request.plane_count; ++k)
     for (const char* component : {"R", "G", "B"})
@@ -178,7 +202,8 @@ OIIO::ImageSpec exr_spec(const ExrRequest& request) {
 /// The planes side by side for some rows, clipped to what the file's type can hold: an infinity would poison every
 /// filter that touches it later.
 void gather_rows(const ExrRequest& request, int first, int last, std::vector<float>& rows) {
-  const float largest = request.storage == Storage::half ? 65504.0F : std::numeric_limits<float>::max();
+  const float largest =
+      request.storage == Storage::half ? 65504.0F : std::numeric_limits<float>::max();
   const auto width = static_cast<std::size_t>(request.width);
   const auto begin = static_cast<std::size_t>(first) * width;
   const auto count = static_cast<std::size_t>(last - first) * width;
@@ -203,9 +228,11 @@ void encode_exr_into(Encoded& result, const ExrRequest& request) {
   auto bytes = std::make_unique<Bytes>();
   OIIO::Filesystem::IOVecOutput writer(*bytes);
   auto output = OIIO::ImageOutput::create("exr");
-  if (!output) fail(OIIO::geterror(), "cannot encode EXR");
+  if (!output)
+    fail(OIIO::geterror(), "cannot encode EXR");
   output->set_ioproxy(&writer);
-  if (!output->open(file_name, exr_spec(request))) fail(output->geterror(), "cannot encode EXR");
+  if (!output->open(file_name, exr_spec(request)))
+    fail(output->geterror(), "cannot encode EXR");
 
   // A band of rows at a time keeps the interleaved copy small, and is enough for parallel compression.
   constexpr int band = 256;
@@ -216,7 +243,8 @@ void encode_exr_into(Encoded& result, const ExrRequest& request) {
     if (!output->write_scanlines(first, last, 0, OIIO::TypeFloat, rows.data()))
       fail(output->geterror(), "cannot encode EXR");
   }
-  if (!output->close()) fail(output->geterror(), "cannot encode EXR");
+  if (!output->close())
+    fail(output->geterror(), "cannot encode EXR");
   hand_over(result, std::move(bytes));
 }
 
@@ -224,12 +252,14 @@ void encode_png_into(Encoded& result, const PngRequest& request) {
   auto bytes = std::make_unique<Bytes>();
   OIIO::Filesystem::IOVecOutput writer(*bytes);
   auto output = OIIO::ImageOutput::create("png");
-  if (!output) fail(OIIO::geterror(), "cannot encode PNG");
+  if (!output)
+    fail(OIIO::geterror(), "cannot encode PNG");
   OIIO::ImageSpec spec(request.width, request.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("Software", request.software);
   output->set_ioproxy(&writer);
-  if (!output->open(file_name, spec) || !output->write_image(OIIO::TypeDesc::UINT8, request.rgb) || !output->close())
+  if (!output->open(file_name, spec) || !output->write_image(OIIO::TypeDesc::UINT8, request.rgb) ||
+      !output->close())
     fail(output->geterror(), "cannot encode PNG");
   hand_over(result, std::move(bytes));
 }
@@ -245,17 +275,20 @@ Encoded encode_png(const PngRequest* request) {
 void release_encoded(Encoded* encoded) { delete static_cast<Bytes*>(encoded->owner); }
 
 Decoded decode(const void* bytes, std::size_t size, Limits limits) {
-  return guarded<Decoded>(
-      [&](Decoded& result) { decode_into(result, {static_cast<const char*>(bytes), size}, limits); });
+  return guarded<Decoded>([&](Decoded& result) {
+    decode_into(result, {static_cast<const char*>(bytes), size}, limits);
+  });
 }
 
 void release_decoded(Decoded* decoded) { delete static_cast<DecodedStorage*>(decoded->owner); }
 
-constexpr Table table{seam_version, encode_exr, encode_png, release_encoded, decode, release_decoded};
+constexpr Table table{seam_version,    encode_exr, encode_png,
+                      release_encoded, decode,     release_decoded};
 
 } // namespace
 } // namespace meninas::image_io
 
-extern "C" __attribute__((visibility("default"))) const meninas::image_io::Table* meninas_image_io() {
+extern "C" __attribute__((visibility("default"))) const meninas::image_io::Table*
+meninas_image_io() {
   return &meninas::image_io::table;
 }

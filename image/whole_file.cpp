@@ -2,16 +2,16 @@
 
 #include "scenes/errors.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <fcntl.h>
 #include <string>
-#include <sys/stat.h>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 
 namespace meninas {
@@ -24,13 +24,19 @@ namespace fs = std::filesystem;
 
 static std::string reason_of(int error) {
   switch (error) {
-  case ENOSPC: return "the disk is full";
-  case EDQUOT: return "the disk quota is used up";
-  case EFBIG: return "the file is larger than this system or its limits allow";
-  case EROFS: return "the file system is read-only";
+  case ENOSPC:
+    return "the disk is full";
+  case EDQUOT:
+    return "the disk quota is used up";
+  case EFBIG:
+    return "the file is larger than this system or its limits allow";
+  case EROFS:
+    return "the file system is read-only";
   case EACCES:
-  case EPERM: return "no permission";
-  default: return std::generic_category().message(error);
+  case EPERM:
+    return "no permission";
+  default:
+    return std::generic_category().message(error);
   }
 }
 
@@ -44,18 +50,25 @@ static void check_place(const fs::path& file) {
   const auto folder = folder_of(file);
   if (::stat(folder.c_str(), &status) != 0) {
     const int error = errno;
-    if (error == ENOENT || error == ENOTDIR) fail(file, fmt::format("no such folder '{}'", folder.string()));
+    if (error == ENOENT || error == ENOTDIR)
+      fail(file, fmt::format("no such folder '{}'", folder.string()));
     fail(file, reason_of(error));
   }
-  if (!S_ISDIR(status.st_mode)) fail(file, fmt::format("'{}' is not a folder", folder.string()));
-  if (!file.has_filename()) fail(file, "it names a folder");
+  if (!S_ISDIR(status.st_mode))
+    fail(file, fmt::format("'{}' is not a folder", folder.string()));
+  if (!file.has_filename())
+    fail(file, "it names a folder");
   if (::stat(file.c_str(), &status) != 0) {
-    if (errno == ENOENT) return;
+    if (errno == ENOENT)
+      return;
     fail(file, reason_of(errno));
   }
-  if (S_ISDIR(status.st_mode)) fail(file, "it is a folder");
-  if (!S_ISREG(status.st_mode)) fail(file, "it is not an ordinary file");
-  if (::faccessat(AT_FDCWD, file.c_str(), W_OK, AT_EACCESS) != 0) fail(file, reason_of(errno));
+  if (S_ISDIR(status.st_mode))
+    fail(file, "it is a folder");
+  if (!S_ISREG(status.st_mode))
+    fail(file, "it is not an ordinary file");
+  if (::faccessat(AT_FDCWD, file.c_str(), W_OK, AT_EACCESS) != 0)
+    fail(file, reason_of(errno));
 }
 
 namespace {
@@ -70,20 +83,25 @@ public:
       path_ = folder_of(target_) / fmt::format(".meninas-{}-{}.tmp", ::getpid(), count++);
       descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
-    if (descriptor_ < 0) fail(target_, reason_of(errno));
+    if (descriptor_ < 0)
+      fail(target_, reason_of(errno));
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!renamed_) ::unlink(path_.c_str());
+    if (descriptor_ >= 0)
+      ::close(descriptor_);
+    if (!renamed_)
+      ::unlink(path_.c_str());
   }
 
   void write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       const auto written = ::write(descriptor_, bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(target_, reason_of(errno));
+      if (written < 0 && errno == EINTR)
+        continue;
+      if (written < 0)
+        fail(target_, reason_of(errno));
       bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
   }
@@ -91,8 +109,10 @@ public:
   void rename() {
     // Some file systems report a full disk only now.
     const int descriptor = std::exchange(descriptor_, -1);
-    if (::close(descriptor) != 0 && errno != EINTR) fail(target_, reason_of(errno));
-    if (std::rename(path_.c_str(), target_.c_str()) != 0) fail(target_, reason_of(errno));
+    if (::close(descriptor) != 0 && errno != EINTR)
+      fail(target_, reason_of(errno));
+    if (std::rename(path_.c_str(), target_.c_str()) != 0)
+      fail(target_, reason_of(errno));
     renamed_ = true;
   }
 
