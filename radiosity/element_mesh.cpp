@@ -45,13 +45,15 @@ MeshSide make_side(const Scene& scene, const SurfaceModel& model, PatchId id, Fa
   return side;
 }
 
-void add_sides(ElementMesh& mesh, const Scene& scene, const SurfaceModel& model, const std::vector<Divisions>& divisions) {
+void add_sides(ElementMesh& mesh, const Scene& scene, const SurfaceModel& model, const std::vector<Divisions>& divisions,
+               const DarkSides& dark) {
   std::uint64_t total = 0;
   mesh.sides_of_patch.assign(model.patches.size(), {none<SideId>, none<SideId>});
   for (std::size_t p = 0; p < model.patches.size(); ++p) {
     const Material& material = scene.materials[index(model.patches[p].material)];
     if (!carries_radiosity(material)) continue;
     for (int facing = 0; facing < (material.double_sided ? 2 : 1); ++facing) {
+      if (!dark.empty() && dark[p][static_cast<std::size_t>(facing)] != 0) continue;
       MeshSide side = make_side(scene, model, static_cast<PatchId>(p), static_cast<Facing>(facing), divisions[p]);
       side.first_element = static_cast<std::uint32_t>(total);
       total += side.element_count;
@@ -137,13 +139,14 @@ struct Extent {
   std::uint64_t elements = 0;
 };
 
-Extent extent_of(const Scene& scene, const SurfaceModel& model, const std::vector<Divisions>& divisions) {
+Extent extent_of(const Scene& scene, const SurfaceModel& model, const std::vector<Divisions>& divisions, const DarkSides& dark) {
   Extent extent;
   for (std::size_t p = 0; p < model.patches.size(); ++p) {
     const Patch& patch = model.patches[p];
     const Material& material = scene.materials[index(patch.material)];
     if (!carries_radiosity(material)) continue;
-    const unsigned sides = material.double_sided ? 2 : 1;
+    const unsigned dark_sides = dark.empty() ? 0U : static_cast<unsigned>(dark[p][0] + dark[p][1]);
+    const unsigned sides = (material.double_sided ? 2U : 1U) - dark_sides;
     extent.area += sides * patch.area;
     if (!divisions.empty()) extent.elements += sides * static_cast<std::uint64_t>(elements_of(divisions[p].u, divisions[p].v, patch.corner_count == 3));
   }
@@ -152,16 +155,17 @@ Extent extent_of(const Scene& scene, const SurfaceModel& model, const std::vecto
 
 } // namespace
 
-ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces, const MeshSettings& settings) {
+ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces, const MeshSettings& settings,
+                              const DarkSides& dark) {
   ElementMesh mesh;
   mesh.element_size = settings.element_size;
   if (mesh.element_size <= 0.0)
-    mesh.element_size = std::sqrt(extent_of(scene, surfaces, {}).area / std::max(settings.target_elements, 1.0));
+    mesh.element_size = std::sqrt(extent_of(scene, surfaces, {}, dark).area / std::max(settings.target_elements, 1.0));
   if (mesh.element_size <= 0.0) mesh.element_size = 1.0;
 
   // A derived size grows until the mesh fits; a chosen one is the user's word.
   auto divisions = divide_edges(surfaces, mesh.element_size);
-  auto elements = extent_of(scene, surfaces, divisions).elements;
+  auto elements = extent_of(scene, surfaces, divisions, dark).elements;
   while (elements > settings.max_elements) {
     if (settings.element_size > 0.0)
       throw UsageError("--element-size", fmt::format("{} m needs {} elements, more than {}", settings.element_size,
@@ -169,10 +173,10 @@ ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces, 
     if (elements <= 2 * surfaces.patches.size()) break; // one element a side is the least there is
     mesh.element_size *= 1.4;
     divisions = divide_edges(surfaces, mesh.element_size);
-    elements = extent_of(scene, surfaces, divisions).elements;
+    elements = extent_of(scene, surfaces, divisions, dark).elements;
   }
 
-  add_sides(mesh, scene, surfaces, divisions);
+  add_sides(mesh, scene, surfaces, divisions, dark);
   mesh.side_of_element.reserve(elements);
   mesh.corners.reserve(elements);
   mesh.area.reserve(elements);

@@ -7,6 +7,7 @@
 // Ideal mirrors (no diffuse reflectance, no emission) have no side: they are not unknowns.
 #pragma once
 
+#include "radiosity/dark_sides.h"
 #include "scenes/surfaces.h"
 
 #include <vector>
@@ -55,7 +56,9 @@ struct ElementMesh {
   double element_size = 0.0;                         ///< what was used, metres
 };
 
-ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces, const MeshSettings& settings = {});
+/// Sides marked in `dark` get no elements; empty: all are meshed.
+ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces, const MeshSettings& settings = {},
+                              const DarkSides& dark = {});
 
 inline std::size_t element_count(const ElementMesh& mesh) { return mesh.area.size(); }
 

@@ -16,7 +16,8 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
 
   // Elements to light, and rays over the input geometry, not over the elements.
   prepared->rays.emplace(make_ray_scene(prepared->scene, prepared->surfaces));
-  prepared->mesh = make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh);
+  const DarkSides dark = find_dark_sides(prepared->scene, prepared->surfaces, *prepared->rays);
+  prepared->mesh = make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh, dark);
   prepared->light.emplace(make_light_scene(prepared->scene, prepared->surfaces, *prepared->rays, prepared->plan.mirrors,
                                            prepared->plan.worlds, prepared->mesh));
   prepared->seconds.mesh = watch.lap();
