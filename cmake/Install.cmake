@@ -11,6 +11,10 @@ foreach(folder IN ITEMS scenes image mirror radiosity raytrace runs)
 endforeach()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+# A stranger's program finds the image module by the search path it gets with the library that opens it.
+target_link_options(meninas_image INTERFACE
+  $<INSTALL_INTERFACE:-Wl,-rpath,$<INSTALL_PREFIX>/${CMAKE_INSTALL_LIBDIR}/meninas>)
+
 install(EXPORT meninas-targets NAMESPACE meninas:: DESTINATION ${package_directory})
 configure_package_config_file(cmake/meninas-config.cmake.in meninas-config.cmake
   INSTALL_DESTINATION ${package_directory} NO_SET_AND_CHECK_MACRO)

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Installs the build given as $1 (sanitizers: $2, C++ compiler: $3), moves the tree, and uses it as a stranger would:
+# the program, and find_package(meninas) from a project of three lines.
+set -euo pipefail
+
+build=$1 sanitize=$2 compiler=$3
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+cmake --install "$build" --prefix "$scratch/first" >/dev/null
+mv "$scratch/first" "$scratch/moved here"
+prefix=$scratch/moved\ here
+
+"$prefix/bin/meninas" --version
+if find "$prefix" -name '*.cmake' -exec grep -l "$scratch/first" {} + ; then
+  echo "the installed package remembers where it was installed" >&2
+  exit 1
+fi
+
+mkdir "$scratch/consumer"
+cat >"$scratch/consumer/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.25)
+project(consumer LANGUAGES CXX)
+find_package(meninas 0.1 REQUIRED)
+add_executable(consumer consumer.cpp)
+target_link_libraries(consumer PRIVATE meninas::runs)
+END
+# Through the image module too, which the program opens at run time.
+cat >"$scratch/consumer/consumer.cpp" <<'END'
+#include "image/image_file.h"
+#include "raytrace/two_pass.h"
+
+int main(int, char** arguments) {
+  meninas::write_png(arguments[1], meninas::Image(4, 4), 0.0);
+}
+END
+flags=
+if [[ -n $sanitize ]]; then flags=-fsanitize=$sanitize; fi
+cmake -S "$scratch/consumer" -B "$scratch/consumer/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+  -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >/dev/null
+ninja -C "$scratch/consumer/build" --quiet
+"$scratch/consumer/build/consumer" "$scratch/black.png"
+test -s "$scratch/black.png"

@@ -1,0 +1,197 @@
+#include "tests/house/source_tree.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string_view>
+
+namespace meninas {
+namespace {
+
+constexpr std::size_t longest_file = 400;
+
+/// Which folders a folder may include, besides itself:
+///   scenes, image <- mirror <- radiosity <- raytrace <- runs <- cli     and     scenes, image <- reference <- runs
+/// The image folder stands beside scenes; all it takes from there are the vocabulary and the errors.
+const std::map<std::string, std::set<std::string>, std::less<>> allowed_folders = {
+    {"scenes", {}},
+    {"image", {}},
+    {"mirror", {"scenes", "image"}},
+    {"radiosity", {"scenes", "image", "mirror"}},
+    {"raytrace", {"scenes", "image", "mirror", "radiosity"}},
+    {"reference", {"scenes", "image"}},
+    {"runs", {"scenes", "image", "mirror", "radiosity", "raytrace", "reference"}},
+    {"cli", {"scenes", "image", "mirror", "radiosity", "raytrace", "reference", "runs"}},
+};
+const std::set<std::string, std::less<>> vocabulary = {"scenes/errors.h", "scenes/types.h"};
+
+/// Tests and benchmarks look at everything and nothing looks at them.
+const std::set<std::string, std::less<>> onlooking_folders = {"tests", "bench"};
+
+/// A library that only one .cpp of one folder may include, so that it can be replaced there.
+struct WrappedLibrary {
+  std::string_view name;
+  std::string_view header_prefix;
+  std::string_view folder;
+};
+constexpr std::array wrapped_libraries = {
+    WrappedLibrary{"Embree", "embree", "scenes"},
+    WrappedLibrary{"tinygltf", "tiny_gltf", "scenes"},
+    WrappedLibrary{"OpenImageIO", "OpenImageIO/", "image"},
+};
+
+std::string folder_of(std::string_view path) {
+  return std::string(path.substr(0, std::min(path.find('/'), path.size())));
+}
+
+bool is_onlooker(const SourceFile& file) {
+  return onlooking_folders.contains(folder_of(file.path));
+}
+
+bool may_include(const std::string& folder, const std::string& included) {
+  const std::string other = folder_of(included);
+  if (other == folder || onlooking_folders.contains(folder)) {
+    return allowed_folders.contains(other) || other == folder || onlooking_folders.contains(other);
+  }
+  if (folder == "image" && vocabulary.contains(included)) {
+    return true;
+  }
+  return allowed_folders.at(folder).contains(other);
+}
+
+std::vector<std::string> read_lines(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+bool is_source(const std::filesystem::path& file) {
+  static const std::set<std::string> extensions = {".h",     ".hpp", ".cpp", ".cc",
+                                                   ".cmake", ".sh",  ".py"};
+  return extensions.contains(file.extension().string());
+}
+
+bool is_code(const SourceFile& file) {
+  const std::string extension = std::filesystem::path(file.path).extension().string();
+  return extension != ".cmake" && extension != ".sh" && extension != ".py";
+}
+
+/// Calls visit(file, line number, included path, in quotes) for every include of the tree.
+template <typename Visit>
+void for_each_include(const std::vector<SourceFile>& tree, Visit visit) {
+  for (const SourceFile& file : tree) {
+    for (std::size_t i = 0; is_code(file) && i < file.lines.size(); ++i) {
+      if (const std::string included = included_path(file.lines[i]); !included.empty()) {
+        visit(file, i + 1, included, file.lines[i].find('"') != std::string::npos);
+      }
+    }
+  }
+}
+
+} // namespace
+
+std::vector<SourceFile> read_source_tree(const std::filesystem::path& root) {
+  std::vector<SourceFile> tree;
+  for (const auto& top : std::filesystem::directory_iterator(root)) {
+    const std::string name = top.path().filename().string();
+    // A folder of ours has a CMakeLists.txt; what users keep beside them is none of our business.
+    if (name != "cmake" && !std::filesystem::exists(top.path() / "CMakeLists.txt")) {
+      continue;
+    }
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(top)) {
+      if (entry.is_regular_file() && is_source(entry.path())) {
+        tree.push_back(
+            {entry.path().lexically_relative(root).generic_string(), read_lines(entry.path())});
+      }
+    }
+  }
+  std::ranges::sort(tree, {}, &SourceFile::path);
+  return tree;
+}
+
+std::string included_path(const std::string& line) {
+  static const std::regex include(R"re(^\s*#\s*include\s*(["<])([^">]+)[">].*$)re");
+  std::smatch parts;
+  return std::regex_match(line, parts, include) ? parts[2].str() : "";
+}
+
+std::vector<std::string> include_direction_breaches(const std::vector<SourceFile>& tree) {
+  std::vector<std::string> breaches;
+  for (const SourceFile& file : tree) {
+    if (is_code(file) && !is_onlooker(file) && !allowed_folders.contains(folder_of(file.path))) {
+      breaches.push_back(
+          fmt::format("{}:1: its folder has no place in the include directions", file.path));
+    }
+  }
+  for_each_include(tree, [&](const SourceFile& file, std::size_t line, const std::string& included,
+                             bool quoted) {
+    const std::string folder = folder_of(file.path);
+    const std::string other = folder_of(included);
+    const bool ours = allowed_folders.contains(other) || onlooking_folders.contains(other);
+    if (!allowed_folders.contains(folder) && !onlooking_folders.contains(folder)) {
+      return;
+    }
+    if (quoted && !ours) {
+      breaches.push_back(fmt::format("{}:{}: \"{}\" is not written from the project's root",
+                                     file.path, line, included));
+    } else if (ours && !may_include(folder, included)) {
+      breaches.push_back(
+          fmt::format("{}:{}: {} may not include {}", file.path, line, folder, included));
+    }
+  });
+  return breaches;
+}
+
+std::vector<std::string> wrapped_library_breaches(const std::vector<SourceFile>& tree) {
+  std::vector<std::string> breaches;
+  std::map<std::string_view, std::string> user_of;
+  for_each_include(
+      tree, [&](const SourceFile& file, std::size_t line, const std::string& included, bool) {
+        for (const WrappedLibrary& library : wrapped_libraries) {
+          // A test or a benchmark may compare with the bare library.
+          if (!included.starts_with(library.header_prefix) || is_onlooker(file)) {
+            continue;
+          }
+          const std::string& user = user_of.emplace(library.name, file.path).first->second;
+          if (folder_of(file.path) != library.folder || !file.path.ends_with(".cpp")) {
+            breaches.push_back(fmt::format("{}:{}: {} belongs in one .cpp of {}", file.path, line,
+                                           library.name, library.folder));
+          } else if (user != file.path) {
+            breaches.push_back(fmt::format("{}:{}: {} already has its one user, {}", file.path,
+                                           line, library.name, user));
+          }
+        }
+      });
+  return breaches;
+}
+
+std::vector<std::string> file_shape_breaches(const std::vector<SourceFile>& tree) {
+  std::vector<std::string> breaches;
+  for (const SourceFile& file : tree) {
+    if (file.lines.size() > longest_file) {
+      breaches.push_back(
+          fmt::format("{}:{}: longer than {} lines", file.path, file.lines.size(), longest_file));
+    }
+    if (!file.path.ends_with(".h")) {
+      continue;
+    }
+    if (file.lines.empty() || !file.lines.front().starts_with("//")) {
+      breaches.push_back(
+          fmt::format("{}:1: a header opens with a comment that says what it is for", file.path));
+    }
+    if (std::ranges::count(file.lines, "#pragma once") != 1) {
+      breaches.push_back(fmt::format("{}:1: a header has one #pragma once", file.path));
+    }
+  }
+  return breaches;
+}
+
+} // namespace meninas

@@ -1,0 +1,27 @@
+// Reads a source tree and says where it breaks the rules of the house (ARCHITECTURE.md): include directions, the one
+// user of each wrapped library, file length, and how a header begins.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace meninas {
+
+struct SourceFile {
+  std::string path; ///< from the root, with forward slashes
+  std::vector<std::string> lines;
+};
+
+/// Sources of cmake/ and of the folders with a CMakeLists.txt, in the order of their paths.
+std::vector<SourceFile> read_source_tree(const std::filesystem::path& root);
+
+/// What an `#include` line names, without quotes or brackets; empty for any other line.
+std::string included_path(const std::string& line);
+
+/// One line for each breach, `PATH:LINE: WHAT`.
+std::vector<std::string> include_direction_breaches(const std::vector<SourceFile>& tree);
+std::vector<std::string> wrapped_library_breaches(const std::vector<SourceFile>& tree);
+std::vector<std::string> file_shape_breaches(const std::vector<SourceFile>& tree);
+
+} // namespace meninas

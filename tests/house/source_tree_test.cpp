@@ -1,0 +1,149 @@
+#include "tests/house/source_tree.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace meninas {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+SourceFile file(const std::string& path, std::vector<std::string> lines) {
+  return {path, std::move(lines)};
+}
+
+std::string include_of(const std::string& what) { return "#include " + what; }
+
+std::vector<std::string> direction_breaches_of(const std::string& path,
+                                               const std::string& included) {
+  return include_direction_breaches({file(path, {include_of(included)})});
+}
+
+TEST(SourceTree, IncludesPointOneWay) {
+  EXPECT_THAT(include_direction_breaches(read_source_tree(MENINAS_SOURCE_DIR)), IsEmpty());
+}
+
+TEST(SourceTree, WrappedLibrariesHaveOneUserEach) {
+  EXPECT_THAT(wrapped_library_breaches(read_source_tree(MENINAS_SOURCE_DIR)), IsEmpty());
+}
+
+TEST(SourceTree, FilesAreShortAndHeadersSayWhatTheyAre) {
+  EXPECT_THAT(file_shape_breaches(read_source_tree(MENINAS_SOURCE_DIR)), IsEmpty());
+}
+
+TEST(SourceTree, TheScannerReadsThisTree) {
+  std::vector<std::string> paths;
+  for (const SourceFile& source : read_source_tree(MENINAS_SOURCE_DIR)) {
+    paths.push_back(source.path);
+  }
+  EXPECT_THAT(paths, testing::IsSupersetOf(
+                         {"scenes/scene.h", "image/image.cpp", "tests/house/source_tree.cpp"}));
+}
+
+TEST(SourceTree, IncludeLinesAreRecognised) {
+  EXPECT_EQ(included_path("#include \"scenes/scene.h\""), "scenes/scene.h");
+  EXPECT_EQ(included_path("  #  include <embree3/rtcore.h> // rays"), "embree3/rtcore.h");
+  EXPECT_EQ(included_path("// #include \"scenes/scene.h\""), "");
+}
+
+TEST(SourceTree, EveryAllowedDirectionPasses) {
+  const std::vector<std::string> chain = {"scenes",   "mirror", "radiosity",
+                                          "raytrace", "runs",   "cli"};
+  for (std::size_t user = 0; user < chain.size(); ++user) {
+    for (std::size_t used = 0; used <= user; ++used) {
+      EXPECT_THAT(direction_breaches_of(chain[user] + "/a.cpp", '"' + chain[used] + "/b.h\""),
+                  IsEmpty());
+    }
+  }
+  for (const std::string used : {"scenes", "image", "reference"}) {
+    EXPECT_THAT(direction_breaches_of("reference/a.cpp", '"' + used + "/b.h\""), IsEmpty());
+    EXPECT_THAT(direction_breaches_of("runs/a.cpp", '"' + used + "/b.h\""), IsEmpty());
+  }
+  EXPECT_THAT(direction_breaches_of("image/a.cpp", "\"scenes/errors.h\""), IsEmpty());
+  EXPECT_THAT(direction_breaches_of("tests/mirror/a.cpp", "\"tests/support/scene_builder.h\""),
+              IsEmpty());
+  EXPECT_THAT(direction_breaches_of("bench/a.cpp", "\"raytrace/b.h\""), IsEmpty());
+}
+
+TEST(SourceTree, EveryOppositeDirectionIsCaught) {
+  const std::vector<std::string> chain = {"scenes", "mirror", "radiosity", "raytrace",
+                                          "runs",   "cli",    "tests"};
+  for (std::size_t user = 0; user < chain.size(); ++user) {
+    for (std::size_t used = user + 1; used < chain.size(); ++used) {
+      EXPECT_THAT(
+          direction_breaches_of(chain[user] + "/a.cpp", '"' + chain[used] + "/b.h\""),
+          ElementsAre(HasSubstr("a.cpp:1: " + chain[user] + " may not include " + chain[used])));
+    }
+  }
+  for (const std::string used : {"mirror", "radiosity", "raytrace", "runs", "cli"}) {
+    EXPECT_THAT(direction_breaches_of("reference/a.h", '"' + used + "/b.h\""), testing::SizeIs(1));
+    EXPECT_THAT(direction_breaches_of("image/a.h", '<' + used + "/b.h>"), testing::SizeIs(1));
+  }
+  for (const std::string user : {"scenes", "mirror", "radiosity", "raytrace"}) {
+    EXPECT_THAT(direction_breaches_of(user + "/a.cpp", "\"reference/b.h\""), testing::SizeIs(1));
+  }
+  EXPECT_THAT(direction_breaches_of("scenes/a.cpp", "\"image/image.h\""), testing::SizeIs(1));
+  EXPECT_THAT(direction_breaches_of("image/a.cpp", "\"scenes/scene.h\""), testing::SizeIs(1));
+}
+
+TEST(SourceTree, StrangeFoldersAndRelativeIncludesAreCaught) {
+  EXPECT_THAT(direction_breaches_of("utils/a.h", "<vector>"),
+              ElementsAre(HasSubstr("utils/a.h:1: its folder")));
+  EXPECT_THAT(direction_breaches_of("mirror/a.cpp", "\"b.h\""),
+              ElementsAre(HasSubstr("the project's root")));
+  EXPECT_THAT(direction_breaches_of("mirror/a.cpp", "\"../scenes/b.h\""), testing::SizeIs(1));
+}
+
+TEST(SourceTree, SecondUsersOfWrappedLibrariesAreCaught) {
+  const std::string embree = include_of("<embree3/rtcore.h>");
+  const auto breaches = [&](const std::string& path, const std::string& line) {
+    return wrapped_library_breaches({file("scenes/first.cpp", {embree}), file(path, {line})});
+  };
+  EXPECT_THAT(breaches("scenes/first.cpp", embree), IsEmpty());
+  EXPECT_THAT(breaches("bench/rays.cpp", embree), IsEmpty());
+  EXPECT_THAT(breaches("scenes/second.cpp", embree),
+              ElementsAre(HasSubstr("already has its one user, scenes/first.cpp")));
+  EXPECT_THAT(breaches("scenes/a.h", embree), ElementsAre(HasSubstr("one .cpp of scenes")));
+  EXPECT_THAT(breaches("raytrace/a.cpp", embree), testing::SizeIs(1));
+  EXPECT_THAT(breaches("image/a.cpp", include_of("<tiny_gltf.h>")), testing::SizeIs(1));
+  EXPECT_THAT(breaches("scenes/a.cpp", include_of("<OpenImageIO/imageio.h>")), testing::SizeIs(1));
+}
+
+TEST(SourceTree, LongFilesAndBareHeadersAreCaught) {
+  EXPECT_THAT(file_shape_breaches({file("mirror/a.cpp", std::vector<std::string>(400))}),
+              IsEmpty());
+  EXPECT_THAT(file_shape_breaches({file("mirror/a.cpp", std::vector<std::string>(401))}),
+              ElementsAre(HasSubstr("longer than 400")));
+  EXPECT_THAT(file_shape_breaches({file("mirror/a.h", {"// Mirrors.", "#pragma once"})}),
+              IsEmpty());
+  EXPECT_THAT(file_shape_breaches({file("mirror/a.h", {"#pragma once"})}),
+              ElementsAre(HasSubstr("opens with")));
+  EXPECT_THAT(file_shape_breaches({file("mirror/a.h", {"// Mirrors."})}),
+              ElementsAre(HasSubstr("#pragma once")));
+  EXPECT_THAT(file_shape_breaches({file("mirror/a.h", {})}), testing::SizeIs(2));
+}
+
+TEST(SourceTree, ABadTreeOnDiskIsCaught) {
+  const std::filesystem::path root =
+      std::filesystem::temp_directory_path() / ("meninas-house-" + std::to_string(getpid()));
+  for (const std::string folder : {"scenes/gallery", "cli", "someones/notes"}) {
+    std::filesystem::create_directories(root / folder);
+    if (folder != "someones/notes") {
+      std::ofstream(root / folder.substr(0, folder.find('/')) / "CMakeLists.txt") << '\n';
+    }
+    std::ofstream(root / folder / "bad.h") << include_of("\"cli/bad.h\"") << '\n';
+  }
+  const std::vector<SourceFile> tree = read_source_tree(root);
+  std::filesystem::remove_all(root);
+  EXPECT_THAT(include_direction_breaches(tree),
+              ElementsAre("scenes/gallery/bad.h:1: scenes may not include cli/bad.h"));
+  EXPECT_THAT(file_shape_breaches(tree), testing::SizeIs(4));
+}
+
+} // namespace
+} // namespace meninas
