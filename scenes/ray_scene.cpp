@@ -7,7 +7,9 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace meninas {
 
@@ -57,7 +59,7 @@ struct RayScene::Impl {
   Owned<RTCDevice, ReleaseDevice> device;
   Owned<RTCScene, ReleaseScene> scene;
   FrameGeometry geometry;
-  float noise = 0.0F; ///< of the geometry
+  float noise = 0.0F; ///< of the geometry, and the lift
 };
 
 namespace {
@@ -109,6 +111,11 @@ void reject_hits(const RTCFilterFunctionNArguments* args) {
                           (rule.backs == BackRule::ignore && facts.single_sided && is_back(*args, lane));
     if (rejected) args->valid[lane] = 0;
   }
+}
+
+RTCIntersectContextFlags flags_for(Coherence coherence) {
+  return coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                          : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
 }
 
 Rejection make_rejection(const Impl& impl, const std::uint32_t* leaving) {
@@ -240,57 +247,95 @@ void store(HitPacket& hits, std::size_t lane, const LaneHit& hit) {
   hits.front[lane] = hit.front ? 1 : 0;
 }
 
+using LaneFlags = std::array<std::int32_t, packet_size>; ///< -1 where it holds, as Embree wants it
+
+/// Bit k is set where flag k is.
+std::uint32_t bits_of(const LaneFlags& flags) {
+  std::uint32_t bits = 0;
+  for (std::size_t k = 0; k < packet_size; ++k) bits |= static_cast<std::uint32_t>(flags[k]) & (1U << k);
+  return bits;
+}
+
 /// Copies the rays of a packet; lanes that are not rays (not finite, no direction) are left out.
-void load(const RayPacket& packet, RTCRay16& rays, int* valid) {
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    rays.org_x[k] = packet.origin_x[k];
-    rays.org_y[k] = packet.origin_y[k];
-    rays.org_z[k] = packet.origin_z[k];
-    rays.dir_x[k] = packet.direction_x[k];
-    rays.dir_y[k] = packet.direction_y[k];
-    rays.dir_z[k] = packet.direction_z[k];
-    rays.tnear[k] = 0.0F;
-    rays.time[k] = 0.0F;
-    rays.tfar[k] = packet.max_distance[k];
-    rays.mask[k] = ~0U;
-    rays.id[k] = static_cast<unsigned>(k);
-    rays.flags[k] = 0U;
-  }
+void load(const RayPacket& packet, RTCRay16& rays, LaneFlags& valid) {
+  std::copy_n(packet.origin_x, packet_size, rays.org_x);
+  std::copy_n(packet.origin_y, packet_size, rays.org_y);
+  std::copy_n(packet.origin_z, packet_size, rays.org_z);
+  std::copy_n(packet.direction_x, packet_size, rays.dir_x);
+  std::copy_n(packet.direction_y, packet_size, rays.dir_y);
+  std::copy_n(packet.direction_z, packet_size, rays.dir_z);
+  std::copy_n(packet.max_distance, packet_size, rays.tfar);
+  std::fill_n(rays.tnear, packet_size, 0.0F);
+  std::fill_n(rays.time, packet_size, 0.0F);
+  std::fill_n(rays.mask, packet_size, ~0U);
+  std::fill_n(rays.flags, packet_size, 0U);
+  std::iota(rays.id, rays.id + packet_size, 0U);
+
   for (std::size_t k = 0; k < packet_size; ++k) {
     const auto steps = std::abs(rays.dir_x[k]) + std::abs(rays.dir_y[k]) + std::abs(rays.dir_z[k]);
     const auto place = std::abs(rays.org_x[k]) + std::abs(rays.org_y[k]) + std::abs(rays.org_z[k]);
-    const auto is_ray = (steps > 0.0F) & (steps < infinity) & (place < infinity) & (rays.tfar[k] > 0.0F) &
-                        (k < packet.count);
+    const auto is_ray = (steps > 0.0F) & (steps < infinity) & (place < infinity) & (rays.tfar[k] > 0.0F);
     valid[k] = is_ray ? -1 : 0;
   }
+  for (std::size_t k = packet.count; k < packet_size; ++k) valid[k] = 0;
+}
+
+/// The normals of the planes of a packet's lanes, zero where there is none.
+struct LaneNormals {
+  std::array<float, packet_size> x, y, z;
+};
+
+LaneNormals lane_normals(const Impl& impl, const std::uint32_t* planes) {
+  const auto no_plane = static_cast<std::uint32_t>(impl.geometry.lifts.size() - 1);
+  LaneNormals normals;
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const auto& n = impl.geometry.lifts[std::min(planes[k], no_plane)];
+    normals.x[k] = n.x;
+    normals.y[k] = n.y;
+    normals.z[k] = n.z;
+  }
+  return normals;
 }
 
 /// Moves origins off the planes they leave, towards the side their ray goes to.
 void lift_origins(const Impl& impl, const RayPacket& packet, RTCRay16& rays) {
-  const auto no_plane = static_cast<std::uint32_t>(impl.geometry.lifts.size() - 1);
+  const auto n = lane_normals(impl, packet.leaving);
   for (std::size_t k = 0; k < packet_size; ++k) {
-    const auto& n = impl.geometry.lifts[std::min(packet.leaving[k], no_plane)];
-    const auto side = n.x * rays.dir_x[k] + n.y * rays.dir_y[k] + n.z * rays.dir_z[k] < 0.0F ? -lift : lift;
-    rays.org_x[k] += side * n.x;
-    rays.org_y[k] += side * n.y;
-    rays.org_z[k] += side * n.z;
+    const auto slope = n.x[k] * rays.dir_x[k] + n.y[k] * rays.dir_y[k] + n.z[k] * rays.dir_z[k];
+    const auto side = std::copysign(lift, slope);
+    rays.org_x[k] += side * n.x[k];
+    rays.org_y[k] += side * n.y[k];
+    rays.org_z[k] += side * n.z[k];
+  }
+}
+
+/// Moves the ends of legs off the planes they arrive at, towards the side they come from.
+void lift_ends(const Impl& impl, const RayPacket& packet, RTCRay16& rays) {
+  const auto n = lane_normals(impl, packet.arriving);
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const auto slope = n.x[k] * rays.dir_x[k] + n.y[k] * rays.dir_y[k] + n.z[k] * rays.dir_z[k];
+    const auto side = -std::copysign(lift, slope) / rays.tfar[k];
+    rays.dir_x[k] += side * n.x[k] + (packet.origin_x[k] - rays.org_x[k]) / rays.tfar[k];
+    rays.dir_y[k] += side * n.y[k] + (packet.origin_y[k] - rays.org_y[k]) / rays.tfar[k];
+    rays.dir_z[k] += side * n.z[k] + (packet.origin_z[k] - rays.org_z[k]) / rays.tfar[k];
   }
 }
 
 /// Reads a traced packet; `touching` are the lanes whose hit lies in a plane that their origin lies in as well.
-void read_hits(const RTCRayHit16& traced, float noise, HitPacket& hits, std::uint8_t* touching) {
+void read_hits(const RTCRayHit16& traced, float noise, HitPacket& hits, LaneFlags& touching) {
   const auto& [ray, hit] = traced;
   std::copy_n(hit.primID, packet_size, hits.triangle);
   std::copy_n(ray.tfar, packet_size, hits.distance);
   std::copy_n(hit.u, packet_size, hits.b1);
   std::copy_n(hit.v, packet_size, hits.b2);
+  std::array<float, packet_size> slope;
   for (std::size_t k = 0; k < packet_size; ++k) {
-    const auto slope = hit.Ng_x[k] * ray.dir_x[k] + hit.Ng_y[k] * ray.dir_y[k] + hit.Ng_z[k] * ray.dir_z[k];
+    slope[k] = hit.Ng_x[k] * ray.dir_x[k] + hit.Ng_y[k] * ray.dir_y[k] + hit.Ng_z[k] * ray.dir_z[k];
     const auto squared = hit.Ng_x[k] * hit.Ng_x[k] + hit.Ng_y[k] * hit.Ng_y[k] + hit.Ng_z[k] * hit.Ng_z[k];
-    const auto height = slope * ray.tfar[k];
-    hits.front[k] = slope < 0.0F;
-    touching[k] = height * height < noise * noise * squared;
+    const auto height = slope[k] * ray.tfar[k];
+    touching[k] = height * height < noise * noise * squared ? -1 : 0;
   }
+  for (std::size_t k = 0; k < packet_size; ++k) hits.front[k] = slope[k] < 0.0F;
 }
 
 struct Doubts {
@@ -300,19 +345,28 @@ struct Doubts {
 
 /// Which lanes the bare query cannot settle: of rays that leave a surface the misses, the hits in the plane they leave and
 /// those that touch their origin; and backs.
-Doubts find_doubts(const Impl& impl, const RayPacket& packet, const HitPacket& hits, const int* valid,
-                   const std::uint8_t* touching, Backs backs) {
-  Doubts doubts;
+Doubts find_doubts(const Impl& impl, const RayPacket& packet, const HitPacket& hits, const LaneFlags& valid,
+                   const LaneFlags& touching, Backs backs) {
+  LaneFlags suspect;
+  std::uint32_t leaving = 0;
   for (std::size_t k = 0; k < packet_size; ++k) {
-    if (valid[k] == 0) continue;
-    const auto bit = 1U << k;
-    const auto triangle = hits.triangle[k];
     const auto leaves = packet.leaving[k] != no_index;
-    if (triangle == no_index) {
-      if (leaves) doubts.careful |= bit;
+    const auto met = hits.triangle[k] != no_index;
+    const auto settled = met ? hits.front[k] != 0 && !leaves : !leaves;
+    suspect[k] = settled ? 0 : valid[k];
+    leaving |= leaves ? 1U << k : 0U;
+  }
+
+  Doubts doubts;
+  for (auto rest = bits_of(suspect); rest != 0; rest &= rest - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+    const auto bit = 1U << k;
+    if (hits.triangle[k] == no_index) {
+      doubts.careful |= bit;
       continue;
     }
-    const auto& facts = impl.geometry.facts[triangle];
+    const auto& facts = impl.geometry.facts[hits.triangle[k]];
+    const auto leaves = (leaving & bit) != 0;
     const auto back = hits.front[k] == 0 && facts.single_sided;
     if (back && !leaves && backs == Backs::transparent)
       doubts.through |= bit;
@@ -334,9 +388,9 @@ void clear_hits(RTCHit16& hit) {
 }
 
 /// Goes on behind the backs that the lanes of `through` met.
-void trace_through(const Impl& impl, const RayPacket& packet, RTCRayHit16& traced, HitPacket& hits,
-                   std::uint32_t through) {
-  alignas(64) int valid[packet_size];
+void trace_through(const Impl& impl, const RayPacket& packet, Coherence coherence, std::uint32_t through,
+                   RTCRayHit16& traced) {
+  alignas(64) LaneFlags valid;
   for (std::size_t k = 0; k < packet_size; ++k) {
     valid[k] = (through >> k) & 1U ? -1 : 0;
     if (valid[k] == 0) continue;
@@ -346,10 +400,9 @@ void trace_through(const Impl& impl, const RayPacket& packet, RTCRayHit16& trace
     traced.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
   }
   auto rejection = make_rejection(impl, packet.leaving);
+  rejection.flags = flags_for(coherence);
   rejection.backs = BackRule::ignore;
-  rtcIntersect16(valid, impl.scene.get(), &rejection, &traced);
-  std::uint8_t touching[packet_size];
-  read_hits(traced, impl.noise, hits, touching);
+  rtcIntersect16(valid.data(), impl.scene.get(), &rejection, &traced);
 }
 
 } // namespace
@@ -358,24 +411,29 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
                   Coherence coherence) {
   const auto& impl = rays.impl();
   RTCRayHit16 traced;
-  alignas(64) int valid[packet_size];
+  alignas(64) LaneFlags valid;
   load(packet, traced.ray, valid);
   lift_origins(impl, packet, traced.ray);
   clear_hits(traced.hit);
 
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  if (coherence == Coherence::coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid, impl.scene.get(), &context, &traced);
-  std::uint8_t touching[packet_size];
+  context.flags = flags_for(coherence);
+  rtcIntersect16(valid.data(), impl.scene.get(), &context, &traced);
+  alignas(64) LaneFlags touching;
   read_hits(traced, impl.noise, hits, touching);
 
   const auto doubts = find_doubts(impl, packet, hits, valid, touching, backs);
-  if (doubts.through != 0) trace_through(impl, packet, traced, hits, doubts.through);
+  if (doubts.through != 0) {
+    trace_through(impl, packet, coherence, doubts.through, traced);
+    read_hits(traced, impl.noise, hits, touching);
+  }
   if (doubts.careful == 0) return;
   ContactMemory memory;
-  for (std::size_t k = 0; k < packet_size; ++k)
-    if ((doubts.careful >> k) & 1U) store(hits, k, careful_hit(impl, lane_ray(packet, k), backs, memory));
+  for (auto rest = doubts.careful; rest != 0; rest &= rest - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+    store(hits, k, careful_hit(impl, lane_ray(packet, k), backs, memory));
+  }
 }
 
 namespace {
@@ -429,26 +487,31 @@ bool blocked_at_an_end(const Impl& impl, const RayPacket& packet, std::size_t la
 std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence coherence) {
   const auto& impl = rays.impl();
   RTCRay16 traced;
-  alignas(64) int valid[packet_size];
+  alignas(64) LaneFlags valid;
   load(packet, traced, valid);
+  lift_origins(impl, packet, traced);
+  lift_ends(impl, packet, traced);
 
   LegRejection context;
   rtcInitIntersectContext(&context);
+  context.flags = flags_for(coherence);
   context.filter = reject_ends;
   context.impl = &impl;
   context.packet = &packet;
-  if (coherence == Coherence::coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcOccluded16(valid, impl.scene.get(), &context, &traced);
+  rtcOccluded16(valid.data(), impl.scene.get(), &context, &traced);
 
   // Embree marks what is occluded by a far end of minus infinity.
-  std::uint32_t blocked = 0;
-  for (std::size_t k = 0; k < packet_size; ++k)
-    if (valid[k] != 0 && traced.tfar[k] < 0.0F) blocked |= 1U << k;
+  LaneFlags met;
+  for (std::size_t k = 0; k < packet_size; ++k) met[k] = traced.tfar[k] < 0.0F ? valid[k] : 0;
+  auto blocked = bits_of(met);
 
+  const auto open_ends = context.touching & ~blocked;
+  if (open_ends == 0) return blocked;
   ContactMemory memory;
-  for (std::size_t k = 0; k < packet_size; ++k)
-    if (((context.touching & ~blocked) >> k) & 1U)
-      if (blocked_at_an_end(impl, packet, k, memory)) blocked |= 1U << k;
+  for (auto rest = open_ends; rest != 0; rest &= rest - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+    if (blocked_at_an_end(impl, packet, k, memory)) blocked |= 1U << k;
+  }
   return blocked;
 }
 
@@ -487,7 +550,7 @@ Owned<RTCGeometry, ReleaseGeometry> make_mesh(RTCDevice device, const FrameGeome
 
 RayScene::RayScene(const Scene& scene, const SurfaceModel& surfaces) : impl_(std::make_unique<Impl>()) {
   impl_->geometry = make_frame_geometry(scene, surfaces);
-  impl_->noise = static_cast<float>(impl_->geometry.noise);
+  impl_->noise = static_cast<float>(impl_->geometry.noise) + lift;
   impl_->device.reset(rtcNewDevice(nullptr));
   check(impl_->device.get());
   impl_->scene.reset(rtcNewScene(impl_->device.get()));
