@@ -12,6 +12,25 @@ struct CameraFrame {
   glm::vec3 direction, direction_x, direction_y; ///< likewise; x and y run over the picture from 0 to 1, right and down
 };
 
+/// Puts a ray into a lane, as far as it goes.
+inline void set_ray(RayPacket& packet, std::uint32_t lane, const glm::vec3& origin, const glm::vec3& direction,
+                    std::uint32_t leaving) {
+  packet.origin_x[lane] = origin.x;
+  packet.origin_y[lane] = origin.y;
+  packet.origin_z[lane] = origin.z;
+  packet.direction_x[lane] = direction.x;
+  packet.direction_y[lane] = direction.y;
+  packet.direction_z[lane] = direction.z;
+  packet.max_distance[lane] = std::numeric_limits<float>::infinity();
+  packet.leaving[lane] = leaving;
+}
+
+/// Puts the camera ray through the point (x, y) of the picture into a lane.
+inline void set_camera_ray(RayPacket& packet, std::uint32_t lane, const CameraFrame& camera, float x, float y) {
+  set_ray(packet, lane, camera.origin + x * camera.origin_x + y * camera.origin_y,
+          camera.direction + x * camera.direction_x + y * camera.direction_y, index(none<PlaneId>));
+}
+
 CameraFrame make_camera_frame(const Camera& camera, double picture_aspect, const RayFrame& frame);
 
 } // namespace meninas

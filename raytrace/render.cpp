@@ -44,13 +44,38 @@ struct RenderContext {
   std::vector<std::array<std::uint32_t, 2>> net; ///< stratified points of the pixel, as integers
 };
 
+/// What the rays of a packet carry: camera rays nothing but their pixel, specular rays their record.
 struct LaneState {
-  std::array<glm::dvec3, packet_size> origin, direction;
-  std::array<glm::vec3, packet_size> throughput;
   std::array<std::uint32_t, packet_size> pixel;
+  const SpecularRay* specular = nullptr; ///< of lane 0; null for camera rays
 };
 
 float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
+
+/// The path behind the mirror, from where it meets the mirror's exact plane.
+void reflect(const RenderContext& context, const FaceRecord& face, const RayPacket& packet, const LaneState& state,
+             std::uint32_t k, float distance, TileWorkspace& work) {
+  SpecularRay ray;
+  ray.pixel = state.pixel[k];
+  ray.leaving = face.plane_class;
+  ray.throughput = face.reflectance * (state.specular ? state.specular[k].throughput : glm::vec3(1.0F));
+  if (largest(ray.throughput) < context.settings.min_throughput) return;
+
+  const glm::dvec3 origin = state.specular ? state.specular[k].origin
+                                           : glm::dvec3(packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]);
+  const glm::dvec3 d = state.specular ? state.specular[k].direction
+                                      : glm::dvec3(packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]);
+  const double approach = glm::dot(face.normal, d);
+  double t = (face.frame_offset - glm::dot(face.normal, origin)) / approach;
+  if (!(t > 0.0) || t > 2.0 * distance + 1e-6) t = distance;
+  ray.origin = origin + t * d;
+  ray.direction = d - 2.0 * approach * face.normal;
+  work.next.push_back(ray);
+}
+
+const FaceRecord& face_of(const LandingTable& landing, const HitPacket& hits, std::uint32_t k) {
+  return landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
+}
 
 /// Adds what each ray has landed on to its pixel, and queues the rays that a mirror sends on.
 void shade_packet(const RenderContext& context, const RayPacket& packet, const LaneState& state, const HitPacket& hits,
@@ -58,28 +83,56 @@ void shade_packet(const RenderContext& context, const RayPacket& packet, const L
   const LightScene& light = context.light;
   for (std::uint32_t k = 0; k < packet.count; ++k) {
     if (hits.triangle[k] == index(none<TriangleId>)) continue;
-    const FaceRecord& face = light.landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
+    const FaceRecord& face = face_of(light.landing, hits, k);
     if (face.side != FaceRecord::nothing) {
       const glm::vec2 uv = landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
-      work.sums[state.pixel[k]] += state.throughput[k] * field_radiance(light.mesh, context.field, context.shading[face.side],
-                                                                        light.landing.sides[face.side], uv);
+      const glm::vec3 radiance = field_radiance(light.mesh, context.field, context.shading[face.side], light.landing.sides[face.side], uv);
+      work.sums[state.pixel[k]] += state.specular ? state.specular[k].throughput * radiance : radiance;
     }
-    if (!face.mirrors || context.settings.mode == RenderMode::radiosity) continue;
-
-    // The path goes on in the mirror world from where it meets the mirror's exact plane.
-    SpecularRay ray;
-    ray.throughput = state.throughput[k] * face.reflectance;
-    if (largest(ray.throughput) < context.settings.min_throughput) continue;
-    const glm::dvec3& d = state.direction[k];
-    const double approach = glm::dot(face.normal, d);
-    double t = (face.frame_offset - glm::dot(face.normal, state.origin[k])) / approach;
-    if (!(t > 0.0) || t > 2.0 * hits.distance[k] + 1e-6) t = hits.distance[k];
-    ray.origin = state.origin[k] + t * d;
-    ray.direction = d - 2.0 * approach * face.normal;
-    ray.pixel = state.pixel[k];
-    ray.leaving = face.plane_class;
-    work.next.push_back(ray);
+    if (face.mirrors && context.settings.mode == RenderMode::hybrid) reflect(context, face, packet, state, k, hits.distance[k], work);
   }
+}
+
+/// The common case of sixteen samples of one pixel that land in one element: the bilinear field is linear in the means of s, t
+/// and s t, so one look-up gives the exact sum. Returns false where the samples are not so.
+bool shade_as_one(const RenderContext& context, const HitPacket& hits, std::uint32_t pixel, TileWorkspace& work) {
+  const LightScene& light = context.light;
+  std::uint32_t differ = 0;
+  for (std::uint32_t k = 0; k < packet_size; ++k)
+    differ |= (hits.triangle[k] ^ hits.triangle[0]) | static_cast<std::uint32_t>(hits.front[k] ^ hits.front[0]);
+  if (differ != 0) return false;
+  if (hits.triangle[0] == index(none<TriangleId>)) return true;
+  const FaceRecord& face = face_of(light.landing, hits, 0);
+  if (face.mirrors || !face.affine || face.side == FaceRecord::nothing) return false;
+  const SideRecord& side = light.landing.sides[face.side];
+  if (side.triangle) return false;
+
+  // The span of the samples in units of elements; it lies in one element when its bounds do.
+  const auto nu = static_cast<float>(side.nu), nv = static_cast<float>(side.nv);
+  float low_u = nu, high_u = 0.0F, low_v = nv, high_v = 0.0F, sum_u = 0.0F, sum_v = 0.0F, sum_uv = 0.0F;
+  for (std::uint32_t k = 0; k < packet_size; ++k) {
+    const float u = nu * (face.uv0.x + hits.b1[k] * face.uv1.x + hits.b2[k] * face.uv2.x);
+    const float v = nv * (face.uv0.y + hits.b1[k] * face.uv1.y + hits.b2[k] * face.uv2.y);
+    low_u = std::min(low_u, u);
+    high_u = std::max(high_u, u);
+    low_v = std::min(low_v, v);
+    high_v = std::max(high_v, v);
+    sum_u += u;
+    sum_v += v;
+    sum_uv += u * v;
+  }
+  if (low_u < 0.0F || low_v < 0.0F || high_u >= nu || high_v >= nv) return false;
+  const int i = static_cast<int>(low_u), j = static_cast<int>(low_v);
+  if (static_cast<int>(high_u) != i || static_cast<int>(high_v) != j) return false;
+
+  // From means of u, v, u v to those of s = u - i, t = v - j, s t.
+  constexpr float share = 1.0F / packet_size;
+  const auto fi = static_cast<float>(i), fj = static_cast<float>(j);
+  const float s = sum_u * share - fi, t = sum_v * share - fj;
+  const float st = sum_uv * share - fi * sum_v * share - fj * sum_u * share + fi * fj;
+  const auto element = side.first_element + static_cast<std::uint32_t>(j * side.nu + i);
+  work.sums[pixel] += float{packet_size} * field_radiance(light.mesh, context.field, context.shading[face.side], element, s, t, st);
+  return true;
 }
 
 void follow_mirrors(const RenderContext& context, TileWorkspace& work) {
@@ -92,20 +145,11 @@ void follow_mirrors(const RenderContext& context, TileWorkspace& work) {
     work.specular_rays += work.current.size();
     for (std::size_t first = 0; first < work.current.size(); first += packet_size) {
       packet.count = static_cast<std::uint32_t>(std::min(packet_size, work.current.size() - first));
+      state.specular = &work.current[first];
       for (std::uint32_t k = 0; k < packet.count; ++k) {
-        const SpecularRay& ray = work.current[first + k];
-        state.origin[k] = ray.origin;
-        state.direction[k] = ray.direction;
-        state.throughput[k] = ray.throughput;
+        const SpecularRay& ray = state.specular[k];
         state.pixel[k] = ray.pixel;
-        packet.origin_x[k] = static_cast<float>(ray.origin.x);
-        packet.origin_y[k] = static_cast<float>(ray.origin.y);
-        packet.origin_z[k] = static_cast<float>(ray.origin.z);
-        packet.direction_x[k] = static_cast<float>(ray.direction.x);
-        packet.direction_y[k] = static_cast<float>(ray.direction.y);
-        packet.direction_z[k] = static_cast<float>(ray.direction.z);
-        packet.max_distance[k] = std::numeric_limits<float>::infinity();
-        packet.leaving[k] = ray.leaving;
+        set_ray(packet, k, glm::vec3(ray.origin), glm::vec3(ray.direction), ray.leaving);
       }
       closest_hits(context.light.rays, packet, hits, Backs::absorb, Coherence::coherent);
       shade_packet(context, packet, state, hits, work);
@@ -118,39 +162,33 @@ void follow_mirrors(const RenderContext& context, TileWorkspace& work) {
 void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileWorkspace& work) {
   const RenderSettings& settings = context.settings;
   const auto samples = static_cast<std::uint32_t>(context.net.size());
-  const std::uint32_t total = static_cast<std::uint32_t>(tile.width * tile.height) * samples;
-  const CameraFrame& camera = context.camera;
+  const auto pixels = static_cast<std::uint32_t>(tile.width * tile.height);
+  const float pixel_width = 1.0F / static_cast<float>(settings.width), pixel_height = 1.0F / static_cast<float>(settings.height);
   RayPacket packet;
   HitPacket hits;
   LaneState state;
-  for (std::uint32_t first = 0; first < total; first += packet_size) {
-    packet.count = std::min<std::uint32_t>(packet_size, total - first);
-    for (std::uint32_t k = 0; k < packet.count; ++k) {
-      const std::uint32_t pixel = (first + k) / samples, sample = (first + k) % samples;
-      const int px = tile.x0 + static_cast<int>(pixel) % tile.width, py = tile.y0 + static_cast<int>(pixel) / tile.width;
-      const std::uint32_t shift_x = hash(static_cast<std::uint32_t>(px), static_cast<std::uint32_t>(py), settings.seed);
-      const std::uint32_t shift_y = hash(shift_x, 1);
-      const float x = (static_cast<float>(px) + static_cast<float>((context.net[sample][0] ^ shift_x) >> 8U) * 0x1p-24F) / static_cast<float>(settings.width);
-      const float y = (static_cast<float>(py) + static_cast<float>((context.net[sample][1] ^ shift_y) >> 8U) * 0x1p-24F) / static_cast<float>(settings.height);
-      const glm::vec3 origin = camera.origin + x * camera.origin_x + y * camera.origin_y;
-      const glm::vec3 direction = camera.direction + x * camera.direction_x + y * camera.direction_y;
-      packet.origin_x[k] = origin.x;
-      packet.origin_y[k] = origin.y;
-      packet.origin_z[k] = origin.z;
-      packet.direction_x[k] = direction.x;
-      packet.direction_y[k] = direction.y;
-      packet.direction_z[k] = direction.z;
-      packet.max_distance[k] = std::numeric_limits<float>::infinity();
-      packet.leaving[k] = index(none<PlaneId>);
-      state.origin[k] = origin;
-      state.direction[k] = direction;
-      state.throughput[k] = glm::vec3(1.0F);
-      state.pixel[k] = pixel;
-    }
+  std::uint32_t filled = 0;
+  const auto flush = [&] {
+    packet.count = filled;
     closest_hits(context.light.rays, packet, hits, Backs::transparent, Coherence::coherent);
-    shade_packet(context, packet, state, hits, work);
+    const bool one_pixel = filled == packet_size && state.pixel[0] == state.pixel[packet_size - 1];
+    if (!one_pixel || !shade_as_one(context, hits, state.pixel[0], work)) shade_packet(context, packet, state, hits, work);
+    filled = 0;
+  };
+  for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
+    const int px = tile.x0 + static_cast<int>(pixel) % tile.width, py = tile.y0 + static_cast<int>(pixel) / tile.width;
+    const std::uint32_t shift_x = hash(static_cast<std::uint32_t>(px), static_cast<std::uint32_t>(py), settings.seed);
+    const std::uint32_t shift_y = hash(shift_x, 1);
+    for (std::uint32_t sample = 0; sample < samples; ++sample) {
+      const float x = (static_cast<float>(px) + static_cast<float>((context.net[sample][0] ^ shift_x) >> 8U) * 0x1p-24F) * pixel_width;
+      const float y = (static_cast<float>(py) + static_cast<float>((context.net[sample][1] ^ shift_y) >> 8U) * 0x1p-24F) * pixel_height;
+      set_camera_ray(packet, filled, context.camera, x, y);
+      state.pixel[filled] = pixel;
+      if (++filled == packet_size) flush();
+    }
   }
-  work.camera_rays += total;
+  if (filled > 0) flush();
+  work.camera_rays += std::uint64_t{pixels} * samples;
 }
 
 void render_tile(const RenderContext& context, const TileArea& tile, TileWorkspace& work, Image& image) {
