@@ -1,5 +1,7 @@
 #include "mirror/mirrors.h"
 
+#include "mirror/window.h"
+
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -80,6 +82,7 @@ MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces, const M
     const auto id = static_cast<MirrorId>(set.mirrors.size());
     for (const auto& [surface, face] : candidate.faces)
       set.mirror_of_surface[index(surface)][static_cast<std::size_t>(face)] = id;
+    candidate.mirror.window = merge_convex(std::move(candidate.mirror.window), surfaces.tolerance);
     set.mirrors.push_back(std::move(candidate.mirror));
   }
   return set;
