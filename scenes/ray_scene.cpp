@@ -3,6 +3,7 @@
 #include "scenes/contacts.h"
 #include "scenes/errors.h"
 #include "scenes/frame_geometry.h"
+#include "scenes/lanes.h"
 
 #include <embree3/rtcore.h>
 
@@ -15,16 +16,8 @@ namespace meninas {
 
 namespace {
 
-// The frame maps the scene into [-1, 1], where floats are rounded by at most 3e-8 per coordinate.
-// Origins are lifted off the plane they leave by `lift`, a few such roundings, so that the plane is hardly ever hit again;
-// where it is, the query is repeated with a filter that knows the plane.
-constexpr float lift = 5e-7F;
-
 // Surfaces nearer to an origin than `reach` touch it.
 constexpr double reach = 2e-6;
-
-constexpr auto no_index = std::numeric_limits<std::uint32_t>::max();
-constexpr auto infinity = std::numeric_limits<float>::infinity();
 
 struct ReleaseDevice {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -37,21 +30,6 @@ struct ReleaseGeometry {
 };
 template <typename Handle, typename Release>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
-
-struct LaneRay {
-  glm::vec3 origin;
-  glm::vec3 direction;
-  float near = 0.0F;
-  float far = infinity;
-  std::uint32_t leaving = no_index;
-};
-
-struct LaneHit {
-  std::uint32_t triangle = no_index;
-  float distance = infinity;
-  float b1 = 0.0F, b2 = 0.0F;
-  bool front = true;
-};
 
 } // namespace
 
@@ -231,33 +209,7 @@ LaneHit careful_hit(const Impl& impl, const LaneRay& ray, Backs backs, ContactMe
 
 // --- Packets
 
-LaneRay lane_ray(const RayPacket& packet, std::size_t lane) {
-  return {{packet.origin_x[lane], packet.origin_y[lane], packet.origin_z[lane]},
-          {packet.direction_x[lane], packet.direction_y[lane], packet.direction_z[lane]},
-          0.0F,
-          packet.max_distance[lane],
-          packet.leaving[lane]};
-}
-
-void store(HitPacket& hits, std::size_t lane, const LaneHit& hit) {
-  hits.triangle[lane] = hit.triangle;
-  hits.distance[lane] = hit.distance;
-  hits.b1[lane] = hit.b1;
-  hits.b2[lane] = hit.b2;
-  hits.front[lane] = hit.front ? 1 : 0;
-}
-
-using LaneFlags = std::array<std::int32_t, packet_size>; ///< -1 where it holds, as Embree wants it
-
-/// Bit k is set where flag k is.
-std::uint32_t bits_of(const LaneFlags& flags) {
-  std::uint32_t bits = 0;
-  for (std::size_t k = 0; k < packet_size; ++k) bits |= static_cast<std::uint32_t>(flags[k]) & (1U << k);
-  return bits;
-}
-
-/// Copies the rays of a packet; lanes that are not rays (not finite, no direction) are left out.
-void load(const RayPacket& packet, RTCRay16& rays, LaneFlags& valid) {
+void load(const RayPacket& packet, RTCRay16& rays) {
   std::copy_n(packet.origin_x, packet_size, rays.org_x);
   std::copy_n(packet.origin_y, packet_size, rays.org_y);
   std::copy_n(packet.origin_z, packet_size, rays.org_z);
@@ -270,55 +222,6 @@ void load(const RayPacket& packet, RTCRay16& rays, LaneFlags& valid) {
   std::fill_n(rays.mask, packet_size, ~0U);
   std::fill_n(rays.flags, packet_size, 0U);
   std::iota(rays.id, rays.id + packet_size, 0U);
-
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    const auto steps = std::abs(rays.dir_x[k]) + std::abs(rays.dir_y[k]) + std::abs(rays.dir_z[k]);
-    const auto place = std::abs(rays.org_x[k]) + std::abs(rays.org_y[k]) + std::abs(rays.org_z[k]);
-    const auto is_ray = (steps > 0.0F) & (steps < infinity) & (place < infinity) & (rays.tfar[k] > 0.0F);
-    valid[k] = is_ray ? -1 : 0;
-  }
-  for (std::size_t k = packet.count; k < packet_size; ++k) valid[k] = 0;
-}
-
-/// The normals of the planes of a packet's lanes, zero where there is none.
-struct LaneNormals {
-  std::array<float, packet_size> x, y, z;
-};
-
-LaneNormals lane_normals(const Impl& impl, const std::uint32_t* planes) {
-  const auto no_plane = static_cast<std::uint32_t>(impl.geometry.lifts.size() - 1);
-  LaneNormals normals;
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    const auto& n = impl.geometry.lifts[std::min(planes[k], no_plane)];
-    normals.x[k] = n.x;
-    normals.y[k] = n.y;
-    normals.z[k] = n.z;
-  }
-  return normals;
-}
-
-/// Moves origins off the planes they leave, towards the side their ray goes to.
-void lift_origins(const Impl& impl, const RayPacket& packet, RTCRay16& rays) {
-  const auto n = lane_normals(impl, packet.leaving);
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    const auto slope = n.x[k] * rays.dir_x[k] + n.y[k] * rays.dir_y[k] + n.z[k] * rays.dir_z[k];
-    const auto side = std::copysign(lift, slope);
-    rays.org_x[k] += side * n.x[k];
-    rays.org_y[k] += side * n.y[k];
-    rays.org_z[k] += side * n.z[k];
-  }
-}
-
-/// Moves the ends of legs off the planes they arrive at, towards the side they come from.
-void lift_ends(const Impl& impl, const RayPacket& packet, RTCRay16& rays) {
-  const auto n = lane_normals(impl, packet.arriving);
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    const auto slope = n.x[k] * rays.dir_x[k] + n.y[k] * rays.dir_y[k] + n.z[k] * rays.dir_z[k];
-    const auto side = -std::copysign(lift, slope) / rays.tfar[k];
-    rays.dir_x[k] += side * n.x[k] + (packet.origin_x[k] - rays.org_x[k]) / rays.tfar[k];
-    rays.dir_y[k] += side * n.y[k] + (packet.origin_y[k] - rays.org_y[k]) / rays.tfar[k];
-    rays.dir_z[k] += side * n.z[k] + (packet.origin_z[k] - rays.org_z[k]) / rays.tfar[k];
-  }
 }
 
 /// Reads a traced packet; `touching` are the lanes whose hit lies in a plane that their origin lies in as well.
@@ -336,44 +239,6 @@ void read_hits(const RTCRayHit16& traced, float noise, HitPacket& hits, LaneFlag
     touching[k] = height * height < noise * noise * squared ? -1 : 0;
   }
   for (std::size_t k = 0; k < packet_size; ++k) hits.front[k] = slope[k] < 0.0F;
-}
-
-struct Doubts {
-  std::uint32_t careful = 0; ///< lanes to be traced again one by one
-  std::uint32_t through = 0; ///< lanes that met a transparent back
-};
-
-/// Which lanes the bare query cannot settle: of rays that leave a surface the misses, the hits in the plane they leave and
-/// those that touch their origin; and backs.
-Doubts find_doubts(const Impl& impl, const RayPacket& packet, const HitPacket& hits, const LaneFlags& valid,
-                   const LaneFlags& touching, Backs backs) {
-  LaneFlags suspect;
-  std::uint32_t leaving = 0;
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    const auto leaves = packet.leaving[k] != no_index;
-    const auto met = hits.triangle[k] != no_index;
-    const auto settled = met ? hits.front[k] != 0 && !leaves : !leaves;
-    suspect[k] = settled ? 0 : valid[k];
-    leaving |= leaves ? 1U << k : 0U;
-  }
-
-  Doubts doubts;
-  for (auto rest = bits_of(suspect); rest != 0; rest &= rest - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(rest));
-    const auto bit = 1U << k;
-    if (hits.triangle[k] == no_index) {
-      doubts.careful |= bit;
-      continue;
-    }
-    const auto& facts = impl.geometry.facts[hits.triangle[k]];
-    const auto leaves = (leaving & bit) != 0;
-    const auto back = hits.front[k] == 0 && facts.single_sided;
-    if (back && !leaves && backs == Backs::transparent)
-      doubts.through |= bit;
-    else if (back || (leaves && (facts.plane == packet.leaving[k] || touching[k] != 0)))
-      doubts.careful |= bit;
-  }
-  return doubts;
 }
 
 void clear_hits(RTCHit16& hit) {
@@ -411,9 +276,8 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
                   Coherence coherence) {
   const auto& impl = rays.impl();
   RTCRayHit16 traced;
-  alignas(64) LaneFlags valid;
-  load(packet, traced.ray, valid);
-  lift_origins(impl, packet, traced.ray);
+  alignas(64) const auto valid = traceable_lanes(packet);
+  load(lifted_rays(impl.geometry, packet), traced.ray);
   clear_hits(traced.hit);
 
   RTCIntersectContext context;
@@ -423,7 +287,7 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
   alignas(64) LaneFlags touching;
   read_hits(traced, impl.noise, hits, touching);
 
-  const auto doubts = find_doubts(impl, packet, hits, valid, touching, backs);
+  const auto doubts = find_doubts(impl.geometry, packet, hits, valid, touching, backs);
   if (doubts.through != 0) {
     trace_through(impl, packet, coherence, doubts.through, traced);
     read_hits(traced, impl.noise, hits, touching);
@@ -458,11 +322,13 @@ void reject_ends(const RTCFilterFunctionNArguments* args) {
     }
     // How far the leg climbs from its start to the hit, and from there to its end, over the plane of the triangle
     const auto normal = normal_of(*args, lane);
-    const auto slope = std::abs(glm::dot(normal, direction_of(*args, lane)));
-    const auto least = rule.impl->noise * glm::length(normal);
+    const auto slope = glm::dot(normal, direction_of(*args, lane));
     const auto distance = RTCRayN_tfar(args->ray, args->N, lane);
-    const auto at_start = packet.leaving[k] != no_index && distance * slope < least;
-    const auto at_end = packet.arriving[k] != no_index && (packet.max_distance[k] - distance) * slope < least;
+    const auto climb = slope * distance;
+    const auto rest = slope * (packet.max_distance[k] - distance);
+    const auto least = rule.impl->noise * rule.impl->noise * glm::dot(normal, normal);
+    const auto at_start = packet.leaving[k] != no_index && climb * climb < least;
+    const auto at_end = packet.arriving[k] != no_index && rest * rest < least;
     if (!at_start && !at_end) continue;
     args->valid[lane] = 0;
     rule.touching |= 1U << k;
@@ -487,10 +353,8 @@ bool blocked_at_an_end(const Impl& impl, const RayPacket& packet, std::size_t la
 std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence coherence) {
   const auto& impl = rays.impl();
   RTCRay16 traced;
-  alignas(64) LaneFlags valid;
-  load(packet, traced, valid);
-  lift_origins(impl, packet, traced);
-  lift_ends(impl, packet, traced);
+  alignas(64) const auto valid = traceable_lanes(packet);
+  load(lifted_legs(impl.geometry, packet), traced);
 
   LegRejection context;
   rtcInitIntersectContext(&context);

@@ -1,0 +1,141 @@
+#include "scenes/lanes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+/// The normals of the planes of a packet's lanes, zero where there is none.
+struct LaneNormals {
+  std::array<float, packet_size> x, y, z;
+};
+
+bool all_equal(const std::uint32_t* planes) {
+  std::uint32_t differences = 0;
+  for (std::size_t k = 1; k < packet_size; ++k) differences |= planes[k] ^ planes[0];
+  return differences == 0;
+}
+
+LaneNormals lane_normals(const FrameGeometry& geometry, const std::uint32_t* planes) {
+  const auto no_plane = static_cast<std::uint32_t>(geometry.lifts.size() - 1);
+  LaneNormals normals;
+  if (all_equal(planes)) {
+    const auto& n = geometry.lifts[std::min(planes[0], no_plane)];
+    normals.x.fill(n.x);
+    normals.y.fill(n.y);
+    normals.z.fill(n.z);
+    return normals;
+  }
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const auto& n = geometry.lifts[std::min(planes[k], no_plane)];
+    normals.x[k] = n.x;
+    normals.y[k] = n.y;
+    normals.z[k] = n.z;
+  }
+  return normals;
+}
+
+} // namespace
+
+LaneRay lane_ray(const RayPacket& packet, std::size_t lane) {
+  return {{packet.origin_x[lane], packet.origin_y[lane], packet.origin_z[lane]},
+          {packet.direction_x[lane], packet.direction_y[lane], packet.direction_z[lane]},
+          0.0F,
+          packet.max_distance[lane],
+          packet.leaving[lane]};
+}
+
+void store(HitPacket& hits, std::size_t lane, const LaneHit& hit) {
+  hits.triangle[lane] = hit.triangle;
+  hits.distance[lane] = hit.distance;
+  hits.b1[lane] = hit.b1;
+  hits.b2[lane] = hit.b2;
+  hits.front[lane] = hit.front ? 1 : 0;
+}
+
+std::uint32_t bits_of(const LaneFlags& flags) {
+  std::uint32_t bits = 0;
+  for (std::size_t k = 0; k < packet_size; ++k) bits |= static_cast<std::uint32_t>(flags[k]) & (1U << k);
+  return bits;
+}
+
+LaneFlags traceable_lanes(const RayPacket& packet) {
+  constexpr auto infinity = std::numeric_limits<float>::infinity();
+  LaneFlags flags;
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const auto steps =
+        std::abs(packet.direction_x[k]) + std::abs(packet.direction_y[k]) + std::abs(packet.direction_z[k]);
+    const auto place = std::abs(packet.origin_x[k]) + std::abs(packet.origin_y[k]) + std::abs(packet.origin_z[k]);
+    const auto is_ray =
+        (steps > 0.0F) & (steps < infinity) & (place < infinity) & (packet.max_distance[k] > 0.0F);
+    flags[k] = is_ray ? -1 : 0;
+  }
+  for (std::size_t k = packet.count; k < packet_size; ++k) flags[k] = 0;
+  return flags;
+}
+
+RayPacket lifted_rays(const FrameGeometry& geometry, const RayPacket& packet) {
+  auto lifted = packet;
+  if (packet.leaving[0] == no_index && all_equal(packet.leaving)) return lifted;
+  const auto n = lane_normals(geometry, packet.leaving);
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const auto slope =
+        n.x[k] * packet.direction_x[k] + n.y[k] * packet.direction_y[k] + n.z[k] * packet.direction_z[k];
+    const auto side = std::copysign(lift, slope);
+    lifted.origin_x[k] = packet.origin_x[k] + side * n.x[k];
+    lifted.origin_y[k] = packet.origin_y[k] + side * n.y[k];
+    lifted.origin_z[k] = packet.origin_z[k] + side * n.z[k];
+  }
+  return lifted;
+}
+
+RayPacket lifted_legs(const FrameGeometry& geometry, const RayPacket& packet) {
+  auto lifted = lifted_rays(geometry, packet);
+  const auto n = lane_normals(geometry, packet.arriving);
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const auto slope =
+        n.x[k] * packet.direction_x[k] + n.y[k] * packet.direction_y[k] + n.z[k] * packet.direction_z[k];
+    const auto side = -std::copysign(lift, slope);
+    const auto share = 1.0F / packet.max_distance[k];
+    lifted.direction_x[k] += share * (side * n.x[k] + packet.origin_x[k] - lifted.origin_x[k]);
+    lifted.direction_y[k] += share * (side * n.y[k] + packet.origin_y[k] - lifted.origin_y[k]);
+    lifted.direction_z[k] += share * (side * n.z[k] + packet.origin_z[k] - lifted.origin_z[k]);
+  }
+  return lifted;
+}
+
+Doubts find_doubts(const FrameGeometry& geometry, const RayPacket& packet, const HitPacket& hits,
+                   const LaneFlags& valid, const LaneFlags& touching, Backs backs) {
+  LaneFlags suspect;
+  std::uint32_t leaving = 0;
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const auto leaves = packet.leaving[k] != no_index;
+    const auto met = hits.triangle[k] != no_index;
+    const auto settled = met ? hits.front[k] != 0 && !leaves : !leaves;
+    suspect[k] = settled ? 0 : valid[k];
+    leaving |= leaves ? 1U << k : 0U;
+  }
+
+  Doubts doubts;
+  for (auto rest = bits_of(suspect); rest != 0; rest &= rest - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+    const auto bit = 1U << k;
+    if (hits.triangle[k] == no_index) {
+      doubts.careful |= bit;
+      continue;
+    }
+    const auto& facts = geometry.facts[hits.triangle[k]];
+    const auto leaves = (leaving & bit) != 0;
+    const auto back = hits.front[k] == 0 && facts.single_sided;
+    if (back && !leaves && backs == Backs::transparent)
+      doubts.through |= bit;
+    else if (back || (leaves && (facts.plane == packet.leaving[k] || touching[k] != 0)))
+      doubts.careful |= bit;
+  }
+  return doubts;
+}
+
+} // namespace meninas

@@ -1,0 +1,57 @@
+// The lanes of a packet: which are rays, where they really start, and which of them a bare query cannot settle.
+#pragma once
+
+#include "scenes/frame_geometry.h"
+
+namespace meninas {
+
+inline constexpr auto no_index = std::numeric_limits<std::uint32_t>::max();
+
+// The frame maps the scene into [-1, 1], where floats are rounded by at most 3e-8 per coordinate.
+// Origins are lifted off the plane they leave by `lift`, a few such roundings, so that the plane is hardly ever hit again;
+// where it is, the query is repeated with a filter that knows the plane.
+inline constexpr float lift = 5e-7F;
+
+struct LaneRay {
+  glm::vec3 origin;
+  glm::vec3 direction;
+  float near = 0.0F;
+  float far = std::numeric_limits<float>::infinity();
+  std::uint32_t leaving = no_index;
+};
+
+struct LaneHit {
+  std::uint32_t triangle = no_index;
+  float distance = std::numeric_limits<float>::infinity();
+  float b1 = 0.0F, b2 = 0.0F;
+  bool front = true;
+};
+
+LaneRay lane_ray(const RayPacket& packet, std::size_t lane);
+void store(HitPacket& hits, std::size_t lane, const LaneHit& hit);
+
+using LaneFlags = std::array<std::int32_t, packet_size>; ///< -1 where it holds, as Embree wants it
+
+/// Bit k is set where flag k is.
+std::uint32_t bits_of(const LaneFlags& flags);
+
+/// The lanes that are rays: below the count, finite, with a direction and a length.
+LaneFlags traceable_lanes(const RayPacket& packet);
+
+/// The packet with its origins moved off the planes they leave, towards the side their ray goes to.
+RayPacket lifted_rays(const FrameGeometry& geometry, const RayPacket& packet);
+
+/// The same with the ends of the legs moved off the planes they arrive at, towards the side they come from.
+RayPacket lifted_legs(const FrameGeometry& geometry, const RayPacket& packet);
+
+struct Doubts {
+  std::uint32_t careful = 0; ///< lanes to be traced again one by one
+  std::uint32_t through = 0; ///< lanes that met a transparent back
+};
+
+/// Which lanes a bare query cannot settle: of rays that leave a surface the misses, the hits in the plane they leave and
+/// those that touch their origin; and backs.
+Doubts find_doubts(const FrameGeometry& geometry, const RayPacket& packet, const HitPacket& hits,
+                   const LaneFlags& valid, const LaneFlags& touching, Backs backs);
+
+} // namespace meninas
