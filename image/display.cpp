@@ -63,8 +63,9 @@ std::vector<std::uint8_t> display_codes(const Image& picture, double exposure) {
 // whose counts are integers. A factor of 2^k moves every pixel by exactly 16 k bins, and everything below depends only
 // on differences between bins: that makes the result exactly covariant, and the same in any order of the pixels.
 //
-//   content   the pixels of luminance above 0 and within 16 stops of the 99.5th percentile. The black around a scene
-//             says nothing about its exposure; neither does what is 65536 times darker than the picture's bright parts.
+//   content   the pixels of luminance above 0 and within 20 stops of the 99.5th percentile. The black around a scene
+//             says nothing about its exposure. Neither does what is a million times darker than the bright parts: a
+//             lamp that fills more than 0.5 % of a view lights what is around it far better than that.
 //   middle    the mean log2 luminance between the 40th and the 90th percentile of the content. Lamps and windows are
 //             seen directly, far above what they light, and deep shadow far below: outside the two percentiles how
 //             far does not matter, while a mean over everything would follow them.
@@ -77,6 +78,7 @@ std::vector<std::uint8_t> display_codes(const Image& picture, double exposure) {
 namespace {
 
 constexpr int bins_per_stop = 16;
+constexpr int black_stops = 20;
 constexpr double key = 0.22;
 constexpr double most_relief = 1.0;
 
@@ -143,7 +145,7 @@ double automatic_exposure(const Image& picture) {
 
   // Leave out what is black beside the bright parts.
   const int bright = percentile_bin(histogram, 0.995);
-  for (int bin = 0; bin < bright - 16 * bins_per_stop; ++bin) {
+  for (int bin = 0; bin < bright - black_stops * bins_per_stop; ++bin) {
     histogram.total -= histogram.counts[static_cast<std::size_t>(bin)];
     histogram.counts[static_cast<std::size_t>(bin)] = 0;
   }
