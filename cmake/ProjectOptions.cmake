@@ -30,6 +30,8 @@ add_compile_options(-ffp-contract=off)
 if(MENINAS_SANITIZE)
   add_compile_options(-fsanitize=${MENINAS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${MENINAS_SANITIZE})
+  # GCC cannot follow initialisation through the instrumented code and warns about the standard library itself.
+  add_compile_options(-Wno-maybe-uninitialized)
 endif()
 
 add_library(meninas_options INTERFACE)

@@ -6,7 +6,6 @@
 #include <array>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <string_view>
 
@@ -118,9 +117,17 @@ std::vector<SourceFile> read_source_tree(const std::filesystem::path& root) {
 }
 
 std::string included_path(const std::string& line) {
-  static const std::regex include(R"re(^\s*#\s*include\s*(["<])([^">]+)[">].*$)re");
-  std::smatch parts;
-  return std::regex_match(line, parts, include) ? parts[2].str() : "";
+  std::string_view rest = line;
+  const auto skip = [&rest](std::string_view expected) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    const bool found = rest.starts_with(expected);
+    rest.remove_prefix(found ? expected.size() : 0);
+    return found;
+  };
+  if (!skip("#") || !skip("include") || !(skip("\"") || skip("<"))) {
+    return "";
+  }
+  return std::string(rest.substr(0, rest.find_first_of("\">")));
 }
 
 std::vector<std::string> include_direction_breaches(const std::vector<SourceFile>& tree) {
