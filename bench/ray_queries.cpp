@@ -1,0 +1,317 @@
+// Rates of the ray queries beside bare Embree loops over the same rays: millions of rays a second, and the share of
+// the bare robust loop that is reached.
+//
+// The bare loops do what any renderer must (fill a packet of sixteen, trace it, look at the result) with an epsilon instead
+// of planes, and know no sides. Every figure is the best of several runs on all cores.
+#include "scenes/frame_geometry.h"
+#include "scenes/sampling.h"
+#include "tests/support/scene_builder.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <functional>
+
+using namespace meninas;
+
+namespace {
+
+constexpr std::size_t packet_count = 1 << 15;
+constexpr int repetitions = 12;
+constexpr float bare_epsilon = 1e-5F;
+
+enum class Query { closest, occlusion };
+
+struct Workload {
+  std::string name;
+  Query query = Query::closest;
+  Coherence coherence = Coherence::incoherent;
+  Backs backs = Backs::absorb;
+  std::vector<RayPacket> packets;
+};
+
+struct BareScene {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+};
+
+// --- Scenes
+
+Scene cornell_room() {
+  Scene scene;
+  std::array<Material, 6> walls;
+  walls.fill(test::diffuse(0.7));
+  test::add_room(scene, {-1, -1, -1}, {1, 1, 1}, walls);
+  test::add_box(scene, "short", {-0.6, -1, -0.1}, {-0.1, -0.5, 0.5}, test::diffuse(0.7));
+  test::add_box(scene, "tall", {0.1, -1, -0.6}, {0.6, 0.2, -0.1}, test::diffuse(0.7));
+  // The bottoms of the boxes lie on the floor, where no light comes.
+  std::erase_if(scene.triangles, [&](const Triangle& t) { return scene.nodes[index(t.node)].name.ends_with(".y0"); });
+  test::add_box(scene, "lamp", {-0.3, 0.97, -0.3}, {0.3, 0.99, 0.3}, test::diffuse(0.0, 10.0));
+  return scene;
+}
+
+// A room whose floor is a relief of many small triangles
+Scene relief_room() {
+  auto scene = cornell_room();
+  constexpr std::uint32_t cells = 500;
+  const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+  const auto material = scene.triangles.front().material;
+  for (std::uint32_t j = 0; j <= cells; ++j)
+    for (std::uint32_t i = 0; i <= cells; ++i) {
+      const auto x = 2.0 * i / cells - 1.0;
+      const auto z = 2.0 * j / cells - 1.0;
+      scene.vertices.push_back({{x, -0.8 + 0.1 * std::sin(19.0 * x) * std::cos(17.0 * z), z}, {}});
+    }
+  for (std::uint32_t j = 0; j < cells; ++j)
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      const auto a = first + j * (cells + 1) + i;
+      const auto b = a + cells + 1;
+      scene.triangles.push_back({{VertexId{a}, VertexId{b}, VertexId{b + 1}}, material, NodeId{0}});
+      scene.triangles.push_back({{VertexId{a}, VertexId{b + 1}, VertexId{a + 1}}, material, NodeId{0}});
+    }
+  return scene;
+}
+
+// --- Rays
+
+void set_ray(RayPacket& packet, std::size_t k, const Point3& origin, const Vec3& direction) {
+  packet.origin_x[k] = static_cast<float>(origin.x);
+  packet.origin_y[k] = static_cast<float>(origin.y);
+  packet.origin_z[k] = static_cast<float>(origin.z);
+  packet.direction_x[k] = static_cast<float>(direction.x);
+  packet.direction_y[k] = static_cast<float>(direction.y);
+  packet.direction_z[k] = static_cast<float>(direction.z);
+}
+
+RayPacket empty_packet(float max_distance) {
+  RayPacket packet{};
+  packet.count = packet_size;
+  std::fill_n(packet.max_distance, packet_size, max_distance);
+  std::fill_n(packet.leaving, packet_size, index(none<PlaneId>));
+  std::fill_n(packet.arriving, packet_size, index(none<PlaneId>));
+  return packet;
+}
+
+// Tiles of 4 x 4 pixels of a view into the room, from inside or through the back of its front wall
+Workload camera_rays(const std::string& name, double eye_z) {
+  Workload workload{name, Query::closest, Coherence::coherent, Backs::transparent, {}};
+  const std::uint32_t tiles = 1U << (std::bit_width(packet_count) / 2);
+  for (std::uint32_t tile = 0; tile < packet_count; ++tile) {
+    auto packet = empty_packet(std::numeric_limits<float>::infinity());
+    for (std::uint32_t k = 0; k < packet_size; ++k) {
+      const auto x = (4.0 * (tile % tiles) + k % 4) / (4.0 * tiles) - 0.5;
+      const auto y = (4.0 * (tile / tiles) + k / 4) * tiles / (4.0 * packet_count) - 0.5;
+      set_ray(packet, k, {0.0, 0.0, eye_z}, glm::normalize(Vec3(x, y, -0.4 - 0.4 * eye_z)));
+    }
+    workload.packets.push_back(packet);
+  }
+  return workload;
+}
+
+struct SurfacePoint {
+  Point3 position;
+  Direction normal;
+  PlaneId plane;
+};
+
+// Rays start on everything but the lamp.
+std::vector<std::uint32_t> receivers(const Scene& scene) {
+  std::vector<std::uint32_t> triangles;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+    if (!scene.nodes[index(scene.triangles[t].node)].name.starts_with("lamp")) triangles.push_back(t);
+  return triangles;
+}
+
+SurfacePoint surface_point(const FrameGeometry& geometry, std::span<const std::uint32_t> triangles,
+                           std::uint32_t n) {
+  const auto sample = sobol4(n, 17);
+  const auto count = static_cast<double>(triangles.size());
+  const auto triangle = triangles[static_cast<std::size_t>(static_cast<double>(sample[2]) * count)];
+  const auto corners = corners_of(geometry, triangle);
+  const auto root = std::sqrt(static_cast<double>(sample[0]));
+  const auto b = root * static_cast<double>(sample[1]);
+  return {corners[0] + (root - b) * (corners[1] - corners[0]) + b * (corners[2] - corners[0]),
+          glm::normalize(area_vector(corners)), PlaneId{geometry.facts[triangle].plane}};
+}
+
+Workload gather_rays(const FrameGeometry& geometry, const Scene& scene) {
+  const auto triangles = receivers(scene);
+  Workload workload{"cosine gather", Query::closest, Coherence::incoherent, Backs::absorb, {}};
+  for (std::uint32_t n = 0; n < packet_count; ++n) {
+    auto packet = empty_packet(std::numeric_limits<float>::infinity());
+    const auto point = surface_point(geometry, triangles, n);
+    const auto frame = tangent_frame(point.normal);
+    for (std::uint32_t k = 0; k < packet_size; ++k) {
+      const auto sample = sobol4(k, n);
+      const auto d = Vec3(cosine_hemisphere(sample[0], sample[1]));
+      set_ray(packet, k, point.position, d.x * frame.tangent + d.y * frame.bitangent + d.z * point.normal);
+      packet.leaving[k] = index(point.plane);
+    }
+    workload.packets.push_back(packet);
+  }
+  return workload;
+}
+
+// From one point of a surface to sixteen points of the lamp's lower face
+Workload shadow_rays(const RayScene& rays, const Scene& scene, const SurfaceModel& surfaces) {
+  Workload workload{"shadow", Query::occlusion, Coherence::coherent, Backs::absorb, {}};
+  const auto triangles = receivers(scene);
+  const auto& lamp = *std::ranges::find_if(scene.triangles, [&](const Triangle& t) {
+    return scene.nodes[index(t.node)].name == "lamp.y0";
+  });
+  const auto plane = surfaces.plane_of_triangle[static_cast<std::size_t>(&lamp - scene.triangles.data())];
+  for (std::uint32_t n = 0; n < packet_count; ++n) {
+    auto packet = empty_packet(1.0F);
+    const auto point = surface_point(rays.geometry(), triangles, n);
+    for (std::uint32_t k = 0; k < packet_size; ++k) {
+      const auto sample = sobol4(k, n);
+      const auto target = to_frame(rays.frame(), {-0.3 + 0.6 * static_cast<double>(sample[0]), 0.97,
+                                                  -0.3 + 0.6 * static_cast<double>(sample[1])});
+      set_ray(packet, k, point.position, target - point.position);
+      packet.leaving[k] = index(point.plane);
+      packet.arriving[k] = index(plane);
+    }
+    workload.packets.push_back(packet);
+  }
+  return workload;
+}
+
+// --- Loops
+
+BareScene make_bare_scene(const FrameGeometry& geometry, RTCSceneFlags flags) {
+  BareScene bare{rtcNewDevice(nullptr), nullptr};
+  bare.scene = rtcNewScene(bare.device);
+  rtcSetSceneFlags(bare.scene, flags);
+  rtcSetSceneBuildQuality(bare.scene, RTC_BUILD_QUALITY_HIGH);
+  const auto mesh = rtcNewGeometry(bare.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+      mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), geometry.positions.size()));
+  std::ranges::transform(geometry.positions, positions, [](const Point3& x) { return glm::vec3(x); });
+  auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
+      mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, geometry.triangles.size()));
+  std::ranges::copy(geometry.triangles, triangles);
+  rtcCommitGeometry(mesh);
+  rtcAttachGeometry(bare.scene, mesh);
+  rtcReleaseGeometry(mesh);
+  rtcCommitScene(bare.scene);
+  return bare;
+}
+
+void release(const BareScene& bare) {
+  rtcReleaseScene(bare.scene);
+  rtcReleaseDevice(bare.device);
+}
+
+void fill(const RayPacket& packet, float near, float far_share, RTCRay16& ray) {
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    ray.org_x[k] = packet.origin_x[k];
+    ray.org_y[k] = packet.origin_y[k];
+    ray.org_z[k] = packet.origin_z[k];
+    ray.dir_x[k] = packet.direction_x[k];
+    ray.dir_y[k] = packet.direction_y[k];
+    ray.dir_z[k] = packet.direction_z[k];
+    ray.tnear[k] = near;
+    ray.tfar[k] = far_share * packet.max_distance[k];
+    ray.time[k] = 0.0F;
+    ray.mask[k] = ~0U;
+    ray.flags[k] = 0U;
+  }
+}
+
+std::uint32_t bare_packet(const BareScene& bare, const Workload& workload, const RayPacket& packet) {
+  alignas(64) static constexpr int valid[packet_size] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                                         -1, -1, -1, -1, -1, -1, -1, -1};
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  if (workload.coherence == Coherence::coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  std::uint32_t met = 0;
+  if (workload.query == Query::occlusion) {
+    RTCRay16 ray;
+    fill(packet, bare_epsilon, 1.0F - bare_epsilon, ray);
+    rtcOccluded16(valid, bare.scene, &context, &ray);
+    for (std::size_t k = 0; k < packet_size; ++k) met += ray.tfar[k] < 0.0F;
+    return met;
+  }
+  RTCRayHit16 traced;
+  fill(packet, bare_epsilon, 1.0F, traced.ray);
+  std::fill_n(traced.hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
+  rtcIntersect16(valid, bare.scene, &context, &traced);
+  for (std::size_t k = 0; k < packet_size; ++k) met += traced.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
+  return met;
+}
+
+std::uint32_t our_packet(const RayScene& rays, const Workload& workload, const RayPacket& packet) {
+  if (workload.query == Query::occlusion)
+    return static_cast<std::uint32_t>(std::popcount(occluded(rays, packet, workload.coherence)));
+  HitPacket hits;
+  closest_hits(rays, packet, hits, workload.backs, workload.coherence);
+  std::uint32_t met = 0;
+  for (const auto triangle : hits.triangle) met += triangle != index(none<TriangleId>);
+  return met;
+}
+
+struct Rate {
+  double million_per_second = 0.0;
+  double share_met = 0.0;
+};
+
+using Loop = std::function<std::uint32_t(const RayPacket&)>;
+
+std::uint64_t run(const std::vector<RayPacket>& packets, const Loop& trace) {
+  std::atomic<std::uint64_t> met = 0;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets.size(), 256), [&](const auto& range) {
+    std::uint64_t sum = 0;
+    for (auto n = range.begin(); n != range.end(); ++n) sum += trace(packets[n]);
+    met += sum;
+  });
+  return met;
+}
+
+// The loops take turns, so that a busy machine slows all of them alike.
+std::array<Rate, 3> measure(const std::vector<RayPacket>& packets, const std::array<Loop, 3>& loops) {
+  std::array<Rate, 3> rates{};
+  const auto count = static_cast<double>(packets.size() * packet_size);
+  for (int repetition = 0; repetition < repetitions; ++repetition)
+    for (std::size_t k = 0; k < loops.size(); ++k) {
+      const auto start = std::chrono::steady_clock::now();
+      const auto met = run(packets, loops[k]);
+      const auto seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      rates[k].million_per_second = std::max(rates[k].million_per_second, count / seconds / 1e6);
+      rates[k].share_met = static_cast<double>(met) / count;
+    }
+  return rates;
+}
+
+void report(const std::string& name, const Scene& scene) {
+  const auto surfaces = find_surfaces(scene);
+  const auto rays = make_ray_scene(scene, surfaces);
+  const auto robust = make_bare_scene(rays.geometry(), RTC_SCENE_FLAG_ROBUST);
+  const auto fast = make_bare_scene(rays.geometry(), RTC_SCENE_FLAG_NONE);
+  fmt::print("\n{}, {} triangles: million rays/s\n{:<22}{:>10}{:>10}{:>10}{:>10}{:>10}{:>14}\n", name,
+             scene.triangles.size(), "", "default", "robust", "ours", "share", "met", "met (bare)");
+  for (const auto& workload : {camera_rays("camera inside", 0.9), camera_rays("camera through back", 3.0),
+                               gather_rays(rays.geometry(), scene), shadow_rays(rays, scene, surfaces)}) {
+    const auto [plain, bare, ours] =
+        measure(workload.packets, {[&](const RayPacket& p) { return bare_packet(fast, workload, p); },
+                                   [&](const RayPacket& p) { return bare_packet(robust, workload, p); },
+                                   [&](const RayPacket& p) { return our_packet(rays, workload, p); }});
+    fmt::print("{:<22}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.2f}{:>10.4f}{:>14.4f}\n", workload.name,
+               plain.million_per_second, bare.million_per_second, ours.million_per_second,
+               ours.million_per_second / bare.million_per_second, ours.share_met, bare.share_met);
+  }
+  release(robust);
+  release(fast);
+}
+
+} // namespace
+
+int main() {
+  report("room", cornell_room());
+  report("room with a relief", relief_room());
+}
