@@ -11,7 +11,8 @@ namespace {
 std::array<Vec3, 8> corner_offsets(const Vec3& half_size) {
   std::array<Vec3, 8> offsets;
   for (std::size_t i = 0; i < offsets.size(); ++i) {
-    offsets[i] = {(i & 1) != 0 ? half_size.x : -half_size.x, (i & 2) != 0 ? half_size.y : -half_size.y,
+    offsets[i] = {(i & 1) != 0 ? half_size.x : -half_size.x,
+                  (i & 2) != 0 ? half_size.y : -half_size.y,
                   (i & 4) != 0 ? half_size.z : -half_size.z};
   }
   return offsets;
@@ -44,13 +45,16 @@ Camera default_camera(const Bounds& bounds) {
   camera.right = glm::normalize(glm::cross(camera.forward, Vec3(0.0, 1.0, 0.0)));
   camera.up = glm::cross(camera.right, camera.forward);
 
-  const bool empty = !(bounds.low.x <= bounds.high.x && bounds.low.y <= bounds.high.y && bounds.low.z <= bounds.high.z);
+  const bool empty = !(bounds.low.x <= bounds.high.x && bounds.low.y <= bounds.high.y &&
+                       bounds.low.z <= bounds.high.z);
   const Point3 centre = empty ? Point3(0.0) : 0.5 * bounds.low + 0.5 * bounds.high;
   const Vec3 half_size = empty ? Vec3(1.0) : 0.5 * bounds.high - 0.5 * bounds.low;
 
-  // A corner at height h and depth z before the centre is in a picture of half angle a when |h| <= (d + z) tan a.
+  // A corner at height h and depth z before the centre is in a picture of half angle a when |h| <=
+  // (d + z) tan a.
   const double slope = std::tan(0.5 * camera.vertical_fov) / margin;
-  // Farther than the bounding sphere the eye is outside; a single point is looked at from a metre away.
+  // Farther than the bounding sphere the eye is outside; a single point is looked at from a metre
+  // away.
   double distance = margin * glm::length(half_size);
   for (const Vec3& corner : corner_offsets(half_size)) {
     const double off_axis =

@@ -19,7 +19,8 @@ std::string folded(std::string_view name) {
   return result;
 }
 
-/// Insertions, deletions, replacements and swaps of neighbours that turn a into b (optimal string alignment).
+/// Insertions, deletions, replacements and swaps of neighbours that turn a into b (optimal string
+/// alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) {

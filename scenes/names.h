@@ -8,7 +8,8 @@
 
 namespace meninas {
 
-/// The known name that is nearest to `name` by edit distance, case aside; nothing when none is near.
+/// The known name that is nearest to `name` by edit distance, case aside; nothing when none is
+/// near.
 std::optional<std::string> nearest_name(std::string_view name, std::span<const std::string> known);
 
 } // namespace meninas

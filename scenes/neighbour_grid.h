@@ -1,11 +1,11 @@
-// A hash grid that lists the points near a point, in expected constant time. Deterministic: points come in the order they
-// were added, per cell.
+// A hash grid that lists the points near a point, in expected constant time. Deterministic: points
+// come in the order they were added, per cell.
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace meninas {
@@ -15,35 +15,39 @@ class NeighbourGrid {
 public:
   using Point = std::array<double, Dimensions>;
 
-  /// Finds everything within `radius` along each axis. Cells of eight radii make most look-ups touch one cell.
-  explicit NeighbourGrid(double radius) : radius_(radius), cell_(8.0 * radius) {}
-
-  void add(const Point& point, std::uint32_t item) {
-    Cell& cell = cells_.try_emplace(key_of(cell_of(point))).first->second;
-    const auto entry = static_cast<std::uint32_t>(items_.size());
-    items_.push_back({item, end});
-    (cell.first == end ? cell.first : items_[cell.last].next) = entry;
-    cell.last = entry;
+  /// Cells of a few look-up radii make most look-ups touch few cells with few points.
+  NeighbourGrid(double cell, std::size_t expected_items)
+      : cell_(cell), lists_(std::bit_ceil(2 * expected_items + 1)) {
+    items_.reserve(expected_items);
   }
 
-  /// Calls visit(item) for all items near the point, and maybe some farther ones, until it returns false.
+  void add(const Point& point, std::uint32_t item) {
+    List& list = lists_[slot_of(cell_of(point))];
+    const auto entry = static_cast<std::uint32_t>(items_.size());
+    items_.push_back({point, item, end});
+    (list.first == end ? list.first : items_[list.last].next) = entry;
+    list.last = entry;
+  }
+
+  /// Calls visit(item) for all items within `radius` of the point along each axis until it returns
+  /// false, maybe twice for one item.
   template <typename Visit>
-  void visit_near(const Point& point, Visit&& visit) const {
+  void visit_near(const Point& point, double radius, Visit&& visit) const {
     Point low = point;
     Point high = point;
     for (std::size_t axis = 0; axis < Dimensions; ++axis) {
-      low[axis] -= radius_;
-      high[axis] += radius_;
+      low[axis] -= radius;
+      high[axis] += radius;
     }
     const Coordinates first = cell_of(low);
     const Coordinates last = cell_of(high);
     Coordinates at = first;
     while (true) {
-      if (!visit_cell(at, visit)) {
+      if (!visit_cell(at, low, high, visit)) {
         return;
       }
       std::size_t axis = 0;
-      while (axis < Dimensions && at[axis] == last[axis]) {
+      while (axis < Dimensions && !(at[axis] < last[axis])) {
         at[axis] = first[axis];
         ++axis;
       }
@@ -57,11 +61,12 @@ public:
 private:
   using Coordinates = std::array<double, Dimensions>;
   static constexpr std::uint32_t end = 0xffffffffU;
-  struct Cell {
+  struct List {
     std::uint32_t first = end;
     std::uint32_t last = end;
   };
   struct Item {
+    Point point;
     std::uint32_t item;
     std::uint32_t next;
   };
@@ -74,33 +79,35 @@ private:
     return cell;
   }
 
-  /// Two cells of one key only share their lists, which visitors have to bear anyway.
-  static std::uint64_t key_of(const Coordinates& cell) {
+  /// Cells may share a list; what does not belong to a look-up is filtered out there.
+  std::size_t slot_of(const Coordinates& cell) const {
     std::uint64_t key = 0x9e3779b97f4a7c15ULL;
     for (const double x : cell) {
-      key = (key ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(x))) * 0xbf58476d1ce4e5b9ULL;
+      key = (key ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0xbf58476d1ce4e5b9ULL;
       key ^= key >> 29;
     }
-    return key;
+    return (key ^ key >> 32) & (lists_.size() - 1);
   }
 
   template <typename Visit>
-  bool visit_cell(const Coordinates& cell, Visit& visit) const {
-    const auto found = cells_.find(key_of(cell));
-    if (found == cells_.end()) {
-      return true;
-    }
-    for (std::uint32_t entry = found->second.first; entry != end; entry = items_[entry].next) {
-      if (!visit(items_[entry].item)) {
+  bool visit_cell(const Coordinates& cell, const Point& low, const Point& high,
+                  Visit& visit) const {
+    for (std::uint32_t entry = lists_[slot_of(cell)].first; entry != end;
+         entry = items_[entry].next) {
+      const Item& candidate = items_[entry];
+      bool near = true;
+      for (std::size_t axis = 0; axis < Dimensions; ++axis) {
+        near = near && low[axis] <= candidate.point[axis] && candidate.point[axis] <= high[axis];
+      }
+      if (near && !visit(candidate.item)) {
         return false;
       }
     }
     return true;
   }
 
-  double radius_;
   double cell_;
-  std::unordered_map<std::uint64_t, Cell> cells_;
+  std::vector<List> lists_;
   std::vector<Item> items_;
 };
 

@@ -26,15 +26,16 @@ Vec2 triangle_uv_at(const Patch& patch, const Point3& x) {
     return Vec2(0.0);
   }
   const Vec3 h = x - patch.corners[0];
-  return clamped_to_triangle(Vec2(glm::dot(glm::cross(h, along_v), normal), glm::dot(glm::cross(along_u, h), normal)) /
-                             squared);
+  return clamped_to_triangle(
+      Vec2(glm::dot(glm::cross(h, along_v), normal), glm::dot(glm::cross(along_u, h), normal)) /
+      squared);
 }
 
 /// The root of constant + linear t + quadratic t^2 in [0, 1] at which it rises, clamped.
 ///
 /// Its slope there is the square root of the discriminant.
-/// Of the two forms of the root each is free of cancellation where the other is not, and neither divides by a vanishing
-/// quadratic term.
+/// Of the two forms of the root each is free of cancellation where the other is not, and neither
+/// divides by a vanishing quadratic term.
 double rising_root(double constant, double linear, double quadratic) {
   if (!(constant < 0.0)) {
     return 0.0;
@@ -43,11 +44,13 @@ double rising_root(double constant, double linear, double quadratic) {
     return 1.0;
   }
   const double slope = std::sqrt(std::max(0.0, linear * linear - 4.0 * constant * quadratic));
-  const double root = linear >= 0.0 ? -2.0 * constant / (linear + slope) : (slope - linear) / (2.0 * quadratic);
+  const double root =
+      linear >= 0.0 ? -2.0 * constant / (linear + slope) : (slope - linear) / (2.0 * quadratic);
   return std::clamp(root, 0.0, 1.0);
 }
 
-/// A quad p(s, t) = corner + s base + t side + s t widening, seen with `base` to `side` counter-clockwise about the normal.
+/// A quad p(s, t) = corner + s base + t side + s t widening, seen with `base` to `side`
+/// counter-clockwise about the normal.
 struct BilinearFrame {
   Vec3 base;
   Vec3 side;
@@ -55,12 +58,16 @@ struct BilinearFrame {
   Direction normal;
 };
 
-/// (s, t) of the point at h from the corner: t first, by the line of constant t through the point, then s along that line.
+/// (s, t) of the point at h from the corner: t first, by the line of constant t through the point,
+/// then s along that line.
 ///
-/// f(t) = cross(h - t side, base + t widening) is negative where the line passes below the point and positive where it passes
-/// above, so in a convex quad it has one root in [0, 1], at which it rises.
+/// f(t) = cross(h - t side, base + t widening) is negative where the line passes below the point
+/// and positive where it passes above, so in a convex quad it has one root in [0, 1], at which it
+/// rises.
 Vec2 solve_bilinear(const BilinearFrame& q, const Vec3& h) {
-  const auto cross = [&](const Vec3& a, const Vec3& b) { return glm::dot(q.normal, glm::cross(a, b)); };
+  const auto cross = [&](const Vec3& a, const Vec3& b) {
+    return glm::dot(q.normal, glm::cross(a, b));
+  };
   const double t = rising_root(cross(h, q.base), cross(h, q.widening) - cross(q.side, q.base),
                                -cross(q.side, q.widening));
   const Vec3 line = q.base + t * q.widening;
@@ -83,7 +90,8 @@ Vec2 quad_uv_at(const Patch& patch, const Point3& x) {
   const Vec3 side = p[3] - p[0];
   const Vec3 widening = (p[0] - p[1]) + (p[2] - p[3]);
   const Vec3 h = x - p[0];
-  // Lines that shrink to a point near one end of the quad say little there, so the more even ones are looked for.
+  // Lines that shrink to a point near one end of the quad say little there, so the more even ones
+  // are looked for.
   if (evenness(base, p[2] - p[3]) >= evenness(side, p[2] - p[1])) {
     return solve_bilinear({base, side, widening, normal}, h);
   }
@@ -114,7 +122,8 @@ Vec2 patch_uv(const SurfaceModel& model, TriangleId triangle, Vec2 barycentric) 
     const Vec2 inside = glm::clamp(blend(uv[0], uv[1], uv[2]), Vec2(0.0), Vec2(1.0));
     return patch.corner_count == 3 ? clamped_to_triangle(inside) : inside;
   }
-  return uv_at(patch, blend(point_at(patch, uv[0]), point_at(patch, uv[1]), point_at(patch, uv[2])));
+  return uv_at(patch,
+               blend(point_at(patch, uv[0]), point_at(patch, uv[1]), point_at(patch, uv[2])));
 }
 
 Vec2 uv_at(const Patch& patch, const Point3& x) {

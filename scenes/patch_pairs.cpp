@@ -10,10 +10,12 @@
 namespace meninas {
 namespace {
 
-/// Sine of the least turn at a corner of a strictly convex quad; below it three corners are nearly in a line.
+/// Sine of the least turn at a corner of a strictly convex quad; below it three corners are nearly
+/// in a line.
 constexpr double least_turn = 1e-3;
 
-/// Steps of |cosine| in which shapes differ: rounding must not decide between quads that are equal by construction.
+/// Steps of |cosine| in which shapes differ: rounding must not decide between quads that are equal
+/// by construction.
 constexpr double quality_steps = 1000.0;
 
 /// Partners that are tried across one edge: more of them are duplicates of one another.
@@ -25,8 +27,10 @@ struct Candidate {
   QuadPair pair;
 };
 
-/// The largest |cosine| at a corner of the quad, nothing when it is not strictly convex about the normal.
-std::optional<double> deviation_from_rectangle(const std::array<Point3, 4>& quad, const Direction& normal) {
+/// The largest |cosine| at a corner of the quad, nothing when it is not strictly convex about the
+/// normal.
+std::optional<double> deviation_from_rectangle(const std::array<Point3, 4>& quad,
+                                               const Direction& normal) {
   double largest = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec3 in = quad[k] - quad[(k + 3) % 4];
@@ -40,7 +44,8 @@ std::optional<double> deviation_from_rectangle(const std::array<Point3, 4>& quad
   return largest;
 }
 
-/// The quad of the triangles on both sides of an edge: apex of one, start of the edge, apex of the other, end.
+/// The quad of the triangles on both sides of an edge: apex of one, start of the edge, apex of the
+/// other, end.
 Candidate join(const Scene& scene, EdgeUse a, EdgeUse b) {
   if (b.triangle < a.triangle) {
     std::swap(a, b);
@@ -52,7 +57,8 @@ Candidate join(const Scene& scene, EdgeUse a, EdgeUse b) {
   QuadPair& pair = candidate.pair;
   pair.first = a.triangle;
   pair.second = b.triangle;
-  // Where the two triangles have vertices of their own at a shared corner, the earlier one stands for it.
+  // Where the two triangles have vertices of their own at a shared corner, the earlier one stands
+  // for it.
   pair.vertices = {vertex(a, 2), std::min(vertex(a, 0), vertex(b, 1)), vertex(b, 2),
                    std::min(vertex(a, 1), vertex(b, 0))};
   // The earliest vertex begins the quad, so that it does not matter which diagonal cut it.
@@ -63,8 +69,9 @@ Candidate join(const Scene& scene, EdgeUse a, EdgeUse b) {
   return candidate;
 }
 
-std::vector<Candidate> find_candidates(const Scene& scene, const std::vector<Region>& regions,
-                                       const std::vector<std::uint32_t>& region_of, const Topology& topology) {
+std::vector<Candidate> find_candidates(const Scene& scene, const Regions& regions,
+                                       const std::vector<std::uint32_t>& region_of,
+                                       const Topology& topology) {
   std::vector<Candidate> candidates;
   for (std::uint32_t edge = 0; edge + 1 < topology.first_use.size(); ++edge) {
     const auto uses = uses_of(topology, edge);
@@ -82,7 +89,8 @@ std::vector<Candidate> find_candidates(const Scene& scene, const std::vector<Reg
         for (std::size_t k = 0; k < 4; ++k) {
           quad[k] = position(scene, candidate.pair.vertices[k]);
         }
-        if (const auto deviation = deviation_from_rectangle(quad, regions[region_of[a]].plane.normal)) {
+        if (const auto deviation =
+                deviation_from_rectangle(quad, regions.regions[region_of[a]].plane.normal)) {
           candidate.deviation = static_cast<int>(std::lround(quality_steps * *deviation));
           candidates.push_back(candidate);
         }
@@ -94,20 +102,22 @@ std::vector<Candidate> find_candidates(const Scene& scene, const std::vector<Reg
 
 } // namespace
 
-std::vector<QuadPair> pair_triangles(const Scene& scene, const std::vector<Region>& regions,
+std::vector<QuadPair> pair_triangles(const Scene& scene, const Regions& regions,
                                      const Topology& topology) {
   std::vector<std::uint32_t> region_of(scene.triangles.size());
-  for (std::size_t r = 0; r < regions.size(); ++r) {
-    for (const TriangleId triangle : regions[r].triangles) {
+  for (std::size_t r = 0; r < regions.regions.size(); ++r) {
+    for (const TriangleId triangle : triangles_of(regions, regions.regions[r])) {
       region_of[index(triangle)] = static_cast<std::uint32_t>(r);
     }
   }
   auto candidates = find_candidates(scene, regions, region_of, topology);
-  // Ties by vertices do not depend on the order of the triangles; duplicates are left to their indices.
-  tbb::parallel_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.deviation, a.sorted_vertices, a.pair.first, a.pair.second) <
-           std::tie(b.deviation, b.sorted_vertices, b.pair.first, b.pair.second);
-  });
+  // Ties by vertices do not depend on the order of the triangles; duplicates are left to their
+  // indices.
+  tbb::parallel_sort(
+      candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return std::tie(a.deviation, a.sorted_vertices, a.pair.first, a.pair.second) <
+               std::tie(b.deviation, b.sorted_vertices, b.pair.first, b.pair.second);
+      });
   std::vector<std::uint8_t> paired(scene.triangles.size(), 0);
   std::vector<QuadPair> pairs;
   for (const Candidate& candidate : candidates) {
@@ -118,7 +128,8 @@ std::vector<QuadPair> pair_triangles(const Scene& scene, const std::vector<Regio
       pairs.push_back(candidate.pair);
     }
   }
-  std::sort(pairs.begin(), pairs.end(), [](const QuadPair& a, const QuadPair& b) { return a.first < b.first; });
+  std::sort(pairs.begin(), pairs.end(),
+            [](const QuadPair& a, const QuadPair& b) { return a.first < b.first; });
   return pairs;
 }
 

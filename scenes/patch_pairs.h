@@ -13,9 +13,10 @@ struct QuadPair {
   std::array<VertexId, 4> vertices{};
 };
 
-/// Disjoint pairs of triangles of one node and one region that share an edge and form a strictly convex quad, taken
-/// greedily, those nearest to a rectangle first; ordered by their first triangles.
-std::vector<QuadPair> pair_triangles(const Scene& scene, const std::vector<Region>& regions,
+/// Disjoint pairs of triangles of one node and one region that share an edge and form a strictly
+/// convex quad, taken greedily, those nearest to a rectangle first; ordered by their first
+/// triangles.
+std::vector<QuadPair> pair_triangles(const Scene& scene, const Regions& regions,
                                      const Topology& topology);
 
 } // namespace meninas

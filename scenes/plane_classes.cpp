@@ -1,5 +1,5 @@
-// Plane classes, in two steps: regions are gathered around the widest one whose plane they may share, then the gathering
-// is kept as far as one plane really holds all their vertices.
+// Plane classes, in two steps: regions are gathered around the widest one whose plane they may
+// share, then the gathering is kept as far as one plane really holds all their vertices.
 #include "scenes/neighbour_grid.h"
 #include "scenes/regions.h"
 
@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <tuple>
 
 namespace meninas {
@@ -21,20 +23,40 @@ struct Piece {
   double uncertainty = 0.0; ///< of its normal, in radians
 };
 
+/// The plane of the first piece of a gathering, and how well that piece knows it.
+struct Owner {
+  Plane plane;
+  Point3 centre;
+  double uncertainty;
+};
+
 /// Fixed, oblique to the planes people build: tells the two orientations of a plane apart.
 const Direction orientation = glm::normalize(Vec3(0.5309, 0.6713, 0.5171));
 
-/// Planes that are looked at per region: a bound on the time that scenes of very many nearly equal planes take.
-constexpr int most_candidates = 256;
+/// Planes that are looked at per region: a bound on the time that scenes of very many nearly equal
+/// planes take.
+constexpr int most_candidates = 64;
+
+/// Pieces that know their normals less well than this, in radians, say nothing about the planes of
+/// others.
+constexpr double vaguest = 0.1;
+
+/// Normals of doubles are not more certain than this.
+constexpr double finest = 1e-15;
+
+/// How far the keys of two pieces of one plane may be apart: the normals of both err by the
+/// uncertainty, the offsets from the middle of the scene by that times up to two reaches each.
+double look_up_radius(double uncertainty) { return 4.0 * std::max(uncertainty, finest); }
 
 class PlaneClassifier {
 public:
-  PlaneClassifier(const Scene& scene, const std::vector<Region>& regions, double tolerance)
+  PlaneClassifier(const Scene& scene, const Regions& regions, double tolerance)
       : scene_(scene), regions_(regions), tolerance_(tolerance) {
     const Bounds bounds = bounds_of(scene);
     middle_ = 0.5 * bounds.low + 0.5 * bounds.high;
     reach_ = 0.5 * glm::distance(bounds.low, bounds.high);
-    for (std::size_t r = 0; r < regions.size(); ++r) {
+    pieces_.reserve(regions.regions.size());
+    for (std::size_t r = 0; r < regions.regions.size(); ++r) {
       pieces_.push_back(piece_of(static_cast<std::uint32_t>(r)));
     }
     tbb::parallel_sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
@@ -42,34 +64,63 @@ public:
     });
   }
 
-  PlaneClasses classify() {
-    gather();
+  PlaneClasses classify() const {
+    const std::vector<std::uint32_t> gathering = gather();
+    // Pieces by gathering, the widest of each first as before.
+    std::vector<std::uint32_t> first(gathering.size() + 1, 0);
+    for (const std::uint32_t g : gathering) {
+      ++first[g + 1];
+    }
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::uint32_t> members(gathering.size());
+    std::vector<std::uint32_t> next = first;
+    for (std::uint32_t piece = 0; piece < gathering.size(); ++piece) {
+      members[next[gathering[piece]]++] = piece;
+    }
     PlaneClasses classes;
-    classes.of_region.assign(regions_.size(), none<PlaneId>);
-    for (const auto& members : gathered_) {
-      settle(members, classes);
+    classes.of_region.assign(regions_.regions.size(), none<PlaneId>);
+    for (std::size_t g = 0; g < gathering.size() && first[g] < first[g + 1]; ++g) {
+      settle(std::span(members).subspan(first[g], first[g + 1] - first[g]), classes);
     }
     return classes;
   }
 
 private:
   using Key = NeighbourGrid<4>::Point;
+  using Members = std::span<const std::uint32_t>; ///< pieces
 
-  Piece piece_of(std::uint32_t r) const {
-    Bounds bounds;
-    for (const TriangleId triangle : regions_[r].triangles) {
+  const Region& region_of(std::uint32_t piece) const {
+    return regions_.regions[pieces_[piece].region];
+  }
+
+  template <typename Test>
+  bool every_corner(const Region& region, Test&& test) const {
+    for (const TriangleId triangle : triangles_of(regions_, region)) {
       for (const Point3& corner : corners(scene_, triangle)) {
-        bounds.low = glm::min(bounds.low, corner);
-        bounds.high = glm::max(bounds.high, corner);
+        if (!test(corner)) {
+          return false;
+        }
       }
     }
+    return true;
+  }
+
+  Piece piece_of(std::uint32_t r) const {
+    const Region& region = regions_.regions[r];
+    Bounds bounds;
+    every_corner(region, [&](const Point3& corner) {
+      bounds.low = glm::min(bounds.low, corner);
+      bounds.high = glm::max(bounds.high, corner);
+      return true;
+    });
     const double length = glm::distance(bounds.low, bounds.high);
-    const double width = length > 0.0 ? regions_[r].area / length : 0.0;
+    const double width = length > 0.0 ? region.area / length : 0.0;
     const double uncertainty = width > tolerance_ ? tolerance_ / width : 1.0;
     return {r, 0.5 * bounds.low + 0.5 * bounds.high, width, uncertainty};
   }
 
-  /// Normal and offset from the middle of the scene, the offset in units of its reach: errors of both are alike.
+  /// Normal and offset from the middle of the scene, the offset in units of its reach: errors of
+  /// both are alike.
   Key key_of(const Plane& plane, double sign) const {
     const Direction n = sign * plane.normal;
     return {n.x, n.y, n.z, sign * signed_distance(plane, middle_) / std::max(reach_, tolerance_)};
@@ -79,96 +130,94 @@ private:
     return glm::dot(plane.normal, orientation) < 0.0 ? -1.0 : 1.0;
   }
 
-  /// The region may lie in the plane, given what the piece it was taken from knows of it there.
-  bool may_share(const Piece& owner, std::uint32_t r) const {
-    const Plane& plane = regions_[owner.region].plane;
-    for (const TriangleId triangle : regions_[r].triangles) {
-      for (const Point3& corner : corners(scene_, triangle)) {
-        const double slack = tolerance_ + owner.uncertainty * glm::distance(corner, owner.centre);
-        if (!(std::abs(signed_distance(plane, corner)) <= slack)) {
-          return false;
-        }
-      }
-    }
-    return true;
+  /// The region may lie in the plane, given what its owner knows of it there.
+  bool may_share(const Owner& owner, const Region& region) const {
+    return every_corner(region, [&](const Point3& corner) {
+      const double slack = tolerance_ + owner.uncertainty * glm::distance(corner, owner.centre);
+      return std::abs(signed_distance(owner.plane, corner)) <= slack;
+    });
   }
 
-  /// Pieces from the most to the least certain, in levels of alike uncertainty, each with a grid as coarse as it needs.
-  void gather() {
-    std::vector<std::uint32_t> owners; // per gathering, the piece that began it
-    std::size_t next = 0;
+  bool holds(const Plane& plane, const Region& region) const {
+    return every_corner(region, [&](const Point3& corner) {
+      return std::abs(signed_distance(plane, corner)) <= tolerance_;
+    });
+  }
+
+  /// The gathering of each piece.
+  ///
+  /// Pieces come from the most to the least certain, in levels of alike uncertainty, each with a
+  /// grid as coarse as it needs.
+  std::vector<std::uint32_t> gather() const {
+    std::vector<std::uint32_t> gathering(pieces_.size());
+    std::vector<Owner> owners;
+    std::uint32_t next = 0;
     while (next < pieces_.size()) {
-      const double coarsest = std::max(16.0 * pieces_[next].uncertainty, 1e-15);
-      // Both planes and their offsets from the middle err by their uncertainty.
-      const double radius = 4.0 * coarsest;
-      NeighbourGrid<4> grid(radius);
+      const double coarsest = std::max(4.0 * pieces_[next].uncertainty, finest);
+      const std::size_t room = owners.size() + pieces_.size() - next;
+      NeighbourGrid<4> grid(4.0 * look_up_radius(coarsest), room);
       for (std::uint32_t g = 0; g < owners.size(); ++g) {
-        add(grid, owners[g], g);
+        add(grid, owners, g);
       }
       for (; next < pieces_.size() && pieces_[next].uncertainty <= coarsest; ++next) {
-        const auto found = find(grid, radius, pieces_[next], owners);
-        if (found != nothing) {
-          gathered_[found].push_back(static_cast<std::uint32_t>(next));
-          continue;
+        const Piece& piece = pieces_[next];
+        gathering[next] = find(grid, piece, owners);
+        if (gathering[next] == nothing) {
+          gathering[next] = static_cast<std::uint32_t>(owners.size());
+          owners.push_back({region_of(next).plane, piece.centre, piece.uncertainty});
+          add(grid, owners, gathering[next]);
         }
-        const auto fresh = static_cast<std::uint32_t>(gathered_.size());
-        owners.push_back(static_cast<std::uint32_t>(next));
-        gathered_.push_back({static_cast<std::uint32_t>(next)});
-        add(grid, owners.back(), fresh);
       }
+    }
+    return gathering;
+  }
+
+  void add(NeighbourGrid<4>& grid, const std::vector<Owner>& owners, std::uint32_t owner) const {
+    const auto& [plane, centre, uncertainty] = owners[owner];
+    if (uncertainty < vaguest) {
+      grid.add(key_of(plane, canonical_sign(plane)), owner);
     }
   }
 
-  void add(NeighbourGrid<4>& grid, std::uint32_t piece, std::uint32_t gathering) const {
-    const Plane& plane = regions_[pieces_[piece].region].plane;
-    grid.add(key_of(plane, canonical_sign(plane)), gathering);
-  }
-
-  std::uint32_t find(const NeighbourGrid<4>& grid, double radius, const Piece& piece,
-                     const std::vector<std::uint32_t>& owners) const {
-    const Plane& plane = regions_[piece.region].plane;
+  std::uint32_t find(const NeighbourGrid<4>& grid, const Piece& piece,
+                     const std::vector<Owner>& owners) const {
     std::uint32_t found = nothing;
+    if (piece.uncertainty >= vaguest) {
+      return found;
+    }
+    const Region& region = regions_.regions[piece.region];
+    const Plane& plane = region.plane;
     int candidates = 0;
-    const auto visit = [&](std::uint32_t gathering) {
-      if (may_share(pieces_[owners[gathering]], piece.region)) {
-        found = gathering;
+    const auto visit = [&](std::uint32_t owner) {
+      if (may_share(owners[owner], region)) {
+        found = owner;
       }
       return found == nothing && ++candidates < most_candidates;
     };
     const double sign = canonical_sign(plane);
-    grid.visit_near(key_of(plane, sign), visit);
+    const double radius = look_up_radius(piece.uncertainty);
+    grid.visit_near(key_of(plane, sign), radius, visit);
     // A plane nearly along the fixed direction may have been filed under its other orientation.
     if (found == nothing && std::abs(glm::dot(plane.normal, orientation)) <= 2.0 * radius) {
-      grid.visit_near(key_of(plane, -sign), visit);
+      grid.visit_near(key_of(plane, -sign), radius, visit);
     }
     return found;
   }
 
-  bool holds(const Plane& plane, std::uint32_t piece) const {
-    for (const TriangleId triangle : regions_[pieces_[piece].region].triangles) {
-      for (const Point3& corner : corners(scene_, triangle)) {
-        if (!(std::abs(signed_distance(plane, corner)) <= tolerance_)) {
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-
-  /// Least squares over all corners: scattered pieces together know their plane better than the widest of them alone.
-  Plane fit(const std::vector<std::uint32_t>& members) const {
-    const Plane& rough = regions_[pieces_[members.front()].region].plane;
+  /// Least squares over all corners: scattered pieces together know their plane better than the
+  /// widest of them alone.
+  Plane fit(Members members) const {
+    const Plane& rough = region_of(members.front()).plane;
     const Point3& origin = pieces_[members.front()].centre;
     Vec3 sum(0.0);
     double count = 0.0;
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     const auto each_corner = [&](auto&& visit) {
       for (const std::uint32_t member : members) {
-        for (const TriangleId triangle : regions_[pieces_[member].region].triangles) {
-          for (const Point3& corner : corners(scene_, triangle)) {
-            visit(corner - origin);
-          }
-        }
+        every_corner(region_of(member), [&](const Point3& corner) {
+          visit(corner - origin);
+          return true;
+        });
       }
     };
     each_corner([&](const Vec3& x) {
@@ -187,41 +236,41 @@ private:
     return {normal, glm::dot(normal, origin) + glm::dot(normal, mean)};
   }
 
-  void settle(const std::vector<std::uint32_t>& members, PlaneClasses& classes) const {
-    const auto all_in = [&](const Plane& plane) {
-      return std::all_of(members.begin(), members.end(), [&](std::uint32_t m) { return holds(plane, m); });
+  void settle(Members members, PlaneClasses& classes) const {
+    const auto holds_all = [&](const Plane& plane) {
+      return std::all_of(members.begin(), members.end(),
+                         [&](std::uint32_t member) { return holds(plane, region_of(member)); });
     };
-    Plane plane = regions_[pieces_[members.front()].region].plane;
-    if (members.size() > 1 && !all_in(plane)) {
+    Plane plane = region_of(members.front()).plane;
+    if (members.size() > 1 && !holds_all(plane)) {
       const Plane fitted = fit(members);
-      plane = all_in(fitted) ? fitted : plane;
+      plane = holds_all(fitted) ? fitted : plane;
     }
     const auto shared = static_cast<PlaneId>(classes.planes.size());
     classes.planes.push_back(plane);
     for (const std::uint32_t member : members) {
-      const std::uint32_t region = pieces_[member].region;
-      if (member == members.front() || holds(plane, member)) {
-        classes.of_region[region] = shared;
+      PlaneId& of_region = classes.of_region[pieces_[member].region];
+      if (member == members.front() || holds(plane, region_of(member))) {
+        of_region = shared;
       } else {
-        classes.of_region[region] = static_cast<PlaneId>(classes.planes.size());
-        classes.planes.push_back(regions_[region].plane);
+        of_region = static_cast<PlaneId>(classes.planes.size());
+        classes.planes.push_back(region_of(member).plane);
       }
     }
   }
 
   static constexpr std::uint32_t nothing = 0xffffffffU;
   const Scene& scene_;
-  const std::vector<Region>& regions_;
+  const Regions& regions_;
   double tolerance_;
   Point3 middle_{0.0};
   double reach_ = 0.0;
   std::vector<Piece> pieces_; ///< by falling width
-  std::vector<std::vector<std::uint32_t>> gathered_;
 };
 
 } // namespace
 
-PlaneClasses classify_planes(const Scene& scene, const std::vector<Region>& regions, double tolerance) {
+PlaneClasses classify_planes(const Scene& scene, const Regions& regions, double tolerance) {
   return PlaneClassifier(scene, regions, tolerance).classify();
 }
 

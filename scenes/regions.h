@@ -1,4 +1,5 @@
-// Growing plane regions across the edges of a triangle soup, and telling which of them lie in one plane.
+// Growing plane regions across the edges of a triangle soup, and telling which of them lie in one
+// plane.
 // (Used by find_surfaces alone.)
 #pragma once
 
@@ -16,23 +17,35 @@ struct TriangleShape {
 
 TriangleShape shape_of(const std::array<Point3, 3>& corners);
 
-/// A connected set of triangles of one material and one front whose vertices are all within tolerance of the plane.
+/// A connected set of triangles of one material and one front whose vertices are all within
+/// tolerance of the plane.
 struct Region {
   Plane plane;
   double area = 0.0;
-  std::vector<TriangleId> triangles; ///< ascending
+  std::uint32_t first = 0; ///< of its triangles in Regions::members
+  std::uint32_t count = 0;
 };
 
 /// Every triangle is in exactly one region; regions are in the order of their first triangles.
-std::vector<Region> grow_regions(const Scene& scene, const std::vector<TriangleShape>& shapes,
-                                 const Topology& topology, double tolerance);
+struct Regions {
+  std::vector<Region> regions;
+  std::vector<TriangleId> members; ///< the triangles of each region, ascending
+};
+
+inline std::span<const TriangleId> triangles_of(const Regions& regions, const Region& region) {
+  return std::span(regions.members).subspan(region.first, region.count);
+}
+
+Regions grow_regions(const Scene& scene, const std::vector<TriangleShape>& shapes,
+                     const Topology& topology, double tolerance);
 
 struct PlaneClasses {
   std::vector<Plane> planes;
   std::vector<PlaneId> of_region;
 };
 
-/// Regions whose vertices are all within tolerance of one plane, whichever way they face, are one class.
-PlaneClasses classify_planes(const Scene& scene, const std::vector<Region>& regions, double tolerance);
+/// Regions whose vertices are all within tolerance of one plane, whichever way they face, are one
+/// class.
+PlaneClasses classify_planes(const Scene& scene, const Regions& regions, double tolerance);
 
 } // namespace meninas

@@ -14,7 +14,8 @@ namespace {
 class ContentHash {
 public:
   void add(std::uint64_t word) {
-    // Multiplying spreads low bits upwards (the constants of splitmix64), the shifts bring high bits down again.
+    // Multiplying spreads low bits upwards (the constants of splitmix64), the shifts bring high
+    // bits down again.
     state_ = (state_ ^ word) * 0xbf58476d1ce4e5b9ULL;
     state_ ^= state_ >> 29;
     state_ *= 0x94d049bb133111ebULL;
@@ -125,8 +126,9 @@ std::size_t find_named(const Scene& scene, const std::vector<Thing>& things, std
   } else if (names.empty()) {
     message += fmt::format(", the scene has no {}s", kind);
   } else {
-    message += names.size() == 1 ? fmt::format(", there is only '{}'", names.front())
-                                 : fmt::format(" among {} {}s such as '{}'", names.size(), kind, names.front());
+    message += names.size() == 1
+                   ? fmt::format(", there is only '{}'", names.front())
+                   : fmt::format(" among {} {}s such as '{}'", names.size(), kind, names.front());
   }
   throw UsageError(scene.file, message);
 }

@@ -12,9 +12,11 @@ namespace {
 
 /// How far a vertex of a wall may be off its plane.
 ///
-/// Each vertex is off by at most the position error. A plane through three corners of a parallelogram misses the fourth,
-/// p0 - p1 + p2, by at most four times that: three errors and its own.
-/// Modelling programs round to about nine digits; sums of products of coordinates lose a few units in the last place.
+/// Each vertex is off by at most the position error. A plane through three corners of a
+/// parallelogram misses the fourth, p0 - p1 + p2, by at most four times that: three errors and its
+/// own.
+/// Modelling programs round to about nine digits; sums of products of coordinates lose a few units
+/// in the last place.
 double coplanarity_tolerance(const Scene& scene) {
   const Bounds bounds = bounds_of(scene);
   const double extent = glm::distance(bounds.low, bounds.high);
@@ -23,7 +25,8 @@ double coplanarity_tolerance(const Scene& scene) {
   return 4.0 * scene.position_error + 1e-9 * extent + rounding * largest;
 }
 
-constexpr std::array<Vec2, 4> quad_uv{Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(1.0, 1.0), Vec2(0.0, 1.0)};
+constexpr std::array<Vec2, 4> quad_uv{Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(1.0, 1.0),
+                                      Vec2(0.0, 1.0)};
 constexpr std::array<Vec2, 3> triangle_uv{Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
 
 /// A parallelogram to 1e-9 of its size, or to the tolerance where that is still far below its size.
@@ -69,7 +72,8 @@ public:
   }
 
 private:
-  /// The corner of the quad that stands where a corner of one of its triangles stands: the nearest one.
+  /// The corner of the quad that stands where a corner of one of its triangles stands: the nearest
+  /// one.
   std::size_t quad_corner(const Patch& patch, TriangleId triangle, std::size_t corner) const {
     const Point3& here = position(scene_, scene_.triangles[index(triangle)].vertices[corner]);
     std::size_t nearest = 0;
@@ -100,9 +104,10 @@ private:
 };
 
 /// Patches in the order of their first triangles.
-void add_patches(const Scene& scene, const std::vector<TriangleShape>& shapes, const std::vector<QuadPair>& pairs,
-                 SurfaceModel& model) {
+void add_patches(const Scene& scene, const std::vector<TriangleShape>& shapes,
+                 const std::vector<QuadPair>& pairs, SurfaceModel& model) {
   PatchMaker maker(scene, shapes, model);
+  model.patches.reserve(scene.triangles.size() - pairs.size());
   std::size_t next_pair = 0;
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
     const auto triangle = static_cast<TriangleId>(t);
@@ -114,15 +119,18 @@ void add_patches(const Scene& scene, const std::vector<TriangleShape>& shapes, c
   }
 }
 
-void add_surfaces(const Scene& scene, const std::vector<Region>& regions, const PlaneClasses& classes,
+void add_surfaces(const Scene& scene, const Regions& regions, const PlaneClasses& classes,
                   SurfaceModel& model) {
-  for (std::size_t r = 0; r < regions.size(); ++r) {
+  model.surfaces.reserve(regions.regions.size());
+  for (std::size_t r = 0; r < regions.regions.size(); ++r) {
+    const Region& region = regions.regions[r];
+    const auto triangles = triangles_of(regions, region);
     Surface surface;
-    surface.plane = regions[r].plane;
+    surface.plane = region.plane;
     surface.plane_class = classes.of_region[r];
-    surface.material = scene.triangles[index(regions[r].triangles.front())].material;
-    surface.area = regions[r].area;
-    for (const TriangleId triangle : regions[r].triangles) {
+    surface.material = scene.triangles[index(triangles.front())].material;
+    surface.area = region.area;
+    for (const TriangleId triangle : triangles) {
       model.plane_of_triangle[index(triangle)] = surface.plane_class;
       const PatchId id = model.patch_of_triangle[index(triangle)];
       Patch& patch = model.patches[index(id)];
@@ -152,9 +160,10 @@ SurfaceModel find_surfaces(const Scene& scene) {
   for (std::size_t t = 0; t < count; ++t) {
     shapes[t] = shape_of(corners(scene, static_cast<TriangleId>(t)));
   }
-  // Two copies of one point are each off by the position error: they are half the tolerance apart at most.
+  // Two copies of one point are each off by the position error: they are half the tolerance apart
+  // at most.
   const Topology topology = find_topology(scene, 0.5 * model.tolerance);
-  const std::vector<Region> regions = grow_regions(scene, shapes, topology, model.tolerance);
+  const Regions regions = grow_regions(scene, shapes, topology, model.tolerance);
   const PlaneClasses classes = classify_planes(scene, regions, model.tolerance);
   model.planes = classes.planes;
   add_patches(scene, shapes, pair_triangles(scene, regions, topology), model);

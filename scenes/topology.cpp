@@ -15,17 +15,14 @@ std::vector<VertexId> weld(const Scene& scene, double distance) {
   if (welded.empty()) {
     return welded;
   }
-  Point3 origin(std::numeric_limits<double>::infinity());
-  for (const Vertex& vertex : scene.vertices) {
-    origin = glm::min(origin, vertex.position);
-  }
-  NeighbourGrid<3> grid(distance);
+  const Point3 origin = bounds_of(scene).low;
+  NeighbourGrid<3> grid(8.0 * distance, welded.size());
   for (std::size_t i = 0; i < welded.size(); ++i) {
     const Point3& here = scene.vertices[i].position;
     const Vec3 from_origin = here - origin;
     const NeighbourGrid<3>::Point key{from_origin.x, from_origin.y, from_origin.z};
     welded[i] = static_cast<VertexId>(i);
-    grid.visit_near(key, [&](std::uint32_t other) {
+    grid.visit_near(key, distance, [&](std::uint32_t other) {
       if (glm::distance(here, scene.vertices[other].position) <= distance) {
         welded[i] = std::min(welded[i], static_cast<VertexId>(other));
       }
@@ -46,12 +43,14 @@ std::vector<EdgeUse> edge_uses(const Scene& scene, const std::vector<VertexId>& 
       const VertexId from = welded[index(scene.triangles[t].vertices[side])];
       const VertexId to = welded[index(scene.triangles[t].vertices[(side + 1) % 3])];
       if (from != to) {
-        uses.push_back({std::min(from, to), std::max(from, to), static_cast<TriangleId>(t), side, from < to});
+        uses.push_back(
+            {std::min(from, to), std::max(from, to), static_cast<TriangleId>(t), side, from < to});
       }
     }
   }
   tbb::parallel_sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-    return std::tie(a.low, a.high, a.triangle, a.side) < std::tie(b.low, b.high, b.triangle, b.side);
+    return std::tie(a.low, a.high, a.triangle, a.side) <
+           std::tie(b.low, b.high, b.triangle, b.side);
   });
   return uses;
 }

@@ -1,4 +1,5 @@
-// Which triangles touch along which edges, whatever vertices the exporter split. (Used by find_surfaces alone.)
+// Which triangles touch along which edges, whatever vertices the exporter split. (Used by
+// find_surfaces alone.)
 #pragma once
 
 #include "scenes/scene.h"
@@ -17,10 +18,11 @@ struct EdgeUse {
 };
 
 struct Topology {
-  std::vector<VertexId> welded;                        ///< per vertex, the first vertex that stands where it stands
-  std::vector<EdgeUse> uses;                           ///< sorted by edge, then by triangle
-  std::vector<std::uint32_t> first_use;                ///< per edge its first use, and the end
-  std::vector<std::array<std::uint32_t, 3>> edge_of;   ///< per triangle and side; no_edge where both ends are one point
+  std::vector<VertexId> welded; ///< per vertex, the first vertex that stands where it stands
+  std::vector<EdgeUse> uses;    ///< sorted by edge, then by triangle
+  std::vector<std::uint32_t> first_use; ///< per edge its first use, and the end
+  std::vector<std::array<std::uint32_t, 3>>
+      edge_of; ///< per triangle and side; no_edge where both ends are one point
 };
 
 inline constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();

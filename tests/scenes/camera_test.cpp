@@ -1,5 +1,4 @@
 #include "scenes/camera.h"
-
 #include "tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +18,9 @@ TEST(Camera, PerspectiveSpansTheVerticalAngle) {
     const CameraRay ray = camera_ray(camera, aspect, x, y);
     EXPECT_EQ(ray.origin, camera.position);
     EXPECT_NEAR(glm::length(ray.direction), 1.0, rounding);
-    return std::array{std::atan2(glm::dot(ray.direction, camera.right), glm::dot(ray.direction, camera.forward)),
-                      std::atan2(glm::dot(ray.direction, camera.up), glm::dot(ray.direction, camera.forward))};
+    return std::array{
+        std::atan2(glm::dot(ray.direction, camera.right), glm::dot(ray.direction, camera.forward)),
+        std::atan2(glm::dot(ray.direction, camera.up), glm::dot(ray.direction, camera.forward))};
   };
   EXPECT_NEAR(angle(1.6, 0.5, 0.0)[1], 0.45, rounding);
   EXPECT_NEAR(angle(1.6, 0.5, 1.0)[1], -0.45, rounding);
@@ -49,11 +49,13 @@ TEST(Camera, OrthographicRaysAreParallel) {
   EXPECT_EQ(camera_ray(camera, 1.5, 0.5, 0.5).origin, camera.position);
 }
 
-/// Where a point is in a square picture: the larger of |x| and |y|, 1 at its border; more than that behind the camera.
+/// Where a point is in a square picture: the larger of |x| and |y|, 1 at its border; more than that
+/// behind the camera.
 double off_centre(const Camera& camera, const Point3& point) {
   const Vec3 from_eye = point - camera.position;
   const double depth = glm::dot(from_eye, camera.forward) * std::tan(0.5 * camera.vertical_fov);
-  const double off = std::max(std::abs(glm::dot(from_eye, camera.right)), std::abs(glm::dot(from_eye, camera.up)));
+  const double off =
+      std::max(std::abs(glm::dot(from_eye, camera.right)), std::abs(glm::dot(from_eye, camera.up)));
   return depth > 0.0 ? off / depth : 1e9;
 }
 
@@ -68,11 +70,13 @@ void expect_sees(const Bounds& bounds) {
   EXPECT_TRUE(glm::any(glm::greaterThan(camera.position, bounds.high))) << "the eye is inside";
   double farthest = 0.0;
   for (int k = 0; k < 8; ++k) {
-    const Point3 corner((k & 1) != 0 ? bounds.high.x : bounds.low.x, (k & 2) != 0 ? bounds.high.y : bounds.low.y,
+    const Point3 corner((k & 1) != 0 ? bounds.high.x : bounds.low.x,
+                        (k & 2) != 0 ? bounds.high.y : bounds.low.y,
                         (k & 4) != 0 ? bounds.high.z : bounds.low.z);
     farthest = std::max(farthest, off_centre(camera, corner));
   }
-  // All is in the picture with a tenth to spare, and more than a third of it is filled unless there is nothing to see.
+  // All is in the picture with a tenth to spare, and more than a third of it is filled unless there
+  // is nothing to see.
   EXPECT_LE(farthest, 0.92);
   if (glm::distance(bounds.low, bounds.high) > 1e-8 * glm::length(centre)) {
     EXPECT_GE(farthest, 0.35);
@@ -81,7 +85,8 @@ void expect_sees(const Bounds& bounds) {
 
 TEST(DefaultCamera, SeesBoundsOfAnyShapeAndSize) {
   for (const double scale : {1e-6, 1.0, 1e9}) {
-    for (const Vec3 size : {Vec3(1, 1, 1), Vec3(1, 0, 1), Vec3(0, 1, 0), Vec3(20, 1, 0.1), Vec3(0.1, 3, 50), Vec3(0.0)}) {
+    for (const Vec3 size : {Vec3(1, 1, 1), Vec3(1, 0, 1), Vec3(0, 1, 0), Vec3(20, 1, 0.1),
+                            Vec3(0.1, 3, 50), Vec3(0.0)}) {
       for (const Vec3 offset : {Vec3(0.0), Vec3(10, -20, 30)}) {
         expect_sees({scale * offset, scale * (offset + size)});
       }

@@ -40,12 +40,23 @@ TEST(Patches, OnlyParallelogramsAreAffine) {
 }
 
 TEST(Patches, ConcaveAndNearlyStraightQuadsStayTriangles) {
-  EXPECT_EQ(model_of({Point3(0, 0, 0), {3, 0, 0}, {0.5, 0.5, 0}, {0, 3, 0}}, Diagonal::first_to_third).patches.size(), 2u);
+  EXPECT_EQ(
+      model_of({Point3(0, 0, 0), {3, 0, 0}, {0.5, 0.5, 0}, {0, 3, 0}}, Diagonal::first_to_third)
+          .patches.size(),
+      2u);
   // Three corners in a line, and 1e-4 beside it.
-  EXPECT_EQ(model_of({Point3(0, 0, 0), {1, 0, 0}, {2, 0, 0}, {0, 2, 0}}, Diagonal::second_to_fourth).patches.size(), 2u);
-  EXPECT_EQ(model_of({Point3(0, 0, 0), {1, -1e-4, 0}, {2, 0, 0}, {0, 2, 0}}, Diagonal::second_to_fourth).patches.size(), 2u);
+  EXPECT_EQ(model_of({Point3(0, 0, 0), {1, 0, 0}, {2, 0, 0}, {0, 2, 0}}, Diagonal::second_to_fourth)
+                .patches.size(),
+            2u);
+  EXPECT_EQ(
+      model_of({Point3(0, 0, 0), {1, -1e-4, 0}, {2, 0, 0}, {0, 2, 0}}, Diagonal::second_to_fourth)
+          .patches.size(),
+      2u);
   // Convex enough.
-  EXPECT_EQ(model_of({Point3(0, 0, 0), {1, -1e-2, 0}, {2, 0, 0}, {0, 2, 0}}, Diagonal::second_to_fourth).patches.size(), 1u);
+  EXPECT_EQ(
+      model_of({Point3(0, 0, 0), {1, -1e-2, 0}, {2, 0, 0}, {0, 2, 0}}, Diagonal::second_to_fourth)
+          .patches.size(),
+      1u);
 }
 
 TEST(Patches, BelongToOneNode) {
@@ -66,7 +77,8 @@ TEST(Patches, PreferTheRectanglesOfAGrid) {
   ASSERT_EQ(model.patches.size(), 63u);
   for (const Patch& patch : model.patches) {
     EXPECT_EQ(patch.corner_count, 4);
-    EXPECT_EQ(glm::dot(patch.corners[1] - patch.corners[0], patch.corners[3] - patch.corners[0]), 0.0);
+    EXPECT_EQ(glm::dot(patch.corners[1] - patch.corners[0], patch.corners[3] - patch.corners[0]),
+              0.0);
   }
 }
 
@@ -105,7 +117,8 @@ double inverse_error(const Patch& patch) {
   for (int j = 0; j <= steps; ++j) {
     for (int i = 0; i <= steps; ++i) {
       const Vec2 uv(double(i) / steps, double(j) / steps);
-      if (patch.corner_count == 3 && i + j > steps) continue;
+      if (patch.corner_count == 3 && i + j > steps)
+        continue;
       const Vec2 back = uv_at(patch, point_at(patch, uv));
       worst = std::max({worst, std::abs(back.x - uv.x), std::abs(back.y - uv.y)});
     }
@@ -115,7 +128,8 @@ double inverse_error(const Patch& patch) {
 
 TEST(PatchMaps, AreInverse) {
   const glm::dmat3 rotation = oblique_rotation();
-  for (const Quad& quad : {rectangle, trapezoid, Quad{Point3(0, 0, 0), {5, -1, 0}, {4, 3, 0}, {1, 7, 0}}}) {
+  for (const Quad& quad :
+       {rectangle, trapezoid, Quad{Point3(0, 0, 0), {5, -1, 0}, {4, 3, 0}, {1, 7, 0}}}) {
     for (const double scale : {1e-6, 1.0, 1e6}) {
       std::vector<Point3> corners;
       for (const Point3& p : quad) {
@@ -133,21 +147,30 @@ TEST(PatchMaps, AreInverseForAlmostParallelograms) {
   for (double deviation = 1.0; deviation > 1e-18; deviation *= 0.1) {
     for (const double sign : {-0.9, 0.9}) {
       const double d = sign * deviation;
-      EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {3, 0, 0}, {3 + d, 2, 0}, {0, 2, 0}})), 1e-12) << d;
-      EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {3, 0, 0}, {3, 2 + d, 0}, {0, 2, 0}})), 1e-12) << d;
-      EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {3, 0, 0}, {3 + d, 2 + d, 0}, {d / 3, 2, 0}})), 1e-12) << d;
+      EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {3, 0, 0}, {3 + d, 2, 0}, {0, 2, 0}})), 1e-12)
+          << d;
+      EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {3, 0, 0}, {3, 2 + d, 0}, {0, 2, 0}})), 1e-12)
+          << d;
+      EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {3, 0, 0}, {3 + d, 2 + d, 0}, {d / 3, 2, 0}})),
+                1e-12)
+          << d;
     }
   }
 }
 
 TEST(PatchMaps, AreInverseForAlmostTriangles) {
   for (double width = 1.0; width > 1e-9; width *= 0.1) {
-    // The short side stretches a rounding of the points by 1 / width in u, and the map turns points near it back into lines.
+    // The short side stretches a rounding of the points by 1 / width in u, and the map turns points
+    // near it back into lines.
     const double allowed = 1e-14 / width;
-    EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {1, 0, 0}, {width, 1, 0}, {0, 1, 0}})), allowed) << width;
-    EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {width, 0, 0}, {1, 1, 0}, {0, 1, 0}})), allowed) << width;
-    EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {1, 0, 0}, {1, width, 0}, {0, 1, 0}})), allowed) << width;
-    EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, width, 0}})), allowed) << width;
+    EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {1, 0, 0}, {width, 1, 0}, {0, 1, 0}})), allowed)
+        << width;
+    EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {width, 0, 0}, {1, 1, 0}, {0, 1, 0}})), allowed)
+        << width;
+    EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {1, 0, 0}, {1, width, 0}, {0, 1, 0}})), allowed)
+        << width;
+    EXPECT_LT(inverse_error(patch_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, width, 0}})), allowed)
+        << width;
   }
 }
 
@@ -175,13 +198,16 @@ TEST(PatchMaps, BarycentricsFindThePoint) {
   for (const double z : {0.0, 1.0}) {
     const Vec3 up(0, 0, z);
     add_quad(scene, {rectangle[0] + up, rectangle[1] + up, rectangle[2] + up, rectangle[3] + up});
-    add_quad(scene, {trapezoid[0] - up - 5.0 * up, trapezoid[1] - 6.0 * up, trapezoid[2] - 6.0 * up, trapezoid[3] - 6.0 * up},
+    add_quad(scene,
+             {trapezoid[0] - up - 5.0 * up, trapezoid[1] - 6.0 * up, trapezoid[2] - 6.0 * up,
+              trapezoid[3] - 6.0 * up},
              first_material, first_node, Diagonal::second_to_fourth);
     add_triangle(scene, {Point3(0, 0, 9 + z), {1, 0, 9 + z}, {0, 1, 9 + z}});
   }
   const SurfaceModel model = find_surfaces(scene);
   for (int k = 0; k < 2000; ++k) {
-    const auto triangle = static_cast<TriangleId>(static_cast<std::size_t>(k) % scene.triangles.size());
+    const auto triangle =
+        static_cast<TriangleId>(static_cast<std::size_t>(k) % scene.triangles.size());
     Vec2 b(unit(random), unit(random));
     b = b.x + b.y > 1.0 ? Vec2(1.0) - b : b;
     const auto p = corners(scene, triangle);

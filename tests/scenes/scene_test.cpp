@@ -1,7 +1,6 @@
-#include "scenes/scene.h"
-
 #include "scenes/errors.h"
 #include "scenes/names.h"
+#include "scenes/scene.h"
 #include "tests/support/scene_builder.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +12,8 @@ namespace {
 Scene rich_scene() {
   Scene scene;
   scene.file = "rich.gltf";
-  add_room(scene, Point3(0.0), {1.0, 2.0, 3.0}, {diffuse(0.5), diffuse(0.5, 2.0), mirror(0.9), {}, {}, {}});
+  add_room(scene, Point3(0.0), {1.0, 2.0, 3.0},
+           {diffuse(0.5), diffuse(0.5, 2.0), mirror(0.9), {}, {}, {}});
   scene.textures.push_back({"wood.png", std::vector<std::byte>(19, std::byte{7}), true, true});
   scene.materials[0].base_color_texture = TextureUse{TextureId{0}};
   scene.lights.push_back({});
@@ -89,7 +89,9 @@ TEST(ContentHash, SeesEveryPropertyLightDependsOn) {
       [](Scene& s) { s.lights[0].kind = PunctualKind::spot; },
       [](Scene& s) { s.lights[0].intensity.r = 2.0; },
       [](Scene& s) { s.lights[0].position.x = 2.0; },
-      [](Scene& s) { s.lights[0].direction = {1, 0, 0}; },
+      [](Scene& s) {
+        s.lights[0].direction = {1, 0, 0};
+      },
       [](Scene& s) { s.lights[0].outer_cone = 0.5; },
       [](Scene& s) { s.lights[0].inner_cone = 0.5; },
   };
@@ -122,12 +124,15 @@ TEST(Names, TheNearestOneIsSuggested) {
   Scene scene;
   scene.file = "room.gltf";
   scene.nodes = {{"floor"}, {"mirror"}, {"mirror frame"}};
-  EXPECT_EQ(message_of([&] { find_node(scene, "mirorr"); }), "room.gltf: no node 'mirorr', did you mean 'mirror'?");
+  EXPECT_EQ(message_of([&] { find_node(scene, "mirorr"); }),
+            "room.gltf: no node 'mirorr', did you mean 'mirror'?");
   EXPECT_EQ(message_of([&] { find_node(scene, "chandelier"); }),
             "room.gltf: no node 'chandelier' among 3 nodes such as 'floor'");
-  EXPECT_EQ(message_of([&] { find_camera(scene, "eye"); }), "room.gltf: no camera 'eye', the scene has no cameras");
+  EXPECT_EQ(message_of([&] { find_camera(scene, "eye"); }),
+            "room.gltf: no camera 'eye', the scene has no cameras");
   scene.cameras.push_back({.name = "front"});
-  EXPECT_EQ(message_of([&] { find_camera(scene, "eye"); }), "room.gltf: no camera 'eye', there is only 'front'");
+  EXPECT_EQ(message_of([&] { find_camera(scene, "eye"); }),
+            "room.gltf: no camera 'eye', there is only 'front'");
 }
 
 TEST(Names, NearestName) {

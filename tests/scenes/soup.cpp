@@ -25,14 +25,16 @@ void expect_patches_of_surfaces(const Scene& scene, const SurfaceModel& model) {
       EXPECT_EQ(patch.material, surface.material);
       area += patch.area;
       for (const TriangleId triangle : patch.triangles) {
-        if (triangle == none<TriangleId>) continue;
+        if (triangle == none<TriangleId>)
+          continue;
         EXPECT_EQ(model.plane_of_triangle[index(triangle)], surface.plane_class);
         EXPECT_GT(glm::dot(area_vector(corners(scene, triangle)), surface.plane.normal), 0.0);
       }
       for (const Point3& corner : polygon_of(patch)) {
         // Rounding of the distance itself is part of the tolerance.
         EXPECT_LE(std::abs(signed_distance(surface.plane, corner)), model.tolerance);
-        EXPECT_LE(std::abs(signed_distance(model.planes[index(surface.plane_class)], corner)), model.tolerance);
+        EXPECT_LE(std::abs(signed_distance(model.planes[index(surface.plane_class)], corner)),
+                  model.tolerance);
       }
     }
     EXPECT_NEAR(area, surface.area, sum_tolerance(area, scene.triangles.size()));
@@ -64,7 +66,8 @@ void expect_consistent(const Scene& scene, const SurfaceModel& model) {
   for (const Patch& patch : model.patches) {
     patch_area += patch.area;
     for (const TriangleId triangle : patch.triangles) {
-      if (triangle != none<TriangleId>) ++uses[index(triangle)];
+      if (triangle != none<TriangleId>)
+        ++uses[index(triangle)];
     }
     EXPECT_EQ(patch.triangles[1] != none<TriangleId>, patch.corner_count == 4);
   }

@@ -1,4 +1,5 @@
-// Triangle soups for the tests of surfaces and patches, and what must hold for the model of any of them.
+// Triangle soups for the tests of surfaces and patches, and what must hold for the model of any of
+// them.
 #pragma once
 
 #include "scenes/surfaces.h"
@@ -26,8 +27,8 @@ inline VertexId add_vertex(Scene& scene, const Point3& position) {
   return static_cast<VertexId>(scene.vertices.size() - 1);
 }
 
-inline void add_triangle(Scene& scene, const std::array<Point3, 3>& corners, MaterialId material = first_material,
-                         NodeId node = first_node) {
+inline void add_triangle(Scene& scene, const std::array<Point3, 3>& corners,
+                         MaterialId material = first_material, NodeId node = first_node) {
   const VertexId a = add_vertex(scene, corners[0]);
   const VertexId b = add_vertex(scene, corners[1]);
   const VertexId c = add_vertex(scene, corners[2]);
@@ -37,8 +38,9 @@ inline void add_triangle(Scene& scene, const std::array<Point3, 3>& corners, Mat
 enum class Diagonal { first_to_third, second_to_fourth };
 
 /// Two triangles over four vertices of their own.
-inline void add_quad(Scene& scene, const std::array<Point3, 4>& p, MaterialId material = first_material,
-                     NodeId node = first_node, Diagonal diagonal = Diagonal::first_to_third) {
+inline void add_quad(Scene& scene, const std::array<Point3, 4>& p,
+                     MaterialId material = first_material, NodeId node = first_node,
+                     Diagonal diagonal = Diagonal::first_to_third) {
   std::array<VertexId, 4> v{};
   for (std::size_t k = 0; k < 4; ++k) {
     v[k] = add_vertex(scene, p[k]);
@@ -53,18 +55,23 @@ inline void add_quad(Scene& scene, const std::array<Point3, 4>& p, MaterialId ma
 }
 
 /// columns x rows quads over shared vertices, at p(i / columns, j / rows).
-inline void add_grid(Scene& scene, int columns, int rows, const std::function<Point3(double, double)>& p) {
+inline void add_grid(Scene& scene, int columns, int rows,
+                     const std::function<Point3(double, double)>& p) {
   const auto first = static_cast<int>(scene.vertices.size());
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {
       add_vertex(scene, p(double(i) / columns, double(j) / rows));
     }
   }
-  const auto at = [&](int i, int j) { return static_cast<VertexId>(first + j * (columns + 1) + i); };
+  const auto at = [&](int i, int j) {
+    return static_cast<VertexId>(first + j * (columns + 1) + i);
+  };
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
-      scene.triangles.push_back({{at(i, j), at(i + 1, j), at(i + 1, j + 1)}, first_material, first_node});
-      scene.triangles.push_back({{at(i, j), at(i + 1, j + 1), at(i, j + 1)}, first_material, first_node});
+      scene.triangles.push_back(
+          {{at(i, j), at(i + 1, j), at(i + 1, j + 1)}, first_material, first_node});
+      scene.triangles.push_back(
+          {{at(i, j), at(i + 1, j + 1), at(i, j + 1)}, first_material, first_node});
     }
   }
 }

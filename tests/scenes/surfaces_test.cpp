@@ -1,5 +1,4 @@
 #include "scenes/surfaces.h"
-
 #include "tests/scenes/soup.h"
 #include "tests/support/scene_builder.h"
 
@@ -18,7 +17,8 @@ Scene tessellated_room(int columns) {
   Scene scene = empty_soup();
   for (std::size_t wall = 0; wall < 6; ++wall) {
     const auto p = [&](std::size_t k) { return box.vertices[4 * wall + k].position; };
-    add_grid(scene, columns, columns, [&](double u, double v) { return p(0) + u * (p(1) - p(0)) + v * (p(3) - p(0)); });
+    add_grid(scene, columns, columns,
+             [&](double u, double v) { return p(0) + u * (p(1) - p(0)) + v * (p(3) - p(0)); });
   }
   return scene;
 }
@@ -29,7 +29,8 @@ Scene sphere(int columns, int rows) {
     const double phi = -2.0 * std::numbers::pi * u;
     // Without the poles, where the quads of the grid would have no area.
     const double theta = std::numbers::pi * (0.05 + 0.9 * v);
-    return Point3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+    return Point3(std::sin(theta) * std::cos(phi), std::cos(theta),
+                  std::sin(theta) * std::sin(phi));
   });
   return scene;
 }
@@ -54,8 +55,12 @@ TEST(Surfaces, RoomHasSixWalls) {
   ASSERT_EQ(model.surfaces.size(), 6u);
   ASSERT_EQ(model.patches.size(), 6u);
   EXPECT_EQ(model.planes.size(), 6u);
-  const std::array<Plane, 6> walls{{{{1, 0, 0}, 0.0}, {{-1, 0, 0}, -4.0}, {{0, 1, 0}, 0.0},
-                                    {{0, -1, 0}, -2.5}, {{0, 0, 1}, 0.0}, {{0, 0, -1}, -6.0}}};
+  const std::array<Plane, 6> walls{{{{1, 0, 0}, 0.0},
+                                    {{-1, 0, 0}, -4.0},
+                                    {{0, 1, 0}, 0.0},
+                                    {{0, -1, 0}, -2.5},
+                                    {{0, 0, 1}, 0.0},
+                                    {{0, 0, -1}, -6.0}}};
   const std::array<double, 6> areas{15.0, 15.0, 24.0, 24.0, 10.0, 10.0};
   for (std::size_t s = 0; s < 6; ++s) {
     // Numbers of few digits leave nothing to round.
@@ -105,7 +110,8 @@ TEST(Surfaces, MaterialsDivideAWallButNotItsPlane) {
   for (int j = 0; j < 8; ++j) {
     for (int i = 0; i < 8; ++i) {
       const double x = i, y = j;
-      add_quad(scene, {Point3(x, y, 0), {x + 1, y, 0}, {x + 1, y + 1, 0}, {x, y + 1, 0}}, MaterialId((i + j) % 2));
+      add_quad(scene, {Point3(x, y, 0), {x + 1, y, 0}, {x + 1, y + 1, 0}, {x, y + 1, 0}},
+               MaterialId((i + j) % 2));
     }
   }
   const SurfaceModel model = checked_surfaces(scene);
@@ -159,7 +165,8 @@ TEST(Surfaces, UnconnectedTilesShareTheirPlane) {
 }
 
 TEST(Surfaces, RoundedTilesStillShareTheirPlane) {
-  const Scene scene = rounded_to_float(transformed(tiles(), oblique_rotation(), 1.0, {3.0, -2.0, 5.0}));
+  const Scene scene =
+      rounded_to_float(transformed(tiles(), oblique_rotation(), 1.0, {3.0, -2.0, 5.0}));
   const SurfaceModel model = checked_surfaces(scene);
   EXPECT_EQ(model.surfaces.size(), 1000u);
   EXPECT_EQ(model.planes.size(), 1u);
@@ -236,7 +243,8 @@ TEST(Surfaces, SliversJoinTheirWall) {
     const double y = 8.0 + 1e-5 * k;
     add_quad(scene, {Point3(0, y, 0), {10, y, 0}, {10, y + 1e-5, 0}, {0, y + 1e-5, 0}});
   }
-  const SurfaceModel model = checked_surfaces(transformed(scene, oblique_rotation(), 1.0, {1.0, 2.0, 3.0}));
+  const SurfaceModel model =
+      checked_surfaces(transformed(scene, oblique_rotation(), 1.0, {1.0, 2.0, 3.0}));
   EXPECT_EQ(model.surfaces.size(), 1u);
   EXPECT_EQ(model.patches.size(), 51u);
 }
@@ -248,9 +256,32 @@ TEST(Surfaces, ACylinderDoesNotBendIntoOneSurface) {
     const double phi = -2.0 * std::numbers::pi * u;
     return Point3(std::cos(phi), v, std::sin(phi));
   });
-  // Neighbours differ by 6e-5 radians only, but k facets rise by (2 pi k / facets)^2 / 8 over their chord: more than four of them
-  // leave the tolerance of 3e-9 on both sides.
+  // Neighbours differ by 6e-5 radians only, but k facets rise by (2 pi k / facets)^2 / 8 over their
+  // chord: more than four of them leave the tolerance of 3e-9 on both sides.
   EXPECT_GE(checked_surfaces(scene).surfaces.size(), std::size_t(facets / 4));
+}
+
+TEST(Surfaces, VerticesThatNoTriangleUsesDoNotMatter) {
+  Scene scene = tessellated_room(2);
+  const std::size_t patches = checked_surfaces(scene).patches.size();
+  for (const double far : {1e12, 1e30, -1e300}) {
+    add_vertex(scene, Point3(far));
+  }
+  EXPECT_EQ(checked_surfaces(scene).patches.size(), patches);
+}
+
+TEST(Surfaces, HopelessNumbersNeitherHangNorCrash) {
+  // Areas overflow, vanish or are not numbers; such triangles have no plane, but everything has a patch.
+  const double huge = 1e200, nan = std::numeric_limits<double>::quiet_NaN();
+  Scene scene = empty_soup();
+  add_quad(scene, {Point3(0.0), {huge, 0, 0}, {huge, huge, 0}, {0, huge, 0}});
+  add_quad(scene, {Point3(0.0), {nan, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  add_triangle(scene, {Point3(1.0), Point3(1.0), Point3(1.0)});
+  const SurfaceModel model = find_surfaces(scene);
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    EXPECT_LT(index(model.patch_of_triangle[t]), model.patches.size());
+    EXPECT_LT(index(model.plane_of_triangle[t]), model.planes.size());
+  }
 }
 
 struct Placement {
@@ -262,7 +293,8 @@ class PlacedRoom : public testing::TestWithParam<Placement> {};
 
 TEST_P(PlacedRoom, HasSixWallsInDoubleAndInFloat) {
   for (const int columns : {1, 2, 7, 40}) {
-    const Scene placed = transformed(tessellated_room(columns), oblique_rotation(), GetParam().scale, GetParam().offset);
+    const Scene placed = transformed(tessellated_room(columns), oblique_rotation(),
+                                     GetParam().scale, GetParam().offset);
     for (const Scene& scene : {placed, rounded_to_float(placed)}) {
       const SurfaceModel model = checked_surfaces(scene);
       EXPECT_EQ(model.surfaces.size(), 6u) << columns;
@@ -275,7 +307,8 @@ TEST_P(PlacedRoom, HasSixWallsInDoubleAndInFloat) {
 // Offsets of up to 1e4 room sizes leave floats some ten steps per tile of the finest tessellation.
 INSTANTIATE_TEST_SUITE_P(Placements, PlacedRoom,
                          testing::Values(Placement{1.0, Vec3(0.0)}, Placement{1e-6, Vec3(0.0)},
-                                         Placement{1e6, Vec3(0.0)}, Placement{1.0, Vec3(100.0, -50.0, 70.0)},
+                                         Placement{1e6, Vec3(0.0)},
+                                         Placement{1.0, Vec3(100.0, -50.0, 70.0)},
                                          Placement{1e-3, Vec3(3.0, 1.0, -2.0)}));
 
 TEST(Surfaces, FarFromTheOriginInDoublesNothingChanges) {
@@ -299,7 +332,8 @@ TEST(Surfaces, TheOrderOfTrianglesDoesNotMatter) {
   add_grid(equilateral, 12, 9, [](double u, double v) {
     return Point3(12.0 * u - 4.5 * v, std::sqrt(0.75) * 9.0 * v, 0.0);
   });
-  for (Scene scene : {equilateral, sphere(20, 10), tessellated_room(5), rounded_to_float(sphere(60, 40))}) {
+  for (Scene scene :
+       {equilateral, sphere(20, 10), tessellated_room(5), rounded_to_float(sphere(60, 40))}) {
     const SurfaceModel model = find_surfaces(scene);
     // A stride that is prime to the count visits every triangle once.
     std::vector<Triangle> shuffled;
