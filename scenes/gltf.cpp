@@ -89,8 +89,8 @@ Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings)
 
   report_animations(document, scene, findings);
   if (scene.degenerate_triangles > 0)
-    findings.say(fmt::format("{} triangle{} without area left out", scene.degenerate_triangles,
-                             scene.degenerate_triangles == 1 ? " is" : "s are"));
+    findings.say(fmt::format("triangles without area that are left out: {}",
+                             scene.degenerate_triangles));
   scene.warnings = findings.lines();
   return scene;
 }

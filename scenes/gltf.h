@@ -19,11 +19,11 @@ namespace meninas {
 enum class ExternalFiles { inside_folder, anywhere };
 
 struct GltfSettings {
-  std::optional<std::string>
-      scene; ///< name or index of the scene in the file; the file's default otherwise
+  /// Name or index of the scene in the file; the file's default otherwise.
+  std::optional<std::string> scene = std::nullopt;
   ExternalFiles external_files = ExternalFiles::inside_folder;
-  std::uint64_t memory_limit = std::uint64_t{4}
-                               << 30; ///< bytes; files and geometry that need more are refused
+  /// Bytes; files and geometry that need more are refused before they are read or decoded.
+  std::uint64_t memory_limit = std::uint64_t{1} << 32;
 };
 
 Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings = {});

@@ -247,7 +247,7 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
   const auto dropped = part.triangles.size() - kept;
   scene.degenerate_triangles += dropped;
   if (dropped > 0)
-    findings.about("triangles without area are left out in nodes", at.node);
+    findings.about("triangles without area are in nodes", at.node);
 }
 
 template <typename Visit>

@@ -1,0 +1,212 @@
+// Materials and textures: defaults, extensions, and what is made physical with a warning.
+#include "tests/scenes/gltf_file.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace meninas::test {
+
+static GltfFile with_material(Json material) {
+  auto file = square();
+  file.json["materials"][0] = std::move(material);
+  return file;
+}
+
+TEST(GltfMaterials, ReadsFactorsAndExtensions) {
+  const auto scene =
+      load(with_material({{"name", "Glass"},
+                          {"doubleSided", true},
+                          {"alphaMode", "MASK"},
+                          {"alphaCutoff", 0.25},
+                          {"pbrMetallicRoughness",
+                           {{"baseColorFactor", {0.1, 0.2, 0.3, 1.0}},
+                            {"metallicFactor", 0.5},
+                            {"roughnessFactor", 0.125}}},
+                          {"emissiveFactor", {1.0, 0.5, 0.0}},
+                          {"extensions",
+                           {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8.0}}},
+                            {"KHR_materials_ior", {{"ior", 1.33}}},
+                            {"KHR_materials_specular",
+                             {{"specularFactor", 0.75}, {"specularColorFactor", {1.0, 0.5, 2.0}}}},
+                            {"KHR_materials_transmission", {{"transmissionFactor", 0.9}}}}}}));
+  const auto& material = scene.materials.at(0);
+  EXPECT_EQ(material.name, "Glass");
+  EXPECT_EQ(material.base_color, Rgb(0.1, 0.2, 0.3));
+  EXPECT_EQ(material.metallic, 0.5);
+  EXPECT_EQ(material.roughness, 0.125);
+  EXPECT_EQ(material.emission, Rgb(8, 4, 0)) << "radiance is factor times strength";
+  EXPECT_TRUE(material.double_sided);
+  EXPECT_EQ(material.alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(material.alpha_cutoff, 0.25);
+  EXPECT_EQ(material.ior, 1.33);
+  EXPECT_EQ(material.specular, 0.75);
+  EXPECT_EQ(material.specular_color, Rgb(1.0, 0.5, 2.0));
+  EXPECT_EQ(material.transmission, 0.9);
+  EXPECT_TRUE(warns(scene, {"transmission", "'Glass'"}));
+  EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
+TEST(GltfMaterials, WithoutAMaterialItIsGrey) {
+  auto file = square();
+  file.json["meshes"][0]["primitives"][0].erase("material");
+  const auto scene = load(file);
+  ASSERT_EQ(scene.materials.size(), 1u) << "materials that nothing uses stay out";
+  EXPECT_EQ(diffuse_reflectance(scene.materials[0]), Rgb(0.8));
+  EXPECT_FALSE(is_mirror(scene.materials[0]));
+  EXPECT_TRUE(warns(scene, {"without a material", "'Quad'"}));
+}
+
+TEST(GltfMaterials, WithoutMetallicFactorItIsNotMetallic) {
+  const auto scene = load(with_material({{"name", "Sloppy"}}));
+  EXPECT_EQ(scene.materials.at(0).metallic, 0.0);
+  EXPECT_EQ(scene.materials.at(0).roughness, 1.0);
+  EXPECT_EQ(scene.materials.at(0).base_color, Rgb(1.0));
+  EXPECT_TRUE(warns(scene, {"without metallicFactor", "'Sloppy'"}));
+
+  const auto mirror = load(with_material(
+      {{"pbrMetallicRoughness", {{"metallicFactor", 1.0}, {"roughnessFactor", 0.0}}}}));
+  EXPECT_TRUE(is_mirror(mirror.materials.at(0)));
+  EXPECT_EQ(mirror.materials[0].name, "material0");
+  EXPECT_TRUE(mirror.warnings.empty());
+}
+
+TEST(GltfMaterials, ClampsWhatIsNotPhysical) {
+  const auto scene = load(with_material({{"name", "Wild"},
+                                         {"pbrMetallicRoughness",
+                                          {{"baseColorFactor", {1.5, -0.5, 0.5, 1.0}},
+                                           {"metallicFactor", 7.0},
+                                           {"roughnessFactor", -1.0}}},
+                                         {"emissiveFactor", {-1.0, 2.0, 0.0}},
+                                         {"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}}));
+  const auto& material = scene.materials.at(0);
+  EXPECT_EQ(material.base_color, Rgb(1.0, 0.0, 0.5));
+  EXPECT_EQ(material.metallic, 1.0);
+  EXPECT_EQ(material.roughness, 0.0);
+  EXPECT_EQ(material.emission, Rgb(0.0, 2.0, 0.0));
+  EXPECT_EQ(material.ior, 1.0);
+  for (const auto* part : {"reflectances", "factors outside", "negative emission", "refraction"})
+    EXPECT_TRUE(warns(scene, {part, "'Wild'"})) << part;
+
+  EXPECT_THAT(
+      error_of(with_material(
+          {{"name", "Sun"},
+           {"emissiveFactor", {1e200, 1.0, 1.0}},
+           {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 1e200}}}}}})),
+      testing::HasSubstr("materials[0] 'Sun': its emission is over"));
+}
+
+TEST(GltfMaterials, WarnsOfUnlitAlphaAndMaps) {
+  const auto scene = load(with_material(
+      {{"name", "Leaf"},
+       {"alphaMode", "BLEND"},
+       {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}, {"metallicFactor", 0}}},
+       {"normalTexture", {{"index", 0}}},
+       {"occlusionTexture", {{"index", 0}}},
+       {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
+  EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::blend);
+  for (const auto* part : {"unlit", "alpha", "normal textures", "occlusion"})
+    EXPECT_TRUE(warns(scene, {part, "'Leaf'"})) << part;
+  EXPECT_TRUE(warns(load(with_material({{"alphaMode", "GLOW"}})), {"alphaMode"}));
+}
+
+TEST(GltfMaterials, AThousandSloppyMaterialsMakeOneLine) {
+  auto file = square();
+  for (int k = 0; k < 1000; ++k) {
+    auto primitive = square_primitive(file);
+    primitive["material"] = file.add_material({{"name", fmt::format("M{}", k)}});
+    file.json["meshes"][0]["primitives"].push_back(primitive);
+  }
+  const auto scene = load(file);
+  EXPECT_EQ(scene.materials.size(), 1001u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_THAT(scene.warnings[0], testing::HasSubstr("'M7' and 992 more"));
+}
+
+/// A square whose base colour is texture 0: image 0 through sampler 0.
+static GltfFile textured() {
+  auto file = with_material(
+      {{"name", "Paint"},
+       {"pbrMetallicRoughness",
+        {{"metallicFactor", 0.0},
+         {"baseColorTexture",
+          {{"index", 0},
+           {"texCoord", 1},
+           {"extensions",
+            {{"KHR_texture_transform",
+              {{"offset", {0.5, 0.25}}, {"rotation", 1.5}, {"scale", {2.0, 3.0}}}}}}}}}}});
+  file.json["textures"] = Json::array({{{"source", 0}, {"sampler", 0}}});
+  file.json["samplers"] = Json::array({{{"wrapS", 33071}, {"wrapT", 10497}}});
+  file.json["images"] = Json::array({{{"name", "bricks"}, {"uri", data_uri({1, 2, 3, 4})}}});
+  return file;
+}
+
+TEST(GltfTextures, KeepsBytesWrappingAndTransform) {
+  const auto scene = load(textured());
+  ASSERT_EQ(scene.textures.size(), 1u);
+  EXPECT_EQ(scene.textures[0].name, "bricks");
+  EXPECT_THAT(scene.textures[0].encoded,
+              testing::ElementsAre(std::byte{1}, std::byte{2}, std::byte{3}, std::byte{4}));
+  EXPECT_FALSE(scene.textures[0].repeat_u);
+  EXPECT_TRUE(scene.textures[0].repeat_v);
+  const auto& use = scene.materials.at(0).base_color_texture;
+  ASSERT_TRUE(use.has_value());
+  EXPECT_EQ(index(use->texture), 0u);
+  EXPECT_EQ(use->texcoord_set, 1);
+  EXPECT_EQ(use->offset, Vec2(0.5, 0.25));
+  EXPECT_EQ(use->rotation, 1.5);
+  EXPECT_EQ(use->scale, Vec2(2.0, 3.0));
+  EXPECT_TRUE(warns(scene, {"textures are not applied yet: 1 material uses their factors"}));
+}
+
+TEST(GltfTextures, ReadsImagesFromBufferViewsAndFiles) {
+  auto in_view = textured();
+  in_view.json["images"][0] = {{"bufferView", in_view.add_view({9, 8, 7})},
+                               {"mimeType", "image/png"}};
+  const auto from_view = load(in_view);
+  EXPECT_THAT(from_view.textures.at(0).encoded,
+              testing::ElementsAre(std::byte{9}, std::byte{8}, std::byte{7}));
+  EXPECT_EQ(from_view.textures[0].name, "image0");
+
+  auto in_file = textured();
+  in_file.json["images"][0] = {{"uri", "maps/my%20wall.png"}};
+  const TemporaryFolder folder;
+  folder.write("maps/my wall.png", "pixels");
+  const auto from_file = load_gltf(folder.write("scene.gltf", as_text(in_file)));
+  EXPECT_EQ(from_file.textures.at(0).encoded.size(), 6u);
+}
+
+TEST(GltfTextures, SharesImagesAndKeepsOnlyThoseInUse) {
+  auto file = textured();
+  file.json["images"].push_back({{"uri", "never read.png"}});
+  file.json["textures"].push_back({{"source", 1}});
+  file.json["textures"].push_back({{"source", 0}, {"sampler", 0}});
+  file.json["materials"][0]["emissiveTexture"] = {{"index", 2}};
+  const auto scene = load(file);
+  EXPECT_EQ(scene.textures.size(), 1u);
+  EXPECT_EQ(index(scene.materials[0].emissive_texture->texture), 0u);
+}
+
+TEST(GltfTextures, MissingImagesAreWarnings) {
+  for (const auto* uri : {"nowhere.png", "../outside.png", "https://example.com/a.png",
+                          "data:image/png;base64,@@@@", "/etc/hostname"}) {
+    auto file = textured();
+    file.json["images"][0]["uri"] = uri;
+    const auto scene = load(file);
+    EXPECT_TRUE(scene.textures.empty()) << uri;
+    EXPECT_FALSE(scene.materials[0].base_color_texture.has_value());
+    EXPECT_TRUE(warns(scene, {"images[0] 'bricks'", "the factor alone is used"})) << uri;
+  }
+  auto basis = textured();
+  basis.json["textures"][0].erase("source");
+  EXPECT_TRUE(warns(load(basis), {"without an image", "'Paint'"}));
+  auto third_set = textured();
+  third_set.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0},
+                                                                                {"texCoord", 2}};
+  EXPECT_TRUE(warns(load(third_set), {"texCoord above 1", "'Paint'"}));
+  auto mirrored = textured();
+  mirrored.json["samplers"][0]["wrapS"] = 33648;
+  EXPECT_TRUE(warns(load(mirrored), {"mirrored wrapping", "textures[0]"}));
+}
+
+} // namespace meninas::test
