@@ -61,8 +61,8 @@ std::vector<VertexId> vertices_along(const Scene& scene, const LooseEdge& edge,
 
 /// Every loose edge as the pieces the ends of other loose edges divide it into; a piece has one number, whoever has it.
 std::map<std::uint32_t, std::vector<std::uint32_t>>
-divide_loose_edges(const Scene& scene, const std::vector<LooseEdge>& loose, std::uint32_t first_number,
-                   double tolerance) {
+divide_loose_edges(const Scene& scene, const std::vector<LooseEdge>& loose,
+                   std::uint32_t first_number, double tolerance) {
   std::vector<VertexId> ends;
   for (const LooseEdge& edge : loose) {
     ends.insert(ends.end(), {edge.low, edge.high});

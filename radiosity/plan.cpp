@@ -113,9 +113,9 @@ void warn_of_facets(const Scene& scene, const SurfaceModel& surfaces, TransportP
     return;
   }
   for (const auto& [node, planes] : faceted_nodes(scene, surfaces, plan.mirrors)) {
-    plan.warnings.push_back(fmt::format(
-        "'{}' is a curved or faceted mirror of {}: followed by rays, not enumerated",
-        scene.nodes[index(node)].name, plural(planes.size(), "plane")));
+    plan.warnings.push_back(
+        fmt::format("'{}' is a curved or faceted mirror of {}: followed by rays, not enumerated",
+                    scene.nodes[index(node)].name, plural(planes.size(), "plane")));
   }
 }
 
@@ -146,12 +146,13 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
 std::vector<std::string> describe_stages(const SurfaceModel& surfaces, const TransportPlan& plan) {
   std::vector<std::string> stages;
   const std::size_t worlds = plan.worlds.worlds.size() - 1;
-  stages.push_back(fmt::format("mesh: {} divided into elements",
-                               plural(surfaces.surfaces.size(), "surface")));
+  stages.push_back(
+      fmt::format("mesh: {} divided into elements", plural(surfaces.surfaces.size(), "surface")));
   if (worlds > 0) {
-    stages.push_back(fmt::format("mirror worlds: {} of {}, {} deep", plural(worlds, "world"),
-                                 plural(plan.mirror_list.size(), "mirror"),
-                                 std::ranges::max(plan.worlds.worlds, {}, &MirrorWorld::depth).depth));
+    stages.push_back(
+        fmt::format("mirror worlds: {} of {}, {} deep", plural(worlds, "world"),
+                    plural(plan.mirror_list.size(), "mirror"),
+                    std::ranges::max(plan.worlds.worlds, {}, &MirrorWorld::depth).depth));
   }
   const bool mirrors = worlds > 0 || plan.mirrors.facets > 0;
   stages.push_back(mirrors ? "form factors: by rays, continued through mirrors"
@@ -160,7 +161,8 @@ std::vector<std::string> describe_stages(const SurfaceModel& surfaces, const Tra
     stages.push_back(fmt::format("direct light: {}{}", plural(plan.emitters, "emitter"),
                                  worlds > 0 ? ", also seen in mirrors" : ""));
   }
-  stages.push_back(fmt::format("solve: {}", plan.bands == 1 ? "one band, all is grey" : "three bands"));
+  stages.push_back(
+      fmt::format("solve: {}", plan.bands == 1 ? "one band, all is grey" : "three bands"));
   stages.push_back("interpolation: irradiance between the vertices of the elements");
   stages.push_back(mirrors ? "picture: camera rays, followed through mirrors"
                            : "picture: camera rays, no mirror to follow");
@@ -180,7 +182,8 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
 
   const auto materials = used_materials(scene);
   const auto count = [&](auto&& holds) {
-    return static_cast<std::size_t>(std::ranges::count_if(materials, holds, [](const Material* m) -> const Material& { return *m; }));
+    return static_cast<std::size_t>(std::ranges::count_if(
+        materials, holds, [](const Material* m) -> const Material& { return *m; }));
   };
   plan.glossy = count(is_glossy);
   plan.transmissive = count([](const Material& m) { return m.transmission > 0.0; });

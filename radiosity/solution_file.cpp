@@ -93,7 +93,8 @@ struct Geometry {
 };
 
 template <typename Item>
-std::size_t add_array(Geometry& geometry, const std::vector<Item>& items, int target, json accessor) {
+std::size_t add_array(Geometry& geometry, const std::vector<Item>& items, int target,
+                      json accessor) {
   const auto bytes = std::as_bytes(std::span(items));
   geometry.views.push_back({{"buffer", 0},
                             {"byteOffset", geometry.binary.size()},
@@ -164,18 +165,24 @@ json viewer_json(Geometry& geometry, const ElementMesh& mesh, const DiffuseField
   const json vec3{{"componentType", gltf_float}, {"type", "VEC3"}};
   const json scalar{{"componentType", gltf_unsigned_int}, {"type", "SCALAR"}};
   json attributes;
-  attributes["POSITION"] = add_array(geometry, positions, gltf_array_buffer, bounds_json(positions));
-  attributes["COLOR_0"] = add_array(geometry, display_colours(mesh, field), gltf_array_buffer, vec3);
+  attributes["POSITION"] =
+      add_array(geometry, positions, gltf_array_buffer, bounds_json(positions));
+  attributes["COLOR_0"] =
+      add_array(geometry, display_colours(mesh, field), gltf_array_buffer, vec3);
   attributes["_IRRADIANCE"] = add_array(geometry, field.irradiance, gltf_array_buffer, vec3);
   const std::size_t indices =
       add_array(geometry, triangles_of(mesh), gltf_element_array_buffer, scalar);
-  const json primitive{{"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", 4}};
-  return {{"scene", 0},
-          {"scenes", json::array({{{"nodes", json::array({0})}}})},
-          {"nodes", json::array({{{"mesh", 0}, {"name", "radiosity"}, {"translation", as_json(centre)}}})},
-          {"meshes", json::array({{{"name", "radiosity"}, {"primitives", json::array({primitive})}}})},
-          {"materials", json::array({{{"name", "radiosity"}, {"extensions", {{unlit, json::object()}}}}})},
-          {"extensionsUsed", json::array({unlit})}};
+  const json primitive{
+      {"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", 4}};
+  return {
+      {"scene", 0},
+      {"scenes", json::array({{{"nodes", json::array({0})}}})},
+      {"nodes",
+       json::array({{{"mesh", 0}, {"name", "radiosity"}, {"translation", as_json(centre)}}})},
+      {"meshes", json::array({{{"name", "radiosity"}, {"primitives", json::array({primitive})}}})},
+      {"materials",
+       json::array({{{"name", "radiosity"}, {"extensions", {{unlit, json::object()}}}}})},
+      {"extensionsUsed", json::array({unlit})}};
 }
 
 // --- Reading
@@ -221,7 +228,8 @@ std::vector<glm::vec3> read_irradiance(const std::filesystem::path& file, const 
   const json& accessor = root.at("accessors").at(accessor_index);
   const json& view = root.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
   const std::size_t offset = view.at("byteOffset");
-  const bool fits = accessor.at("count").get<std::size_t>() == vertices && offset <= glb.binary.size() &&
+  const bool fits = accessor.at("count").get<std::size_t>() == vertices &&
+                    offset <= glb.binary.size() &&
                     vertices <= (glb.binary.size() - offset) / vec3_size;
   if (!fits) {
     refuse(file, "damaged: it does not hold the irradiance it announces");
@@ -251,17 +259,20 @@ MeshSettings read_mesh_settings(const std::filesystem::path& file, const json& m
   const MeshSettings settings{.element_size = mesh.at("element_size"),
                               .target_elements = mesh.at("target_elements"),
                               .max_elements = mesh.at("max_elements")};
-  if (!(settings.element_size >= 0.0) || !(settings.target_elements > 0.0) || settings.max_elements == 0) {
+  if (!(settings.element_size >= 0.0) || !(settings.target_elements > 0.0) ||
+      settings.max_elements == 0) {
     refuse(file, "damaged: the settings of its mesh make no sense");
   }
   return settings;
 }
 
-StoredSolution read_checked(const std::filesystem::path& file, const GlbContent& glb, const Scene& scene) {
+StoredSolution read_checked(const std::filesystem::path& file, const GlbContent& glb,
+                            const Scene& scene) {
   const json& extras = glb.root.at("asset").at("extras").at("meninas");
   if (extras.at("version") != program_version()) {
-    refuse(file, fmt::format("was written by version {}, this is {}: solve again",
-                             extras.at("version").get<std::string>().substr(0, 32), program_version()));
+    refuse(file,
+           fmt::format("was written by version {}, this is {}: solve again",
+                       extras.at("version").get<std::string>().substr(0, 32), program_version()));
   }
   if (extras.at("scene_hash") != hex(content_hash(scene))) {
     refuse(file, fmt::format("is not a solution of {}: solve again", scene.file));
@@ -303,11 +314,13 @@ StoredSolution read_solution(const std::filesystem::path& file, const Scene& sce
   }
 }
 
-void check_belongs(const std::filesystem::path& file, const StoredSolution& solution, const ElementMesh& mesh) {
-  if (solution.field.irradiance.size() != mesh.vertices.size() || solution.elements != element_count(mesh)) {
+void check_belongs(const std::filesystem::path& file, const StoredSolution& solution,
+                   const ElementMesh& mesh) {
+  if (solution.field.irradiance.size() != mesh.vertices.size() ||
+      solution.elements != element_count(mesh)) {
     refuse(file, fmt::format("damaged: it has {} vertices and {} elements, its mesh has {} and {}",
-                             solution.field.irradiance.size(), solution.elements, mesh.vertices.size(),
-                             element_count(mesh)));
+                             solution.field.irradiance.size(), solution.elements,
+                             mesh.vertices.size(), element_count(mesh)));
   }
 }
 

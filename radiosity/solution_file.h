@@ -29,6 +29,7 @@ struct StoredSolution {
 StoredSolution read_solution(const std::filesystem::path& file, const Scene& scene);
 
 /// Throws InputError unless the solution has a value for every vertex of the mesh made with its settings.
-void check_belongs(const std::filesystem::path& file, const StoredSolution& solution, const ElementMesh& mesh);
+void check_belongs(const std::filesystem::path& file, const StoredSolution& solution,
+                   const ElementMesh& mesh);
 
 } // namespace meninas

@@ -56,7 +56,8 @@ GlbContent read_glb(const std::filesystem::path& file, std::uint64_t size_limit)
   if (!resource.problem.empty()) {
     throw InputError(file.string(), "", resource.problem);
   }
-  const bool is_glb = resource.bytes.size() >= 4 && std::memcmp(resource.bytes.data(), "glTF", 4) == 0;
+  const bool is_glb =
+      resource.bytes.size() >= 4 && std::memcmp(resource.bytes.data(), "glTF", 4) == 0;
   if (!is_glb) {
     throw InputError(file.string(), "", "not a GLB file");
   }

@@ -22,6 +22,7 @@ struct GlbContent {
 };
 
 /// Throws InputError unless the file is a whole GLB with the JSON of a glTF 2.0 asset.
-GlbContent read_glb(const std::filesystem::path& file, std::uint64_t size_limit = std::uint64_t{1} << 32);
+GlbContent read_glb(const std::filesystem::path& file,
+                    std::uint64_t size_limit = std::uint64_t{1} << 32);
 
 } // namespace meninas

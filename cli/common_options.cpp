@@ -1,0 +1,149 @@
+#include "cli/common_options.h"
+
+#include "cli/values.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+
+namespace meninas {
+namespace {
+
+constexpr const char* pass_one_group = "Pass one";
+
+const Choices<Quality> qualities{
+    {"draft", Quality::draft}, {"normal", Quality::normal}, {"fine", Quality::fine}};
+const Choices<FormFactorMethod> form_factor_methods{{"rays", FormFactorMethod::rays}};
+const Choices<SolverMethod> solvers{{"gauss-seidel", SolverMethod::gauss_seidel}};
+const Choices<Interpolation> interpolations{{"average", Interpolation::average},
+                                            {"gather", Interpolation::gather}};
+
+template <typename Value>
+std::string name_of(Value value, const Choices<Value>& choices) {
+  for (const auto& [name, known] : choices) {
+    if (known == value) {
+      return name;
+    }
+  }
+  return "";
+}
+
+/// An option whose text `take` parses; `shown` stands for its value in the help.
+CLI::Option* add_text(CLI::App& command, const std::string& option, const std::string& shown,
+                      const std::string& description,
+                      std::function<void(const std::string&)> take) {
+  return command.add_option_function<std::string>(option, take, description)->type_name(shown);
+}
+
+/// Options that choose one of several names; the default is the one a default run has.
+template <typename Value, typename Take>
+CLI::Option* add_choice(CLI::App& command, const std::string& option, const Choices<Value>& choices,
+                        Value standard, const std::string& description, Take take) {
+  return add_text(command, option, fmt::format("{}", fmt::join(names_of(choices), "|")),
+                  fmt::format("{} [{}]", description, name_of(standard, choices)),
+                  [=](const std::string& text) { take(parse_choice(option, text, choices)); });
+}
+
+/// "draft 1, normal 2, fine 3"
+template <typename Field>
+std::string by_preset(Field QualityPreset::*field) {
+  std::vector<std::string> parts;
+  for (const auto& [name, quality] : qualities) {
+    parts.push_back(fmt::format("{} {}", name, preset_of(quality).*field));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+} // namespace
+
+void add_scene(CLI::App& command, CommonOptions& options) {
+  command.add_option("SCENE", options.scene, "glTF 2.0 scene, .gltf or .glb")
+      ->type_name("")
+      ->required();
+}
+
+void add_quality(CLI::App& command, CommonOptions& options) {
+  add_choice(command, "--quality", qualities, RunSettings{}.quality,
+             "preset; explicit options override it",
+             [&](Quality quality) { options.settings.quality = quality; });
+}
+
+void add_mesh_options(CLI::App& command, CommonOptions& options) {
+  RunSettings& settings = options.settings;
+  add_text(command, "--element-size", "METRES",
+           fmt::format("wanted edge of the elements [about as many as: {}]",
+                       by_preset(&QualityPreset::target_elements)),
+           [&](const std::string& text) {
+             settings.element_size = parse_number("--element-size", text, Sign::positive);
+           })
+      ->group(pass_one_group);
+  add_text(command, "--mirror-depth", "N",
+           "the most mirrors a path of light may meet [as many as can be seen to matter]",
+           [&](const std::string& text) {
+             settings.mirror_depth =
+                 static_cast<int>(parse_integer("--mirror-depth", text, 0, 1'000'000));
+           })
+      ->group(pass_one_group);
+}
+
+void add_pass_one_options(CLI::App& command, CommonOptions& options) {
+  RunSettings& settings = options.settings;
+  const PassOneSettings standard = two_pass_settings({}).pass_one;
+  add_choice(command, "--form-factors", form_factor_methods, standard.form_factors.method,
+             "how form factors are found",
+             [&](FormFactorMethod method) { settings.form_factors = method; })
+      ->group(pass_one_group);
+  add_text(command, "--rays", "N",
+           fmt::format("form-factor rays per element, a power of two [{}]",
+                       by_preset(&QualityPreset::rays)),
+           [&](const std::string& text) {
+             settings.rays = static_cast<int>(parse_integer("--rays", text, 1, 1 << 20));
+           })
+      ->group(pass_one_group);
+  add_choice(command, "--solver", solvers, standard.solver.method, "how radiosities are found",
+             [&](SolverMethod method) { settings.solver = method; })
+      ->group(pass_one_group);
+  add_text(
+      command, "--tolerance", "X",
+      fmt::format("bound on the relative error the solver leaves [{}]", standard.solver.tolerance),
+      [&](const std::string& text) {
+        settings.tolerance = parse_number("--tolerance", text, Sign::positive);
+      })
+      ->group(pass_one_group);
+  add_choice(command, "--interpolation", interpolations, standard.interpolation.method,
+             "irradiance at the vertices: averaged from elements or gathered",
+             [&](Interpolation method) { settings.interpolation = method; })
+      ->group(pass_one_group);
+}
+
+void add_run_options(CLI::App& command, CommonOptions& options) {
+  add_text(command, "--threads", "N", "threads at work [all]", [&](const std::string& text) {
+    options.settings.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
+  });
+  add_text(command, "--seed", "N", fmt::format("of all sampling [{}]", RunSettings{}.seed),
+           [&](const std::string& text) {
+             options.settings.seed =
+                 static_cast<std::uint32_t>(parse_integer("--seed", text, 0, 0xffffffffLL));
+           });
+  command.add_flag_callback(
+      "--quiet", [&] { options.verbosity = Verbosity::quiet; },
+      "no progress and no notes, only warnings and errors");
+}
+
+void add_file(CLI::App& command, const std::string& option,
+              std::optional<std::filesystem::path>& file, const std::string& description) {
+  add_text(command, option, "FILE", description, [&](const std::string& text) { file = text; });
+}
+
+void refuse_pass_one_options(const CLI::App& command, const std::string& reason) {
+  constexpr std::array options{"--element-size", "--form-factors", "--rays",
+                               "--solver",       "--tolerance",    "--interpolation"};
+  for (const char* option : options) {
+    if (command.count(option) > 0) {
+      throw UsageError(option, reason);
+    }
+  }
+}
+
+} // namespace meninas

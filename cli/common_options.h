@@ -1,0 +1,60 @@
+// Options that several commands share; their help takes defaults from the presets and settings themselves.
+#pragma once
+
+#include "runs/run_events.h"
+#include "runs/run_settings.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace meninas {
+
+enum class Verbosity { normal, quiet };
+
+/// What every command has.
+struct CommonOptions {
+  std::filesystem::path scene;
+  RunSettings settings;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+void add_scene(CLI::App& command, CommonOptions& options);
+void add_quality(CLI::App& command, CommonOptions& options);
+
+/// How finely the scene is divided, and how far mirrors are followed: what a plan depends on too.
+void add_mesh_options(CLI::App& command, CommonOptions& options);
+
+/// The rest of pass one.
+void add_pass_one_options(CLI::App& command, CommonOptions& options);
+
+/// Threads, seed, quiet.
+void add_run_options(CLI::App& command, CommonOptions& options);
+
+void add_file(CLI::App& command, const std::string& option,
+              std::optional<std::filesystem::path>& file, const std::string& description);
+
+/// Throws UsageError when an option was given that only a run of pass one obeys.
+void refuse_pass_one_options(const CLI::App& command, const std::string& reason);
+
+/// Warnings, notes and progress on standard error.
+class Console {
+public:
+  explicit Console(Verbosity verbosity);
+  ~Console();
+  RunEvents events();
+  /// Says what `settings` rounds.
+  void say_rounding(const RunSettings& settings);
+
+private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+/// The text without control characters, which would break the one line it has.
+std::string one_line(std::string text);
+
+} // namespace meninas

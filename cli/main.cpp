@@ -1,0 +1,126 @@
+// meninas COMMAND SCENE [options]
+//
+// Every error is one line, `meninas: FILE: WHERE: WHAT`, on standard error, and an exit code that says whose fault it is.
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "cli/values.h"
+#include "scenes/version.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+
+namespace meninas {
+namespace {
+
+int fail(ExitCode code, const std::string& line) {
+  fmt::print(stderr, "meninas: {}\n", one_line(line));
+  return static_cast<int>(code);
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      names.push_back("--" + name);
+    }
+    for (const std::string& name : option->get_snames()) {
+      names.push_back("-" + name);
+    }
+  }
+  return names;
+}
+
+/// What CLI11 could not place: options first, because what follows them may have been their values.
+void refuse_leftovers(const CLI::App& app, const std::string& where) {
+  const std::vector<std::string> leftovers = app.remaining();
+  for (const std::string& text : leftovers) {
+    if (text.size() > 1 && text.front() == '-') {
+      const std::string name = text.substr(0, text.find('='));
+      throw UsageError(where,
+                       fmt::format("no option '{}'{}", name, hint_for(name, option_names(app))));
+    }
+  }
+  if (!leftovers.empty()) {
+    throw UsageError(where, fmt::format("too many arguments: '{}'", leftovers.front()));
+  }
+}
+
+const Command* chosen_command(const CLI::App& program, const std::vector<Command>& commands) {
+  const auto parsed = program.get_subcommands();
+  for (const Command& command : commands) {
+    if (!parsed.empty() && parsed.front() == command.options) {
+      return &command;
+    }
+  }
+  return nullptr;
+}
+
+[[noreturn]] void refuse_command(const CLI::App& program, const std::vector<Command>& commands) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) {
+    names.push_back(command.options->get_name());
+  }
+  for (const std::string& text : program.remaining()) {
+    if (!text.starts_with('-')) {
+      throw UsageError("", fmt::format("no command '{}'{}", text, hint_for(text, names)));
+    }
+  }
+  refuse_leftovers(program, "");
+  throw UsageError("", "a command is needed, see meninas -h");
+}
+
+/// Parses, then runs; help and version are answered on standard output.
+int run(CLI::App& program, const std::vector<Command>& commands, int argc, char** argv) {
+  std::optional<std::string> problem;
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& answer) {
+    return program.exit(answer);
+  } catch (const CLI::ParseError& error) {
+    problem = error.what();
+  }
+  const Command* command = chosen_command(program, commands);
+  if (command == nullptr) {
+    refuse_command(program, commands);
+  }
+  refuse_leftovers(*command->options, command->options->get_name());
+  if (problem) {
+    throw UsageError(command->options->get_name(), *problem);
+  }
+  command->run();
+  return static_cast<int>(ExitCode::success);
+}
+
+int guarded_main(int argc, char** argv) {
+  CLI::App program("Renders rooms with mirrors without noise.", "meninas");
+  program.set_version_flag("--version", "meninas " + std::string(program_version()),
+                           "print the version");
+  program.get_formatter()->column_width(36);
+  program.footer("Exit codes: 2 wrong usage, 3 bad input, 4 failed write or exhausted resource.");
+  program.require_subcommand(0, 1);
+  program.allow_extras();
+  const std::vector<Command> commands{add_render_command(program), add_solve_command(program),
+                                      add_plan_command(program)};
+  for (const Command& command : commands) {
+    command.options->allow_extras();
+  }
+  return run(program, commands, argc, argv);
+}
+
+} // namespace
+} // namespace meninas
+
+int main(int argc, char** argv) {
+  using meninas::ExitCode;
+  try {
+    return meninas::guarded_main(argc, argv);
+  } catch (const meninas::UserError& error) {
+    return meninas::fail(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    return meninas::fail(ExitCode::failed_output, "out of memory");
+  } catch (const std::exception& error) {
+    return meninas::fail(ExitCode::failed_output, fmt::format("internal error: {}", error.what()));
+  }
+}

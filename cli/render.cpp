@@ -1,0 +1,98 @@
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "cli/values.h"
+#include "runs/render_run.h"
+
+#include <fmt/format.h>
+
+namespace meninas {
+namespace {
+
+constexpr const char* picture_group = "Picture";
+
+const Choices<RenderMode> modes{{"radiosity", RenderMode::radiosity},
+                                {"hybrid", RenderMode::hybrid}};
+
+struct RenderOptions {
+  CommonOptions common;
+  RenderRequest request;
+};
+
+void add_outputs(CLI::App& command, RenderOptions& options) {
+  RenderRequest& request = options.request;
+  command
+      .add_option("-o,--output", request.pictures,
+                  "OUT.exr (linear) or OUT.png; may be given several times")
+      ->type_name("FILE")
+      ->required()
+      ->allow_extra_args(false);
+  add_file(command, "--solution", request.solution,
+           "a solution written by 'meninas solve'; pass one is skipped");
+  add_file(command, "--stats", request.stats, "write the run's figures as JSON");
+}
+
+void add_picture_options(CLI::App& command, RenderOptions& options) {
+  RenderRequest& request = options.request;
+  const auto add = [&](const std::string& option, const std::string& shown,
+                       const std::string& description,
+                       std::function<void(const std::string&)> take) {
+    command.add_option_function<std::string>(option, take, description)
+        ->type_name(shown)
+        ->group(picture_group);
+  };
+  add("--mode", "radiosity|hybrid", "pass one alone, with black mirrors, or both passes [hybrid]",
+      [&](const std::string& text) {
+        options.common.settings.mode = parse_choice("--mode", text, modes);
+      });
+  add("--camera", "NAME", "camera of the scene [its first]",
+      [&](const std::string& text) { request.camera = text; });
+  const PictureSize standard;
+  add("--size", "WxH",
+      fmt::format("pixels [{}x{}, or as wide as the camera asks]", standard.width, standard.height),
+      [&](const std::string& text) { request.size = parse_size("--size", text); });
+  add("--samples", "N",
+      fmt::format("camera rays per pixel, a power of two [draft {}, normal {}, fine {}]",
+                  preset_of(Quality::draft).samples, preset_of(Quality::normal).samples,
+                  preset_of(Quality::fine).samples),
+      [&](const std::string& text) {
+        options.common.settings.samples =
+            static_cast<int>(parse_integer("--samples", text, 1, 1 << 16));
+      });
+  add("--exposure", "EV", "stops by which a PNG is brightened [automatic]",
+      [&](const std::string& text) {
+        request.picture.exposure = parse_number("--exposure", text, Sign::any);
+      });
+  command
+      .add_flag_callback(
+          "--float", [&] { request.picture.exr_type = PixelType::float32; },
+          "32 bits per channel of an EXR instead of 16")
+      ->group(picture_group);
+}
+
+void run(const CLI::App& command, RenderOptions& options) {
+  if (options.request.solution) {
+    refuse_pass_one_options(command, "has no effect with --solution: pass one is not run");
+  }
+  options.request.scene = options.common.scene;
+  options.request.settings = options.common.settings;
+  Console console(options.common.verbosity);
+  console.say_rounding(options.request.settings);
+  render_run(options.request, console.events());
+}
+
+} // namespace
+
+Command add_render_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("render", "Render a scene into pictures");
+  const auto options = std::make_shared<RenderOptions>();
+  add_scene(*command, options->common);
+  add_outputs(*command, *options);
+  add_quality(*command, options->common);
+  add_picture_options(*command, *options);
+  add_mesh_options(*command, options->common);
+  add_pass_one_options(*command, options->common);
+  add_run_options(*command, options->common);
+  return {command, [=] { run(*command, *options); }};
+}
+
+} // namespace meninas

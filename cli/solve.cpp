@@ -1,0 +1,41 @@
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "runs/solve_run.h"
+
+namespace meninas {
+namespace {
+
+struct SolveOptions {
+  CommonOptions common;
+  SolveRequest request;
+};
+
+void run(SolveOptions& options) {
+  options.request.scene = options.common.scene;
+  options.request.settings = options.common.settings;
+  Console console(options.common.verbosity);
+  console.say_rounding(options.request.settings);
+  solve_run(options.request, console.events());
+}
+
+} // namespace
+
+Command add_solve_command(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("solve", "Solve pass one once, for any number of views");
+  const auto options = std::make_shared<SolveOptions>();
+  add_scene(*command, options->common);
+  command->add_option("-o,--output", options->request.solution, "OUT.glb, which viewers show too")
+      ->type_name("FILE")
+      ->required();
+  add_file(*command, "--per-node", options->request.per_node,
+           "write area, emitted radiosity, radiosity and irradiance per node as JSON");
+  add_file(*command, "--stats", options->request.stats, "write the run's figures as JSON");
+  add_quality(*command, options->common);
+  add_mesh_options(*command, options->common);
+  add_pass_one_options(*command, options->common);
+  add_run_options(*command, options->common);
+  return {command, [=] { run(*options); }};
+}
+
+} // namespace meninas

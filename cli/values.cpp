@@ -1,0 +1,83 @@
+#include "cli/values.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+namespace meninas {
+namespace {
+
+template <typename Number>
+std::optional<Number> whole_number_in(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) {
+    text.remove_prefix(1);
+  }
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+} // namespace
+
+std::int64_t parse_integer(const std::string& option, const std::string& text, std::int64_t low,
+                           std::int64_t high) {
+  const auto value = whole_number_in<std::int64_t>(text);
+  if (!value || *value < low || *value > high) {
+    throw UsageError(option,
+                     fmt::format("'{}' is not a whole number from {} to {}", text, low, high));
+  }
+  return *value;
+}
+
+double parse_number(const std::string& option, const std::string& text, Sign sign) {
+  const auto value = whole_number_in<double>(text);
+  if (!value || !std::isfinite(*value)) {
+    throw UsageError(option, fmt::format("'{}' is not a number", text));
+  }
+  if (sign == Sign::positive && *value <= 0.0) {
+    throw UsageError(option, fmt::format("'{}' is not positive", text));
+  }
+  return *value;
+}
+
+PictureSize parse_size(const std::string& option, const std::string& text) {
+  constexpr int longest_side = 65'536;
+  constexpr std::int64_t most_pixels = std::int64_t{1} << 27;
+  const auto cross = text.find('x');
+  const auto width = whole_number_in<int>(std::string_view(text).substr(0, cross));
+  const auto height = cross == std::string::npos
+                          ? std::nullopt
+                          : whole_number_in<int>(std::string_view(text).substr(cross + 1));
+  if (!width || !height || *width < 1 || *height < 1) {
+    throw UsageError(option, fmt::format("'{}' is not a size such as 640x480", text));
+  }
+  if (*width > longest_side || *height > longest_side ||
+      std::int64_t{*width} * *height > most_pixels) {
+    throw UsageError(option, fmt::format("'{}' is larger than {} pixels on a side or {} in all",
+                                         text, longest_side, most_pixels));
+  }
+  return {*width, *height};
+}
+
+std::string hint_for(const std::string& name, const std::vector<std::string>& known) {
+  const auto nearest = nearest_name(name, known);
+  return nearest ? fmt::format(", did you mean '{}'?", *nearest) : "";
+}
+
+void refuse_choice(const std::string& option, const std::string& text,
+                   const std::vector<std::string>& known) {
+  const std::string hint = hint_for(text, known);
+  throw UsageError(
+      option,
+      fmt::format("no value '{}'{}", text,
+                  hint.empty() ? fmt::format(", there is {}", fmt::join(known, ", ")) : hint));
+}
+
+} // namespace meninas

@@ -1,0 +1,57 @@
+// Option values from text. All of them throw UsageError naming the option, what it was given and what it takes.
+#pragma once
+
+#include "runs/preparation.h"
+#include "scenes/errors.h"
+#include "scenes/names.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace meninas {
+
+/// A decimal integer from low to high.
+std::int64_t parse_integer(const std::string& option, const std::string& text, std::int64_t low,
+                           std::int64_t high);
+
+enum class Sign { any, positive };
+
+/// A finite decimal number.
+double parse_number(const std::string& option, const std::string& text, Sign sign);
+
+/// WIDTHxHEIGHT
+PictureSize parse_size(const std::string& option, const std::string& text);
+
+[[noreturn]] void refuse_choice(const std::string& option, const std::string& text,
+                                const std::vector<std::string>& known);
+
+/// The names an option takes, in the order in which help shows them.
+template <typename Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+template <typename Value>
+std::vector<std::string> names_of(const Choices<Value>& choices) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : choices) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+template <typename Value>
+Value parse_choice(const std::string& option, const std::string& text,
+                   const Choices<Value>& choices) {
+  for (const auto& [name, value] : choices) {
+    if (name == text) {
+      return value;
+    }
+  }
+  refuse_choice(option, text, names_of(choices));
+}
+
+/// ", did you mean 'x'?", or nothing when no known name is near.
+std::string hint_for(const std::string& name, const std::vector<std::string>& known);
+
+} // namespace meninas

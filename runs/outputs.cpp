@@ -1,0 +1,79 @@
+#include "runs/outputs.h"
+
+#include "image/display.h"
+#include "image/whole_file.h"
+#include "scenes/errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meninas {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Compared by name too, because an output need not exist yet.
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) {
+    return true;
+  }
+  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error) && !error;
+}
+
+void check_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    const auto is_this = [&](const fs::path& other) { return is_same_file(outputs[k], other); };
+    if (std::ranges::any_of(inputs, is_this)) {
+      throw UsageError(outputs[k].string(), "is an input, which would be overwritten");
+    }
+    if (std::any_of(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(k), is_this)) {
+      throw UsageError(outputs[k].string(), "is named as an output twice");
+    }
+  }
+}
+
+} // namespace
+
+void check_outputs(const OutputFiles& outputs, const std::vector<fs::path>& inputs) {
+  std::vector<fs::path> all = outputs.pictures;
+  all.insert(all.end(), outputs.texts.begin(), outputs.texts.end());
+  if (outputs.solution) {
+    all.push_back(*outputs.solution);
+  }
+  check_distinct(all, inputs);
+  for (const fs::path& picture : outputs.pictures) {
+    check_writable_image(picture);
+  }
+  if (outputs.solution && outputs.solution->extension() != ".glb") {
+    throw OutputError(outputs.solution->string(), "", "cannot write: a solution is a .glb file");
+  }
+  for (const fs::path& file : all) {
+    check_writable_file(file);
+  }
+}
+
+void write_pictures(const std::vector<fs::path>& files, const Image& picture,
+                    const PictureSettings& settings, const Attributes& attributes,
+                    const RunEvents& events) {
+  std::optional<double> exposure = settings.exposure;
+  for (const fs::path& file : files) {
+    if (picture_format(file) == PictureFormat::exr) {
+      write_exr(file, picture, {}, settings.exr_type, attributes);
+      continue;
+    }
+    if (!exposure) {
+      exposure = automatic_exposure(picture);
+      note(events, fmt::format("exposure {:+.2f} EV (automatic)", *exposure));
+    }
+    write_png(file, picture, *exposure);
+  }
+  const bool has_png = std::ranges::any_of(
+      files, [](const fs::path& file) { return picture_format(file) == PictureFormat::png; });
+  if (settings.exposure && has_png) {
+    note(events, fmt::format("exposure {:+.2f} EV", *settings.exposure));
+  }
+}
+
+} // namespace meninas

@@ -1,0 +1,31 @@
+// The files a run writes: checked before the work, written after it.
+#pragma once
+
+#include "image/image_file.h"
+#include "runs/run_events.h"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace meninas {
+
+struct OutputFiles {
+  std::vector<std::filesystem::path> pictures;   ///< .exr or .png
+  std::optional<std::filesystem::path> solution; ///< .glb
+  std::vector<std::filesystem::path> texts;
+};
+
+/// Throws OutputError for a place that cannot be written, UsageError for one that holds an input or is named twice.
+void check_outputs(const OutputFiles& outputs, const std::vector<std::filesystem::path>& inputs);
+
+struct PictureSettings {
+  PixelType exr_type = PixelType::half;
+  std::optional<double> exposure; ///< stops, of a PNG; chosen for the picture otherwise
+};
+
+void write_pictures(const std::vector<std::filesystem::path>& files, const Image& picture,
+                    const PictureSettings& settings, const Attributes& attributes,
+                    const RunEvents& events);
+
+} // namespace meninas

@@ -1,0 +1,70 @@
+#include "runs/plan_run.h"
+
+#include "runs/resources.h"
+#include "runs/stats.h"
+#include "scenes/gltf.h"
+
+#include <fmt/format.h>
+
+namespace meninas {
+namespace {
+
+std::string list(const std::string& title, const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) {
+    text +=
+        text.empty() ? fmt::format("{:<18}{}\n", title, line) : fmt::format("{:<18}{}\n", "", line);
+  }
+  return text;
+}
+
+std::string fact(const std::string& title, const std::string& value) {
+  return fmt::format("{:<18}{}\n", title, value);
+}
+
+std::vector<std::string> describe_mirrors(const TransportPlan& plan) {
+  std::vector<std::string> lines;
+  for (const PlannedMirror& mirror : plan.mirror_list) {
+    const Rgb& rho = mirror.reflectance;
+    lines.push_back(fmt::format("{}, {:.4g} m^2, reflectance {:.3g} {:.3g} {:.3g}", mirror.name,
+                                mirror.area, rho.r, rho.g, rho.b));
+  }
+  if (lines.empty()) {
+    lines.emplace_back("none");
+  }
+  return lines;
+}
+
+std::string plan_text(const std::string& file, const TransportPlan& plan, std::size_t patches,
+                      std::size_t elements) {
+  std::string text = fact("scene", file);
+  text += list("mirrors", describe_mirrors(plan));
+  text += fact("mirror worlds", std::to_string(plan.worlds.worlds.size() - 1));
+  text += fact("emitters", fmt::format("{} patch sides", plan.emitters));
+  text += fact("punctual lights", std::to_string(plan.punctual_lights));
+  text += fact("materials", fmt::format("{} glossy, {} transmissive, {} textured", plan.glossy,
+                                        plan.transmissive, plan.textured));
+  text += fact("bands", plan.bands == 1 ? "1, all is grey" : "3");
+  text += fact("closed", plan.closed ? "yes, no light can escape" : "no, light can escape");
+  text += fact("mesh", fmt::format("{} patches, {} elements", patches, elements));
+  text += list("stages", plan.stages);
+  text += list("ignored", plan.ignored);
+  text += list("warnings", plan.warnings);
+  return text;
+}
+
+} // namespace
+
+std::string plan_run(const PlanRequest& request) {
+  const ThreadLimit limit(request.settings.threads);
+  const PassOneSettings settings = two_pass_settings(request.settings).pass_one;
+  const Scene scene = load_gltf(request.scene);
+  const SurfaceModel surfaces = find_surfaces(scene);
+  const TransportPlan plan = plan_transport(scene, surfaces, settings.plan);
+  const std::size_t elements = element_count(make_element_mesh(scene, surfaces, settings.mesh));
+  const std::size_t patches = surfaces.patches.size();
+  return request.format == PlanFormat::json ? plan_json(plan, patches, elements)
+                                            : plan_text(scene.file, plan, patches, elements);
+}
+
+} // namespace meninas

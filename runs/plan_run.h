@@ -1,0 +1,21 @@
+// `plan`: what a scene contains and what will be modelled, as text for people or as JSON.
+#pragma once
+
+#include "runs/run_settings.h"
+
+#include <filesystem>
+#include <string>
+
+namespace meninas {
+
+enum class PlanFormat { text, json };
+
+struct PlanRequest {
+  std::filesystem::path scene;
+  PlanFormat format = PlanFormat::text;
+  RunSettings settings;
+};
+
+std::string plan_run(const PlanRequest& request);
+
+} // namespace meninas

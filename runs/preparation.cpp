@@ -1,0 +1,63 @@
+#include "runs/preparation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas {
+
+std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,
+                                           const RunEvents& events, RunFigures& figures) {
+  auto prepared = prepare_scene(std::move(scene), settings);
+  for (const std::string& warning : prepared->plan.warnings) {
+    warn(events, warning);
+  }
+  add_preparation(figures, *prepared);
+  return prepared;
+}
+
+void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
+                      const RunEvents& events) {
+  if (!solver.converged) {
+    warn(events, fmt::format("pass one has not converged: residual {:.2g} after {} iterations, "
+                             "error bound {:.2g}",
+                             solver.residual, solver.iterations, solver.error_bound));
+  }
+  // A thousandth of the light is where a cut begins to show in a picture.
+  constexpr double visible = 1e-3;
+  if (closure.cut > visible) {
+    warn(events, fmt::format("{:.1f} % of the gathered light was cut at the last mirror",
+                             100.0 * closure.cut));
+  }
+}
+
+Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
+                     const RunEvents& events) {
+  if (name) {
+    return find_camera(scene, *name);
+  }
+  if (scene.cameras.empty()) {
+    return default_camera(bounds_of(scene));
+  }
+  if (scene.cameras.size() > 1) {
+    note(events, fmt::format("camera '{}', the first of {}", scene.cameras.front().name,
+                             scene.cameras.size()));
+  }
+  return scene.cameras.front();
+}
+
+PictureSize choose_size(const std::optional<PictureSize>& asked, const Camera& camera) {
+  if (asked) {
+    return *asked;
+  }
+  PictureSize size;
+  if (camera.aspect > 0.0) {
+    // An absurd aspect still makes a picture.
+    const double width = std::clamp(camera.aspect * size.height, 1.0, 16.0 * size.height);
+    size.width = static_cast<int>(std::lround(width));
+  }
+  return size;
+}
+
+} // namespace meninas

@@ -1,0 +1,28 @@
+// The beginning every run has in common: from the scene's file to a prepared scene, with its warnings said.
+#pragma once
+
+#include "runs/run_events.h"
+#include "runs/run_settings.h"
+#include "runs/stats.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace meninas {
+
+/// Says the plan's warnings and fills in the figures of these stages.
+std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,
+                                           const RunEvents& events, RunFigures& figures);
+
+/// Says what a user has to know about how well pass one went.
+void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
+                      const RunEvents& events);
+
+/// The camera of that name, else the file's first, else a default view of the whole scene.
+Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
+                     const RunEvents& events);
+
+/// As asked, else 512 rows, as wide as the camera wants them, else square.
+PictureSize choose_size(const std::optional<PictureSize>& asked, const Camera& camera);
+
+} // namespace meninas

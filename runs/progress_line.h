@@ -1,0 +1,43 @@
+// How far a run is, on standard error: one line that is written over on a terminal, a plain line now and then in a log.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace meninas {
+
+enum class ProgressStyle { none, terminal, log };
+
+/// A terminal where the stream is one, a log otherwise.
+ProgressStyle progress_style(std::FILE* stream);
+
+/// Safe to be told from any thread.
+class ProgressLine {
+public:
+  ProgressLine(std::FILE* stream, ProgressStyle style) : stream_(stream), style_(style) {}
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ~ProgressLine() { clear(); }
+
+  void report(std::string_view stage, double fraction);
+  /// Takes the line away, so that something else can be written there.
+  void clear();
+
+private:
+  using Clock = std::chrono::steady_clock;
+  void show(double fraction);
+
+  std::FILE* stream_;
+  ProgressStyle style_;
+  std::mutex mutex_;
+  std::string stage_;
+  Clock::time_point stage_begin_ = Clock::now();
+  Clock::time_point last_shown_ = Clock::now();
+  double furthest_ = 0.0;
+  bool visible_ = false;
+};
+
+} // namespace meninas

@@ -1,0 +1,29 @@
+// `render`: from a scene file to pictures.
+#pragma once
+
+#include "runs/outputs.h"
+#include "runs/run_settings.h"
+#include "runs/stats.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meninas {
+
+struct RenderRequest {
+  std::filesystem::path scene;
+  std::vector<std::filesystem::path> pictures;
+  std::optional<std::filesystem::path> solution; ///< of an earlier solve: pass one is skipped
+  std::optional<std::filesystem::path> stats;
+  std::optional<std::string> camera;
+  std::optional<PictureSize> size;
+  PictureSettings picture;
+  RunSettings settings;
+};
+
+/// Writes all outputs, or throws a UserError before or after the work; what was written is whole.
+RunFigures render_run(const RenderRequest& request, const RunEvents& events = {});
+
+} // namespace meninas

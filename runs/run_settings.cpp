@@ -1,0 +1,66 @@
+#include "runs/run_settings.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+
+namespace meninas {
+
+static int power_of_two(int count) {
+  return static_cast<int>(std::bit_ceil(static_cast<unsigned>(count)));
+}
+
+QualityPreset preset_of(Quality quality) {
+  switch (quality) {
+  case Quality::draft:
+    return {.target_elements = 2'250, .rays = 128, .samples = 4};
+  case Quality::normal:
+    return {.target_elements = 16'000, .rays = 512, .samples = 16};
+  case Quality::fine:
+    return {.target_elements = 64'000, .rays = 2'048, .samples = 64};
+  }
+  return {};
+}
+
+TwoPassSettings two_pass_settings(const RunSettings& settings) {
+  const QualityPreset preset = preset_of(settings.quality);
+  TwoPassSettings result;
+  PassOneSettings& pass_one = result.pass_one;
+  pass_one.mesh.element_size = settings.element_size.value_or(0.0);
+  pass_one.mesh.target_elements = preset.target_elements;
+  pass_one.form_factors.method = settings.form_factors;
+  pass_one.form_factors.rays = power_of_two(settings.rays.value_or(preset.rays));
+  pass_one.form_factors.seed = settings.seed;
+  pass_one.direct.seed = settings.seed;
+  pass_one.solver.method = settings.solver;
+  pass_one.solver.tolerance = settings.tolerance.value_or(pass_one.solver.tolerance);
+  pass_one.interpolation.method = settings.interpolation.value_or(pass_one.interpolation.method);
+  pass_one.interpolation.rays = pass_one.form_factors.rays;
+
+  result.render.mode = settings.mode;
+  result.render.samples = power_of_two(settings.samples.value_or(preset.samples));
+  result.render.seed = settings.seed;
+  if (settings.mirror_depth) {
+    // A cap holds for every kind of path: in closed form, gathered, and seen by the camera.
+    pass_one.plan.worlds.max_depth =
+        std::min(pass_one.plan.worlds.max_depth, *settings.mirror_depth);
+    pass_one.form_factors.max_bounces = *settings.mirror_depth;
+    result.render.max_bounces = *settings.mirror_depth;
+  }
+  return result;
+}
+
+std::vector<std::string> rounding_notes(const RunSettings& settings) {
+  std::vector<std::string> notes;
+  const auto compare = [&](const char* option, const std::optional<int>& asked) {
+    if (asked && power_of_two(*asked) != *asked) {
+      notes.push_back(
+          fmt::format("{} {} is rounded up to {}", option, *asked, power_of_two(*asked)));
+    }
+  };
+  compare("--rays", settings.rays);
+  compare("--samples", settings.samples);
+  return notes;
+}
+
+} // namespace meninas

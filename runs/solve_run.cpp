@@ -1,0 +1,54 @@
+#include "runs/solve_run.h"
+
+#include "radiosity/solution_file.h"
+#include "runs/outputs.h"
+#include "runs/preparation.h"
+#include "runs/resources.h"
+#include "scenes/gltf.h"
+#include "scenes/stopwatch.h"
+
+namespace meninas {
+
+static void check_files(const SolveRequest& request) {
+  OutputFiles outputs{.pictures = {}, .solution = request.solution, .texts = {}};
+  for (const auto& text : {request.per_node, request.stats}) {
+    if (text) {
+      outputs.texts.push_back(*text);
+    }
+  }
+  check_outputs(outputs, {request.scene});
+}
+
+RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
+  check_files(request);
+  const ThreadLimit limit(request.settings.threads);
+  const PassOneSettings settings = two_pass_settings(request.settings).pass_one;
+  RunFigures figures;
+  figures.method = settings.solver.method;
+  figures.threads = limit.threads();
+  Stopwatch total;
+  Stopwatch watch;
+
+  Scene scene = load_gltf(request.scene);
+  figures.seconds.load = watch.lap();
+  const auto prepared = prepare_run(std::move(scene), settings, events, figures);
+  const RadiositySolution solution = solve_pass_one(*prepared->light, settings, events.progress);
+  add_solution(figures, solution);
+  warn_of_solution(figures.solver, figures.closure, events);
+
+  watch.lap();
+  write_solution(request.solution, prepared->scene, prepared->mesh, solution, settings.mesh);
+  if (request.per_node) {
+    const auto nodes = light_by_node(prepared->scene, prepared->mesh, solution);
+    write_text_file(*request.per_node, per_node_json(nodes));
+  }
+  figures.seconds.write = watch.lap();
+  figures.seconds.total = total.lap();
+  figures.peak_memory_bytes = peak_memory_bytes();
+  if (request.stats) {
+    write_text_file(*request.stats, stats_json(figures));
+  }
+  return figures;
+}
+
+} // namespace meninas

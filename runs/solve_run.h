@@ -1,0 +1,24 @@
+// `solve`: pass one alone, kept as a solution file, as figures per node, or both.
+#pragma once
+
+#include "runs/run_events.h"
+#include "runs/run_settings.h"
+#include "runs/stats.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace meninas {
+
+struct SolveRequest {
+  std::filesystem::path scene;
+  std::filesystem::path solution; ///< .glb
+  std::optional<std::filesystem::path> per_node;
+  std::optional<std::filesystem::path> stats;
+  RunSettings settings;
+};
+
+/// Writes all outputs, or throws a UserError before or after the work; what was written is whole.
+RunFigures solve_run(const SolveRequest& request, const RunEvents& events = {});
+
+} // namespace meninas

@@ -1,0 +1,152 @@
+#include "runs/stats.h"
+
+#include "image/whole_file.h"
+
+#include <nlohmann/json.hpp>
+
+namespace meninas {
+namespace {
+
+/// Keys stay in the order in which they are documented.
+using Json = nlohmann::ordered_json;
+
+Json as_json(const Rgb& colour) { return Json::array({colour.r, colour.g, colour.b}); }
+
+/// A name may hold bytes that are no UTF-8: they are replaced, not refused.
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+const char* name_of(SolverMethod method) {
+  switch (method) {
+  case SolverMethod::gauss_seidel:
+    return "gauss-seidel";
+  }
+  return "";
+}
+
+SolverResult without_radiosity(const SolverResult& solver) {
+  SolverResult figures;
+  figures.iterations = solver.iterations;
+  figures.residual = solver.residual;
+  figures.error_bound = solver.error_bound;
+  figures.converged = solver.converged;
+  figures.residuals = solver.residuals;
+  return figures;
+}
+
+Json solve_json(const RunFigures& figures) {
+  const SolverResult& solver = figures.solver;
+  return {{"solver", name_of(figures.method)}, {"iterations", solver.iterations},
+          {"residual", solver.residual},       {"error_bound", solver.error_bound},
+          {"converged", solver.converged},     {"residuals", solver.residuals}};
+}
+
+Json energy_json(const EnergyBalance& energy) {
+  return {{"emitted", as_json(energy.emitted)},
+          {"absorbed", as_json(energy.absorbed)},
+          {"escaped", as_json(energy.escaped)},
+          {"mirror_absorbed", as_json(energy.mirror_absorbed)},
+          {"imbalance", energy.imbalance}};
+}
+
+Json seconds_json(const RunSeconds& seconds) {
+  return {{"load", seconds.load},     {"plan", seconds.plan},
+          {"mesh", seconds.mesh},     {"form_factors", seconds.form_factors},
+          {"solve", seconds.solve},   {"interpolate", seconds.interpolate},
+          {"render", seconds.render}, {"write", seconds.write},
+          {"total", seconds.total}};
+}
+
+} // namespace
+
+void add_preparation(RunFigures& figures, const PreparedScene& prepared) {
+  figures.mirrors = prepared.plan.mirror_list.size();
+  figures.mirror_worlds = prepared.plan.worlds.worlds.size() - 1;
+  figures.emitters = prepared.plan.emitters;
+  figures.bands = prepared.plan.bands;
+  figures.surfaces = prepared.surfaces.surfaces.size();
+  figures.patches = prepared.surfaces.patches.size();
+  figures.elements = element_count(prepared.mesh);
+  figures.vertices = prepared.mesh.vertices.size();
+  figures.seconds.plan = prepared.seconds.plan;
+  figures.seconds.mesh = prepared.seconds.mesh;
+}
+
+void add_solution(RunFigures& figures, const RadiositySolution& solution) {
+  figures.solver = without_radiosity(solution.solver);
+  figures.energy = solution.energy;
+  figures.closure = solution.closure;
+  figures.rays.form_factor = solution.form_factor_rays;
+  figures.rays.shadow = solution.shadow_rays;
+  figures.seconds.form_factors = solution.seconds.form_factors;
+  figures.seconds.solve = solution.seconds.solve;
+  figures.seconds.interpolate = solution.seconds.interpolate;
+}
+
+void add_rendering(RunFigures& figures, const Rendering& rendering) {
+  figures.rays.camera = rendering.camera_rays;
+  figures.rays.specular = rendering.specular_rays;
+}
+
+std::string stats_json(const RunFigures& figures) {
+  const Json json{
+      {"plan",
+       {{"mirrors", figures.mirrors},
+        {"mirror_worlds", figures.mirror_worlds},
+        {"emitters", figures.emitters},
+        {"bands", figures.bands}}},
+      {"mesh",
+       {{"surfaces", figures.surfaces},
+        {"patches", figures.patches},
+        {"elements", figures.elements},
+        {"vertices", figures.vertices}}},
+      {"solve", solve_json(figures)},
+      {"energy", energy_json(figures.energy)},
+      {"closure",
+       {{"mean_error", figures.closure.mean_error}, {"max_error", figures.closure.max_error}}},
+      {"rays",
+       {{"form_factor", figures.rays.form_factor},
+        {"shadow", figures.rays.shadow},
+        {"camera", figures.rays.camera},
+        {"specular", figures.rays.specular}}},
+      {"seconds", seconds_json(figures.seconds)},
+      {"peak_memory_bytes", figures.peak_memory_bytes},
+      {"threads", figures.threads}};
+  return text_of(json);
+}
+
+std::string per_node_json(const std::vector<NodeLight>& nodes) {
+  Json list = Json::array();
+  for (const NodeLight& node : nodes) {
+    list.push_back({{"name", node.name},
+                    {"area", node.area},
+                    {"emitted", as_json(node.emitted)},
+                    {"radiosity", as_json(node.radiosity)},
+                    {"irradiance", as_json(node.irradiance)}});
+  }
+  return text_of(Json{{"nodes", std::move(list)}});
+}
+
+std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_t elements) {
+  Json mirrors = Json::array();
+  for (const PlannedMirror& mirror : plan.mirror_list) {
+    mirrors.push_back({{"name", mirror.name},
+                       {"area", mirror.area},
+                       {"reflectance", as_json(mirror.reflectance)}});
+  }
+  const Json json{{"mirrors", std::move(mirrors)}, {"mirror_worlds", plan.worlds.worlds.size() - 1},
+                  {"emitters", plan.emitters},     {"punctual_lights", plan.punctual_lights},
+                  {"glossy", plan.glossy},         {"transmissive", plan.transmissive},
+                  {"textured", plan.textured},     {"bands", plan.bands},
+                  {"closed", plan.closed},         {"patches", patches},
+                  {"elements", elements},          {"stages", plan.stages},
+                  {"ignored", plan.ignored},       {"warnings", plan.warnings}};
+  return text_of(json);
+}
+
+void write_text_file(const std::filesystem::path& file, const std::string& text) {
+  write_whole_file(file, std::as_bytes(std::span(text)));
+}
+
+} // namespace meninas

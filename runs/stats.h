@@ -1,0 +1,50 @@
+// The figures of a run, and their JSON (the keys are a promise to users; times in seconds, sizes in bytes).
+// A figure that does not exist, such as an error bound without convergence, is null.
+#pragma once
+
+#include "raytrace/two_pass.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace meninas {
+
+struct RunSeconds {
+  double load = 0.0, plan = 0.0, mesh = 0.0, form_factors = 0.0, solve = 0.0, interpolate = 0.0;
+  double render = 0.0, write = 0.0, total = 0.0;
+};
+
+struct RayCounts {
+  std::uint64_t form_factor = 0, shadow = 0, camera = 0, specular = 0;
+};
+
+struct RunFigures {
+  std::size_t mirrors = 0, mirror_worlds = 0, emitters = 0;
+  int bands = 1;
+  std::size_t surfaces = 0, patches = 0, elements = 0, vertices = 0;
+  SolverMethod method = SolverMethod::gauss_seidel;
+  SolverResult solver; ///< without its radiosity
+  EnergyBalance energy;
+  ClosureError closure;
+  RayCounts rays;
+  RunSeconds seconds;
+  std::uint64_t peak_memory_bytes = 0;
+  int threads = 0;
+};
+
+/// Fills in what the prepared scene knows.
+void add_preparation(RunFigures& figures, const PreparedScene& prepared);
+/// Fills in what pass one has said about itself; its radiosities stay where they are.
+void add_solution(RunFigures& figures, const RadiositySolution& solution);
+void add_rendering(RunFigures& figures, const Rendering& rendering);
+
+std::string stats_json(const RunFigures& figures);
+std::string per_node_json(const std::vector<NodeLight>& nodes);
+std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_t elements);
+
+/// Writes the text whole or not at all.
+void write_text_file(const std::filesystem::path& file, const std::string& text);
+
+} // namespace meninas
