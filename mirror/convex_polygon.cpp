@@ -1,6 +1,7 @@
 #include "mirror/convex_polygon.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace meninas {
 
@@ -29,19 +30,48 @@ ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec
   if (!any_outside) return polygon;
   if (!any_inside) return {};
 
+  const auto next_of = [&polygon](std::size_t k) { return k + 1 < polygon.size ? k + 1 : 0; };
+  const auto crosses = [&distance](std::size_t a, std::size_t b) {
+    return (distance[a] > 0.0 && distance[b] < 0.0) || (distance[a] < 0.0 && distance[b] > 0.0);
+  };
+
+  // A full polygon that would gain a corner stays as it is.
+  if (polygon.size == ConvexPolygon::capacity) {
+    std::size_t corners = 0;
+    for (std::size_t k = 0; k < polygon.size; ++k)
+      corners += (distance[k] >= 0.0 ? 1U : 0U) + (crosses(k, next_of(k)) ? 1U : 0U);
+    if (corners > ConvexPolygon::capacity) return polygon;
+  }
+
   ConvexPolygon part;
-  for (std::size_t k = 0; k < polygon.size && part.size < ConvexPolygon::capacity; ++k) {
-    const std::size_t next = k + 1 < polygon.size ? k + 1 : 0;
+  for (std::size_t k = 0; k < polygon.size; ++k) {
+    const std::size_t next = next_of(k);
     if (distance[k] >= 0.0) part.push_back(polygon.vertices[k]);
     // An edge that changes sides meets the plane where its distances balance.
-    const bool crosses = (distance[k] > 0.0 && distance[next] < 0.0) || (distance[k] < 0.0 && distance[next] > 0.0);
-    if (crosses && part.size < ConvexPolygon::capacity) {
+    if (crosses(k, next)) {
       const double t = distance[k] / (distance[k] - distance[next]);
       part.push_back(glm::mix(polygon.vertices[k], polygon.vertices[next], t));
     }
   }
   return part.empty() ? ConvexPolygon{} : part;
 }
+
+namespace {
+
+/// Corners of a window closer together than this are one: the direction of so short an edge is the rounding of its ends, and a
+/// plane through it would cut anywhere.
+double shortest_edge(const ConvexPolygon& window, const Point3& apex) {
+  double extent = 0.0, magnitude = 0.0;
+  for (std::size_t k = 0; k < window.size; ++k) {
+    const Vec3 across = glm::abs(window.vertices[k] - window.vertices[0]);
+    const Vec3 coordinates = glm::max(glm::abs(window.vertices[k]), glm::abs(apex));
+    extent = std::max({extent, across.x, across.y, across.z});
+    magnitude = std::max({magnitude, coordinates.x, coordinates.y, coordinates.z});
+  }
+  return std::max(1e-10 * extent, 100.0 * std::numeric_limits<double>::epsilon() * magnitude);
+}
+
+} // namespace
 
 ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex, const ConvexPolygon& window) {
   if (window.empty()) return {};
@@ -50,9 +80,13 @@ ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex, con
   const double side = glm::dot(area_vector(window.span()), window.vertices[0] - apex);
   if (side == 0.0) return {};
   ConvexPolygon part = polygon;
+  const double shortest = shortest_edge(window, apex);
+  Point3 from = window.vertices[window.size - 1];
   for (std::size_t k = 0; k < window.size && !part.empty(); ++k) {
-    const Vec3 a = window.vertices[k] - apex;
-    const Vec3 b = window.vertices[k + 1 < window.size ? k + 1 : 0] - apex;
+    const Point3& to = window.vertices[k];
+    if (glm::distance(from, to) < shortest) continue;
+    const Vec3 a = from - apex, b = to - apex;
+    from = to;
     const Vec3 inward = side > 0.0 ? glm::cross(a, b) : glm::cross(b, a);
     part = clip(part, apex, inward);
   }

@@ -8,7 +8,7 @@
 
 namespace meninas {
 
-/// Up to `capacity` vertices in order. A clip adds at most one vertex; the (rare) one that would exceed the capacity is left out, so the
+/// Up to `capacity` vertices in order. A clip adds at most one vertex; the (rare) clip that would exceed the capacity is left out, so the
 /// polygon stays convex and errs on the large side: quads through chains of quads are exact up to depth 10 at the least.
 struct ConvexPolygon {
   static constexpr std::size_t capacity = 48;

@@ -1,6 +1,7 @@
 #include "mirror/worlds.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace meninas {
 
@@ -14,13 +15,20 @@ ConvexPolygon image_of(const Isometry& map, const ConvexPolygon& polygon) {
   return image;
 }
 
-/// Some point of the parent's window can see the front of the child's plane; the real room always may.
-bool seen_from_parent(const MirrorWorld& parent, const Plane& plane) {
-  if (parent.window.empty()) return true;
-  for (const auto& part : parent.window)
+/// Some point of the window lies in front of the plane, by more than the rounding of their coordinates.
+bool reaches_front(std::span<const ConvexPolygon> window, const Plane& plane) {
+  constexpr double rounding = 1e-13;
+  for (const auto& part : window)
     for (const auto& vertex : part.span())
-      if (signed_distance(plane, vertex) > 0.0) return true;
+      if (signed_distance(plane, vertex) > rounding * (glm::length(vertex) + std::abs(plane.offset))) return true;
   return false;
+}
+
+/// A segment on its way to the front of the child's plane crosses every window before it in front of that plane.
+bool seen_through(const WorldTree& tree, WorldId parent, const Plane& plane) {
+  for (WorldId w = parent; w != real_world; w = tree.worlds[index(w)].parent)
+    if (!reaches_front(tree.worlds[index(w)].window, plane)) return false;
+  return true;
 }
 
 /// The mirror's window in the parent's world, without what lies on the observer's side of the parent's own mirror.
@@ -57,7 +65,7 @@ WorldTree mirror_worlds(const MirrorSet& mirrors, const WorldSettings& settings)
       }
       const Plane plane = apply(parent.image, mirror.plane);
       auto window = child_window(parent, mirror);
-      if (window.empty() || !seen_from_parent(parent, plane)) {
+      if (window.empty() || !seen_through(tree, static_cast<WorldId>(w), plane)) {
         ++tree.pruned_unseen;
         continue;
       }
