@@ -1,0 +1,152 @@
+#include "radiosity/area_form_factor.h"
+
+#include "radiosity/point_form_factor.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace meninas {
+
+namespace {
+
+double tau_ln_r(double tau, double h2) {
+  // The antiderivative of ln sqrt(tau^2 + h^2): tau ln r - tau + h atan(tau / h), odd in tau.
+  const double r2 = tau * tau + h2;
+  if (r2 == 0.0) return 0.0;
+  const double h = std::sqrt(h2);
+  return 0.5 * tau * std::log(r2) - tau + (h > 0.0 ? h * std::atan2(tau, h) : 0.0);
+}
+
+/// int ln |x - y| over the points y of the edge from q to q + length v.
+double log_potential(const Point3& x, const Point3& q, const Direction& v, double length) {
+  const Vec3 to = x - q;
+  const double along = glm::dot(to, v);
+  const Vec3 across = to - along * v;
+  const double h2 = glm::dot(across, across);
+  return tau_ln_r(length - along, h2) + tau_ln_r(along, h2);
+}
+
+/// Where along the edge from p the distance to the other edge has its kinks: nearest points to the other's ends and to its line.
+std::vector<double> breaks(const Point3& p, const Direction& u, double length, const Point3& q0, const Point3& q1) {
+  std::vector<double> at{0.0, length};
+  const Vec3 v = q1 - q0, w = p - q0;
+  for (const Point3& end : {q0, q1}) at.push_back(glm::dot(end - p, u));
+  const double uv = glm::dot(u, v), vv = glm::dot(v, v), denominator = vv - uv * uv;
+  if (denominator > 1e-24 * vv) at.push_back((uv * glm::dot(v, w) - vv * glm::dot(u, w)) / denominator);
+  std::erase_if(at, [length](double s) { return !(s >= 0.0 && s <= length); });
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+Estimate edge_pair(const Point3& p0, const Point3& p1, const Point3& q0, const Point3& q1) {
+  const double length = glm::distance(p0, p1), other = glm::distance(q0, q1);
+  if (length == 0.0 || other == 0.0) return {};
+  const Direction u = (p1 - p0) / length, v = (q1 - q0) / other;
+  const double cosine = glm::dot(u, v);
+  if (cosine == 0.0) return {};
+  const auto f = [&](double s) { return log_potential(p0 + s * u, q0, v, other); };
+  const auto at = breaks(p0, u, length, q0, q1);
+  Estimate sum;
+  for (std::size_t k = 1; k < at.size(); ++k)
+    if (at[k] > at[k - 1]) sum = sum + integrate(f, at[k - 1], at[k], 1e-15 * length * other);
+  return cosine * sum;
+}
+
+/// 2 pi A_A F_AB by Stokes. Lengths are in units that make the polygons of size one, so that the logarithms are small.
+Estimate contour_integral(const ConvexPolygon& a, const ConvexPolygon& b) {
+  Estimate sum;
+  double magnitude = 0.0;
+  for (std::size_t i = 0; i < a.size; ++i)
+    for (std::size_t j = 0; j < b.size; ++j) {
+      const Estimate term = edge_pair(a.vertices[i], a.vertices[(i + 1) % a.size], b.vertices[j], b.vertices[(j + 1) % b.size]);
+      sum = sum + term;
+      magnitude += std::abs(term.value);
+    }
+  sum.error = std::max(sum.error, 4e-16 * magnitude);
+  return sum;
+}
+
+/// int_A F(x, B) dA by n x n Gauss points in each triangle of A's fan (Duffy's square onto the triangle).
+double gauss_integral(const ConvexPolygon& a, const Direction& normal, const ConvexPolygon& b, std::span<const double> nodes,
+                      std::span<const double> weights) {
+  double sum = 0.0;
+  for (std::size_t k = 2; k < a.size; ++k) {
+    const Vec3 e1 = a.vertices[k - 1] - a.vertices[0], e2 = a.vertices[k] - a.vertices[0];
+    const double jacobian = glm::length(glm::cross(e1, e2));
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < nodes.size(); ++j) {
+        const double s = nodes[i], t = nodes[j];
+        const Point3 x = a.vertices[0] + s * (1.0 - t) * e1 + s * t * e2;
+        sum += weights[i] * weights[j] * s * jacobian * point_form_factor(x, normal, b.span());
+      }
+  }
+  return sum;
+}
+
+/// Gauss-Kronrod's two rules on [0, 1], which serve as a fine and a coarse product rule.
+struct UnitRule {
+  std::vector<double> nodes, weights;
+};
+
+UnitRule unit_rule(int stride) {
+  using namespace quadrature;
+  UnitRule rule;
+  for (std::size_t k = stride == 1 ? 0 : 1; k < 8; k += static_cast<std::size_t>(stride)) {
+    const double weight = 0.5 * (stride == 1 ? kronrod_weights[k] : gauss_weights[k / 2]);
+    rule.nodes.push_back(0.5 - 0.5 * kronrod_nodes[k]);
+    rule.weights.push_back(weight);
+    if (kronrod_nodes[k] == 0.0) continue;
+    rule.nodes.push_back(0.5 + 0.5 * kronrod_nodes[k]);
+    rule.weights.push_back(weight);
+  }
+  return rule;
+}
+
+struct Sphere {
+  Point3 centre{0.0};
+  double radius = 0.0;
+};
+
+Sphere sphere_around(const ConvexPolygon& polygon) {
+  Sphere sphere;
+  for (const auto& vertex : polygon.span()) sphere.centre += vertex / double(polygon.size);
+  for (const auto& vertex : polygon.span()) sphere.radius = std::max(sphere.radius, glm::distance(vertex, sphere.centre));
+  return sphere;
+}
+
+ConvexPolygon scaled(const ConvexPolygon& polygon, const Point3& origin, double scale) {
+  ConvexPolygon result;
+  for (const auto& vertex : polygon.span()) result.push_back((vertex - origin) * scale);
+  return result;
+}
+
+} // namespace
+
+Estimate area_form_factor(const ConvexPolygon& a, const ConvexPolygon& b) {
+  const Vec3 front_a = area_vector(a.span()), front_b = area_vector(b.span());
+  const double whole_area = glm::length(front_a);
+  if (whole_area <= 0.0 || glm::length(front_b) <= 0.0) return {};
+
+  // Only what lies in front of the other's plane takes part.
+  const ConvexPolygon lit = clip(a, b.vertices[0], front_b), seen = clip(b, a.vertices[0], front_a);
+  if (lit.empty() || seen.empty()) return {};
+  const Sphere around_a = sphere_around(lit), around_b = sphere_around(seen);
+  const double gap = glm::distance(around_a.centre, around_b.centre) - around_a.radius - around_b.radius;
+  const double size = std::max(around_a.radius, around_b.radius);
+
+  // Gauss points see a smooth integrand unless the polygons nearly touch; thin polygons are theirs as well.
+  const UnitRule fine = unit_rule(1), coarse = unit_rule(2);
+  const Direction normal = front_a / whole_area;
+  const double value = gauss_integral(lit, normal, seen, fine.nodes, fine.weights) / whole_area;
+  const double rough = gauss_integral(lit, normal, seen, coarse.nodes, coarse.weights) / whole_area;
+  const Estimate by_points{value, std::max(0.1 * std::abs(value - rough), 1e-14 * value)};
+  if (gap > size || by_points.error <= 1e-12 * value) return by_points;
+
+  const double scale = 1.0 / size;
+  const Estimate integral = contour_integral(scaled(lit, around_a.centre, scale), scaled(seen, around_a.centre, scale));
+  const Estimate factor = 1.0 / (2.0 * std::numbers::pi * whole_area * scale * scale) * integral;
+  if (by_points.error < factor.error) return by_points;
+  return {std::max(0.0, factor.value), factor.error};
+}
+
+} // namespace meninas
