@@ -114,6 +114,13 @@ Sphere sphere_around(const ConvexPolygon& polygon) {
   return sphere;
 }
 
+/// Least distance of the polygon's vertices from a plane: no point of it is nearer to anything in that plane.
+double least_height(const ConvexPolygon& polygon, const Point3& origin, const Vec3& front) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& vertex : polygon.span()) least = std::min(least, glm::dot(vertex - origin, front) / glm::length(front));
+  return least;
+}
+
 ConvexPolygon scaled(const ConvexPolygon& polygon, const Point3& origin, double scale) {
   ConvexPolygon result;
   for (const auto& vertex : polygon.span()) result.push_back((vertex - origin) * scale);
@@ -134,18 +141,19 @@ Estimate area_form_factor(const ConvexPolygon& a, const ConvexPolygon& b) {
   const double gap = glm::distance(around_a.centre, around_b.centre) - around_a.radius - around_b.radius;
   const double size = std::max(around_a.radius, around_b.radius);
 
-  // Gauss points see a smooth integrand unless the polygons nearly touch; thin polygons are theirs as well.
+  // Gauss points see a smooth integrand where the polygons are well apart; thin ones are theirs as well.
   const UnitRule fine = unit_rule(1), coarse = unit_rule(2);
   const Direction normal = front_a / whole_area;
   const double value = gauss_integral(lit, normal, seen, fine.nodes, fine.weights) / whole_area;
   const double rough = gauss_integral(lit, normal, seen, coarse.nodes, coarse.weights) / whole_area;
   const Estimate by_points{value, std::max(0.1 * std::abs(value - rough), 1e-14 * value)};
-  if (gap > size || by_points.error <= 1e-12 * value) return by_points;
+  if (gap > size) return by_points;
 
   const double scale = 1.0 / size;
   const Estimate integral = contour_integral(scaled(lit, around_a.centre, scale), scaled(seen, around_a.centre, scale));
   const Estimate factor = 1.0 / (2.0 * std::numbers::pi * whole_area * scale * scale) * integral;
-  if (by_points.error < factor.error) return by_points;
+  const double apart = std::max(least_height(lit, seen.vertices[0], front_b), least_height(seen, lit.vertices[0], front_a));
+  if (apart > 0.25 * size && by_points.error < factor.error) return by_points;
   return {std::max(0.0, factor.value), factor.error};
 }
 
