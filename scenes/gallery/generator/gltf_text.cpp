@@ -1,0 +1,169 @@
+#include "scenes/gallery/generator/gltf_text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <string_view>
+
+namespace meninas::gallery {
+
+using Json = nlohmann::ordered_json;
+
+static std::string base64(const std::vector<std::uint8_t>& bytes) {
+  static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    const auto given = std::min<std::size_t>(3, bytes.size() - k);
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 3; ++i) group = group << 8 | (i < given ? bytes[k + i] : 0u);
+    for (std::size_t i = 0; i < 4; ++i) text += i <= given ? digits[group >> (18 - 6 * i) & 63u] : '=';
+  }
+  return text;
+}
+
+static void append_little_endian(std::vector<std::uint8_t>& bytes, std::uint32_t value, int size) {
+  for (int k = 0; k < size; ++k) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * k)));
+}
+
+static Json json(const Rgb& v) { return Json::array({v.x, v.y, v.z}); }
+
+static Json material_json(const Paint& paint) {
+  const auto is_mirror = paint.finish == Finish::mirror;
+  Json material{{"name", paint.name}};
+  material["pbrMetallicRoughness"] = {
+      {"baseColorFactor", Json::array({paint.color.x, paint.color.y, paint.color.z, 1.0})},
+      {"metallicFactor", is_mirror ? 1.0 : 0.0},
+      {"roughnessFactor", is_mirror ? 0.0 : 1.0}};
+
+  // emissiveFactor ends at 1; what is brighter is carried by the strength.
+  const auto brightest = std::max({paint.radiance.x, paint.radiance.y, paint.radiance.z});
+  if (brightest > 1.0) {
+    material["emissiveFactor"] = json(paint.radiance / brightest);
+    material["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", brightest}}}};
+  } else if (brightest > 0.0) {
+    material["emissiveFactor"] = json(paint.radiance);
+  }
+  return material;
+}
+
+/// The lists of a glTF file while it grows.
+struct Document {
+  Json nodes = Json::array();
+  Json meshes = Json::array();
+  Json cameras = Json::array();
+  Json materials = Json::array();
+  Json accessors = Json::array();
+  Json views = Json::array();
+  Json buffers = Json::array();
+  bool has_strength = false;
+};
+
+static std::size_t material_index(Document& document, const Paint& paint) {
+  const auto material = material_json(paint);
+  const auto known = std::ranges::find(document.materials, material);
+  const auto index = static_cast<std::size_t>(known - document.materials.begin());
+  if (known == document.materials.end()) document.materials.push_back(material);
+  document.has_strength |= material.contains("extensions");
+  return index;
+}
+
+static Json mesh_json(Document& document, const Part& part) {
+  std::vector<std::uint8_t> bytes;
+  glm::vec3 low(std::numeric_limits<float>::infinity());
+  glm::vec3 high(-low);
+  for (const auto& position : part.mesh.positions) {
+    // Adding zero turns -0 into 0, so that mirrored and plain coordinates have the same bits.
+    const auto rounded = glm::vec3(position) + 0.0f;
+    for (int k = 0; k < 3; ++k) append_little_endian(bytes, std::bit_cast<std::uint32_t>(rounded[k]), 4);
+    low = glm::min(low, rounded);
+    high = glm::max(high, rounded);
+  }
+  const auto position_bytes = bytes.size();
+  for (const auto& triangle : part.mesh.triangles)
+    for (const auto vertex : triangle) append_little_endian(bytes, vertex, 2);
+
+  const auto buffer = document.buffers.size();
+  document.buffers.push_back({{"byteLength", bytes.size()},
+                              {"uri", "data:application/octet-stream;base64," + base64(bytes)}});
+
+  constexpr int array_buffer = 34962, element_array_buffer = 34963, float_type = 5126, unsigned_short = 5123;
+  const auto first_view = document.views.size();
+  document.views.push_back(
+      {{"buffer", buffer}, {"byteOffset", 0}, {"byteLength", position_bytes}, {"target", array_buffer}});
+  document.views.push_back({{"buffer", buffer},
+                            {"byteOffset", position_bytes},
+                            {"byteLength", bytes.size() - position_bytes},
+                            {"target", element_array_buffer}});
+
+  const auto first_accessor = document.accessors.size();
+  document.accessors.push_back({{"bufferView", first_view},
+                                {"componentType", float_type},
+                                {"count", part.mesh.positions.size()},
+                                {"type", "VEC3"},
+                                {"min", json(low)},
+                                {"max", json(high)}});
+  document.accessors.push_back({{"bufferView", first_view + 1},
+                                {"componentType", unsigned_short},
+                                {"count", 3 * part.mesh.triangles.size()},
+                                {"type", "SCALAR"}});
+
+  const Json primitive{{"attributes", {{"POSITION", first_accessor}}},
+                       {"indices", first_accessor + 1},
+                       {"material", material_index(document, part.paint)}};
+  return {{"name", part.name}, {"primitives", Json::array({primitive})}};
+}
+
+static void add_part(Document& document, const Part& part) {
+  document.nodes.push_back({{"name", part.name}, {"mesh", document.meshes.size()}});
+  document.meshes.push_back(mesh_json(document, part));
+}
+
+static void add_view(Document& document, const View& view) {
+  // A glTF camera looks along -z of its node, with +y up.
+  const auto back = glm::normalize(view.eye - view.target);
+  const auto right = glm::normalize(glm::cross(Vec3(0.0, 1.0, 0.0), back));
+  const auto up = glm::cross(back, right);
+  Json matrix = Json::array();
+  for (const auto& column : {glm::dvec4(right, 0.0), glm::dvec4(up, 0.0), glm::dvec4(back, 0.0), glm::dvec4(view.eye, 1.0)})
+    for (int k = 0; k < 4; ++k) matrix.push_back(column[k] + 0.0);
+  document.nodes.push_back({{"name", view.name}, {"camera", document.cameras.size()}, {"matrix", matrix}});
+  document.cameras.push_back({{"name", view.name},
+                              {"type", "perspective"},
+                              {"perspective",
+                               {{"aspectRatio", view.aspect},
+                                {"yfov", glm::radians(view.vertical_fov)},
+                                {"znear", 0.01},
+                                {"zfar", 1000.0}}}});
+}
+
+static std::string list_text(const char* key, const Json& list) {
+  auto text = std::string("  \"") + key + "\": [";
+  for (std::size_t k = 0; k < list.size(); ++k) text += (k == 0 ? "\n    " : ",\n    ") + list[k].dump();
+  return text + "\n  ]";
+}
+
+std::string gltf_text(const Stage& stage) {
+  Document document;
+  for (const auto& view : stage.views) add_view(document, view);
+  for (const auto& part : stage.parts) add_part(document, part);
+
+  Json roots = Json::array();
+  for (std::size_t k = 0; k < document.nodes.size(); ++k) roots.push_back(k);
+  const Json asset{{"version", "2.0"}, {"generator", "Meninas gallery"}};
+  const Json scene{{"name", stage.name}, {"nodes", roots}};
+
+  auto text = "{\n  \"asset\": " + asset.dump() + ",\n";
+  if (document.has_strength) text += "  \"extensionsUsed\": [\"KHR_materials_emissive_strength\"],\n";
+  text += "  \"scene\": 0,\n" + list_text("scenes", Json::array({scene}));
+  text += ",\n" + list_text("nodes", document.nodes);
+  text += ",\n" + list_text("cameras", document.cameras);
+  text += ",\n" + list_text("materials", document.materials);
+  text += ",\n" + list_text("meshes", document.meshes);
+  text += ",\n" + list_text("accessors", document.accessors);
+  text += ",\n" + list_text("bufferViews", document.views);
+  text += ",\n" + list_text("buffers", document.buffers);
+  return text + "\n}\n";
+}
+
+} // namespace meninas::gallery

@@ -1,0 +1,65 @@
+// A stage: one sample scene before it is written as glTF. Named parts with a paint, and views.
+//
+// Metres, +Y up, right-handed; triangles are counter-clockwise seen from the front, and walls face into the room.
+#pragma once
+
+#include "scenes/types.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace meninas::gallery {
+
+enum class Finish { diffuse, mirror };
+
+/// A material by name: `color` is the diffuse reflectance, or the specular one of a mirror.
+struct Paint {
+  std::string name;
+  Rgb color{0.0};
+  Finish finish = Finish::diffuse;
+  Rgb radiance{0.0}; ///< emitted, W/m^2/sr
+};
+
+inline Paint diffuse(std::string name, Rgb reflectance) { return {std::move(name), reflectance}; }
+
+inline Paint mirror(std::string name, Rgb reflectance) {
+  return {std::move(name), reflectance, Finish::mirror};
+}
+
+/// Reflects nothing, so that all its light is its own.
+inline Paint light(std::string name, Rgb radiance) {
+  return {std::move(name), Rgb(0.0), Finish::diffuse, radiance};
+}
+
+struct Mesh {
+  std::vector<Point3> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Becomes one glTF node, which is what a user asks for by name.
+struct Part {
+  std::string name;
+  Paint paint;
+  Mesh mesh;
+};
+
+struct View {
+  std::string name;
+  Point3 eye;
+  Point3 target;
+  double vertical_fov = 45.0; ///< degrees
+  double aspect = 1.0;        ///< width / height
+};
+
+struct Stage {
+  std::string name;
+  std::vector<Part> parts;
+  std::vector<View> views;
+
+  void add(std::string part, const Paint& paint, Mesh mesh) {
+    parts.push_back({std::move(part), paint, std::move(mesh)});
+  }
+};
+
+} // namespace meninas::gallery

@@ -1,0 +1,10 @@
+#include "scenes/gallery/generator/stages.h"
+
+namespace meninas::gallery {
+
+std::vector<Stage> all_stages() {
+  return {cornell(),   cornell_mirror(), mirror_spot(), periscope(), facing_mirrors(),
+          half_room(), doubled_room(),   no_mirror(),   furnace(),   meninas_room()};
+}
+
+} // namespace meninas::gallery

@@ -1,0 +1,21 @@
+// The scenes of the gallery, one function each; README.md beside the files says what each is for.
+#pragma once
+
+#include "scenes/gallery/generator/stage.h"
+
+namespace meninas::gallery {
+
+Stage cornell();
+Stage cornell_mirror();
+Stage mirror_spot();
+Stage periscope();
+Stage facing_mirrors();
+Stage half_room();
+Stage doubled_room();
+Stage no_mirror();
+Stage furnace();
+Stage meninas_room();
+
+std::vector<Stage> all_stages();
+
+} // namespace meninas::gallery
