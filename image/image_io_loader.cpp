@@ -45,8 +45,7 @@ static const Table* open_module() {
   if (module == nullptr) {
     const char* reason = dlerror();
     throw InputError(
-        file.string(), "",
-        fmt::format("cannot open the module that reads and writes pictures: {}", reason));
+        "", "", fmt::format("cannot open the module that reads and writes pictures: {}", reason));
   }
   const auto entry = reinterpret_cast<EntryPoint>(dlsym(module, entry_point));
   const Table* table = entry == nullptr ? nullptr : entry();
