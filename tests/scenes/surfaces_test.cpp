@@ -185,12 +185,15 @@ TEST(Surfaces, NearPlanesAreApart) {
 }
 
 TEST(Surfaces, PlanesAlongTheOrderingDirectionAreFoundWhicheverWayTheyFace) {
-  // Planes through one axis, each as two unconnected tiles that face opposite ways.
+  // Planes through the direction that tells orientations apart, each as three unconnected tiles
+  // that face different ways: rounding alone decides how each of them is filed.
+  const Vec3 v = glm::normalize(Vec3(0.5309, 0.6713, 0.5171));
+  const Vec3 across = glm::normalize(glm::cross(v, Vec3(0.0, 0.0, 1.0)));
   Scene scene = empty_soup();
   const int count = 360;
   for (int k = 0; k < count; ++k) {
     const double angle = std::numbers::pi * (k + 0.37) / count;
-    const Vec3 u(std::cos(angle), 0.0, std::sin(angle)), v(0.0, 1.0, 0.0);
+    const Vec3 u = std::cos(angle) * across + std::sin(angle) * glm::cross(v, across);
     add_quad(scene, {u, 2.0 * u, 2.0 * u + v, u + v});
     add_quad(scene, {-u, -u + v, -2.0 * u + v, -2.0 * u});
     add_quad(scene, {2.1 * u, 2.1 * u + v, 3.0 * u + v, 3.0 * u});
@@ -251,14 +254,41 @@ TEST(Surfaces, SliversJoinTheirWall) {
 
 TEST(Surfaces, ACylinderDoesNotBendIntoOneSurface) {
   Scene scene = empty_soup();
-  const int facets = 100000;
-  add_grid(scene, facets, 1, [](double u, double v) {
-    const double phi = -2.0 * std::numbers::pi * u;
+  const int facets = 6000;
+  const double step = 1e-5;
+  add_grid(scene, facets, 1, [&](double u, double v) {
+    const double phi = -step * facets * u;
     return Point3(std::cos(phi), v, std::sin(phi));
   });
-  // Neighbours differ by 6e-5 radians only, but k facets rise by (2 pi k / facets)^2 / 8 over their
-  // chord: more than four of them leave the tolerance of 3e-9 on both sides.
-  EXPECT_GE(checked_surfaces(scene).surfaces.size(), std::size_t(facets / 4));
+  const SurfaceModel model = checked_surfaces(scene);
+  // An arc of n facets rises by (n step)^2 / 8 over its chord, at most the tolerance on both sides.
+  const double most = std::sqrt(16.0 * model.tolerance) / step;
+  EXPECT_GE(double(model.surfaces.size()), facets / most);
+}
+
+TEST(Surfaces, RoughWallsKeepTheTolerance) {
+  // Waves from below to far above the tolerance: surfaces grow in some places and end in others.
+  for (const double wave : {0.5, 1.0, 1.5, 2.0, 4.0, 16.0}) {
+    Scene scene = empty_soup();
+    scene.position_error = 1e-5;
+    add_grid(scene, 60, 60, [&](double u, double v) {
+      const double tolerance = 4.0 * scene.position_error;
+      return Point3(u, v, wave * tolerance * std::sin(9.0 * u + 4.0 * v) * std::cos(5.0 * u * v));
+    });
+    const SurfaceModel model = checked_surfaces(scene);
+    EXPECT_EQ(model.surfaces.size() == 1, wave < 1.0) << wave;
+  }
+}
+
+TEST(Surfaces, AQuadWhoseCornersAreAllOffIsOneSurface) {
+  // The worst that the position error allows: corners alternately above and below their plane.
+  const double e = 1e-5;
+  Scene scene = empty_soup();
+  add_quad(scene, {Point3(0, 0, e), {1, 0, -e}, {1, 1, e}, {0, 1, -e}});
+  scene.position_error = e;
+  const SurfaceModel model = checked_surfaces(scene);
+  EXPECT_EQ(model.surfaces.size(), 1u);
+  EXPECT_EQ(model.patches.size(), 1u);
 }
 
 TEST(Surfaces, VerticesThatNoTriangleUsesDoNotMatter) {
