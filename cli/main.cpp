@@ -98,6 +98,8 @@ int guarded_main(int argc, char** argv) {
   program.set_version_flag("--version", "meninas " + std::string(program_version()),
                            "print the version");
   program.get_formatter()->column_width(36);
+  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  program.get_formatter()->label("Subcommands", "Commands");
   program.footer("Exit codes: 2 wrong usage, 3 bad input, 4 failed write or exhausted resource.");
   program.require_subcommand(0, 1);
   program.allow_extras();

@@ -1,0 +1,263 @@
+// What the commands write: pictures, solutions, figures; the same bits however they are asked for.
+#include "image/image_file.h"
+#include "tests/cli/program.h"
+#include "tests/cli/tiny_room.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <map>
+#include <set>
+
+namespace meninas::test {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+class Outputs : public testing::Test {
+protected:
+  Outputs() { write_room(folder_ / "room.glb", tiny_room()); }
+
+  /// Runs a small draft and expects it to succeed.
+  Outcome run(const std::string& command, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {command, "room.glb"});
+    if (command != "plan") {
+      arguments.insert(arguments.end(), {"--quality", "draft"});
+    }
+    Outcome outcome = run_program(folder_.path(), arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome;
+  }
+
+  Outcome render(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--size", "40x30"});
+    return run("render", std::move(arguments));
+  }
+
+  std::string contents(const std::string& name) { return read_file(folder_ / name); }
+  json json_of(const std::string& name) { return json::parse(contents(name)); }
+
+  TemporaryFolder folder_;
+};
+
+std::set<std::string> keys_of(const json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) {
+    keys.insert(key);
+  }
+  return keys;
+}
+
+TEST_F(Outputs, SeveralPicturesOfOneRun) {
+  const Outcome outcome = render({"-o", "a.exr", "-o", "a.png", "-o", "b.exr"});
+  EXPECT_THAT(files_in(folder_.path()), ElementsAre("a.exr", "a.png", "b.exr", "room.glb"));
+  EXPECT_EQ(contents("a.exr"), contents("b.exr"));
+  EXPECT_THAT(outcome.err,
+              testing::MatchesRegex("meninas: exposure [+-][0-9.]+ EV \\(automatic\\)\n"));
+  EXPECT_THAT(outcome.out, IsEmpty());
+  const Image picture = read_image(folder_ / "a.exr").picture;
+  EXPECT_EQ(picture.width, 40);
+  EXPECT_EQ(picture.height, 30);
+}
+
+TEST_F(Outputs, QuietSaysNothing) {
+  EXPECT_THAT(render({"-o", "a.png", "--quiet"}).err, IsEmpty());
+}
+
+TEST_F(Outputs, RoundedNumbersAreSaid) {
+  EXPECT_THAT(render({"-o", "a.exr", "--rays", "100"}).err,
+              "meninas: --rays 100 is rounded up to 128\n");
+}
+
+TEST_F(Outputs, ThePictureIsTheSameForAnyThreadCountAndRun) {
+  render({"-o", "one.exr", "--threads", "1"});
+  render({"-o", "two.exr", "--threads", "2"});
+  render({"-o", "again.exr", "--threads", "2"});
+  EXPECT_EQ(contents("one.exr"), contents("two.exr"));
+  EXPECT_EQ(contents("two.exr"), contents("again.exr"));
+  render({"-o", "seeded.exr", "--seed", "1"});
+  EXPECT_NE(read_image(folder_ / "one.exr").picture.pixels,
+            read_image(folder_ / "seeded.exr").picture.pixels);
+}
+
+TEST_F(Outputs, ASolutionRendersTheSamePicture) {
+  run("solve", {"-o", "solution.glb"});
+  run("solve", {"-o", "again.glb", "--threads", "1"});
+  EXPECT_EQ(contents("solution.glb"), contents("again.glb"));
+  render({"-o", "whole.exr", "-o", "whole.png", "--float"});
+  render({"-o", "stored.exr", "-o", "stored.png", "--float", "--solution", "solution.glb"});
+  EXPECT_EQ(contents("whole.exr"), contents("stored.exr"));
+  EXPECT_EQ(contents("whole.png"), contents("stored.png"));
+}
+
+TEST_F(Outputs, DamagedSolutionsAreRefused) {
+  run("solve", {"-o", "solution.glb"});
+  const std::string whole = contents("solution.glb");
+  std::string flipped = whole;
+  flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 1);
+  const std::map<std::string, std::string> damaged{{"cut.glb", whole.substr(0, whole.size() - 8)},
+                                                   {"flipped.glb", flipped}};
+  for (const auto& [name, bytes] : damaged) {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    const Outcome outcome =
+        run_program(folder_.path(), {"render", "room.glb", "-o", "a.exr", "--solution", name});
+    EXPECT_EQ(outcome.code, 3) << name;
+    EXPECT_THAT(outcome.err, testing::StartsWith("meninas: " + name + ": "));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.exr"));
+}
+
+TEST_F(Outputs, TheMirrorIsBlackInRadiosityMode) {
+  render({"-o", "hybrid.exr"});
+  render({"-o", "radiosity.exr", "--mode", "radiosity"});
+  const Image hybrid = read_image(folder_ / "hybrid.exr").picture;
+  const Image radiosity = read_image(folder_ / "radiosity.exr").picture;
+  std::size_t blackened = 0;
+  for (std::size_t k = 0; k < hybrid.pixels.size(); ++k) {
+    const bool is_black = radiosity.pixels[k] == glm::vec3(0.0F);
+    blackened += is_black && hybrid.pixels[k] != glm::vec3(0.0F) ? 1 : 0;
+    // Away from the mirror both show the same field.
+    EXPECT_TRUE(glm::all(glm::lessThanEqual(radiosity.pixels[k], hybrid.pixels[k])));
+  }
+  EXPECT_GT(blackened, 10U);
+}
+
+TEST_F(Outputs, StatsHaveTheDocumentedKeys) {
+  const std::map<std::string, std::set<std::string>> documented{
+      {"plan", {"mirrors", "mirror_worlds", "emitters", "bands"}},
+      {"mesh", {"surfaces", "patches", "elements", "vertices"}},
+      {"solve", {"solver", "iterations", "residual", "error_bound", "converged", "residuals"}},
+      {"energy", {"emitted", "absorbed", "escaped", "mirror_absorbed", "imbalance"}},
+      {"closure", {"mean_error", "max_error"}},
+      {"rays", {"form_factor", "shadow", "camera", "specular"}},
+      {"seconds",
+       {"load", "plan", "mesh", "form_factors", "solve", "interpolate", "render", "write",
+        "total"}}};
+  run("solve", {"-o", "solution.glb", "--stats", "solve.json"});
+  render({"-o", "a.exr", "--stats", "render.json", "--threads", "2"});
+  render({"-o", "b.exr", "--stats", "stored.json", "--solution", "solution.glb"});
+  for (const std::string name : {"solve.json", "render.json", "stored.json"}) {
+    const json stats = json_of(name);
+    std::set<std::string> keys{"peak_memory_bytes", "threads"};
+    for (const auto& [key, inner] : documented) {
+      keys.insert(key);
+      EXPECT_EQ(keys_of(stats.at(key)), inner) << name << ' ' << key;
+    }
+    EXPECT_EQ(keys_of(stats), keys) << name;
+    EXPECT_EQ(stats["plan"],
+              (json{{"mirrors", 1}, {"mirror_worlds", 1}, {"emitters", 1}, {"bands", 1}}));
+    EXPECT_EQ(stats["solve"]["converged"], true);
+  }
+  EXPECT_EQ(json_of("render.json")["threads"], 2);
+  EXPECT_EQ(json_of("render.json")["solve"], json_of("stored.json")["solve"]);
+  // Four camera rays per pixel of a draft of 40 x 30 pixels.
+  EXPECT_EQ(json_of("render.json")["rays"]["camera"], 4 * 40 * 30);
+  EXPECT_GT(json_of("render.json")["peak_memory_bytes"], 1 << 20);
+}
+
+TEST_F(Outputs, PerNodeFiguresNameEveryNode) {
+  run("solve", {"-o", "solution.glb", "--per-node", "nodes.json"});
+  const json nodes = json_of("nodes.json");
+  EXPECT_EQ(keys_of(nodes), std::set<std::string>{"nodes"});
+  std::vector<std::string> names;
+  for (const json& node : nodes["nodes"]) {
+    EXPECT_EQ(keys_of(node),
+              (std::set<std::string>{"name", "area", "emitted", "radiosity", "irradiance"}));
+    names.push_back(node["name"]);
+    if (node["name"] == "lamp") {
+      // E = pi L with L = 1; the lamp's area is 0.04 m^2; floats in the file leave seven digits.
+      EXPECT_NEAR(node["emitted"][0].get<double>(), 3.14159265, 1e-6);
+      EXPECT_NEAR(node["area"].get<double>(), 0.04, 1e-7);
+    }
+  }
+  EXPECT_THAT(names, testing::IsSupersetOf({"floor", "ceiling", "back", "left", "right", "lamp"}));
+}
+
+TEST_F(Outputs, ThePlanAsJson) {
+  const Outcome outcome = run("plan", {"--json"});
+  const json plan = json::parse(outcome.out);
+  EXPECT_EQ(keys_of(plan),
+            (std::set<std::string>{"mirrors", "mirror_worlds", "emitters", "punctual_lights",
+                                   "glossy", "transmissive", "textured", "bands", "closed",
+                                   "patches", "elements", "stages", "ignored", "warnings"}));
+  ASSERT_EQ(plan["mirrors"].size(), 1U);
+  EXPECT_EQ(plan["mirrors"][0]["name"], "mirror");
+  EXPECT_NEAR(plan["mirrors"][0]["area"].get<double>(), 0.36, 1e-6); // floats in the file
+  EXPECT_EQ(plan["mirrors"][0]["reflectance"].size(), 3U);
+  EXPECT_EQ(plan["closed"], false);
+  EXPECT_EQ(plan["patches"], 7);
+  EXPECT_GT(plan["elements"], 0);
+  EXPECT_THAT(outcome.err, IsEmpty());
+}
+
+TEST_F(Outputs, WithoutACameraThereIsAViewAndAWarning) {
+  TinyRoom room = tiny_room();
+  room.root.erase("cameras");
+  room.root["nodes"][7].erase("camera");
+  write_room(folder_ / "room.glb", room);
+  const Outcome outcome = render({"-o", "a.exr", "--quiet"});
+  EXPECT_EQ(outcome.err,
+            "meninas: warning: no camera: a default view of the whole scene is used\n");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "a.exr"));
+}
+
+TEST_F(Outputs, WithoutAnEmitterThePictureIsBlackAndThatIsSaid) {
+  TinyRoom room = tiny_room();
+  room.root["materials"][1].erase("emissiveFactor");
+  write_room(folder_ / "room.glb", room);
+  const Outcome outcome = render({"-o", "a.exr", "--quiet"});
+  EXPECT_EQ(outcome.err, "meninas: warning: nothing emits light: the picture will be black\n");
+  for (const glm::vec3& pixel : read_image(folder_ / "a.exr").picture.pixels) {
+    ASSERT_EQ(pixel, glm::vec3(0.0F));
+  }
+}
+
+TEST_F(Outputs, TheCameraDecidesTheShapeOfThePicture) {
+  TinyRoom room = tiny_room();
+  room.root["cameras"][0]["perspective"]["aspectRatio"] = 0.25;
+  write_room(folder_ / "room.glb", room);
+  run("render", {"-o", "a.exr"});
+  const Image picture = read_image(folder_ / "a.exr").picture;
+  EXPECT_EQ(picture.width, 128);
+  EXPECT_EQ(picture.height, 512);
+}
+
+TEST(Help, ListsEveryOptionOfItsCommand) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> pass_one{
+      "--element-size", "--form-factors",  "--rays",    "--solver",  "--tolerance",
+      "--mirror-depth", "--interpolation", "--quality", "--threads", "--seed",
+      "--quiet",        "--stats",         "--output"};
+  std::map<std::string, std::vector<std::string>> options{
+      {"render", pass_one},
+      {"solve", pass_one},
+      {"plan", {"--json", "--quality", "--element-size"}}};
+  for (const char* option :
+       {"--samples", "--size", "--camera", "--exposure", "--mode", "--solution"}) {
+    options["render"].emplace_back(option);
+  }
+  options["solve"].emplace_back("--per-node");
+  for (const auto& [command, names] : options) {
+    const Outcome outcome = run_program(folder.path(), {command, "-h"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.err, IsEmpty());
+    for (const std::string& name : names) {
+      EXPECT_THAT(outcome.out, HasSubstr(name)) << command;
+    }
+  }
+  const Outcome outcome = run_program(folder.path(), {"-h"});
+  for (const char* command : {"render", "solve", "plan", "--version"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(command));
+  }
+  EXPECT_THAT(run_program(folder.path(), {"--version"}).out,
+              testing::MatchesRegex("meninas [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+} // namespace
+} // namespace meninas::test

@@ -1,0 +1,39 @@
+// Running the real program, in a folder of its own, and looking at what it leaves there.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace meninas::test {
+
+/// An empty folder that is gone when it is out of scope.
+class TemporaryFolder {
+public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+private:
+  std::filesystem::path path_;
+};
+
+struct Outcome {
+  int code = -1; ///< exit code; 128 and more: ended by a signal
+  std::string out;
+  std::string err;
+};
+
+/// Runs `meninas ARGUMENTS` with `folder` as its current folder.
+Outcome run_program(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+
+std::string read_file(const std::filesystem::path& file);
+
+/// The names of everything in a folder, sorted.
+std::vector<std::string> files_in(const std::filesystem::path& folder);
+
+} // namespace meninas::test
