@@ -51,7 +51,9 @@ Scene cornell_room() {
   test::add_box(scene, "short", {-0.6, -1, -0.1}, {-0.1, -0.5, 0.5}, test::diffuse(0.7));
   test::add_box(scene, "tall", {0.1, -1, -0.6}, {0.6, 0.2, -0.1}, test::diffuse(0.7));
   // The bottoms of the boxes lie on the floor, where no light comes.
-  std::erase_if(scene.triangles, [&](const Triangle& t) { return scene.nodes[index(t.node)].name.ends_with(".y0"); });
+  std::erase_if(scene.triangles, [&](const Triangle& t) {
+    return scene.nodes[index(t.node)].name.ends_with(".y0");
+  });
   test::add_box(scene, "lamp", {-0.3, 0.97, -0.3}, {0.3, 0.99, 0.3}, test::diffuse(0.0, 10.0));
   return scene;
 }
@@ -73,7 +75,8 @@ Scene relief_room() {
       const auto a = first + j * (cells + 1) + i;
       const auto b = a + cells + 1;
       scene.triangles.push_back({{VertexId{a}, VertexId{b}, VertexId{b + 1}}, material, NodeId{0}});
-      scene.triangles.push_back({{VertexId{a}, VertexId{b + 1}, VertexId{a + 1}}, material, NodeId{0}});
+      scene.triangles.push_back(
+          {{VertexId{a}, VertexId{b + 1}, VertexId{a + 1}}, material, NodeId{0}});
     }
   return scene;
 }
@@ -124,7 +127,8 @@ struct SurfacePoint {
 std::vector<std::uint32_t> receivers(const Scene& scene) {
   std::vector<std::uint32_t> triangles;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
-    if (!scene.nodes[index(scene.triangles[t].node)].name.starts_with("lamp")) triangles.push_back(t);
+    if (!scene.nodes[index(scene.triangles[t].node)].name.starts_with("lamp"))
+      triangles.push_back(t);
   return triangles;
 }
 
@@ -150,7 +154,8 @@ Workload gather_rays(const FrameGeometry& geometry, const Scene& scene) {
     for (std::uint32_t k = 0; k < packet_size; ++k) {
       const auto sample = sobol4(k, n);
       const auto d = Vec3(cosine_hemisphere(sample[0], sample[1]));
-      set_ray(packet, k, point.position, d.x * frame.tangent + d.y * frame.bitangent + d.z * point.normal);
+      set_ray(packet, k, point.position,
+              d.x * frame.tangent + d.y * frame.bitangent + d.z * point.normal);
       packet.leaving[k] = index(point.plane);
     }
     workload.packets.push_back(packet);
@@ -165,7 +170,8 @@ Workload shadow_rays(const RayScene& rays, const Scene& scene, const SurfaceMode
   const auto& lamp = *std::ranges::find_if(scene.triangles, [&](const Triangle& t) {
     return scene.nodes[index(t.node)].name == "lamp.y0";
   });
-  const auto plane = surfaces.plane_of_triangle[static_cast<std::size_t>(&lamp - scene.triangles.data())];
+  const auto plane =
+      surfaces.plane_of_triangle[static_cast<std::size_t>(&lamp - scene.triangles.data())];
   for (std::uint32_t n = 0; n < packet_count; ++n) {
     auto packet = empty_packet(1.0F);
     const auto point = surface_point(rays.geometry(), triangles, n);
@@ -190,9 +196,11 @@ BareScene make_bare_scene(const FrameGeometry& geometry, RTCSceneFlags flags) {
   rtcSetSceneFlags(bare.scene, flags);
   rtcSetSceneBuildQuality(bare.scene, RTC_BUILD_QUALITY_HIGH);
   const auto mesh = rtcNewGeometry(bare.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-      mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), geometry.positions.size()));
-  std::ranges::transform(geometry.positions, positions, [](const Point3& x) { return glm::vec3(x); });
+  auto* positions = static_cast<glm::vec3*>(
+      rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
+                              geometry.positions.size()));
+  std::ranges::transform(geometry.positions, positions,
+                         [](const Point3& x) { return glm::vec3(x); });
   auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
       mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, geometry.triangles.size()));
   std::ranges::copy(geometry.triangles, triangles);
@@ -224,25 +232,29 @@ void fill(const RayPacket& packet, float near, float far_share, RTCRay16& ray) {
   }
 }
 
-std::uint32_t bare_packet(const BareScene& bare, const Workload& workload, const RayPacket& packet) {
+std::uint32_t bare_packet(const BareScene& bare, const Workload& workload,
+                          const RayPacket& packet) {
   alignas(64) static constexpr int valid[packet_size] = {-1, -1, -1, -1, -1, -1, -1, -1,
                                                          -1, -1, -1, -1, -1, -1, -1, -1};
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  if (workload.coherence == Coherence::coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if (workload.coherence == Coherence::coherent)
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   std::uint32_t met = 0;
   if (workload.query == Query::occlusion) {
     RTCRay16 ray;
     fill(packet, bare_epsilon, 1.0F - bare_epsilon, ray);
     rtcOccluded16(valid, bare.scene, &context, &ray);
-    for (std::size_t k = 0; k < packet_size; ++k) met += ray.tfar[k] < 0.0F;
+    for (std::size_t k = 0; k < packet_size; ++k)
+      met += ray.tfar[k] < 0.0F;
     return met;
   }
   RTCRayHit16 traced;
   fill(packet, bare_epsilon, 1.0F, traced.ray);
   std::fill_n(traced.hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
   rtcIntersect16(valid, bare.scene, &context, &traced);
-  for (std::size_t k = 0; k < packet_size; ++k) met += traced.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    met += traced.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
   return met;
 }
 
@@ -252,7 +264,8 @@ std::uint32_t our_packet(const RayScene& rays, const Workload& workload, const R
   HitPacket hits;
   closest_hits(rays, packet, hits, workload.backs, workload.coherence);
   std::uint32_t met = 0;
-  for (const auto triangle : hits.triangle) met += triangle != index(none<TriangleId>);
+  for (const auto triangle : hits.triangle)
+    met += triangle != index(none<TriangleId>);
   return met;
 }
 
@@ -265,23 +278,27 @@ using Loop = std::function<std::uint32_t(const RayPacket&)>;
 
 std::uint64_t run(const std::vector<RayPacket>& packets, const Loop& trace) {
   std::atomic<std::uint64_t> met = 0;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets.size(), 256), [&](const auto& range) {
-    std::uint64_t sum = 0;
-    for (auto n = range.begin(); n != range.end(); ++n) sum += trace(packets[n]);
-    met += sum;
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets.size(), 256),
+                    [&](const auto& range) {
+                      std::uint64_t sum = 0;
+                      for (auto n = range.begin(); n != range.end(); ++n)
+                        sum += trace(packets[n]);
+                      met += sum;
+                    });
   return met;
 }
 
 // The loops take turns, so that a busy machine slows all of them alike.
-std::array<Rate, 3> measure(const std::vector<RayPacket>& packets, const std::array<Loop, 3>& loops) {
+std::array<Rate, 3> measure(const std::vector<RayPacket>& packets,
+                            const std::array<Loop, 3>& loops) {
   std::array<Rate, 3> rates{};
   const auto count = static_cast<double>(packets.size() * packet_size);
   for (int repetition = 0; repetition < repetitions; ++repetition)
     for (std::size_t k = 0; k < loops.size(); ++k) {
       const auto start = std::chrono::steady_clock::now();
       const auto met = run(packets, loops[k]);
-      const auto seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const auto seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       rates[k].million_per_second = std::max(rates[k].million_per_second, count / seconds / 1e6);
       rates[k].share_met = static_cast<double>(met) / count;
     }
@@ -293,14 +310,16 @@ void report(const std::string& name, const Scene& scene) {
   const auto rays = make_ray_scene(scene, surfaces);
   const auto robust = make_bare_scene(rays.geometry(), RTC_SCENE_FLAG_ROBUST);
   const auto fast = make_bare_scene(rays.geometry(), RTC_SCENE_FLAG_NONE);
-  fmt::print("\n{}, {} triangles: million rays/s\n{:<22}{:>10}{:>10}{:>10}{:>10}{:>10}{:>14}\n", name,
-             scene.triangles.size(), "", "default", "robust", "ours", "share", "met", "met (bare)");
-  for (const auto& workload : {camera_rays("camera inside", 0.9), camera_rays("camera through back", 3.0),
-                               gather_rays(rays.geometry(), scene), shadow_rays(rays, scene, surfaces)}) {
-    const auto [plain, bare, ours] =
-        measure(workload.packets, {[&](const RayPacket& p) { return bare_packet(fast, workload, p); },
-                                   [&](const RayPacket& p) { return bare_packet(robust, workload, p); },
-                                   [&](const RayPacket& p) { return our_packet(rays, workload, p); }});
+  fmt::print("\n{}, {} triangles: million rays/s\n{:<22}{:>10}{:>10}{:>10}{:>10}{:>10}{:>14}\n",
+             name, scene.triangles.size(), "", "default", "robust", "ours", "share", "met",
+             "met (bare)");
+  for (const auto& workload :
+       {camera_rays("camera inside", 0.9), camera_rays("camera through back", 3.0),
+        gather_rays(rays.geometry(), scene), shadow_rays(rays, scene, surfaces)}) {
+    const auto [plain, bare, ours] = measure(
+        workload.packets, {[&](const RayPacket& p) { return bare_packet(fast, workload, p); },
+                           [&](const RayPacket& p) { return bare_packet(robust, workload, p); },
+                           [&](const RayPacket& p) { return our_packet(rays, workload, p); }});
     fmt::print("{:<22}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.2f}{:>10.4f}{:>14.4f}\n", workload.name,
                plain.million_per_second, bare.million_per_second, ours.million_per_second,
                ours.million_per_second / bare.million_per_second, ours.share_met, bare.share_met);

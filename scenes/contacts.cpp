@@ -9,7 +9,8 @@ namespace {
 double edge_parameter(const Point3& from, const Point3& to, const Point3& x) {
   const auto edge = to - from;
   const auto length_squared = glm::dot(edge, edge);
-  return length_squared > 0.0 ? std::clamp(glm::dot(x - from, edge) / length_squared, 0.0, 1.0) : 0.0;
+  return length_squared > 0.0 ? std::clamp(glm::dot(x - from, edge) / length_squared, 0.0, 1.0)
+                              : 0.0;
 }
 
 Point3 point_of(const std::array<Point3, 3>& corners, Vec2 weights) {
@@ -31,12 +32,15 @@ double own_side(const Contacts& contacts, const ContactTriangle& wall, const Dir
       low = std::min(low, height);
       high = std::max(high, height);
     }
-  if (low >= -noise && high > noise) return 1.0;
-  if (high <= noise && low < -noise) return -1.0;
+  if (low >= -noise && high > noise)
+    return 1.0;
+  if (high <= noise && low < -noise)
+    return -1.0;
 
   // A surface that passes through below the wall does not tell: the point does, as far as it can be known.
   const auto height = glm::dot(wall_normal, origin - wall.corners[0]);
-  if (std::abs(height) <= noise && wall.sidedness == Sidedness::single) return 1.0;
+  if (std::abs(height) <= noise && wall.sidedness == Sidedness::single)
+    return 1.0;
   return height < 0.0 ? -1.0 : 1.0;
 }
 
@@ -57,8 +61,10 @@ Vec2 nearest_barycentric(const std::array<Point3, 3>& corners, const Point3& x) 
   const auto n_squared = glm::dot(n, n);
   if (n_squared > 0.0) {
     const auto w = x - corners[0];
-    const Vec2 foot{glm::dot(glm::cross(w, e2), n) / n_squared, glm::dot(glm::cross(e1, w), n) / n_squared};
-    if (foot.x >= 0.0 && foot.y >= 0.0 && foot.x + foot.y <= 1.0) return foot;
+    const Vec2 foot{glm::dot(glm::cross(w, e2), n) / n_squared,
+                    glm::dot(glm::cross(e1, w), n) / n_squared};
+    if (foot.x >= 0.0 && foot.y >= 0.0 && foot.x + foot.y <= 1.0)
+      return foot;
   }
 
   // Otherwise the nearest point of an edge
@@ -74,8 +80,8 @@ double distance_to(const std::array<Point3, 3>& corners, const Point3& x) {
   return glm::distance(point_of(corners, nearest_barycentric(corners, x)), x);
 }
 
-std::optional<ContactTriangle> blocking_contact(const Contacts& contacts, const Departure& departure,
-                                                double noise) {
+std::optional<ContactTriangle> blocking_contact(const Contacts& contacts,
+                                                const Departure& departure, double noise) {
   std::optional<ContactTriangle> blocker;
   double steepest = 0.0;
   for (const auto& wall : contacts.others) {
@@ -83,8 +89,10 @@ std::optional<ContactTriangle> blocking_contact(const Contacts& contacts, const 
     const auto approach = -glm::dot(departure.direction, normal) *
                           own_side(contacts, wall, normal, departure.origin, noise);
     const auto further = approach == steepest && blocker && wall.triangle < blocker->triangle;
-    if (approach <= noise || (approach <= steepest && !further)) continue;
-    if (!rises_above(wall, departure, noise)) continue;
+    if (approach <= noise || (approach <= steepest && !further))
+      continue;
+    if (!rises_above(wall, departure, noise))
+      continue;
     blocker = wall;
     steepest = approach;
   }

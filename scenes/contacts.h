@@ -42,7 +42,7 @@ double distance_to(const std::array<Point3, 3>& corners, const Point3& x);
 
 /// The touching triangle that a departing ray runs into at once, if any: the one met most squarely.
 /// Lengths below `noise` count as zero.
-std::optional<ContactTriangle> blocking_contact(const Contacts& contacts, const Departure& departure,
-                                                double noise);
+std::optional<ContactTriangle> blocking_contact(const Contacts& contacts,
+                                                const Departure& departure, double noise);
 
 } // namespace meninas

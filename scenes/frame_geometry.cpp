@@ -19,7 +19,8 @@ RayFrame frame_of(const Scene& scene) {
       low = glm::min(low, position(scene, vertex));
       high = glm::max(high, position(scene, vertex));
     }
-  if (scene.triangles.empty()) return {};
+  if (scene.triangles.empty())
+    return {};
   const auto size = high - low;
   const auto largest = std::max({size.x, size.y, size.z});
   const auto scale = 2.0 / largest;
@@ -35,10 +36,13 @@ std::vector<bool> classes_with_sheets(const Scene& scene, const SurfaceModel& su
     const auto both = material_of(scene, TriangleId{t}).double_sided;
     const auto forward =
         glm::dot(area_vector(corners(scene, TriangleId{t})), surfaces.planes[plane].normal) >= 0.0;
-    if (forward || both) along[plane] = true;
-    if (!forward || both) against[plane] = true;
+    if (forward || both)
+      along[plane] = true;
+    if (!forward || both)
+      against[plane] = true;
   }
-  for (std::size_t plane = 0; plane < along.size(); ++plane) along[plane] = along[plane] && against[plane];
+  for (std::size_t plane = 0; plane < along.size(); ++plane)
+    along[plane] = along[plane] && against[plane];
   return along;
 }
 
@@ -60,7 +64,8 @@ FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfac
     const auto& v = scene.triangles[t].vertices;
     const auto plane = index(surfaces.plane_of_triangle[t]);
     geometry.triangles.push_back({index(v[0]), index(v[1]), index(v[2])});
-    geometry.facts.push_back({plane, !material_of(scene, TriangleId{t}).double_sided, sheets[plane]});
+    geometry.facts.push_back(
+        {plane, !material_of(scene, TriangleId{t}).double_sided, sheets[plane]});
   }
 
   for (const auto& plane : surfaces.planes) {

@@ -8,7 +8,8 @@ namespace meninas {
 struct TriangleFacts {
   std::uint32_t plane = index(none<PlaneId>);
   bool single_sided = false;
-  bool in_sheet = false; ///< its plane class has a face the other way: it may be one side of a sheet
+  bool in_sheet =
+      false; ///< its plane class has a face the other way: it may be one side of a sheet
 };
 
 struct FrameNormal {
@@ -21,8 +22,9 @@ struct FrameGeometry {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<TriangleFacts> facts;     ///< per triangle
   std::vector<Direction> plane_normals; ///< per plane class
-  std::vector<FrameNormal> lifts;       ///< the same in floats, and one of length zero for rays that leave no plane
-  double noise = 0.0;                   ///< heights below it are rounding, in frame units
+  std::vector<FrameNormal>
+      lifts;          ///< the same in floats, and one of length zero for rays that leave no plane
+  double noise = 0.0; ///< heights below it are rounding, in frame units
 };
 
 FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfaces);

@@ -8,25 +8,22 @@ namespace meninas {
 
 namespace {
 
-/// The normals of the planes of a packet's lanes, zero where there is none.
-struct LaneNormals {
-  std::array<float, packet_size> x, y, z;
-};
-
 bool all_equal(const std::uint32_t* planes) {
   std::uint32_t differences = 0;
-  for (std::size_t k = 1; k < packet_size; ++k) differences |= planes[k] ^ planes[0];
+  for (std::size_t k = 1; k < packet_size; ++k)
+    differences |= planes[k] ^ planes[0];
   return differences == 0;
 }
 
-LaneNormals lane_normals(const FrameGeometry& geometry, const std::uint32_t* planes) {
+/// The normals of the planes of a packet's lanes, zero where there is none.
+LaneVectors lane_normals(const FrameGeometry& geometry, const std::uint32_t* planes) {
   const auto no_plane = static_cast<std::uint32_t>(geometry.lifts.size() - 1);
-  LaneNormals normals;
+  LaneVectors normals;
   if (all_equal(planes)) {
     const auto& n = geometry.lifts[std::min(planes[0], no_plane)];
-    normals.x.fill(n.x);
-    normals.y.fill(n.y);
-    normals.z.fill(n.z);
+    std::fill_n(normals.x, packet_size, n.x);
+    std::fill_n(normals.y, packet_size, n.y);
+    std::fill_n(normals.z, packet_size, n.z);
     return normals;
   }
   for (std::size_t k = 0; k < packet_size; ++k) {
@@ -56,53 +53,56 @@ void store(HitPacket& hits, std::size_t lane, const LaneHit& hit) {
   hits.front[lane] = hit.front ? 1 : 0;
 }
 
-std::uint32_t bits_of(const LaneFlags& flags) {
-  std::uint32_t bits = 0;
-  for (std::size_t k = 0; k < packet_size; ++k) bits |= static_cast<std::uint32_t>(flags[k]) & (1U << k);
-  return bits;
-}
-
 LaneFlags traceable_lanes(const RayPacket& packet) {
   constexpr auto infinity = std::numeric_limits<float>::infinity();
   LaneFlags flags;
   for (std::size_t k = 0; k < packet_size; ++k) {
-    const auto steps =
-        std::abs(packet.direction_x[k]) + std::abs(packet.direction_y[k]) + std::abs(packet.direction_z[k]);
-    const auto place = std::abs(packet.origin_x[k]) + std::abs(packet.origin_y[k]) + std::abs(packet.origin_z[k]);
+    const auto steps = std::abs(packet.direction_x[k]) + std::abs(packet.direction_y[k]) +
+                       std::abs(packet.direction_z[k]);
+    const auto place =
+        std::abs(packet.origin_x[k]) + std::abs(packet.origin_y[k]) + std::abs(packet.origin_z[k]);
     const auto is_ray =
         (steps > 0.0F) & (steps < infinity) & (place < infinity) & (packet.max_distance[k] > 0.0F);
     flags[k] = is_ray ? -1 : 0;
   }
-  for (std::size_t k = packet.count; k < packet_size; ++k) flags[k] = 0;
+  for (std::size_t k = packet.count; k < packet_size; ++k)
+    flags[k] = 0;
   return flags;
 }
 
-RayPacket lifted_rays(const FrameGeometry& geometry, const RayPacket& packet) {
-  auto lifted = packet;
-  if (packet.leaving[0] == no_index && all_equal(packet.leaving)) return lifted;
+bool leaves_nothing(const RayPacket& packet) {
+  return packet.leaving[0] == no_index && all_equal(packet.leaving);
+}
+
+LaneVectors lifted_origins(const FrameGeometry& geometry, const RayPacket& packet) {
   const auto n = lane_normals(geometry, packet.leaving);
+  LaneVectors lifted;
   for (std::size_t k = 0; k < packet_size; ++k) {
-    const auto slope =
-        n.x[k] * packet.direction_x[k] + n.y[k] * packet.direction_y[k] + n.z[k] * packet.direction_z[k];
+    const auto slope = n.x[k] * packet.direction_x[k] + n.y[k] * packet.direction_y[k] +
+                       n.z[k] * packet.direction_z[k];
     const auto side = std::copysign(lift, slope);
-    lifted.origin_x[k] = packet.origin_x[k] + side * n.x[k];
-    lifted.origin_y[k] = packet.origin_y[k] + side * n.y[k];
-    lifted.origin_z[k] = packet.origin_z[k] + side * n.z[k];
+    lifted.x[k] = packet.origin_x[k] + side * n.x[k];
+    lifted.y[k] = packet.origin_y[k] + side * n.y[k];
+    lifted.z[k] = packet.origin_z[k] + side * n.z[k];
   }
   return lifted;
 }
 
-RayPacket lifted_legs(const FrameGeometry& geometry, const RayPacket& packet) {
-  auto lifted = lifted_rays(geometry, packet);
+LaneVectors lifted_directions(const FrameGeometry& geometry, const RayPacket& packet,
+                              const LaneVectors& origins) {
   const auto n = lane_normals(geometry, packet.arriving);
+  LaneVectors lifted;
   for (std::size_t k = 0; k < packet_size; ++k) {
-    const auto slope =
-        n.x[k] * packet.direction_x[k] + n.y[k] * packet.direction_y[k] + n.z[k] * packet.direction_z[k];
+    const auto slope = n.x[k] * packet.direction_x[k] + n.y[k] * packet.direction_y[k] +
+                       n.z[k] * packet.direction_z[k];
     const auto side = -std::copysign(lift, slope);
     const auto share = 1.0F / packet.max_distance[k];
-    lifted.direction_x[k] += share * (side * n.x[k] + packet.origin_x[k] - lifted.origin_x[k]);
-    lifted.direction_y[k] += share * (side * n.y[k] + packet.origin_y[k] - lifted.origin_y[k]);
-    lifted.direction_z[k] += share * (side * n.z[k] + packet.origin_z[k] - lifted.origin_z[k]);
+    lifted.x[k] =
+        packet.direction_x[k] + share * (side * n.x[k] + packet.origin_x[k] - origins.x[k]);
+    lifted.y[k] =
+        packet.direction_y[k] + share * (side * n.y[k] + packet.origin_y[k] - origins.y[k]);
+    lifted.z[k] =
+        packet.direction_z[k] + share * (side * n.z[k] + packet.origin_z[k] - origins.z[k]);
   }
   return lifted;
 }

@@ -10,7 +10,7 @@ inline constexpr auto no_index = std::numeric_limits<std::uint32_t>::max();
 // The frame maps the scene into [-1, 1], where floats are rounded by at most 3e-8 per coordinate.
 // Origins are lifted off the plane they leave by `lift`, a few such roundings, so that the plane is hardly ever hit again;
 // where it is, the query is repeated with a filter that knows the plane.
-inline constexpr float lift = 5e-7F;
+inline constexpr float lift = 1e-6F;
 
 struct LaneRay {
   glm::vec3 origin;
@@ -33,16 +33,29 @@ void store(HitPacket& hits, std::size_t lane, const LaneHit& hit);
 using LaneFlags = std::array<std::int32_t, packet_size>; ///< -1 where it holds, as Embree wants it
 
 /// Bit k is set where flag k is.
-std::uint32_t bits_of(const LaneFlags& flags);
+inline std::uint32_t bits_of(const LaneFlags& flags) {
+  std::uint32_t bits = 0;
+  for (std::uint32_t k = 0; k < packet_size; ++k)
+    bits |= static_cast<std::uint32_t>(flags[k]) & (1U << k);
+  return bits;
+}
 
 /// The lanes that are rays: below the count, finite, with a direction and a length.
 LaneFlags traceable_lanes(const RayPacket& packet);
 
-/// The packet with its origins moved off the planes they leave, towards the side their ray goes to.
-RayPacket lifted_rays(const FrameGeometry& geometry, const RayPacket& packet);
+/// A vector per lane.
+struct alignas(64) LaneVectors {
+  float x[packet_size], y[packet_size], z[packet_size];
+};
 
-/// The same with the ends of the legs moved off the planes they arrive at, towards the side they come from.
-RayPacket lifted_legs(const FrameGeometry& geometry, const RayPacket& packet);
+bool leaves_nothing(const RayPacket& packet);
+
+/// The origins of a packet moved off the planes they leave, towards the side their ray goes to.
+LaneVectors lifted_origins(const FrameGeometry& geometry, const RayPacket& packet);
+
+/// The directions from lifted origins to the ends of legs moved off the planes they arrive at, towards the side they come from.
+LaneVectors lifted_directions(const FrameGeometry& geometry, const RayPacket& packet,
+                              const LaneVectors& origins);
 
 struct Doubts {
   std::uint32_t careful = 0; ///< lanes to be traced again one by one

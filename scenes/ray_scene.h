@@ -32,9 +32,9 @@ struct Ray {
 
 struct Hit {
   TriangleId triangle = none<TriangleId>;
-  double distance = 0.0;   ///< metres, along the ray
-  Vec2 barycentric{0.0};   ///< weights of the triangle's second and third vertex
-  bool front = true;       ///< false: the back of a surface, black if single-sided
+  double distance = 0.0; ///< metres, along the ray
+  Vec2 barycentric{0.0}; ///< weights of the triangle's second and third vertex
+  bool front = true;     ///< false: the back of a surface, black if single-sided
 };
 
 /// The straight leg between two points, each on a plane of the scene or free (none). Blocked by either side of anything between.
@@ -51,9 +51,9 @@ inline constexpr std::size_t packet_size = 16;
 struct alignas(64) RayPacket {
   float origin_x[packet_size], origin_y[packet_size], origin_z[packet_size];
   float direction_x[packet_size], direction_y[packet_size], direction_z[packet_size];
-  float max_distance[packet_size];          ///< frame units, in units of the direction's length
-  std::uint32_t leaving[packet_size];       ///< index of a PlaneId, or of none
-  std::uint32_t arriving[packet_size];      ///< occlusion only: the plane the leg ends on
+  float max_distance[packet_size];     ///< frame units, in units of the direction's length
+  std::uint32_t leaving[packet_size];  ///< index of a PlaneId, or of none
+  std::uint32_t arriving[packet_size]; ///< occlusion only: the plane the leg ends on
   std::uint32_t count = 0;
 };
 

@@ -52,10 +52,11 @@ constexpr std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) {
 // they were found by a search that keeps the four-dimensional quality parameter t of the prefixes 2^m low
 // (t = 1 to 3 up to m = 12, column by column).
 constexpr std::array<std::uint32_t, 32> relabelling_columns{
-    0x00000001U, 0x00000002U, 0x00000005U, 0x0000000bU, 0x00000010U, 0x00000021U, 0x00000043U, 0x00000086U,
-    0x00000112U, 0x0000025dU, 0x000006f6U, 0x00000cfeU, 0x00001844U, 0x00003c91U, 0x0000508dU, 0x0000e69bU,
-    0x000186e3U, 0x00035824U, 0x000425d6U, 0x00098401U, 0x001d1a4cU, 0x0034cdabU, 0x005ba8ccU, 0x00d40880U,
-    0x017eb86cU, 0x03178106U, 0x0756a508U, 0x0f1c1c5cU, 0x164a149fU, 0x3f0ccc95U, 0x606d8aedU, 0xa7656f51U,
+    0x00000001U, 0x00000002U, 0x00000005U, 0x0000000bU, 0x00000010U, 0x00000021U, 0x00000043U,
+    0x00000086U, 0x00000112U, 0x0000025dU, 0x000006f6U, 0x00000cfeU, 0x00001844U, 0x00003c91U,
+    0x0000508dU, 0x0000e69bU, 0x000186e3U, 0x00035824U, 0x000425d6U, 0x00098401U, 0x001d1a4cU,
+    0x0034cdabU, 0x005ba8ccU, 0x00d40880U, 0x017eb86cU, 0x03178106U, 0x0756a508U, 0x0f1c1c5cU,
+    0x164a149fU, 0x3f0ccc95U, 0x606d8aedU, 0xa7656f51U,
 };
 
 using ByteTables = std::array<std::array<std::uint32_t, 256>, 4>;
@@ -65,7 +66,8 @@ constexpr ByteTables make_byte_tables() {
   for (std::uint32_t byte = 0; byte < 4; ++byte)
     for (std::uint32_t value = 0; value < 256; ++value)
       for (std::uint32_t bit = 0; bit < 8; ++bit)
-        if ((value >> bit) & 1U) tables[byte][value] ^= relabelling_columns[8 * byte + bit];
+        if ((value >> bit) & 1U)
+          tables[byte][value] ^= relabelling_columns[8 * byte + bit];
   return tables;
 }
 
@@ -100,7 +102,8 @@ std::array<float, 4> sobol4(std::uint32_t index, std::uint32_t seed) {
 glm::vec2 concentric_disc(float u, float v) {
   const auto x = 2.0F * u - 1.0F;
   const auto y = 2.0F * v - 1.0F;
-  if (x == 0.0F && y == 0.0F) return {0.0F, 0.0F};
+  if (x == 0.0F && y == 0.0F)
+    return {0.0F, 0.0F};
 
   // Squares about the centre become circles of the same share of the area.
   constexpr auto quarter = std::numbers::pi_v<float> / 4.0F;

@@ -23,12 +23,9 @@ struct Placement {
 };
 
 const std::vector<Placement> placements{
-    {"plain", 1.0, Vec3(0.0), 0.0},
-    {"small", 1e-6, Vec3(0.0), 0.0},
-    {"large", 1e6, Vec3(0.0), 0.0},
-    {"far", 1.0, {4e6, -3e6, 1e6}, 0.0},
-    {"turned", 1.0, Vec3(0.0), 1.0},
-    {"small, far and turned", 1e-3, {4e3, -3e3, 1e3}, 2.0},
+    {"plain", 1.0, Vec3(0.0), 0.0},  {"small", 1e-6, Vec3(0.0), 0.0},
+    {"large", 1e6, Vec3(0.0), 0.0},  {"far", 1.0, {4e6, -3e6, 1e6}, 0.0},
+    {"turned", 1.0, Vec3(0.0), 1.0}, {"small, far and turned", 1e-3, {4e3, -3e3, 1e3}, 2.0},
 };
 
 const Point3 room_size(2.0, 3.0, 4.0);
@@ -37,7 +34,9 @@ class Generator {
 public:
   explicit Generator(std::uint32_t seed) : engine_(seed) {}
   double uniform() { return std::uniform_real_distribution<double>()(engine_); }
-  std::uint32_t below(std::uint32_t count) { return std::uniform_int_distribution<std::uint32_t>(0, count - 1)(engine_); }
+  std::uint32_t below(std::uint32_t count) {
+    return std::uniform_int_distribution<std::uint32_t>(0, count - 1)(engine_);
+  }
 
 private:
   std::mt19937 engine_;
@@ -52,7 +51,8 @@ struct WallPoint {
 
 // Anywhere on the walls, exactly on edges and corners, and a billionth beside them
 WallPoint wall_point(const Scene& scene, const SurfaceModel& surfaces, Generator& generator) {
-  const auto triangle = TriangleId{generator.below(static_cast<std::uint32_t>(scene.triangles.size()))};
+  const auto triangle =
+      TriangleId{generator.below(static_cast<std::uint32_t>(scene.triangles.size()))};
   auto a = generator.uniform();
   auto b = generator.uniform();
   if (a + b > 1.0) {
@@ -60,12 +60,23 @@ WallPoint wall_point(const Scene& scene, const SurfaceModel& surfaces, Generator
     b = 1.0 - b;
   }
   switch (generator.below(6)) {
-  case 1: a = 0.0; break;
-  case 2: a = b = 0.0; break;
-  case 3: a *= 1e-9; break;
-  case 4: a *= 1e-9, b *= 1e-9; break;
-  case 5: b = 1.0 - a; break;
-  default: break;
+  case 1:
+    a = 0.0;
+    break;
+  case 2:
+    a = b = 0.0;
+    break;
+  case 3:
+    a *= 1e-9;
+    break;
+  case 4:
+    a *= 1e-9, b *= 1e-9;
+    break;
+  case 5:
+    b = 1.0 - a;
+    break;
+  default:
+    break;
   }
   const auto c = corners(scene, triangle);
   return {c[0] + a * (c[1] - c[0]) + b * (c[2] - c[0]), glm::normalize(area_vector(c)), triangle,
@@ -74,7 +85,8 @@ WallPoint wall_point(const Scene& scene, const SurfaceModel& surfaces, Generator
 
 Direction outgoing(const WallPoint& from, Generator& generator) {
   const auto frame = tangent_frame(from.normal);
-  const auto d = Vec3(cosine_hemisphere(static_cast<float>(generator.uniform()), static_cast<float>(generator.uniform())));
+  const auto d = Vec3(cosine_hemisphere(static_cast<float>(generator.uniform()),
+                                        static_cast<float>(generator.uniform())));
   return glm::normalize(d.x * frame.tangent + d.y * frame.bitangent + d.z * from.normal);
 }
 
@@ -82,7 +94,8 @@ class ClosedRoom : public testing::TestWithParam<std::tuple<Placement, bool>> {
 protected:
   ClosedRoom() {
     const auto& [placement, double_sided] = GetParam();
-    turn_ = glm::dmat3(glm::rotate(glm::dmat4(1.0), placement.turn, glm::normalize(Vec3(1.0, 2.0, 3.0))));
+    turn_ = glm::dmat3(
+        glm::rotate(glm::dmat4(1.0), placement.turn, glm::normalize(Vec3(1.0, 2.0, 3.0))));
     std::array<Material, 6> walls;
     walls.fill(double_sided ? test::double_sided(test::diffuse(0.5)) : test::diffuse(0.5));
     Scene room;
@@ -99,8 +112,10 @@ protected:
     auto nearest = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
       const auto wall = 2U * static_cast<std::uint32_t>(axis) + (d[axis] > 0.0 ? 1U : 0U);
-      if (d[axis] == 0.0 || wall == index(from.triangle) / 2) continue;
-      nearest = std::min(nearest, std::max(0.0, ((d[axis] > 0.0 ? room_size[axis] : 0.0) - x[axis]) / d[axis]));
+      if (d[axis] == 0.0 || wall == index(from.triangle) / 2)
+        continue;
+      nearest = std::min(
+          nearest, std::max(0.0, ((d[axis] > 0.0 ? room_size[axis] : 0.0) - x[axis]) / d[axis]));
     }
     return nearest;
   }
@@ -123,7 +138,8 @@ TEST_P(ClosedRoom, NoRayEscapesOrMeetsABackOrItsOwnWall) {
     ASSERT_TRUE(hit->front) << "ray " << n;
     ASSERT_NE(surfaces_.plane_of_triangle[index(hit->triangle)], from.plane) << "ray " << n;
     // Rays that graze a wall beside their origin may be taken to start on it, 1e-6 away at the most.
-    if (std::abs(hit->distance / placement.scale - analytic_distance(from, direction)) > 1e-5) ++wrong_distances;
+    if (std::abs(hit->distance / placement.scale - analytic_distance(from, direction)) > 1e-5)
+      ++wrong_distances;
   }
   EXPECT_LE(wrong_distances, 4);
 }
@@ -134,8 +150,10 @@ TEST_P(ClosedRoom, NoLegBetweenItsWallsIsBlocked) {
   for (int n = 0; n < 200'000; ++n) {
     const auto from = wall_point(scene_, surfaces_, generator);
     const auto to = wall_point(scene_, surfaces_, generator);
-    if (from.plane == to.plane) continue;
-    ASSERT_FALSE(occluded(rays, Leg{from.position, to.position, from.plane, to.plane})) << "leg " << n;
+    if (from.plane == to.plane)
+      continue;
+    ASSERT_FALSE(occluded(rays, Leg{from.position, to.position, from.plane, to.plane}))
+        << "leg " << n;
   }
 }
 
@@ -144,7 +162,8 @@ TEST_P(ClosedRoom, ASquareInTheMiddleBlocksExactlyWhatCrossesIt) {
   const auto moved = [&](Point3 x) { return placement.scale * (turn_ * x) + placement.offset; };
   const std::vector<Point3> square{{0.5, 1.5, 1}, {1.5, 1.5, 1}, {1.5, 1.5, 3}, {0.5, 1.5, 3}};
   auto scene = scene_;
-  test::add_polygon(scene, "square", {moved(square[0]), moved(square[1]), moved(square[2]), moved(square[3])},
+  test::add_polygon(scene, "square",
+                    {moved(square[0]), moved(square[1]), moved(square[2]), moved(square[3])},
                     test::diffuse(0.5));
   const auto surfaces = find_surfaces(scene);
   const auto rays = make_ray_scene(scene, surfaces);
@@ -154,11 +173,15 @@ TEST_P(ClosedRoom, ASquareInTheMiddleBlocksExactlyWhatCrossesIt) {
     const Point3 from(2.0 * generator.uniform(), 0.0, 4.0 * generator.uniform());
     const Point3 to(2.0 * generator.uniform(), 3.0, 4.0 * generator.uniform());
     const auto crossing = 0.5 * (from + to);
-    const auto margin = std::min({crossing.x - 0.5, 1.5 - crossing.x, crossing.z - 1.0, 3.0 - crossing.z});
-    if (std::abs(margin) < 1e-5) continue; // floats in a frame of 4 m cannot tell
-    const Leg leg{moved(from), moved(to), surfaces.plane_of_triangle[4], surfaces.plane_of_triangle[6]};
+    const auto margin =
+        std::min({crossing.x - 0.5, 1.5 - crossing.x, crossing.z - 1.0, 3.0 - crossing.z});
+    if (std::abs(margin) < 1e-5)
+      continue; // floats in a frame of 4 m cannot tell
+    const Leg leg{moved(from), moved(to), surfaces.plane_of_triangle[4],
+                  surfaces.plane_of_triangle[6]};
     ASSERT_EQ(occluded(rays, leg), margin > 0.0) << "leg " << n;
-    if (margin > 0.0) ++blocked;
+    if (margin > 0.0)
+      ++blocked;
   }
   EXPECT_GT(blocked, 10'000);
 }
@@ -171,7 +194,8 @@ std::string room_name(const testing::TestParamInfo<std::tuple<Placement, bool>>&
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Placements, ClosedRoom, testing::Combine(testing::ValuesIn(placements), testing::Bool()),
+INSTANTIATE_TEST_SUITE_P(Placements, ClosedRoom,
+                         testing::Combine(testing::ValuesIn(placements), testing::Bool()),
                          room_name);
 
 // A relief of 500,000 triangles under a lid
@@ -190,8 +214,10 @@ Scene relief() {
     for (std::uint32_t i = 0; i < cells; ++i) {
       const auto a = j * (cells + 1) + i;
       const auto b = a + cells + 1;
-      scene.triangles.push_back({{VertexId{a}, VertexId{b}, VertexId{b + 1}}, MaterialId{0}, NodeId{0}});
-      scene.triangles.push_back({{VertexId{a}, VertexId{b + 1}, VertexId{a + 1}}, MaterialId{0}, NodeId{0}});
+      scene.triangles.push_back(
+          {{VertexId{a}, VertexId{b}, VertexId{b + 1}}, MaterialId{0}, NodeId{0}});
+      scene.triangles.push_back(
+          {{VertexId{a}, VertexId{b + 1}, VertexId{a + 1}}, MaterialId{0}, NodeId{0}});
     }
   return scene;
 }
@@ -227,7 +253,8 @@ TEST(RaySceneBuild, HitsAreTheSameHoweverManyThreadsBuiltIt) {
       packet.origin_y[k] = 0.5F;
       packet.origin_z[k] = static_cast<float>(snap(2.0 * generator.uniform() - 1.0));
       packet.direction_y[k] = -1.0F;
-      if (n % 2 == 1) packet.direction_x[k] = static_cast<float>(generator.uniform() - 0.5);
+      if (n % 2 == 1)
+        packet.direction_x[k] = static_cast<float>(generator.uniform() - 0.5);
       packet.max_distance[k] = std::numeric_limits<float>::infinity();
       packet.leaving[k] = packet.arriving[k] = index(none<PlaneId>);
     }

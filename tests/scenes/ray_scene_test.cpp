@@ -1,5 +1,4 @@
 #include "scenes/ray_scene.h"
-
 #include "tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>
@@ -19,14 +18,16 @@ struct World {
   RayScene rays;
 
   explicit World(Scene built)
-      : scene(std::move(built)), surfaces(find_surfaces(scene)), rays(make_ray_scene(scene, surfaces)) {}
+      : scene(std::move(built)), surfaces(find_surfaces(scene)),
+        rays(make_ray_scene(scene, surfaces)) {}
 
   std::string name(TriangleId triangle) const {
     return scene.nodes[index(scene.triangles[index(triangle)].node)].name;
   }
   PlaneId plane(const std::string& node) const {
     for (std::size_t t = 0; t < scene.triangles.size(); ++t)
-      if (name(TriangleId{static_cast<std::uint32_t>(t)}) == node) return surfaces.plane_of_triangle[t];
+      if (name(TriangleId{static_cast<std::uint32_t>(t)}) == node)
+        return surfaces.plane_of_triangle[t];
     return none<PlaneId>;
   }
 };
@@ -44,9 +45,11 @@ Scene room_scene() {
 }
 
 // A square of side 2 in the plane z = height, its front towards +z or -z
-void add_sheet(Scene& scene, const std::string& name, double height, double facing, const Material& material) {
+void add_sheet(Scene& scene, const std::string& name, double height, double facing,
+               const Material& material) {
   const auto s = facing;
-  test::add_polygon(scene, name, {{-1, -s, height}, {1, -s, height}, {1, s, height}, {-1, s, height}}, material);
+  test::add_polygon(scene, name,
+                    {{-1, -s, height}, {1, -s, height}, {1, s, height}, {-1, s, height}}, material);
 }
 
 glm::dmat3 some_rotation() {
@@ -97,7 +100,8 @@ TEST(ClosestHit, DoubleSidedSurfacesAreNeverTransparent) {
   add_sheet(scene, "sheet", 0.0, 1.0, test::double_sided(test::diffuse(0.5)));
   const World world(scene);
   for (const double side : {1.0, -1.0}) {
-    const auto hit = closest_hit(world.rays, {{0.2, 0.1, side}, {0.0, 0.0, -side}}, Backs::transparent);
+    const auto hit =
+        closest_hit(world.rays, {{0.2, 0.1, side}, {0.0, 0.0, -side}}, Backs::transparent);
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->front, side > 0.0);
   }
@@ -122,7 +126,8 @@ TEST(ClosestHit, TheSideOfASheetThatFacesTheRayIsHit) {
     for (const auto& offset : {Vec3(0.0), Vec3(3.7, -1.3, 11.9)}) {
       Scene sheet;
       add_sheet(sheet, "up", 0.0, 1.0, test::diffuse(0.5));
-      test::add_polygon(sheet, "down", {{1, -1, 0}, {-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}}, test::diffuse(0.5));
+      test::add_polygon(sheet, "down", {{1, -1, 0}, {-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}},
+                        test::diffuse(0.5));
       const auto rotation = some_rotation();
       const World world(test::transformed(sheet, rotation, scale, scale * offset));
       for (int n = 0; n < 4000; ++n) {
@@ -132,8 +137,8 @@ TEST(ClosestHit, TheSideOfASheetThatFacesTheRayIsHit) {
         const double side = n % 2 == 0 ? 1.0 : -1.0;
         const auto direction = Vec3(std::sin(tilt), 0.0, -side * std::cos(tilt));
         const auto origin = Point3(x, y, 0.0) - 2.0 * direction;
-        const auto hit = closest_hit(
-            world.rays, {scale * (rotation * origin) + scale * offset, glm::normalize(rotation * direction)});
+        const auto hit = closest_hit(world.rays, {scale * (rotation * origin) + scale * offset,
+                                                  glm::normalize(rotation * direction)});
         ASSERT_TRUE(hit);
         ASSERT_TRUE(hit->front);
         ASSERT_EQ(world.name(hit->triangle), side > 0.0 ? "up" : "down");
@@ -162,10 +167,13 @@ TEST(ClosestHit, AConvexEdgeDoesNotStopRaysThatLeaveBesideIt) {
       const auto angle = n * std::numbers::pi / 180.0;
       for (const double height : {1e-3, 0.1, 1.0}) {
         const auto direction = glm::normalize(Vec3(std::cos(angle), height, std::sin(angle)));
-        const auto edge = closest_hit(world.rays, {{1.0 - inset, 1.0, 0.3}, direction, world.plane("box.y1")});
+        const auto edge =
+            closest_hit(world.rays, {{1.0 - inset, 1.0, 0.3}, direction, world.plane("box.y1")});
         EXPECT_TRUE(!edge || world.name(edge->triangle).starts_with("far")) << inset << " " << n;
-        const auto corner = closest_hit(world.rays, {{1.0 - inset, 1.0, 1.0 - inset}, direction, world.plane("box.y1")});
-        EXPECT_TRUE(!corner || world.name(corner->triangle).starts_with("far")) << inset << " " << n;
+        const auto corner = closest_hit(
+            world.rays, {{1.0 - inset, 1.0, 1.0 - inset}, direction, world.plane("box.y1")});
+        EXPECT_TRUE(!corner || world.name(corner->triangle).starts_with("far"))
+            << inset << " " << n;
       }
     }
 }
@@ -250,7 +258,8 @@ TEST(Packets, AgreeWithSingleRaysAndLeaveOtherLanesAlone) {
         const Vec3 direction(packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]);
         const auto hit = k < count ? closest_hit(world.rays, {eye, direction}) : std::nullopt;
         ASSERT_EQ(hits.triangle[k], hit ? index(hit->triangle) : index(none<TriangleId>)) << k;
-        if (!hit) continue;
+        if (!hit)
+          continue;
         expected |= 1U << k;
         EXPECT_EQ(hits.front[k] != 0, hit->front);
         // Rounded to floats in a frame of size 1: a few times 6e-8, and hits that are met at an angle

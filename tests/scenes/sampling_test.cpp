@@ -17,7 +17,8 @@ struct Pair {
 };
 
 // The number of points in each of the 2^a x 2^b equal boxes of the unit square
-std::vector<int> box_counts(Pair dims, std::uint32_t first, std::uint32_t count, int a, int b, std::uint32_t seed) {
+std::vector<int> box_counts(Pair dims, std::uint32_t first, std::uint32_t count, int a, int b,
+                            std::uint32_t seed) {
   std::vector<int> boxes(std::size_t{1} << (a + b));
   for (std::uint32_t n = first; n < first + count; ++n) {
     const auto p = sobol4(n, seed);
@@ -33,14 +34,16 @@ TEST(Sobol, PowerOfTwoPrefixesHaveOnePointInEveryElementaryInterval) {
     for (const auto dims : {Pair{0, 1}, Pair{2, 3}})
       for (int m = 0; m <= 12; ++m)
         for (int a = 0; a <= m; ++a)
-          for (const auto boxes = box_counts(dims, 0, 1U << m, a, m - a, seed); const auto count : boxes)
+          for (const auto boxes = box_counts(dims, 0, 1U << m, a, m - a, seed);
+               const auto count : boxes)
             ASSERT_EQ(count, 1) << "m = " << m << ", a = " << a;
 }
 
 TEST(Sobol, LaterBlocksAreStratifiedAsWell) {
   for (const auto dims : {Pair{0, 1}, Pair{2, 3}})
     for (int a = 0; a <= 8; ++a)
-      for (const auto boxes = box_counts(dims, 37U << 8, 1U << 8, a, 8 - a, 5); const auto count : boxes)
+      for (const auto boxes = box_counts(dims, 37U << 8, 1U << 8, a, 8 - a, 5);
+           const auto count : boxes)
         ASSERT_EQ(count, 1);
 }
 
@@ -72,10 +75,13 @@ TEST(Sobol, SeedsGiveUnrelatedPoints) {
     double product = 0.0;
     for (std::uint32_t seed = 0; seed < count; ++seed) {
       const auto p = sobol4(n, seed);
-      for (std::size_t k = 0; k < 4; ++k) sum[k] += static_cast<double>(p[k]);
-      product += (static_cast<double>(p[0]) - 0.5) * (static_cast<double>(sobol4(n, seed + 1)[0]) - 0.5);
+      for (std::size_t k = 0; k < 4; ++k)
+        sum[k] += static_cast<double>(p[k]);
+      product +=
+          (static_cast<double>(p[0]) - 0.5) * (static_cast<double>(sobol4(n, seed + 1)[0]) - 0.5);
     }
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(sum[k] / count, 0.5, 6.0 * std::sqrt(1.0 / 12.0 / count));
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(sum[k] / count, 0.5, 6.0 * std::sqrt(1.0 / 12.0 / count));
     EXPECT_NEAR(product / count, 0.0, 6.0 / 12.0 / std::sqrt(count));
   }
 }
@@ -88,8 +94,10 @@ double star_discrepancy(const std::vector<std::array<float, 4>>& points, Pair di
       const auto x = static_cast<float>(i) / 32.0F - 0.011F;
       const auto y = static_cast<float>(j) / 32.0F - 0.007F;
       double inside = 0.0;
-      for (const auto& p : points) inside += p[dims.first] < x && p[dims.second] < y ? 1.0 : 0.0;
-      worst = std::max(worst, std::abs(inside / static_cast<double>(points.size()) - static_cast<double>(x * y)));
+      for (const auto& p : points)
+        inside += p[dims.first] < x && p[dims.second] < y ? 1.0 : 0.0;
+      worst = std::max(worst, std::abs(inside / static_cast<double>(points.size()) -
+                                       static_cast<double>(x * y)));
     }
   return worst;
 }
@@ -101,7 +109,8 @@ TEST(Sobol, DiscrepancyOfEveryPairBeatsRandomPoints) {
   std::uniform_real_distribution<float> uniform;
   for (std::uint32_t n = 0; n < 1024; ++n) {
     points.push_back(sobol4(n, 7));
-    random.push_back({uniform(generator), uniform(generator), uniform(generator), uniform(generator)});
+    random.push_back(
+        {uniform(generator), uniform(generator), uniform(generator), uniform(generator)});
   }
   for (std::size_t a = 0; a < 4; ++a)
     for (std::size_t b = a + 1; b < 4; ++b)
@@ -112,7 +121,8 @@ TEST(Hash, DependsOnEveryArgumentAndSpreads) {
   std::set<std::uint32_t> seen;
   for (std::uint32_t a = 0; a < 20; ++a)
     for (std::uint32_t b = 0; b < 20; ++b)
-      for (std::uint32_t c = 0; c < 20; ++c) seen.insert(hash(a, b, c));
+      for (std::uint32_t c = 0; c < 20; ++c)
+        seen.insert(hash(a, b, c));
   // 8000 of 2^32 values collide with probability 0.7 %, which the fixed arguments do not.
   EXPECT_EQ(seen.size(), 8000U);
 }
@@ -153,7 +163,8 @@ TEST(ConcentricDisc, KeepsAreaFractions) {
     const auto p = sobol4(n, 2);
     const auto d = concentric_disc(p[0], p[1]);
     ASSERT_LE(glm::length(d), 1.0F + 1e-6F);
-    if (glm::length(d) < 0.5F) ++inside;
+    if (glm::length(d) < 0.5F)
+      ++inside;
   }
   // Stratified: only boxes along the circle may be off
   EXPECT_NEAR(inside / static_cast<double>(count), 0.25, 2e-3);
@@ -161,8 +172,13 @@ TEST(ConcentricDisc, KeepsAreaFractions) {
 }
 
 TEST(TangentFrame, IsOrthonormalAndRightHandedForAllDirections) {
-  std::vector<Direction> normals{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, glm::normalize(Vec3(1e-9, 1e-9, -1)),
-                                 glm::normalize(Vec3(1e-4, -1e-5, -1)), glm::normalize(Vec3(1, 1, -0.0))};
+  std::vector<Direction> normals{{0, 0, 1},
+                                 {0, 0, -1},
+                                 {1, 0, 0},
+                                 {0, -1, 0},
+                                 glm::normalize(Vec3(1e-9, 1e-9, -1)),
+                                 glm::normalize(Vec3(1e-4, -1e-5, -1)),
+                                 glm::normalize(Vec3(1, 1, -0.0))};
   for (std::uint32_t n = 0; n < 1000; ++n) {
     const auto p = sobol4(n, 4);
     const auto z = 2.0 * static_cast<double>(p[0]) - 1.0;

@@ -1,0 +1,74 @@
+// Which of the triangles that Embree finds are hits: the rules behind its filters, free of Embree.
+#pragma once
+
+#include "scenes/contacts.h"
+#include "scenes/lanes.h"
+
+#include <algorithm>
+
+namespace meninas {
+
+/// A triangle that a ray is about to hit.
+struct Candidate {
+  std::uint32_t triangle = no_index;
+  std::uint32_t lane = 0;
+  glm::vec3 normal; ///< towards the front, of any length
+  glm::vec3 direction;
+  float distance = 0.0F;
+};
+
+enum class BackRule { hit, ignore };
+
+/// A ray hits nothing in the plane it leaves nor in the planes of the triangles that touch its origin, and no backs where they
+/// are ignored. Where only one plane is looked for, it hits nothing else.
+struct RayRule {
+  const FrameGeometry* geometry = nullptr;
+  const std::uint32_t* leaving = nullptr; ///< by lane
+  const Contacts* contacts = nullptr;
+  BackRule backs = BackRule::hit;
+  std::uint32_t only_plane = no_index;
+};
+
+inline bool is_contact(const Contacts* contacts, std::uint32_t plane) {
+  return contacts && std::ranges::any_of(contacts->others, [&](const ContactTriangle& contact) {
+           return index(contact.plane) == plane;
+         });
+}
+
+inline bool is_hit(const RayRule& rule, const Candidate& candidate) {
+  const auto& facts = rule.geometry->facts[candidate.triangle];
+  if (facts.plane == rule.leaving[candidate.lane] || is_contact(rule.contacts, facts.plane))
+    return false;
+  if (rule.only_plane != no_index && facts.plane != rule.only_plane)
+    return false;
+  const auto back = glm::dot(candidate.normal, candidate.direction) >= 0.0F;
+  return rule.backs == BackRule::hit || !facts.single_sided || !back;
+}
+
+/// A leg is not blocked in the planes it leaves and arrives at; triangles in whose plane an end lies are left to its contacts.
+struct LegRule {
+  const FrameGeometry* geometry = nullptr;
+  const RayPacket* packet = nullptr;
+  float noise = 0.0F; ///< an end that is not higher than this over a plane lies in it
+};
+
+enum class LegHit { blocking, own, touching };
+
+inline LegHit leg_hit(const LegRule& rule, const Candidate& candidate) {
+  const auto plane = rule.geometry->facts[candidate.triangle].plane;
+  const auto leaving = rule.packet->leaving[candidate.lane];
+  const auto arriving = rule.packet->arriving[candidate.lane];
+  if (plane == leaving || plane == arriving)
+    return LegHit::own;
+
+  // How far the leg climbs from its start to the hit, and from there to its end, over the plane of the triangle
+  const auto slope = glm::dot(candidate.normal, candidate.direction);
+  const auto climb = slope * candidate.distance;
+  const auto rest = slope * (rule.packet->max_distance[candidate.lane] - candidate.distance);
+  const auto least = rule.noise * rule.noise * glm::dot(candidate.normal, candidate.normal);
+  const auto at_start = leaving != no_index && climb * climb < least;
+  const auto at_end = arriving != no_index && rest * rest < least;
+  return at_start || at_end ? LegHit::touching : LegHit::blocking;
+}
+
+} // namespace meninas
