@@ -1,0 +1,111 @@
+#include "radiosity/plan.h"
+#include "tests/support/scene_builder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace meninas::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+Scene room_with(const Material& first_wall) {
+  Scene scene;
+  const Material wall = diffuse(0.5);
+  add_room(scene, Point3(0.0), Point3(1.0),
+           {first_wall, wall, wall, diffuse(0.5, 1.0), wall, wall});
+  for (Material& material : scene.materials) {
+    material.name = "wall";
+  }
+  scene.materials[0].name = "first";
+  scene.cameras.push_back(look_at({0.5, 0.5, 0.9}, {0.5, 0.5, 0.0}, 0.8));
+  return scene;
+}
+
+TransportPlan plan_of(const Scene& scene) { return plan_transport(scene, find_surfaces(scene)); }
+
+TEST(Plan, APlainRoomNeedsNothingSpecial) {
+  const TransportPlan plan = plan_of(room_with(diffuse(0.5)));
+  EXPECT_THAT(plan.warnings, IsEmpty());
+  EXPECT_THAT(plan.mirror_list, IsEmpty());
+  EXPECT_EQ(plan.emitters, 1U);
+  EXPECT_EQ(plan.bands, 1);
+  EXPECT_TRUE(plan.closed);
+  EXPECT_THAT(plan.stages, Not(Contains(HasSubstr("mirror worlds"))));
+}
+
+TEST(Plan, AMirrorIsListedAndItsWorldEnumerated) {
+  const TransportPlan plan = plan_of(room_with(mirror(0.9)));
+  ASSERT_EQ(plan.mirror_list.size(), 1U);
+  EXPECT_EQ(plan.mirror_list[0].name, "x0");
+  EXPECT_DOUBLE_EQ(plan.mirror_list[0].area, 1.0);
+  EXPECT_EQ(plan.mirror_list[0].reflectance, Rgb(0.9));
+  EXPECT_THAT(plan.stages, Contains(HasSubstr("mirror worlds: 1 world of 1 mirror, 1 deep")));
+  EXPECT_THAT(plan.stages, Contains("form factors: by rays, continued through mirrors"));
+}
+
+TEST(Plan, ColourAnywhereNeedsThreeBands) {
+  Material coloured_mirror = mirror(0.9);
+  coloured_mirror.base_color = {0.9, 0.8, 0.7};
+  EXPECT_EQ(plan_of(room_with(coloured_mirror)).bands, 3);
+  EXPECT_EQ(plan_of(room_with(diffuse({0.5, 0.5, 0.4}))).bands, 3);
+  EXPECT_EQ(plan_of(room_with(diffuse(Rgb(0.5), {1.0, 1.0, 0.5}))).bands, 3);
+}
+
+TEST(Plan, MaterialsThatAreOnNothingDoNotCount) {
+  Scene scene = room_with(diffuse(0.5));
+  scene.materials.push_back(diffuse({0.1, 0.2, 0.3}));
+  EXPECT_EQ(plan_of(scene).bands, 1);
+}
+
+TEST(Plan, DoubleSidedEmittersEmitTwice) {
+  EXPECT_EQ(plan_of(room_with(double_sided(diffuse(0.0, 1.0)))).emitters, 3U);
+}
+
+TEST(Plan, WhatIsNotModelledIsWarnedAboutByName) {
+  Material rough = mirror(0.9);
+  rough.roughness = 0.4;
+  const TransportPlan glossy = plan_of(room_with(rough));
+  EXPECT_EQ(glossy.glossy, 1U);
+  EXPECT_THAT(glossy.warnings,
+              Contains("metals too rough for a mirror reflect diffusely: 'first'"));
+
+  Material coated = diffuse(0.5);
+  coated.roughness = 0.1;
+  EXPECT_THAT(plan_of(room_with(coated)).warnings,
+              Contains("smooth dielectric coats are not traced yet: 'first'"));
+  coated.specular = 0.0;
+  EXPECT_THAT(plan_of(room_with(coated)).warnings, IsEmpty());
+
+  Scene lit = room_with(diffuse(0.5));
+  lit.lights.push_back({.name = "Spot"});
+  EXPECT_THAT(plan_of(lit).warnings,
+              Contains("point, spot and directional lights are not modelled yet: 'Spot'"));
+}
+
+TEST(Plan, DarkScenesAndMissingCamerasAreWarnedAbout) {
+  Scene scene = room_with(diffuse(0.5));
+  scene.materials[3].emission = Rgb(0.0);
+  scene.cameras.clear();
+  EXPECT_THAT(plan_of(scene).warnings,
+              testing::ElementsAre("nothing emits light: the picture will be black",
+                                   "no camera: a default view of the whole scene is used"));
+}
+
+TEST(Plan, FacetedMirrorsAreNamed) {
+  Scene scene = room_with(diffuse(0.5));
+  PlanSettings settings;
+  settings.mirrors.max_mirrors = 2;
+  add_box(scene, "cube", Point3(0.4), Point3(0.6), mirror(0.9));
+  const TransportPlan plan = plan_transport(scene, find_surfaces(scene), settings);
+  EXPECT_GT(plan.mirrors.facets, 0U);
+  EXPECT_THAT(plan.warnings,
+              Contains(HasSubstr(
+                  "is a curved or faceted mirror of 1 plane: followed by rays, not enumerated")));
+}
+
+} // namespace
+} // namespace meninas::test
