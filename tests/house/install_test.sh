@@ -35,7 +35,12 @@ int main(int, char** arguments) {
 }
 END
 flags=
-if [[ -n $sanitize ]]; then flags=-fsanitize=$sanitize; fi
+if [[ -n $sanitize ]]; then
+  flags=-fsanitize=$sanitize
+  # The sanitizer opens modules in the program's place, and so without the program's search path.
+  LD_LIBRARY_PATH=$(dirname "$(find "$prefix" -name meninas_image_io.so)")
+  export LD_LIBRARY_PATH
+fi
 cmake -S "$scratch/consumer" -B "$scratch/consumer/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
   -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >/dev/null
 ninja -C "$scratch/consumer/build" --quiet
