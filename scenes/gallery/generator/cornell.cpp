@@ -25,8 +25,10 @@ static Stage common_box(std::string name) {
   stage.add("ceiling", white, wall(ceiling, {{0.0, 0.0}, {high.x, high.z}}, std::array{opening}));
   stage.add("lamp", lamp, panel(ceiling, opening, 0.0));
 
-  const std::array short_base{Vec2(1.30, 0.65), Vec2(0.82, 2.25), Vec2(2.40, 2.72), Vec2(2.90, 1.14)};
-  const std::array tall_base{Vec2(4.23, 2.47), Vec2(2.65, 2.96), Vec2(3.14, 4.56), Vec2(4.72, 4.06)};
+  const std::array short_base{Vec2(1.30, 0.65), Vec2(0.82, 2.25), Vec2(2.40, 2.72),
+                              Vec2(2.90, 1.14)};
+  const std::array tall_base{Vec2(4.23, 2.47), Vec2(2.65, 2.96), Vec2(3.14, 4.56),
+                             Vec2(4.72, 4.06)};
   stage.add("short-block", white, standing_prism(short_base, 0.0, 1.65));
   stage.add("tall-block", white, standing_prism(tall_base, 0.0, 3.30));
   return stage;

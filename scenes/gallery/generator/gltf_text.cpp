@@ -11,19 +11,23 @@ namespace meninas::gallery {
 using Json = nlohmann::ordered_json;
 
 static std::string base64(const std::vector<std::uint8_t>& bytes) {
-  static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   for (std::size_t k = 0; k < bytes.size(); k += 3) {
     const auto given = std::min<std::size_t>(3, bytes.size() - k);
     std::uint32_t group = 0;
-    for (std::size_t i = 0; i < 3; ++i) group = group << 8 | (i < given ? bytes[k + i] : 0u);
-    for (std::size_t i = 0; i < 4; ++i) text += i <= given ? digits[group >> (18 - 6 * i) & 63u] : '=';
+    for (std::size_t i = 0; i < 3; ++i)
+      group = group << 8 | (i < given ? bytes[k + i] : 0u);
+    for (std::size_t i = 0; i < 4; ++i)
+      text += i <= given ? digits[group >> (18 - 6 * i) & 63u] : '=';
   }
   return text;
 }
 
 static void append_little_endian(std::vector<std::uint8_t>& bytes, std::uint32_t value, int size) {
-  for (int k = 0; k < size; ++k) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * k)));
+  for (int k = 0; k < size; ++k)
+    bytes.push_back(static_cast<std::uint8_t>(value >> (8 * k)));
 }
 
 static Json json(const Rgb& v) { return Json::array({v.x, v.y, v.z}); }
@@ -40,7 +44,8 @@ static Json material_json(const Paint& paint) {
   const auto brightest = std::max({paint.radiance.x, paint.radiance.y, paint.radiance.z});
   if (brightest > 1.0) {
     material["emissiveFactor"] = json(paint.radiance / brightest);
-    material["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", brightest}}}};
+    material["extensions"] = {
+        {"KHR_materials_emissive_strength", {{"emissiveStrength", brightest}}}};
   } else if (brightest > 0.0) {
     material["emissiveFactor"] = json(paint.radiance);
   }
@@ -63,7 +68,8 @@ static std::size_t material_index(Document& document, const Paint& paint) {
   const auto material = material_json(paint);
   const auto known = std::ranges::find(document.materials, material);
   const auto index = static_cast<std::size_t>(known - document.materials.begin());
-  if (known == document.materials.end()) document.materials.push_back(material);
+  if (known == document.materials.end())
+    document.materials.push_back(material);
   document.has_strength |= material.contains("extensions");
   return index;
 }
@@ -75,22 +81,27 @@ static Json mesh_json(Document& document, const Part& part) {
   for (const auto& position : part.mesh.positions) {
     // Adding zero turns -0 into 0, so that mirrored and plain coordinates have the same bits.
     const auto rounded = glm::vec3(position) + 0.0f;
-    for (int k = 0; k < 3; ++k) append_little_endian(bytes, std::bit_cast<std::uint32_t>(rounded[k]), 4);
+    for (int k = 0; k < 3; ++k)
+      append_little_endian(bytes, std::bit_cast<std::uint32_t>(rounded[k]), 4);
     low = glm::min(low, rounded);
     high = glm::max(high, rounded);
   }
   const auto position_bytes = bytes.size();
   for (const auto& triangle : part.mesh.triangles)
-    for (const auto vertex : triangle) append_little_endian(bytes, vertex, 2);
+    for (const auto vertex : triangle)
+      append_little_endian(bytes, vertex, 2);
 
   const auto buffer = document.buffers.size();
   document.buffers.push_back({{"byteLength", bytes.size()},
                               {"uri", "data:application/octet-stream;base64," + base64(bytes)}});
 
-  constexpr int array_buffer = 34962, element_array_buffer = 34963, float_type = 5126, unsigned_short = 5123;
+  constexpr int array_buffer = 34962, element_array_buffer = 34963, float_type = 5126,
+                unsigned_short = 5123;
   const auto first_view = document.views.size();
-  document.views.push_back(
-      {{"buffer", buffer}, {"byteOffset", 0}, {"byteLength", position_bytes}, {"target", array_buffer}});
+  document.views.push_back({{"buffer", buffer},
+                            {"byteOffset", 0},
+                            {"byteLength", position_bytes},
+                            {"target", array_buffer}});
   document.views.push_back({{"buffer", buffer},
                             {"byteOffset", position_bytes},
                             {"byteLength", bytes.size() - position_bytes},
@@ -125,9 +136,12 @@ static void add_view(Document& document, const View& view) {
   const auto right = glm::normalize(glm::cross(Vec3(0.0, 1.0, 0.0), back));
   const auto up = glm::cross(back, right);
   Json matrix = Json::array();
-  for (const auto& column : {glm::dvec4(right, 0.0), glm::dvec4(up, 0.0), glm::dvec4(back, 0.0), glm::dvec4(view.eye, 1.0)})
-    for (int k = 0; k < 4; ++k) matrix.push_back(column[k] + 0.0);
-  document.nodes.push_back({{"name", view.name}, {"camera", document.cameras.size()}, {"matrix", matrix}});
+  for (const auto& column : {glm::dvec4(right, 0.0), glm::dvec4(up, 0.0), glm::dvec4(back, 0.0),
+                             glm::dvec4(view.eye, 1.0)})
+    for (int k = 0; k < 4; ++k)
+      matrix.push_back(column[k] + 0.0);
+  document.nodes.push_back(
+      {{"name", view.name}, {"camera", document.cameras.size()}, {"matrix", matrix}});
   document.cameras.push_back({{"name", view.name},
                               {"type", "perspective"},
                               {"perspective",
@@ -139,22 +153,27 @@ static void add_view(Document& document, const View& view) {
 
 static std::string list_text(const char* key, const Json& list) {
   auto text = std::string("  \"") + key + "\": [";
-  for (std::size_t k = 0; k < list.size(); ++k) text += (k == 0 ? "\n    " : ",\n    ") + list[k].dump();
+  for (std::size_t k = 0; k < list.size(); ++k)
+    text += (k == 0 ? "\n    " : ",\n    ") + list[k].dump();
   return text + "\n  ]";
 }
 
 std::string gltf_text(const Stage& stage) {
   Document document;
-  for (const auto& view : stage.views) add_view(document, view);
-  for (const auto& part : stage.parts) add_part(document, part);
+  for (const auto& view : stage.views)
+    add_view(document, view);
+  for (const auto& part : stage.parts)
+    add_part(document, part);
 
   Json roots = Json::array();
-  for (std::size_t k = 0; k < document.nodes.size(); ++k) roots.push_back(k);
+  for (std::size_t k = 0; k < document.nodes.size(); ++k)
+    roots.push_back(k);
   const Json asset{{"version", "2.0"}, {"generator", "Meninas gallery"}};
   const Json scene{{"name", stage.name}, {"nodes", roots}};
 
   auto text = "{\n  \"asset\": " + asset.dump() + ",\n";
-  if (document.has_strength) text += "  \"extensionsUsed\": [\"KHR_materials_emissive_strength\"],\n";
+  if (document.has_strength)
+    text += "  \"extensionsUsed\": [\"KHR_materials_emissive_strength\"],\n";
   text += "  \"scene\": 0,\n" + list_text("scenes", Json::array({scene}));
   text += ",\n" + list_text("nodes", document.nodes);
   text += ",\n" + list_text("cameras", document.cameras);

@@ -12,6 +12,7 @@ static const Paint blue = diffuse("blue", {0.1, 0.2, 0.55});
 static const Paint ochre = diffuse("ochre", {0.65, 0.45, 0.15});
 
 /// A square tube along x, open at its far end, and a small lamp at the near end: a beam that nothing else gets.
+/// It is black inside, so that its own glow does not blur the beam.
 static void add_shaded_lamp(Stage& stage) {
   const Point3 low{0.4, 2.18, 1.48};
   const Point3 high{1.5, 2.42, 1.72};
@@ -19,18 +20,23 @@ static void add_shaded_lamp(Stage& stage) {
   const Point3 inner_low = low + shell;
   const Point3 inner_high{high.x, high.y - shell.y, high.z - shell.z};
 
-  // Outer faces, inner faces, and the rim that joins them at the open end.
-  std::vector<Mesh> tube{box(low, high, std::array{Face::x1})};
+  std::vector<Mesh> inside;
   for (const auto face : {Face::x0, Face::y0, Face::y1, Face::z0, Face::z1})
-    tube.push_back(room_wall(inner_low, inner_high, face));
+    inside.push_back(room_wall(inner_low, inner_high, face));
+  stage.add("shade.inside", diffuse("black", Rgb(0.0)), merged(inside));
+
+  // Outer faces, and the rim that joins them to the inner ones at the open end.
   const Sheet rim{{high.x, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-  tube.push_back(wall(rim, {{low.y, low.z}, {high.y, high.z}},
-                      std::array{Rect{{inner_low.y, inner_low.z}, {inner_high.y, inner_high.z}}}));
-  stage.add("shade", iron, merged(tube));
+  const Rect opening{{inner_low.y, inner_low.z}, {inner_high.y, inner_high.z}};
+  stage.add("shade", iron,
+            merged(std::array{box(low, high, std::array{Face::x1}),
+                              wall(rim, {{low.y, low.z}, {high.y, high.z}}, std::array{opening})}));
 
   const Sheet lamp{{inner_low.x + 0.01, 2.3, 1.6}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-  stage.add("lamp", light("lamp", {24000.0, 20000.0, 15000.0}), panel(lamp, {Vec2(-0.03), Vec2(0.03)}, 0.0));
-  stage.add("lamp-rod", iron, box({0.93, 2.42, 1.58}, {0.97, 3.0, 1.62}, std::array{Face::y0, Face::y1}));
+  stage.add("lamp", light("lamp", {24000.0, 20000.0, 15000.0}),
+            panel(lamp, {Vec2(-0.03), Vec2(0.03)}, 0.0));
+  stage.add("lamp-rod", iron,
+            box({0.93, 2.42, 1.58}, {0.97, 3.0, 1.62}, std::array{Face::y0, Face::y1}));
 }
 
 Stage mirror_spot() {
@@ -40,7 +46,8 @@ Stage mirror_spot() {
                {"spot", {2.2, 2.0, 2.9}, {2.25, 0.0, 1.55}, 50.0, 1.0}}};
   add_room(stage, {0.0, 0.0, 0.0}, {4.0, 3.0, 4.0}, plaster, boards);
   add_shaded_lamp(stage);
-  add_tilted_mirror(stage, "mirror", {{2.2, 2.3, 1.6}, 0.45, 0.3, 45.0}, mirror("mirror", Rgb(0.95)), iron);
+  add_tilted_mirror(stage, "mirror", {{2.2, 2.3, 1.6}, 0.45, 0.3, 45.0},
+                    mirror("mirror", Rgb(0.95)), iron);
   stage.add("mirror-rod", iron, box({1.86, 2.67, 1.58}, {1.9, 3.0, 1.62}, std::array{Face::y1}));
   stage.add("box", red, standing_box({2.4, 0.0, 1.2}, {2.7, 0.35, 1.5}));
   stage.add("ball", ochre, ball({1.55, 0.25, 2.35}, 0.245, 16));
@@ -58,7 +65,7 @@ Stage periscope() {
   const Sheet right{{high.x, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, 1.0, 0.0}};
   const Rect opening{{1.0, 2.5}, {2.0, 3.1}};
   stage.add("right", plaster, wall(right, {{0.0, 0.0}, {high.z, high.y}}, std::array{opening}));
-  stage.add("window", light("window", {30.0, 29.0, 27.0}), panel(right, opening, 0.0));
+  stage.add("window", light("window", {24.0, 23.0, 21.0}), panel(right, opening, 0.0));
 
   stage.add("partition", plaster,
             box({2.95, 0.0, 0.0}, {3.05, 2.4, 3.0}, std::array{Face::y0, Face::z0, Face::z1}));

@@ -24,7 +24,8 @@ struct Figure {
 void add_figure(Stage& stage, const Figure& figure);
 
 /// Arms as bars from the shoulders to two hands.
-void add_arms(Stage& stage, const Figure& figure, const Point3& left_hand, const Point3& right_hand);
+void add_arms(Stage& stage, const Figure& figure, const Point3& left_hand,
+              const Point3& right_hand);
 
 /// A dog that lies along x, its head towards -x.
 void add_dog(Stage& stage, const Point3& foot);
