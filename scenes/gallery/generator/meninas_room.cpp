@@ -57,35 +57,18 @@ static void add_shell(Stage& stage) {
                               lathe({0.05, height, 2.1}, hooks, 6)}));
 }
 
-/// The window that is seen has glazing bars, in one plane with its panes.
-static void add_glazed_pane(Stage& stage, const Rect& window, std::vector<Mesh>& panes) {
-  constexpr double bar_width = 0.05;
-  const Sheet glazing{right_wall.at(0.0, 0.0, -0.45), right_wall.u, right_wall.v};
-  const Vec2 cell = (window.high - window.low - Vec2(bar_width, 2.0 * bar_width)) / Vec2(2.0, 3.0);
-  std::vector<Rect> cells;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 2; ++column) {
-      const auto low = window.low + Vec2(column, row) * (cell + bar_width);
-      cells.push_back({low, low + cell});
-      panes.push_back(panel(glazing, cells.back(), 0.0));
-    }
-  stage.add("window-bars", dark_wood, wall(glazing, window, cells));
-}
-
 static void add_windows(Stage& stage) {
   const std::array windows{Rect{{0.95, 1.2}, {1.85, 3.6}}, Rect{{3.0, 1.2}, {3.9, 3.6}},
                            Rect{{5.05, 1.2}, {5.95, 3.6}}};
   std::vector<Mesh> reveals, panes;
   for (const auto& window : windows) {
     reveals.push_back(reveal(right_wall, window, 0.45));
-    if (&window != &windows[0])
-      panes.push_back(panel(right_wall, window, -0.45));
+    panes.push_back(panel(right_wall, window, -0.45));
   }
-  add_glazed_pane(stage, windows[0], panes);
   stage.add("right", plaster,
             wall(right_wall, {{0.0, 0.0}, {rear_z, height}},
                  std::array{windows[0], windows[1], windows[2], sun_window}));
-  stage.add("window-reveals", pale, merged(reveals));
+  stage.add("window-reveals", diffuse("oak", {0.3, 0.23, 0.15}), merged(reveals));
   stage.add("windows", light("sky", {6.5, 6.7, 6.9}), merged(panes));
 
   // Found backwards: from the patch to the tray, mirrored up, and out through the window.
