@@ -142,7 +142,40 @@ Rgb direct_irradiance(const LightScene& light, const Receiver& receiver, const D
   return sum;
 }
 
-DirectIrradiance direct_irradiance(const LightScene& light, const DirectSettings& settings, const Progress& progress) {
+namespace {
+
+constexpr double unsure = 0.02; ///< relative change of the mean by the last doubling
+
+/// The mean over the exposed part of an element: points are doubled until their mean settles.
+Rgb mean_over_element(const LightScene& light, ElementId element, CoveredCells covered, const DirectSettings& settings,
+                      DirectWorkspace& work) {
+  constexpr int whole = 64;
+  if (std::popcount(covered) == whole) return Rgb(0.0);
+  const ReceiverArea area = receiver_of(light, element);
+  const auto seed = hash(index(element), settings.seed, 0xd17ec7);
+  Rgb sum(0.0), before(0.0);
+  int taken = 0, wanted = settings.points;
+  for (std::uint32_t p = 0;; ++p) {
+    const auto sample = sobol4(p, seed);
+    if (is_covered(covered, sample[0], sample[1])) continue;
+    const Receiver receiver{point_in(area, Vec2(sample[0], sample[1])), area.normal, area.plane_class};
+    sum += direct_irradiance(light, receiver, settings, hash(seed, p, 1), work);
+    if (++taken < wanted) continue;
+
+    // Between the first half of the points and all of them the mean has moved by about its own error.
+    const Rgb mean = sum / double(taken);
+    const bool settled = taken > settings.points && largest(glm::abs(mean - before)) <= unsure * largest(mean);
+    const bool dark = taken >= 2 * settings.points && largest(mean) == 0.0;
+    if (settled || dark || 2 * taken > settings.most_points) return mean;
+    before = mean;
+    wanted = 2 * taken;
+  }
+}
+
+} // namespace
+
+DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
+                                   const DirectSettings& settings, const Progress& progress) {
   constexpr std::size_t chunk_size = 64;
   const std::size_t size = element_count(light.mesh);
   DirectIrradiance result;
@@ -155,16 +188,8 @@ DirectIrradiance direct_irradiance(const LightScene& light, const DirectSettings
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
     DirectWorkspace& work = workspaces.local();
     const std::size_t end = std::min(size, (c + 1) * chunk_size);
-    for (std::size_t i = c * chunk_size; i < end; ++i) {
-      const ReceiverArea area = receiver_of(light, static_cast<ElementId>(i));
-      const auto seed = hash(static_cast<std::uint32_t>(i), settings.seed, 0xd17ec7);
-      for (int p = 0; p < settings.points; ++p) {
-        const auto sample = sobol4(static_cast<std::uint32_t>(p), seed);
-        const Receiver receiver{point_in(area, Vec2(sample[0], sample[1])), area.normal, area.plane_class};
-        result.irradiance[i] += direct_irradiance(light, receiver, settings, hash(seed, static_cast<std::uint32_t>(p), 1), work);
-      }
-      result.irradiance[i] /= settings.points;
-    }
+    for (std::size_t i = c * chunk_size; i < end; ++i)
+      result.irradiance[i] = mean_over_element(light, static_cast<ElementId>(i), covered.empty() ? 0 : covered[i], settings, work);
     if (progress) progress("direct light", static_cast<double>(++done) / static_cast<double>(chunks));
   });
   for (const auto& work : workspaces) result.shadow_rays += work.shadow_rays;

@@ -12,7 +12,8 @@
 namespace meninas {
 
 struct DirectSettings {
-  int points = 4;            ///< receiving points per element, a power of two
+  int points = 4;            ///< receiving points per element to begin with
+  int most_points = 256;     ///< doubled up to this while the mean over the element is unsure (near a lamp, at a shadow's edge)
   int shadow_rays = 16;      ///< per emitter image and point where it matters most; images that bring less get fewer
   int penumbra_rays = 64;    ///< when the first ones disagree
   std::uint32_t seed = 0;
@@ -42,6 +43,8 @@ struct DirectIrradiance {
   std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element
   std::uint64_t shadow_rays = 0;
 };
-DirectIrradiance direct_irradiance(const LightScene& light, const DirectSettings& settings, const Progress& progress = {});
+/// `covered` by ElementId (gather_rays.h): the mean is over the exposed part. Empty: all is exposed.
+DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
+                                   const DirectSettings& settings, const Progress& progress = {});
 
 } // namespace meninas

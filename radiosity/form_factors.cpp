@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 
 namespace meninas {
 
@@ -57,14 +58,20 @@ bool grey_mirrors(const Scene& scene) {
   });
 }
 
+/// Fractions of the rays of the exposed part.
 RowClosure closure_of(const GatheredRays& gathered, std::size_t rays) {
-  const float share = 1.0F / static_cast<float>(rays);
+  const std::size_t exposed = rays - gathered.covered_rays;
   RowClosure closure;
+  if (exposed == 0) {
+    closure.black = 1.0F;
+    return closure;
+  }
+  const float share = 1.0F / static_cast<float>(exposed);
+  const auto black = gathered.black - gathered.covered_rays;
   closure.escaped = static_cast<float>(gathered.escaped) * share;
-  closure.black = static_cast<float>(gathered.black) * share;
+  closure.black = static_cast<float>(black) * share;
   closure.cut = static_cast<float>(gathered.cut) * share;
-  const auto ended = gathered.escaped + gathered.black + gathered.cut;
-  closure.landed = (static_cast<float>(rays) - static_cast<float>(ended)) * share;
+  closure.landed = static_cast<float>(exposed - gathered.escaped - black - gathered.cut) * share;
   closure.mirror_absorbed = gathered.mirror_absorbed * share;
   return closure;
 }
@@ -107,6 +114,8 @@ FormFactors assemble_transport(const LightScene& light, const FormFactorSettings
 
   FormFactors result;
   result.closure.resize(size);
+  result.covered.resize(size);
+  result.exposed.resize(size);
   result.gathered_emission.resize(size);
   std::vector<RowChunk> chunks((size + chunk_size - 1) / chunk_size);
   tbb::enumerable_thread_specific<Workspace> workspaces;
@@ -121,7 +130,9 @@ FormFactors assemble_transport(const LightScene& light, const FormFactorSettings
       const auto seed = hash(static_cast<std::uint32_t>(i), settings.seed, 0x9a7e);
       gather_rays(light, net, receiver_of(light, element), seed, settings, work.gather);
       const GatheredRays& gathered = work.gather.result;
-      const double kept = std::max(1.0, static_cast<double>(rays) - gathered.cut);
+      const double kept = std::max(1.0, static_cast<double>(rays) - gathered.cut - gathered.covered_rays);
+      result.covered[i] = gathered.covered;
+      result.exposed[i] = 1.0F - static_cast<float>(std::popcount(gathered.covered)) / 64.0F;
       for (const auto& landing : gathered.landings) {
         work.row.add(landing.element, landing.throughput);
         result.gathered_emission[i] += gathered_emission(light, landing) / kept;

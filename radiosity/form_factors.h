@@ -5,6 +5,7 @@
 // exactly and goes on with the product of reflectances tau, to any depth: it ends when it lands, escapes, meets a black back, when tau falls
 // below `min_throughput`, or after `max_bounces`. Counts are integers, so that a row closes exactly:
 //   landed + escaped + black + cut = N.
+// Where something stands on an element (cells whose every ray meets a black back at once), the row speaks of the exposed rest.
 // Emission is not part of the rows: light that comes straight from an emitter, or by mirrors, is the direct irradiance
 // (direct_irradiance.h); `gathered_emission` holds the emission that no closed form owns (deep worlds, facets, large emitters).
 #pragma once
@@ -44,6 +45,8 @@ struct RowClosure {
 struct FormFactors {
   Transport transport;
   std::vector<RowClosure> closure;      ///< by ElementId
+  std::vector<std::uint64_t> covered;   ///< by ElementId: the cells on which something stands (gather_rays.h)
+  std::vector<float> exposed;           ///< by ElementId: the share of its area on which nothing stands
   std::vector<Rgb> gathered_emission;   ///< by ElementId: irradiance from emission that no closed form owns
   std::uint64_t rays_traced = 0;        ///< legs, reflected ones included
 };

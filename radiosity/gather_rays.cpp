@@ -79,7 +79,10 @@ void sort_hits(const LightScene& light, const FormFactorSettings& settings, cons
       result.mirror_absorbed += 1.0F - ray.throughput;
       continue;
     }
-    if (face.side == FaceRecord::nothing) ++result.black;
+    if (face.side == FaceRecord::nothing) {
+      ++result.black;
+      work.black_lanes |= 1U << k;
+    }
     result.mirror_absorbed += 1.0F - state.throughput[k];
   }
 }
@@ -89,8 +92,23 @@ void trace_packet(const LightScene& light, const FormFactorSettings& settings, c
   HitPacket hits;
   closest_hits(light.rays, packet, hits, Backs::absorb, coherence);
   work.result.traced += packet.count;
+  work.black_lanes = 0;
   sort_hits(light, settings, packet, state, hits, work);
 }
+
+/// Counts, cell by cell of the receiver, the rays and those that met a black back at once.
+struct CellCounts {
+  std::array<std::uint16_t, 64> rays{}, black{};
+
+  /// Cells in which every ray met black; a cell without rays takes part with neither.
+  void store(GatheredRays& result) const {
+    for (std::uint32_t cell = 0; cell < 64; ++cell) {
+      if (rays[cell] < 2 || black[cell] != rays[cell]) continue;
+      result.covered |= CoveredCells{1} << cell;
+      result.covered_rays += rays[cell];
+    }
+  }
+};
 
 /// Mirror after mirror, until no ray goes on.
 void follow_mirrors(const LightScene& light, const FormFactorSettings& settings, GatherWorkspace& work) {
@@ -142,6 +160,8 @@ void gather_rays(const LightScene& light, const DirectionNet& net, const Receive
   result.escaped = result.black = result.cut = 0;
   result.mirror_absorbed = glm::vec3(0.0F);
   result.traced = 0;
+  result.covered = 0;
+  result.covered_rays = 0;
   work.next.clear();
 
   const RayFrame& frame = light.rays.frame();
@@ -155,12 +175,15 @@ void gather_rays(const LightScene& light, const DirectionNet& net, const Receive
 
   RayPacket packet;
   LaneState state;
+  CellCounts cells;
+  std::array<std::uint32_t, packet_size> cell{};
   for (std::size_t first = 0; first < net.points.size(); first += packet_size) {
     packet.count = static_cast<std::uint32_t>(std::min(packet_size, net.points.size() - first));
     for (std::uint32_t k = 0; k < packet.count; ++k) {
       const auto& point = net.points[first + k];
       const Vec2 st(unit_float(point[0] ^ shift[0]), unit_float(point[1] ^ shift[1]));
       const glm::vec3 local = cosine_hemisphere(unit_float(point[2] ^ shift[2]), unit_float(point[3] ^ shift[3]));
+      cell[k] = cell_of(st.x, st.y);
       MirroredRay ray;
       ray.origin = point_in(area, st);
       ray.direction = double{local.x} * tangents.tangent + double{local.y} * tangents.bitangent +
@@ -171,7 +194,12 @@ void gather_rays(const LightScene& light, const DirectionNet& net, const Receive
       set_lane(packet, state, k, ray);
     }
     trace_packet(light, settings, packet, state, Coherence::coherent, work);
+    for (std::uint32_t k = 0; k < packet.count; ++k) {
+      ++cells.rays[cell[k]];
+      cells.black[cell[k]] += static_cast<std::uint16_t>((work.black_lanes >> k) & 1U);
+    }
   }
+  if (result.black > 0 && !receiver.is_point()) cells.store(result);
   follow_mirrors(light, settings, work);
 }
 

@@ -22,12 +22,22 @@ struct RayLanding {
   glm::vec3 throughput; ///< product of the mirrors' reflectances
 };
 
+/// The covered part of a receiver, by cells of 8 x 8 over its (s, t): bit 8 i + j is cell (i, j). Where all rays of a cell meet black
+/// backs at once, something stands on that part of the surface: no light can reach it, and nothing sees it.
+using CoveredCells = std::uint64_t;
+inline std::uint32_t cell_of(double s, double t) {
+  return 8U * static_cast<std::uint32_t>(8.0 * s) + static_cast<std::uint32_t>(8.0 * t);
+}
+inline bool is_covered(CoveredCells covered, double s, double t) { return ((covered >> cell_of(s, t)) & 1U) != 0; }
+
 /// All N rays of one receiver; storage reused from one to the next.
 struct GatheredRays {
   std::vector<RayLanding> landings;
   std::uint32_t escaped = 0, black = 0, cut = 0; ///< rays that ended otherwise
   glm::vec3 mirror_absorbed{0.0F};               ///< sum of 1 - tau over all rays
   std::uint64_t traced = 0;
+  CoveredCells covered = 0;
+  std::uint32_t covered_rays = 0; ///< of `black`, those from covered cells
 };
 
 /// A parallelogram or triangle to spread the rays over; a point when both edges are zero.
@@ -37,6 +47,8 @@ struct ReceiverArea {
   bool triangle = false;                       ///< then (s, t) is folded into s + t <= 1
   Direction normal;
   PlaneId plane_class = none<PlaneId>;
+
+  bool is_point() const { return edge_u == Vec3(0.0) && edge_v == Vec3(0.0); }
 };
 
 /// A continuing ray between mirrors; kept by the caller so that its storage is reused.
@@ -49,6 +61,7 @@ struct MirroredRay {
 
 struct GatherWorkspace {
   GatheredRays result;
+  std::uint32_t black_lanes = 0; ///< of the last packet
   std::vector<MirroredRay> current, next;
 };
 

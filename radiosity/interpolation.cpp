@@ -1,5 +1,6 @@
 #include "radiosity/interpolation.h"
 
+#include "radiosity/bright_clusters.h"
 #include "radiosity/gather_rays.h"
 #include "radiosity/vertex_fill.h"
 #include "scenes/sampling.h"
@@ -104,17 +105,69 @@ struct VertexWorkspace {
   std::uint64_t rays = 0;
 };
 
+/// What every vertex gathers from.
+struct VertexGathering {
+  const LightScene& light;
+  const LightScene clustered; ///< the same, with the bright clusters for emitters
+  const BrightClusters& clusters;
+  const std::vector<Rgb>& radiosity;  ///< reflected, by ElementId
+  const std::vector<Rgb>& irradiance; ///< by ElementId
+  const FormFactorSettings& form_factors;
+  const DirectSettings& direct;
+  DirectSettings secondary;
+  DirectionNet net;
+};
+
+struct VertexValue {
+  glm::vec3 irradiance;
+  bool covered; ///< something stands on it: no value of its own
+};
+
+/// What landed rays bring: light reflected by elements, where no cluster owns it, and emission, where no closed form owns that.
+Rgb landed_light(const VertexGathering& context, const GatheredRays& gathered) {
+  const std::size_t cluster_worlds = context.clusters.worlds.worlds.size();
+  Rgb sum(0.0);
+  for (const auto& landing : gathered.landings) {
+    const bool owned = context.clusters.owned[landing.element] != 0 && index(landing.world) < cluster_worlds;
+    if (!owned) sum += Rgb(landing.throughput) * context.radiosity[landing.element];
+    sum += gathered_emission(context.light, landing);
+  }
+  return sum / std::max(1.0, double(context.net.points.size()) - gathered.cut);
+}
+
+VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, std::uint32_t seed, VertexWorkspace& work) {
+  constexpr double most_black = 0.9; // of the hemisphere: the vertex is inside something that stands on its surface
+  ReceiverArea point;
+  point.corner = receiver.position;
+  point.normal = receiver.normal;
+  point.plane_class = receiver.plane_class;
+  gather_rays(context.light, context.net, point, seed, context.form_factors, work.gather);
+  const GatheredRays& gathered = work.gather.result;
+  work.rays += gathered.traced;
+
+  const Rgb from_source = direct_irradiance(context.light, receiver, context.direct, hash(seed, 1), work.direct);
+  const Rgb from_clusters = direct_irradiance(context.clustered, receiver, context.secondary, hash(seed, 2), work.direct);
+  const auto lit = [&](const RayLanding& landing) { return context.irradiance[landing.element] != Rgb(0.0); };
+  const bool enclosed = gathered.black > most_black * double(context.net.points.size()) ||
+                        (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
+  return {glm::vec3(landed_light(context, gathered) + from_source + from_clusters), enclosed && from_source == Rgb(0.0)};
+}
+
 } // namespace
 
 static InterpolatedField gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
                                             const std::vector<Rgb>& irradiance, const FormFactorSettings& form_factors,
                                             const DirectSettings& direct, const InterpolationSettings& settings) {
-  constexpr float covered = 0.9F; // of the hemisphere black: the vertex is inside something that stands on its surface
   constexpr std::size_t chunk_size = 64;
   const ElementMesh& mesh = light.mesh;
   const VertexElements all = elements_around(mesh);
-  const DirectionNet net = make_direction_net(settings.rays);
-  const auto rays = static_cast<float>(net.points.size());
+  const BrightClusters clusters = find_bright_clusters(light, radiosity);
+  DirectSettings secondary = direct;
+  secondary.shadow_rays = settings.cluster_shadow_rays;
+  secondary.penumbra_rays = 4 * settings.cluster_shadow_rays;
+  const VertexGathering context{light,
+                                {light.scene, light.surfaces, light.rays, light.mirrors, clusters.worlds, mesh, {}, clusters.emitters, {}},
+                                clusters, radiosity, irradiance, form_factors, direct, secondary, make_direction_net(settings.rays)};
 
   InterpolatedField result;
   result.field.irradiance.assign(mesh.vertices.size(), glm::vec3(0.0F));
@@ -124,28 +177,10 @@ static InterpolatedField gather_at_vertices(const LightScene& light, const std::
     VertexWorkspace& work = workspaces.local();
     for (std::size_t v = c * chunk_size; v < std::min(mesh.vertices.size(), (c + 1) * chunk_size); ++v) {
       const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(mesh.element_of_vertex[v])])];
-      ReceiverArea point;
-      point.corner = gathering_point(mesh, all, v);
-      point.normal = side.normal;
-      point.plane_class = side.plane_class;
-      const auto seed = hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27);
-      gather_rays(light, net, point, seed, form_factors, work.gather);
-
-      // What lands is reflected light of the element, and emission that no closed form owns.
-      const GatheredRays& gathered = work.gather.result;
-      Rgb sum(0.0);
-      bool lit = gathered.landings.empty();
-      for (const auto& landing : gathered.landings) {
-        sum += Rgb(landing.throughput) * radiosity[landing.element] + gathered_emission(light, landing);
-        lit |= irradiance[landing.element] != Rgb(0.0);
-      }
-      sum /= std::max(1.0, double(rays) - gathered.cut);
-      const Receiver receiver{point.corner, point.normal, point.plane_class};
-      const Rgb from_source = direct_irradiance(light, receiver, direct, hash(seed, 1), work.direct);
-      result.field.irradiance[v] = glm::vec3(sum + from_source);
-      const bool enclosed = static_cast<float>(gathered.black) > covered * rays || !lit;
-      valid[v] = enclosed && from_source == Rgb(0.0) ? 0 : 1;
-      work.rays += gathered.traced;
+      const Receiver receiver{gathering_point(mesh, all, v), side.normal, side.plane_class};
+      const VertexValue value = gather_at(context, receiver, hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27), work);
+      result.field.irradiance[v] = value.irradiance;
+      valid[v] = value.covered ? 0 : 1;
     }
   });
   for (const auto& work : workspaces) {

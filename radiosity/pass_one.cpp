@@ -25,9 +25,10 @@ EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& s
   EnergyBalance energy;
   for (std::size_t i = 0; i < mesh.area.size(); ++i) {
     const MeshSide& side = mesh.sides[index(mesh.side_of_element[i])];
-    const Rgb leaving = mesh.area[i] * solution.radiosity[i];
-    energy.emitted += mesh.area[i] * side.emission;
-    energy.absorbed += mesh.area[i] * (1.0 - side.reflectance) * solution.irradiance[i];
+    const double area = mesh.area[i] * solution.exposed[i];
+    const Rgb leaving = area * solution.radiosity[i];
+    energy.emitted += area * side.emission;
+    energy.absorbed += area * (1.0 - side.reflectance) * solution.irradiance[i];
     energy.absorbed += double{rows[i].black} * leaving;
     energy.escaped += double{rows[i].escaped} * leaving;
     energy.mirror_absorbed += Rgb(rows[i].mirror_absorbed) * leaving;
@@ -49,8 +50,8 @@ RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings&
   Stopwatch watch;
 
   // Eq. 1, split by who owns the path: direct light from the source, gathered emission, and reflected light by the transport.
-  const DirectIrradiance direct = direct_irradiance(light, settings.direct, progress);
   const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
+  const DirectIrradiance direct = direct_irradiance(light, factors.covered, settings.direct, progress);
   solution.seconds.form_factors = watch.lap();
 
   std::vector<Rgb> first(mesh.area.size()), source(mesh.area.size()), reflectance(mesh.area.size());
@@ -74,6 +75,7 @@ RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings&
   auto interpolated = interpolate(light, reflected, solution.irradiance, settings.form_factors, settings.direct, settings.interpolation);
   solution.field = std::move(interpolated.field);
   solution.seconds.interpolate = watch.lap();
+  solution.exposed = factors.exposed;
 
   solution.closure = closure_error(factors.closure);
   solution.energy = energy_balance(mesh, solution, factors.closure);
@@ -90,8 +92,8 @@ std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh
     NodeLight& node = nodes[index(side.node)];
     node.area += mesh.area[i];
     node.emitted += mesh.area[i] * side.emission;
-    node.radiosity += mesh.area[i] * solution.radiosity[i];
-    node.irradiance += mesh.area[i] * solution.irradiance[i];
+    node.radiosity += mesh.area[i] * solution.exposed[i] * solution.radiosity[i];
+    node.irradiance += mesh.area[i] * solution.exposed[i] * solution.irradiance[i];
   }
   for (auto& node : nodes) {
     if (node.area <= 0.0) continue;

@@ -31,8 +31,9 @@ struct PassOneSeconds {
 };
 
 struct RadiositySolution {
-  std::vector<Rgb> radiosity;  ///< B by ElementId, emission included
-  std::vector<Rgb> irradiance; ///< H by ElementId
+  std::vector<Rgb> radiosity;  ///< B by ElementId, emission included: the mean over the exposed part
+  std::vector<Rgb> irradiance; ///< H by ElementId, likewise
+  std::vector<float> exposed;  ///< by ElementId: the share of the area on which nothing stands
   DiffuseField field;
   SolverResult solver; ///< its radiosity is moved out
   EnergyBalance energy;
@@ -42,7 +43,7 @@ struct RadiositySolution {
   std::uint64_t shadow_rays = 0;
 };
 
-/// Area means of one node over all of its sides.
+/// Area means of one node over all of its sides; what is covered by things that stand on it receives nothing.
 struct NodeLight {
   std::string name;
   double area = 0.0;

@@ -67,8 +67,11 @@ Rgb amplification_bound(const Transport& transport, const std::vector<Rgb>& refl
     power = apply_transport(transport, power);
     for (std::size_t i = 0; i < power.size(); ++i) power[i] *= reflectance[i];
     const Rgb norm = maximum_norm(power);
+
+    // The weights are floats: m products of rows that add up to one may come out this much below it.
+    const double rounding = 4.0 * m * std::numeric_limits<float>::epsilon();
     for (int band = 0; band < 3; ++band)
-      if (norm[band] < 1.0 - 1e-12) best[band] = std::min(best[band], sum[band] / (1.0 - norm[band]));
+      if (norm[band] < 1.0 - rounding) best[band] = std::min(best[band], sum[band] / (1.0 - norm[band]));
     if (glm::all(glm::lessThan(norm, Rgb(sharp)))) break;
   }
   return best;

@@ -1,0 +1,140 @@
+#include "radiosity/bright_clusters.h"
+
+#include <algorithm>
+
+namespace meninas {
+
+namespace {
+
+double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
+
+/// Elements i0 .. i1 - 1 by j0 .. j1 - 1 of a quad side, or one element of a triangle side (then i1 = i0 + 1, j unused).
+struct Block {
+  std::uint32_t side;
+  int i0, i1, j0, j1;
+};
+
+struct Candidate {
+  Block block;
+  Rgb radiosity{0.0};
+  double power = 0.0;
+};
+
+/// What the recursion over the blocks needs.
+struct ClusterSearch {
+  const ElementMesh& mesh;
+  const std::vector<Rgb>& reflected;
+  double threshold;
+  double evenness;
+  std::vector<Candidate> found;
+};
+
+std::uint32_t element_at(const MeshSide& side, int i, int j) {
+  return side.first_element + static_cast<std::uint32_t>(side.triangle ? i : j * side.nu + i);
+}
+
+/// Takes the block as one cluster if all of it is bright and alike; otherwise looks into its quarters.
+void search(ClusterSearch& context, const Block& block) {
+  const MeshSide& side = context.mesh.sides[block.side];
+  double low = std::numeric_limits<double>::infinity(), high = 0.0, area = 0.0;
+  Rgb sum(0.0);
+  for (int j = block.j0; j < block.j1; ++j)
+    for (int i = block.i0; i < block.i1; ++i) {
+      const auto element = element_at(side, i, j);
+      const double value = largest(context.reflected[element]);
+      low = std::min(low, value);
+      high = std::max(high, value);
+      area += context.mesh.area[element];
+      sum += context.mesh.area[element] * context.reflected[element];
+    }
+  if (high < context.threshold || area <= 0.0) return;
+  if (low >= context.threshold && high <= context.evenness * low) {
+    context.found.push_back({block, sum / area, largest(sum)});
+    return;
+  }
+  const int width = block.i1 - block.i0, height = block.j1 - block.j0;
+  if (width == 1 && height == 1) return;
+  const int im = width > 1 ? block.i0 + width / 2 : block.i1, jm = height > 1 ? block.j0 + height / 2 : block.j1;
+  search(context, {block.side, block.i0, im, block.j0, jm});
+  if (im < block.i1) search(context, {block.side, im, block.i1, block.j0, jm});
+  if (jm < block.j1) search(context, {block.side, block.i0, im, jm, block.j1});
+  if (im < block.i1 && jm < block.j1) search(context, {block.side, im, block.i1, jm, block.j1});
+}
+
+Emitter make_emitter(const LightScene& light, const Candidate& candidate) {
+  const MeshSide& side = light.mesh.sides[candidate.block.side];
+  const Patch& patch = light.surfaces.patches[index(side.patch)];
+  const Block& block = candidate.block;
+  const auto corner = [&](int i, int j) { return point_at(patch, Vec2(double(i) / side.nu, double(j) / side.nv)); };
+  std::vector<Point3> corners;
+  if (side.triangle) {
+    const auto local = static_cast<std::uint32_t>(block.i0);
+    for (const Vec2 st : {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)}) corners.push_back(point_at(patch, patch_uv_of(side, local, st)));
+  } else {
+    corners = {corner(block.i0, block.j0), corner(block.i1, block.j0), corner(block.i1, block.j1), corner(block.i0, block.j1)};
+  }
+  if (side.facing == Facing::back) std::reverse(corners.begin(), corners.end());
+  Emitter emitter;
+  emitter.polygon = ConvexPolygon(corners);
+  emitter.plane = side.plane;
+  emitter.plane_class = side.plane_class;
+  emitter.radiosity = candidate.radiosity;
+  emitter.area = glm::length(area_vector(emitter.polygon.span()));
+  return emitter;
+}
+
+/// The real world, and the worlds of single mirrors while they are few.
+WorldTree first_worlds(const WorldTree& tree) {
+  constexpr std::size_t few = 4;
+  std::size_t kept = 1;
+  while (kept < tree.worlds.size() && tree.worlds[kept].depth == 1) ++kept;
+  if (kept > few) kept = 1;
+  WorldTree first;
+  first.worlds.assign(tree.worlds.begin(), tree.worlds.begin() + static_cast<std::ptrdiff_t>(kept));
+  first.children.assign(tree.children.begin(), tree.children.begin() + static_cast<std::ptrdiff_t>(kept));
+  for (auto& children : first.children)
+    for (auto& child : children)
+      if (child != none<WorldId> && index(child) >= kept) child = none<WorldId>;
+  return first;
+}
+
+} // namespace
+
+BrightClusters find_bright_clusters(const LightScene& light, const std::vector<Rgb>& reflected, const ClusterSettings& settings) {
+  const ElementMesh& mesh = light.mesh;
+  BrightClusters clusters;
+  clusters.owned.assign(mesh.area.size(), 0);
+  double power = 0.0, area = 0.0;
+  for (std::size_t i = 0; i < mesh.area.size(); ++i) {
+    power += mesh.area[i] * largest(reflected[i]);
+    area += mesh.area[i];
+  }
+  if (power <= 0.0) return clusters;
+
+  ClusterSearch context{mesh, reflected, settings.contrast * power / area, settings.evenness, {}};
+  for (std::uint32_t s = 0; s < mesh.sides.size(); ++s) {
+    const MeshSide& side = mesh.sides[s];
+    if (side.triangle) {
+      for (int e = 0; e < static_cast<int>(side.element_count); ++e) search(context, {s, e, e + 1, 0, 1});
+    } else {
+      search(context, {s, 0, side.nu, 0, side.nv});
+    }
+  }
+
+  clusters.worlds = first_worlds(light.worlds);
+  const std::size_t most = settings.most / clusters.worlds.worlds.size();
+  if (context.found.size() > most) {
+    std::stable_sort(context.found.begin(), context.found.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.power > b.power; });
+    context.found.resize(most);
+  }
+  for (const auto& candidate : context.found) {
+    clusters.emitters.push_back(make_emitter(light, candidate));
+    const MeshSide& side = mesh.sides[candidate.block.side];
+    for (int j = candidate.block.j0; j < candidate.block.j1; ++j)
+      for (int i = candidate.block.i0; i < candidate.block.i1; ++i) clusters.owned[element_at(side, i, j)] = 1;
+  }
+  return clusters;
+}
+
+} // namespace meninas

@@ -1,0 +1,31 @@
+// Bright clusters: reflected light that is so uneven that gather rays would find it by chance (the spot a mirror throws on a floor, the
+// sill below a window). When vertices gather, such elements are treated as emitters: closed form times shadow rays, also through mirrors.
+//
+// An element is bright when its reflected radiosity exceeds `contrast` times the scene's area mean. Bright neighbours of like radiosity
+// on one quad side are joined into blocks of up to 2^k x 2^k elements. If there are more than `most` clusters, the most powerful are kept,
+// and the rest is gathered. No path is in both: `owner` says which elements are taken from the source.
+#pragma once
+
+#include "radiosity/light_scene.h"
+
+#include <vector>
+
+namespace meninas {
+
+struct ClusterSettings {
+  double contrast = 3.0;
+  double evenness = 1.5;  ///< largest over smallest radiosity within a cluster
+  std::size_t most = 384; ///< clusters times worlds they are looked at in
+};
+
+struct BrightClusters {
+  std::vector<Emitter> emitters;
+  std::vector<std::uint8_t> owned; ///< by ElementId: its reflected light is a cluster's
+  WorldTree worlds;                ///< the first worlds of the tree, in which clusters are looked at
+};
+
+/// `reflected` by ElementId, W/m^2.
+BrightClusters find_bright_clusters(const LightScene& light, const std::vector<Rgb>& reflected,
+                                    const ClusterSettings& settings = {});
+
+} // namespace meninas
