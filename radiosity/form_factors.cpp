@@ -64,6 +64,7 @@ RowClosure closure_of(const GatheredRays& gathered, std::size_t rays) {
   RowClosure closure;
   if (exposed == 0) {
     closure.black = 1.0F;
+    closure.black_light = glm::vec3(1.0F);
     return closure;
   }
   const float share = 1.0F / static_cast<float>(exposed);
@@ -73,16 +74,19 @@ RowClosure closure_of(const GatheredRays& gathered, std::size_t rays) {
   closure.cut = static_cast<float>(gathered.cut) * share;
   closure.landed = static_cast<float>(exposed - gathered.escaped - black - gathered.cut) * share;
   closure.mirror_absorbed = gathered.mirror_absorbed * share;
+  closure.escaped_light = gathered.escaped_light * share;
+  closure.black_light = (gathered.black_light - static_cast<float>(gathered.covered_rays)) * share;
+  closure.cut_light = gathered.cut_light * share;
   return closure;
 }
 
-/// Appends the accumulated row to its chunk; counts become fractions of the rays that were not cut, so that a row still closes.
-void append_row(const RowAccumulator& row, double rays, int bands, RowChunk& chunk) {
+/// Appends the accumulated row to its chunk as fractions of the light that was not cut, so that a row still closes.
+void append_row(const RowAccumulator& row, const Rgb& kept, int bands, RowChunk& chunk) {
   chunk.lengths.push_back(static_cast<std::uint32_t>(row.columns.size()));
   chunk.columns.insert(chunk.columns.end(), row.columns.begin(), row.columns.end());
-  const auto share = static_cast<float>(1.0 / rays);
+  const glm::vec3 share(1.0 / kept);
   for (const auto& weight : row.weights)
-    for (int band = 0; band < bands; ++band) chunk.weights.push_back(weight[band] * share);
+    for (int band = 0; band < bands; ++band) chunk.weights.push_back(weight[band] * share[band]);
 }
 
 Transport string_together(std::vector<RowChunk>& chunks, std::size_t size, int bands) {
@@ -130,7 +134,7 @@ FormFactors assemble_transport(const LightScene& light, const FormFactorSettings
       const auto seed = hash(static_cast<std::uint32_t>(i), settings.seed, 0x9a7e);
       gather_rays(light, net, receiver_of(light, element), seed, settings, work.gather);
       const GatheredRays& gathered = work.gather.result;
-      const double kept = std::max(1.0, static_cast<double>(rays) - gathered.cut - gathered.covered_rays);
+      const Rgb kept = kept_light(gathered, rays);
       result.covered[i] = gathered.covered;
       result.exposed[i] = 1.0F - static_cast<float>(std::popcount(gathered.covered)) / 64.0F;
       for (const auto& landing : gathered.landings) {

@@ -36,10 +36,12 @@ struct Transport {
   std::vector<float> weights; ///< entry k, band b at [k * bands + b]: sum_w tau_w F^w
 };
 
-/// What became of the rays of each row, as fractions of N.
+/// What became of the rays of each row, as fractions of N, and of the light they carry: landed + escaped + black + mirror_absorbed
+/// + cut = 1 in either. The light that is cut is shared out among the rest in proportion.
 struct RowClosure {
   float landed = 0.0F, escaped = 0.0F, black = 0.0F, cut = 0.0F;
   glm::vec3 mirror_absorbed{0.0F}; ///< sum over rays of 1 - tau at their end
+  glm::vec3 escaped_light{0.0F}, black_light{0.0F}, cut_light{0.0F}; ///< sums over rays of tau
 };
 
 struct FormFactors {

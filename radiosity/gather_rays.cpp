@@ -60,6 +60,7 @@ void sort_hits(const LightScene& light, const FormFactorSettings& settings, cons
   for (std::uint32_t k = 0; k < packet.count; ++k) {
     if (hits.triangle[k] == index(none<TriangleId>)) {
       ++result.escaped;
+      result.escaped_light += state.throughput[k];
       result.mirror_absorbed += 1.0F - state.throughput[k];
       continue;
     }
@@ -76,11 +77,13 @@ void sort_hits(const LightScene& light, const FormFactorSettings& settings, cons
         continue;
       }
       ++result.cut;
+      result.cut_light += ray.throughput;
       result.mirror_absorbed += 1.0F - ray.throughput;
       continue;
     }
     if (face.side == FaceRecord::nothing) {
       ++result.black;
+      result.black_light += state.throughput[k];
       work.black_lanes |= 1U << k;
     }
     result.mirror_absorbed += 1.0F - state.throughput[k];
@@ -118,7 +121,10 @@ void follow_mirrors(const LightScene& light, const FormFactorSettings& settings,
     work.current.swap(work.next);
     work.next.clear();
     if (bounce > settings.max_bounces) {
-      for (const auto& ray : work.current) work.result.mirror_absorbed += 1.0F - ray.throughput;
+      for (const auto& ray : work.current) {
+        work.result.cut_light += ray.throughput;
+        work.result.mirror_absorbed += 1.0F - ray.throughput;
+      }
       work.result.cut += static_cast<std::uint32_t>(work.current.size());
       return;
     }
@@ -158,7 +164,7 @@ void gather_rays(const LightScene& light, const DirectionNet& net, const Receive
   GatheredRays& result = work.result;
   result.landings.clear();
   result.escaped = result.black = result.cut = 0;
-  result.mirror_absorbed = glm::vec3(0.0F);
+  result.mirror_absorbed = result.escaped_light = result.black_light = result.cut_light = glm::vec3(0.0F);
   result.traced = 0;
   result.covered = 0;
   result.covered_rays = 0;

@@ -35,10 +35,16 @@ struct GatheredRays {
   std::vector<RayLanding> landings;
   std::uint32_t escaped = 0, black = 0, cut = 0; ///< rays that ended otherwise
   glm::vec3 mirror_absorbed{0.0F};               ///< sum of 1 - tau over all rays
+  glm::vec3 escaped_light{0.0F}, black_light{0.0F}, cut_light{0.0F}; ///< sums of tau over the rays that ended so
   std::uint64_t traced = 0;
   CoveredCells covered = 0;
   std::uint32_t covered_rays = 0; ///< of `black`, those from covered cells
 };
+
+/// How many rays' light was followed to its end: what is cut is left out, what a mirror has absorbed on the way is not.
+inline Rgb kept_light(const GatheredRays& gathered, std::size_t rays) {
+  return glm::max(Rgb(1.0), static_cast<double>(rays) - gathered.covered_rays - Rgb(gathered.cut_light));
+}
 
 /// A parallelogram or triangle to spread the rays over; a point when both edges are zero.
 struct ReceiverArea {

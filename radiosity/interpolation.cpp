@@ -132,7 +132,7 @@ Rgb landed_light(const VertexGathering& context, const GatheredRays& gathered) {
     if (!owned) sum += Rgb(landing.throughput) * context.radiosity[landing.element];
     sum += gathered_emission(context.light, landing);
   }
-  return sum / std::max(1.0, double(context.net.points.size()) - gathered.cut);
+  return sum / kept_light(gathered, context.net.points.size());
 }
 
 VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, std::uint32_t seed, VertexWorkspace& work) {

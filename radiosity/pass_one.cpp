@@ -14,7 +14,7 @@ ClosureError closure_error(const std::vector<RowClosure>& rows) {
     const double leak = std::abs(1.0 - (double{row.landed} + row.escaped + row.black + row.cut));
     error.mean_error += leak / double(rows.size());
     error.max_error = std::max(error.max_error, leak);
-    error.cut += row.cut / double(rows.size());
+    error.cut += glm::max(row.cut_light.r, glm::max(row.cut_light.g, row.cut_light.b)) / double(rows.size());
   }
   return error;
 }
@@ -29,9 +29,10 @@ EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& s
     const Rgb leaving = area * solution.radiosity[i];
     energy.emitted += area * side.emission;
     energy.absorbed += area * (1.0 - side.reflectance) * solution.irradiance[i];
-    energy.absorbed += double{rows[i].black} * leaving;
-    energy.escaped += double{rows[i].escaped} * leaving;
-    energy.mirror_absorbed += Rgb(rows[i].mirror_absorbed) * leaving;
+    const Rgb followed = leaving / glm::max(Rgb(1e-9), 1.0 - Rgb(rows[i].cut_light));
+    energy.absorbed += Rgb(rows[i].black_light) * followed;
+    energy.escaped += Rgb(rows[i].escaped_light) * followed;
+    energy.mirror_absorbed += Rgb(rows[i].mirror_absorbed) * followed;
   }
   const Rgb left = energy.emitted - energy.absorbed - energy.escaped - energy.mirror_absorbed;
   for (int band = 0; band < 3; ++band) {

@@ -23,7 +23,7 @@ struct EnergyBalance {
 struct ClosureError {
   double mean_error = 0.0; ///< of |1 - (landed + escaped + black + cut)| over the rows
   double max_error = 0.0;
-  double cut = 0.0;        ///< mean fraction of a row cut at the last mirror bounce
+  double cut = 0.0;        ///< mean fraction of a row's light cut at the last mirror bounce
 };
 
 struct PassOneSeconds {

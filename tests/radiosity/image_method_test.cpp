@@ -1,0 +1,146 @@
+#include "tests/radiosity/lit_scene.h"
+#include "tests/support/rooms.h"
+
+#include "radiosity/point_form_factor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace meninas::test {
+namespace {
+
+/// Irradiance by where its element is.
+using Field = std::map<std::array<long, 6>, std::pair<Rgb, double>>;
+
+PassOneSettings settings_of(int rays, double element_size) {
+  PassOneSettings settings;
+  settings.mesh.element_size = element_size;
+  settings.form_factors.rays = rays;
+  settings.interpolation.method = Interpolation::average;
+  return settings;
+}
+
+Field irradiance_field(const Scene& scene, const PassOneSettings& settings, EnergyBalance& energy) {
+  const auto l = lit(scene, settings.mesh, settings.plan);
+  const RadiositySolution solution = solve_pass_one(*l->light, settings);
+  EXPECT_TRUE(solution.solver.converged);
+  energy = solution.energy;
+  Field field;
+  for (std::size_t e = 0; e < element_count(l->mesh); ++e) {
+    const auto& corners = l->mesh.corners[e];
+    const Point3 centre = 0.5 * (l->mesh.vertices[index(corners[0])] + l->mesh.vertices[index(corners[2])]);
+    const Direction n = l->mesh.sides[index(l->mesh.side_of_element[e])].normal;
+    field[{std::lround(centre.x * 1e4), std::lround(centre.y * 1e4), std::lround(centre.z * 1e4), std::lround(n.x), std::lround(n.y), std::lround(n.z)}] = {
+        solution.irradiance[e], l->mesh.area[e] * double{solution.exposed[e]}};
+  }
+  return field;
+}
+
+struct Difference {
+  std::size_t compared = 0;
+  double rms = 0.0, worst = 0.0; ///< relative
+};
+
+Difference difference(const Field& half, const Field& whole) {
+  Difference d;
+  double weight = 0.0;
+  for (const auto& [place, value] : half) {
+    const auto found = whole.find(place);
+    if (found == whole.end() || value.second == 0.0) continue;
+    ++d.compared;
+    for (int band = 0; band < 3; ++band) {
+      const double expected = found->second.first[band];
+      const double error = std::abs(value.first[band] - expected) / expected;
+      d.worst = std::max(d.worst, error);
+      d.rms += error * error;
+      weight += 1.0;
+    }
+  }
+  d.rms = std::sqrt(d.rms / weight);
+  return d;
+}
+
+class ImageMethod : public testing::TestWithParam<bool> {
+protected:
+  Scene half() const { return GetParam() ? half_room_with_small_mirror() : half_room(); }
+};
+
+// The method of images: with a perfect mirror every element receives what it would receive from the doubled room.
+TEST_P(ImageMethod, EveryElementReceivesTheSame) {
+  EnergyBalance half_energy, whole_energy;
+  const PassOneSettings settings = settings_of(512, 0.08);
+  const Field with_mirror = irradiance_field(half(), settings, half_energy);
+  const Difference d = difference(with_mirror, irradiance_field(doubled(half()), settings, whole_energy));
+  EXPECT_EQ(d.compared + 0U, with_mirror.size()) << "covered elements aside";
+  std::printf("512 rays: rms %.5f worst %.5f of %zu\n", d.rms, d.worst, d.compared);
+  EXPECT_LT(d.rms, 0.005);
+  EXPECT_LT(d.worst, 0.05);
+}
+
+TEST_P(ImageMethod, TheDifferenceIsSamplingErrorThatFallsWithTheRays) {
+  std::vector<double> rms;
+  for (const int rays : {64, 512, 4096}) {
+    EnergyBalance energy;
+    const PassOneSettings settings = settings_of(rays, 0.25);
+    const Difference d = difference(irradiance_field(half(), settings, energy), irradiance_field(doubled(half()), settings, energy));
+    std::printf("%d rays: rms %.5f worst %.5f of %zu imbalance %.5f\n", rays, d.rms, d.worst, d.compared, energy.imbalance);
+    rms.push_back(d.rms);
+  }
+  // Random sampling would gain a factor of 2.8 from eight times as many rays.
+  EXPECT_LT(rms[1], 0.5 * rms[0]);
+  EXPECT_LT(rms[2], 0.5 * rms[1]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Mirrors, ImageMethod, testing::Values(false, true),
+                         [](const auto& info) { return info.param ? "PartOfTheWall" : "WholeWall"; });
+
+// A lamp between two facing mirrors over a black floor: the irradiance is the series sum_k rho^k of its images, each by Lambert's formula.
+TEST(FacingMirrors, IrradianceIsTheSeriesOfImages) {
+  for (const double rho : {0.5, 0.9, 0.99}) {
+    const auto l = lit(facing_mirrors(Rgb(rho)), {.element_size = 0.1});
+    PassOneSettings settings;
+    settings.form_factors.rays = 4096;
+    settings.interpolation.method = Interpolation::average;
+    const RadiositySolution solution = solve_pass_one(*l->light, settings);
+    const double floor = mean_over(*l, solution.irradiance, "y0").r;
+
+    double series = 0.0;
+    constexpr int n = 24;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const Point3 x{(i + 0.5) / n, 0.0, (j + 0.5) / n};
+        for (int k = -400; k <= 400; ++k) {
+          // The lamp is symmetric about z = 1/2: its images lie at every k + 1/2, reached by |k| reflections.
+          const std::array<Point3, 4> lamp{Point3(0.4, 0.99, k + 0.4), {0.6, 0.99, k + 0.4}, {0.6, 0.99, k + 0.6}, {0.4, 0.99, k + 0.6}};
+          series += std::numbers::pi * std::pow(rho, std::abs(k)) * point_form_factor(x, {0, 1, 0}, lamp) / (n * n);
+        }
+      }
+    std::printf("rho %.2f floor %.6f series %.6f\n", rho, floor, series);
+    // The floor's mean has 100 elements with at least 4 points each; images beyond the enumerated worlds are found by rays.
+    EXPECT_NEAR(floor, series, 2e-3 * series) << rho;
+  }
+}
+
+// What the lamp emits is absorbed by walls, by mirrors, by black backs, or leaves: in closed and open rooms, behind grey and coloured
+// mirrors. The sampled rows are reciprocal up to their noise, which is what the imbalance measures.
+TEST(EnergyBalance, NothingIsLostOrCounted) {
+  std::vector<Scene> scenes{half_room(), half_room_with_small_mirror(), doubled(half_room_with_small_mirror()), facing_mirrors(Rgb(0.95, 0.6, 0.2))};
+  scenes.push_back(half_room());
+  scenes.back().materials[0].base_color = Rgb(0.9, 0.5, 0.3); // a coloured mirror
+  scenes.push_back(scenes.back());
+  scenes.back().triangles.erase(scenes.back().triangles.begin() + 2, scenes.back().triangles.begin() + 4); // and no wall x = 2
+  for (const auto& scene : scenes) {
+    EnergyBalance energy;
+    irradiance_field(scene, settings_of(512, 0.15), energy);
+    std::printf("imbalance %.5f\n", energy.imbalance);
+    EXPECT_LT(std::abs(energy.imbalance), 5e-3);
+    for (int band = 0; band < 3; ++band) EXPECT_GT(energy.emitted[band], 0.0);
+  }
+}
+
+} // namespace
+} // namespace meninas::test
