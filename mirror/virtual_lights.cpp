@@ -12,6 +12,7 @@ struct Observer {
   std::span<const Emitter> emitters;
   Point3 x;
   Direction normal;
+  double tolerance;
   std::vector<VirtualLight>& lights;
 };
 
@@ -20,7 +21,7 @@ void add_images(const Observer& observer, const MirrorWorld& world, WorldId id, 
                 std::span<const ConvexPolygon> visible) {
   const Emitter& e = observer.emitters[emitter];
   const Plane plane = apply(world.image, e.plane);
-  if (signed_distance(plane, observer.x) <= 0.0) return;
+  if (signed_distance(plane, observer.x) <= observer.tolerance) return;
 
   ConvexPolygon image;
   for (const auto& vertex : e.polygon.span()) image.push_back(apply(world.image, vertex));
@@ -69,10 +70,10 @@ void walk(const Observer& observer, WorldId id, std::span<const ConvexPolygon> v
 } // namespace
 
 void virtual_lights(const WorldTree& tree, std::span<const Emitter> emitters, const Point3& x,
-                    const Direction& normal, std::vector<VirtualLight>& lights) {
+                    const Direction& normal, double tolerance, std::vector<VirtualLight>& lights) {
   lights.clear();
   if (emitters.empty()) return;
-  walk({tree, emitters, x, normal, lights}, real_world, {});
+  walk({tree, emitters, x, normal, tolerance, lights}, real_world, {});
 }
 
 void fold_legs(const WorldTree& tree, const MirrorSet& mirrors, WorldId world, const Point3& x, PlaneId leaving,

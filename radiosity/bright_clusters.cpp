@@ -83,6 +83,23 @@ Emitter make_emitter(const LightScene& light, const Candidate& candidate) {
   return emitter;
 }
 
+/// Half of the lit area is darker than this. (A mean would follow the few bright elements that are looked for.)
+double area_median(const ElementMesh& mesh, const std::vector<Rgb>& reflected) {
+  std::vector<std::pair<double, double>> values; // radiosity and area
+  double area = 0.0;
+  for (std::size_t i = 0; i < mesh.area.size(); ++i) {
+    const double value = largest(reflected[i]);
+    if (value <= 0.0) continue;
+    values.emplace_back(value, mesh.area[i]);
+    area += mesh.area[i];
+  }
+  std::sort(values.begin(), values.end());
+  double below = 0.0;
+  for (const auto& [value, share] : values)
+    if ((below += share) >= 0.5 * area) return value;
+  return 0.0;
+}
+
 /// The real world, and the worlds of single mirrors while they are few.
 WorldTree first_worlds(const WorldTree& tree) {
   constexpr std::size_t few = 4;
@@ -104,14 +121,10 @@ BrightClusters find_bright_clusters(const LightScene& light, const std::vector<R
   const ElementMesh& mesh = light.mesh;
   BrightClusters clusters;
   clusters.owned.assign(mesh.area.size(), 0);
-  double power = 0.0, area = 0.0;
-  for (std::size_t i = 0; i < mesh.area.size(); ++i) {
-    power += mesh.area[i] * largest(reflected[i]);
-    area += mesh.area[i];
-  }
-  if (power <= 0.0) return clusters;
+  const double usual = area_median(mesh, reflected);
+  if (usual <= 0.0) return clusters;
 
-  ClusterSearch context{mesh, reflected, settings.contrast * power / area, settings.evenness, {}};
+  ClusterSearch context{mesh, reflected, settings.contrast * usual, settings.evenness, {}};
   for (std::uint32_t s = 0; s < mesh.sides.size(); ++s) {
     const MeshSide& side = mesh.sides[s];
     if (side.triangle) {

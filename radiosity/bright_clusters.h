@@ -1,7 +1,8 @@
 // Bright clusters: reflected light that is so uneven that gather rays would find it by chance (the spot a mirror throws on a floor, the
 // sill below a window). When vertices gather, such elements are treated as emitters: closed form times shadow rays, also through mirrors.
 //
-// An element is bright when its reflected radiosity exceeds `contrast` times the scene's area mean. Bright neighbours of like radiosity
+// An element is bright when its reflected radiosity exceeds `contrast` times the median over the
+// lit area. Bright neighbours of like radiosity
 // on one quad side are joined into blocks of up to 2^k x 2^k elements. If there are more than `most` clusters, the most powerful are kept,
 // and the rest is gathered. No path is in both: `owner` says which elements are taken from the source.
 #pragma once

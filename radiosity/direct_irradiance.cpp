@@ -114,24 +114,26 @@ double visible_fraction(const LightScene& light, const VirtualLight& image, cons
 
 Rgb direct_irradiance(const LightScene& light, const Receiver& receiver, const DirectSettings& settings,
                       std::uint32_t seed, DirectWorkspace& work) {
-  virtual_lights(light.worlds, light.emitters, receiver.position, receiver.normal, work.lights);
+  virtual_lights(light.worlds, light.emitters, receiver.position, receiver.normal, light.surfaces.tolerance, work.lights);
 
-  // What every image would bring without blockers decides how many shadow rays it is worth.
+  // What every image would bring without blockers; brightest first.
   work.form_factors.clear();
   work.brought.clear();
-  double most = 0.0;
+  work.order.clear();
   for (const auto& image : work.lights) {
     const Rgb source = light.worlds.worlds[index(image.world)].throughput * light.emitters[image.emitter].radiosity;
     work.form_factors.push_back(point_form_factor(receiver.position, receiver.normal, image.polygon.span()));
     work.brought.push_back(work.form_factors.back() * largest(source));
-    most = std::max(most, work.brought.back());
+    work.order.push_back(static_cast<std::uint32_t>(work.order.size()));
   }
+  std::stable_sort(work.order.begin(), work.order.end(), [&](auto a, auto b) { return work.brought[a] > work.brought[b]; });
 
+  // An image is worth shadow rays by its share of what has arrived so far: a bright one that is hidden takes none from the others.
   Rgb sum(0.0);
-  for (std::size_t k = 0; k < work.lights.size(); ++k) {
-    if (work.brought[k] <= 0.0) continue;
+  for (const auto k : work.order) {
+    if (work.brought[k] <= 0.0) break;
     const VirtualLight& image = work.lights[k];
-    const double worth = work.brought[k] / most;
+    const double worth = work.brought[k] / std::max(work.brought[k], largest(sum));
     const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
     const int penumbra = static_cast<int>(std::lround(settings.penumbra_rays * worth));
     const auto image_seed = hash(seed, image.emitter, index(image.world));

@@ -31,7 +31,7 @@ struct DirectWorkspace {
   std::vector<VirtualLight> lights;
   std::vector<double> form_factors; ///< unoccluded, by light
   std::vector<double> brought;      ///< brightest channel of what each light brings unoccluded
-  std::vector<Leg> legs;
+  std::vector<std::uint32_t> order; ///< lights, those that bring most first
   std::array<std::vector<Leg>, 16> folded; ///< the legs of sixteen segments at a time
   std::uint64_t shadow_rays = 0;
 };

@@ -44,9 +44,10 @@ static void read_metallic_roughness(const Document& document, const Json& json, 
   material.metallic_roughness_texture =
       read_texture_use(document, model, "metallicRoughnessTexture", name, findings);
 
-  // glTF's default is a rough metal, which nobody means who leaves the factor out.
-  const bool says_metallic =
-      model.contains("metallicFactor") || model.contains("metallicRoughnessTexture");
+  // glTF's default is a rough metal, which nobody means who leaves the whole model out. Exporters that leave out defaults
+  // say a metal by its roughness alone.
+  const bool says_metallic = model.contains("metallicFactor") || model.contains("roughnessFactor") ||
+                             model.contains("metallicRoughnessTexture");
   if (!says_metallic)
     findings.about("materials without metallicFactor are read as not metallic", name);
   material.metallic =

@@ -55,7 +55,7 @@ double form_factor(const Point3& x, const Direction& normal, const ConvexPolygon
 
 double seen_light(const GlowingRoom& room, const Point3& x, const Direction& normal) {
   std::vector<VirtualLight> lights;
-  virtual_lights(room.worlds, room.emitters, x, normal, lights);
+  virtual_lights(room.worlds, room.emitters, x, normal, 0.0, lights);
   double sum = 0.0;
   for (const auto& light : lights) sum += form_factor(x, normal, light.polygon);
   return sum;
@@ -118,7 +118,7 @@ TEST(VirtualLights, TileTheHemisphereWithATiltedMirror) {
     const Point3 x = random.in_box({0.55, 0.05, 0.75}, {0.95, 1.45, 1.95});
     const Direction n = random.direction();
     std::vector<VirtualLight> lights;
-    virtual_lights(room.worlds, room.emitters, x, n, lights);
+    virtual_lights(room.worlds, room.emitters, x, n, 0.0, lights);
     double reflected = 0.0;
     for (const auto& light : lights)
       if (light.world != real_world) reflected += form_factor(x, n, light.polygon);
@@ -134,7 +134,7 @@ TEST(VirtualLights, FaceTheObserverAboveItsHorizon) {
   for (int k = 0; k < 50; ++k) {
     const Point3 x = random.in_box(Vec3(0.05), {0.95, 1.45, 1.95});
     const Direction n = random.direction();
-    virtual_lights(room.worlds, room.emitters, x, n, lights);
+    virtual_lights(room.worlds, room.emitters, x, n, 0.0, lights);
     for (const auto& light : lights) {
       EXPECT_LT(glm::dot(light.normal, light.polygon.vertices[0] - x), 0.0);
       for (const auto& y : light.polygon.span()) EXPECT_GE(glm::dot(n, y - x), -1e-13);
@@ -145,7 +145,7 @@ TEST(VirtualLights, FaceTheObserverAboveItsHorizon) {
 TEST(VirtualLights, StorageIsCleared) {
   const GlowingRoom room = glowing(room_with_mirrors({}), {});
   std::vector<VirtualLight> lights(5);
-  virtual_lights(room.worlds, {}, Point3(0.5), {0, 0, 1}, lights);
+  virtual_lights(room.worlds, {}, Point3(0.5), {0, 0, 1}, 0.0, lights);
   EXPECT_TRUE(lights.empty());
 }
 
@@ -177,7 +177,7 @@ TEST(FoldLegs, ObeyTheLawOfReflection) {
   int deep = 0;
   for (int k = 0; k < 40; ++k) {
     const Point3 x = random.in_box(Vec3(0.1), {0.9, 1.4, 1.9});
-    virtual_lights(room.worlds, room.emitters, x, random.direction(), lights);
+    virtual_lights(room.worlds, room.emitters, x, random.direction(), 0.0, lights);
     for (const auto& light : lights) {
       // A point inside the visible part, away from its border.
       Point3 y(0.0);
