@@ -16,7 +16,7 @@ namespace meninas {
 struct ClusterSettings {
   double contrast = 3.0;
   double evenness = 1.5;  ///< largest over smallest radiosity within a cluster
-  std::size_t most = 384; ///< clusters times worlds they are looked at in
+  std::size_t most = 1024; ///< clusters times worlds they are looked at in
 };
 
 struct BrightClusters {
