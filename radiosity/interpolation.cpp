@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace meninas {
 
@@ -135,6 +136,34 @@ Rgb landed_light(const VertexGathering& context, const GatheredRays& gathered) {
   return sum / kept_light(gathered, context.net.points.size());
 }
 
+/// Whether something lies on the surface here: nearly all of the hemisphere is blocked within a fraction of an element, as under
+/// a box that stands on a floor. What little light there is there must not be interpolated out into the open.
+bool is_under_something(const VertexGathering& context, const Receiver& receiver) {
+  constexpr double reach = 0.35;
+  constexpr int least = packet_size - 1;
+  const TangentFrame frame = tangent_frame(receiver.normal);
+  const RayFrame& ray_frame = context.light.rays.frame();
+  const glm::vec3 origin = (receiver.position - ray_frame.centre) * ray_frame.scale;
+  RayPacket packet;
+  packet.count = packet_size;
+  for (std::uint32_t k = 0; k < packet_size; ++k) {
+    const auto sample = sobol4(k, 0xc0fe);
+    const glm::vec3 local = cosine_hemisphere(sample[0], sample[1]);
+    const glm::vec3 direction =
+        double{local.x} * frame.tangent + double{local.y} * frame.bitangent + double{local.z} * receiver.normal;
+    packet.origin_x[k] = origin.x;
+    packet.origin_y[k] = origin.y;
+    packet.origin_z[k] = origin.z;
+    packet.direction_x[k] = direction.x;
+    packet.direction_y[k] = direction.y;
+    packet.direction_z[k] = direction.z;
+    packet.max_distance[k] = static_cast<float>(reach * context.light.mesh.element_size * ray_frame.scale);
+    packet.leaving[k] = index(receiver.plane_class);
+    packet.arriving[k] = index(none<PlaneId>);
+  }
+  return std::popcount(occluded(context.light.rays, packet, Coherence::coherent)) >= least;
+}
+
 VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, std::uint32_t seed, VertexWorkspace& work) {
   constexpr double most_black = 0.9; // of the hemisphere: the vertex is inside something that stands on its surface
   ReceiverArea point;
@@ -150,7 +179,8 @@ VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, 
   const auto lit = [&](const RayLanding& landing) { return context.irradiance[landing.element] != Rgb(0.0); };
   const bool enclosed = gathered.black > most_black * double(context.net.points.size()) ||
                         (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
-  return {glm::vec3(landed_light(context, gathered) + from_source + from_clusters), enclosed && from_source == Rgb(0.0)};
+  const bool covered = (enclosed && from_source == Rgb(0.0)) || is_under_something(context, receiver);
+  return {glm::vec3(landed_light(context, gathered) + from_source + from_clusters), covered};
 }
 
 } // namespace
