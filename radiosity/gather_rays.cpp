@@ -3,6 +3,8 @@
 #include "scenes/sampling.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace meninas {
 
@@ -103,15 +105,49 @@ void trace_packet(const LightScene& light, const FormFactorSettings& settings, c
 struct CellCounts {
   std::array<std::uint16_t, 64> rays{}, black{};
 
-  /// Cells in which every ray met black; a cell without rays takes part with neither.
-  void store(GatheredRays& result) const {
-    for (std::uint32_t cell = 0; cell < 64; ++cell) {
-      if (rays[cell] < 2 || black[cell] != rays[cell]) continue;
-      result.covered |= CoveredCells{1} << cell;
-      result.covered_rays += rays[cell];
-    }
-  }
+  /// Every ray met black; a cell without rays is not known to be.
+  bool is_black(std::uint32_t cell) const { return rays[cell] >= 2 && black[cell] == rays[cell]; }
 };
+
+/// Rays along the surface from all over the cell, all the way round, meet nothing but black: the cell is enclosed. The few rays of a cell
+/// may all meet the black back of something that only hangs above; these pass under it.
+bool is_enclosed(const LightScene& light, const ReceiverArea& area, const TangentFrame& tangents, std::uint32_t cell) {
+  constexpr double rise = 0.02; // of the rays over the surface
+  RayPacket packet;
+  packet.count = packet_size;
+  for (std::uint32_t k = 0; k < packet_size; ++k) {
+    const Vec2 place(k / 4 + 0.5, k % 4 + 0.5);
+    const Vec3 from = point_in(area, (Vec2(cell / 8, cell % 8) + 0.25 * place) / 8.0);
+    const double turn = 2.0 * std::numbers::pi * (7 * k % packet_size) / packet_size;
+    const Vec3 along = std::cos(turn) * tangents.tangent + std::sin(turn) * tangents.bitangent + rise * area.normal;
+    packet.origin_x[k] = static_cast<float>(from.x);
+    packet.origin_y[k] = static_cast<float>(from.y);
+    packet.origin_z[k] = static_cast<float>(from.z);
+    packet.direction_x[k] = static_cast<float>(along.x);
+    packet.direction_y[k] = static_cast<float>(along.y);
+    packet.direction_z[k] = static_cast<float>(along.z);
+    packet.max_distance[k] = std::numeric_limits<float>::infinity();
+    packet.leaving[k] = index(area.plane_class);
+  }
+  HitPacket hits;
+  closest_hits(light.rays, packet, hits, Backs::absorb, Coherence::incoherent);
+  for (std::uint32_t k = 0; k < packet_size; ++k) {
+    if (hits.triangle[k] == index(none<TriangleId>)) return false;
+    const FaceRecord& face = light.landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
+    if (face.side != FaceRecord::nothing || face.mirrors) return false;
+  }
+  return true;
+}
+
+/// Takes the rays of covered cells out of the count.
+void find_covered(const LightScene& light, const ReceiverArea& area, const TangentFrame& tangents, const CellCounts& cells,
+                  GatheredRays& result) {
+  for (std::uint32_t cell = 0; cell < 64; ++cell) {
+    if (!cells.is_black(cell) || !is_enclosed(light, area, tangents, cell)) continue;
+    result.covered |= CoveredCells{1} << cell;
+    result.covered_rays += cells.rays[cell];
+  }
+}
 
 /// Mirror after mirror, until no ray goes on.
 void follow_mirrors(const LightScene& light, const FormFactorSettings& settings, GatherWorkspace& work) {
@@ -205,7 +241,7 @@ void gather_rays(const LightScene& light, const DirectionNet& net, const Receive
       cells.black[cell[k]] += static_cast<std::uint16_t>((work.black_lanes >> k) & 1U);
     }
   }
-  if (result.black > 0 && !receiver.is_point()) cells.store(result);
+  if (result.black > 0 && !receiver.is_point()) find_covered(light, area, tangents, cells, result);
   follow_mirrors(light, settings, work);
 }
 
