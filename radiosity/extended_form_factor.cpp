@@ -1,0 +1,332 @@
+#include "radiosity/extended_form_factor.h"
+
+#include "radiosity/area_form_factor.h"
+#include "radiosity/world_shares.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+namespace meninas {
+
+namespace {
+
+/// Radon's rule of degree five on a triangle: barycentric weights of its points, and their shares of the area.
+struct TrianglePoint {
+  double b0, b1, b2, weight;
+};
+constexpr double r1 = 0.101286507323456338800987361915123, w1 = 0.125939180544827152595683945500181;
+constexpr double r2 = 0.470142064105115089770441209513447, w2 = 0.132394152788506180737649387833152;
+constexpr std::array<TrianglePoint, 7> radon{{{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.225},
+                                              {1.0 - 2.0 * r1, r1, r1, w1},
+                                              {r1, 1.0 - 2.0 * r1, r1, w1},
+                                              {r1, r1, 1.0 - 2.0 * r1, w1},
+                                              {1.0 - 2.0 * r2, r2, r2, w2},
+                                              {r2, 1.0 - 2.0 * r2, r2, w2},
+                                              {r2, r2, 1.0 - 2.0 * r2, w2}}};
+
+/// A triangle of A with the integrals over it.
+struct Region {
+  std::array<Point3, 3> corners;
+  std::uint32_t face = 0;
+  double area = 0.0;
+  WorldShares shares;
+  WorldShares errors;
+  double tail = 0.0;
+  double error = 0.0; ///< what decides which triangle is split next
+};
+
+double area_of(const std::array<Point3, 3>& c) { return 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0])); }
+
+class Integration {
+public:
+  Integration(const WorldView& view, const std::vector<Face>& from, std::size_t groups, const ExtendedSettings& settings)
+      : view_(view), from_(from), settings_(settings), groups_(groups), index_(view.mirrors) {
+    for (const Face& face : from) area_ += face.area;
+  }
+
+  ExtendedFactors run() {
+    add_closed_forms();
+    std::vector<Region> whole = first_regions();
+    if (!whole.empty()) {
+      choose_tail(whole);
+      evaluate(whole);
+      split(whole);
+      refine();
+    }
+    return result();
+  }
+
+private:
+  bool needs_points(std::size_t face) const {
+    if (!view_.mirrors.mirrors.empty() && settings_.max_depth > 0) return true;
+    const auto& known = known_[face];
+    return std::any_of(known.begin(), known.end(), [](std::uint8_t k) { return k == 0; });
+  }
+
+  /// Whether the closed form holds between two faces in the real world: nothing can stand between them.
+  bool is_clear(const Face& a, const Face& b) const {
+    const ConvexPolygon lit = clip(a.polygon, b.polygon.vertices[0], b.plane.normal);
+    const ConvexPolygon seen = clip(b.polygon, a.polygon.vertices[0], a.plane.normal);
+    if (lit.empty() || seen.empty()) return true;
+    return std::all_of(view_.blockers.begin(), view_.blockers.end(), [&](const Face& blocker) {
+      return blocker.plane_class == a.plane_class || blocker.plane_class == b.plane_class ||
+             holds_apart(lit, seen, blocker.polygon, view_.tolerance);
+    });
+  }
+
+  /// Beyond this many triples of faces the search for clear pairs would take longer than the points it saves.
+  static constexpr double most_triples = 2e7;
+
+  void add_closed_forms() {
+    known_.assign(from_.size(), std::vector<std::uint8_t>(view_.targets.size(), 0));
+    closed_.assign(groups_, {});
+    const double triples = static_cast<double>(from_.size() * view_.targets.size()) * static_cast<double>(view_.blockers.size());
+    if (triples > most_triples) return;
+    tbb::parallel_for(std::size_t{0}, from_.size(), [&](std::size_t a) {
+      for (std::size_t b = 0; b < view_.targets.size(); ++b)
+        known_[a][b] = is_clear(from_[a], view_.targets[b]) ? 1 : 0;
+    });
+    for (std::size_t a = 0; a < from_.size(); ++a)
+      for (std::size_t b = 0; b < view_.targets.size(); ++b) {
+        if (known_[a][b] == 0 || from_[a].plane_class == view_.targets[b].plane_class) continue;
+        const Estimate factor = area_form_factor(from_[a].polygon, view_.targets[b].polygon);
+        closed_[view_.groups[b]] = closed_[view_.groups[b]] + from_[a].area / area_ * factor;
+      }
+  }
+
+  std::vector<Region> first_regions() const {
+    std::vector<Region> regions;
+    for (std::size_t f = 0; f < from_.size(); ++f) {
+      if (!needs_points(f)) continue;
+      const ConvexPolygon& polygon = from_[f].polygon;
+      for (std::size_t k = 2; k < polygon.size; ++k) {
+        Region region;
+        region.corners = {polygon.vertices[0], polygon.vertices[k - 1], polygon.vertices[k]};
+        region.face = static_cast<std::uint32_t>(f);
+        region.area = area_of(region.corners);
+        regions.push_back(std::move(region));
+      }
+    }
+    return regions;
+  }
+
+  WalkPoint point_of(const Region& region, const TrianglePoint& p) const {
+    const Face& face = from_[region.face];
+    const auto& c = region.corners;
+    return {p.b0 * c[0] + p.b1 * c[1] + p.b2 * c[2], face.plane.normal, face.plane_class};
+  }
+
+  double total_of(const WorldShares& shares) const {
+    double sum = 0.0;
+    for (const WalkShare& share : shares) sum += mean_of(index_[share.world].throughput) * share.factor;
+    return sum;
+  }
+
+  /// What may be left out at each point: a part of the wanted accuracy, by a first look from a few points.
+  void choose_tail(const std::vector<Region>& regions) {
+    constexpr double part = 0.2, first_look = 1e-2, least_factor = 1e-4;
+    constexpr std::size_t looks = 8;
+    walk_.max_depth = settings_.max_depth;
+    walk_.tail = first_look;
+    WorldShares seen;
+    const std::size_t stride = (regions.size() + looks - 1) / looks;
+    std::size_t count = 0;
+    for (std::size_t r = 0; r < regions.size(); r += stride, ++count)
+      append(seen, walk_worlds(view_, point_of(regions[r], radon[0]), walk_, known_[regions[r].face]), 1.0, index_);
+    double factor = total_of(seen) / static_cast<double>(std::max<std::size_t>(count, 1));
+    for (const Estimate& closed : closed_) factor += closed.value;
+    walk_.tail = part * settings_.accuracy * std::max(factor, least_factor);
+  }
+
+  /// Fills in the integrals over the regions, some hundred at a time.
+  void evaluate(std::vector<Region>& regions) {
+    constexpr std::size_t batch = 64;
+    for (std::size_t first = 0; first < regions.size(); first += batch) {
+      const std::size_t count = std::min(batch, regions.size() - first);
+      std::vector<WalkResult> walks(count * radon.size());
+      tbb::parallel_for(std::size_t{0}, walks.size(), [&](std::size_t k) {
+        const Region& region = regions[first + k / radon.size()];
+        walks[k] = walk_worlds(view_, point_of(region, radon[k % radon.size()]), walk_, known_[region.face]);
+      });
+      for (std::size_t k = 0; k < walks.size(); ++k) {
+        Region& region = regions[first + k / radon.size()];
+        const double weight = radon[k % radon.size()].weight * region.area / area_;
+        append(region.shares, walks[k], weight, index_);
+        region.tail += weight * walks[k].tail;
+        visits_ += walks[k].worlds.size();
+      }
+      for (std::size_t r = 0; r < count; ++r) combine(regions[first + r].shares);
+      points_ += walks.size();
+    }
+  }
+
+  /// The change that decides: of the near worlds one by one, of all others together, for each group.
+  double change_of(const WorldShares& changes) const {
+    constexpr int near = 2;
+    double sum = 0.0;
+    std::vector<double> rest(groups_, 0.0);
+    for (const WalkShare& change : changes) {
+      const auto& world = index_[change.world];
+      const double weighted = mean_of(world.throughput) * change.factor;
+      if (world.depth <= near)
+        sum += std::abs(weighted);
+      else
+        rest[change.group] += weighted;
+    }
+    for (const double change : rest) sum += std::abs(change);
+    return sum;
+  }
+
+  /// Replaces each region by four, with errors from what that changed.
+  void split(const std::vector<Region>& parents) {
+    std::vector<Region> children;
+    for (const Region& parent : parents) {
+      const auto& c = parent.corners;
+      const Point3 m01 = 0.5 * (c[0] + c[1]), m12 = 0.5 * (c[1] + c[2]), m20 = 0.5 * (c[2] + c[0]);
+      for (const auto& corners : {std::array{c[0], m01, m20}, std::array{m01, c[1], m12}, std::array{m20, m12, c[2]},
+                                  std::array{m12, m20, m01}}) {
+        Region child;
+        child.corners = corners;
+        child.face = parent.face;
+        child.area = 0.25 * parent.area;
+        children.push_back(std::move(child));
+      }
+    }
+    evaluate(children);
+    for (std::size_t p = 0; p < parents.size(); ++p) {
+      WorldShares sum;
+      for (std::size_t k = 4 * p; k < 4 * p + 4; ++k)
+        sum.insert(sum.end(), children[k].shares.begin(), children[k].shares.end());
+      combine(sum);
+      WorldShares changes = difference(sum, parents[p].shares);
+
+      // Splitting halves an error at the least (a jump), so what is left is no more than the change: a quarter of it in each.
+      for (WalkShare& change : changes) change.factor *= 0.25;
+      for (std::size_t k = 4 * p; k < 4 * p + 4; ++k) {
+        children[k].errors = changes;
+        children[k].error = change_of(changes);
+        push(std::move(children[k]));
+      }
+    }
+  }
+
+  void push(Region region) {
+    value_ += total_of(region.shares);
+    error_ += region.error;
+    heap_.emplace(region.error, regions_.size());
+    regions_.push_back(std::move(region));
+  }
+
+  double closed_value() const {
+    double sum = 0.0;
+    for (const Estimate& closed : closed_) sum += closed.value;
+    return sum;
+  }
+
+  bool settled() const {
+    constexpr double part = 0.7, rounding = 1e-15;
+    return error_ <= part * settings_.accuracy * (value_ + closed_value()) + rounding;
+  }
+
+  void refine() {
+    constexpr std::size_t most_at_once = 8;
+    while (!settled() && points_ < settings_.max_points && visits_ < settings_.max_visits) {
+      std::vector<Region> parents;
+      for (std::size_t k = 0; k < most_at_once && !heap_.empty(); ++k) {
+        const auto [error, place] = heap_.top();
+        if (!parents.empty() && error < 0.25 * parents.front().error) break;
+        heap_.pop();
+        parents.push_back(std::move(regions_[place]));
+        regions_[place] = {};
+        value_ -= total_of(parents.back().shares);
+        error_ -= parents.back().error;
+      }
+      split(parents);
+    }
+  }
+
+  ExtendedFactors result() const {
+    ExtendedFactors factors;
+    factors.points = points_;
+    factors.to.resize(groups_);
+    WorldShares sum, errors;
+    double tail = 0.0;
+    for (const Region& region : regions_) {
+      sum.insert(sum.end(), region.shares.begin(), region.shares.end());
+      tail += region.tail;
+      for (WalkShare error : region.errors) {
+        error.factor = std::abs(error.factor);
+        errors.push_back(error);
+      }
+    }
+    for (std::uint32_t g = 0; g < groups_; ++g) {
+      if (closed_[g].value > 0.0) sum.push_back({0, g, closed_[g].value});
+      errors.push_back({0, g, closed_[g].error});
+      factors.to[g].total.error = tail;
+    }
+    combine(sum);
+    combine(errors);
+    add_worlds(sum, errors, factors);
+    double error = 0.0, value = 0.0;
+    for (const ExtendedFactor& factor : factors.to) {
+      value += factor.total.value;
+      error = std::max(error, factor.total.error);
+    }
+    factors.converged = error <= settings_.accuracy * value + 1e-15;
+    return factors;
+  }
+
+  void add_worlds(const WorldShares& sum, const WorldShares& errors, ExtendedFactors& factors) const {
+    auto error = errors.begin();
+    for (const WalkShare& share : sum) {
+      const auto before = [](const WalkShare& a, const WalkShare& b) { return std::tie(a.world, a.group) < std::tie(b.world, b.group); };
+      error = std::lower_bound(error, errors.end(), share, before);
+      const bool found = error != errors.end() && error->world == share.world && error->group == share.group;
+      const Rgb& throughput = index_[share.world].throughput;
+      factors.to[share.group].worlds.push_back(
+          {index_.chain_of(share.world), throughput, {share.factor, found ? error->factor : 0.0}});
+      factors.to[share.group].total.value += mean_of(throughput) * share.factor;
+    }
+    for (const Region& region : regions_) add_error(region, factors);
+    for (std::uint32_t g = 0; g < groups_; ++g) {
+      factors.to[g].total.error += closed_[g].error;
+      auto& worlds = factors.to[g].worlds;
+      std::stable_sort(worlds.begin(), worlds.end(), [](const WorldFactor& a, const WorldFactor& b) {
+        return mean_of(a.throughput) * a.factor.value > mean_of(b.throughput) * b.factor.value;
+      });
+    }
+  }
+
+  /// The error of a total: worlds of one region may cancel, regions may not.
+  void add_error(const Region& region, ExtendedFactors& factors) const {
+    std::vector<WorldShares> by_group(groups_);
+    for (const WalkShare& change : region.errors) by_group[change.group].push_back(change);
+    for (std::uint32_t g = 0; g < groups_; ++g) factors.to[g].total.error += change_of(by_group[g]);
+  }
+
+  const WorldView& view_;
+  const std::vector<Face>& from_;
+  const ExtendedSettings& settings_;
+  std::size_t groups_;
+  double area_ = 0.0;
+  WorldIndex index_;
+  WalkSettings walk_;
+  std::vector<std::vector<std::uint8_t>> known_; ///< by face of A, then target: its real-world factor is in closed form
+  std::vector<Estimate> closed_;                 ///< by group
+  std::vector<Region> regions_;
+  std::priority_queue<std::pair<double, std::size_t>> heap_;
+  double value_ = 0.0, error_ = 0.0;
+  std::size_t points_ = 0, visits_ = 0;
+};
+
+} // namespace
+
+ExtendedFactors extended_form_factors(const WorldView& view, const std::vector<Face>& from, std::size_t group_count,
+                                      const ExtendedSettings& settings) {
+  return Integration(view, from, group_count, settings).run();
+}
+
+} // namespace meninas

@@ -1,0 +1,48 @@
+// The form factor between faces, through mirrors and past blockers, to a requested accuracy (`analytic`).
+//
+//   F_AB = sum_w tau_w F^w_AB,    F^w_AB = 1/A_A  int_A F^w(x, B) dA     (F^w(x, B): point_worlds.h)
+//
+// F^w is geometric and dimensionless: reciprocity is A_A F^w_AB = A_B F^rev(w)_BA. The total weights each world by tau_w, the mean of the
+// channels of the product of its mirrors' reflectances. Emitting, receiving: the fronts of both.
+// Pairs of faces between which nothing can stand take the closed form (area_form_factor.h). The rest is integrated over A: triangles
+// with Radon's seven points of degree five, the one with the largest error split next. A triangle's error is what its factors changed
+// by when its parent was split: sound for smooth parts and for kinks alike. Deterministic for any number of threads.
+#pragma once
+
+#include "radiosity/point_worlds.h"
+#include "radiosity/quadrature.h"
+
+#include <string>
+
+namespace meninas {
+
+struct ExtendedSettings {
+  double accuracy = 1e-6;              ///< wanted error, relative to the sum of all factors asked for
+  int max_depth = 1'000'000;           ///< mirrors a path may meet
+  std::size_t max_points = 400'000;    ///< of the integration
+  std::size_t max_visits = 20'000'000; ///< worlds looked at from all points together
+};
+
+/// One mirror world's share, reflectances aside.
+struct WorldFactor {
+  std::vector<MirrorId> chain; ///< first mirror first; empty: the real world
+  Rgb throughput{1.0};         ///< tau_w
+  Estimate factor;             ///< F^w
+};
+
+struct ExtendedFactor {
+  Estimate total;                  ///< sum_w tau_w F^w; the error holds the bound on all worlds that were left out
+  std::vector<WorldFactor> worlds; ///< those with a factor, the largest tau_w F^w first
+};
+
+struct ExtendedFactors {
+  std::vector<ExtendedFactor> to; ///< by group
+  std::size_t points = 0;         ///< of the integration
+  bool converged = true;
+};
+
+/// From all fronts `from`, weighted by area, to the groups of the view's targets.
+ExtendedFactors extended_form_factors(const WorldView& view, const std::vector<Face>& from, std::size_t group_count,
+                                      const ExtendedSettings& settings = {});
+
+} // namespace meninas

@@ -1,0 +1,41 @@
+// Form factors between the nodes of a scene, in total and per mirror world: the radiosity side of `meninas formfactors`.
+//
+// From the fronts of all faces of node A that are no mirrors, weighted by area, to the fronts of all faces of node B:
+//   F = sum_w tau_w F^w,  tau_w the mean of the channels of the product of the mirrors' reflectances, F^w geometric.
+// `analytic` is extended_form_factor.h. `rays` follows cosine-distributed rays (gather_rays.h) from points spread over A in sixteen
+// independent replicas: their scatter is the standard error.
+#pragma once
+
+#include "radiosity/extended_form_factor.h"
+
+#include <span>
+
+namespace meninas {
+
+enum class NodeFactorMethod { analytic, rays };
+
+struct NodeFactorSettings {
+  NodeFactorMethod method = NodeFactorMethod::analytic;
+  double accuracy = 1e-6;     ///< analytic: wanted relative error
+  int rays = 1 << 20;         ///< rays: in all, about
+  int max_depth = 1'000'000;  ///< mirrors a path may meet
+  std::uint32_t seed = 0;
+};
+
+struct NodeFactors {
+  double area = 0.0;              ///< of A's fronts, m^2
+  std::vector<ExtendedFactor> to; ///< by node asked for
+  MirrorSet mirrors;              ///< chains refer to it
+  bool converged = true;          ///< analytic: the accuracy was reached
+};
+
+/// Throws UsageError when `from` has no front that scatters light, or a node asked for has no face.
+NodeFactors node_form_factors(const Scene& scene, const SurfaceModel& surfaces, NodeId from, std::span<const NodeId> to,
+                              const NodeFactorSettings& settings = {});
+
+/// The total and its standard error by rays; `mirrors` as for the analytic method.
+std::vector<ExtendedFactor> ray_form_factors(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
+                                             const std::vector<Face>& from, std::span<const NodeId> to,
+                                             const NodeFactorSettings& settings);
+
+} // namespace meninas
