@@ -1,6 +1,7 @@
 #include "radiosity/bright_clusters.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace meninas {
 
@@ -17,7 +18,7 @@ struct Block {
 struct Candidate {
   Block block;
   Rgb radiosity{0.0};
-  double power = 0.0;
+  double noise = 0.0; ///< what gathering it by chance would cost: radiosity times the root of the area
 };
 
 /// What the recursion over the blocks needs.
@@ -49,7 +50,7 @@ void search(ClusterSearch& context, const Block& block) {
     }
   if (high < context.threshold || area <= 0.0) return;
   if (low >= context.threshold && high <= context.evenness * low) {
-    context.found.push_back({block, sum / area, largest(sum)});
+    context.found.push_back({block, sum / area, largest(sum) / std::sqrt(area)});
     return;
   }
   const int width = block.i1 - block.i0, height = block.j1 - block.j0;
@@ -59,6 +60,18 @@ void search(ClusterSearch& context, const Block& block) {
   if (im < block.i1) search(context, {block.side, im, block.i1, block.j0, jm});
   if (jm < block.j1) search(context, {block.side, block.i0, im, jm, block.j1});
   if (im < block.i1 && jm < block.j1) search(context, {block.side, im, block.i1, jm, block.j1});
+}
+
+void search_sides(ClusterSearch& context) {
+  context.found.clear();
+  for (std::uint32_t s = 0; s < context.mesh.sides.size(); ++s) {
+    const MeshSide& side = context.mesh.sides[s];
+    if (!side.triangle) {
+      search(context, {s, 0, side.nu, 0, side.nv});
+      continue;
+    }
+    for (int e = 0; e < static_cast<int>(side.element_count); ++e) search(context, {s, e, e + 1, 0, 1});
+  }
 }
 
 Emitter make_emitter(const LightScene& light, const Candidate& candidate) {
@@ -124,21 +137,18 @@ BrightClusters find_bright_clusters(const LightScene& light, const std::vector<R
   const double usual = area_median(mesh, reflected);
   if (usual <= 0.0) return clusters;
 
-  ClusterSearch context{mesh, reflected, settings.contrast * usual, settings.evenness, {}};
-  for (std::uint32_t s = 0; s < mesh.sides.size(); ++s) {
-    const MeshSide& side = mesh.sides[s];
-    if (side.triangle) {
-      for (int e = 0; e < static_cast<int>(side.element_count); ++e) search(context, {s, e, e + 1, 0, 1});
-    } else {
-      search(context, {s, 0, side.nu, 0, side.nv});
-    }
-  }
-
+  // Blocks become less even until there are few enough; if that does not help, the noisiest are kept.
   clusters.worlds = first_worlds(light.worlds);
   const std::size_t most = settings.most / clusters.worlds.worlds.size();
+  ClusterSearch context{mesh, reflected, settings.contrast * usual, settings.evenness, {}};
+  search_sides(context);
+  while (context.found.size() > most && context.evenness < settings.least_even) {
+    context.evenness *= 2.0;
+    search_sides(context);
+  }
   if (context.found.size() > most) {
     std::stable_sort(context.found.begin(), context.found.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.power > b.power; });
+                     [](const Candidate& a, const Candidate& b) { return a.noise > b.noise; });
     context.found.resize(most);
   }
   for (const auto& candidate : context.found) {

@@ -3,8 +3,8 @@
 //
 // An element is bright when its reflected radiosity exceeds `contrast` times the median over the
 // lit area. Bright neighbours of like radiosity
-// on one quad side are joined into blocks of up to 2^k x 2^k elements. If there are more than `most` clusters, the most powerful are kept,
-// and the rest is gathered. No path is in both: `owner` says which elements are taken from the source.
+// on one quad side are joined into blocks of up to 2^k x 2^k elements. If there are more than `most` clusters they are made
+// coarser; beyond that those that would be noisiest are kept, and the rest is gathered. No path is in both: `owner` says which elements are taken from the source.
 #pragma once
 
 #include "radiosity/light_scene.h"
@@ -15,7 +15,8 @@ namespace meninas {
 
 struct ClusterSettings {
   double contrast = 3.0;
-  double evenness = 1.5;  ///< largest over smallest radiosity within a cluster
+  double evenness = 1.5;  ///< largest over smallest radiosity within a cluster, to begin with
+  double least_even = 12; ///< doubled up to about this while there are too many clusters
   std::size_t most = 1024; ///< clusters times worlds they are looked at in
 };
 

@@ -155,13 +155,15 @@ Rgb mean_over_element(const LightScene& light, ElementId element, CoveredCells c
   if (std::popcount(covered) == whole) return Rgb(0.0);
   const ReceiverArea area = receiver_of(light, element);
   const auto seed = hash(index(element), settings.seed, 0xd17ec7);
+  DirectSettings at_point = settings;
+  at_point.penumbra_rays = settings.shadow_rays;
   Rgb sum(0.0), before(0.0);
   int taken = 0, wanted = settings.points;
   for (std::uint32_t p = 0;; ++p) {
     const auto sample = sobol4(p, seed);
     if (is_covered(covered, sample[0], sample[1])) continue;
     const Receiver receiver{point_in(area, Vec2(sample[0], sample[1])), area.normal, area.plane_class};
-    sum += direct_irradiance(light, receiver, settings, hash(seed, p, 1), work);
+    sum += direct_irradiance(light, receiver, at_point, hash(seed, p, 1), work);
     if (++taken < wanted) continue;
 
     // Between the first half of the points and all of them the mean has moved by about its own error.

@@ -15,7 +15,7 @@ struct DirectSettings {
   int points = 4;            ///< receiving points per element to begin with
   int most_points = 256;     ///< doubled up to this while the mean over the element is unsure (near a lamp, at a shadow's edge)
   int shadow_rays = 16;      ///< per emitter image and point where it matters most; images that bring less get fewer
-  int penumbra_rays = 64;    ///< when the first ones disagree
+  int penumbra_rays = 128;   ///< when the first ones disagree; an element's many points need no more than the first
   std::uint32_t seed = 0;
 };
 

@@ -17,7 +17,7 @@ enum class Interpolation { average, gather };
 struct InterpolationSettings {
   Interpolation method = Interpolation::gather;
   int rays = 512;              ///< per vertex, for `gather`
-  int cluster_shadow_rays = 4; ///< per bright cluster (bright_clusters.h) and vertex, where it matters most
+  int cluster_shadow_rays = 8; ///< per bright cluster (bright_clusters.h) and vertex, where it matters most
 };
 
 /// Irradiance by ElementVertexId. The mesh it belongs to must outlive it.

@@ -13,11 +13,11 @@ static int power_of_two(int count) {
 QualityPreset preset_of(Quality quality) {
   switch (quality) {
   case Quality::draft:
-    return {.target_elements = 2'250, .rays = 128, .samples = 4};
+    return {.target_elements = 2'250, .rays = 128, .penumbra_rays = 32, .samples = 4};
   case Quality::normal:
-    return {.target_elements = 16'000, .rays = 512, .samples = 16};
+    return {.target_elements = 16'000, .rays = 512, .penumbra_rays = 128, .samples = 16};
   case Quality::fine:
-    return {.target_elements = 64'000, .rays = 2'048, .samples = 64};
+    return {.target_elements = 64'000, .rays = 2'048, .penumbra_rays = 512, .samples = 64};
   }
   return {};
 }
@@ -32,6 +32,7 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   pass_one.form_factors.rays = power_of_two(settings.rays.value_or(preset.rays));
   pass_one.form_factors.seed = settings.seed;
   pass_one.direct.seed = settings.seed;
+  pass_one.direct.penumbra_rays = preset.penumbra_rays;
   pass_one.solver.method = settings.solver;
   pass_one.solver.tolerance = settings.tolerance.value_or(pass_one.solver.tolerance);
   pass_one.interpolation.method = settings.interpolation.value_or(pass_one.interpolation.method);
