@@ -1,13 +1,10 @@
 // Rates of the ray queries beside bare Embree loops over the same rays: millions of rays a second, and the share of
 // the bare robust loop that is reached.
-//
-// The bare loops do what any renderer must (fill a packet of sixteen, trace it, look at the result) with an epsilon instead
-// of planes, and know no sides: behind a transparent back they see nothing. Figures are of one core.
-#include "scenes/frame_geometry.h"
+// Figures are of one core.
+#include "bench/bare_embree.h"
 #include "scenes/sampling.h"
 #include "tests/support/scene_builder.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,15 +14,13 @@
 #include <functional>
 
 using namespace meninas;
+using namespace meninas::bench;
 
 namespace {
 
 constexpr std::size_t packet_count = 1 << 13;
 constexpr std::size_t block_size = 128;
 constexpr int repetitions = 16;
-constexpr float bare_epsilon = 1e-5F;
-
-enum class Query { closest, occlusion };
 
 struct Workload {
   std::string name;
@@ -33,11 +28,6 @@ struct Workload {
   Coherence coherence = Coherence::incoherent;
   Backs backs = Backs::absorb;
   std::vector<RayPacket> packets;
-};
-
-struct BareScene {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
 };
 
 // --- Scenes
@@ -189,72 +179,9 @@ Workload shadow_rays(const RayScene& rays, const Scene& scene, const SurfaceMode
 
 // --- Loops
 
-BareScene make_bare_scene(const FrameGeometry& geometry, RTCSceneFlags flags) {
-  BareScene bare{rtcNewDevice(nullptr), nullptr};
-  bare.scene = rtcNewScene(bare.device);
-  rtcSetSceneFlags(bare.scene, flags);
-  rtcSetSceneBuildQuality(bare.scene, RTC_BUILD_QUALITY_HIGH);
-  const auto mesh = rtcNewGeometry(bare.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* positions = static_cast<glm::vec3*>(
-      rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
-                              geometry.positions.size()));
-  std::ranges::transform(geometry.positions, positions,
-                         [](const Point3& x) { return glm::vec3(x); });
-  auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
-      mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, geometry.triangles.size()));
-  std::ranges::copy(geometry.triangles, triangles);
-  rtcCommitGeometry(mesh);
-  rtcAttachGeometry(bare.scene, mesh);
-  rtcReleaseGeometry(mesh);
-  rtcCommitScene(bare.scene);
-  return bare;
-}
-
-void release(const BareScene& bare) {
-  rtcReleaseScene(bare.scene);
-  rtcReleaseDevice(bare.device);
-}
-
-void fill(const RayPacket& packet, float near, float far_share, RTCRay16& ray) {
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    ray.org_x[k] = packet.origin_x[k];
-    ray.org_y[k] = packet.origin_y[k];
-    ray.org_z[k] = packet.origin_z[k];
-    ray.dir_x[k] = packet.direction_x[k];
-    ray.dir_y[k] = packet.direction_y[k];
-    ray.dir_z[k] = packet.direction_z[k];
-    ray.tnear[k] = near;
-    ray.tfar[k] = far_share * packet.max_distance[k];
-    ray.time[k] = 0.0F;
-    ray.mask[k] = ~0U;
-    ray.flags[k] = 0U;
-  }
-}
-
 std::uint32_t bare_packet(const BareScene& bare, const Workload& workload,
                           const RayPacket& packet) {
-  alignas(64) static constexpr int valid[packet_size] = {-1, -1, -1, -1, -1, -1, -1, -1,
-                                                         -1, -1, -1, -1, -1, -1, -1, -1};
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  if (workload.coherence == Coherence::coherent)
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  std::uint32_t met = 0;
-  if (workload.query == Query::occlusion) {
-    RTCRay16 ray;
-    fill(packet, bare_epsilon, 1.0F - bare_epsilon, ray);
-    rtcOccluded16(valid, bare.scene, &context, &ray);
-    for (std::size_t k = 0; k < packet_size; ++k)
-      met += ray.tfar[k] < 0.0F;
-    return met;
-  }
-  RTCRayHit16 traced;
-  fill(packet, bare_epsilon, 1.0F, traced.ray);
-  std::fill_n(traced.hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
-  rtcIntersect16(valid, bare.scene, &context, &traced);
-  for (std::size_t k = 0; k < packet_size; ++k)
-    met += traced.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
-  return met;
+  return trace_bare(bare, workload.query, workload.coherence, packet);
 }
 
 std::uint32_t our_packet(const RayScene& rays, const Workload& workload, const RayPacket& packet) {
