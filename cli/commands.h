@@ -16,5 +16,6 @@ struct Command {
 Command add_render_command(CLI::App& program);
 Command add_solve_command(CLI::App& program);
 Command add_plan_command(CLI::App& program);
+Command add_formfactors_command(CLI::App& program);
 
 } // namespace meninas

@@ -143,9 +143,8 @@ private:
 
   /// Fills in the integrals over the regions, some hundred at a time.
   void evaluate(std::vector<Region>& regions) {
-    constexpr std::size_t batch = 64;
-    for (std::size_t first = 0; first < regions.size(); first += batch) {
-      const std::size_t count = std::min(batch, regions.size() - first);
+    for (std::size_t first = 0; first < regions.size(); first += batch_) {
+      const std::size_t count = std::min(batch_, regions.size() - first);
       std::vector<WalkResult> walks(count * radon.size());
       tbb::parallel_for(std::size_t{0}, walks.size(), [&](std::size_t k) {
         const Region& region = regions[first + k / radon.size()];
@@ -160,6 +159,8 @@ private:
       }
       for (std::size_t r = 0; r < count; ++r) combine(regions[first + r].shares);
       points_ += walks.size();
+      // What the points have seen is kept until it is added up: as many at once as memory has room for.
+      batch_ = std::clamp<std::size_t>(most_kept * points_ / (radon.size() * (visits_ + 1)), 1, most_regions);
     }
   }
 
@@ -314,6 +315,8 @@ private:
   double area_ = 0.0;
   WorldIndex index_;
   WalkSettings walk_;
+  static constexpr std::size_t most_kept = 4'000'000, most_regions = 64;
+  std::size_t batch_ = 2; ///< regions evaluated at once
   std::vector<std::vector<std::uint8_t>> known_; ///< by face of A, then target: its real-world factor is in closed form
   std::vector<Estimate> closed_;                 ///< by group
   std::vector<Region> regions_;

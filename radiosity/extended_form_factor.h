@@ -20,7 +20,7 @@ struct ExtendedSettings {
   double accuracy = 1e-6;              ///< wanted error, relative to the sum of all factors asked for
   int max_depth = 1'000'000;           ///< mirrors a path may meet
   std::size_t max_points = 400'000;    ///< of the integration
-  std::size_t max_visits = 20'000'000; ///< worlds looked at from all points together
+  std::size_t max_visits = 30'000'000; ///< worlds looked at from all points together
 };
 
 /// One mirror world's share, reflectances aside.

@@ -13,11 +13,15 @@ namespace {
 /// Every mirror has its worlds here: they are entered only as far as they matter.
 constexpr MirrorSettings all_mirrors{.max_mirrors = 1 << 20, .smallest_share = 0.0};
 
+bool same_name(const Scene& scene, NodeId a, NodeId b) {
+  return a == b || scene.nodes[index(a)].name == scene.nodes[index(b)].name;
+}
+
 std::vector<Face> scattering_faces(const Scene& scene, const std::vector<Face>& faces, NodeId node) {
   std::vector<Face> result;
   bool any = false;
   for (const Face& face : faces) {
-    if (face.node != node) continue;
+    if (!same_name(scene, face.node, node)) continue;
     any = true;
     if (!is_mirror(scene.materials[index(face.material)])) result.push_back(face);
   }
@@ -29,16 +33,17 @@ std::vector<Face> scattering_faces(const Scene& scene, const std::vector<Face>& 
 
 void require_faces(const Scene& scene, const std::vector<Face>& faces, std::span<const NodeId> nodes) {
   for (const NodeId node : nodes) {
-    const bool any = std::any_of(faces.begin(), faces.end(), [node](const Face& face) { return face.node == node; });
+    const bool any = std::any_of(faces.begin(), faces.end(), [&](const Face& face) { return same_name(scene, face.node, node); });
     if (!any) throw UsageError(scene.file, fmt::format("node '{}' has no area that could receive light", scene.nodes[index(node)].name));
   }
 }
 
-WorldView view_of(const std::vector<Face>& faces, const MirrorSet& mirrors, std::span<const NodeId> to, double tolerance) {
+WorldView view_of(const Scene& scene, const std::vector<Face>& faces, const MirrorSet& mirrors, std::span<const NodeId> to,
+                  double tolerance) {
   WorldView view{mirrors, faces, {}, {}, tolerance};
   for (std::uint32_t group = 0; group < to.size(); ++group)
     for (const Face& face : faces) {
-      if (face.node != to[group]) continue;
+      if (!same_name(scene, face.node, to[group])) continue;
       view.targets.push_back(face);
       view.groups.push_back(group);
     }
@@ -61,7 +66,7 @@ NodeFactors node_form_factors(const Scene& scene, const SurfaceModel& surfaces, 
     ExtendedSettings extended;
     extended.accuracy = settings.accuracy;
     extended.max_depth = settings.max_depth;
-    const WorldView view = view_of(faces, result.mirrors, to, surfaces.tolerance);
+    const WorldView view = view_of(scene, faces, result.mirrors, to, surfaces.tolerance);
     ExtendedFactors factors = extended_form_factors(view, senders, to.size(), extended);
     result.to = std::move(factors.to);
     result.converged = factors.converged;

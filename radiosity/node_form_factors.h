@@ -1,6 +1,7 @@
 // Form factors between the nodes of a scene, in total and per mirror world: the radiosity side of `meninas formfactors`.
 //
-// From the fronts of all faces of node A that are no mirrors, weighted by area, to the fronts of all faces of node B:
+// From the fronts of all faces of node A that are no mirrors, weighted by area, to the fronts of all faces of node B (nodes of one name
+// are one):
 //   F = sum_w tau_w F^w,  tau_w the mean of the channels of the product of the mirrors' reflectances, F^w geometric.
 // `analytic` is extended_form_factor.h. `rays` follows cosine-distributed rays (gather_rays.h) from points spread over A in sixteen
 // independent replicas: their scatter is the standard error.

@@ -16,9 +16,32 @@ ConvexPolygon image_of(const Isometry& map, const ConvexPolygon& polygon) {
   return image;
 }
 
+/// Polygons in as little room as they need, for the many that wait.
+struct PackedPolygons {
+  std::vector<Point3> vertices;
+  std::vector<std::uint8_t> sizes;
+
+  explicit PackedPolygons(const std::vector<ConvexPolygon>& polygons) {
+    for (const auto& polygon : polygons) {
+      vertices.insert(vertices.end(), polygon.span().begin(), polygon.span().end());
+      sizes.push_back(static_cast<std::uint8_t>(polygon.size));
+    }
+    vertices.shrink_to_fit();
+  }
+  std::vector<ConvexPolygon> unpacked() const {
+    std::vector<ConvexPolygon> polygons;
+    auto from = vertices.begin();
+    for (const std::uint8_t size : sizes) {
+      polygons.emplace_back(std::span<const Point3>(from, from + size));
+      from += size;
+    }
+    return polygons;
+  }
+};
+
 /// One world on the way: where it stands in unfolded space, and what of the way in is open.
 struct Station {
-  std::uint32_t world = 0, parent = 0;
+  std::uint32_t world = 0;
   int depth = 0;
   Isometry image;
   Plane plane;                            ///< of the last mirror, normal towards x
@@ -26,7 +49,21 @@ struct Station {
   PlaneId plane_class = none<PlaneId>;    ///< the leg leaves this plane
   Rgb throughput{1.0};
   std::vector<ConvexPolygon> openings;    ///< visible parts of the last mirror's window
-  double bound = 0.0;                     ///< on what this world and all behind it can bring
+};
+
+/// A world that may be entered next.
+struct Waiting {
+  double bound = 0.0; ///< on what it and all behind it can bring
+  std::uint32_t parent = 0;
+  MirrorId mirror = none<MirrorId>;
+  PackedPolygons openings;
+};
+
+/// What of an entered world its children need.
+struct Entered {
+  Isometry image;
+  int depth = 0;
+  Rgb throughput{1.0};
 };
 
 class Walk {
@@ -41,12 +78,10 @@ public:
     visit(real);
     while (!waiting_.empty() && left_out() > settings_.tail && result_.worlds.size() < settings_.max_worlds) {
       std::pop_heap(waiting_.begin(), waiting_.end(), by_bound);
-      Station next = std::move(waiting_.back());
+      const Waiting next = std::move(waiting_.back());
       waiting_.pop_back();
       waiting_bound_ -= next.bound;
-      next.world = static_cast<std::uint32_t>(result_.worlds.size());
-      result_.worlds.push_back({next.parent, next.mirror});
-      visit(next);
+      visit(station_of(next));
     }
     result_.tail = left_out();
     return std::move(result_);
@@ -58,11 +93,29 @@ private:
     PlaneId plane_class;
   };
 
-  static bool by_bound(const Station& a, const Station& b) { return a.bound < b.bound; }
+  static bool by_bound(const Waiting& a, const Waiting& b) { return a.bound < b.bound; }
 
   double left_out() const { return waiting_.empty() ? 0.0 : std::max(0.0, waiting_bound_); }
 
+  /// Where the world behind the parent's next mirror stands.
+  Station station_of(const Waiting& waiting) {
+    const Mirror& mirror = view_.mirrors.mirrors[index(waiting.mirror)];
+    const Entered& parent = entered_[waiting.parent];
+    Station station;
+    station.world = static_cast<std::uint32_t>(result_.worlds.size());
+    station.depth = parent.depth + 1;
+    station.image = compose_reflection(parent.image, mirror.plane);
+    station.plane = apply(parent.image, mirror.plane);
+    station.mirror = waiting.mirror;
+    station.plane_class = mirror.plane_class;
+    station.throughput = parent.throughput * mirror.reflectance;
+    station.openings = waiting.openings.unpacked();
+    result_.worlds.push_back({waiting.parent, waiting.mirror});
+    return station;
+  }
+
   void visit(const Station& station) {
+    entered_.push_back({station.image, station.depth, station.throughput});
     const auto obstacles = obstacles_of(station);
     add_targets(station, obstacles);
     if (station.depth >= settings_.max_depth) return;
@@ -147,23 +200,17 @@ private:
   /// Goes on behind a mirror, unless nothing that matters can come from there.
   void enter(const Station& station, MirrorId id, const std::vector<Obstacle>& obstacles) {
     const Mirror& mirror = view_.mirrors.mirrors[index(id)];
-    Station next;
-    next.plane = apply(station.image, mirror.plane);
-    if (signed_distance(next.plane, point_.x) <= view_.tolerance) return;
-    next.throughput = station.throughput * mirror.reflectance;
-    if (mean_of(next.throughput) <= 0.0) return;
+    const Plane plane = apply(station.image, mirror.plane);
+    if (signed_distance(plane, point_.x) <= view_.tolerance) return;
+    const double throughput = mean_of(station.throughput * mirror.reflectance);
+    if (throughput <= 0.0) return;
+    std::vector<ConvexPolygon> openings;
     for (const auto& part : mirror.window)
-      append_visible(station, image_of(station.image, part), next.plane, mirror.plane_class, obstacles, next.openings);
-    if (next.openings.empty()) return;
-    next.bound = mean_of(next.throughput) * factor_of(next.openings);
-    if (next.bound <= 0.0) return;
-    next.parent = station.world;
-    next.depth = station.depth + 1;
-    next.image = compose_reflection(station.image, mirror.plane);
-    next.mirror = id;
-    next.plane_class = mirror.plane_class;
-    waiting_bound_ += next.bound;
-    waiting_.push_back(std::move(next));
+      append_visible(station, image_of(station.image, part), plane, mirror.plane_class, obstacles, openings);
+    const double bound = throughput * factor_of(openings);
+    if (bound <= 0.0) return;
+    waiting_bound_ += bound;
+    waiting_.push_back({bound, station.world, id, PackedPolygons(openings)});
     std::push_heap(waiting_.begin(), waiting_.end(), by_bound);
   }
 
@@ -171,7 +218,8 @@ private:
   const WalkPoint& point_;
   const WalkSettings& settings_;
   const std::vector<std::uint8_t>& known_;
-  std::vector<Station> waiting_; ///< a heap: the largest bound first
+  std::vector<Entered> entered_; ///< by world
+  std::vector<Waiting> waiting_; ///< a heap: the largest bound first
   double waiting_bound_ = 0.0;   ///< sum over those waiting
   WalkResult result_;
 };

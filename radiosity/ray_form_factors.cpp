@@ -44,10 +44,11 @@ std::vector<Sender> senders_of(const std::vector<Face>& faces, int rays) {
 
 /// By SideId: the place of its node among those asked for, fronts only.
 constexpr std::uint32_t not_asked = 0xffffffffU;
-std::vector<std::uint32_t> groups_of_sides(const ElementMesh& mesh, std::span<const NodeId> to) {
+std::vector<std::uint32_t> groups_of_sides(const Scene& scene, const ElementMesh& mesh, std::span<const NodeId> to) {
   std::vector<std::uint32_t> groups(mesh.sides.size(), not_asked);
   for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
-    const auto place = std::find(to.begin(), to.end(), mesh.sides[s].node);
+    const std::string& name = scene.nodes[index(mesh.sides[s].node)].name;
+    const auto place = std::find_if(to.begin(), to.end(), [&](NodeId node) { return scene.nodes[index(node)].name == name; });
     if (place != to.end() && mesh.sides[s].facing == Facing::front) groups[s] = static_cast<std::uint32_t>(place - to.begin());
   }
   return groups;
@@ -143,7 +144,7 @@ std::vector<ExtendedFactor> ray_form_factors(const Scene& scene, const SurfaceMo
                                              const NodeFactorSettings& settings) {
   // One element for each patch is enough to know whose it is; a mirror's landing is known by its table.
   const ElementMesh mesh = make_element_mesh(scene, surfaces, {.target_elements = 1.0});
-  const std::vector<std::uint32_t> groups = groups_of_sides(mesh, to);
+  const std::vector<std::uint32_t> groups = groups_of_sides(scene, mesh, to);
   require_sides(scene, to, groups);
   const RayScene rays = make_ray_scene(scene, surfaces);
   WorldSettings named;

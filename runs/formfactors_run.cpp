@@ -1,0 +1,183 @@
+#include "runs/formfactors_run.h"
+
+#include "runs/resources.h"
+#include "scenes/gltf.h"
+#include "scenes/stopwatch.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace meninas {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name_of(NodeFactorMethod method) {
+  switch (method) {
+  case NodeFactorMethod::analytic:
+    return "analytic";
+  case NodeFactorMethod::rays:
+    return "rays";
+  }
+  return "";
+}
+
+/// The mirrors of a chain, each by its node or its nodes.
+std::vector<std::string> mirror_names(const Scene& scene, const MirrorSet& mirrors,
+                                      const std::vector<MirrorId>& chain) {
+  std::vector<std::string> names;
+  for (const MirrorId id : chain) {
+    std::vector<std::string> parts;
+    for (const NodeId node : mirrors.mirrors[index(id)].nodes) {
+      parts.push_back(scene.nodes[index(node)].name);
+    }
+    names.push_back(fmt::format("{}", fmt::join(parts, "+")));
+  }
+  return names;
+}
+
+void warn_of_error(const NodeFactors& factors, double accuracy, const std::string& from,
+                   const RunEvents& events) {
+  if (!factors.converged) {
+    double error = 0.0;
+    for (const ExtendedFactor& factor : factors.to) {
+      error = std::max(error, factor.total.error);
+    }
+    warn(events, fmt::format("from '{}': the accuracy of {:.2g} was not reached, the error may be "
+                             "{:.2g}",
+                             from, accuracy, error));
+  }
+}
+
+std::string as_text(const Scene& scene, const FormFactorsRequest& request,
+                    const NodeFactors& factors, double seconds) {
+  constexpr std::size_t most_worlds = 24;
+  const ExtendedFactor& factor = factors.to.front();
+  std::string text = fmt::format("{:<18}{}\n", "scene", scene.file);
+  text += fmt::format("{:<18}{}, {:.6g} m^2\n", "from", request.from, factors.area);
+  text += fmt::format("{:<18}{}\n", "to", request.to);
+  text += fmt::format("{:<18}{:.10g}\n", "form factor", factor.total.value);
+  text += fmt::format("{:<18}{:.2g}{}\n", "error estimate", factor.total.error,
+                      request.factors.method == NodeFactorMethod::rays ? ", standard error" : "");
+  text += fmt::format("{:<18}{}, {:.3f} s\n", "method", name_of(request.factors.method), seconds);
+  for (std::size_t k = 0; k < std::min(most_worlds, factor.worlds.size()); ++k) {
+    const WorldFactor& world = factor.worlds[k];
+    const auto names = mirror_names(scene, factors.mirrors, world.chain);
+    const std::string weight =
+        world.chain.empty() ? "" : fmt::format(", times {:.6g}", mean_of(world.throughput));
+    text += fmt::format("{:<18}{:.10g}, {}{}\n", k == 0 ? "worlds" : "", world.factor.value,
+                        names.empty() ? "direct" : fmt::format("by {}", fmt::join(names, ", ")),
+                        weight);
+  }
+  if (factor.worlds.size() > most_worlds) {
+    text += fmt::format("{:<18}and {} more\n", "", factor.worlds.size() - most_worlds);
+  }
+  return text;
+}
+
+std::string as_json(const Scene& scene, const FormFactorsRequest& request,
+                    const NodeFactors& factors, double seconds) {
+  const ExtendedFactor& factor = factors.to.front();
+  Json worlds = Json::array();
+  for (const WorldFactor& world : factor.worlds) {
+    const Rgb& tau = world.throughput;
+    worlds.push_back({{"mirrors", mirror_names(scene, factors.mirrors, world.chain)},
+                      {"form_factor", world.factor.value},
+                      {"throughput", Json::array({tau.r, tau.g, tau.b})}});
+  }
+  const Json json{{"from", request.from},
+                  {"to", request.to},
+                  {"form_factor", factor.total.value},
+                  {"error_estimate", factor.total.error},
+                  {"worlds", worlds},
+                  {"method", name_of(request.factors.method)},
+                  {"seconds", seconds}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+/// The nodes that scatter light, the first of each name.
+std::vector<NodeId> scattering_nodes(const Scene& scene, const SurfaceModel& surfaces) {
+  std::vector<NodeId> nodes;
+  for (std::uint32_t n = 0; n < scene.nodes.size(); ++n) {
+    const std::string& name = scene.nodes[n].name;
+    const bool scatters =
+        std::any_of(surfaces.patches.begin(), surfaces.patches.end(), [&](const Patch& patch) {
+          return scene.nodes[index(patch.node)].name == name &&
+                 !is_mirror(scene.materials[index(patch.material)]);
+        });
+    const bool known = std::any_of(nodes.begin(), nodes.end(), [&](NodeId node) {
+      return scene.nodes[index(node)].name == name;
+    });
+    if (scatters && !known) {
+      nodes.push_back(static_cast<NodeId>(n));
+    }
+  }
+  return nodes;
+}
+
+/// A field of a CSV row; quoted where its text would be taken for something else (RFC 4180).
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char c : text) {
+    quoted += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return quoted + '"';
+}
+
+std::string matrix(const Scene& scene, const SurfaceModel& surfaces,
+                   const FormFactorsRequest& request, const RunEvents& events) {
+  const std::vector<NodeId> nodes = scattering_nodes(scene, surfaces);
+  std::string text = "from";
+  for (const NodeId node : nodes) {
+    text += ',' + csv_field(scene.nodes[index(node)].name);
+  }
+  text += ",sum\n";
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const std::string& name = scene.nodes[index(nodes[n])].name;
+    const NodeFactors factors =
+        node_form_factors(scene, surfaces, nodes[n], nodes, request.factors);
+    warn_of_error(factors, request.factors.accuracy, name, events);
+    text += csv_field(name);
+    double sum = 0.0;
+    for (const ExtendedFactor& factor : factors.to) {
+      sum += factor.total.value;
+      text += fmt::format(",{:.10g}", factor.total.value);
+    }
+    text += fmt::format(",{:.10g}\n", sum);
+    if (events.progress) {
+      events.progress("form factors", static_cast<double>(n + 1) / static_cast<double>(nodes.size()));
+    }
+  }
+  return text;
+}
+
+} // namespace
+
+std::string formfactors_run(const FormFactorsRequest& request, const RunEvents& events) {
+  const ThreadLimit limit(request.threads);
+  const Scene scene = load_gltf(request.scene);
+  for (const std::string& warning : scene.warnings) {
+    warn(events, warning);
+  }
+  const SurfaceModel surfaces = find_surfaces(scene);
+  if (request.format == FormFactorsFormat::matrix) {
+    return matrix(scene, surfaces, request, events);
+  }
+  const NodeId from = find_node(scene, request.from);
+  const std::array to{find_node(scene, request.to)};
+  Stopwatch watch;
+  const NodeFactors factors = node_form_factors(scene, surfaces, from, to, request.factors);
+  const double seconds = watch.lap();
+  warn_of_error(factors, request.factors.accuracy, request.from, events);
+  return request.format == FormFactorsFormat::json ? as_json(scene, request, factors, seconds)
+                                                   : as_text(scene, request, factors, seconds);
+}
+
+} // namespace meninas

@@ -1,0 +1,24 @@
+// `formfactors`: form factors between nodes, as text for people, as JSON, or all of them as a CSV matrix with row sums.
+#pragma once
+
+#include "radiosity/node_form_factors.h"
+#include "runs/run_events.h"
+
+#include <filesystem>
+#include <string>
+
+namespace meninas {
+
+enum class FormFactorsFormat { text, json, matrix };
+
+struct FormFactorsRequest {
+  std::filesystem::path scene;
+  std::string from, to; ///< nodes; a matrix has all of them
+  FormFactorsFormat format = FormFactorsFormat::text;
+  NodeFactorSettings factors;
+  int threads = 0; ///< 0: all the machine has
+};
+
+std::string formfactors_run(const FormFactorsRequest& request, const RunEvents& events = {});
+
+} // namespace meninas
