@@ -101,14 +101,14 @@ private:
     std::vector<Region> regions;
     for (std::size_t f = 0; f < from_.size(); ++f) {
       if (!needs_points(f)) continue;
-      const ConvexPolygon& polygon = from_[f].polygon;
-      for (std::size_t k = 2; k < polygon.size; ++k) {
-        Region region;
-        region.corners = {polygon.vertices[0], polygon.vertices[k - 1], polygon.vertices[k]};
-        region.face = static_cast<std::uint32_t>(f);
-        region.area = area_of(region.corners);
-        regions.push_back(std::move(region));
-      }
+      for (const ConvexPolygon& polygon : cut_at_contacts(from_[f], view_.blockers, view_.tolerance))
+        for (std::size_t k = 2; k < polygon.size; ++k) {
+          Region region;
+          region.corners = {polygon.vertices[0], polygon.vertices[k - 1], polygon.vertices[k]};
+          region.face = static_cast<std::uint32_t>(f);
+          region.area = area_of(region.corners);
+          regions.push_back(std::move(region));
+        }
     }
     return regions;
   }

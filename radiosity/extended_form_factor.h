@@ -17,9 +17,9 @@
 namespace meninas {
 
 struct ExtendedSettings {
-  double accuracy = 1e-6;              ///< wanted error, relative to the sum of all factors asked for
+  double accuracy = 1e-4;              ///< wanted error, relative to the sum of all factors asked for
   int max_depth = 1'000'000;           ///< mirrors a path may meet
-  std::size_t max_points = 400'000;    ///< of the integration
+  std::size_t max_points = 200'000;    ///< of the integration
   std::size_t max_visits = 30'000'000; ///< worlds looked at from all points together
 };
 

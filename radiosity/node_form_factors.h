@@ -17,7 +17,7 @@ enum class NodeFactorMethod { analytic, rays };
 
 struct NodeFactorSettings {
   NodeFactorMethod method = NodeFactorMethod::analytic;
-  double accuracy = 1e-6;     ///< analytic: wanted relative error
+  double accuracy = 1e-4;     ///< analytic: wanted relative error
   int rays = 1 << 20;         ///< rays: in all, about
   int max_depth = 1'000'000;  ///< mirrors a path may meet
   std::uint32_t seed = 0;

@@ -30,7 +30,7 @@ struct WorldView {
 struct WalkSettings {
   double tail = 1e-6;              ///< what may be left out of sum tau_w F^w
   int max_depth = 1'000'000;       ///< mirrors a path may meet; what deeper ones bring is not asked for
-  std::size_t max_worlds = 300'000; ///< entered from one point, the tail be what it may
+  std::size_t max_worlds = 100'000; ///< entered from one point, the tail be what it may
 };
 
 struct WalkPoint {

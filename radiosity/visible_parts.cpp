@@ -110,6 +110,23 @@ bool bounded_by_edges(const ConvexPolygon& a, const ConvexPolygon& b, const Conv
   return false;
 }
 
+/// Splits the parts that the segment runs through, along the line it is on.
+void cut_along(std::vector<ConvexPolygon>& parts, const Point3& from, const Point3& to, const Direction& front, double tolerance) {
+  const Vec3 edge = to - from;
+  const Vec3 across = glm::cross(front, edge);
+  const double length = glm::length(across);
+  if (length <= tolerance) return;
+  const std::size_t count = parts.size();
+  for (std::size_t p = 0; p < count; ++p) {
+    const ConvexPolygon beside = clip(clip(parts[p], from, edge), to, -edge);
+    if (beside.empty() || sides_of(beside, from, across / length, tolerance) != Sides::both) continue;
+    const ConvexPolygon left = clip(parts[p], from, across), right = clip(parts[p], from, -across);
+    if (left.empty() || right.empty()) continue;
+    parts[p] = left;
+    parts.push_back(right);
+  }
+}
+
 } // namespace
 
 std::vector<Face> joined_faces(const SurfaceModel& surfaces) {
@@ -125,6 +142,21 @@ std::vector<Face> joined_faces(const SurfaceModel& surfaces) {
         faces.push_back(make_face(surfaces, surface, node, polygon));
   }
   return faces;
+}
+
+std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others, double tolerance) {
+  // A face on which very many things stand is left to the integration.
+  constexpr std::size_t most_parts = 256;
+  std::vector<ConvexPolygon> parts{face.polygon};
+  for (const Face& other : others) {
+    if (other.plane_class == face.plane_class || glm::distance(other.centre, face.centre) > other.radius + face.radius) continue;
+    for (std::size_t k = 0; k < other.polygon.size; ++k) {
+      const Point3 &from = other.polygon.vertices[k], &to = other.polygon.vertices[k + 1 < other.polygon.size ? k + 1 : 0];
+      const bool touches = std::abs(signed_distance(face.plane, from)) <= tolerance && std::abs(signed_distance(face.plane, to)) <= tolerance;
+      if (touches && parts.size() < most_parts) cut_along(parts, from, to, face.plane.normal, tolerance);
+    }
+  }
+  return parts;
 }
 
 void subtract_cone(std::vector<ConvexPolygon>& parts, const Point3& x, const ConvexPolygon& blocker) {

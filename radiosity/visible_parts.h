@@ -27,6 +27,9 @@ struct Face {
 /// As few convex faces as joining whole edges gives. Patches of different nodes are not joined.
 std::vector<Face> joined_faces(const SurfaceModel& surfaces);
 
+/// The face cut along the lines where others stand on it: across them what is seen jumps, between them it changes steadily.
+std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others, double tolerance);
+
 /// Takes the cone from x over the blocker out of every part. A blocker seen edge-on hides nothing.
 void subtract_cone(std::vector<ConvexPolygon>& parts, const Point3& x, const ConvexPolygon& blocker);
 

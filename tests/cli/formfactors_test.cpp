@@ -1,0 +1,103 @@
+// `formfactors` as people and scripts use it.
+#include "tests/cli/program.h"
+#include "tests/cli/tiny_room.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace meninas::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class FormFactorsCommand : public testing::Test {
+protected:
+  FormFactorsCommand() { write_room(folder_ / "room.glb", tiny_room()); }
+
+  Outcome run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"formfactors", "room.glb"});
+    return run_program(folder_.path(), arguments);
+  }
+
+  void expect_refused(const std::string& line, const std::vector<std::string>& arguments) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.err, "meninas: " + line + '\n');
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.out, IsEmpty());
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(FormFactorsCommand, JsonHasTheTotalAndEveryWorld) {
+  const Outcome outcome = run({"--from", "floor", "--to", "right", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["from"], "floor");
+  EXPECT_EQ(json["to"], "right");
+  EXPECT_EQ(json["method"], "analytic");
+  ASSERT_EQ(json["worlds"].size(), 2U);
+  EXPECT_THAT(json["worlds"][0]["mirrors"], IsEmpty());
+  EXPECT_EQ(json["worlds"][1]["mirrors"], nlohmann::json::array({"mirror"}));
+  double sum = 0.0;
+  for (const auto& world : json["worlds"])
+    sum += world["throughput"][0].get<double>() * world["form_factor"].get<double>();
+  EXPECT_NEAR(json["form_factor"].get<double>(), sum, 1e-12);
+  EXPECT_LE(json["error_estimate"].get<double>(), 1e-4 * sum);
+}
+
+TEST_F(FormFactorsCommand, MirrorDepthZeroLeavesTheRealWorld) {
+  const auto json = nlohmann::json::parse(
+      run({"--from", "floor", "--to", "right", "--json", "--mirror-depth", "0"}).out);
+  EXPECT_EQ(json["worlds"].size(), 1U);
+}
+
+TEST_F(FormFactorsCommand, TextSaysTheSame) {
+  const Outcome outcome = run({"--from", "floor", "--to", "right"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("form factor"));
+  EXPECT_THAT(outcome.out, HasSubstr("by mirror, times 0.9"));
+}
+
+TEST_F(FormFactorsCommand, RaysAgree) {
+  const auto exact = nlohmann::json::parse(run({"--from", "floor", "--to", "right", "--json"}).out);
+  const auto rays = nlohmann::json::parse(
+      run({"--from", "floor", "--to", "right", "--json", "--method", "rays", "--rays", "65536"}).out);
+  const double sigma = rays["error_estimate"];
+  EXPECT_GT(sigma, 0.0);
+  EXPECT_NEAR(rays["form_factor"].get<double>(), exact["form_factor"].get<double>(),
+              4.0 * sigma + exact["error_estimate"].get<double>());
+}
+
+TEST_F(FormFactorsCommand, TheMatrixHasARowForEveryNodeAndItsSum) {
+  const Outcome outcome = run({"--all", "--accuracy", "1e-2", "--quiet"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  std::istringstream lines(outcome.out);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "from,floor,ceiling,back,left,right,lamp,sum");
+  int rows = 0;
+  while (std::getline(lines, line)) {
+    const double sum = std::stod(line.substr(line.rfind(',') + 1));
+    EXPECT_GT(sum, 0.0) << line;
+    EXPECT_LE(sum, 1.0 + 1e-2) << line;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 6);
+}
+
+TEST_F(FormFactorsCommand, WhatCannotBeAskedIsRefusedInOneLine) {
+  expect_refused("room.glb: no node 'flor', did you mean 'floor'?", {"--from", "flor", "--to", "right"});
+  expect_refused("room.glb: node 'mirror' is a mirror, which has no form factors of its own",
+                 {"--from", "mirror", "--to", "right"});
+  expect_refused("formfactors: --from is required, or --all", {"--to", "right"});
+  expect_refused("--json: has no effect with --all, which prints CSV", {"--all", "--json"});
+  expect_refused("--rays: has no effect without --method rays",
+                 {"--from", "floor", "--to", "right", "--rays", "64"});
+}
+
+} // namespace
+} // namespace meninas::test
