@@ -24,6 +24,7 @@ struct Receiver {
   Point3 position;
   Direction normal;
   PlaneId plane_class = none<PlaneId>;
+  Vec3 tangent{0.0}; ///< a direction in the plane that samples are counted from; zero: any
 };
 
 /// Storage reused from point to point; one for each thread.

@@ -33,6 +33,7 @@ MeshSide make_side(const Scene& scene, const SurfaceModel& model, PatchId id, Fa
   side.facing = facing;
   side.plane = {sign * surface.plane.normal, sign * surface.plane.offset};
   side.normal = side.plane.normal;
+  side.tangent = glm::normalize(patch.corners[1] - patch.corners[0]);
   side.plane_class = surface.plane_class;
   side.material = patch.material;
   side.node = patch.node;

@@ -30,6 +30,7 @@ struct MeshSide {
   PatchId patch = none<PatchId>;
   Facing facing = Facing::front;
   Direction normal{0.0, 0.0, 1.0}; ///< towards the side's own light
+  Direction tangent{1.0, 0.0, 0.0}; ///< along the patch's first edge: samples turn with the scene
   Plane plane;
   PlaneId plane_class = none<PlaneId>;
   MaterialId material = none<MaterialId>;

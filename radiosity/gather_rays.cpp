@@ -212,7 +212,7 @@ void gather_rays(const LightScene& light, const DirectionNet& net, const Receive
   area.edge_u *= frame.scale;
   area.edge_v *= frame.scale;
   area.edge_uv *= frame.scale;
-  const TangentFrame tangents = tangent_frame(receiver.normal);
+  const TangentFrame tangents = frame_along(receiver.normal, receiver.tangent);
   const std::array<std::uint32_t, 4> shift{hash(seed, 0), hash(seed, 1), hash(seed, 2), hash(seed, 3)};
 
   RayPacket packet;
@@ -258,6 +258,7 @@ ReceiverArea receiver_of(const LightScene& light, ElementId element) {
   area.triangle = side.triangle;
   area.normal = side.normal;
   area.plane_class = side.plane_class;
+  area.tangent = side.tangent;
   return area;
 }
 

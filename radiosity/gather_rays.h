@@ -5,6 +5,7 @@
 #pragma once
 
 #include "radiosity/form_factors.h"
+#include "scenes/sampling.h"
 
 #include <span>
 
@@ -53,9 +54,18 @@ struct ReceiverArea {
   bool triangle = false;                       ///< then (s, t) is folded into s + t <= 1
   Direction normal;
   PlaneId plane_class = none<PlaneId>;
+  Vec3 tangent{0.0}; ///< a direction in the plane that directions are counted from; zero: any
 
   bool is_point() const { return edge_u == Vec3(0.0) && edge_v == Vec3(0.0); }
 };
+
+/// The frame of the normal that turns with the surface.
+inline TangentFrame frame_along(const Direction& normal, const Vec3& tangent) {
+  const Vec3 along = tangent - glm::dot(tangent, normal) * normal;
+  const double length = glm::length(along);
+  if (!(length > 0.0)) return tangent_frame(normal);
+  return {along / length, glm::cross(normal, along / length)};
+}
 
 /// A continuing ray between mirrors; kept by the caller so that its storage is reused.
 struct MirroredRay {

@@ -71,14 +71,15 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh, const std::v
     const double reach = glm::length(inward);
     if (reach < 0.2 * mesh.element_size * 0.5) continue;
 
-    // The steepest use of the corners of those elements: the one furthest along the inward direction carries the inner mean.
-    double furthest = 0.0;
+    // Of the corners of those elements the one most straight inward carries the inner mean.
+    double straightest = 0.0;
     std::size_t inner = v;
     for (const ElementId element : around(all, v))
       for (const auto corner : mesh.corners[index(element)]) {
-        const double along = glm::dot(mesh.vertices[index(corner)] - mesh.vertices[v], inward) / reach;
-        if (along > furthest) {
-          furthest = along;
+        const Vec3 to = mesh.vertices[index(corner)] - mesh.vertices[v];
+        const double cosine = index(corner) == v ? 0.0 : glm::dot(to, inward) / (glm::length(to) * reach);
+        if (cosine > straightest) {
+          straightest = cosine;
           inner = index(corner);
         }
       }
@@ -141,7 +142,7 @@ Rgb landed_light(const VertexGathering& context, const GatheredRays& gathered) {
 bool is_under_something(const VertexGathering& context, const Receiver& receiver) {
   constexpr double reach = 0.35;
   constexpr int least = packet_size - 1;
-  const TangentFrame frame = tangent_frame(receiver.normal);
+  const TangentFrame frame = frame_along(receiver.normal, receiver.tangent);
   const RayFrame& ray_frame = context.light.rays.frame();
   const glm::vec3 origin = (receiver.position - ray_frame.centre) * ray_frame.scale;
   RayPacket packet;
@@ -170,6 +171,7 @@ VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, 
   point.corner = receiver.position;
   point.normal = receiver.normal;
   point.plane_class = receiver.plane_class;
+  point.tangent = receiver.tangent;
   gather_rays(context.light, context.net, point, seed, context.form_factors, work.gather);
   const GatheredRays& gathered = work.gather.result;
   work.rays += gathered.traced;
@@ -207,7 +209,7 @@ static InterpolatedField gather_at_vertices(const LightScene& light, const std::
     VertexWorkspace& work = workspaces.local();
     for (std::size_t v = c * chunk_size; v < std::min(mesh.vertices.size(), (c + 1) * chunk_size); ++v) {
       const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(mesh.element_of_vertex[v])])];
-      const Receiver receiver{gathering_point(mesh, all, v), side.normal, side.plane_class};
+      const Receiver receiver{gathering_point(mesh, all, v), side.normal, side.plane_class, side.tangent};
       const VertexValue value = gather_at(context, receiver, hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27), work);
       result.field.irradiance[v] = value.irradiance;
       valid[v] = value.covered ? 0 : 1;

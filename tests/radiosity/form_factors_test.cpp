@@ -38,9 +38,9 @@ TEST(FormFactors, PairsOfPolygons) {
     Scene scene;
     add_polygon(scene, "a", c.a, diffuse(0.0));
     add_polygon(scene, "b", c.b, diffuse(0.0));
-    // About 64 elements on a, of whatever shape a is.
-    const double aspect = glm::distance(c.a[0], c.a[1]) / glm::distance(c.a[1], c.a[2]);
-    const double size = std::sqrt(area_of(c.a) / 64.0) * std::min(8.0, std::max(1.0, std::sqrt(std::max(aspect, 1.0 / aspect) / 64.0)));
+    // Some 64 elements or more on a, of whatever shape it is, and not too many on b.
+    const double longest = std::max(glm::distance(c.a[0], c.a[1]), glm::distance(c.a[1], c.a[2]));
+    const double size = std::max({std::sqrt(area_of(c.a) / 64.0), longest / 64.0, std::sqrt(area_of(c.b)) / 64.0});
     const auto l = lit(std::move(scene), {.element_size = size});
     const FormFactors factors = assemble_transport(*l->light, {.rays = rays});
     const double n = samples_of(*l, "a");
@@ -106,6 +106,19 @@ TEST(FormFactors, RowsClose) {
         EXPECT_NEAR(landed + lost / (1.0 - row.cut_light[band]), 1.0, 1e-5);
       }
     }
+  }
+}
+
+// A lamp whose black back hides most of the ceiling from every point of a cell: light comes in under its edge, so nothing is covered.
+TEST(FormFactors, WhatHangsAboveDoesNotCover) {
+  for (const int net : {128, 512}) {
+    const auto l = lit(half_room(), {.element_size = 0.05});
+    const FormFactors factors = assemble_transport(*l->light, {.rays = net});
+    for (const auto e : elements_of(*l, "y1")) EXPECT_EQ(factors.exposed[e], 1.0F);
+    // Under the box, 0.6 m x 0.7 m on the floor, nothing is exposed; elements at its edges, some 52, partly.
+    double covered = 0.0;
+    for (const auto e : elements_of(*l, "y0")) covered += l->mesh.area[e] * (1.0 - double{factors.exposed[e]});
+    EXPECT_NEAR(covered, 0.42, 52 * 0.05 * 0.05 * 0.25);
   }
 }
 

@@ -14,7 +14,7 @@ namespace meninas::test {
 namespace {
 
 /// Irradiance by where its element is.
-using Field = std::map<std::array<long, 6>, std::pair<Rgb, double>>;
+using Field = std::map<std::array<long, 6>, Rgb>;
 
 PassOneSettings settings_of(int rays, double element_size) {
   PassOneSettings settings;
@@ -31,36 +31,40 @@ Field irradiance_field(const Scene& scene, const PassOneSettings& settings, Ener
   energy = solution.energy;
   Field field;
   for (std::size_t e = 0; e < element_count(l->mesh); ++e) {
+    if (solution.exposed[e] == 0.0F) continue; // something stands on all of it
     const auto& corners = l->mesh.corners[e];
     const Point3 centre = 0.5 * (l->mesh.vertices[index(corners[0])] + l->mesh.vertices[index(corners[2])]);
     const Direction n = l->mesh.sides[index(l->mesh.side_of_element[e])].normal;
-    field[{std::lround(centre.x * 1e4), std::lround(centre.y * 1e4), std::lround(centre.z * 1e4), std::lround(n.x), std::lround(n.y), std::lround(n.z)}] = {
-        solution.irradiance[e], l->mesh.area[e] * double{solution.exposed[e]}};
+    field[{std::lround(centre.x * 1e4), std::lround(centre.y * 1e4), std::lround(centre.z * 1e4), std::lround(n.x), std::lround(n.y), std::lround(n.z)}] =
+        solution.irradiance[e];
   }
   return field;
 }
 
 struct Difference {
   std::size_t compared = 0;
-  double rms = 0.0, worst = 0.0; ///< relative
+  double rms = 0.0, worst = 0.0, mean = 0.0; ///< relative, over elements and channels
+  double beyond_a_hundredth = 0.0;           ///< share of elements and channels
 };
 
 Difference difference(const Field& half, const Field& whole) {
   Difference d;
-  double weight = 0.0;
   for (const auto& [place, value] : half) {
     const auto found = whole.find(place);
-    if (found == whole.end() || value.second == 0.0) continue;
+    if (found == whole.end()) continue;
     ++d.compared;
     for (int band = 0; band < 3; ++band) {
-      const double expected = found->second.first[band];
-      const double error = std::abs(value.first[band] - expected) / expected;
-      d.worst = std::max(d.worst, error);
+      // Nothing at all, on the underside of the box, is the same as nothing.
+      const double error = value[band] == found->second[band] ? 0.0 : value[band] / found->second[band] - 1.0;
+      d.worst = std::max(d.worst, std::abs(error));
       d.rms += error * error;
-      weight += 1.0;
+      d.mean += error;
+      d.beyond_a_hundredth += std::abs(error) > 0.01 ? 1.0 : 0.0;
     }
   }
-  d.rms = std::sqrt(d.rms / weight);
+  d.rms = std::sqrt(d.rms / (3.0 * double(d.compared)));
+  d.mean /= 3.0 * double(d.compared);
+  d.beyond_a_hundredth /= 3.0 * double(d.compared);
   return d;
 }
 
@@ -69,25 +73,40 @@ protected:
   Scene half() const { return GetParam() ? half_room_with_small_mirror() : half_room(); }
 };
 
-// The method of images: with a perfect mirror every element receives what it would receive from the doubled room.
+// The method of images: with a perfect mirror every element receives what it would receive from the doubled room. Direct light is
+// sampled finely, so that the edges of shadows, where few shadow rays decide, are as good as the rest.
 TEST_P(ImageMethod, EveryElementReceivesTheSame) {
-  EnergyBalance half_energy, whole_energy;
-  const PassOneSettings settings = settings_of(512, 0.08);
-  const Field with_mirror = irradiance_field(half(), settings, half_energy);
-  const Difference d = difference(with_mirror, irradiance_field(doubled(half()), settings, whole_energy));
-  EXPECT_EQ(d.compared + 0U, with_mirror.size()) << "covered elements aside";
-  std::printf("512 rays: rms %.5f worst %.5f of %zu\n", d.rms, d.worst, d.compared);
+  EnergyBalance energy;
+  PassOneSettings settings = settings_of(512, 0.125);
+  settings.direct.points = settings.direct.most_points = 32;
+  settings.direct.shadow_rays = settings.direct.penumbra_rays = 64;
+  const Field with_mirror = irradiance_field(half(), settings, energy);
+  const Difference d = difference(with_mirror, irradiance_field(doubled(half()), settings, energy));
+  EXPECT_EQ(d.compared, with_mirror.size());
+  EXPECT_LT(d.worst, 0.01);
+  EXPECT_LT(d.rms, 0.001);
+  EXPECT_LT(std::abs(d.mean), 2e-4);
+}
+
+// As it comes, with the defaults: a thirtieth of the elements lie at edges of shadows and may differ by more than 1 %.
+TEST_P(ImageMethod, DefaultSettings) {
+  EnergyBalance energy;
+  const PassOneSettings settings = settings_of(FormFactorSettings{}.rays, 0.08);
+  const Difference d = difference(irradiance_field(half(), settings, energy), irradiance_field(doubled(half()), settings, energy));
+  EXPECT_LT(d.beyond_a_hundredth, 0.04);
   EXPECT_LT(d.rms, 0.005);
-  EXPECT_LT(d.worst, 0.05);
+  EXPECT_LT(d.worst, 0.06);
+  EXPECT_LT(std::abs(d.mean), 5e-4);
 }
 
 TEST_P(ImageMethod, TheDifferenceIsSamplingErrorThatFallsWithTheRays) {
   std::vector<double> rms;
   for (const int rays : {64, 512, 4096}) {
     EnergyBalance energy;
-    const PassOneSettings settings = settings_of(rays, 0.25);
+    PassOneSettings settings = settings_of(rays, 0.25);
+    settings.direct.points = settings.direct.most_points = rays / 16;
+    settings.direct.shadow_rays = settings.direct.penumbra_rays = 64;
     const Difference d = difference(irradiance_field(half(), settings, energy), irradiance_field(doubled(half()), settings, energy));
-    std::printf("%d rays: rms %.5f worst %.5f of %zu imbalance %.5f\n", rays, d.rms, d.worst, d.compared, energy.imbalance);
     rms.push_back(d.rms);
   }
   // Random sampling would gain a factor of 2.8 from eight times as many rays.
@@ -96,7 +115,7 @@ TEST_P(ImageMethod, TheDifferenceIsSamplingErrorThatFallsWithTheRays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Mirrors, ImageMethod, testing::Values(false, true),
-                         [](const auto& info) { return info.param ? "PartOfTheWall" : "WholeWall"; });
+                         [](const auto& which) { return which.param ? "PartOfTheWall" : "WholeWall"; });
 
 // A lamp between two facing mirrors over a black floor: the irradiance is the series sum_k rho^k of its images, each by Lambert's formula.
 TEST(FacingMirrors, IrradianceIsTheSeriesOfImages) {
@@ -119,7 +138,6 @@ TEST(FacingMirrors, IrradianceIsTheSeriesOfImages) {
           series += std::numbers::pi * std::pow(rho, std::abs(k)) * point_form_factor(x, {0, 1, 0}, lamp) / (n * n);
         }
       }
-    std::printf("rho %.2f floor %.6f series %.6f\n", rho, floor, series);
     // The floor's mean has 100 elements with at least 4 points each; images beyond the enumerated worlds are found by rays.
     EXPECT_NEAR(floor, series, 2e-3 * series) << rho;
   }
@@ -136,7 +154,6 @@ TEST(EnergyBalance, NothingIsLostOrCounted) {
   for (const auto& scene : scenes) {
     EnergyBalance energy;
     irradiance_field(scene, settings_of(512, 0.15), energy);
-    std::printf("imbalance %.5f\n", energy.imbalance);
     EXPECT_LT(std::abs(energy.imbalance), 5e-3);
     for (int band = 0; band < 3; ++band) EXPECT_GT(energy.emitted[band], 0.0);
   }
