@@ -65,7 +65,7 @@ void report(const std::string& name, const StageLoops& loops) {
              median(robust), median(ours), median(of_plain), median(of_robust));
 }
 
-/// A bare loop over the rays of a stage. Camera rays trace best as coherent ones, all others as scattered ones.
+/// A bare loop over the rays of a stage, told of their coherence as traces them best.
 std::function<std::uint64_t()> bare_loop(const BareScene& bare, const StageRays& rays,
                                          Coherence first) {
   return [bare, &rays, first, met = std::make_shared<std::uint64_t>(0)] {
@@ -103,7 +103,7 @@ void run(const char* file) {
              "{:<14}{:>10}{:>10}{:>10}{:>14}{:>14}\n",
              file, scene.triangles.size(), light.mesh.area.size(), "", "default", "robust", "ours",
              "of default", "of robust");
-  report("form factors", stage(plain, robust, gathered, Coherence::incoherent,
+  report("form factors", stage(plain, robust, gathered, Coherence::coherent,
                                [&] { return assemble_transport(light, form_factors).rays_traced; }));
   report("pass two", stage(plain, robust, seen, Coherence::coherent, [&] {
            const Rendering rendering = render(light, field, camera, settings.render);

@@ -124,7 +124,7 @@ Doubts find_doubts(const FrameGeometry& geometry, const RayPacket& packet, const
     const auto k = static_cast<std::size_t>(std::countr_zero(rest));
     const auto bit = 1U << k;
     if (hits.triangle[k] == no_index) {
-      doubts.careful |= bit;
+      doubts.at_contact |= bit;
       continue;
     }
     const auto& facts = geometry.facts[hits.triangle[k]];
@@ -132,8 +132,12 @@ Doubts find_doubts(const FrameGeometry& geometry, const RayPacket& packet, const
     const auto back = hits.front[k] == 0 && facts.single_sided;
     if (back && !leaves && backs == Backs::transparent)
       doubts.through |= bit;
-    else if (back || (leaves && (facts.plane == packet.leaving[k] || touching[k] != 0)))
+    else if (leaves && (facts.plane == packet.leaving[k] || touching[k] != 0))
       doubts.careful |= bit;
+    else if (back && (facts.in_sheet || backs == Backs::transparent))
+      doubts.careful |= bit;
+    else if (back && leaves)
+      doubts.at_contact |= bit;
   }
   return doubts;
 }

@@ -59,11 +59,12 @@ LaneVectors lifted_directions(const FrameGeometry& geometry, const RayPacket& pa
 
 struct Doubts {
   std::uint32_t careful = 0; ///< lanes to be traced again one by one
+  std::uint32_t at_contact = 0; ///< lanes to be traced again if anything else touches their origin
   std::uint32_t through = 0; ///< lanes that met a transparent back
 };
 
-/// Which lanes a bare query cannot settle: of rays that leave a surface the misses, the hits in the plane they leave and
-/// those that touch their origin; and backs.
+/// Which lanes a bare query cannot settle: of rays that leave a surface the hits in the plane they leave and those that touch their
+/// origin, and, where the origin may lie a hair behind another surface, the misses and backs; and backs of sheets.
 Doubts find_doubts(const FrameGeometry& geometry, const RayPacket& packet, const HitPacket& hits,
                    const LaneFlags& valid, const LaneFlags& touching, Backs backs);
 

@@ -2,6 +2,7 @@
 
 #include "scenes/careful_rays.h"
 #include "scenes/errors.h"
+#include "scenes/near_planes.h"
 
 #include <embree3/rtcore.h>
 
@@ -36,6 +37,7 @@ struct RayScene::Impl {
   Owned<RTCDevice, ReleaseDevice> device;
   Owned<RTCScene, ReleaseScene> scene;
   FrameGeometry geometry;
+  NearPlanes near_planes;
   float noise = 0.0F; ///< of the geometry, and the lift
 };
 
@@ -283,10 +285,9 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
     trace_through(impl, packet, coherence, doubts.through, traced);
     read_hits(traced, impl.noise, hits, touching);
   }
-  if (doubts.careful == 0)
-    return;
+  const auto off = lanes_off_all_else(impl.near_planes, packet, doubts.at_contact);
   ContactMemory memory;
-  for (auto rest = doubts.careful; rest != 0; rest &= rest - 1) {
+  for (auto rest = doubts.careful | (doubts.at_contact & ~off); rest != 0; rest &= rest - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(rest));
     store(hits, k, careful_hit(rays, lane_ray(packet, k), backs, memory));
   }
@@ -362,6 +363,7 @@ Owned<RTCGeometry, ReleaseGeometry> make_mesh(RTCDevice device, const FrameGeome
 RayScene::RayScene(const Scene& scene, const SurfaceModel& surfaces)
     : impl_(std::make_unique<Impl>()) {
   impl_->geometry = make_frame_geometry(scene, surfaces);
+  impl_->near_planes = find_near_planes(impl_->geometry, reach);
   impl_->noise = static_cast<float>(impl_->geometry.noise) + lift;
   impl_->device.reset(rtcNewDevice(nullptr));
   check(impl_->device.get());
