@@ -17,7 +17,8 @@ ConvexPolygon& ConvexPolygon::operator=(const ConvexPolygon& other) {
 }
 
 ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec3& normal) {
-  if (polygon.empty()) return {};
+  if (polygon.empty())
+    return {};
 
   // Most clips keep all or nothing; only a polygon that straddles the plane is rebuilt.
   std::array<double, ConvexPolygon::capacity> distance;
@@ -27,8 +28,10 @@ ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec
     any_inside |= distance[k] > 0.0;
     any_outside |= distance[k] < 0.0;
   }
-  if (!any_outside) return polygon;
-  if (!any_inside) return {};
+  if (!any_outside)
+    return polygon;
+  if (!any_inside)
+    return {};
 
   const auto next_of = [&polygon](std::size_t k) { return k + 1 < polygon.size ? k + 1 : 0; };
   const auto crosses = [&distance](std::size_t a, std::size_t b) {
@@ -40,13 +43,15 @@ ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec
     std::size_t corners = 0;
     for (std::size_t k = 0; k < polygon.size; ++k)
       corners += (distance[k] >= 0.0 ? 1U : 0U) + (crosses(k, next_of(k)) ? 1U : 0U);
-    if (corners > ConvexPolygon::capacity) return polygon;
+    if (corners > ConvexPolygon::capacity)
+      return polygon;
   }
 
   ConvexPolygon part;
   for (std::size_t k = 0; k < polygon.size; ++k) {
     const std::size_t next = next_of(k);
-    if (distance[k] >= 0.0) part.push_back(polygon.vertices[k]);
+    if (distance[k] >= 0.0)
+      part.push_back(polygon.vertices[k]);
     // An edge that changes sides meets the plane where its distances balance.
     if (crosses(k, next)) {
       const double t = distance[k] / (distance[k] - distance[next]);
@@ -73,18 +78,22 @@ double shortest_edge(const ConvexPolygon& window, const Point3& apex) {
 
 } // namespace
 
-ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex, const ConvexPolygon& window) {
-  if (window.empty()) return {};
+ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
+                           const ConvexPolygon& window) {
+  if (window.empty())
+    return {};
 
   // Seen from the apex the window runs clockwise when its area vector points away from the apex.
   const double side = glm::dot(area_vector(window.span()), window.vertices[0] - apex);
-  if (side == 0.0) return {};
+  if (side == 0.0)
+    return {};
   ConvexPolygon part = polygon;
   const double shortest = shortest_edge(window, apex);
   Point3 from = window.vertices[window.size - 1];
   for (std::size_t k = 0; k < window.size && !part.empty(); ++k) {
     const Point3& to = window.vertices[k];
-    if (glm::distance(from, to) < shortest) continue;
+    if (glm::distance(from, to) < shortest)
+      continue;
     const Vec3 a = from - apex, b = to - apex;
     from = to;
     const Vec3 inward = side > 0.0 ? glm::cross(a, b) : glm::cross(b, a);

@@ -30,7 +30,8 @@ ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec
 
 /// The part of the polygon inside the cone from the apex through the window: one clip per edge of the window.
 /// The window may be of either orientation; an apex in the window's plane sees nothing.
-ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex, const ConvexPolygon& window);
+ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
+                           const ConvexPolygon& window);
 
 /// Half the sum of the cross products of the edges: its length is the area.
 Vec3 area_vector(std::span<const Point3> polygon);

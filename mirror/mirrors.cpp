@@ -27,10 +27,13 @@ void add_face(Candidate& candidate, const SurfaceModel& model, SurfaceId id, int
   for (const PatchId patch_id : surface.patches) {
     const Patch& patch = model.patches[index(patch_id)];
     ConvexPolygon polygon(polygon_of(patch));
-    if (face == 1) std::reverse(polygon.vertices.begin(), polygon.vertices.begin() + static_cast<std::ptrdiff_t>(polygon.size));
+    if (face == 1)
+      std::reverse(polygon.vertices.begin(),
+                   polygon.vertices.begin() + static_cast<std::ptrdiff_t>(polygon.size));
     candidate.mirror.window.push_back(polygon);
     auto& nodes = candidate.mirror.nodes;
-    if (std::find(nodes.begin(), nodes.end(), patch.node) == nodes.end()) nodes.push_back(patch.node);
+    if (std::find(nodes.begin(), nodes.end(), patch.node) == nodes.end())
+      nodes.push_back(patch.node);
   }
 }
 
@@ -41,12 +44,15 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
   for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
     const Surface& surface = model.surfaces[s];
     const Material& material = scene.materials[index(surface.material)];
-    if (!is_mirror(material)) continue;
+    if (!is_mirror(material))
+      continue;
     const Rgb reflectance = mirror_reflectance(material);
     for (int face = 0; face < (material.double_sided ? 2 : 1); ++face) {
       const Plane plane = face == 0 ? surface.plane : flipped(surface.plane);
-      const bool along = glm::dot(plane.normal, model.planes[index(surface.plane_class)].normal) > 0.0;
-      const MirrorKey key{index(surface.plane_class), along, reflectance.r, reflectance.g, reflectance.b};
+      const bool along =
+          glm::dot(plane.normal, model.planes[index(surface.plane_class)].normal) > 0.0;
+      const MirrorKey key{index(surface.plane_class), along, reflectance.r, reflectance.g,
+                          reflectance.b};
       const auto [place, is_new] = known.emplace(key, candidates.size());
       if (is_new) {
         candidates.emplace_back();
@@ -62,15 +68,18 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
 
 } // namespace
 
-MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces, const MirrorSettings& settings) {
+MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces,
+                       const MirrorSettings& settings) {
   MirrorSet set;
   set.mirror_of_surface.assign(surfaces.surfaces.size(), {none<MirrorId>, none<MirrorId>});
   auto candidates = mirror_planes(scene, surfaces);
 
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.mirror.area > b.mirror.area; });
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return a.mirror.area > b.mirror.area; });
   double total_area = 0.0;
-  for (const auto& candidate : candidates) total_area += candidate.mirror.area;
+  for (const auto& candidate : candidates)
+    total_area += candidate.mirror.area;
   const auto limit = static_cast<std::size_t>(settings.max_mirrors);
   const double least = candidates.size() > limit ? settings.smallest_share * total_area : 0.0;
 

@@ -16,8 +16,9 @@ namespace meninas {
 enum class MirrorId : std::uint32_t {};
 
 struct MirrorSettings {
-  int max_mirrors = 64;              ///< planes that may be enumerated
-  double smallest_share = 0.01;      ///< of the mirrors' total area, asked of each once there are more planes than that
+  int max_mirrors = 64; ///< planes that may be enumerated
+  double smallest_share =
+      0.01; ///< of the mirrors' total area, asked of each once there are more planes than that
 };
 
 struct Mirror {
@@ -25,16 +26,19 @@ struct Mirror {
   PlaneId plane_class = none<PlaneId>;
   Rgb reflectance{1.0};
   double area = 0.0;
-  std::vector<ConvexPolygon> window; ///< convex, disjoint, counter-clockwise seen from the reflecting side
+  std::vector<ConvexPolygon>
+      window; ///< convex, disjoint, counter-clockwise seen from the reflecting side
   std::vector<NodeId> nodes;
 };
 
 struct MirrorSet {
-  std::vector<Mirror> mirrors;                              ///< largest first
-  std::vector<std::array<MirrorId, 2>> mirror_of_surface;   ///< by SurfaceId, for its front and its back; none for facets and the rest
-  std::size_t facets = 0;                                   ///< mirror surfaces that are not enumerated
+  std::vector<Mirror> mirrors; ///< largest first
+  std::vector<std::array<MirrorId, 2>>
+      mirror_of_surface; ///< by SurfaceId, for its front and its back; none for facets and the rest
+  std::size_t facets = 0; ///< mirror surfaces that are not enumerated
 };
 
-MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces, const MirrorSettings& settings = {});
+MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces,
+                       const MirrorSettings& settings = {});
 
 } // namespace meninas

@@ -18,7 +18,9 @@ struct Isometry {
   Vec3 translation{0.0};
 };
 
-inline Point3 apply(const Isometry& map, const Point3& x) { return map.linear * x + map.translation; }
+inline Point3 apply(const Isometry& map, const Point3& x) {
+  return map.linear * x + map.translation;
+}
 inline Direction apply_direction(const Isometry& map, const Direction& d) { return map.linear * d; }
 Plane apply(const Isometry& map, const Plane& plane);
 

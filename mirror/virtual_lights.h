@@ -34,12 +34,12 @@ struct VirtualLight {
 /// All parts of all emitters' images in all worlds of the tree that x sees above the horizon of `normal`, blockers aside.
 /// A point within `tolerance` of an emitter's plane sees nothing of it: there, rounding would decide between nothing and all of the
 /// hemisphere. Clears and fills `lights`, whose storage is reused from call to call.
-void virtual_lights(const WorldTree& tree, std::span<const Emitter> emitters, const Point3& x, const Direction& normal,
-                    double tolerance, std::vector<VirtualLight>& lights);
+void virtual_lights(const WorldTree& tree, std::span<const Emitter> emitters, const Point3& x,
+                    const Direction& normal, double tolerance, std::vector<VirtualLight>& lights);
 
 /// Folds the segment from x to the point y of unfolded space in world w back into real legs, first one first.
 /// Every leg names the planes it leaves and reaches; k + 1 legs for a chain of k mirrors.
-void fold_legs(const WorldTree& tree, const MirrorSet& mirrors, WorldId world, const Point3& x, PlaneId leaving,
-               const Point3& y, PlaneId arriving, std::vector<Leg>& legs);
+void fold_legs(const WorldTree& tree, const MirrorSet& mirrors, WorldId world, const Point3& x,
+               PlaneId leaving, const Point3& y, PlaneId arriving, std::vector<Leg>& legs);
 
 } // namespace meninas

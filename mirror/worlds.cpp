@@ -11,7 +11,8 @@ double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
 
 ConvexPolygon image_of(const Isometry& map, const ConvexPolygon& polygon) {
   ConvexPolygon image;
-  for (const auto& vertex : polygon.span()) image.push_back(apply(map, vertex));
+  for (const auto& vertex : polygon.span())
+    image.push_back(apply(map, vertex));
   return image;
 }
 
@@ -20,14 +21,17 @@ bool reaches_front(std::span<const ConvexPolygon> window, const Plane& plane) {
   constexpr double rounding = 1e-13;
   for (const auto& part : window)
     for (const auto& vertex : part.span())
-      if (signed_distance(plane, vertex) > rounding * (glm::length(vertex) + std::abs(plane.offset))) return true;
+      if (signed_distance(plane, vertex) >
+          rounding * (glm::length(vertex) + std::abs(plane.offset)))
+        return true;
   return false;
 }
 
 /// A segment on its way to the front of the child's plane crosses every window before it in front of that plane.
 bool seen_through(const WorldTree& tree, WorldId parent, const Plane& plane) {
   for (WorldId w = parent; w != real_world; w = tree.worlds[index(w)].parent)
-    if (!reaches_front(tree.worlds[index(w)].window, plane)) return false;
+    if (!reaches_front(tree.worlds[index(w)].window, plane))
+      return false;
   return true;
 }
 
@@ -36,8 +40,10 @@ std::vector<ConvexPolygon> child_window(const MirrorWorld& parent, const Mirror&
   std::vector<ConvexPolygon> window;
   for (const auto& part : mirror.window) {
     ConvexPolygon image = image_of(parent.image, part);
-    if (parent.depth > 0) image = clip(image, parent.plane.offset * parent.plane.normal, -parent.plane.normal);
-    if (!image.empty()) window.push_back(image);
+    if (parent.depth > 0)
+      image = clip(image, parent.plane.offset * parent.plane.normal, -parent.plane.normal);
+    if (!image.empty())
+      window.push_back(image);
   }
   return window;
 }
@@ -55,7 +61,8 @@ WorldTree mirror_worlds(const MirrorSet& mirrors, const WorldSettings& settings)
     for (std::size_t m = 0; m < mirror_count; ++m) {
       const MirrorWorld& parent = tree.worlds[w];
       const Mirror& mirror = mirrors.mirrors[m];
-      if (parent.mirror == static_cast<MirrorId>(m)) continue;
+      if (parent.mirror == static_cast<MirrorId>(m))
+        continue;
       ++tree.considered;
 
       const Rgb throughput = parent.throughput * mirror.reflectance;
@@ -69,12 +76,18 @@ WorldTree mirror_worlds(const MirrorSet& mirrors, const WorldSettings& settings)
         ++tree.pruned_unseen;
         continue;
       }
-      if (parent.depth >= settings.max_depth || tree.worlds.size() > static_cast<std::size_t>(settings.max_worlds)) {
+      if (parent.depth >= settings.max_depth ||
+          tree.worlds.size() > static_cast<std::size_t>(settings.max_worlds)) {
         ++tree.pruned_limit;
         continue;
       }
-      MirrorWorld world{static_cast<WorldId>(w), static_cast<MirrorId>(m), parent.depth + 1, throughput,
-                        compose_reflection(parent.image, mirror.plane), plane, std::move(window)};
+      MirrorWorld world{static_cast<WorldId>(w),
+                        static_cast<MirrorId>(m),
+                        parent.depth + 1,
+                        throughput,
+                        compose_reflection(parent.image, mirror.plane),
+                        plane,
+                        std::move(window)};
       tree.children[w][m] = static_cast<WorldId>(tree.worlds.size());
       tree.worlds.push_back(std::move(world));
     }

@@ -30,14 +30,15 @@ struct MirrorWorld {
   MirrorId mirror = none<MirrorId>; ///< the last mirror of the chain
   int depth = 0;
   Rgb throughput{1.0};
-  Isometry image;                    ///< real room -> unfolded space
-  Plane plane;                       ///< of the last mirror in unfolded space, normal towards the observer
+  Isometry image; ///< real room -> unfolded space
+  Plane plane;    ///< of the last mirror in unfolded space, normal towards the observer
   std::vector<ConvexPolygon> window; ///< of the last mirror in unfolded space
 };
 
 struct WorldTree {
-  std::vector<MirrorWorld> worlds;            ///< [0] is the real world
-  std::vector<std::vector<WorldId>> children; ///< by world, then by mirror: none where there is no such world
+  std::vector<MirrorWorld> worlds; ///< [0] is the real world
+  std::vector<std::vector<WorldId>>
+      children; ///< by world, then by mirror: none where there is no such world
   std::size_t considered = 0;
   std::size_t pruned_unseen = 0;     ///< the window cannot be seen through the ones before
   std::size_t pruned_throughput = 0; ///< below min_throughput
@@ -47,7 +48,8 @@ struct WorldTree {
 WorldTree mirror_worlds(const MirrorSet& mirrors, const WorldSettings& settings = {});
 
 inline WorldId child(const WorldTree& tree, WorldId world, MirrorId mirror) {
-  if (world == none<WorldId> || mirror == none<MirrorId>) return none<WorldId>;
+  if (world == none<WorldId> || mirror == none<MirrorId>)
+    return none<WorldId>;
   return tree.children[index(world)][index(mirror)];
 }
 

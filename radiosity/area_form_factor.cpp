@@ -12,7 +12,8 @@ namespace {
 double tau_ln_r(double tau, double h2) {
   // The antiderivative of ln sqrt(tau^2 + h^2): tau ln r - tau + h atan(tau / h), odd in tau.
   const double r2 = tau * tau + h2;
-  if (r2 == 0.0) return 0.0;
+  if (r2 == 0.0)
+    return 0.0;
   const double h = std::sqrt(h2);
   return 0.5 * tau * std::log(r2) - tau + (h > 0.0 ? h * std::atan2(tau, h) : 0.0);
 }
@@ -27,12 +28,15 @@ double log_potential(const Point3& x, const Point3& q, const Direction& v, doubl
 }
 
 /// Where along the edge from p the distance to the other edge has its kinks: nearest points to the other's ends and to its line.
-std::vector<double> breaks(const Point3& p, const Direction& u, double length, const Point3& q0, const Point3& q1) {
+std::vector<double> breaks(const Point3& p, const Direction& u, double length, const Point3& q0,
+                           const Point3& q1) {
   std::vector<double> at{0.0, length};
   const Vec3 v = q1 - q0, w = p - q0;
-  for (const Point3& end : {q0, q1}) at.push_back(glm::dot(end - p, u));
+  for (const Point3& end : {q0, q1})
+    at.push_back(glm::dot(end - p, u));
   const double uv = glm::dot(u, v), vv = glm::dot(v, v), denominator = vv - uv * uv;
-  if (denominator > 1e-24 * vv) at.push_back((uv * glm::dot(v, w) - vv * glm::dot(u, w)) / denominator);
+  if (denominator > 1e-24 * vv)
+    at.push_back((uv * glm::dot(v, w) - vv * glm::dot(u, w)) / denominator);
   std::erase_if(at, [length](double s) { return !(s >= 0.0 && s <= length); });
   std::sort(at.begin(), at.end());
   return at;
@@ -40,15 +44,18 @@ std::vector<double> breaks(const Point3& p, const Direction& u, double length, c
 
 Estimate edge_pair(const Point3& p0, const Point3& p1, const Point3& q0, const Point3& q1) {
   const double length = glm::distance(p0, p1), other = glm::distance(q0, q1);
-  if (length == 0.0 || other == 0.0) return {};
+  if (length == 0.0 || other == 0.0)
+    return {};
   const Direction u = (p1 - p0) / length, v = (q1 - q0) / other;
   const double cosine = glm::dot(u, v);
-  if (cosine == 0.0) return {};
+  if (cosine == 0.0)
+    return {};
   const auto f = [&](double s) { return log_potential(p0 + s * u, q0, v, other); };
   const auto at = breaks(p0, u, length, q0, q1);
   Estimate sum;
   for (std::size_t k = 1; k < at.size(); ++k)
-    if (at[k] > at[k - 1]) sum = sum + integrate(f, at[k - 1], at[k], 1e-15 * length * other);
+    if (at[k] > at[k - 1])
+      sum = sum + integrate(f, at[k - 1], at[k], 1e-15 * length * other);
   return cosine * sum;
 }
 
@@ -58,7 +65,8 @@ Estimate contour_integral(const ConvexPolygon& a, const ConvexPolygon& b) {
   double magnitude = 0.0;
   for (std::size_t i = 0; i < a.size; ++i)
     for (std::size_t j = 0; j < b.size; ++j) {
-      const Estimate term = edge_pair(a.vertices[i], a.vertices[(i + 1) % a.size], b.vertices[j], b.vertices[(j + 1) % b.size]);
+      const Estimate term = edge_pair(a.vertices[i], a.vertices[(i + 1) % a.size], b.vertices[j],
+                                      b.vertices[(j + 1) % b.size]);
       sum = sum + term;
       magnitude += std::abs(term.value);
     }
@@ -67,8 +75,8 @@ Estimate contour_integral(const ConvexPolygon& a, const ConvexPolygon& b) {
 }
 
 /// int_A F(x, B) dA by n x n Gauss points in each triangle of A's fan (Duffy's square onto the triangle).
-double gauss_integral(const ConvexPolygon& a, const Direction& normal, const ConvexPolygon& b, std::span<const double> nodes,
-                      std::span<const double> weights) {
+double gauss_integral(const ConvexPolygon& a, const Direction& normal, const ConvexPolygon& b,
+                      std::span<const double> nodes, std::span<const double> weights) {
   double sum = 0.0;
   for (std::size_t k = 2; k < a.size; ++k) {
     const Vec3 e1 = a.vertices[k - 1] - a.vertices[0], e2 = a.vertices[k] - a.vertices[0];
@@ -95,7 +103,8 @@ UnitRule unit_rule(int stride) {
     const double weight = 0.5 * (stride == 1 ? kronrod_weights[k] : gauss_weights[k / 2]);
     rule.nodes.push_back(0.5 - 0.5 * kronrod_nodes[k]);
     rule.weights.push_back(weight);
-    if (kronrod_nodes[k] == 0.0) continue;
+    if (kronrod_nodes[k] == 0.0)
+      continue;
     rule.nodes.push_back(0.5 + 0.5 * kronrod_nodes[k]);
     rule.weights.push_back(weight);
   }
@@ -109,21 +118,25 @@ struct Sphere {
 
 Sphere sphere_around(const ConvexPolygon& polygon) {
   Sphere sphere;
-  for (const auto& vertex : polygon.span()) sphere.centre += vertex / double(polygon.size);
-  for (const auto& vertex : polygon.span()) sphere.radius = std::max(sphere.radius, glm::distance(vertex, sphere.centre));
+  for (const auto& vertex : polygon.span())
+    sphere.centre += vertex / double(polygon.size);
+  for (const auto& vertex : polygon.span())
+    sphere.radius = std::max(sphere.radius, glm::distance(vertex, sphere.centre));
   return sphere;
 }
 
 /// Least distance of the polygon's vertices from a plane: no point of it is nearer to anything in that plane.
 double least_height(const ConvexPolygon& polygon, const Point3& origin, const Vec3& front) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& vertex : polygon.span()) least = std::min(least, glm::dot(vertex - origin, front) / glm::length(front));
+  for (const auto& vertex : polygon.span())
+    least = std::min(least, glm::dot(vertex - origin, front) / glm::length(front));
   return least;
 }
 
 ConvexPolygon scaled(const ConvexPolygon& polygon, const Point3& origin, double scale) {
   ConvexPolygon result;
-  for (const auto& vertex : polygon.span()) result.push_back((vertex - origin) * scale);
+  for (const auto& vertex : polygon.span())
+    result.push_back((vertex - origin) * scale);
   return result;
 }
 
@@ -132,13 +145,16 @@ ConvexPolygon scaled(const ConvexPolygon& polygon, const Point3& origin, double 
 Estimate area_form_factor(const ConvexPolygon& a, const ConvexPolygon& b) {
   const Vec3 front_a = area_vector(a.span()), front_b = area_vector(b.span());
   const double whole_area = glm::length(front_a);
-  if (whole_area <= 0.0 || glm::length(front_b) <= 0.0) return {};
+  if (whole_area <= 0.0 || glm::length(front_b) <= 0.0)
+    return {};
 
   // Only what lies in front of the other's plane takes part.
   const ConvexPolygon lit = clip(a, b.vertices[0], front_b), seen = clip(b, a.vertices[0], front_a);
-  if (lit.empty() || seen.empty()) return {};
+  if (lit.empty() || seen.empty())
+    return {};
   const Sphere around_a = sphere_around(lit), around_b = sphere_around(seen);
-  const double gap = glm::distance(around_a.centre, around_b.centre) - around_a.radius - around_b.radius;
+  const double gap =
+      glm::distance(around_a.centre, around_b.centre) - around_a.radius - around_b.radius;
   const double size = std::max(around_a.radius, around_b.radius);
 
   // Gauss points see a smooth integrand where the polygons are well apart; thin ones are theirs as well.
@@ -147,13 +163,17 @@ Estimate area_form_factor(const ConvexPolygon& a, const ConvexPolygon& b) {
   const double value = gauss_integral(lit, normal, seen, fine.nodes, fine.weights) / whole_area;
   const double rough = gauss_integral(lit, normal, seen, coarse.nodes, coarse.weights) / whole_area;
   const Estimate by_points{value, std::max(0.1 * std::abs(value - rough), 1e-14 * value)};
-  if (gap > size) return by_points;
+  if (gap > size)
+    return by_points;
 
   const double scale = 1.0 / size;
-  const Estimate integral = contour_integral(scaled(lit, around_a.centre, scale), scaled(seen, around_a.centre, scale));
+  const Estimate integral =
+      contour_integral(scaled(lit, around_a.centre, scale), scaled(seen, around_a.centre, scale));
   const Estimate factor = 1.0 / (2.0 * std::numbers::pi * whole_area * scale * scale) * integral;
-  const double apart = std::max(least_height(lit, seen.vertices[0], front_b), least_height(seen, lit.vertices[0], front_a));
-  if (apart > 0.25 * size && by_points.error < factor.error) return by_points;
+  const double apart = std::max(least_height(lit, seen.vertices[0], front_b),
+                                least_height(seen, lit.vertices[0], front_a));
+  if (apart > 0.25 * size && by_points.error < factor.error)
+    return by_points;
   return {std::max(0.0, factor.value), factor.error};
 }
 

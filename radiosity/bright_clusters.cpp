@@ -18,7 +18,8 @@ struct Block {
 struct Candidate {
   Block block;
   Rgb radiosity{0.0};
-  double noise = 0.0; ///< what gathering it by chance would cost: radiosity times the root of the area
+  double noise =
+      0.0; ///< what gathering it by chance would cost: radiosity times the root of the area
 };
 
 /// What the recursion over the blocks needs.
@@ -48,18 +49,24 @@ void search(ClusterSearch& context, const Block& block) {
       area += context.mesh.area[element];
       sum += context.mesh.area[element] * context.reflected[element];
     }
-  if (high < context.threshold || area <= 0.0) return;
+  if (high < context.threshold || area <= 0.0)
+    return;
   if (low >= context.threshold && high <= context.evenness * low) {
     context.found.push_back({block, sum / area, largest(sum) / std::sqrt(area)});
     return;
   }
   const int width = block.i1 - block.i0, height = block.j1 - block.j0;
-  if (width == 1 && height == 1) return;
-  const int im = width > 1 ? block.i0 + width / 2 : block.i1, jm = height > 1 ? block.j0 + height / 2 : block.j1;
+  if (width == 1 && height == 1)
+    return;
+  const int im = width > 1 ? block.i0 + width / 2 : block.i1,
+            jm = height > 1 ? block.j0 + height / 2 : block.j1;
   search(context, {block.side, block.i0, im, block.j0, jm});
-  if (im < block.i1) search(context, {block.side, im, block.i1, block.j0, jm});
-  if (jm < block.j1) search(context, {block.side, block.i0, im, jm, block.j1});
-  if (im < block.i1 && jm < block.j1) search(context, {block.side, im, block.i1, jm, block.j1});
+  if (im < block.i1)
+    search(context, {block.side, im, block.i1, block.j0, jm});
+  if (jm < block.j1)
+    search(context, {block.side, block.i0, im, jm, block.j1});
+  if (im < block.i1 && jm < block.j1)
+    search(context, {block.side, im, block.i1, jm, block.j1});
 }
 
 void search_sides(ClusterSearch& context) {
@@ -70,7 +77,8 @@ void search_sides(ClusterSearch& context) {
       search(context, {s, 0, side.nu, 0, side.nv});
       continue;
     }
-    for (int e = 0; e < static_cast<int>(side.element_count); ++e) search(context, {s, e, e + 1, 0, 1});
+    for (int e = 0; e < static_cast<int>(side.element_count); ++e)
+      search(context, {s, e, e + 1, 0, 1});
   }
 }
 
@@ -78,15 +86,20 @@ Emitter make_emitter(const LightScene& light, const Candidate& candidate) {
   const MeshSide& side = light.mesh.sides[candidate.block.side];
   const Patch& patch = light.surfaces.patches[index(side.patch)];
   const Block& block = candidate.block;
-  const auto corner = [&](int i, int j) { return point_at(patch, Vec2(double(i) / side.nu, double(j) / side.nv)); };
+  const auto corner = [&](int i, int j) {
+    return point_at(patch, Vec2(double(i) / side.nu, double(j) / side.nv));
+  };
   std::vector<Point3> corners;
   if (side.triangle) {
     const auto local = static_cast<std::uint32_t>(block.i0);
-    for (const Vec2 st : {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)}) corners.push_back(point_at(patch, patch_uv_of(side, local, st)));
+    for (const Vec2 st : {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)})
+      corners.push_back(point_at(patch, patch_uv_of(side, local, st)));
   } else {
-    corners = {corner(block.i0, block.j0), corner(block.i1, block.j0), corner(block.i1, block.j1), corner(block.i0, block.j1)};
+    corners = {corner(block.i0, block.j0), corner(block.i1, block.j0), corner(block.i1, block.j1),
+               corner(block.i0, block.j1)};
   }
-  if (side.facing == Facing::back) std::reverse(corners.begin(), corners.end());
+  if (side.facing == Facing::back)
+    std::reverse(corners.begin(), corners.end());
   Emitter emitter;
   emitter.polygon = ConvexPolygon(corners);
   emitter.plane = side.plane;
@@ -102,14 +115,16 @@ double area_median(const ElementMesh& mesh, const std::vector<Rgb>& reflected) {
   double area = 0.0;
   for (std::size_t i = 0; i < mesh.area.size(); ++i) {
     const double value = largest(reflected[i]);
-    if (value <= 0.0) continue;
+    if (value <= 0.0)
+      continue;
     values.emplace_back(value, mesh.area[i]);
     area += mesh.area[i];
   }
   std::sort(values.begin(), values.end());
   double below = 0.0;
   for (const auto& [value, share] : values)
-    if ((below += share) >= 0.5 * area) return value;
+    if ((below += share) >= 0.5 * area)
+      return value;
   return 0.0;
 }
 
@@ -117,25 +132,31 @@ double area_median(const ElementMesh& mesh, const std::vector<Rgb>& reflected) {
 WorldTree first_worlds(const WorldTree& tree) {
   constexpr std::size_t few = 4;
   std::size_t kept = 1;
-  while (kept < tree.worlds.size() && tree.worlds[kept].depth == 1) ++kept;
-  if (kept > few) kept = 1;
+  while (kept < tree.worlds.size() && tree.worlds[kept].depth == 1)
+    ++kept;
+  if (kept > few)
+    kept = 1;
   WorldTree first;
   first.worlds.assign(tree.worlds.begin(), tree.worlds.begin() + static_cast<std::ptrdiff_t>(kept));
-  first.children.assign(tree.children.begin(), tree.children.begin() + static_cast<std::ptrdiff_t>(kept));
+  first.children.assign(tree.children.begin(),
+                        tree.children.begin() + static_cast<std::ptrdiff_t>(kept));
   for (auto& children : first.children)
     for (auto& child : children)
-      if (child != none<WorldId> && index(child) >= kept) child = none<WorldId>;
+      if (child != none<WorldId> && index(child) >= kept)
+        child = none<WorldId>;
   return first;
 }
 
 } // namespace
 
-BrightClusters find_bright_clusters(const LightScene& light, const std::vector<Rgb>& reflected, const ClusterSettings& settings) {
+BrightClusters find_bright_clusters(const LightScene& light, const std::vector<Rgb>& reflected,
+                                    const ClusterSettings& settings) {
   const ElementMesh& mesh = light.mesh;
   BrightClusters clusters;
   clusters.owned.assign(mesh.area.size(), 0);
   const double usual = area_median(mesh, reflected);
-  if (usual <= 0.0) return clusters;
+  if (usual <= 0.0)
+    return clusters;
 
   // Blocks become less even until there are few enough; if that does not help, the noisiest are kept.
   clusters.worlds = first_worlds(light.worlds);
@@ -155,7 +176,8 @@ BrightClusters find_bright_clusters(const LightScene& light, const std::vector<R
     clusters.emitters.push_back(make_emitter(light, candidate));
     const MeshSide& side = mesh.sides[candidate.block.side];
     for (int j = candidate.block.j0; j < candidate.block.j1; ++j)
-      for (int i = candidate.block.i0; i < candidate.block.i1; ++i) clusters.owned[element_at(side, i, j)] = 1;
+      for (int i = candidate.block.i0; i < candidate.block.i1; ++i)
+        clusters.owned[element_at(side, i, j)] = 1;
   }
   return clusters;
 }

@@ -15,15 +15,15 @@ namespace meninas {
 
 struct ClusterSettings {
   double contrast = 3.0;
-  double evenness = 1.5;  ///< largest over smallest radiosity within a cluster, to begin with
-  double least_even = 12; ///< doubled up to about this while there are too many clusters
+  double evenness = 1.5;   ///< largest over smallest radiosity within a cluster, to begin with
+  double least_even = 12;  ///< doubled up to about this while there are too many clusters
   std::size_t most = 1024; ///< clusters times worlds they are looked at in
 };
 
 struct BrightClusters {
   std::vector<Emitter> emitters;
   std::vector<std::uint8_t> owned; ///< by ElementId: its reflected light is a cluster's
-  WorldTree worlds;                ///< the first worlds of the tree, in which clusters are looked at
+  WorldTree worlds; ///< the first worlds of the tree, in which clusters are looked at
 };
 
 /// `reflected` by ElementId, W/m^2.

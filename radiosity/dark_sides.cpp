@@ -17,28 +17,32 @@ Vec2 spread(const Patch& patch, float s, float t) {
   return patch.corner_count == 3 && s + t > 1.0F ? 1.0 - uv : uv;
 }
 
-bool everything_escapes(const RayScene& rays, const Patch& patch, PlaneId plane, const Direction& normal) {
+bool everything_escapes(const RayScene& rays, const Patch& patch, PlaneId plane,
+                        const Direction& normal) {
   const TangentFrame frame = tangent_frame(normal);
   for (std::uint32_t k = 0; k < probe_rays; ++k) {
     const auto sample = sobol4(k, 0x51de);
     const glm::vec3 local = cosine_hemisphere(sample[2], sample[3]);
     Ray ray;
     ray.origin = point_at(patch, spread(patch, sample[0], sample[1]));
-    ray.direction = glm::normalize(double{local.x} * frame.tangent + double{local.y} * frame.bitangent + double{local.z} * normal);
+    ray.direction = glm::normalize(double{local.x} * frame.tangent +
+                                   double{local.y} * frame.bitangent + double{local.z} * normal);
     ray.leaving = plane;
-    if (closest_hit(rays, ray)) return false;
+    if (closest_hit(rays, ray))
+      return false;
   }
   return true;
 }
 
 /// Some probe point sees some point of the emitter's plane region in front of the side.
-bool sees_emitter(const RayScene& rays, const Patch& patch, const Plane& plane, PlaneId plane_class, const Patch& emitter,
-                  PlaneId emitter_plane) {
+bool sees_emitter(const RayScene& rays, const Patch& patch, const Plane& plane, PlaneId plane_class,
+                  const Patch& emitter, PlaneId emitter_plane) {
   for (std::uint32_t k = 0; k < probe_points; ++k) {
     const auto sample = sobol4(k, 0xe311);
     const Point3 from = point_at(patch, spread(patch, sample[0], sample[1]));
     const Point3 to = point_at(emitter, spread(emitter, sample[2], sample[3]));
-    if (signed_distance(plane, to) > 0.0 && !occluded(rays, {from, to, plane_class, emitter_plane})) return true;
+    if (signed_distance(plane, to) > 0.0 && !occluded(rays, {from, to, plane_class, emitter_plane}))
+      return true;
   }
   return false;
 }
@@ -46,28 +50,36 @@ bool sees_emitter(const RayScene& rays, const Patch& patch, const Plane& plane, 
 } // namespace
 
 DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays) {
-  const auto material_of_patch = [&](const Patch& patch) -> const Material& { return scene.materials[index(patch.material)]; };
+  const auto material_of_patch = [&](const Patch& patch) -> const Material& {
+    return scene.materials[index(patch.material)];
+  };
   std::vector<const Patch*> emitters;
   std::size_t double_sided = 0;
   for (const auto& patch : surfaces.patches) {
-    if (is_emitter(material_of_patch(patch))) emitters.push_back(&patch);
-    if (material_of_patch(patch).double_sided) ++double_sided;
+    if (is_emitter(material_of_patch(patch)))
+      emitters.push_back(&patch);
+    if (material_of_patch(patch).double_sided)
+      ++double_sided;
   }
 
   DarkSides dark(surfaces.patches.size(), {0, 0});
-  if (double_sided * emitters.size() * 2 * probe_points > most_emitter_probes) return dark;
+  if (double_sided * emitters.size() * 2 * probe_points > most_emitter_probes)
+    return dark;
   tbb::parallel_for(std::size_t{0}, surfaces.patches.size(), [&](std::size_t p) {
     const Patch& patch = surfaces.patches[p];
     const Material& material = material_of_patch(patch);
-    if (!material.double_sided || is_emitter(material)) return;
+    if (!material.double_sided || is_emitter(material))
+      return;
     const Surface& surface = surfaces.surfaces[index(patch.surface)];
     for (std::size_t facing = 0; facing < 2; ++facing) {
       const double sign = facing == 0 ? 1.0 : -1.0;
       const Plane plane{sign * surface.plane.normal, sign * surface.plane.offset};
-      if (!everything_escapes(rays, patch, surface.plane_class, plane.normal)) continue;
+      if (!everything_escapes(rays, patch, surface.plane_class, plane.normal))
+        continue;
       bool lit = false;
       for (const Patch* emitter : emitters)
-        lit = lit || sees_emitter(rays, patch, plane, surface.plane_class, *emitter, surfaces.surfaces[index(emitter->surface)].plane_class);
+        lit = lit || sees_emitter(rays, patch, plane, surface.plane_class, *emitter,
+                                  surfaces.surfaces[index(emitter->surface)].plane_class);
       dark[p][facing] = lit ? 0 : 1;
     }
   });

@@ -23,7 +23,8 @@ Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample) {
   const double total = glm::dot(area, area);
   double before = 0.0;
   for (std::size_t k = 2; k < polygon.size; ++k) {
-    const Vec3 edge_a = polygon.vertices[k - 1] - polygon.vertices[0], edge_b = polygon.vertices[k] - polygon.vertices[0];
+    const Vec3 edge_a = polygon.vertices[k - 1] - polygon.vertices[0],
+               edge_b = polygon.vertices[k] - polygon.vertices[0];
     const double share = 0.5 * glm::dot(glm::cross(edge_a, edge_b), area) / total;
     if (sample.x < before + share || k + 1 == polygon.size) {
       const double u = share > 0.0 ? std::clamp((sample.x - before) / share, 0.0, 1.0) : 0.5;
@@ -42,8 +43,8 @@ struct VisibleShare {
 };
 
 /// Tests up to sixteen folded segments, leg by leg; bit k of the result is set where segment k is blocked.
-std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>, 16>& folded, std::uint32_t count,
-                      std::uint64_t& rays) {
+std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>, 16>& folded,
+                      std::uint32_t count, std::uint64_t& rays) {
   const RayFrame& frame = light.rays.frame();
   std::uint32_t result = 0;
   RayPacket packet;
@@ -51,7 +52,8 @@ std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>
   for (std::size_t step = 0; step < folded[0].size(); ++step) {
     for (std::uint32_t k = 0; k < count; ++k) {
       const Leg& leg = folded[k][step];
-      const Vec3 from = (leg.from - frame.centre) * frame.scale, along = (leg.to - leg.from) * frame.scale;
+      const Vec3 from = (leg.from - frame.centre) * frame.scale,
+                 along = (leg.to - leg.from) * frame.scale;
       packet.origin_x[k] = static_cast<float>(from.x);
       packet.origin_y[k] = static_cast<float>(from.y);
       packet.origin_z[k] = static_cast<float>(from.z);
@@ -64,14 +66,16 @@ std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>
     }
     result |= occluded(light.rays, packet, Coherence::coherent);
     rays += count;
-    if (result == (1U << count) - 1U) break;
+    if (result == (1U << count) - 1U)
+      break;
   }
   return result;
 }
 
 /// Adds samples number `begin` to `end` of one image to its visible share.
-void sample_visibility(const LightScene& light, const VirtualLight& image, const Receiver& receiver, int begin, int end,
-                       std::uint32_t seed, DirectWorkspace& work, VisibleShare& share) {
+void sample_visibility(const LightScene& light, const VirtualLight& image, const Receiver& receiver,
+                       int begin, int end, std::uint32_t seed, DirectWorkspace& work,
+                       VisibleShare& share) {
   const Emitter& emitter = light.emitters[image.emitter];
   const Vec3 area = area_vector(image.polygon.span());
   for (int first = begin; first < end; first += 16) {
@@ -84,60 +88,72 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
       // The share of the form factor this point stands for: both cosines over the square of the distance.
       const Vec3 to = y - receiver.position;
       const double distance2 = glm::dot(to, to);
-      const double cosines = std::max(0.0, glm::dot(to, receiver.normal)) * std::max(0.0, -glm::dot(to, image.normal));
-      weight[static_cast<std::size_t>(k)] = distance2 > 0.0 ? cosines / (distance2 * distance2) : 0.0;
-      fold_legs(light.worlds, light.mirrors, image.world, receiver.position, receiver.plane_class, y, emitter.plane_class,
-                work.folded[static_cast<std::size_t>(k)]);
+      const double cosines =
+          std::max(0.0, glm::dot(to, receiver.normal)) * std::max(0.0, -glm::dot(to, image.normal));
+      weight[static_cast<std::size_t>(k)] =
+          distance2 > 0.0 ? cosines / (distance2 * distance2) : 0.0;
+      fold_legs(light.worlds, light.mirrors, image.world, receiver.position, receiver.plane_class,
+                y, emitter.plane_class, work.folded[static_cast<std::size_t>(k)]);
     }
-    const std::uint32_t dark = blocked(light, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
+    const std::uint32_t dark =
+        blocked(light, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
     for (int k = 0; k < count; ++k) {
       share.all += weight[static_cast<std::size_t>(k)];
-      if (((dark >> k) & 1U) == 0U) share.seen += weight[static_cast<std::size_t>(k)];
+      if (((dark >> k) & 1U) == 0U)
+        share.seen += weight[static_cast<std::size_t>(k)];
     }
     share.samples += count;
     share.arrived += count - std::popcount(dark);
   }
 }
 
-double visible_fraction(const LightScene& light, const VirtualLight& image, const Receiver& receiver, int samples,
-                        int penumbra_samples, std::uint32_t seed, DirectWorkspace& work) {
+double visible_fraction(const LightScene& light, const VirtualLight& image,
+                        const Receiver& receiver, int samples, int penumbra_samples,
+                        std::uint32_t seed, DirectWorkspace& work) {
   VisibleShare share;
   sample_visibility(light, image, receiver, 0, samples, seed, work, share);
   const bool agree = share.arrived == 0 || share.arrived == share.samples;
   if (!agree && penumbra_samples > samples)
     sample_visibility(light, image, receiver, samples, penumbra_samples, seed, work, share);
-  if (share.arrived == share.samples) return 1.0;
+  if (share.arrived == share.samples)
+    return 1.0;
   return share.all > 0.0 ? share.seen / share.all : 0.0;
 }
 
 } // namespace
 
-Rgb direct_irradiance(const LightScene& light, const Receiver& receiver, const DirectSettings& settings,
-                      std::uint32_t seed, DirectWorkspace& work) {
-  virtual_lights(light.worlds, light.emitters, receiver.position, receiver.normal, light.surfaces.tolerance, work.lights);
+Rgb direct_irradiance(const LightScene& light, const Receiver& receiver,
+                      const DirectSettings& settings, std::uint32_t seed, DirectWorkspace& work) {
+  virtual_lights(light.worlds, light.emitters, receiver.position, receiver.normal,
+                 light.surfaces.tolerance, work.lights);
 
   // What every image would bring without blockers; brightest first.
   work.form_factors.clear();
   work.brought.clear();
   work.order.clear();
   for (const auto& image : work.lights) {
-    const Rgb source = light.worlds.worlds[index(image.world)].throughput * light.emitters[image.emitter].radiosity;
-    work.form_factors.push_back(point_form_factor(receiver.position, receiver.normal, image.polygon.span()));
+    const Rgb source = light.worlds.worlds[index(image.world)].throughput *
+                       light.emitters[image.emitter].radiosity;
+    work.form_factors.push_back(
+        point_form_factor(receiver.position, receiver.normal, image.polygon.span()));
     work.brought.push_back(work.form_factors.back() * largest(source));
     work.order.push_back(static_cast<std::uint32_t>(work.order.size()));
   }
-  std::stable_sort(work.order.begin(), work.order.end(), [&](auto a, auto b) { return work.brought[a] > work.brought[b]; });
+  std::stable_sort(work.order.begin(), work.order.end(),
+                   [&](auto a, auto b) { return work.brought[a] > work.brought[b]; });
 
   // An image is worth shadow rays by its share of what has arrived so far: a bright one that is hidden takes none from the others.
   Rgb sum(0.0);
   for (const auto k : work.order) {
-    if (work.brought[k] <= 0.0) break;
+    if (work.brought[k] <= 0.0)
+      break;
     const VirtualLight& image = work.lights[k];
     const double worth = work.brought[k] / std::max(work.brought[k], largest(sum));
     const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
     const int penumbra = static_cast<int>(std::lround(settings.penumbra_rays * worth));
     const auto image_seed = hash(seed, image.emitter, index(image.world));
-    const double visible = visible_fraction(light, image, receiver, samples, penumbra, image_seed, work);
+    const double visible =
+        visible_fraction(light, image, receiver, samples, penumbra, image_seed, work);
     sum += visible * work.form_factors[k] * light.worlds.worlds[index(image.world)].throughput *
            light.emitters[image.emitter].radiosity;
   }
@@ -149,10 +165,11 @@ namespace {
 constexpr double unsure = 0.02; ///< relative change of the mean by the last doubling
 
 /// The mean over the exposed part of an element: points are doubled until their mean settles.
-Rgb mean_over_element(const LightScene& light, ElementId element, CoveredCells covered, const DirectSettings& settings,
-                      DirectWorkspace& work) {
+Rgb mean_over_element(const LightScene& light, ElementId element, CoveredCells covered,
+                      const DirectSettings& settings, DirectWorkspace& work) {
   constexpr int whole = 64;
-  if (std::popcount(covered) == whole) return Rgb(0.0);
+  if (std::popcount(covered) == whole)
+    return Rgb(0.0);
   const ReceiverArea area = receiver_of(light, element);
   const auto seed = hash(index(element), settings.seed, 0xd17ec7);
   DirectSettings at_point = settings;
@@ -161,16 +178,21 @@ Rgb mean_over_element(const LightScene& light, ElementId element, CoveredCells c
   int taken = 0, wanted = settings.points;
   for (std::uint32_t p = 0;; ++p) {
     const auto sample = sobol4(p, seed);
-    if (is_covered(covered, sample[0], sample[1])) continue;
-    const Receiver receiver{point_in(area, Vec2(sample[0], sample[1])), area.normal, area.plane_class};
+    if (is_covered(covered, sample[0], sample[1]))
+      continue;
+    const Receiver receiver{point_in(area, Vec2(sample[0], sample[1])), area.normal,
+                            area.plane_class};
     sum += direct_irradiance(light, receiver, at_point, hash(seed, p, 1), work);
-    if (++taken < wanted) continue;
+    if (++taken < wanted)
+      continue;
 
     // Between the first half of the points and all of them the mean has moved by about its own error.
     const Rgb mean = sum / double(taken);
-    const bool settled = taken > settings.points && largest(glm::abs(mean - before)) <= unsure * largest(mean);
+    const bool settled =
+        taken > settings.points && largest(glm::abs(mean - before)) <= unsure * largest(mean);
     const bool dark = taken >= 2 * settings.points && largest(mean) == 0.0;
-    if (settled || dark || 2 * taken > settings.most_points) return mean;
+    if (settled || dark || 2 * taken > settings.most_points)
+      return mean;
     before = mean;
     wanted = 2 * taken;
   }
@@ -184,7 +206,8 @@ DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std:
   const std::size_t size = element_count(light.mesh);
   DirectIrradiance result;
   result.irradiance.assign(size, Rgb(0.0));
-  if (light.emitters.empty()) return result;
+  if (light.emitters.empty())
+    return result;
 
   const std::size_t chunks = (size + chunk_size - 1) / chunk_size;
   tbb::enumerable_thread_specific<DirectWorkspace> workspaces;
@@ -193,10 +216,13 @@ DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std:
     DirectWorkspace& work = workspaces.local();
     const std::size_t end = std::min(size, (c + 1) * chunk_size);
     for (std::size_t i = c * chunk_size; i < end; ++i)
-      result.irradiance[i] = mean_over_element(light, static_cast<ElementId>(i), covered.empty() ? 0 : covered[i], settings, work);
-    if (progress) progress("direct light", static_cast<double>(++done) / static_cast<double>(chunks));
+      result.irradiance[i] = mean_over_element(light, static_cast<ElementId>(i),
+                                               covered.empty() ? 0 : covered[i], settings, work);
+    if (progress)
+      progress("direct light", static_cast<double>(++done) / static_cast<double>(chunks));
   });
-  for (const auto& work : workspaces) result.shadow_rays += work.shadow_rays;
+  for (const auto& work : workspaces)
+    result.shadow_rays += work.shadow_rays;
   return result;
 }
 

@@ -12,10 +12,13 @@
 namespace meninas {
 
 struct DirectSettings {
-  int points = 4;            ///< receiving points per element to begin with
-  int most_points = 256;     ///< doubled up to this while the mean over the element is unsure (near a lamp, at a shadow's edge)
-  int shadow_rays = 16;      ///< per emitter image and point where it matters most; images that bring less get fewer
-  int penumbra_rays = 128;   ///< when the first ones disagree; an element's many points need no more than the first
+  int points = 4; ///< receiving points per element to begin with
+  int most_points =
+      256; ///< doubled up to this while the mean over the element is unsure (near a lamp, at a shadow's edge)
+  int shadow_rays =
+      16; ///< per emitter image and point where it matters most; images that bring less get fewer
+  int penumbra_rays =
+      128; ///< when the first ones disagree; an element's many points need no more than the first
   std::uint32_t seed = 0;
 };
 
@@ -37,8 +40,9 @@ struct DirectWorkspace {
   std::uint64_t shadow_rays = 0;
 };
 
-Rgb direct_irradiance(const LightScene& light, const Receiver& receiver, const DirectSettings& settings,
-                      std::uint32_t seed, DirectWorkspace& workspace);
+Rgb direct_irradiance(const LightScene& light, const Receiver& receiver,
+                      const DirectSettings& settings, std::uint32_t seed,
+                      DirectWorkspace& workspace);
 
 struct DirectIrradiance {
   std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element

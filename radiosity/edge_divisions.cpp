@@ -15,9 +15,12 @@ constexpr int largest_division = 4096;
 /// Disjoint sets with path halving.
 class DisjointSets {
 public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
   std::size_t find(std::size_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+    while (parent_[x] != x)
+      x = parent_[x] = parent_[parent_[x]];
     return x;
   }
   void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
@@ -27,17 +30,21 @@ private:
 };
 
 int wanted(double length, double element_size) {
-  return static_cast<int>(std::clamp(std::ceil(length / element_size - 1e-6), 1.0, double{largest_division}));
+  return static_cast<int>(
+      std::clamp(std::ceil(length / element_size - 1e-6), 1.0, double{largest_division}));
 }
 
 /// What a patch would choose alone. Slivers count by their area, lest a long thin triangle be cut into thousands.
 Divisions own_divisions(const Patch& patch, double element_size) {
-  const auto edge = [&patch](int a, int b) { return glm::distance(patch.corners[a], patch.corners[b]); };
+  const auto edge = [&patch](int a, int b) {
+    return glm::distance(patch.corners[a], patch.corners[b]);
+  };
   if (patch.corner_count == 3) {
     const int n = wanted(std::sqrt(2.0 * patch.area), element_size);
     return {n, n};
   }
-  return {wanted(std::max(edge(0, 1), edge(3, 2)), element_size), wanted(std::max(edge(1, 2), edge(0, 3)), element_size)};
+  return {wanted(std::max(edge(0, 1), edge(3, 2)), element_size),
+          wanted(std::max(edge(1, 2), edge(0, 3)), element_size)};
 }
 
 using Cell = std::array<std::int64_t, 3>;
@@ -47,11 +54,14 @@ using EdgeKey = std::tuple<std::uint32_t, Cell, Cell>;
 EdgeKey edge_key(const Patch& patch, int a, int b, double cell) {
   const auto place = [cell](const Point3& x) {
     Cell c;
-    for (int k = 0; k < 3; ++k) c[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(std::floor(x[k] / cell + 0.37));
+    for (int k = 0; k < 3; ++k)
+      c[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(std::floor(x[k] / cell + 0.37));
     return c;
   };
-  auto low = place(patch.corners[static_cast<std::size_t>(a)]), high = place(patch.corners[static_cast<std::size_t>(b)]);
-  if (high < low) std::swap(low, high);
+  auto low = place(patch.corners[static_cast<std::size_t>(a)]),
+       high = place(patch.corners[static_cast<std::size_t>(b)]);
+  if (high < low)
+    std::swap(low, high);
   return {index(patch.surface), low, high};
 }
 
@@ -66,12 +76,17 @@ std::vector<Divisions> divide_edges(const SurfaceModel& surfaces, double element
   const double cell = std::max(16.0 * surfaces.tolerance, 1e-300);
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const Patch& patch = patches[p];
-    if (surfaces.surfaces[index(patch.surface)].patches.size() < 2) continue;
-    if (patch.corner_count == 3) classes.join(2 * p, 2 * p + 1);
+    if (surfaces.surfaces[index(patch.surface)].patches.size() < 2)
+      continue;
+    if (patch.corner_count == 3)
+      classes.join(2 * p, 2 * p + 1);
     for (int a = 0; a < patch.corner_count; ++a) {
-      const std::size_t own = 2 * p + (patch.corner_count == 4 ? static_cast<std::size_t>(a % 2) : 0);
-      const auto [entry, is_new] = class_of_edge.emplace(edge_key(patch, a, (a + 1) % patch.corner_count, cell), own);
-      if (!is_new) classes.join(own, entry->second);
+      const std::size_t own =
+          2 * p + (patch.corner_count == 4 ? static_cast<std::size_t>(a % 2) : 0);
+      const auto [entry, is_new] =
+          class_of_edge.emplace(edge_key(patch, a, (a + 1) % patch.corner_count, cell), own);
+      if (!is_new)
+        classes.join(own, entry->second);
     }
   }
 
@@ -87,11 +102,14 @@ std::vector<Divisions> divide_edges(const SurfaceModel& surfaces, double element
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const int u = largest[classes.find(2 * p)], v = largest[classes.find(2 * p + 1)];
     if (patches[p].corner_count == 3) {
-      if (u <= 4 * divisions[p].u) divisions[p] = {u, u};
+      if (u <= 4 * divisions[p].u)
+        divisions[p] = {u, u};
       continue;
     }
-    if (u <= 4 * divisions[p].u) divisions[p].u = u;
-    if (v <= 4 * divisions[p].v) divisions[p].v = v;
+    if (u <= 4 * divisions[p].u)
+      divisions[p].u = u;
+    if (v <= 4 * divisions[p].v)
+      divisions[p].v = v;
   }
   return divisions;
 }

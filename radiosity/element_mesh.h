@@ -21,15 +21,16 @@ enum class ElementVertexId : std::uint32_t {};
 enum class Facing : std::uint8_t { front = 0, back = 1 };
 
 struct MeshSettings {
-  double element_size = 0.0;      ///< wanted edge length in metres; 0: from `target_elements`
-  double target_elements = 16000; ///< about how many elements share the meshed area when element_size is 0
+  double element_size = 0.0; ///< wanted edge length in metres; 0: from `target_elements`
+  double target_elements =
+      16000; ///< about how many elements share the meshed area when element_size is 0
   std::size_t max_elements = 4'000'000; ///< a chosen size that needs more is refused (UsageError)
 };
 
 struct MeshSide {
   PatchId patch = none<PatchId>;
   Facing facing = Facing::front;
-  Direction normal{0.0, 0.0, 1.0}; ///< towards the side's own light
+  Direction normal{0.0, 0.0, 1.0};  ///< towards the side's own light
   Direction tangent{1.0, 0.0, 0.0}; ///< along the patch's first edge: samples turn with the scene
   Plane plane;
   PlaneId plane_class = none<PlaneId>;
@@ -48,18 +49,19 @@ using ElementCorners = std::array<ElementVertexId, 4>;
 
 struct ElementMesh {
   std::vector<MeshSide> sides;
-  std::vector<std::array<SideId, 2>> sides_of_patch; ///< by PatchId, then Facing; none where there is no side
+  std::vector<std::array<SideId, 2>>
+      sides_of_patch; ///< by PatchId, then Facing; none where there is no side
   std::vector<SideId> side_of_element;
-  std::vector<ElementCorners> corners;               ///< by ElementId
-  std::vector<double> area;                          ///< by ElementId, m^2
-  std::vector<Point3> vertices;                      ///< by ElementVertexId
-  std::vector<ElementId> element_of_vertex;          ///< one of the elements that share it
-  double element_size = 0.0;                         ///< what was used, metres
+  std::vector<ElementCorners> corners;      ///< by ElementId
+  std::vector<double> area;                 ///< by ElementId, m^2
+  std::vector<Point3> vertices;             ///< by ElementVertexId
+  std::vector<ElementId> element_of_vertex; ///< one of the elements that share it
+  double element_size = 0.0;                ///< what was used, metres
 };
 
 /// Sides marked in `dark` get no elements; empty: all are meshed.
-ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces, const MeshSettings& settings = {},
-                              const DarkSides& dark = {});
+ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces,
+                              const MeshSettings& settings = {}, const DarkSides& dark = {});
 
 inline std::size_t element_count(const ElementMesh& mesh) { return mesh.area.size(); }
 

@@ -38,13 +38,17 @@ struct Region {
   double error = 0.0; ///< what decides which triangle is split next
 };
 
-double area_of(const std::array<Point3, 3>& c) { return 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0])); }
+double area_of(const std::array<Point3, 3>& c) {
+  return 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
+}
 
 class Integration {
 public:
-  Integration(const WorldView& view, const std::vector<Face>& from, std::size_t groups, const ExtendedSettings& settings)
+  Integration(const WorldView& view, const std::vector<Face>& from, std::size_t groups,
+              const ExtendedSettings& settings)
       : view_(view), from_(from), settings_(settings), groups_(groups), index_(view.mirrors) {
-    for (const Face& face : from) area_ += face.area;
+    for (const Face& face : from)
+      area_ += face.area;
   }
 
   ExtendedFactors run() {
@@ -61,7 +65,8 @@ public:
 
 private:
   bool needs_points(std::size_t face) const {
-    if (!view_.mirrors.mirrors.empty() && settings_.max_depth > 0) return true;
+    if (!view_.mirrors.mirrors.empty() && settings_.max_depth > 0)
+      return true;
     const auto& known = known_[face];
     return std::any_of(known.begin(), known.end(), [](std::uint8_t k) { return k == 0; });
   }
@@ -70,7 +75,8 @@ private:
   bool is_clear(const Face& a, const Face& b) const {
     const ConvexPolygon lit = clip(a.polygon, b.polygon.vertices[0], b.plane.normal);
     const ConvexPolygon seen = clip(b.polygon, a.polygon.vertices[0], a.plane.normal);
-    if (lit.empty() || seen.empty()) return true;
+    if (lit.empty() || seen.empty())
+      return true;
     return std::all_of(view_.blockers.begin(), view_.blockers.end(), [&](const Face& blocker) {
       return blocker.plane_class == a.plane_class || blocker.plane_class == b.plane_class ||
              holds_apart(lit, seen, blocker.polygon, view_.tolerance);
@@ -83,15 +89,18 @@ private:
   void add_closed_forms() {
     known_.assign(from_.size(), std::vector<std::uint8_t>(view_.targets.size(), 0));
     closed_.assign(groups_, {});
-    const double triples = static_cast<double>(from_.size() * view_.targets.size()) * static_cast<double>(view_.blockers.size());
-    if (triples > most_triples) return;
+    const double triples = static_cast<double>(from_.size() * view_.targets.size()) *
+                           static_cast<double>(view_.blockers.size());
+    if (triples > most_triples)
+      return;
     tbb::parallel_for(std::size_t{0}, from_.size(), [&](std::size_t a) {
       for (std::size_t b = 0; b < view_.targets.size(); ++b)
         known_[a][b] = is_clear(from_[a], view_.targets[b]) ? 1 : 0;
     });
     for (std::size_t a = 0; a < from_.size(); ++a)
       for (std::size_t b = 0; b < view_.targets.size(); ++b) {
-        if (known_[a][b] == 0 || from_[a].plane_class == view_.targets[b].plane_class) continue;
+        if (known_[a][b] == 0 || from_[a].plane_class == view_.targets[b].plane_class)
+          continue;
         const Estimate factor = area_form_factor(from_[a].polygon, view_.targets[b].polygon);
         closed_[view_.groups[b]] = closed_[view_.groups[b]] + from_[a].area / area_ * factor;
       }
@@ -100,8 +109,10 @@ private:
   std::vector<Region> first_regions() const {
     std::vector<Region> regions;
     for (std::size_t f = 0; f < from_.size(); ++f) {
-      if (!needs_points(f)) continue;
-      for (const ConvexPolygon& polygon : cut_at_contacts(from_[f], view_.blockers, view_.tolerance))
+      if (!needs_points(f))
+        continue;
+      for (const ConvexPolygon& polygon :
+           cut_at_contacts(from_[f], view_.blockers, view_.tolerance))
         for (std::size_t k = 2; k < polygon.size; ++k) {
           Region region;
           region.corners = {polygon.vertices[0], polygon.vertices[k - 1], polygon.vertices[k]};
@@ -121,7 +132,8 @@ private:
 
   double total_of(const WorldShares& shares) const {
     double sum = 0.0;
-    for (const WalkShare& share : shares) sum += mean_of(index_[share.world].throughput) * share.factor;
+    for (const WalkShare& share : shares)
+      sum += mean_of(index_[share.world].throughput) * share.factor;
     return sum;
   }
 
@@ -135,9 +147,12 @@ private:
     const std::size_t stride = (regions.size() + looks - 1) / looks;
     std::size_t count = 0;
     for (std::size_t r = 0; r < regions.size(); r += stride, ++count)
-      append(seen, walk_worlds(view_, point_of(regions[r], radon[0]), walk_, known_[regions[r].face]), 1.0, index_);
+      append(seen,
+             walk_worlds(view_, point_of(regions[r], radon[0]), walk_, known_[regions[r].face]),
+             1.0, index_);
     double factor = total_of(seen) / static_cast<double>(std::max<std::size_t>(count, 1));
-    for (const Estimate& closed : closed_) factor += closed.value;
+    for (const Estimate& closed : closed_)
+      factor += closed.value;
     walk_.tail = part * settings_.accuracy * std::max(factor, least_factor);
   }
 
@@ -148,7 +163,8 @@ private:
       std::vector<WalkResult> walks(count * radon.size());
       tbb::parallel_for(std::size_t{0}, walks.size(), [&](std::size_t k) {
         const Region& region = regions[first + k / radon.size()];
-        walks[k] = walk_worlds(view_, point_of(region, radon[k % radon.size()]), walk_, known_[region.face]);
+        walks[k] = walk_worlds(view_, point_of(region, radon[k % radon.size()]), walk_,
+                               known_[region.face]);
       });
       for (std::size_t k = 0; k < walks.size(); ++k) {
         Region& region = regions[first + k / radon.size()];
@@ -157,10 +173,12 @@ private:
         region.tail += weight * walks[k].tail;
         visits_ += walks[k].worlds.size();
       }
-      for (std::size_t r = 0; r < count; ++r) combine(regions[first + r].shares);
+      for (std::size_t r = 0; r < count; ++r)
+        combine(regions[first + r].shares);
       points_ += walks.size();
       // What the points have seen is kept until it is added up: as many at once as memory has room for.
-      batch_ = std::clamp<std::size_t>(most_kept * points_ / (radon.size() * (visits_ + 1)), 1, most_regions);
+      batch_ = std::clamp<std::size_t>(most_kept * points_ / (radon.size() * (visits_ + 1)), 1,
+                                       most_regions);
     }
   }
 
@@ -177,7 +195,8 @@ private:
       else
         rest[change.group] += weighted;
     }
-    for (const double change : rest) sum += std::abs(change);
+    for (const double change : rest)
+      sum += std::abs(change);
     return sum;
   }
 
@@ -187,8 +206,8 @@ private:
     for (const Region& parent : parents) {
       const auto& c = parent.corners;
       const Point3 m01 = 0.5 * (c[0] + c[1]), m12 = 0.5 * (c[1] + c[2]), m20 = 0.5 * (c[2] + c[0]);
-      for (const auto& corners : {std::array{c[0], m01, m20}, std::array{m01, c[1], m12}, std::array{m20, m12, c[2]},
-                                  std::array{m12, m20, m01}}) {
+      for (const auto& corners : {std::array{c[0], m01, m20}, std::array{m01, c[1], m12},
+                                  std::array{m20, m12, c[2]}, std::array{m12, m20, m01}}) {
         Region child;
         child.corners = corners;
         child.face = parent.face;
@@ -205,7 +224,8 @@ private:
       WorldShares changes = difference(sum, parents[p].shares);
 
       // Splitting halves an error at the least (a jump), so what is left is no more than the change: a quarter of it in each.
-      for (WalkShare& change : changes) change.factor *= 0.25;
+      for (WalkShare& change : changes)
+        change.factor *= 0.25;
       for (std::size_t k = 4 * p; k < 4 * p + 4; ++k) {
         children[k].errors = changes;
         children[k].error = change_of(changes);
@@ -223,7 +243,8 @@ private:
 
   double closed_value() const {
     double sum = 0.0;
-    for (const Estimate& closed : closed_) sum += closed.value;
+    for (const Estimate& closed : closed_)
+      sum += closed.value;
     return sum;
   }
 
@@ -238,7 +259,8 @@ private:
       std::vector<Region> parents;
       for (std::size_t k = 0; k < most_at_once && !heap_.empty(); ++k) {
         const auto [error, place] = heap_.top();
-        if (!parents.empty() && error < 0.25 * parents.front().error) break;
+        if (!parents.empty() && error < 0.25 * parents.front().error)
+          break;
         heap_.pop();
         parents.push_back(std::move(regions_[place]));
         regions_[place] = {};
@@ -264,7 +286,8 @@ private:
       }
     }
     for (std::uint32_t g = 0; g < groups_; ++g) {
-      if (closed_[g].value > 0.0) sum.push_back({0, g, closed_[g].value});
+      if (closed_[g].value > 0.0)
+        sum.push_back({0, g, closed_[g].value});
       errors.push_back({0, g, closed_[g].error});
       factors.to[g].total.error = tail;
     }
@@ -280,32 +303,40 @@ private:
     return factors;
   }
 
-  void add_worlds(const WorldShares& sum, const WorldShares& errors, ExtendedFactors& factors) const {
+  void add_worlds(const WorldShares& sum, const WorldShares& errors,
+                  ExtendedFactors& factors) const {
     auto error = errors.begin();
     for (const WalkShare& share : sum) {
-      const auto before = [](const WalkShare& a, const WalkShare& b) { return std::tie(a.world, a.group) < std::tie(b.world, b.group); };
+      const auto before = [](const WalkShare& a, const WalkShare& b) {
+        return std::tie(a.world, a.group) < std::tie(b.world, b.group);
+      };
       error = std::lower_bound(error, errors.end(), share, before);
-      const bool found = error != errors.end() && error->world == share.world && error->group == share.group;
+      const bool found =
+          error != errors.end() && error->world == share.world && error->group == share.group;
       const Rgb& throughput = index_[share.world].throughput;
       factors.to[share.group].worlds.push_back(
           {index_.chain_of(share.world), throughput, {share.factor, found ? error->factor : 0.0}});
       factors.to[share.group].total.value += mean_of(throughput) * share.factor;
     }
-    for (const Region& region : regions_) add_error(region, factors);
+    for (const Region& region : regions_)
+      add_error(region, factors);
     for (std::uint32_t g = 0; g < groups_; ++g) {
       factors.to[g].total.error += closed_[g].error;
       auto& worlds = factors.to[g].worlds;
-      std::stable_sort(worlds.begin(), worlds.end(), [](const WorldFactor& a, const WorldFactor& b) {
-        return mean_of(a.throughput) * a.factor.value > mean_of(b.throughput) * b.factor.value;
-      });
+      std::stable_sort(
+          worlds.begin(), worlds.end(), [](const WorldFactor& a, const WorldFactor& b) {
+            return mean_of(a.throughput) * a.factor.value > mean_of(b.throughput) * b.factor.value;
+          });
     }
   }
 
   /// The error of a total: worlds of one region may cancel, regions may not.
   void add_error(const Region& region, ExtendedFactors& factors) const {
     std::vector<WorldShares> by_group(groups_);
-    for (const WalkShare& change : region.errors) by_group[change.group].push_back(change);
-    for (std::uint32_t g = 0; g < groups_; ++g) factors.to[g].total.error += change_of(by_group[g]);
+    for (const WalkShare& change : region.errors)
+      by_group[change.group].push_back(change);
+    for (std::uint32_t g = 0; g < groups_; ++g)
+      factors.to[g].total.error += change_of(by_group[g]);
   }
 
   const WorldView& view_;
@@ -317,8 +348,9 @@ private:
   WalkSettings walk_;
   static constexpr std::size_t most_kept = 4'000'000, most_regions = 64;
   std::size_t batch_ = 2; ///< regions evaluated at once
-  std::vector<std::vector<std::uint8_t>> known_; ///< by face of A, then target: its real-world factor is in closed form
-  std::vector<Estimate> closed_;                 ///< by group
+  std::vector<std::vector<std::uint8_t>>
+      known_; ///< by face of A, then target: its real-world factor is in closed form
+  std::vector<Estimate> closed_; ///< by group
   std::vector<Region> regions_;
   std::priority_queue<std::pair<double, std::size_t>> heap_;
   double value_ = 0.0, error_ = 0.0;
@@ -327,8 +359,8 @@ private:
 
 } // namespace
 
-ExtendedFactors extended_form_factors(const WorldView& view, const std::vector<Face>& from, std::size_t group_count,
-                                      const ExtendedSettings& settings) {
+ExtendedFactors extended_form_factors(const WorldView& view, const std::vector<Face>& from,
+                                      std::size_t group_count, const ExtendedSettings& settings) {
   return Integration(view, from, group_count, settings).run();
 }
 

@@ -17,9 +17,9 @@
 namespace meninas {
 
 struct ExtendedSettings {
-  double accuracy = 1e-4;              ///< wanted error, relative to the sum of all factors asked for
-  int max_depth = 1'000'000;           ///< mirrors a path may meet
-  std::size_t max_points = 200'000;    ///< of the integration
+  double accuracy = 1e-4;           ///< wanted error, relative to the sum of all factors asked for
+  int max_depth = 1'000'000;        ///< mirrors a path may meet
+  std::size_t max_points = 200'000; ///< of the integration
   std::size_t max_visits = 30'000'000; ///< worlds looked at from all points together
 };
 
@@ -31,7 +31,7 @@ struct WorldFactor {
 };
 
 struct ExtendedFactor {
-  Estimate total;                  ///< sum_w tau_w F^w; the error holds the bound on all worlds that were left out
+  Estimate total; ///< sum_w tau_w F^w; the error holds the bound on all worlds that were left out
   std::vector<WorldFactor> worlds; ///< those with a factor, the largest tau_w F^w first
 };
 
@@ -42,7 +42,8 @@ struct ExtendedFactors {
 };
 
 /// From all fronts `from`, weighted by area, to the groups of the view's targets.
-ExtendedFactors extended_form_factors(const WorldView& view, const std::vector<Face>& from, std::size_t group_count,
+ExtendedFactors extended_form_factors(const WorldView& view, const std::vector<Face>& from,
+                                      std::size_t group_count,
                                       const ExtendedSettings& settings = {});
 
 } // namespace meninas

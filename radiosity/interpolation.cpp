@@ -19,7 +19,8 @@ Point3 centre_of(const ElementMesh& mesh, ElementId element) {
   const auto& corners = mesh.corners[index(element)];
   const int count = corners[3] == corners[2] ? 3 : 4;
   Point3 sum(0.0);
-  for (int c = 0; c < count; ++c) sum += mesh.vertices[index(corners[static_cast<std::size_t>(c)])];
+  for (int c = 0; c < count; ++c)
+    sum += mesh.vertices[index(corners[static_cast<std::size_t>(c)])];
   return sum / double(count);
 }
 
@@ -35,24 +36,30 @@ VertexElements elements_around(const ElementMesh& mesh) {
   const auto for_each_corner = [&mesh](auto&& visit) {
     for (std::size_t e = 0; e < mesh.corners.size(); ++e) {
       const auto& corners = mesh.corners[e];
-      for (std::size_t c = 0; c < (corners[3] == corners[2] ? 3U : 4U); ++c) visit(static_cast<ElementId>(e), corners[c]);
+      for (std::size_t c = 0; c < (corners[3] == corners[2] ? 3U : 4U); ++c)
+        visit(static_cast<ElementId>(e), corners[c]);
     }
   };
   for_each_corner([&](ElementId, ElementVertexId vertex) { ++around.begin[index(vertex) + 1]; });
-  for (std::size_t v = 1; v < around.begin.size(); ++v) around.begin[v] += around.begin[v - 1];
+  for (std::size_t v = 1; v < around.begin.size(); ++v)
+    around.begin[v] += around.begin[v - 1];
   around.elements.resize(around.begin.back());
   auto place = around.begin;
-  for_each_corner([&](ElementId element, ElementVertexId vertex) { around.elements[place[index(vertex)]++] = element; });
+  for_each_corner([&](ElementId element, ElementVertexId vertex) {
+    around.elements[place[index(vertex)]++] = element;
+  });
   return around;
 }
 
 std::span<const ElementId> around(const VertexElements& all, std::size_t vertex) {
-  return std::span(all.elements).subspan(all.begin[vertex], all.begin[vertex + 1] - all.begin[vertex]);
+  return std::span(all.elements)
+      .subspan(all.begin[vertex], all.begin[vertex + 1] - all.begin[vertex]);
 }
 
 /// Mean of the elements around; at the border of a surface extrapolated from the elements behind: twice the mean at the
 /// vertex less the mean one ring further in.
-std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh, const std::vector<Rgb>& irradiance) {
+std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
+                                           const std::vector<Rgb>& irradiance) {
   const VertexElements all = elements_around(mesh);
   std::vector<Rgb> mean(mesh.vertices.size(), Rgb(0.0));
   std::vector<Point3> centre(mesh.vertices.size(), Point3(0.0));
@@ -69,7 +76,8 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh, const std::v
     // A vertex inside its surface lies at the centre of its elements; on the border they all lie to one side.
     const Vec3 inward = centre[v] - mesh.vertices[v];
     const double reach = glm::length(inward);
-    if (reach < 0.2 * mesh.element_size * 0.5) continue;
+    if (reach < 0.2 * mesh.element_size * 0.5)
+      continue;
 
     // Of the corners of those elements the one most straight inward carries the inner mean.
     double straightest = 0.0;
@@ -77,14 +85,16 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh, const std::v
     for (const ElementId element : around(all, v))
       for (const auto corner : mesh.corners[index(element)]) {
         const Vec3 to = mesh.vertices[index(corner)] - mesh.vertices[v];
-        const double cosine = index(corner) == v ? 0.0 : glm::dot(to, inward) / (glm::length(to) * reach);
+        const double cosine =
+            index(corner) == v ? 0.0 : glm::dot(to, inward) / (glm::length(to) * reach);
         if (cosine > straightest) {
           straightest = cosine;
           inner = index(corner);
         }
       }
     const double further = glm::dot(centre[inner] - centre[v], inward) / reach;
-    if (inner == v || further <= 0.25 * reach) continue;
+    if (inner == v || further <= 0.25 * reach)
+      continue;
     const double step = std::min(reach / further, 1.0);
     value[v] = glm::max(glm::vec3(mean[v] + step * (mean[v] - mean[inner])), glm::vec3(0.0F));
   }
@@ -97,7 +107,8 @@ Point3 gathering_point(const ElementMesh& mesh, const VertexElements& all, std::
   constexpr double inset = 0.02;
   const auto elements = around(all, vertex);
   Point3 centre(0.0);
-  for (const ElementId element : elements) centre += centre_of(mesh, element) / double(elements.size());
+  for (const ElementId element : elements)
+    centre += centre_of(mesh, element) / double(elements.size());
   return glm::mix(mesh.vertices[vertex], centre, inset);
 }
 
@@ -130,8 +141,10 @@ Rgb landed_light(const VertexGathering& context, const GatheredRays& gathered) {
   const std::size_t cluster_worlds = context.clusters.worlds.worlds.size();
   Rgb sum(0.0);
   for (const auto& landing : gathered.landings) {
-    const bool owned = context.clusters.owned[landing.element] != 0 && index(landing.world) < cluster_worlds;
-    if (!owned) sum += Rgb(landing.throughput) * context.radiosity[landing.element];
+    const bool owned =
+        context.clusters.owned[landing.element] != 0 && index(landing.world) < cluster_worlds;
+    if (!owned)
+      sum += Rgb(landing.throughput) * context.radiosity[landing.element];
     sum += gathered_emission(context.light, landing);
   }
   return sum / kept_light(gathered, context.net.points.size());
@@ -150,23 +163,27 @@ bool is_under_something(const VertexGathering& context, const Receiver& receiver
   for (std::uint32_t k = 0; k < packet_size; ++k) {
     const auto sample = sobol4(k, 0xc0fe);
     const glm::vec3 local = cosine_hemisphere(sample[0], sample[1]);
-    const glm::vec3 direction =
-        double{local.x} * frame.tangent + double{local.y} * frame.bitangent + double{local.z} * receiver.normal;
+    const glm::vec3 direction = double{local.x} * frame.tangent +
+                                double{local.y} * frame.bitangent +
+                                double{local.z} * receiver.normal;
     packet.origin_x[k] = origin.x;
     packet.origin_y[k] = origin.y;
     packet.origin_z[k] = origin.z;
     packet.direction_x[k] = direction.x;
     packet.direction_y[k] = direction.y;
     packet.direction_z[k] = direction.z;
-    packet.max_distance[k] = static_cast<float>(reach * context.light.mesh.element_size * ray_frame.scale);
+    packet.max_distance[k] =
+        static_cast<float>(reach * context.light.mesh.element_size * ray_frame.scale);
     packet.leaving[k] = index(receiver.plane_class);
     packet.arriving[k] = index(none<PlaneId>);
   }
   return std::popcount(occluded(context.light.rays, packet, Coherence::coherent)) >= least;
 }
 
-VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, std::uint32_t seed, VertexWorkspace& work) {
-  constexpr double most_black = 0.9; // of the hemisphere: the vertex is inside something that stands on its surface
+VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, std::uint32_t seed,
+                      VertexWorkspace& work) {
+  constexpr double most_black =
+      0.9; // of the hemisphere: the vertex is inside something that stands on its surface
   ReceiverArea point;
   point.corner = receiver.position;
   point.normal = receiver.normal;
@@ -176,20 +193,27 @@ VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, 
   const GatheredRays& gathered = work.gather.result;
   work.rays += gathered.traced;
 
-  const Rgb from_source = direct_irradiance(context.light, receiver, context.direct, hash(seed, 1), work.direct);
-  const Rgb from_clusters = direct_irradiance(context.clustered, receiver, context.secondary, hash(seed, 2), work.direct);
-  const auto lit = [&](const RayLanding& landing) { return context.irradiance[landing.element] != Rgb(0.0); };
-  const bool enclosed = gathered.black > most_black * double(context.net.points.size()) ||
-                        (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
-  const bool covered = (enclosed && from_source == Rgb(0.0)) || is_under_something(context, receiver);
+  const Rgb from_source =
+      direct_irradiance(context.light, receiver, context.direct, hash(seed, 1), work.direct);
+  const Rgb from_clusters =
+      direct_irradiance(context.clustered, receiver, context.secondary, hash(seed, 2), work.direct);
+  const auto lit = [&](const RayLanding& landing) {
+    return context.irradiance[landing.element] != Rgb(0.0);
+  };
+  const bool enclosed =
+      gathered.black > most_black * double(context.net.points.size()) ||
+      (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
+  const bool covered =
+      (enclosed && from_source == Rgb(0.0)) || is_under_something(context, receiver);
   return {glm::vec3(landed_light(context, gathered) + from_source + from_clusters), covered};
 }
 
 } // namespace
 
-static InterpolatedField gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
-                                            const std::vector<Rgb>& irradiance, const FormFactorSettings& form_factors,
-                                            const DirectSettings& direct, const InterpolationSettings& settings) {
+static InterpolatedField
+gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
+                   const std::vector<Rgb>& irradiance, const FormFactorSettings& form_factors,
+                   const DirectSettings& direct, const InterpolationSettings& settings) {
   constexpr std::size_t chunk_size = 64;
   const ElementMesh& mesh = light.mesh;
   const VertexElements all = elements_around(mesh);
@@ -198,23 +222,43 @@ static InterpolatedField gather_at_vertices(const LightScene& light, const std::
   secondary.shadow_rays = settings.cluster_shadow_rays;
   secondary.penumbra_rays = 4 * settings.cluster_shadow_rays;
   const VertexGathering context{light,
-                                {light.scene, light.surfaces, light.rays, light.mirrors, clusters.worlds, mesh, {}, clusters.emitters, {}},
-                                clusters, radiosity, irradiance, form_factors, direct, secondary, make_direction_net(settings.rays)};
+                                {light.scene,
+                                 light.surfaces,
+                                 light.rays,
+                                 light.mirrors,
+                                 clusters.worlds,
+                                 mesh,
+                                 {},
+                                 clusters.emitters,
+                                 {}},
+                                clusters,
+                                radiosity,
+                                irradiance,
+                                form_factors,
+                                direct,
+                                secondary,
+                                make_direction_net(settings.rays)};
 
   InterpolatedField result;
   result.field.irradiance.assign(mesh.vertices.size(), glm::vec3(0.0F));
   std::vector<std::uint8_t> valid(mesh.vertices.size(), 1);
   tbb::enumerable_thread_specific<VertexWorkspace> workspaces;
-  tbb::parallel_for(std::size_t{0}, (mesh.vertices.size() + chunk_size - 1) / chunk_size, [&](std::size_t c) {
-    VertexWorkspace& work = workspaces.local();
-    for (std::size_t v = c * chunk_size; v < std::min(mesh.vertices.size(), (c + 1) * chunk_size); ++v) {
-      const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(mesh.element_of_vertex[v])])];
-      const Receiver receiver{gathering_point(mesh, all, v), side.normal, side.plane_class, side.tangent};
-      const VertexValue value = gather_at(context, receiver, hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27), work);
-      result.field.irradiance[v] = value.irradiance;
-      valid[v] = value.covered ? 0 : 1;
-    }
-  });
+  tbb::parallel_for(
+      std::size_t{0}, (mesh.vertices.size() + chunk_size - 1) / chunk_size, [&](std::size_t c) {
+        VertexWorkspace& work = workspaces.local();
+        for (std::size_t v = c * chunk_size;
+             v < std::min(mesh.vertices.size(), (c + 1) * chunk_size); ++v) {
+          const MeshSide& side =
+              mesh.sides[index(mesh.side_of_element[index(mesh.element_of_vertex[v])])];
+          const Receiver receiver{gathering_point(mesh, all, v), side.normal, side.plane_class,
+                                  side.tangent};
+          const VertexValue value =
+              gather_at(context, receiver,
+                        hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27), work);
+          result.field.irradiance[v] = value.irradiance;
+          valid[v] = value.covered ? 0 : 1;
+        }
+      });
   for (const auto& work : workspaces) {
     result.form_factor_rays += work.rays;
     result.shadow_rays += work.direct.shadow_rays;
@@ -224,19 +268,25 @@ static InterpolatedField gather_at_vertices(const LightScene& light, const std::
 }
 
 InterpolatedField interpolate(const LightScene& light, const std::vector<Rgb>& radiosity,
-                              const std::vector<Rgb>& irradiance, const FormFactorSettings& form_factors,
-                              const DirectSettings& direct, const InterpolationSettings& settings) {
-  if (settings.method == Interpolation::average) return {{average_at_vertices(light.mesh, irradiance)}, 0, 0};
+                              const std::vector<Rgb>& irradiance,
+                              const FormFactorSettings& form_factors, const DirectSettings& direct,
+                              const InterpolationSettings& settings) {
+  if (settings.method == Interpolation::average)
+    return {{average_at_vertices(light.mesh, irradiance)}, 0, 0};
   return gather_at_vertices(light, radiosity, irradiance, form_factors, direct, settings);
 }
 
 glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv) {
   const ElementPoint at = locate(mesh.sides[index(side)], uv);
   const auto& corners = mesh.corners[index(at.element)];
-  const auto value = [&](int c) { return field.irradiance[index(corners[static_cast<std::size_t>(c)])]; };
+  const auto value = [&](int c) {
+    return field.irradiance[index(corners[static_cast<std::size_t>(c)])];
+  };
   const auto s = static_cast<float>(at.st.x), t = static_cast<float>(at.st.y);
-  if (mesh.sides[index(side)].triangle) return (1.0F - s - t) * value(0) + s * value(1) + t * value(2);
-  return (1.0F - t) * ((1.0F - s) * value(0) + s * value(1)) + t * ((1.0F - s) * value(3) + s * value(2));
+  if (mesh.sides[index(side)].triangle)
+    return (1.0F - s - t) * value(0) + s * value(1) + t * value(2);
+  return (1.0F - t) * ((1.0F - s) * value(0) + s * value(1)) +
+         t * ((1.0F - s) * value(3) + s * value(2));
 }
 
 } // namespace meninas

@@ -16,8 +16,9 @@ enum class Interpolation { average, gather };
 
 struct InterpolationSettings {
   Interpolation method = Interpolation::gather;
-  int rays = 512;              ///< per vertex, for `gather`
-  int cluster_shadow_rays = 8; ///< per bright cluster (bright_clusters.h) and vertex, where it matters most
+  int rays = 512; ///< per vertex, for `gather`
+  int cluster_shadow_rays =
+      8; ///< per bright cluster (bright_clusters.h) and vertex, where it matters most
 };
 
 /// Irradiance by ElementVertexId. The mesh it belongs to must outlive it.
@@ -33,8 +34,9 @@ struct InterpolatedField {
 
 /// `radiosity` is B by ElementId, emission left out; `irradiance` is H by ElementId.
 InterpolatedField interpolate(const LightScene& light, const std::vector<Rgb>& radiosity,
-                              const std::vector<Rgb>& irradiance, const FormFactorSettings& form_factors,
-                              const DirectSettings& direct, const InterpolationSettings& settings);
+                              const std::vector<Rgb>& irradiance,
+                              const FormFactorSettings& form_factors, const DirectSettings& direct,
+                              const InterpolationSettings& settings);
 
 /// The field at a point of a side.
 glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv);

@@ -12,7 +12,8 @@ static FaceRecord make_face(const Scene& scene, const SurfaceModel& model, const
   face.plane_class = index(surface.plane_class);
   face.affine = patch.affine;
   face.normal = facing == 0 ? surface.plane.normal : -surface.plane.normal;
-  if (facing == 1 && !material.double_sided) return face;
+  if (facing == 1 && !material.double_sided)
+    return face;
 
   face.side = index(mesh.sides_of_patch[index(patch_id)][static_cast<std::size_t>(facing)]);
   face.mirrors = is_mirror(material);
@@ -25,8 +26,9 @@ static FaceRecord make_face(const Scene& scene, const SurfaceModel& model, const
   return face;
 }
 
-LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
-                                const ElementMesh& mesh, Point3 frame_centre, double frame_scale) {
+LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces,
+                                const MirrorSet& mirrors, const ElementMesh& mesh,
+                                Point3 frame_centre, double frame_scale) {
   LandingTable table;
   table.faces.reserve(2 * scene.triangles.size());
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
@@ -43,8 +45,10 @@ LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces
   return table;
 }
 
-glm::vec2 landing_uv(const FaceRecord& face, const SurfaceModel& surfaces, std::uint32_t triangle, float b1, float b2) {
-  if (face.affine) return face.uv0 + b1 * face.uv1 + b2 * face.uv2;
+glm::vec2 landing_uv(const FaceRecord& face, const SurfaceModel& surfaces, std::uint32_t triangle,
+                     float b1, float b2) {
+  if (face.affine)
+    return face.uv0 + b1 * face.uv1 + b2 * face.uv2;
   return patch_uv(surfaces, static_cast<TriangleId>(triangle), Vec2(b1, b2));
 }
 

@@ -17,10 +17,11 @@ struct FaceRecord {
   bool affine = true;           ///< (u, v) is affine in the barycentrics
   MirrorId mirror = none<MirrorId>;
   std::uint32_t plane_class = nothing;
-  glm::vec2 uv0{0.0F}, uv1{0.0F}, uv2{0.0F}; ///< (u, v) at b = (0, 0), and its changes along b1 and b2
-  glm::vec3 reflectance{1.0F};               ///< of the mirror
-  glm::dvec3 normal{0.0};                    ///< towards this face
-  double frame_offset = 0.0;                 ///< of its plane in the frame of the ray scene
+  glm::vec2 uv0{0.0F}, uv1{0.0F},
+      uv2{0.0F};               ///< (u, v) at b = (0, 0), and its changes along b1 and b2
+  glm::vec3 reflectance{1.0F}; ///< of the mirror
+  glm::dvec3 normal{0.0};      ///< towards this face
+  double frame_offset = 0.0;   ///< of its plane in the frame of the ray scene
 };
 
 /// What the inner loops need of a side, close together.
@@ -35,11 +36,13 @@ struct LandingTable {
   std::vector<SideRecord> sides; ///< by SideId
 };
 
-LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
-                                const ElementMesh& mesh, Point3 frame_centre, double frame_scale);
+LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces,
+                                const MirrorSet& mirrors, const ElementMesh& mesh,
+                                Point3 frame_centre, double frame_scale);
 
 /// (u, v) of a hit in its patch.
-glm::vec2 landing_uv(const FaceRecord& face, const SurfaceModel& surfaces, std::uint32_t triangle, float b1, float b2);
+glm::vec2 landing_uv(const FaceRecord& face, const SurfaceModel& surfaces, std::uint32_t triangle,
+                     float b1, float b2);
 
 /// Index of the element at (u, v) and the place (s, t) in it; locate() in single precision.
 struct Landing {

@@ -16,7 +16,8 @@ Emitter make_emitter(const SurfaceModel& surfaces, const MeshSide& side) {
   emitter.polygon = ConvexPolygon(polygon_of(patch));
   if (side.facing == Facing::back)
     std::reverse(emitter.polygon.vertices.begin(),
-                 emitter.polygon.vertices.begin() + static_cast<std::ptrdiff_t>(emitter.polygon.size));
+                 emitter.polygon.vertices.begin() +
+                     static_cast<std::ptrdiff_t>(emitter.polygon.size));
   emitter.plane = side.plane;
   emitter.plane_class = side.plane_class;
   emitter.radiosity = side.emission;
@@ -27,22 +28,33 @@ Emitter make_emitter(const SurfaceModel& surfaces, const MeshSide& side) {
 } // namespace
 
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
-                            const MirrorSet& mirrors, const WorldTree& worlds, const ElementMesh& mesh) {
+                            const MirrorSet& mirrors, const WorldTree& worlds,
+                            const ElementMesh& mesh) {
   const RayFrame& frame = rays.frame();
-  LightScene light{scene, surfaces, rays, mirrors, worlds, mesh,
-                   make_landing_table(scene, surfaces, mirrors, mesh, frame.centre, frame.scale), {}, {}};
+  LightScene light{scene,
+                   surfaces,
+                   rays,
+                   mirrors,
+                   worlds,
+                   mesh,
+                   make_landing_table(scene, surfaces, mirrors, mesh, frame.centre, frame.scale),
+                   {},
+                   {}};
   light.from_source.assign(mesh.sides.size(), 0);
 
   double area = 0.0, emitting_area = 0.0;
   for (const auto& side : mesh.sides) {
     const double side_area = surfaces.patches[index(side.patch)].area;
     area += side_area;
-    if (emits(side)) emitting_area += side_area;
+    if (emits(side))
+      emitting_area += side_area;
   }
-  if (emitting_area > large_emitter_share * area) return light;
+  if (emitting_area > large_emitter_share * area)
+    return light;
 
   for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
-    if (!emits(mesh.sides[s])) continue;
+    if (!emits(mesh.sides[s]))
+      continue;
     light.from_source[s] = 1;
     light.emitters.push_back(make_emitter(surfaces, mesh.sides[s]));
   }

@@ -21,11 +21,13 @@ struct LightScene {
   const WorldTree& worlds;
   const ElementMesh& mesh;
   LandingTable landing;
-  std::vector<Emitter> emitters;         ///< those whose light is computed from the source
-  std::vector<std::uint8_t> from_source; ///< by SideId: 1 where the closed form owns its emission in the enumerated worlds
+  std::vector<Emitter> emitters; ///< those whose light is computed from the source
+  std::vector<std::uint8_t>
+      from_source; ///< by SideId: 1 where the closed form owns its emission in the enumerated worlds
 };
 
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
-                            const MirrorSet& mirrors, const WorldTree& worlds, const ElementMesh& mesh);
+                            const MirrorSet& mirrors, const WorldTree& worlds,
+                            const ElementMesh& mesh);
 
 } // namespace meninas

@@ -17,9 +17,9 @@ enum class NodeFactorMethod { analytic, rays };
 
 struct NodeFactorSettings {
   NodeFactorMethod method = NodeFactorMethod::analytic;
-  double accuracy = 1e-4;     ///< analytic: wanted relative error
-  int rays = 1 << 20;         ///< rays: in all, about
-  int max_depth = 1'000'000;  ///< mirrors a path may meet
+  double accuracy = 1e-4;    ///< analytic: wanted relative error
+  int rays = 1 << 20;        ///< rays: in all, about
+  int max_depth = 1'000'000; ///< mirrors a path may meet
   std::uint32_t seed = 0;
 };
 
@@ -31,12 +31,14 @@ struct NodeFactors {
 };
 
 /// Throws UsageError when `from` has no front that scatters light, or a node asked for has no face.
-NodeFactors node_form_factors(const Scene& scene, const SurfaceModel& surfaces, NodeId from, std::span<const NodeId> to,
-                              const NodeFactorSettings& settings = {});
+NodeFactors node_form_factors(const Scene& scene, const SurfaceModel& surfaces, NodeId from,
+                              std::span<const NodeId> to, const NodeFactorSettings& settings = {});
 
 /// The total and its standard error by rays; `mirrors` as for the analytic method.
-std::vector<ExtendedFactor> ray_form_factors(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
-                                             const std::vector<Face>& from, std::span<const NodeId> to,
+std::vector<ExtendedFactor> ray_form_factors(const Scene& scene, const SurfaceModel& surfaces,
+                                             const MirrorSet& mirrors,
+                                             const std::vector<Face>& from,
+                                             std::span<const NodeId> to,
                                              const NodeFactorSettings& settings);
 
 } // namespace meninas

@@ -14,14 +14,16 @@ ClosureError closure_error(const std::vector<RowClosure>& rows) {
     const double leak = std::abs(1.0 - (double{row.landed} + row.escaped + row.black + row.cut));
     error.mean_error += leak / double(rows.size());
     error.max_error = std::max(error.max_error, leak);
-    error.cut += glm::max(row.cut_light.r, glm::max(row.cut_light.g, row.cut_light.b)) / double(rows.size());
+    error.cut +=
+        glm::max(row.cut_light.r, glm::max(row.cut_light.g, row.cut_light.b)) / double(rows.size());
   }
   return error;
 }
 
 /// What leaves an element follows the fractions of its own rays; what is absorbed follows what the elements receive. The two agree as
 /// far as the sampled form factors are reciprocal: the imbalance measures that.
-EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& solution, const std::vector<RowClosure>& rows) {
+EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& solution,
+                             const std::vector<RowClosure>& rows) {
   EnergyBalance energy;
   for (std::size_t i = 0; i < mesh.area.size(); ++i) {
     const MeshSide& side = mesh.sides[index(mesh.side_of_element[i])];
@@ -36,23 +38,27 @@ EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& s
   }
   const Rgb left = energy.emitted - energy.absorbed - energy.escaped - energy.mirror_absorbed;
   for (int band = 0; band < 3; ++band) {
-    if (energy.emitted[band] <= 0.0) continue;
+    if (energy.emitted[band] <= 0.0)
+      continue;
     const double share = left[band] / energy.emitted[band];
-    if (std::abs(share) > std::abs(energy.imbalance)) energy.imbalance = share;
+    if (std::abs(share) > std::abs(energy.imbalance))
+      energy.imbalance = share;
   }
   return energy;
 }
 
 } // namespace
 
-RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings, const Progress& progress) {
+RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
+                                 const Progress& progress) {
   const ElementMesh& mesh = light.mesh;
   RadiositySolution solution;
   Stopwatch watch;
 
   // Eq. 1, split by who owns the path: direct light from the source, gathered emission, and reflected light by the transport.
   const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
-  const DirectIrradiance direct = direct_irradiance(light, factors.covered, settings.direct, progress);
+  const DirectIrradiance direct =
+      direct_irradiance(light, factors.covered, settings.direct, progress);
   solution.seconds.form_factors = watch.lap();
 
   std::vector<Rgb> first(mesh.area.size()), source(mesh.area.size()), reflectance(mesh.area.size());
@@ -73,7 +79,8 @@ RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings&
   }
   solution.seconds.solve = watch.lap();
 
-  auto interpolated = interpolate(light, reflected, solution.irradiance, settings.form_factors, settings.direct, settings.interpolation);
+  auto interpolated = interpolate(light, reflected, solution.irradiance, settings.form_factors,
+                                  settings.direct, settings.interpolation);
   solution.field = std::move(interpolated.field);
   solution.seconds.interpolate = watch.lap();
   solution.exposed = factors.exposed;
@@ -85,9 +92,11 @@ RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings&
   return solution;
 }
 
-std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh, const RadiositySolution& solution) {
+std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh,
+                                     const RadiositySolution& solution) {
   std::vector<NodeLight> nodes(scene.nodes.size());
-  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n].name = scene.nodes[n].name;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    nodes[n].name = scene.nodes[n].name;
   for (std::size_t i = 0; i < mesh.area.size(); ++i) {
     const MeshSide& side = mesh.sides[index(mesh.side_of_element[i])];
     NodeLight& node = nodes[index(side.node)];
@@ -97,7 +106,8 @@ std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh
     node.irradiance += mesh.area[i] * solution.exposed[i] * solution.irradiance[i];
   }
   for (auto& node : nodes) {
-    if (node.area <= 0.0) continue;
+    if (node.area <= 0.0)
+      continue;
     node.emitted /= node.area;
     node.radiosity /= node.area;
     node.irradiance /= node.area;

@@ -17,13 +17,14 @@ struct PassOneSettings {
 
 struct EnergyBalance {
   Rgb emitted{0.0}, absorbed{0.0}, escaped{0.0}, mirror_absorbed{0.0}; ///< W
-  double imbalance = 0.0; ///< (emitted - absorbed - escaped - mirror_absorbed) / emitted, worst channel by size
+  double imbalance =
+      0.0; ///< (emitted - absorbed - escaped - mirror_absorbed) / emitted, worst channel by size
 };
 
 struct ClosureError {
   double mean_error = 0.0; ///< of |1 - (landed + escaped + black + cut)| over the rows
   double max_error = 0.0;
-  double cut = 0.0;        ///< mean fraction of a row's light cut at the last mirror bounce
+  double cut = 0.0; ///< mean fraction of a row's light cut at the last mirror bounce
 };
 
 struct PassOneSeconds {
@@ -31,7 +32,7 @@ struct PassOneSeconds {
 };
 
 struct RadiositySolution {
-  std::vector<Rgb> radiosity;  ///< B by ElementId, emission included: the mean over the exposed part
+  std::vector<Rgb> radiosity; ///< B by ElementId, emission included: the mean over the exposed part
   std::vector<Rgb> irradiance; ///< H by ElementId, likewise
   std::vector<float> exposed;  ///< by ElementId: the share of the area on which nothing stands
   DiffuseField field;
@@ -49,8 +50,10 @@ struct NodeLight {
   double area = 0.0;
   Rgb emitted{0.0}, radiosity{0.0}, irradiance{0.0};
 };
-std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh, const RadiositySolution& solution);
+std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh,
+                                     const RadiositySolution& solution);
 
-RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings, const Progress& progress = {});
+RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
+                                 const Progress& progress = {});
 
 } // namespace meninas

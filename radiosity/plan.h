@@ -36,6 +36,7 @@ struct PlanSettings {
   WorldSettings worlds;
 };
 
-TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces, const PlanSettings& settings = {});
+TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
+                             const PlanSettings& settings = {});
 
 } // namespace meninas

@@ -12,7 +12,8 @@ Point3 origin_of(const Plane& plane) { return plane.offset * plane.normal; }
 
 ConvexPolygon image_of(const Isometry& map, const ConvexPolygon& polygon) {
   ConvexPolygon image;
-  for (const auto& vertex : polygon.span()) image.push_back(apply(map, vertex));
+  for (const auto& vertex : polygon.span())
+    image.push_back(apply(map, vertex));
   return image;
 }
 
@@ -44,11 +45,11 @@ struct Station {
   std::uint32_t world = 0;
   int depth = 0;
   Isometry image;
-  Plane plane;                            ///< of the last mirror, normal towards x
+  Plane plane; ///< of the last mirror, normal towards x
   MirrorId mirror = none<MirrorId>;
-  PlaneId plane_class = none<PlaneId>;    ///< the leg leaves this plane
+  PlaneId plane_class = none<PlaneId>; ///< the leg leaves this plane
   Rgb throughput{1.0};
-  std::vector<ConvexPolygon> openings;    ///< visible parts of the last mirror's window
+  std::vector<ConvexPolygon> openings; ///< visible parts of the last mirror's window
 };
 
 /// A world that may be entered next.
@@ -68,7 +69,8 @@ struct Entered {
 
 class Walk {
 public:
-  Walk(const WorldView& view, const WalkPoint& point, const WalkSettings& settings, const std::vector<std::uint8_t>& known)
+  Walk(const WorldView& view, const WalkPoint& point, const WalkSettings& settings,
+       const std::vector<std::uint8_t>& known)
       : view_(view), point_(point), settings_(settings), known_(known) {}
 
   WalkResult run() {
@@ -76,7 +78,8 @@ public:
     Station real;
     real.plane_class = point_.plane_class;
     visit(real);
-    while (!waiting_.empty() && left_out() > settings_.tail && result_.worlds.size() < settings_.max_worlds) {
+    while (!waiting_.empty() && left_out() > settings_.tail &&
+           result_.worlds.size() < settings_.max_worlds) {
       std::pop_heap(waiting_.begin(), waiting_.end(), by_bound);
       const Waiting next = std::move(waiting_.back());
       waiting_.pop_back();
@@ -118,27 +121,35 @@ private:
     entered_.push_back({station.image, station.depth, station.throughput});
     const auto obstacles = obstacles_of(station);
     add_targets(station, obstacles);
-    if (station.depth >= settings_.max_depth) return;
+    if (station.depth >= settings_.max_depth)
+      return;
     for (std::uint32_t m = 0; m < view_.mirrors.mirrors.size(); ++m)
-      if (static_cast<MirrorId>(m) != station.mirror) enter(station, static_cast<MirrorId>(m), obstacles);
+      if (static_cast<MirrorId>(m) != station.mirror)
+        enter(station, static_cast<MirrorId>(m), obstacles);
   }
 
   /// Whether a sphere of unfolded space may be met by light on this leg: above the horizon, beyond the mirror, in its opening's cone.
   bool within_reach(const Station& station, const Point3& centre, double radius) const {
-    if (glm::dot(point_.normal, centre - point_.x) <= -radius) return false;
-    if (station.depth == 0) return true;
-    if (signed_distance(station.plane, centre) >= radius) return false;
-    return std::any_of(station.openings.begin(), station.openings.end(),
-                       [&](const ConvexPolygon& opening) { return may_show(opening, centre, radius); });
+    if (glm::dot(point_.normal, centre - point_.x) <= -radius)
+      return false;
+    if (station.depth == 0)
+      return true;
+    if (signed_distance(station.plane, centre) >= radius)
+      return false;
+    return std::any_of(
+        station.openings.begin(), station.openings.end(),
+        [&](const ConvexPolygon& opening) { return may_show(opening, centre, radius); });
   }
 
   bool may_show(const ConvexPolygon& opening, const Point3& centre, double radius) const {
     const double side = glm::dot(area_vector(opening.span()), opening.vertices[0] - point_.x);
     for (std::size_t k = 0; k < opening.size; ++k) {
       const Vec3 a = opening.vertices[k] - point_.x;
-      const Vec3 normal = glm::cross(a, opening.vertices[k + 1 < opening.size ? k + 1 : 0] - opening.vertices[k]);
+      const Vec3 normal =
+          glm::cross(a, opening.vertices[k + 1 < opening.size ? k + 1 : 0] - opening.vertices[k]);
       const double height = glm::dot(normal, centre - point_.x);
-      if ((side > 0.0 ? height : -height) < -radius * glm::length(normal)) return false;
+      if ((side > 0.0 ? height : -height) < -radius * glm::length(normal))
+        return false;
     }
     return true;
   }
@@ -147,31 +158,43 @@ private:
   std::vector<Obstacle> obstacles_of(const Station& station) const {
     std::vector<Obstacle> obstacles;
     for (const Face& face : view_.blockers) {
-      if (face.plane_class == station.plane_class) continue;
-      if (!within_reach(station, apply(station.image, face.centre), face.radius)) continue;
-      if (std::abs(signed_distance(apply(station.image, face.plane), point_.x)) <= view_.tolerance) continue;
+      if (face.plane_class == station.plane_class)
+        continue;
+      if (!within_reach(station, apply(station.image, face.centre), face.radius))
+        continue;
+      if (std::abs(signed_distance(apply(station.image, face.plane), point_.x)) <= view_.tolerance)
+        continue;
       ConvexPolygon image = clip(image_of(station.image, face.polygon), point_.x, point_.normal);
-      if (station.depth > 0) image = clip(image, origin_of(station.plane), -station.plane.normal);
-      if (!image.empty()) obstacles.push_back({image, face.plane_class});
+      if (station.depth > 0)
+        image = clip(image, origin_of(station.plane), -station.plane.normal);
+      if (!image.empty())
+        obstacles.push_back({image, face.plane_class});
     }
     return obstacles;
   }
 
   /// Appends the parts of a polygon of this world, in unfolded space, that x sees.
-  void append_visible(const Station& station, const ConvexPolygon& polygon, const Plane& plane, PlaneId plane_class,
-                      const std::vector<Obstacle>& obstacles, std::vector<ConvexPolygon>& visible) const {
+  void append_visible(const Station& station, const ConvexPolygon& polygon, const Plane& plane,
+                      PlaneId plane_class, const std::vector<Obstacle>& obstacles,
+                      std::vector<ConvexPolygon>& visible) const {
     ConvexPolygon above = clip(polygon, point_.x, point_.normal);
-    if (station.depth > 0) above = clip(above, origin_of(station.plane), -station.plane.normal);
-    if (above.empty()) return;
+    if (station.depth > 0)
+      above = clip(above, origin_of(station.plane), -station.plane.normal);
+    if (above.empty())
+      return;
     std::vector<ConvexPolygon> parts;
-    if (station.depth == 0) parts.push_back(above);
+    if (station.depth == 0)
+      parts.push_back(above);
     for (const auto& opening : station.openings) {
       const ConvexPolygon part = clip_to_cone(above, point_.x, opening);
-      if (!part.empty()) parts.push_back(part);
+      if (!part.empty())
+        parts.push_back(part);
     }
     for (const auto& obstacle : obstacles) {
-      if (parts.empty()) break;
-      if (obstacle.plane_class == plane_class) continue;
+      if (parts.empty())
+        break;
+      if (obstacle.plane_class == plane_class)
+        continue;
       subtract_cone(parts, point_.x, clip(obstacle.polygon, origin_of(plane), plane.normal));
     }
     visible.insert(visible.end(), parts.begin(), parts.end());
@@ -179,21 +202,27 @@ private:
 
   double factor_of(const std::vector<ConvexPolygon>& parts) const {
     double sum = 0.0;
-    for (const auto& part : parts) sum += point_form_factor(point_.x, point_.normal, part.span());
+    for (const auto& part : parts)
+      sum += point_form_factor(point_.x, point_.normal, part.span());
     return sum;
   }
 
   void add_targets(const Station& station, const std::vector<Obstacle>& obstacles) {
     for (std::size_t t = 0; t < view_.targets.size(); ++t) {
-      if (station.depth == 0 && !known_.empty() && known_[t] != 0) continue;
+      if (station.depth == 0 && !known_.empty() && known_[t] != 0)
+        continue;
       const Face& target = view_.targets[t];
-      if (!within_reach(station, apply(station.image, target.centre), target.radius)) continue;
+      if (!within_reach(station, apply(station.image, target.centre), target.radius))
+        continue;
       const Plane plane = apply(station.image, target.plane);
-      if (signed_distance(plane, point_.x) <= view_.tolerance) continue;
+      if (signed_distance(plane, point_.x) <= view_.tolerance)
+        continue;
       std::vector<ConvexPolygon> visible;
-      append_visible(station, image_of(station.image, target.polygon), plane, target.plane_class, obstacles, visible);
+      append_visible(station, image_of(station.image, target.polygon), plane, target.plane_class,
+                     obstacles, visible);
       const double factor = factor_of(visible);
-      if (factor > 0.0) result_.shares.push_back({station.world, view_.groups[t], factor});
+      if (factor > 0.0)
+        result_.shares.push_back({station.world, view_.groups[t], factor});
     }
   }
 
@@ -201,14 +230,18 @@ private:
   void enter(const Station& station, MirrorId id, const std::vector<Obstacle>& obstacles) {
     const Mirror& mirror = view_.mirrors.mirrors[index(id)];
     const Plane plane = apply(station.image, mirror.plane);
-    if (signed_distance(plane, point_.x) <= view_.tolerance) return;
+    if (signed_distance(plane, point_.x) <= view_.tolerance)
+      return;
     const double throughput = mean_of(station.throughput * mirror.reflectance);
-    if (throughput <= 0.0) return;
+    if (throughput <= 0.0)
+      return;
     std::vector<ConvexPolygon> openings;
     for (const auto& part : mirror.window)
-      append_visible(station, image_of(station.image, part), plane, mirror.plane_class, obstacles, openings);
+      append_visible(station, image_of(station.image, part), plane, mirror.plane_class, obstacles,
+                     openings);
     const double bound = throughput * factor_of(openings);
-    if (bound <= 0.0) return;
+    if (bound <= 0.0)
+      return;
     waiting_bound_ += bound;
     waiting_.push_back({bound, station.world, id, PackedPolygons(openings)});
     std::push_heap(waiting_.begin(), waiting_.end(), by_bound);

@@ -9,8 +9,8 @@
 // bounds of all that is left add up to no more than is asked for: facing mirrors of any reflectance end by that, not by a depth.
 #pragma once
 
-#include "mirror/reflection.h"
 #include "mirror/mirrors.h"
+#include "mirror/reflection.h"
 #include "radiosity/visible_parts.h"
 
 #include <cstddef>
@@ -28,8 +28,8 @@ struct WorldView {
 };
 
 struct WalkSettings {
-  double tail = 1e-6;              ///< what may be left out of sum tau_w F^w
-  int max_depth = 1'000'000;       ///< mirrors a path may meet; what deeper ones bring is not asked for
+  double tail = 1e-6;        ///< what may be left out of sum tau_w F^w
+  int max_depth = 1'000'000; ///< mirrors a path may meet; what deeper ones bring is not asked for
   std::size_t max_worlds = 100'000; ///< entered from one point, the tail be what it may
 };
 
@@ -54,7 +54,8 @@ struct WalkShare {
 struct WalkResult {
   std::vector<WalkedWorld> worlds;
   std::vector<WalkShare> shares;
-  double tail = 0.0; ///< bound on sum tau_w F^w over all that was left out, tau_w the mean of its channels
+  double tail =
+      0.0; ///< bound on sum tau_w F^w over all that was left out, tau_w the mean of its channels
 };
 
 /// The mean of the channels: how a colour counts in a total.

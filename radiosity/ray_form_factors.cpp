@@ -24,7 +24,8 @@ struct Sender {
 
 std::vector<Sender> senders_of(const std::vector<Face>& faces, int rays) {
   double total = 0.0;
-  for (const Face& face : faces) total += face.area;
+  for (const Face& face : faces)
+    total += face.area;
   std::vector<Sender> senders;
   for (const Face& face : faces)
     for (std::size_t k = 2; k < face.polygon.size; ++k) {
@@ -44,16 +45,18 @@ std::vector<Sender> senders_of(const std::vector<Face>& faces, int rays) {
 
 /// By SideId: the place of its node among those asked for, fronts only.
 constexpr std::uint32_t not_asked = 0xffffffffU;
-std::vector<std::uint32_t> groups_of_sides(const Scene& scene, const ElementMesh& mesh, std::span<const NodeId> to) {
+std::vector<std::uint32_t> groups_of_sides(const Scene& scene, const ElementMesh& mesh,
+                                           std::span<const NodeId> to) {
   std::vector<std::uint32_t> groups(mesh.sides.size(), not_asked);
   for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
     const std::string& name = scene.nodes[index(mesh.sides[s].node)].name;
-    const auto place = std::find_if(to.begin(), to.end(), [&](NodeId node) { return scene.nodes[index(node)].name == name; });
-    if (place != to.end() && mesh.sides[s].facing == Facing::front) groups[s] = static_cast<std::uint32_t>(place - to.begin());
+    const auto place = std::find_if(
+        to.begin(), to.end(), [&](NodeId node) { return scene.nodes[index(node)].name == name; });
+    if (place != to.end() && mesh.sides[s].facing == Facing::front)
+      groups[s] = static_cast<std::uint32_t>(place - to.begin());
   }
   return groups;
 }
-
 
 using Key = std::pair<std::uint32_t, std::uint32_t>; ///< group, world
 struct Sum {
@@ -66,8 +69,9 @@ struct Replica {
   double cut = 0.0;
 };
 
-Replica run_replica(const LightScene& light, const std::vector<Sender>& senders, const std::vector<std::uint32_t>& groups,
-                    std::size_t group_count, const FormFactorSettings& settings, std::uint32_t seed) {
+Replica run_replica(const LightScene& light, const std::vector<Sender>& senders,
+                    const std::vector<std::uint32_t>& groups, std::size_t group_count,
+                    const FormFactorSettings& settings, std::uint32_t seed) {
   Replica replica;
   replica.totals.assign(group_count, 0.0);
   GatherWorkspace work;
@@ -75,13 +79,15 @@ Replica run_replica(const LightScene& light, const std::vector<Sender>& senders,
   for (std::uint32_t s = 0; s < senders.size(); ++s) {
     const Sender& sender = senders[s];
     DirectionNet& net = nets[sender.rays];
-    if (net.points.empty()) net = make_direction_net(sender.rays);
+    if (net.points.empty())
+      net = make_direction_net(sender.rays);
     gather_rays(light, net, sender.area, hash(seed, s, 0xf0f), settings, work);
     const double weight = sender.share / static_cast<double>(net.points.size());
     replica.cut += weight * mean_of(Rgb(work.result.cut_light));
     for (const RayLanding& landing : work.result.landings) {
       const std::uint32_t group = groups[index(light.mesh.side_of_element[landing.element])];
-      if (group == not_asked) continue;
+      if (group == not_asked)
+        continue;
       const double tau = mean_of(Rgb(landing.throughput));
       Sum& sum = replica.sums[{group, index(landing.world)}];
       sum.weighted += weight * tau;
@@ -95,18 +101,23 @@ Replica run_replica(const LightScene& light, const std::vector<Sender>& senders,
 /// The mean of the replicas and the standard error of that mean.
 Estimate estimate_of(const std::vector<double>& values) {
   double mean = 0.0, squares = 0.0;
-  for (const double value : values) mean += value / replicas;
-  for (const double value : values) squares += (value - mean) * (value - mean);
+  for (const double value : values)
+    mean += value / replicas;
+  for (const double value : values)
+    squares += (value - mean) * (value - mean);
   return {mean, std::sqrt(squares / (replicas * (replicas - 1.0)))};
 }
 
-std::vector<ExtendedFactor> summarise(const LightScene& light, const std::vector<Replica>& runs, std::size_t group_count) {
+std::vector<ExtendedFactor> summarise(const LightScene& light, const std::vector<Replica>& runs,
+                                      std::size_t group_count) {
   std::vector<ExtendedFactor> factors(group_count);
   double cut = 0.0;
-  for (const Replica& run : runs) cut += run.cut / replicas;
+  for (const Replica& run : runs)
+    cut += run.cut / replicas;
   for (std::size_t g = 0; g < group_count; ++g) {
     std::vector<double> totals;
-    for (const Replica& run : runs) totals.push_back(run.totals[g]);
+    for (const Replica& run : runs)
+      totals.push_back(run.totals[g]);
     factors[g].total = estimate_of(totals);
     factors[g].total.error += cut;
   }
@@ -120,27 +131,34 @@ std::vector<ExtendedFactor> summarise(const LightScene& light, const std::vector
   for (const auto& [key, values] : by_world) {
     // Worlds beyond the enumerated ones have no chain to be told by: they are in the total alone.
     const auto world = static_cast<WorldId>(key.second);
-    if (world == none<WorldId>) continue;
-    factors[key.first].worlds.push_back(
-        {chain_of(light.worlds, world), light.worlds.worlds[key.second].throughput, estimate_of(values)});
+    if (world == none<WorldId>)
+      continue;
+    factors[key.first].worlds.push_back({chain_of(light.worlds, world),
+                                         light.worlds.worlds[key.second].throughput,
+                                         estimate_of(values)});
   }
   for (auto& factor : factors)
-    std::stable_sort(factor.worlds.begin(), factor.worlds.end(), [](const WorldFactor& a, const WorldFactor& b) {
-      return mean_of(a.throughput) * a.factor.value > mean_of(b.throughput) * b.factor.value;
-    });
+    std::stable_sort(
+        factor.worlds.begin(), factor.worlds.end(), [](const WorldFactor& a, const WorldFactor& b) {
+          return mean_of(a.throughput) * a.factor.value > mean_of(b.throughput) * b.factor.value;
+        });
   return factors;
 }
 
-void require_sides(const Scene& scene, std::span<const NodeId> to, const std::vector<std::uint32_t>& groups) {
+void require_sides(const Scene& scene, std::span<const NodeId> to,
+                   const std::vector<std::uint32_t>& groups) {
   for (std::uint32_t g = 0; g < to.size(); ++g)
     if (std::find(groups.begin(), groups.end(), g) == groups.end())
-      throw UsageError(scene.file, "node '" + scene.nodes[index(to[g])].name + "' is a mirror: rays go on through it");
+      throw UsageError(scene.file, "node '" + scene.nodes[index(to[g])].name +
+                                       "' is a mirror: rays go on through it");
 }
 
 } // namespace
 
-std::vector<ExtendedFactor> ray_form_factors(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
-                                             const std::vector<Face>& from, std::span<const NodeId> to,
+std::vector<ExtendedFactor> ray_form_factors(const Scene& scene, const SurfaceModel& surfaces,
+                                             const MirrorSet& mirrors,
+                                             const std::vector<Face>& from,
+                                             std::span<const NodeId> to,
                                              const NodeFactorSettings& settings) {
   // One element for each patch is enough to know whose it is; a mirror's landing is known by its table.
   const ElementMesh mesh = make_element_mesh(scene, surfaces, {.target_elements = 1.0});
@@ -157,7 +175,8 @@ std::vector<ExtendedFactor> ray_form_factors(const Scene& scene, const SurfaceMo
 
   std::vector<Replica> runs(replicas);
   tbb::parallel_for(std::uint32_t{0}, replicas, [&](std::uint32_t r) {
-    runs[r] = run_replica(light, senders, groups, to.size(), ray_settings, hash(settings.seed, r, 0x5e71));
+    runs[r] = run_replica(light, senders, groups, to.size(), ray_settings,
+                          hash(settings.seed, r, 0x5e71));
   });
   return summarise(light, runs, to.size());
 }

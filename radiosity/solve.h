@@ -18,7 +18,7 @@ enum class SolverMethod { gauss_seidel };
 
 struct SolverSettings {
   SolverMethod method = SolverMethod::gauss_seidel;
-  double tolerance = 1e-4;    ///< on ||B - B_k|| / ||B||, maximum norm, worst channel
+  double tolerance = 1e-4;     ///< on ||B - B_k|| / ||B||, maximum norm, worst channel
   int max_iterations = 10'000; ///< a safety net; reaching it is reported as converged = false
 };
 
@@ -31,8 +31,8 @@ struct SolverResult {
   std::vector<double> residuals; ///< after every check, first one first
 };
 
-SolverResult solve(const Transport& transport, const std::vector<Rgb>& source, const std::vector<Rgb>& reflectance,
-                   const SolverSettings& settings = {});
+SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
+                   const std::vector<Rgb>& reflectance, const SolverSettings& settings = {});
 
 /// T x for every row, by band.
 std::vector<Rgb> apply_transport(const Transport& transport, const std::vector<Rgb>& x);

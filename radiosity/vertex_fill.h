@@ -9,6 +9,7 @@
 namespace meninas {
 
 /// `valid` by ElementVertexId; values of invalid vertices are replaced, up to two rings in. The rest become zero.
-void fill_vertices(const ElementMesh& mesh, std::vector<std::uint8_t> valid, std::vector<glm::vec3>& values);
+void fill_vertices(const ElementMesh& mesh, std::vector<std::uint8_t> valid,
+                   std::vector<glm::vec3>& values);
 
 } // namespace meninas

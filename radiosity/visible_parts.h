@@ -28,12 +28,15 @@ struct Face {
 std::vector<Face> joined_faces(const SurfaceModel& surfaces);
 
 /// The face cut along the lines where others stand on it: across them what is seen jumps, between them it changes steadily.
-std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others, double tolerance);
+std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others,
+                                           double tolerance);
 
 /// Takes the cone from x over the blocker out of every part. A blocker seen edge-on hides nothing.
-void subtract_cone(std::vector<ConvexPolygon>& parts, const Point3& x, const ConvexPolygon& blocker);
+void subtract_cone(std::vector<ConvexPolygon>& parts, const Point3& x,
+                   const ConvexPolygon& blocker);
 
 /// Whether no segment between the two polygons can meet the blocker: a plane holds them apart. Errs towards "no".
-bool holds_apart(const ConvexPolygon& a, const ConvexPolygon& b, const ConvexPolygon& blocker, double tolerance);
+bool holds_apart(const ConvexPolygon& a, const ConvexPolygon& b, const ConvexPolygon& blocker,
+                 double tolerance);
 
 } // namespace meninas

@@ -18,14 +18,15 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
   prepared->rays.emplace(make_ray_scene(prepared->scene, prepared->surfaces));
   const DarkSides dark = find_dark_sides(prepared->scene, prepared->surfaces, *prepared->rays);
   prepared->mesh = make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh, dark);
-  prepared->light.emplace(make_light_scene(prepared->scene, prepared->surfaces, *prepared->rays, prepared->plan.mirrors,
-                                           prepared->plan.worlds, prepared->mesh));
+  prepared->light.emplace(make_light_scene(prepared->scene, prepared->surfaces, *prepared->rays,
+                                           prepared->plan.mirrors, prepared->plan.worlds,
+                                           prepared->mesh));
   prepared->seconds.mesh = watch.lap();
   return prepared;
 }
 
-TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera, const TwoPassSettings& settings,
-                       const Progress& progress) {
+TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera,
+                       const TwoPassSettings& settings, const Progress& progress) {
   // Pass one: diffuse radiosity, with the light that arrives directly and through every mirror world.
   auto solution = solve_pass_one(*prepared.light, settings.pass_one, progress);
 

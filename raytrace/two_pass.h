@@ -26,7 +26,8 @@ struct PreparedScene {
   TransportPlan plan;
   ElementMesh mesh;
   std::optional<RayScene> rays;
-  std::optional<LightScene> light; ///< refers to the members above: a PreparedScene stays where it was made
+  std::optional<LightScene>
+      light; ///< refers to the members above: a PreparedScene stays where it was made
   PreparationSeconds seconds;
 };
 std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings);
@@ -35,7 +36,7 @@ struct TwoPassResult {
   RadiositySolution solution;
   Rendering rendering;
 };
-TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera, const TwoPassSettings& settings,
-                       const Progress& progress = {});
+TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera,
+                       const TwoPassSettings& settings, const Progress& progress = {});
 
 } // namespace meninas

@@ -152,7 +152,8 @@ std::string matrix(const Scene& scene, const SurfaceModel& surfaces,
     }
     text += fmt::format(",{:.10g}\n", sum);
     if (events.progress) {
-      events.progress("form factors", static_cast<double>(n + 1) / static_cast<double>(nodes.size()));
+      events.progress("form factors",
+                      static_cast<double>(n + 1) / static_cast<double>(nodes.size()));
     }
   }
   return text;

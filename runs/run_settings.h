@@ -16,7 +16,7 @@ struct QualityPreset {
   double target_elements = 0.0; ///< about how many elements share the meshed area
   int rays = 0; ///< form-factor rays per element, and per vertex where irradiance is gathered there
   int penumbra_rays = 0; ///< shadow rays from a vertex to an emitter that it sees in part
-  int samples = 0; ///< camera rays per pixel
+  int samples = 0;       ///< camera rays per pixel
 };
 QualityPreset preset_of(Quality quality);
 

@@ -26,10 +26,12 @@ ConvexPolygon random_polygon(Random& random, std::size_t corners) {
   const Point3 centre = random.in_box(Vec3(-1.0), Vec3(1.0));
   const double width = random.between(0.05, 2.0);
   std::vector<double> angles;
-  for (std::size_t k = 0; k < corners; ++k) angles.push_back(random.between(0.0, 2.0 * std::numbers::pi));
+  for (std::size_t k = 0; k < corners; ++k)
+    angles.push_back(random.between(0.0, 2.0 * std::numbers::pi));
   std::sort(angles.begin(), angles.end());
   ConvexPolygon polygon;
-  for (const double t : angles) polygon.push_back(centre + width * std::cos(t) * a + std::sin(t) * b);
+  for (const double t : angles)
+    polygon.push_back(centre + width * std::cos(t) * a + std::sin(t) * b);
   return polygon;
 }
 
@@ -39,7 +41,8 @@ bool is_convex(const ConvexPolygon& polygon, const Direction& normal) {
     const Point3& a = polygon.vertices[k];
     const Point3& b = polygon.vertices[(k + 1) % polygon.size];
     const Point3& c = polygon.vertices[(k + 2) % polygon.size];
-    if (glm::dot(glm::cross(b - a, c - b), normal) < -rounding) return false;
+    if (glm::dot(glm::cross(b - a, c - b), normal) < -rounding)
+      return false;
   }
   return true;
 }
@@ -53,7 +56,8 @@ TEST(ClipPolygon, PartAndComplementMakeTheWhole) {
     const Vec3 normal = random.between(0.1, 10.0) * random.direction();
     const ConvexPolygon part = clip(polygon, origin, normal), rest = clip(polygon, origin, -normal);
     EXPECT_LT(glm::distance(area_vector(part.span()) + area_vector(rest.span()), whole), rounding);
-    for (const auto& x : part.span()) EXPECT_GE(glm::dot(normal, x - origin), -1e-13);
+    for (const auto& x : part.span())
+      EXPECT_GE(glm::dot(normal, x - origin), -1e-13);
     EXPECT_TRUE(is_convex(part, glm::normalize(whole)));
     EXPECT_LE(part.size, polygon.size + 1);
   }
@@ -120,7 +124,8 @@ TEST(ClipToCone, PartsOfTheWindowAddUp) {
     double sum = 0.0;
     for (const auto& [s0, s1] : {std::pair(0.0, s), std::pair(s, 1.0)})
       for (const auto& [t0, t1] : {std::pair(0.0, t), std::pair(t, 1.0)})
-        sum += area(clip_to_cone(target, apex, quad(corner + s0 * u + t0 * v, (s1 - s0) * u, (t1 - t0) * v)));
+        sum += area(clip_to_cone(target, apex,
+                                 quad(corner + s0 * u + t0 * v, (s1 - s0) * u, (t1 - t0) * v)));
     EXPECT_NEAR(sum, whole, 40.0 * rounding); // of an area of up to 36
     // Either way round the window is the same.
     EXPECT_NEAR(area(clip_to_cone(target, apex, quad(corner, v, u))), whole, 40.0 * rounding);
@@ -135,7 +140,8 @@ TEST(ClipToCone, ShadowOfAWindow) {
   EXPECT_NEAR(area(clip_to_cone(far, Point3(0.0), window)), 4.0, rounding);
   // The cone goes on on both sides of the window, but not behind the apex.
   EXPECT_NEAR(area(clip_to_cone(near, Point3(0.0), window)), 0.25, rounding);
-  EXPECT_TRUE(clip_to_cone(quad({-5, -5, -2}, {10, 0, 0}, {0, 10, 0}), Point3(0.0), window).empty());
+  EXPECT_TRUE(
+      clip_to_cone(quad({-5, -5, -2}, {10, 0, 0}, {0, 10, 0}), Point3(0.0), window).empty());
 }
 
 TEST(ClipToCone, ApexInThePlaneOfTheWindowSeesNothing) {

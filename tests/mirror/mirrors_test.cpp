@@ -16,7 +16,8 @@ MirrorSet mirrors_of(const Scene& scene) { return find_mirrors(scene, find_surfa
 
 double window_area(const Mirror& mirror) {
   double sum = 0.0;
-  for (const auto& part : mirror.window) sum += glm::dot(area_vector(part.span()), mirror.plane.normal);
+  for (const auto& part : mirror.window)
+    sum += glm::dot(area_vector(part.span()), mirror.plane.normal);
   return sum;
 }
 
@@ -27,7 +28,8 @@ std::vector<Point3> tile(double x0, double y0, double x1, double y1) {
 
 TEST(FindMirrors, NoMirrorInADiffuseRoom) {
   Scene scene;
-  add_room(scene, Point3(0.0), Point3(1.0), {diffuse(0.5), diffuse(0.5), diffuse(0.5), diffuse(0.5), diffuse(0.5), diffuse(0.5)});
+  add_room(scene, Point3(0.0), Point3(1.0),
+           {diffuse(0.5), diffuse(0.5), diffuse(0.5), diffuse(0.5), diffuse(0.5), diffuse(0.5)});
   const MirrorSet set = mirrors_of(scene);
   EXPECT_TRUE(set.mirrors.empty());
   EXPECT_EQ(set.facets, 0U);
@@ -101,8 +103,9 @@ TEST(FindMirrors, AThousandTilesAreOneMirror) {
   const MirrorSet set = mirrors_of(scene);
   ASSERT_EQ(set.mirrors.size(), 1U);
   EXPECT_EQ(set.facets, 0U);
-  EXPECT_NEAR(set.mirrors[0].area, 10.0, 1e-9);         // a thousand areas of 0.01 added up
-  EXPECT_NEAR(window_area(set.mirrors[0]), 10.0, 1e-9); // and none of it lost where pieces are merged
+  EXPECT_NEAR(set.mirrors[0].area, 10.0, 1e-9); // a thousand areas of 0.01 added up
+  EXPECT_NEAR(window_area(set.mirrors[0]), 10.0,
+              1e-9); // and none of it lost where pieces are merged
 }
 
 TEST(FindMirrors, AnLShapeKeepsItsArea) {
@@ -115,16 +118,21 @@ TEST(FindMirrors, AnLShapeKeepsItsArea) {
 }
 
 /// A sphere of `rings` times twice as many facets, normals outward.
-void add_sphere(Scene& scene, const Point3& centre, double radius, int rings, const Material& material) {
+void add_sphere(Scene& scene, const Point3& centre, double radius, int rings,
+                const Material& material) {
   const auto at = [&](int ring, int step) {
     const double t = std::numbers::pi * ring / rings, p = std::numbers::pi * step / rings;
-    return centre + radius * Vec3(std::sin(t) * std::cos(p), std::cos(t), std::sin(t) * std::sin(p));
+    return centre +
+           radius * Vec3(std::sin(t) * std::cos(p), std::cos(t), std::sin(t) * std::sin(p));
   };
   for (int ring = 0; ring < rings; ++ring)
     for (int step = 0; step < 2 * rings; ++step) {
-      std::vector<Point3> corners{at(ring, step), at(ring, step + 1), at(ring + 1, step + 1), at(ring + 1, step)};
-      if (ring == 0) corners.erase(corners.begin());
-      else if (ring + 1 == rings) corners.pop_back();
+      std::vector<Point3> corners{at(ring, step), at(ring, step + 1), at(ring + 1, step + 1),
+                                  at(ring + 1, step)};
+      if (ring == 0)
+        corners.erase(corners.begin());
+      else if (ring + 1 == rings)
+        corners.pop_back();
       add_polygon(scene, "ball", corners, material);
     }
 }

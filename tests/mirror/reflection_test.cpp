@@ -44,7 +44,8 @@ TEST(Reflection, PlanesKeepTheirDistances) {
     const Plane mirror = random_plane(random), plane = random_plane(random);
     const Point3 x = random.in_box(Vec3(-10.0), Vec3(10.0));
     const Plane image = reflect_plane(mirror, plane);
-    EXPECT_NEAR(signed_distance(image, reflect_point(mirror, x)), signed_distance(plane, x), rounding);
+    EXPECT_NEAR(signed_distance(image, reflect_point(mirror, x)), signed_distance(plane, x),
+                rounding);
     EXPECT_NEAR(glm::length(image.normal), 1.0, rounding);
   }
 }
@@ -55,8 +56,9 @@ TEST(Isometry, ComposesFromTheInside) {
     const Plane m1 = random_plane(random), m2 = random_plane(random), m3 = random_plane(random);
     const Isometry map = compose_reflection(compose_reflection(compose_reflection({}, m1), m2), m3);
     const Point3 x = random.in_box(Vec3(-10.0), Vec3(10.0));
-    EXPECT_LT(glm::distance(apply(map, x), reflect_point(m1, reflect_point(m2, reflect_point(m3, x)))),
-              rounding);
+    EXPECT_LT(
+        glm::distance(apply(map, x), reflect_point(m1, reflect_point(m2, reflect_point(m3, x)))),
+        rounding);
     const Plane plane = random_plane(random);
     const Plane expected = reflect_plane(m1, reflect_plane(m2, reflect_plane(m3, plane)));
     EXPECT_LT(glm::distance(apply(map, plane).normal, expected.normal), rounding);

@@ -26,9 +26,11 @@ GlowingRoom glowing(Scene scene, const WorldSettings& settings) {
   room.mirrors = find_mirrors(room.scene, room.surfaces);
   room.worlds = mirror_worlds(room.mirrors, settings);
   for (const Patch& patch : room.surfaces.patches) {
-    if (is_mirror(room.scene.materials[index(patch.material)])) continue;
+    if (is_mirror(room.scene.materials[index(patch.material)]))
+      continue;
     const Surface& surface = room.surfaces.surfaces[index(patch.surface)];
-    room.emitters.push_back({ConvexPolygon(polygon_of(patch)), surface.plane, surface.plane_class, Rgb(1.0), patch.area});
+    room.emitters.push_back({ConvexPolygon(polygon_of(patch)), surface.plane, surface.plane_class,
+                             Rgb(1.0), patch.area});
   }
   return room;
 }
@@ -36,7 +38,8 @@ GlowingRoom glowing(Scene scene, const WorldSettings& settings) {
 Scene room_with_mirrors(const std::array<bool, 6>& is_mirror_wall) {
   Scene scene;
   std::array<Material, 6> walls;
-  for (std::size_t k = 0; k < 6; ++k) walls[k] = is_mirror_wall[k] ? mirror(1.0) : diffuse(0.0, 1.0);
+  for (std::size_t k = 0; k < 6; ++k)
+    walls[k] = is_mirror_wall[k] ? mirror(1.0) : diffuse(0.0, 1.0);
   add_room(scene, Point3(0.0), {1.0, 1.5, 2.0}, walls);
   return scene;
 }
@@ -48,7 +51,8 @@ double form_factor(const Point3& x, const Direction& normal, const ConvexPolygon
     const Vec3 a = polygon.vertices[k] - x, b = polygon.vertices[(k + 1) % polygon.size] - x;
     const Vec3 c = glm::cross(a, b);
     const double sine = glm::length(c);
-    if (sine > 0.0) sum += std::atan2(sine, glm::dot(a, b)) * glm::dot(normal, c) / sine;
+    if (sine > 0.0)
+      sum += std::atan2(sine, glm::dot(a, b)) * glm::dot(normal, c) / sine;
   }
   return std::abs(sum) / (2.0 * std::numbers::pi);
 }
@@ -57,7 +61,8 @@ double seen_light(const GlowingRoom& room, const Point3& x, const Direction& nor
   std::vector<VirtualLight> lights;
   virtual_lights(room.worlds, room.emitters, x, normal, 0.0, lights);
   double sum = 0.0;
-  for (const auto& light : lights) sum += form_factor(x, normal, light.polygon);
+  for (const auto& light : lights)
+    sum += form_factor(x, normal, light.polygon);
   return sum;
 }
 
@@ -82,14 +87,16 @@ TEST(VirtualLights, TileTheHemisphereInACornerOfTwoMirrors) {
   expect_whole_hemisphere(glowing(room_with_mirrors({true, false, true}), {}), 1e-12);
 }
 TEST(VirtualLights, TileTheHemisphereInACornerOfThreeMirrors) {
-  expect_whole_hemisphere(glowing(room_with_mirrors({true, false, true, false, true, false}), {}), 1e-12);
+  expect_whole_hemisphere(glowing(room_with_mirrors({true, false, true, false, true, false}), {}),
+                          1e-12);
 }
 
 // Of two facing mirrors, what lies deeper than the last world is missing: beyond 60 m the walls between them, 1.5 m by 2 m,
 // fill a form factor of at most 1.5 * 2 / (60^2 pi) on either side.
 TEST(VirtualLights, TileTheHemisphereBetweenFacingMirrors) {
   const WorldSettings deep{.min_throughput = 0.0, .max_depth = 60, .max_worlds = 1000};
-  expect_whole_hemisphere(glowing(room_with_mirrors({true, true}), deep), 2.0 * 3.0 / (3600.0 * std::numbers::pi));
+  expect_whole_hemisphere(glowing(room_with_mirrors({true, true}), deep),
+                          2.0 * 3.0 / (3600.0 * std::numbers::pi));
 }
 
 TEST(VirtualLights, TileTheHemisphereWithAMirrorInTheMiddleOfAWall) {
@@ -110,7 +117,8 @@ TEST(VirtualLights, TileTheHemisphereWithAMirrorInTheMiddleOfAWall) {
 TEST(VirtualLights, TileTheHemisphereWithATiltedMirror) {
   // A wedge of mirror cuts a corner off the room.
   Scene scene = room_with_mirrors({});
-  add_polygon(scene, "wedge", {{0.5, 0.0, 0.0}, {0.5, 1.5, 0.0}, {0.0, 1.5, 0.7}, {0.0, 0.0, 0.7}}, mirror(1.0));
+  add_polygon(scene, "wedge", {{0.5, 0.0, 0.0}, {0.5, 1.5, 0.0}, {0.0, 1.5, 0.7}, {0.0, 0.0, 0.7}},
+              mirror(1.0));
   GlowingRoom room = glowing(std::move(scene), {});
   // The wedge hides the corner behind it, which virtual lights do not know of: only the reflected part is looked at.
   Random random(9);
@@ -121,7 +129,8 @@ TEST(VirtualLights, TileTheHemisphereWithATiltedMirror) {
     virtual_lights(room.worlds, room.emitters, x, n, 0.0, lights);
     double reflected = 0.0;
     for (const auto& light : lights)
-      if (light.world != real_world) reflected += form_factor(x, n, light.polygon);
+      if (light.world != real_world)
+        reflected += form_factor(x, n, light.polygon);
     const ConvexPolygon window = clip(room.mirrors.mirrors[0].window[0], x, n);
     EXPECT_NEAR(reflected, window.empty() ? 0.0 : form_factor(x, n, window), 1e-12);
   }
@@ -137,7 +146,8 @@ TEST(VirtualLights, FaceTheObserverAboveItsHorizon) {
     virtual_lights(room.worlds, room.emitters, x, n, 0.0, lights);
     for (const auto& light : lights) {
       EXPECT_LT(glm::dot(light.normal, light.polygon.vertices[0] - x), 0.0);
-      for (const auto& y : light.polygon.span()) EXPECT_GE(glm::dot(n, y - x), -1e-13);
+      for (const auto& y : light.polygon.span())
+        EXPECT_GE(glm::dot(n, y - x), -1e-13);
     }
   }
 }
@@ -154,14 +164,16 @@ bool inside(const ConvexPolygon& polygon, const Point3& x, double slack) {
   for (std::size_t k = 0; k < polygon.size; ++k) {
     const Point3& a = polygon.vertices[k];
     const Vec3 edge = polygon.vertices[(k + 1) % polygon.size] - a;
-    if (glm::dot(glm::cross(edge, x - a), n) < -slack) return false;
+    if (glm::dot(glm::cross(edge, x - a), n) < -slack)
+      return false;
   }
   return true;
 }
 
 bool inside_window(const Mirror& mirror, const Point3& x, double slack) {
   for (const auto& part : mirror.window)
-    if (inside(part, x, slack)) return true;
+    if (inside(part, x, slack))
+      return true;
   return false;
 }
 
@@ -181,16 +193,19 @@ TEST(FoldLegs, ObeyTheLawOfReflection) {
     for (const auto& light : lights) {
       // A point inside the visible part, away from its border.
       Point3 y(0.0);
-      for (const auto& corner : light.polygon.span()) y += corner / double(light.polygon.size);
+      for (const auto& corner : light.polygon.span())
+        y += corner / double(light.polygon.size);
       const auto chain = chain_of(room.worlds, light.world);
       const Emitter& emitter = room.emitters[light.emitter];
-      fold_legs(room.worlds, room.mirrors, light.world, x, PlaneId{77}, y, emitter.plane_class, legs);
+      fold_legs(room.worlds, room.mirrors, light.world, x, PlaneId{77}, y, emitter.plane_class,
+                legs);
       ASSERT_EQ(legs.size(), chain.size() + 1);
       EXPECT_EQ(legs.front().from, x);
       EXPECT_EQ(legs.front().leaving, PlaneId{77});
       EXPECT_EQ(legs.back().arriving, emitter.plane_class);
       double length = 0.0;
-      for (const auto& leg : legs) length += glm::distance(leg.from, leg.to);
+      for (const auto& leg : legs)
+        length += glm::distance(leg.from, leg.to);
       EXPECT_NEAR(length, glm::distance(x, y), rounding);
       for (std::size_t m = 0; m < chain.size(); ++m) {
         const Mirror& mirror = room.mirrors.mirrors[index(chain[m])];
@@ -200,12 +215,16 @@ TEST(FoldLegs, ObeyTheLawOfReflection) {
         EXPECT_NEAR(signed_distance(mirror.plane, legs[m].to), 0.0, rounding);
         EXPECT_TRUE(inside_window(mirror, legs[m].to, rounding));
         const Vec3 in = legs[m].to - legs[m].from, out = legs[m + 1].to - legs[m + 1].from;
-        if (glm::length(in) < 1e-6 || glm::length(out) < 1e-6) continue;
-        EXPECT_LT(glm::distance(reflect_direction(mirror.plane, glm::normalize(in)), glm::normalize(out)), 1e-8);
+        if (glm::length(in) < 1e-6 || glm::length(out) < 1e-6)
+          continue;
+        EXPECT_LT(
+            glm::distance(reflect_direction(mirror.plane, glm::normalize(in)), glm::normalize(out)),
+            1e-8);
       }
       EXPECT_NEAR(signed_distance(emitter.plane, legs.back().to), 0.0, rounding);
       EXPECT_TRUE(inside(emitter.polygon, legs.back().to, rounding));
-      if (chain.size() >= 4) ++deep;
+      if (chain.size() >= 4)
+        ++deep;
     }
   }
   EXPECT_GT(deep, 100);

@@ -29,14 +29,16 @@ Mirrors mirrors_of(Scene scene) {
 Mirrors mirror_room(const std::array<double, 6>& reflectances) {
   Scene scene;
   std::array<Material, 6> walls;
-  for (std::size_t k = 0; k < 6; ++k) walls[k] = reflectances[k] > 0.0 ? mirror(reflectances[k]) : diffuse(0.5);
+  for (std::size_t k = 0; k < 6; ++k)
+    walls[k] = reflectances[k] > 0.0 ? mirror(reflectances[k]) : diffuse(0.5);
   add_room(scene, Point3(0.0), Point3(1.0), walls);
   return mirrors_of(std::move(scene));
 }
 
 int deepest(const WorldTree& tree) {
   int depth = 0;
-  for (const auto& world : tree.worlds) depth = std::max(depth, world.depth);
+  for (const auto& world : tree.worlds)
+    depth = std::max(depth, world.depth);
   return depth;
 }
 
@@ -52,7 +54,9 @@ TEST(MirrorWorlds, OneMirrorIsOneWorld) {
   const WorldTree tree = mirror_worlds(mirrors.set);
   ASSERT_EQ(tree.worlds.size(), 2U);
   EXPECT_DOUBLE_EQ(tree.worlds[1].throughput.r, 0.9);
-  EXPECT_LT(glm::distance(apply(tree.worlds[1].image, Point3(0.25, 0.5, 0.75)), Point3(-0.25, 0.5, 0.75)), rounding);
+  EXPECT_LT(
+      glm::distance(apply(tree.worlds[1].image, Point3(0.25, 0.5, 0.75)), Point3(-0.25, 0.5, 0.75)),
+      rounding);
   EXPECT_EQ(child(tree, real_world, MirrorId{0}), WorldId{1});
   EXPECT_EQ(child(tree, WorldId{1}, MirrorId{0}), none<WorldId>);
   EXPECT_EQ(child(tree, none<WorldId>, MirrorId{0}), none<WorldId>);
@@ -62,20 +66,23 @@ TEST(MirrorWorlds, OneMirrorIsOneWorld) {
 TEST(MirrorWorlds, FacingMirrorsAreAsDeepAsTheirThroughput) {
   for (const double rho : {0.3, 0.5, 0.8, 0.9, 0.97}) {
     const Mirrors mirrors = mirror_room({rho, rho, 0, 0, 0, 0});
-    const WorldTree tree = mirror_worlds(mirrors.set, {.min_throughput = 0.01, .max_depth = 1000, .max_worlds = 10000});
+    const WorldTree tree = mirror_worlds(
+        mirrors.set, {.min_throughput = 0.01, .max_depth = 1000, .max_worlds = 10000});
     const int depth = static_cast<int>(std::floor(std::log(0.01) / std::log(rho)));
     EXPECT_EQ(deepest(tree), depth) << rho;
     EXPECT_EQ(tree.worlds.size(), 1U + 2U * static_cast<unsigned>(depth)) << rho;
     EXPECT_EQ(tree.pruned_throughput, 2U) << rho;
     EXPECT_EQ(tree.pruned_limit, 0U) << rho;
-    for (const auto& world : tree.worlds) EXPECT_NEAR(world.throughput.g, std::pow(rho, world.depth), rounding);
+    for (const auto& world : tree.worlds)
+      EXPECT_NEAR(world.throughput.g, std::pow(rho, world.depth), rounding);
   }
 }
 
 // Mirrors at x = 0 and x = 1 show a point x at 2k + x after an even number of reflections and at 2k - x after an odd one.
 TEST(MirrorWorlds, FacingMirrorsShowTheTextbookImages) {
   const Mirrors mirrors = mirror_room({0.9, 0.9, 0, 0, 0, 0});
-  const WorldTree tree = mirror_worlds(mirrors.set, {.min_throughput = 0.1, .max_depth = 100, .max_worlds = 1000});
+  const WorldTree tree =
+      mirror_worlds(mirrors.set, {.min_throughput = 0.1, .max_depth = 100, .max_worlds = 1000});
   const Point3 x{0.3, 0.6, 0.2};
   std::vector<double> even, odd, expected_even, expected_odd;
   for (const auto& world : tree.worlds) {
@@ -84,14 +91,17 @@ TEST(MirrorWorlds, FacingMirrorsShowTheTextbookImages) {
     EXPECT_NEAR(image.y, x.y, rounding);
     EXPECT_NEAR(image.z, x.z, rounding);
     // The last mirror's plane lies between the observer and the image, |k| mirrors away.
-    if (world.depth == 0) continue;
+    if (world.depth == 0)
+      continue;
     EXPECT_GT(signed_distance(world.plane, x), 0.0);
     EXPECT_LT(signed_distance(world.plane, image), 0.0);
   }
   const int depth = deepest(tree);
   for (int k = -depth; k <= depth; ++k) {
-    if (2 * std::abs(k) <= depth) expected_even.push_back(2 * k + x.x);
-    if (std::abs(2 * k - 1) <= depth) expected_odd.push_back(2 * k - x.x);
+    if (2 * std::abs(k) <= depth)
+      expected_even.push_back(2 * k + x.x);
+    if (std::abs(2 * k - 1) <= depth)
+      expected_odd.push_back(2 * k - x.x);
   }
   std::sort(even.begin(), even.end());
   std::sort(odd.begin(), odd.end());
@@ -107,7 +117,8 @@ TEST(MirrorWorlds, ACornerHasADoubleImage) {
   const Point3 x{0.3, 0.6, 0.2};
   int doubles = 0;
   for (const auto& world : tree.worlds) {
-    if (world.depth != 2) continue;
+    if (world.depth != 2)
+      continue;
     ++doubles;
     EXPECT_LT(glm::distance(apply(world.image, x), Point3(-0.3, 0.6, -0.2)), rounding);
     EXPECT_NEAR(world.throughput.r, 0.72, rounding);
@@ -117,7 +128,8 @@ TEST(MirrorWorlds, ACornerHasADoubleImage) {
 
 TEST(MirrorWorlds, MirrorsBackToBackDoNotSeeEachOther) {
   Scene scene;
-  add_polygon(scene, "sheet", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, double_sided(mirror(0.9)));
+  add_polygon(scene, "sheet", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+              double_sided(mirror(0.9)));
   const WorldTree tree = mirror_worlds(mirrors_of(std::move(scene)).set);
   EXPECT_EQ(tree.worlds.size(), 3U);
   EXPECT_EQ(tree.pruned_unseen, 2U);
@@ -125,13 +137,16 @@ TEST(MirrorWorlds, MirrorsBackToBackDoNotSeeEachOther) {
 
 TEST(MirrorWorlds, LimitsLeaveOutTheDeepest) {
   const Mirrors mirrors = mirror_room({0.99, 0.99, 0, 0, 0, 0});
-  const WorldTree by_depth = mirror_worlds(mirrors.set, {.min_throughput = 0.01, .max_depth = 5, .max_worlds = 1000});
+  const WorldTree by_depth =
+      mirror_worlds(mirrors.set, {.min_throughput = 0.01, .max_depth = 5, .max_worlds = 1000});
   EXPECT_EQ(by_depth.worlds.size(), 11U);
   EXPECT_EQ(by_depth.pruned_limit, 2U);
-  const WorldTree by_count = mirror_worlds(mirrors.set, {.min_throughput = 0.01, .max_depth = 500, .max_worlds = 16});
+  const WorldTree by_count =
+      mirror_worlds(mirrors.set, {.min_throughput = 0.01, .max_depth = 500, .max_worlds = 16});
   EXPECT_EQ(by_count.worlds.size(), 17U);
   EXPECT_EQ(deepest(by_count), 8);
-  const WorldTree flat = mirror_worlds(mirrors.set, {.min_throughput = 0.01, .max_depth = 0, .max_worlds = 16});
+  const WorldTree flat =
+      mirror_worlds(mirrors.set, {.min_throughput = 0.01, .max_depth = 0, .max_worlds = 16});
   EXPECT_EQ(flat.worlds.size(), 1U);
 }
 
@@ -153,7 +168,9 @@ TEST(MirrorWorlds, ChainsNameTheirMirrorsInOrder) {
       image = compose_reflection(image, mirrors.set.mirrors[index(m)].plane);
     }
     EXPECT_EQ(at, static_cast<WorldId>(w));
-    EXPECT_LT(glm::distance(apply(image, Point3(0.1, 0.2, 0.3)), apply(tree.worlds[w].image, Point3(0.1, 0.2, 0.3))), rounding);
+    EXPECT_LT(glm::distance(apply(image, Point3(0.1, 0.2, 0.3)),
+                            apply(tree.worlds[w].image, Point3(0.1, 0.2, 0.3))),
+              rounding);
   }
 }
 

@@ -35,7 +35,8 @@ Scene square() {
 /// A parallelogram, a trapezoid, a general quad, triangles, a sliver.
 Scene all_shapes() {
   Scene scene;
-  add_polygon(scene, "parallelogram", {{0, 0, 0}, {2, 0, 0}, {2.5, 1, 0}, {0.5, 1, 0}}, diffuse(0.5));
+  add_polygon(scene, "parallelogram", {{0, 0, 0}, {2, 0, 0}, {2.5, 1, 0}, {0.5, 1, 0}},
+              diffuse(0.5));
   add_polygon(scene, "trapezoid", {{0, 0, 1}, {2, 0, 1}, {1.4, 1, 1}, {0.5, 1, 1}}, diffuse(0.5));
   add_polygon(scene, "quad", {{0, 0, 2}, {2, 0.3, 2}, {1.7, 1.5, 2}, {0.1, 1, 2}}, diffuse(0.5));
   add_polygon(scene, "triangle", {{0, 0, 3}, {2, 0, 3}, {0.3, 1.3, 3}}, diffuse(0.5));
@@ -49,10 +50,12 @@ TEST(ElementMesh, AreasAddUpToThePatches) {
   for (const double size : {0.03, 0.2, 1.0, 100.0}) {
     const Meshed m = meshed(all_shapes(), {.element_size = size});
     std::vector<double> sum(m.mesh.sides.size(), 0.0);
-    for (std::size_t e = 0; e < element_count(m.mesh); ++e) sum[index(m.mesh.side_of_element[e])] += m.mesh.area[e];
+    for (std::size_t e = 0; e < element_count(m.mesh); ++e)
+      sum[index(m.mesh.side_of_element[e])] += m.mesh.area[e];
     for (std::size_t s = 0; s < sum.size(); ++s) {
       const double area = m.surfaces.patches[index(m.mesh.sides[s].patch)].area;
-      EXPECT_NEAR(sum[s], area, 1e-12 * area) << m.scene.nodes[index(m.mesh.sides[s].node)].name; // rounding of 1e4 sums
+      EXPECT_NEAR(sum[s], area, 1e-12 * area)
+          << m.scene.nodes[index(m.mesh.sides[s].node)].name; // rounding of 1e4 sums
     }
   }
 }
@@ -68,7 +71,8 @@ TEST(ElementMesh, ElementsAreInsideTheirSidesAndNumberedInARow) {
   }
   EXPECT_EQ(next, element_count(m.mesh));
   for (const auto& corners : m.mesh.corners)
-    for (const auto vertex : corners) EXPECT_LT(index(vertex), m.mesh.vertices.size());
+    for (const auto vertex : corners)
+      EXPECT_LT(index(vertex), m.mesh.vertices.size());
 }
 
 // From element and (s, t) to (u, v) of the patch and back, and the same in the single precision of the inner loops.
@@ -79,13 +83,16 @@ TEST(ElementMesh, LocateInvertsPatchUv) {
     for (const auto& side : m.mesh.sides)
       for (std::uint32_t local = 0; local < side.element_count; ++local) {
         Vec2 st(random.between(0.01, 0.99), random.between(0.01, 0.99));
-        if (side.triangle && st.x + st.y > 0.99) st = 0.995 - st;
-        if (glm::any(glm::lessThan(st, Vec2(0.005)))) st = Vec2(0.3);
+        if (side.triangle && st.x + st.y > 0.99)
+          st = 0.995 - st;
+        if (glm::any(glm::lessThan(st, Vec2(0.005))))
+          st = Vec2(0.3);
         const Vec2 uv = patch_uv_of(side, local, st);
         const ElementPoint at = locate(side, uv);
         ASSERT_EQ(index(at.element), side.first_element + local);
         EXPECT_LT(glm::distance(at.st, st), 1e-11);
-        const Landing landing = land({side.first_element, side.nu, side.nv, side.triangle}, glm::vec2(uv));
+        const Landing landing =
+            land({side.first_element, side.nu, side.nv, side.triangle}, glm::vec2(uv));
         // A float of (u, v) is known to 6e-8, times at most 40 divisions.
         EXPECT_LT(glm::distance(Vec2(landing.st), st), 1e-5);
         ASSERT_EQ(landing.element, side.first_element + local);
@@ -99,7 +106,8 @@ TEST(ElementMesh, LocateTakesEveryPointOfThePatch) {
     for (int i = -1; i <= 65; ++i)
       for (int j = -1; j <= 65; ++j) {
         const Vec2 uv(i / 64.0, j / 64.0);
-        if (side.triangle && uv.x + uv.y > 1.0 + 1e-9) continue;
+        if (side.triangle && uv.x + uv.y > 1.0 + 1e-9)
+          continue;
         const ElementPoint at = locate(side, uv);
         EXPECT_GE(index(at.element), side.first_element);
         EXPECT_LT(index(at.element), side.first_element + side.element_count);
@@ -113,8 +121,11 @@ TEST(ElementMesh, VerticesLieWhereTheirElementsSay) {
     const MeshSide& side = m.mesh.sides[index(m.mesh.side_of_element[e])];
     const Patch& patch = m.surfaces.patches[index(side.patch)];
     const auto local = static_cast<std::uint32_t>(e) - side.first_element;
-    const auto at = [&](double s, double t) { return point_at(patch, patch_uv_of(side, local, {s, t})); };
-    const std::array<Point3, 4> points{at(0, 0), at(1, 0), side.triangle ? at(0, 1) : at(1, 1), at(0, 1)};
+    const auto at = [&](double s, double t) {
+      return point_at(patch, patch_uv_of(side, local, {s, t}));
+    };
+    const std::array<Point3, 4> points{at(0, 0), at(1, 0), side.triangle ? at(0, 1) : at(1, 1),
+                                       at(0, 1)};
     for (std::size_t c = 0; c < 4; ++c) // welded within 1e-7 of an element
       EXPECT_LT(glm::distance(m.mesh.vertices[index(m.mesh.corners[e][c])], points[c]), 1e-6 * 0.2);
   }
@@ -131,7 +142,8 @@ Scene patched_wall() {
   Scene scene = square();
   const auto extend = [&scene](const std::vector<Point3>& corners, const std::string& name) {
     add_polygon(scene, name, corners, diffuse(0.5));
-    for (auto& triangle : scene.triangles) triangle.material = MaterialId{0};
+    for (auto& triangle : scene.triangles)
+      triangle.material = MaterialId{0};
   };
   extend({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}, "right");
   extend({{0, 1, 0}, {1, 1, 0}, {0, 2, 0}}, "above");
@@ -148,12 +160,14 @@ TEST(ElementMesh, PatchesOfASurfaceConform) {
     for (std::size_t e = 0; e < element_count(m.mesh); ++e)
       if (m.mesh.side_of_element[e] == side)
         for (const auto v : m.mesh.corners[e])
-          if (predicate(m.mesh.vertices[index(v)])) found.insert(index(v));
+          if (predicate(m.mesh.vertices[index(v)]))
+            found.insert(index(v));
     return found;
   };
   const auto side_of = [&m](const std::string& name) {
     for (std::uint32_t s = 0; s < m.mesh.sides.size(); ++s)
-      if (m.scene.nodes[index(m.mesh.sides[s].node)].name == name) return SideId{s};
+      if (m.scene.nodes[index(m.mesh.sides[s].node)].name == name)
+        return SideId{s};
     return none<SideId>;
   };
   const auto at_x1 = [](const Point3& p) { return std::abs(p.x - 1) < 1e-9 && p.y < 1 + 1e-9; };
@@ -168,7 +182,9 @@ TEST(ElementMesh, ElementsAreAsSmallAsAsked) {
   for (const double size : {0.07, 0.25, 0.9}) {
     const Meshed m = meshed(square(), {.element_size = size});
     for (const auto& corners : m.mesh.corners)
-      EXPECT_LE(glm::distance(m.mesh.vertices[index(corners[0])], m.mesh.vertices[index(corners[1])]), size + 1e-6);
+      EXPECT_LE(
+          glm::distance(m.mesh.vertices[index(corners[0])], m.mesh.vertices[index(corners[1])]),
+          size + 1e-6);
     EXPECT_EQ(m.mesh.element_size, size);
   }
   EXPECT_EQ(element_count(meshed(square(), {.element_size = 1e9}).mesh), 1U);
@@ -195,7 +211,8 @@ TEST(ElementMesh, SliversDoNotMultiply) {
   add_polygon(scene, "sliver", {{0, 0, 0}, {2, 0, 0}, {2, 1e-6, 0}}, diffuse(0.5));
   const Meshed m = meshed(std::move(scene), {.element_size = 0.01});
   EXPECT_LT(element_count(m.mesh), 100U);
-  for (const double area : m.mesh.area) EXPECT_GT(area, 0.0);
+  for (const double area : m.mesh.area)
+    EXPECT_GT(area, 0.0);
 }
 
 TEST(ElementMesh, MirrorsCarryNoElements) {
@@ -208,7 +225,8 @@ TEST(ElementMesh, MirrorsCarryNoElements) {
 
 TEST(ElementMesh, DoubleSidedHasTwoSidesThatShareNoVertex) {
   Scene scene;
-  add_polygon(scene, "sheet", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, double_sided(diffuse(0.5)));
+  add_polygon(scene, "sheet", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+              double_sided(diffuse(0.5)));
   const Meshed m = meshed(std::move(scene), {.element_size = 0.5});
   ASSERT_EQ(m.mesh.sides.size(), 2U);
   EXPECT_NEAR(glm::dot(m.mesh.sides[0].normal, m.mesh.sides[1].normal), -1.0, 1e-12);

@@ -17,7 +17,8 @@ struct Asked {
   MirrorSet mirrors;
 };
 
-Asked ask(const Scene& scene, const std::string& from, const std::string& to, const NodeFactorSettings& settings = {}) {
+Asked ask(const Scene& scene, const std::string& from, const std::string& to,
+          const NodeFactorSettings& settings = {}) {
   const SurfaceModel surfaces = find_surfaces(scene);
   const std::array nodes{find_node(scene, to)};
   NodeFactors factors = node_form_factors(scene, surfaces, find_node(scene, from), nodes, settings);
@@ -58,9 +59,11 @@ TEST(ExtendedFormFactor, BlockersAndMirrors) {
   int count = 0;
   for (const auto& c : known_scene_form_factors()) {
     const std::string scene = c.scene;
-    if (scene == "duct_L10" && c.mirror_reflectance > 0.5) continue;
+    if (scene == "duct_L10" && c.mirror_reflectance > 0.5)
+      continue;
     const double accuracy = scene == "duct_L10" ? 1e-3 : 1e-4;
-    const Asked asked = ask(scene_of(scene, c.mirror_reflectance), c.from, c.to, {.accuracy = accuracy});
+    const Asked asked =
+        ask(scene_of(scene, c.mirror_reflectance), c.from, c.to, {.accuracy = accuracy});
     const double error = std::abs(asked.factor.total.value - c.form_factor);
     EXPECT_LE(error, accuracy * c.form_factor) << c.name << " (" << c.formula << ")";
     EXPECT_LE(error, asked.factor.total.error + 1e-15) << c.name;
@@ -72,9 +75,10 @@ TEST(ExtendedFormFactor, BlockersAndMirrors) {
 
 // Images up to n reflections between facing mirrors: sum over |k| <= n of rho^|k| F(A -> B shifted by k), C-13.
 TEST(ExtendedFormFactor, FacingMirrorsToADepth) {
-  const std::vector<std::pair<int, double>> perfect{{0, 0.199824895698387383}, {1, 0.371925874003042054}, {2, 0.402476774179075703},
-                                                    {3, 0.409618298830268488}, {5, 0.412975676574105657}, {10, 0.414031743087268528},
-                                                    {20, 0.414188983226499097}};
+  const std::vector<std::pair<int, double>> perfect{
+      {0, 0.199824895698387383}, {1, 0.371925874003042054}, {2, 0.402476774179075703},
+      {3, 0.409618298830268488}, {5, 0.412975676574105657}, {10, 0.414031743087268528},
+      {20, 0.414188983226499097}};
   for (const auto& [depth, value] : perfect) {
     const Asked asked = ask(scene_of("two_facing", 1.0), "A", "B", {.max_depth = depth});
     EXPECT_NEAR(asked.factor.total.value, value, 1e-4 * value) << depth;
@@ -87,16 +91,20 @@ Scene room_with_mirror(double reflectance) {
   Scene scene;
   const Material grey = diffuse(0.5);
   add_room(scene, {0, 0, 0}, {3, 2, 2}, {grey, grey, grey, grey, grey, grey});
-  add_polygon(scene, "mirror", {{0.1, 0.5, 1.5}, {0.1, 0.5, 0.5}, {0.1, 1.5, 0.5}, {0.1, 1.5, 1.5}}, mirror(reflectance));
-  add_polygon(scene, "plate", {{1.5, 0.5, 1.0}, {2.0, 0.5, 1.2}, {2.0, 1.2, 1.2}, {1.5, 1.2, 1.0}}, double_sided(grey));
+  add_polygon(scene, "mirror", {{0.1, 0.5, 1.5}, {0.1, 0.5, 0.5}, {0.1, 1.5, 0.5}, {0.1, 1.5, 1.5}},
+              mirror(reflectance));
+  add_polygon(scene, "plate", {{1.5, 0.5, 1.0}, {2.0, 0.5, 1.2}, {2.0, 1.2, 1.2}, {1.5, 1.2, 1.0}},
+              double_sided(grey));
   return scene;
 }
 
 double factor_of(const Asked& asked, const std::vector<std::string>& chain, const Scene& scene) {
   for (const WorldFactor& world : asked.factor.worlds) {
     std::vector<std::string> names;
-    for (const MirrorId id : world.chain) names.push_back(scene.nodes[index(asked.mirrors.mirrors[index(id)].nodes.front())].name);
-    if (names == chain) return world.factor.value;
+    for (const MirrorId id : world.chain)
+      names.push_back(scene.nodes[index(asked.mirrors.mirrors[index(id)].nodes.front())].name);
+    if (names == chain)
+      return world.factor.value;
   }
   return 0.0;
 }
@@ -106,10 +114,14 @@ TEST(ExtendedFormFactor, ReciprocityInEveryWorld) {
   const Scene corner = scene_of("corner_mirrors", 0.8);
   const Asked ab = ask(corner, "A", "B"), ba = ask(corner, "B", "A");
   int worlds = 0;
-  for (const std::vector<std::string>& chain :
-       {std::vector<std::string>{}, {"mirror_x1"}, {"mirror_y1"}, {"mirror_x1", "mirror_y1"}, {"mirror_y1", "mirror_x1"}}) {
+  for (const std::vector<std::string>& chain : {std::vector<std::string>{},
+                                                {"mirror_x1"},
+                                                {"mirror_y1"},
+                                                {"mirror_x1", "mirror_y1"},
+                                                {"mirror_y1", "mirror_x1"}}) {
     const std::vector<std::string> reverse(chain.rbegin(), chain.rend());
-    const double there = ab.area * factor_of(ab, chain, corner), back = ba.area * factor_of(ba, reverse, corner);
+    const double there = ab.area * factor_of(ab, chain, corner),
+                 back = ba.area * factor_of(ba, reverse, corner);
     EXPECT_GT(there, 0.0);
     EXPECT_NEAR(there, back, 2e-4 * ab.factor.total.value);
     ++worlds;
@@ -119,7 +131,8 @@ TEST(ExtendedFormFactor, ReciprocityInEveryWorld) {
   const Scene room = room_with_mirror(1.0);
   const Asked there = ask(room, "x1", "y0"), back = ask(room, "y0", "x1");
   for (const std::vector<std::string>& chain : {std::vector<std::string>{}, {"mirror"}})
-    EXPECT_NEAR(there.area * factor_of(there, chain, room), back.area * factor_of(back, chain, room), 1e-3);
+    EXPECT_NEAR(there.area * factor_of(there, chain, room),
+                back.area * factor_of(back, chain, room), 1e-3);
 }
 
 // A perfect mirror hands all light on, so every wall's factors to all walls, the plate and the black back of the mirror add up to one.
@@ -127,21 +140,25 @@ TEST(ExtendedFormFactor, ClosedRoomsClose) {
   Scene scene = room_with_mirror(1.0);
   // The mirror moved onto its wall: what it hides is the wall's own plane.
   for (auto& vertex : scene.vertices)
-    if (vertex.position.x == 0.1) vertex.position.x = 0.0;
+    if (vertex.position.x == 0.1)
+      vertex.position.x = 0.0;
   scene.vertices.resize(scene.vertices.size() - 4);
   scene.triangles.resize(scene.triangles.size() - 2);
   scene.nodes.pop_back();
   const std::array wall{Point3(0, 0, 2), Point3(0, 0, 0), Point3(0, 2, 0), Point3(0, 2, 2)};
-  for (std::size_t k = 0; k < 4; ++k) scene.vertices[scene.vertices.size() - 4 + k].position = wall[k];
+  for (std::size_t k = 0; k < 4; ++k)
+    scene.vertices[scene.vertices.size() - 4 + k].position = wall[k];
   scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
 
   const SurfaceModel surfaces = find_surfaces(scene);
   std::vector<NodeId> nodes;
-  for (const char* name : {"x1", "y0", "y1", "z0", "z1"}) nodes.push_back(find_node(scene, name));
+  for (const char* name : {"x1", "y0", "y1", "z0", "z1"})
+    nodes.push_back(find_node(scene, name));
   for (const NodeId from : nodes) {
     const NodeFactors factors = node_form_factors(scene, surfaces, from, nodes);
     double sum = 0.0;
-    for (const ExtendedFactor& factor : factors.to) sum += factor.total.value;
+    for (const ExtendedFactor& factor : factors.to)
+      sum += factor.total.value;
     EXPECT_NEAR(sum, 1.0, 1e-4);
   }
 }
@@ -150,7 +167,8 @@ TEST(ExtendedFormFactor, ClosedRoomsClose) {
 TEST(ExtendedFormFactor, ScaleRotationAndTranslation) {
   const Scene scene = room_with_mirror(0.9);
   const double before = ask(scene, "x1", "y0").factor.total.value;
-  const Direction a = glm::normalize(Vec3(1, 2, 3)), b = glm::normalize(glm::cross(a, Vec3(0, 1, 0)));
+  const Direction a = glm::normalize(Vec3(1, 2, 3)),
+                  b = glm::normalize(glm::cross(a, Vec3(0, 1, 0)));
   const glm::dmat3 rotation(a, b, glm::cross(a, b));
   for (const double scale : {1e-3, 1.0, 1e3}) {
     const Scene moved = transformed(scene, rotation, scale, scale * Vec3(10, -20, 30));
@@ -165,9 +183,11 @@ TEST(ExtendedFormFactor, SplittingAPatchAddsUp) {
   add_polygon(split, "B1", {{0, 1, 1}, {0.4, 1, 1}, {0.4, 0, 1}, {0, 0, 1}}, diffuse(0.0));
   add_polygon(split, "B2", {{0.4, 1, 1}, {1, 1, 1}, {1, 0, 1}, {0.4, 0, 1}}, diffuse(0.0));
   add_polygon(split, "mirror_x1", {{1, 0, 1}, {1, 1, 1}, {1, 1, 0}, {1, 0, 0}}, mirror(0.7));
-  const double sum = ask(split, "A", "B1").factor.total.value + ask(split, "A", "B2").factor.total.value;
+  const double sum =
+      ask(split, "A", "B1").factor.total.value + ask(split, "A", "B2").factor.total.value;
   EXPECT_NEAR(sum, ask(whole, "A", "B").factor.total.value, 2e-4 * sum);
-  const double mean = 0.4 * ask(split, "B1", "A").factor.total.value + 0.6 * ask(split, "B2", "A").factor.total.value;
+  const double mean = 0.4 * ask(split, "B1", "A").factor.total.value +
+                      0.6 * ask(split, "B2", "A").factor.total.value;
   EXPECT_NEAR(mean, sum, 2e-4 * sum);
 }
 
@@ -176,8 +196,10 @@ TEST(ExtendedFormFactor, RaysAgreeWithTheAnalyticMethod) {
   const Scene scene = room_with_mirror(0.9);
   for (const char* to : {"y0", "x0", "plate"}) {
     const ExtendedFactor exact = ask(scene, "x1", to).factor;
-    const ExtendedFactor rays = ask(scene, "x1", to, {.method = NodeFactorMethod::rays, .rays = 1 << 16}).factor;
-    EXPECT_NEAR(rays.total.value, exact.total.value, 4.0 * rays.total.error + exact.total.error) << to;
+    const ExtendedFactor rays =
+        ask(scene, "x1", to, {.method = NodeFactorMethod::rays, .rays = 1 << 16}).factor;
+    EXPECT_NEAR(rays.total.value, exact.total.value, 4.0 * rays.total.error + exact.total.error)
+        << to;
     EXPECT_GT(rays.total.error, 0.0);
     EXPECT_LT(rays.total.error, 1e-3) << to; // F (1 - F) / N is below 1e-6
   }

@@ -12,12 +12,18 @@ namespace {
 
 constexpr int rays = 512;
 
-double area_of(const std::vector<Point3>& corners) { return glm::length(area_vector(std::span(corners))); }
+double area_of(const std::vector<Point3>& corners) {
+  return glm::length(area_vector(std::span(corners)));
+}
 
 /// Binomial: each of N rays arrives with probability F. Rays through mirrors of less than 1 weigh less, so this is an upper bound.
-double sigma(double form_factor, double samples) { return std::sqrt(std::max(form_factor * (1.0 - form_factor), 0.0) / samples); }
+double sigma(double form_factor, double samples) {
+  return std::sqrt(std::max(form_factor * (1.0 - form_factor), 0.0) / samples);
+}
 
-double samples_of(const LitScene& lit, const std::string& node) { return double(elements_of(lit, node).size()) * rays; }
+double samples_of(const LitScene& lit, const std::string& node) {
+  return double(elements_of(lit, node).size()) * rays;
+}
 
 struct Tally {
   double sum_of_squares = 0.0;
@@ -40,13 +46,16 @@ TEST(FormFactors, PairsOfPolygons) {
     add_polygon(scene, "b", c.b, diffuse(0.0));
     // Some 64 elements or more on a, of whatever shape it is, and not too many on b.
     const double longest = std::max(glm::distance(c.a[0], c.a[1]), glm::distance(c.a[1], c.a[2]));
-    const double size = std::max({std::sqrt(area_of(c.a) / 64.0), longest / 64.0, std::sqrt(area_of(c.b)) / 64.0});
+    const double size =
+        std::max({std::sqrt(area_of(c.a) / 64.0), longest / 64.0, std::sqrt(area_of(c.b)) / 64.0});
     const auto l = lit(std::move(scene), {.element_size = size});
     const FormFactors factors = assemble_transport(*l->light, {.rays = rays});
     const double n = samples_of(*l, "a");
     const double error = form_factor(*l, factors.transport, "a", "b") - c.form_factor;
-    EXPECT_LT(std::abs(error), 4.0 * sigma(c.form_factor, n) + 1.0 / n) << c.name << " (" << c.formula << ")";
-    if (sigma(c.form_factor, n) * n > 3.0) tally.add(error / sigma(c.form_factor, n));
+    EXPECT_LT(std::abs(error), 4.0 * sigma(c.form_factor, n) + 1.0 / n)
+        << c.name << " (" << c.formula << ")";
+    if (sigma(c.form_factor, n) * n > 3.0)
+      tally.add(error / sigma(c.form_factor, n));
   }
   EXPECT_GT(tally.count, 50);
   EXPECT_LT(tally.rms(), 1.0);
@@ -66,12 +75,15 @@ Scene scene_of(const std::string& name, double mirror_reflectance) {
 TEST(FormFactors, BlockersMirrorsAndRooms) {
   Tally tally;
   for (const auto& c : known_scene_form_factors()) {
-    const auto l = lit(scene_of(c.scene, c.mirror_reflectance), {.element_size = 0.125 * (std::string(c.scene) == "lroom" ? 2.0 : 1.0)});
+    const auto l = lit(scene_of(c.scene, c.mirror_reflectance),
+                       {.element_size = 0.125 * (std::string(c.scene) == "lroom" ? 2.0 : 1.0)});
     const FormFactors factors = assemble_transport(*l->light, {.rays = rays});
     const double n = samples_of(*l, c.from);
     const double error = form_factor(*l, factors.transport, c.from, c.to) - c.form_factor;
-    EXPECT_LT(std::abs(error), 4.0 * sigma(c.form_factor, n) + 1e-12) << c.name << " (" << c.formula << ")";
-    if (c.form_factor > 0.0 && c.form_factor < 1.0) tally.add(error / sigma(c.form_factor, n));
+    EXPECT_LT(std::abs(error), 4.0 * sigma(c.form_factor, n) + 1e-12)
+        << c.name << " (" << c.formula << ")";
+    if (c.form_factor > 0.0 && c.form_factor < 1.0)
+      tally.add(error / sigma(c.form_factor, n));
   }
   EXPECT_GT(tally.count, 40);
   EXPECT_LT(tally.rms(), 1.0);
@@ -79,12 +91,15 @@ TEST(FormFactors, BlockersMirrorsAndRooms) {
 
 /// Rooms of every kind: closed, open, with mirrors, with blockers.
 std::vector<Scene> sample_rooms() {
-  std::vector<Scene> scenes{half_room(), half_room_with_small_mirror(), doubled(half_room()), facing_mirrors(Rgb(0.9, 0.7, 0.5)),
+  std::vector<Scene> scenes{half_room(), half_room_with_small_mirror(), doubled(half_room()),
+                            facing_mirrors(Rgb(0.9, 0.7, 0.5)),
                             furnace(0.5, {true, true, true, true, false, true})};
   scenes.push_back(half_room());
-  scenes.back().triangles.resize(scenes.back().triangles.size() - 6); // open at the bottom of the box
+  scenes.back().triangles.resize(scenes.back().triangles.size() -
+                                 6); // open at the bottom of the box
   scenes.push_back(half_room());
-  scenes.back().triangles.erase(scenes.back().triangles.begin() + 2, scenes.back().triangles.begin() + 4); // without a wall
+  scenes.back().triangles.erase(scenes.back().triangles.begin() + 2,
+                                scenes.back().triangles.begin() + 4); // without a wall
   return scenes;
 }
 
@@ -101,8 +116,10 @@ TEST(FormFactors, RowsClose) {
       for (int band = 0; band < 3; ++band) {
         double landed = 0.0;
         for (auto k = t.row_begin[i]; k < t.row_begin[i + 1]; ++k)
-          landed += t.weights[k * static_cast<std::size_t>(t.bands) + static_cast<std::size_t>(t.bands == 1 ? 0 : band)];
-        const double lost = row.escaped_light[band] + row.black_light[band] + row.mirror_absorbed[band];
+          landed += t.weights[k * static_cast<std::size_t>(t.bands) +
+                              static_cast<std::size_t>(t.bands == 1 ? 0 : band)];
+        const double lost =
+            row.escaped_light[band] + row.black_light[band] + row.mirror_absorbed[band];
         EXPECT_NEAR(landed + lost / (1.0 - row.cut_light[band]), 1.0, 1e-5);
       }
     }
@@ -114,10 +131,12 @@ TEST(FormFactors, WhatHangsAboveDoesNotCover) {
   for (const int net : {128, 512}) {
     const auto l = lit(half_room(), {.element_size = 0.05});
     const FormFactors factors = assemble_transport(*l->light, {.rays = net});
-    for (const auto e : elements_of(*l, "y1")) EXPECT_EQ(factors.exposed[e], 1.0F);
+    for (const auto e : elements_of(*l, "y1"))
+      EXPECT_EQ(factors.exposed[e], 1.0F);
     // Under the box, 0.6 m x 0.7 m on the floor, nothing is exposed; elements at its edges, some 52, partly.
     double covered = 0.0;
-    for (const auto e : elements_of(*l, "y0")) covered += l->mesh.area[e] * (1.0 - double{factors.exposed[e]});
+    for (const auto e : elements_of(*l, "y0"))
+      covered += l->mesh.area[e] * (1.0 - double{factors.exposed[e]});
     EXPECT_NEAR(covered, 0.42, 52 * 0.05 * 0.05 * 0.25);
   }
 }
@@ -125,16 +144,21 @@ TEST(FormFactors, WhatHangsAboveDoesNotCover) {
 TEST(FormFactors, ReciprocityOfSums) {
   const auto l = lit(half_room_with_small_mirror(), {.target_elements = 1500});
   const FormFactors factors = assemble_transport(*l->light, {.rays = 512});
-  const std::vector<std::string> nodes{"x1", "y0", "y1", "z0", "z1", "left", "below", "box.y1", "box.x0"};
+  const std::vector<std::string> nodes{"x1",   "y0",    "y1",     "z0",    "z1",
+                                       "left", "below", "box.y1", "box.x0"};
   for (const auto& a : nodes)
     for (const auto& b : nodes) {
       const auto area = [&](const std::string& node) {
         double sum = 0.0;
-        for (const auto e : elements_of(*l, node)) sum += l->mesh.area[e];
+        for (const auto e : elements_of(*l, node))
+          sum += l->mesh.area[e];
         return sum;
       };
-      const auto samples = [&](const std::string& node) { return double(elements_of(*l, node).size()) * 512.0; };
-      const double ab = form_factor(*l, factors.transport, a, b), ba = form_factor(*l, factors.transport, b, a);
+      const auto samples = [&](const std::string& node) {
+        return double(elements_of(*l, node).size()) * 512.0;
+      };
+      const double ab = form_factor(*l, factors.transport, a, b),
+                   ba = form_factor(*l, factors.transport, b, a);
       const double noise = area(a) * sigma(ab, samples(a)) + area(b) * sigma(ba, samples(b));
       EXPECT_NEAR(area(a) * ab, area(b) * ba, 4.0 * noise + 1e-12) << a << ' ' << b;
     }

@@ -26,7 +26,8 @@ WorstElement worst_element(const Scene& scene, double reflectance, double tolera
   WorstElement worst{0.0, solution.solver.converged};
   for (std::size_t e = 0; e < solution.radiosity.size(); ++e) {
     for (int band = 0; band < 3; ++band)
-      worst.error = std::max(worst.error, std::abs(solution.radiosity[e][band] * (1.0 - reflectance) - 1.0));
+      worst.error =
+          std::max(worst.error, std::abs(solution.radiosity[e][band] * (1.0 - reflectance) - 1.0));
   }
   return worst;
 }
@@ -43,19 +44,22 @@ class FurnaceTest : public testing::TestWithParam<Furnace> {};
 
 TEST_P(FurnaceTest, EveryElement) {
   for (const double rho : {0.1, 0.5, 0.8, 0.9, 0.99}) {
-    const WorstElement worst = worst_element(furnace(rho, GetParam().mirrors, GetParam().size), rho);
+    const WorstElement worst =
+        worst_element(furnace(rho, GetParam().mirrors, GetParam().size), rho);
     EXPECT_TRUE(worst.converged) << rho;
     EXPECT_LT(worst.error, 1e-3) << rho;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Rooms, FurnaceTest,
-                         testing::Values(Furnace{"Cube", {}}, Furnace{"Long", {}, {0.4, 1.0, 3.0}}, Furnace{"Flat", {}, {2.0, 0.02, 1.0}},
-                                         Furnace{"OneMirror", {true}}, Furnace{"FacingMirrors", {false, false, true, true}},
-                                         Furnace{"CornerOfMirrors", {true, false, true, false, true}},
-                                         Furnace{"LongWithFacingMirrors", {true, true}, {0.4, 1.0, 3.0}},
-                                         Furnace{"FiveMirrors", {true, true, true, false, true, true}}),
-                         [](const auto& room) { return room.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Rooms, FurnaceTest,
+    testing::Values(Furnace{"Cube", {}}, Furnace{"Long", {}, {0.4, 1.0, 3.0}},
+                    Furnace{"Flat", {}, {2.0, 0.02, 1.0}}, Furnace{"OneMirror", {true}},
+                    Furnace{"FacingMirrors", {false, false, true, true}},
+                    Furnace{"CornerOfMirrors", {true, false, true, false, true}},
+                    Furnace{"LongWithFacingMirrors", {true, true}, {0.4, 1.0, 3.0}},
+                    Furnace{"FiveMirrors", {true, true, true, false, true, true}}),
+    [](const auto& room) { return room.param.name; });
 
 TEST(Furnace, ReflectanceNearOne) {
   const WorstElement worst = worst_element(furnace(0.999, {}), 0.999);
@@ -79,7 +83,8 @@ TEST(Furnace, WithABoxInside) {
 
 TEST(Furnace, BothSidesOfASheetInside) {
   Scene scene = furnace(0.9, {});
-  add_polygon(scene, "sheet", {{0.2, 0.5, 0.2}, {0.8, 0.5, 0.2}, {0.8, 0.6, 0.8}, {0.2, 0.6, 0.8}}, double_sided(diffuse(0.9, 1.0)));
+  add_polygon(scene, "sheet", {{0.2, 0.5, 0.2}, {0.8, 0.5, 0.2}, {0.8, 0.6, 0.8}, {0.2, 0.6, 0.8}},
+              double_sided(diffuse(0.9, 1.0)));
   EXPECT_LT(worst_element(scene, 0.9).error, 1e-3);
 }
 
@@ -87,13 +92,17 @@ TEST(Furnace, WithAFacetedMirrorBall) {
   Scene scene = furnace(0.9, {});
   const auto at = [](int ring, int step) {
     const double t = 3.14159265358979 * ring / 8, p = 3.14159265358979 * step / 8;
-    return Point3(0.5) + 0.3 * Vec3(std::sin(t) * std::cos(p), std::cos(t), std::sin(t) * std::sin(p));
+    return Point3(0.5) +
+           0.3 * Vec3(std::sin(t) * std::cos(p), std::cos(t), std::sin(t) * std::sin(p));
   };
   for (int ring = 0; ring < 8; ++ring)
     for (int step = 0; step < 16; ++step) {
-      std::vector<Point3> corners{at(ring, step), at(ring, step + 1), at(ring + 1, step + 1), at(ring + 1, step)};
-      if (ring == 0) corners.erase(corners.begin());
-      else if (ring == 7) corners.pop_back();
+      std::vector<Point3> corners{at(ring, step), at(ring, step + 1), at(ring + 1, step + 1),
+                                  at(ring + 1, step)};
+      if (ring == 0)
+        corners.erase(corners.begin());
+      else if (ring == 7)
+        corners.pop_back();
       add_polygon(scene, "ball", corners, mirror(1.0));
     }
   EXPECT_LT(worst_element(scene, 0.9).error, 1e-3);

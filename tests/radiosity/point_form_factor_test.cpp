@@ -19,7 +19,9 @@ double clipped_form_factor(const Point3& x, const Direction& n, std::span<const 
 // The header promises 1e-12; below 1e-3 m in front of the centre of a square the terms cancel to 1e-15 of 1, no more.
 TEST(PointFormFactor, KnownValues) {
   for (const auto& c : known_point_form_factors())
-    EXPECT_NEAR(clipped_form_factor(c.point, glm::normalize(c.normal), c.polygon), c.form_factor, 1e-12 * c.form_factor) << c.name;
+    EXPECT_NEAR(clipped_form_factor(c.point, glm::normalize(c.normal), c.polygon), c.form_factor,
+                1e-12 * c.form_factor)
+        << c.name;
 }
 
 // Howell C-11 for a point below a corner of a rectangle a x b at distance h, with A = a/h, B = b/h:
@@ -27,10 +29,13 @@ TEST(PointFormFactor, KnownValues) {
 TEST(PointFormFactor, ParallelRectangleAboveItsCorner) {
   Random random(1);
   for (int k = 0; k < 500; ++k) {
-    const double a = std::pow(10.0, random.between(-2, 2)), b = std::pow(10.0, random.between(-2, 2)), h = std::pow(10.0, random.between(-2, 2));
+    const double a = std::pow(10.0, random.between(-2, 2)),
+                 b = std::pow(10.0, random.between(-2, 2)),
+                 h = std::pow(10.0, random.between(-2, 2));
     const std::array<Point3, 4> rectangle{Point3(0, 0, h), {0, b, h}, {a, b, h}, {a, 0, h}};
     const double A = a / h, B = b / h, p = std::sqrt(1 + A * A), q = std::sqrt(1 + B * B);
-    const double exact = (A / p * std::atan(B / p) + B / q * std::atan(A / q)) / (2.0 * std::numbers::pi);
+    const double exact =
+        (A / p * std::atan(B / p) + B / q * std::atan(A / q)) / (2.0 * std::numbers::pi);
     EXPECT_NEAR(point_form_factor(Point3(0.0), {0, 0, 1}, rectangle), exact, 1e-12 * exact);
   }
 }
@@ -40,7 +45,9 @@ TEST(PointFormFactor, ParallelRectangleAboveItsCorner) {
 TEST(PointFormFactor, PerpendicularRectangle) {
   Random random(2);
   for (int k = 0; k < 500; ++k) {
-    const double a = std::pow(10.0, random.between(-1, 2)), b = std::pow(10.0, random.between(-1, 1)), h = std::pow(10.0, random.between(-1, 1));
+    const double a = std::pow(10.0, random.between(-1, 2)),
+                 b = std::pow(10.0, random.between(-1, 1)),
+                 h = std::pow(10.0, random.between(-1, 1));
     const std::array<Point3, 4> floor{Point3(0, 0, -h), {a, 0, -h}, {a, b, -h}, {0, b, -h}};
     const double X = a / b, Y = h / b, r = std::hypot(X, Y);
     const double exact = (std::atan(1 / Y) - Y / r * std::atan(1 / r)) / (2.0 * std::numbers::pi);
@@ -59,7 +66,8 @@ TEST(PointFormFactor, TheWallsOfABoxFillTheHemisphere) {
     const Point3 x = random.in_box({-1, -2, -3}, {2, 1, 0.5});
     const Direction n = random.direction();
     double sum = 0.0;
-    for (const auto& patch : model.patches) sum += clipped_form_factor(x, n, polygon_of(patch));
+    for (const auto& patch : model.patches)
+      sum += clipped_form_factor(x, n, polygon_of(patch));
     EXPECT_NEAR(sum, 1.0, 1e-12);
   }
 }
@@ -73,7 +81,8 @@ TEST(PointFormFactor, AtAWallTheOthersFillTheHemisphere) {
     double sum = 0.0;
     const Point3 x{random.between(0, 1), 0.0, random.between(0, 1)};
     for (const auto& patch : model.patches)
-      if (model.surfaces[index(patch.surface)].plane.normal.y < 0.5) sum += clipped_form_factor(x, {0, 1, 0}, polygon_of(patch));
+      if (model.surfaces[index(patch.surface)].plane.normal.y < 0.5)
+        sum += clipped_form_factor(x, {0, 1, 0}, polygon_of(patch));
     EXPECT_NEAR(sum, 1.0, 1e-12);
   }
 }
@@ -84,7 +93,8 @@ TEST(PointFormFactor, DoesNotDependOnScale) {
   const double at_one = point_form_factor(Point3(0.0), n, polygon);
   for (int power = -6; power <= 6; ++power) {
     std::vector<Point3> scaled;
-    for (const auto& x : polygon) scaled.push_back(std::pow(10.0, power) * x);
+    for (const auto& x : polygon)
+      scaled.push_back(std::pow(10.0, power) * x);
     EXPECT_NEAR(point_form_factor(Point3(0.0), n, scaled), at_one, 1e-13 * at_one);
   }
 }
@@ -94,12 +104,14 @@ TEST(PointFormFactor, TinyPolygonsAreSolidAngles) {
   Random random(5);
   for (int k = 0; k < 300; ++k) {
     const Direction to = random.direction(), n = random.direction();
-    if (glm::dot(to, n) < 0.1) continue;
+    if (glm::dot(to, n) < 0.1)
+      continue;
     const Vec3 u = glm::normalize(glm::cross(to, random.direction())), v = glm::cross(to, u);
     const double width = std::sqrt(1e-9), distance = random.between(0.1, 10.0);
     const Point3 c = distance * to;
-    const std::array<Point3, 4> square{c + 0.5 * distance * width * (-u - v), c + 0.5 * distance * width * (u - v),
-                                       c + 0.5 * distance * width * (u + v), c + 0.5 * distance * width * (v - u)};
+    const std::array<Point3, 4> square{
+        c + 0.5 * distance * width * (-u - v), c + 0.5 * distance * width * (u - v),
+        c + 0.5 * distance * width * (u + v), c + 0.5 * distance * width * (v - u)};
     const double exact = 1e-9 * glm::dot(to, n) / std::numbers::pi;
     EXPECT_NEAR(point_form_factor(Point3(0.0), n, square), exact, 1e-8 * exact);
   }

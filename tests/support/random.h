@@ -24,7 +24,8 @@ public:
     for (;;) {
       const Vec3 v = in_box(Vec3(-1.0), Vec3(1.0));
       const double length2 = glm::dot(v, v);
-      if (length2 > 0.01 && length2 < 1.0) return v / std::sqrt(length2);
+      if (length2 > 0.01 && length2 < 1.0)
+        return v / std::sqrt(length2);
     }
   }
 

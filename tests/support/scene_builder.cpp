@@ -37,11 +37,13 @@ NodeId add_polygon(Scene& scene, const std::string& name, const std::vector<Poin
   scene.materials.push_back(material);
   for (const auto& corner : corners) {
     scene.vertices.push_back({.position = corner});
-    const auto magnitude = glm::max(glm::abs(corner.x), glm::max(glm::abs(corner.y), glm::abs(corner.z)));
+    const auto magnitude =
+        glm::max(glm::abs(corner.x), glm::max(glm::abs(corner.y), glm::abs(corner.z)));
     scene.position_error = std::max(scene.position_error, 1e-15 * magnitude);
   }
   for (std::uint32_t k = 2; k < corners.size(); ++k)
-    scene.triangles.push_back({{VertexId{first}, VertexId{first + k - 1}, VertexId{first + k}}, material_id, node});
+    scene.triangles.push_back(
+        {{VertexId{first}, VertexId{first + k - 1}, VertexId{first + k}}, material_id, node});
   return node;
 }
 
@@ -60,10 +62,12 @@ static constexpr std::array<const char*, 6> face_names{"x0", "x1", "y0", "y1", "
 
 void add_room(Scene& scene, Point3 low, Point3 high, const std::array<Material, 6>& walls) {
   const auto faces = inward_faces(low, high);
-  for (std::size_t k = 0; k < 6; ++k) add_polygon(scene, face_names[k], faces[k], walls[k]);
+  for (std::size_t k = 0; k < 6; ++k)
+    add_polygon(scene, face_names[k], faces[k], walls[k]);
 }
 
-void add_box(Scene& scene, const std::string& name, Point3 low, Point3 high, const Material& material) {
+void add_box(Scene& scene, const std::string& name, Point3 low, Point3 high,
+             const Material& material) {
   const auto faces = inward_faces(low, high);
   for (std::size_t k = 0; k < 6; ++k)
     add_polygon(scene, name + "." + face_names[k], {faces[k].rbegin(), faces[k].rend()}, material);
@@ -81,7 +85,8 @@ Camera look_at(Point3 eye, Point3 target, double vertical_fov) {
 
 Scene transformed(const Scene& scene, const glm::dmat3& rotation, double scale, Vec3 offset) {
   Scene moved = scene;
-  for (auto& vertex : moved.vertices) vertex.position = scale * (rotation * vertex.position) + offset;
+  for (auto& vertex : moved.vertices)
+    vertex.position = scale * (rotation * vertex.position) + offset;
   for (auto& camera : moved.cameras) {
     camera.position = scale * (rotation * camera.position) + offset;
     camera.right = rotation * camera.right;

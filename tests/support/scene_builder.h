@@ -21,7 +21,8 @@ NodeId add_polygon(Scene& scene, const std::string& name, const std::vector<Poin
 void add_room(Scene& scene, Point3 low, Point3 high, const std::array<Material, 6>& walls);
 
 /// The six outward faces of a box, in the same order, named name.x0 and so on.
-void add_box(Scene& scene, const std::string& name, Point3 low, Point3 high, const Material& material);
+void add_box(Scene& scene, const std::string& name, Point3 low, Point3 high,
+             const Material& material);
 
 /// A camera at `eye` that looks at `target`, +Y up.
 Camera look_at(Point3 eye, Point3 target, double vertical_fov);
