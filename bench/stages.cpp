@@ -103,8 +103,9 @@ void run(const char* file) {
              "{:<14}{:>10}{:>10}{:>10}{:>14}{:>14}\n",
              file, scene.triangles.size(), light.mesh.area.size(), "", "default", "robust", "ours",
              "of default", "of robust");
-  report("form factors", stage(plain, robust, gathered, Coherence::coherent,
-                               [&] { return assemble_transport(light, form_factors).rays_traced; }));
+  report("form factors", stage(plain, robust, gathered, Coherence::coherent, [&] {
+           return assemble_transport(light, form_factors).rays_traced;
+         }));
   report("pass two", stage(plain, robust, seen, Coherence::coherent, [&] {
            const Rendering rendering = render(light, field, camera, settings.render);
            return rendering.camera_rays + rendering.specular_rays;

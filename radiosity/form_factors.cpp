@@ -4,19 +4,20 @@
 #include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 
 namespace meninas {
 
 namespace {
 
-constexpr std::size_t chunk_size = 64; ///< rows a task assembles; fixed, so that nothing depends on the number of threads
+constexpr std::size_t chunk_size =
+    64; ///< rows a task assembles; fixed, so that nothing depends on the number of threads
 
-/// Rows of one chunk, to be strung together in order.
+/// Rows of one chunk, to be strung together in order; storage reused from one to the next.
 struct RowChunk {
   std::vector<std::uint32_t> lengths;
   std::vector<std::uint32_t> columns;
@@ -40,7 +41,8 @@ struct RowAccumulator {
     }
   }
   void clear() {
-    for (const auto column : columns) place[column] = 0;
+    for (const auto column : columns)
+      place[column] = 0;
     columns.clear();
     weights.clear();
   }
@@ -56,6 +58,15 @@ bool grey_mirrors(const Scene& scene) {
     const Rgb r = mirror_reflectance(material);
     return r.r == r.g && r.g == r.b;
   });
+}
+
+/// By ElementId: 1 where its side emits.
+std::vector<std::uint8_t> emitting_elements(const ElementMesh& mesh) {
+  std::vector<std::uint8_t> emits;
+  emits.reserve(mesh.side_of_element.size());
+  for (const SideId side : mesh.side_of_element)
+    emits.push_back(mesh.sides[index(side)].emission != Rgb(0.0) ? 1 : 0);
+  return emits;
 }
 
 /// Fractions of the rays of the exposed part.
@@ -85,72 +96,125 @@ void append_row(const RowAccumulator& row, const Rgb& kept, int bands, RowChunk&
   chunk.lengths.push_back(static_cast<std::uint32_t>(row.columns.size()));
   chunk.columns.insert(chunk.columns.end(), row.columns.begin(), row.columns.end());
   const glm::vec3 share(1.0 / kept);
+  const std::size_t first = chunk.weights.size();
+  chunk.weights.resize(first + row.weights.size() * static_cast<std::size_t>(bands));
+  float* to = chunk.weights.data() + first;
   for (const auto& weight : row.weights)
-    for (int band = 0; band < bands; ++band) chunk.weights.push_back(weight[band] * share[band]);
+    for (int band = 0; band < bands; ++band)
+      *to++ = weight[band] * share[band];
 }
 
-Transport string_together(std::vector<RowChunk>& chunks, std::size_t size, int bands) {
-  Transport transport;
-  transport.size = size;
-  transport.bands = bands;
-  std::size_t entries = 0;
-  for (const auto& chunk : chunks) entries += chunk.columns.size();
-  transport.row_begin.reserve(size + 1);
-  transport.row_begin.push_back(0);
-  transport.columns.reserve(entries);
-  transport.weights.reserve(entries * static_cast<std::size_t>(bands));
-  for (auto& chunk : chunks) {
-    for (const auto length : chunk.lengths) transport.row_begin.push_back(transport.row_begin.back() + length);
-    transport.columns.insert(transport.columns.end(), chunk.columns.begin(), chunk.columns.end());
-    transport.weights.insert(transport.weights.end(), chunk.weights.begin(), chunk.weights.end());
-    chunk = {};
+void clear(RowChunk& chunk) {
+  chunk.lengths.clear();
+  chunk.columns.clear();
+  chunk.weights.clear();
+  chunk.rays = 0;
+}
+
+/// Makes room for more without moving what is there again and again: as much as all rows need if they are like those so far.
+template <typename Value>
+void make_room(std::vector<Value>& values, std::size_t more, double share_done) {
+  const std::size_t needed = values.size() + more;
+  if (values.capacity() >= needed)
+    return;
+  constexpr double margin = 1.25; // room that is not used is never touched
+  values.reserve(std::max(
+      2 * needed, static_cast<std::size_t>(margin * static_cast<double>(needed) / share_done)));
+}
+
+/// Appends the rows of the next chunk.
+void append_rows(const RowChunk& chunk, Transport& transport) {
+  const std::size_t rows = transport.row_begin.size() - 1 + chunk.lengths.size();
+  const double share_done = static_cast<double>(rows) / static_cast<double>(transport.size);
+  make_room(transport.columns, chunk.columns.size(), share_done);
+  make_room(transport.weights, chunk.weights.size(), share_done);
+  for (const auto length : chunk.lengths)
+    transport.row_begin.push_back(transport.row_begin.back() + length);
+  transport.columns.insert(transport.columns.end(), chunk.columns.begin(), chunk.columns.end());
+  transport.weights.insert(transport.weights.end(), chunk.weights.begin(), chunk.weights.end());
+}
+
+/// What the tasks share.
+struct Assembly {
+  const LightScene& light;
+  const FormFactorSettings& settings;
+  DirectionNet net;
+  std::vector<std::uint8_t> emits; ///< by ElementId
+  int bands;
+};
+
+void assemble_row(const Assembly& assembly, std::size_t row, Workspace& work, RowChunk& chunk,
+                  FormFactors& result) {
+  const std::size_t rays = assembly.net.points.size();
+  const auto seed = hash(static_cast<std::uint32_t>(row), assembly.settings.seed, 0x9a7e);
+  const ReceiverArea receiver = receiver_of(assembly.light, static_cast<ElementId>(row));
+  gather_rays(assembly.light, assembly.net, receiver, seed, assembly.settings, work.gather);
+  const GatheredRays& gathered = work.gather.result;
+  const Rgb kept = kept_light(gathered, rays);
+  result.covered[row] = gathered.covered;
+  result.exposed[row] = 1.0F - static_cast<float>(std::popcount(gathered.covered)) / 64.0F;
+  result.closure[row] = closure_of(gathered, rays);
+  for (const auto& landing : gathered.landings) {
+    work.row.add(landing.element, landing.throughput);
+    if (assembly.emits[landing.element] != 0)
+      result.gathered_emission[row] += gathered_emission(assembly.light, landing) / kept;
   }
-  return transport;
+  append_row(work.row, kept, assembly.bands, chunk);
+  work.row.clear();
+  chunk.rays += gathered.traced;
 }
 
 } // namespace
 
-FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings, const Progress& progress) {
+FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings,
+                               const Progress& progress) {
   const std::size_t size = element_count(light.mesh);
-  const DirectionNet net = make_direction_net(settings.rays);
-  const std::size_t rays = net.points.size();
-  const int bands = grey_mirrors(light.scene) ? 1 : 3;
-
+  const Assembly assembly{light, settings, make_direction_net(settings.rays),
+                          emitting_elements(light.mesh), grey_mirrors(light.scene) ? 1 : 3};
   FormFactors result;
   result.closure.resize(size);
   result.covered.resize(size);
   result.exposed.resize(size);
   result.gathered_emission.resize(size);
-  std::vector<RowChunk> chunks((size + chunk_size - 1) / chunk_size);
+  Transport& transport = result.transport;
+  transport.size = size;
+  transport.bands = assembly.bands;
+  transport.row_begin.reserve(size + 1);
+  transport.row_begin.push_back(0);
+
+  // Chunks are assembled by any thread and appended in order. No more are under way than there are slots, so that chunk c finds
+  // its slot, c modulo their number, free again.
+  const std::size_t chunk_count = (size + chunk_size - 1) / chunk_size;
+  std::vector<RowChunk> slots(4 *
+                              static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
   tbb::enumerable_thread_specific<Workspace> workspaces;
-  std::atomic<std::size_t> done{0};
-
-  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+  std::size_t next = 0, done = 0;
+  const auto start_chunk = [&](tbb::flow_control& flow) {
+    if (next == chunk_count)
+      flow.stop();
+    return next++;
+  };
+  const auto assemble_chunk = [&](std::size_t c) {
     Workspace& work = workspaces.local();
+    RowChunk& chunk = slots[c % slots.size()];
+    clear(chunk);
     work.row.place.resize(size, 0);
-    const std::size_t end = std::min(size, (c + 1) * chunk_size);
-    for (std::size_t i = c * chunk_size; i < end; ++i) {
-      const auto element = static_cast<ElementId>(i);
-      const auto seed = hash(static_cast<std::uint32_t>(i), settings.seed, 0x9a7e);
-      gather_rays(light, net, receiver_of(light, element), seed, settings, work.gather);
-      const GatheredRays& gathered = work.gather.result;
-      const Rgb kept = kept_light(gathered, rays);
-      result.covered[i] = gathered.covered;
-      result.exposed[i] = 1.0F - static_cast<float>(std::popcount(gathered.covered)) / 64.0F;
-      for (const auto& landing : gathered.landings) {
-        work.row.add(landing.element, landing.throughput);
-        result.gathered_emission[i] += gathered_emission(light, landing) / kept;
-      }
-      result.closure[i] = closure_of(gathered, rays);
-      append_row(work.row, kept, bands, chunks[c]);
-      work.row.clear();
-      chunks[c].rays += gathered.traced;
-    }
-    if (progress) progress("form factors", static_cast<double>(++done) / static_cast<double>(chunks.size()));
-  });
-
-  for (const auto& chunk : chunks) result.rays_traced += chunk.rays;
-  result.transport = string_together(chunks, size, bands);
+    for (std::size_t row = c * chunk_size; row < std::min(size, (c + 1) * chunk_size); ++row)
+      assemble_row(assembly, row, work, chunk, result);
+    return c;
+  };
+  const auto append_chunk = [&](std::size_t c) {
+    const RowChunk& chunk = slots[c % slots.size()];
+    append_rows(chunk, transport);
+    result.rays_traced += chunk.rays;
+    if (progress)
+      progress("form factors", static_cast<double>(++done) / static_cast<double>(chunk_count));
+  };
+  tbb::parallel_pipeline(
+      slots.size(),
+      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, start_chunk) &
+          tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, assemble_chunk) &
+          tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, append_chunk));
   return result;
 }
 

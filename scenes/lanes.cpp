@@ -109,34 +109,39 @@ LaneVectors lifted_directions(const FrameGeometry& geometry, const RayPacket& pa
 
 Doubts find_doubts(const FrameGeometry& geometry, const RayPacket& packet, const HitPacket& hits,
                    const LaneFlags& valid, const LaneFlags& touching, Backs backs) {
-  LaneFlags suspect;
-  std::uint32_t leaving = 0;
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    const auto leaves = packet.leaving[k] != no_index;
-    const auto met = hits.triangle[k] != no_index;
-    const auto settled = met ? hits.front[k] != 0 && !leaves : !leaves;
-    suspect[k] = settled ? 0 : valid[k];
-    leaving |= leaves ? 1U << k : 0U;
+  LaneFlags missed, turned, leaves, own;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    missed[k] = valid[k] & (hits.triangle[k] == no_index ? -1 : 0);
+  for (std::size_t k = 0; k < packet_size; ++k)
+    turned[k] = valid[k] & (hits.front[k] == 0 ? -1 : 0);
+  for (std::size_t k = 0; k < packet_size; ++k)
+    leaves[k] = packet.leaving[k] != no_index ? -1 : 0;
+  const auto missed_lanes = bits_of(missed);
+  const auto leaving_lanes = bits_of(leaves);
+  Doubts doubts;
+  doubts.at_contact = missed_lanes & leaving_lanes;
+  const auto met_lanes = bits_of(valid) & ~missed_lanes;
+  if ((met_lanes & leaving_lanes) != 0) {
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      const auto traced = static_cast<std::uint32_t>(valid[k] & ~missed[k]);
+      const auto plane = geometry.facts[hits.triangle[k] & traced].plane;
+      own[k] = touching[k] | (plane == packet.leaving[k] ? -1 : 0);
+    }
+    doubts.careful = bits_of(own) & met_lanes & leaving_lanes;
   }
 
-  Doubts doubts;
-  for (auto rest = bits_of(suspect); rest != 0; rest &= rest - 1) {
+  for (auto rest = bits_of(turned) & met_lanes & ~doubts.careful; rest != 0; rest &= rest - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(rest));
     const auto bit = 1U << k;
-    if (hits.triangle[k] == no_index) {
-      doubts.at_contact |= bit;
-      continue;
-    }
     const auto& facts = geometry.facts[hits.triangle[k]];
-    const auto leaves = (leaving & bit) != 0;
-    const auto back = hits.front[k] == 0 && facts.single_sided;
-    if (back && !leaves && backs == Backs::transparent)
-      doubts.through |= bit;
-    else if (leaves && (facts.plane == packet.leaving[k] || touching[k] != 0))
+    if (!facts.single_sided)
+      continue;
+    const auto left = (leaving_lanes & bit) != 0;
+    if (backs == Backs::transparent)
+      (left ? doubts.careful : doubts.through) |= bit;
+    else if (facts.in_sheet)
       doubts.careful |= bit;
-    else if (back && (facts.in_sheet || backs == Backs::transparent))
-      doubts.careful |= bit;
-    else if (back && leaves)
+    else if (left)
       doubts.at_contact |= bit;
   }
   return doubts;

@@ -1,0 +1,93 @@
+#include "radiosity/covered_cells.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace meninas {
+
+namespace {
+
+/// Counts, cell by cell of the receiver, the rays and those that met a black back at once.
+struct CellCounts {
+  std::array<std::uint32_t, 64> rays{}, black{};
+
+  /// Every ray met black; a cell without rays is not known to be.
+  bool is_black(std::uint32_t cell) const { return rays[cell] >= 2 && black[cell] == rays[cell]; }
+};
+
+/// Directions all the way round, neighbours of which start far apart.
+std::array<Vec2, packet_size> all_round() {
+  std::array<Vec2, packet_size> directions;
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const double turn =
+        2.0 * std::numbers::pi * static_cast<double>(7 * k % packet_size) / packet_size;
+    directions[k] = {std::cos(turn), std::sin(turn)};
+  }
+  return directions;
+}
+
+/// Rays along the surface from all over the cell, all the way round, meet nothing but black: the cell is enclosed. The few rays of a cell
+/// may all meet the black back of something that only hangs above; these pass under it.
+bool is_enclosed(const LightScene& light, const RaySource& source, std::uint32_t cell) {
+  constexpr double rise = 0.02; // of the rays over the surface
+  static const std::array<Vec2, packet_size> round = all_round();
+  RayPacket packet;
+  packet.count = packet_size;
+  for (std::uint32_t k = 0; k < packet_size; ++k) {
+    const Vec2 place(k / 4 + 0.5, k % 4 + 0.5);
+    const Vec3 from = point_in(source.area, (Vec2(cell / 8, cell % 8) + 0.25 * place) / 8.0);
+    const Vec3 along = round[k].x * source.tangents.tangent +
+                       round[k].y * source.tangents.bitangent + rise * source.area.normal;
+    packet.origin_x[k] = static_cast<float>(from.x);
+    packet.origin_y[k] = static_cast<float>(from.y);
+    packet.origin_z[k] = static_cast<float>(from.z);
+    packet.direction_x[k] = static_cast<float>(along.x);
+    packet.direction_y[k] = static_cast<float>(along.y);
+    packet.direction_z[k] = static_cast<float>(along.z);
+    packet.max_distance[k] = std::numeric_limits<float>::infinity();
+    packet.leaving[k] = index(source.area.plane_class);
+  }
+  HitPacket hits;
+  closest_hits(light.rays, packet, hits, Backs::absorb, Coherence::incoherent);
+  for (std::uint32_t k = 0; k < packet_size; ++k) {
+    if (hits.triangle[k] == index(none<TriangleId>))
+      return false;
+    const FaceRecord& face =
+        light.landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
+    if (face.side != FaceRecord::nothing || face.mirrors)
+      return false;
+  }
+  return true;
+}
+
+CellCounts count_cells(const DirectionNet& net, const RaySource& source,
+                       std::span<const std::uint32_t> black_lanes) {
+  CellCounts counts;
+  LanePlaces places{};
+  for (std::size_t n = 0; n < net.points.size(); ++n) {
+    const std::size_t k = n % packet_size;
+    if (k == 0)
+      places = places_of(net.packets[n / packet_size], source);
+    const std::uint32_t cell = cell_of(places.s[k], places.t[k]);
+    ++counts.rays[cell];
+    counts.black[cell] += (black_lanes[n / packet_size] >> k) & 1U;
+  }
+  return counts;
+}
+
+} // namespace
+
+Covered find_covered(const LightScene& light, const DirectionNet& net, const RaySource& source,
+                     std::span<const std::uint32_t> black_lanes) {
+  const CellCounts counts = count_cells(net, source, black_lanes);
+  Covered covered;
+  for (std::uint32_t cell = 0; cell < 64; ++cell) {
+    if (!counts.is_black(cell) || !is_enclosed(light, source, cell))
+      continue;
+    covered.cells |= CoveredCells{1} << cell;
+    covered.rays += counts.rays[cell];
+  }
+  return covered;
+}
+
+} // namespace meninas
