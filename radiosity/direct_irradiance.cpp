@@ -162,7 +162,7 @@ Rgb direct_irradiance(const LightScene& light, const Receiver& receiver,
 
 namespace {
 
-constexpr double unsure = 0.02; ///< relative change of the mean by the last doubling
+constexpr double unsure = 0.01; ///< relative change of the mean by the last doubling
 
 /// The mean over the exposed part of an element: points are doubled until their mean settles.
 Rgb mean_over_element(const LightScene& light, ElementId element, CoveredCells covered,

@@ -12,7 +12,7 @@
 namespace meninas {
 
 struct DirectSettings {
-  int points = 4; ///< receiving points per element to begin with
+  int points = 16; ///< receiving points per element to begin with
   int most_points =
       256; ///< doubled up to this while the mean over the element is unsure (near a lamp, at a shadow's edge)
   int shadow_rays =

@@ -97,9 +97,9 @@ TEST_P(ImageMethod, DefaultSettings) {
   const PassOneSettings settings = settings_of(FormFactorSettings{}.rays, 0.08);
   const Difference d = difference(irradiance_field(half(), settings, energy),
                                   irradiance_field(doubled(half()), settings, energy));
-  EXPECT_LT(d.beyond_a_hundredth, 0.04);
-  EXPECT_LT(d.rms, 0.005);
-  EXPECT_LT(d.worst, 0.06);
+  EXPECT_LT(d.beyond_a_hundredth, 0.01);
+  EXPECT_LT(d.rms, 0.003);
+  EXPECT_LT(d.worst, 0.04);
   EXPECT_LT(std::abs(d.mean), 5e-4);
 }
 
