@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -45,6 +46,11 @@ Outcome run_program(const fs::path& folder, const std::vector<std::string>& argu
   return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
           .out = read_file(streams / "out"),
           .err = read_file(streams / "err")};
+}
+
+std::string without_progress(const std::string& err) {
+  static const std::regex progress_line("meninas: [a-z ]+: [0-9]+ %[^\n]*\n");
+  return std::regex_replace(err, progress_line, "");
 }
 
 std::string read_file(const fs::path& file) {
