@@ -8,13 +8,14 @@
 namespace meninas {
 
 struct CameraFrame {
-  glm::vec3 origin, origin_x, origin_y;          ///< origin(x, y) = origin + x origin_x + y origin_y
-  glm::vec3 direction, direction_x, direction_y; ///< likewise; x and y run over the picture from 0 to 1, right and down
+  glm::vec3 origin, origin_x, origin_y; ///< origin(x, y) = origin + x origin_x + y origin_y
+  glm::vec3 direction, direction_x,
+      direction_y; ///< likewise; x and y run over the picture from 0 to 1, right and down
 };
 
 /// Puts a ray into a lane, as far as it goes.
-inline void set_ray(RayPacket& packet, std::uint32_t lane, const glm::vec3& origin, const glm::vec3& direction,
-                    std::uint32_t leaving) {
+inline void set_ray(RayPacket& packet, std::uint32_t lane, const glm::vec3& origin,
+                    const glm::vec3& direction, std::uint32_t leaving) {
   packet.origin_x[lane] = origin.x;
   packet.origin_y[lane] = origin.y;
   packet.origin_z[lane] = origin.z;
@@ -25,11 +26,10 @@ inline void set_ray(RayPacket& packet, std::uint32_t lane, const glm::vec3& orig
   packet.leaving[lane] = leaving;
 }
 
-/// Puts the camera ray through the point (x, y) of the picture into a lane.
-inline void set_camera_ray(RayPacket& packet, std::uint32_t lane, const CameraFrame& camera, float x, float y) {
-  set_ray(packet, lane, camera.origin + x * camera.origin_x + y * camera.origin_y,
-          camera.direction + x * camera.direction_x + y * camera.direction_y, index(none<PlaneId>));
-}
+/// Puts the camera rays through sixteen points of the picture into a packet.
+void set_camera_rays(RayPacket& packet, const CameraFrame& camera,
+                     const std::array<float, packet_size>& x,
+                     const std::array<float, packet_size>& y);
 
 CameraFrame make_camera_frame(const Camera& camera, double picture_aspect, const RayFrame& frame);
 

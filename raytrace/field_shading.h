@@ -10,30 +10,38 @@
 namespace meninas {
 
 struct SideShading {
-  glm::vec3 emitted{0.0F};         ///< L_e
-  glm::vec3 albedo_over_pi{0.0F};  ///< rho_d / pi
+  glm::vec3 emitted{0.0F};        ///< L_e
+  glm::vec3 albedo_over_pi{0.0F}; ///< rho_d / pi
 };
 
 /// By SideId.
 std::vector<SideShading> make_side_shading(const ElementMesh& mesh);
 
-/// In an element at (s, t), where st is s t, or the three are means over several points of a quad element.
-inline glm::vec3 field_radiance(const ElementMesh& mesh, const DiffuseField& field, const SideShading& shading,
-                                std::uint32_t element, float s, float t, float st) {
+/// Sums over points (s, t) of one element: of 1, s, t and s t. The field is linear in them.
+struct PointSums {
+  float n = 0.0F, s = 0.0F, t = 0.0F, st = 0.0F;
+};
+
+/// The sum of the radiances at points of an element. Those of a triangle have no sum of s t: its third corner stands for its fourth,
+/// so that the bilinear form without the product is its linear one.
+inline glm::vec3 field_radiance(const ElementMesh& mesh, const DiffuseField& field,
+                                const SideShading& shading, std::uint32_t element,
+                                const PointSums& p) {
   const auto& corners = mesh.corners[element];
   const glm::vec3& h0 = field.irradiance[index(corners[0])];
   const glm::vec3& h1 = field.irradiance[index(corners[1])];
   const glm::vec3& h2 = field.irradiance[index(corners[2])];
   const glm::vec3& h3 = field.irradiance[index(corners[3])];
-  const glm::vec3 h = (1.0F - s - t + st) * h0 + (s - st) * h1 + st * h2 + (t - st) * h3;
-  return shading.emitted + shading.albedo_over_pi * h;
+  const glm::vec3 h =
+      (p.n - p.s - p.t + p.st) * h0 + (p.s - p.st) * h1 + p.st * h2 + (p.t - p.st) * h3;
+  return p.n * shading.emitted + shading.albedo_over_pi * h;
 }
 
-inline glm::vec3 field_radiance(const ElementMesh& mesh, const DiffuseField& field, const SideShading& shading,
-                                const SideRecord& side, glm::vec2 uv) {
+inline glm::vec3 field_radiance(const ElementMesh& mesh, const DiffuseField& field,
+                                const SideShading& shading, const SideRecord& side, glm::vec2 uv) {
   const Landing at = land(side, uv);
-  // A triangle repeats its third corner as its fourth: without the product term the bilinear form is its linear one.
-  return field_radiance(mesh, field, shading, at.element, at.st.x, at.st.y, side.triangle ? 0.0F : at.st.x * at.st.y);
+  const float st = side.triangle ? 0.0F : at.st.x * at.st.y;
+  return field_radiance(mesh, field, shading, at.element, {1.0F, at.st.x, at.st.y, st});
 }
 
 } // namespace meninas

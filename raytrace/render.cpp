@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 
 namespace meninas {
 
@@ -41,36 +42,48 @@ struct RenderContext {
   const RenderSettings& settings;
   CameraFrame camera;
   std::vector<SideShading> shading;
-  std::vector<std::array<std::uint32_t, 2>> net; ///< stratified points of the pixel, as integers
+  std::vector<std::uint32_t> net_x, net_y; ///< stratified points of the pixel, as integers
 };
 
 /// What the rays of a packet carry: camera rays nothing but their pixel, specular rays their record.
 struct LaneState {
-  std::array<std::uint32_t, packet_size> pixel;
-  const SpecularRay* specular = nullptr; ///< of lane 0; null for camera rays
+  const std::uint32_t* pixel;
+  const SpecularRay* specular; ///< of lane 0; null for camera rays
 };
 
 float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
 
 /// The path behind the mirror, from where it meets the mirror's exact plane.
-void reflect(const RenderContext& context, const FaceRecord& face, const RayPacket& packet, const LaneState& state,
-             std::uint32_t k, float distance, TileWorkspace& work) {
+void reflect(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
+             const LaneState& state, std::uint32_t k, float distance, TileWorkspace& work) {
   SpecularRay ray;
   ray.pixel = state.pixel[k];
   ray.leaving = face.plane_class;
-  ray.throughput = face.reflectance * (state.specular ? state.specular[k].throughput : glm::vec3(1.0F));
-  if (largest(ray.throughput) < context.settings.min_throughput) return;
+  ray.throughput =
+      face.reflectance * (state.specular ? state.specular[k].throughput : glm::vec3(1.0F));
+  if (largest(ray.throughput) < context.settings.min_throughput)
+    return;
 
-  const glm::dvec3 origin = state.specular ? state.specular[k].origin
-                                           : glm::dvec3(packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]);
+  const glm::dvec3 origin =
+      state.specular ? state.specular[k].origin
+                     : glm::dvec3(packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]);
   const glm::dvec3 d = state.specular ? state.specular[k].direction
-                                      : glm::dvec3(packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]);
+                                      : glm::dvec3(packet.direction_x[k], packet.direction_y[k],
+                                                   packet.direction_z[k]);
   const double approach = glm::dot(face.normal, d);
   double t = (face.frame_offset - glm::dot(face.normal, origin)) / approach;
-  if (!(t > 0.0) || t > 2.0 * distance + 1e-6) t = distance;
+  if (!(t > 0.0) || t > 2.0 * distance + 1e-6)
+    t = distance;
   ray.origin = origin + t * d;
   ray.direction = d - 2.0 * approach * face.normal;
   work.next.push_back(ray);
+}
+
+glm::vec2 uv_of(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
+                std::uint32_t k) {
+  if (face.affine)
+    return face.uv0 + hits.b1[k] * face.uv1 + hits.b2[k] * face.uv2;
+  return landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
 }
 
 const FaceRecord& face_of(const LandingTable& landing, const HitPacket& hits, std::uint32_t k) {
@@ -78,77 +91,162 @@ const FaceRecord& face_of(const LandingTable& landing, const HitPacket& hits, st
 }
 
 /// Adds what each ray has landed on to its pixel, and queues the rays that a mirror sends on.
-void shade_packet(const RenderContext& context, const RayPacket& packet, const LaneState& state, const HitPacket& hits,
-                  TileWorkspace& work) {
+void shade_one_by_one(const RenderContext& context, const RayPacket& packet, const LaneState& state,
+                      const HitPacket& hits, TileWorkspace& work) {
   const LightScene& light = context.light;
+  const bool mirrors = context.settings.mode == RenderMode::hybrid;
+  glm::vec3 sum(0.0F); // of lanes of one pixel in a row
   for (std::uint32_t k = 0; k < packet.count; ++k) {
-    if (hits.triangle[k] == index(none<TriangleId>)) continue;
-    const FaceRecord& face = face_of(light.landing, hits, k);
-    if (face.side != FaceRecord::nothing) {
-      const glm::vec2 uv = landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
-      const glm::vec3 radiance = field_radiance(light.mesh, context.field, context.shading[face.side], light.landing.sides[face.side], uv);
-      work.sums[state.pixel[k]] += state.specular ? state.specular[k].throughput * radiance : radiance;
+    if (hits.triangle[k] != index(none<TriangleId>)) {
+      const FaceRecord& face = face_of(light.landing, hits, k);
+      if (face.side != FaceRecord::nothing) {
+        const glm::vec2 uv = uv_of(light, face, hits, k);
+        const glm::vec3 radiance =
+            field_radiance(light.mesh, context.field, context.shading[face.side],
+                           light.landing.sides[face.side], uv);
+        sum += state.specular ? state.specular[k].throughput * radiance : radiance;
+      }
+      if (face.mirrors && mirrors)
+        reflect(context, face, packet, state, k, hits.distance[k], work);
     }
-    if (face.mirrors && context.settings.mode == RenderMode::hybrid) reflect(context, face, packet, state, k, hits.distance[k], work);
+    if (k + 1 < packet.count && state.pixel[k + 1] == state.pixel[k])
+      continue;
+    work.sums[state.pixel[k]] += sum;
+    sum = glm::vec3(0.0F);
   }
 }
 
-/// The common case of sixteen samples of one pixel that land in one element: the bilinear field is linear in the means of s, t
-/// and s t, so one look-up gives the exact sum. Returns false where the samples are not so.
-bool shade_as_one(const RenderContext& context, const HitPacket& hits, std::uint32_t pixel, TileWorkspace& work) {
-  const LightScene& light = context.light;
+/// Where on a quad side the lanes have landed: element, and place in it.
+struct alignas(64) LanePoints {
+  std::array<std::int32_t, packet_size> element;
+  std::array<float, packet_size> s, t;
+};
+
+/// land(), sixteen at a time.
+LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const SideRecord& side,
+                        const HitPacket& hits) {
+  LanePoints at;
+  if (face.affine) {
+    const glm::vec2 uv0 = face.uv0, uv1 = face.uv1, uv2 = face.uv2;
+    for (std::size_t k = 0; k < packet_size; ++k)
+      at.s[k] = uv0.x + hits.b1[k] * uv1.x + hits.b2[k] * uv2.x;
+    for (std::size_t k = 0; k < packet_size; ++k)
+      at.t[k] = uv0.y + hits.b1[k] * uv1.y + hits.b2[k] * uv2.y;
+  } else {
+    for (std::uint32_t k = 0; k < packet_size; ++k) {
+      const glm::vec2 uv = uv_of(light, face, hits, k);
+      at.s[k] = uv.x;
+      at.t[k] = uv.y;
+    }
+  }
+  const std::int32_t nu = side.nu, nv = side.nv;
+  const auto fu = static_cast<float>(nu), fv = static_cast<float>(nv);
+  const auto first = static_cast<std::int32_t>(side.first_element);
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const float u = (at.s[k] < 0.0F ? 0.0F : at.s[k] > 1.0F ? 1.0F : at.s[k]) * fu;
+    const float v = (at.t[k] < 0.0F ? 0.0F : at.t[k] > 1.0F ? 1.0F : at.t[k]) * fv;
+    const auto iu = static_cast<std::int32_t>(u), iv = static_cast<std::int32_t>(v);
+    const std::int32_t i = iu < nu ? iu : nu - 1, j = iv < nv ? iv : nv - 1;
+    at.s[k] = u - static_cast<float>(i);
+    at.t[k] = v - static_cast<float>(j);
+    at.element[k] = first + j * nu + i;
+  }
+  return at;
+}
+
+/// The sum over all lanes, four at a time.
+float sum_of(const std::array<float, packet_size>& values) {
+  std::array<float, 4> sums;
+  for (std::size_t k = 0; k < 4; ++k)
+    sums[k] = (values[k] + values[k + 4]) + (values[k + 8] + values[k + 12]);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+/// The sum of the radiances at the points, with one look-up for each element: the bilinear field is linear in the sums of 1, s, t and s t.
+glm::vec3 quad_radiance(const RenderContext& context, std::uint32_t side, const LanePoints& at) {
+  const auto radiance = [&](std::int32_t element, const PointSums& points) {
+    return field_radiance(context.light.mesh, context.field, context.shading[side],
+                          static_cast<std::uint32_t>(element), points);
+  };
+  std::uint32_t differ = 0;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    differ |= static_cast<std::uint32_t>(at.element[k] ^ at.element[0]);
+  if (differ == 0) {
+    alignas(64) std::array<float, packet_size> st;
+    for (std::size_t k = 0; k < packet_size; ++k)
+      st[k] = at.s[k] * at.t[k];
+    return radiance(at.element[0], {float{packet_size}, sum_of(at.s), sum_of(at.t), sum_of(st)});
+  }
+  glm::vec3 sum(0.0F);
+  for (std::uint32_t rest = 0xffffU; rest != 0;) {
+    const std::int32_t element = at.element[static_cast<std::size_t>(std::countr_zero(rest))];
+    PointSums points;
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      if (at.element[k] != element)
+        continue;
+      rest &= ~(1U << k);
+      points.n += 1.0F;
+      points.s += at.s[k];
+      points.t += at.t[k];
+      points.st += at.s[k] * at.t[k];
+    }
+    sum += radiance(element, points);
+  }
+  return sum;
+}
+
+/// The common case of sixteen samples of one pixel that land on one quad side. Returns false where they do not.
+bool shade_as_one(const RenderContext& context, const LaneState& state, const HitPacket& hits,
+                  TileWorkspace& work) {
   std::uint32_t differ = 0;
   for (std::uint32_t k = 0; k < packet_size; ++k)
-    differ |= (hits.triangle[k] ^ hits.triangle[0]) | static_cast<std::uint32_t>(hits.front[k] ^ hits.front[0]);
-  if (differ != 0) return false;
-  if (hits.triangle[0] == index(none<TriangleId>)) return true;
+    differ |= hits.triangle[k] ^ hits.triangle[0];
+  for (std::uint32_t k = 0; k < packet_size; ++k)
+    differ |= static_cast<std::uint32_t>(hits.front[k] ^ hits.front[0]);
+  for (std::uint32_t k = 0; k < packet_size; ++k)
+    differ |= state.pixel[k] ^ state.pixel[0];
+  if (differ != 0)
+    return false;
+  if (hits.triangle[0] == index(none<TriangleId>))
+    return true;
+  const LightScene& light = context.light;
   const FaceRecord& face = face_of(light.landing, hits, 0);
-  if (face.mirrors || !face.affine || face.side == FaceRecord::nothing) return false;
-  const SideRecord& side = light.landing.sides[face.side];
-  if (side.triangle) return false;
-
-  // The span of the samples in units of elements; it lies in one element when its bounds do.
-  const auto nu = static_cast<float>(side.nu), nv = static_cast<float>(side.nv);
-  float low_u = nu, high_u = 0.0F, low_v = nv, high_v = 0.0F, sum_u = 0.0F, sum_v = 0.0F, sum_uv = 0.0F;
-  for (std::uint32_t k = 0; k < packet_size; ++k) {
-    const float u = nu * (face.uv0.x + hits.b1[k] * face.uv1.x + hits.b2[k] * face.uv2.x);
-    const float v = nv * (face.uv0.y + hits.b1[k] * face.uv1.y + hits.b2[k] * face.uv2.y);
-    low_u = std::min(low_u, u);
-    high_u = std::max(high_u, u);
-    low_v = std::min(low_v, v);
-    high_v = std::max(high_v, v);
-    sum_u += u;
-    sum_v += v;
-    sum_uv += u * v;
+  if (face.mirrors || face.side == FaceRecord::nothing || light.landing.sides[face.side].triangle)
+    return false;
+  glm::vec3 throughput(1.0F);
+  if (state.specular) {
+    throughput = state.specular[0].throughput;
+    for (std::uint32_t k = 1; k < packet_size; ++k)
+      if (state.specular[k].throughput != throughput)
+        return false;
   }
-  if (low_u < 0.0F || low_v < 0.0F || high_u >= nu || high_v >= nv) return false;
-  const int i = static_cast<int>(low_u), j = static_cast<int>(low_v);
-  if (static_cast<int>(high_u) != i || static_cast<int>(high_v) != j) return false;
 
-  // From means of u, v, u v to those of s = u - i, t = v - j, s t.
-  constexpr float share = 1.0F / packet_size;
-  const auto fi = static_cast<float>(i), fj = static_cast<float>(j);
-  const float s = sum_u * share - fi, t = sum_v * share - fj;
-  const float st = sum_uv * share - fi * sum_v * share - fj * sum_u * share + fi * fj;
-  const auto element = side.first_element + static_cast<std::uint32_t>(j * side.nu + i);
-  work.sums[pixel] += float{packet_size} * field_radiance(light.mesh, context.field, context.shading[face.side], element, s, t, st);
+  const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits);
+  work.sums[state.pixel[0]] += throughput * quad_radiance(context, face.side, at);
   return true;
+}
+
+void shade_packet(const RenderContext& context, const RayPacket& packet, const LaneState& state,
+                  const HitPacket& hits, TileWorkspace& work) {
+  if (packet.count == packet_size && shade_as_one(context, state, hits, work))
+    return;
+  shade_one_by_one(context, packet, state, hits, work);
 }
 
 void follow_mirrors(const RenderContext& context, TileWorkspace& work) {
   RayPacket packet;
   HitPacket hits;
-  LaneState state;
+  std::array<std::uint32_t, packet_size> pixel;
   for (int bounce = 0; !work.next.empty() && bounce < context.settings.max_bounces; ++bounce) {
     work.current.swap(work.next);
     work.next.clear();
     work.specular_rays += work.current.size();
     for (std::size_t first = 0; first < work.current.size(); first += packet_size) {
       packet.count = static_cast<std::uint32_t>(std::min(packet_size, work.current.size() - first));
-      state.specular = &work.current[first];
+      const LaneState state{pixel.data(), &work.current[first]};
       for (std::uint32_t k = 0; k < packet.count; ++k) {
         const SpecularRay& ray = state.specular[k];
-        state.pixel[k] = ray.pixel;
+        pixel[k] = ray.pixel;
         set_ray(packet, k, glm::vec3(ray.origin), glm::vec3(ray.direction), ray.leaving);
       }
       closest_hits(context.light.rays, packet, hits, Backs::absorb, Coherence::coherent);
@@ -158,76 +256,114 @@ void follow_mirrors(const RenderContext& context, TileWorkspace& work) {
   work.next.clear();
 }
 
-/// Camera rays of the tile, pixel by pixel, sixteen at a time.
-void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileWorkspace& work) {
-  const RenderSettings& settings = context.settings;
-  const auto samples = static_cast<std::uint32_t>(context.net.size());
-  const auto pixels = static_cast<std::uint32_t>(tile.width * tile.height);
-  const float pixel_width = 1.0F / static_cast<float>(settings.width), pixel_height = 1.0F / static_cast<float>(settings.height);
+/// Samples of one or more pixels, lane by lane.
+struct alignas(64) SampleLanes {
+  std::array<std::uint32_t, packet_size> bits_x, bits_y; ///< of the place in the pixel
+  std::array<float, packet_size> left, top;              ///< of the pixel in the picture, in pixels
+  std::array<std::uint32_t, packet_size> pixel;
+  std::uint32_t count = 0;
+};
+
+void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileWorkspace& work) {
+  const float pixel_width = 1.0F / static_cast<float>(context.settings.width);
+  const float pixel_height = 1.0F / static_cast<float>(context.settings.height);
+  const auto unit = [](std::uint32_t bits) {
+    return static_cast<float>(static_cast<std::int32_t>(bits >> 8U)) * 0x1p-24F;
+  };
+  alignas(64) std::array<float, packet_size> x, y;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    x[k] = (lanes.left[k] + unit(lanes.bits_x[k])) * pixel_width;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    y[k] = (lanes.top[k] + unit(lanes.bits_y[k])) * pixel_height;
   RayPacket packet;
   HitPacket hits;
-  LaneState state;
-  std::uint32_t filled = 0;
-  const auto flush = [&] {
-    packet.count = filled;
-    closest_hits(context.light.rays, packet, hits, Backs::transparent, Coherence::coherent);
-    const bool one_pixel = filled == packet_size && state.pixel[0] == state.pixel[packet_size - 1];
-    if (!one_pixel || !shade_as_one(context, hits, state.pixel[0], work)) shade_packet(context, packet, state, hits, work);
-    filled = 0;
-  };
+  packet.count = lanes.count;
+  set_camera_rays(packet, context.camera, x, y);
+  closest_hits(context.light.rays, packet, hits, Backs::transparent, Coherence::coherent);
+  shade_packet(context, packet, {lanes.pixel.data(), nullptr}, hits, work);
+}
+
+/// Camera rays of the tile, pixel by pixel, sixteen at a time.
+void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileWorkspace& work) {
+  const auto samples = static_cast<std::uint32_t>(context.net_x.size());
+  const auto pixels = static_cast<std::uint32_t>(tile.width * tile.height);
+  SampleLanes lanes{};
   for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
-    const int px = tile.x0 + static_cast<int>(pixel) % tile.width, py = tile.y0 + static_cast<int>(pixel) / tile.width;
-    const std::uint32_t shift_x = hash(static_cast<std::uint32_t>(px), static_cast<std::uint32_t>(py), settings.seed);
+    const int px = tile.x0 + static_cast<int>(pixel) % tile.width,
+              py = tile.y0 + static_cast<int>(pixel) / tile.width;
+    const std::uint32_t shift_x =
+        hash(static_cast<std::uint32_t>(px), static_cast<std::uint32_t>(py), context.settings.seed);
     const std::uint32_t shift_y = hash(shift_x, 1);
-    for (std::uint32_t sample = 0; sample < samples; ++sample) {
-      const float x = (static_cast<float>(px) + static_cast<float>((context.net[sample][0] ^ shift_x) >> 8U) * 0x1p-24F) * pixel_width;
-      const float y = (static_cast<float>(py) + static_cast<float>((context.net[sample][1] ^ shift_y) >> 8U) * 0x1p-24F) * pixel_height;
-      set_camera_ray(packet, filled, context.camera, x, y);
-      state.pixel[filled] = pixel;
-      if (++filled == packet_size) flush();
+    for (std::uint32_t sample = 0; sample < samples;) {
+      const std::uint32_t first = lanes.count;
+      const auto end = std::min(static_cast<std::uint32_t>(packet_size), first + samples - sample);
+      for (std::uint32_t k = first; k < end; ++k) {
+        lanes.bits_x[k] = context.net_x[sample + k - first] ^ shift_x;
+        lanes.bits_y[k] = context.net_y[sample + k - first] ^ shift_y;
+        lanes.left[k] = static_cast<float>(px);
+        lanes.top[k] = static_cast<float>(py);
+        lanes.pixel[k] = pixel;
+      }
+      sample += end - first;
+      lanes.count = end % packet_size;
+      if (lanes.count != 0)
+        continue;
+      lanes.count = packet_size;
+      trace_samples(context, lanes, work);
+      lanes.count = 0;
     }
   }
-  if (filled > 0) flush();
+  if (lanes.count > 0)
+    trace_samples(context, lanes, work);
   work.camera_rays += std::uint64_t{pixels} * samples;
 }
 
-void render_tile(const RenderContext& context, const TileArea& tile, TileWorkspace& work, Image& image) {
+void render_tile(const RenderContext& context, const TileArea& tile, TileWorkspace& work,
+                 Image& image) {
   work.sums.assign(static_cast<std::size_t>(tile.width * tile.height), glm::vec3(0.0F));
   work.next.clear();
   trace_camera_rays(context, tile, work);
   follow_mirrors(context, work);
-  const float share = 1.0F / static_cast<float>(context.net.size());
+  const float share = 1.0F / static_cast<float>(context.net_x.size());
   for (int y = 0; y < tile.height; ++y)
     for (int x = 0; x < tile.width; ++x)
-      image.at(tile.x0 + x, tile.y0 + y) = share * work.sums[static_cast<std::size_t>(y * tile.width + x)];
+      image.at(tile.x0 + x, tile.y0 + y) =
+          share * work.sums[static_cast<std::size_t>(y * tile.width + x)];
 }
 
-std::vector<std::array<std::uint32_t, 2>> pixel_net(int samples) {
-  std::vector<std::array<std::uint32_t, 2>> net(static_cast<std::size_t>(std::max(samples, 1)));
-  for (std::uint32_t k = 0; k < net.size(); ++k) {
-    const auto point = sobol4(k, 0);
-    net[k] = {static_cast<std::uint32_t>(point[0] * 0x1p32F), static_cast<std::uint32_t>(point[1] * 0x1p32F)};
-  }
+/// Coordinate d of the stratified points of a pixel.
+std::vector<std::uint32_t> pixel_net(int samples, std::size_t d) {
+  std::vector<std::uint32_t> net(static_cast<std::size_t>(std::max(samples, 1)));
+  for (std::uint32_t k = 0; k < net.size(); ++k)
+    net[k] = static_cast<std::uint32_t>(sobol4(k, 0)[d] * 0x1p32F);
   return net;
 }
 
 } // namespace
 
-Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera, const RenderSettings& settings,
-                 const Progress& progress) {
+Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera,
+                 const RenderSettings& settings, const Progress& progress) {
   expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
   const double aspect = double(settings.width) / settings.height;
-  const RenderContext context{light, field, settings, make_camera_frame(camera, aspect, light.rays.frame()),
-                              make_side_shading(light.mesh), pixel_net(settings.samples)};
+  const RenderContext context{light,
+                              field,
+                              settings,
+                              make_camera_frame(camera, aspect, light.rays.frame()),
+                              make_side_shading(light.mesh),
+                              pixel_net(settings.samples, 0),
+                              pixel_net(settings.samples, 1)};
   Rendering result{Image(settings.width, settings.height), 0, 0};
-  const int columns = (settings.width + tile_size - 1) / tile_size, rows = (settings.height + tile_size - 1) / tile_size;
+  const int columns = (settings.width + tile_size - 1) / tile_size,
+            rows = (settings.height + tile_size - 1) / tile_size;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
   std::atomic<int> done{0};
   tbb::parallel_for(0, columns * rows, [&](int t) {
     const int x0 = t % columns * tile_size, y0 = t / columns * tile_size;
-    const TileArea tile{x0, y0, std::min(tile_size, settings.width - x0), std::min(tile_size, settings.height - y0)};
+    const TileArea tile{x0, y0, std::min(tile_size, settings.width - x0),
+                        std::min(tile_size, settings.height - y0)};
     render_tile(context, tile, workspaces.local(), result.image);
-    if (progress) progress("render", double(++done) / (columns * rows));
+    if (progress)
+      progress("render", double(++done) / (columns * rows));
   });
   for (const auto& work : workspaces) {
     result.camera_rays += work.camera_rays;

@@ -21,7 +21,7 @@ struct RenderSettings {
   RenderMode mode = RenderMode::hybrid;
   int width = 512;
   int height = 512;
-  int samples = 16; ///< per pixel, a power of two
+  int samples = 16;                     ///< per pixel, a power of two
   double min_throughput = 1.0 / 1024.0; ///< of a specular path, below which it ends
   int max_bounces = 1000;
   std::uint32_t seed = 0;

@@ -32,11 +32,19 @@ void store(HitPacket& hits, std::size_t lane, const LaneHit& hit);
 
 using LaneFlags = std::array<std::int32_t, packet_size>; ///< -1 where it holds, as Embree wants it
 
+/// 2^k by lane, from a table: few processors shift by lane.
+inline constexpr auto lane_bits = [] {
+  std::array<std::uint32_t, packet_size> bits{};
+  for (std::uint32_t k = 0; k < packet_size; ++k)
+    bits[k] = 1U << k;
+  return bits;
+}();
+
 /// Bit k is set where flag k is.
 inline std::uint32_t bits_of(const LaneFlags& flags) {
   std::uint32_t bits = 0;
-  for (std::uint32_t k = 0; k < packet_size; ++k)
-    bits |= static_cast<std::uint32_t>(flags[k]) & (1U << k);
+  for (std::size_t k = 0; k < packet_size; ++k)
+    bits |= static_cast<std::uint32_t>(flags[k]) & lane_bits[k];
   return bits;
 }
 
@@ -58,9 +66,9 @@ LaneVectors lifted_directions(const FrameGeometry& geometry, const RayPacket& pa
                               const LaneVectors& origins);
 
 struct Doubts {
-  std::uint32_t careful = 0; ///< lanes to be traced again one by one
+  std::uint32_t careful = 0;    ///< lanes to be traced again one by one
   std::uint32_t at_contact = 0; ///< lanes to be traced again if anything else touches their origin
-  std::uint32_t through = 0; ///< lanes that met a transparent back
+  std::uint32_t through = 0;    ///< lanes that met a transparent back
 };
 
 /// Which lanes a bare query cannot settle: of rays that leave a surface the hits in the plane they leave and those that touch their
