@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 
 namespace meninas {
 
@@ -30,21 +31,27 @@ struct RowAccumulator {
   std::vector<std::uint32_t> place; ///< by element: 1 + its place in `columns`, or 0
   std::vector<std::uint32_t> columns;
   std::vector<glm::vec3> weights;
+  std::size_t used = 0; ///< of columns and weights
 
+  void make_room(std::size_t entries) {
+    if (columns.size() >= entries)
+      return;
+    columns.resize(entries);
+    weights.resize(entries);
+  }
+  /// Without a branch on what no processor can foresee: whether the element is new. There must be room for it.
   void add(std::uint32_t element, const glm::vec3& weight) {
-    if (place[element] == 0) {
-      columns.push_back(element);
-      weights.push_back(weight);
-      place[element] = static_cast<std::uint32_t>(columns.size());
-    } else {
-      weights[place[element] - 1] += weight;
-    }
+    const bool fresh = place[element] == 0;
+    const std::size_t at = fresh ? used : place[element] - 1;
+    columns[at] = element;
+    weights[at] = (fresh ? 0.0F : 1.0F) * weights[at] + weight;
+    place[element] = static_cast<std::uint32_t>(at + 1);
+    used += fresh ? 1 : 0;
   }
   void clear() {
-    for (const auto column : columns)
-      place[column] = 0;
-    columns.clear();
-    weights.clear();
+    for (std::size_t k = 0; k < used; ++k)
+      place[columns[k]] = 0;
+    used = 0;
   }
 };
 
@@ -93,13 +100,14 @@ RowClosure closure_of(const GatheredRays& gathered, std::size_t rays) {
 
 /// Appends the accumulated row to its chunk as fractions of the light that was not cut, so that a row still closes.
 void append_row(const RowAccumulator& row, const Rgb& kept, int bands, RowChunk& chunk) {
-  chunk.lengths.push_back(static_cast<std::uint32_t>(row.columns.size()));
-  chunk.columns.insert(chunk.columns.end(), row.columns.begin(), row.columns.end());
+  const auto columns = std::span(row.columns).first(row.used);
+  chunk.lengths.push_back(static_cast<std::uint32_t>(columns.size()));
+  chunk.columns.insert(chunk.columns.end(), columns.begin(), columns.end());
   const glm::vec3 share(1.0 / kept);
   const std::size_t first = chunk.weights.size();
-  chunk.weights.resize(first + row.weights.size() * static_cast<std::size_t>(bands));
+  chunk.weights.resize(first + columns.size() * static_cast<std::size_t>(bands));
   float* to = chunk.weights.data() + first;
-  for (const auto& weight : row.weights)
+  for (const auto& weight : std::span(row.weights).first(row.used))
     for (int band = 0; band < bands; ++band)
       *to++ = weight[band] * share[band];
 }
@@ -154,6 +162,7 @@ void assemble_row(const Assembly& assembly, std::size_t row, Workspace& work, Ro
   result.covered[row] = gathered.covered;
   result.exposed[row] = 1.0F - static_cast<float>(std::popcount(gathered.covered)) / 64.0F;
   result.closure[row] = closure_of(gathered, rays);
+  work.row.make_room(gathered.landings.size());
   for (const auto& landing : gathered.landings) {
     work.row.add(landing.element, landing.throughput);
     if (assembly.emits[landing.element] != 0)

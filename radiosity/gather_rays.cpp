@@ -91,8 +91,7 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
         light.landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
     if (face.side != FaceRecord::nothing) {
       const glm::vec2 uv =
-          face.affine ? face.uv0 + hits.b1[k] * face.uv1 + hits.b2[k] * face.uv2
-                      : landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
+          landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
       RayLanding& landing = work.result.landings.emplace_back();
       landing.element = land(light.landing.sides[face.side], uv).element;
       landing.world = legs.world(k);

@@ -1,6 +1,43 @@
 #include "radiosity/landing.h"
 
+#include <optional>
+
 namespace meninas {
+
+/// The widening of a quad along its sides, p(u, v) = corner + u base + v side + u v (w_x base + w_y side). None where they hardly span
+/// its plane, or where the opposite sides nearly vanish.
+static std::optional<Vec2> widening_of(const Patch& patch) {
+  constexpr double least = 0.1, most = 4.0; // single precision is good enough between
+  const auto& p = patch.corners;
+  const Vec3 base = p[1] - p[0], side = p[3] - p[0];
+  const Vec3 widening = (p[0] - p[1]) + (p[2] - p[3]);
+  const double bb = glm::dot(base, base), bs = glm::dot(base, side), ss = glm::dot(side, side);
+  const double det = bb * ss - bs * bs;
+  if (!(det > least * least * bb * ss))
+    return std::nullopt;
+  const double wb = glm::dot(widening, base), ws = glm::dot(widening, side);
+  const Vec2 w((wb * ss - ws * bs) / det, (ws * bb - wb * bs) / det);
+  // Convex quads have their fourth corner beyond the line through its neighbours.
+  if (!(1.0 + w.x > least && 1.0 + w.y > least && 1.0 + w.x + w.y > least && w.x < most &&
+        w.y < most))
+    return std::nullopt;
+  return w;
+}
+
+static void set_uv_map(FaceRecord& face, const Patch& patch, const std::array<Vec2, 3>& corner_uv) {
+  std::array<Vec2, 3> at = corner_uv;
+  if (!patch.affine) {
+    const auto w = patch.corner_count == 4 ? widening_of(patch) : std::nullopt;
+    face.map = w ? UvMap::bilinear : UvMap::general;
+    if (w)
+      for (auto& corner : at)
+        corner += corner.x * corner.y * *w;
+    face.widening = w.value_or(Vec2(0.0));
+  }
+  face.uv0 = at[0];
+  face.uv1 = at[1] - at[0];
+  face.uv2 = at[2] - at[0];
+}
 
 static FaceRecord make_face(const Scene& scene, const SurfaceModel& model, const MirrorSet& mirrors,
                             const ElementMesh& mesh, std::uint32_t triangle, int facing) {
@@ -10,7 +47,6 @@ static FaceRecord make_face(const Scene& scene, const SurfaceModel& model, const
   const Material& material = scene.materials[index(patch.material)];
   FaceRecord face;
   face.plane_class = index(surface.plane_class);
-  face.affine = patch.affine;
   face.normal = facing == 0 ? surface.plane.normal : -surface.plane.normal;
   if (facing == 1 && !material.double_sided)
     return face;
@@ -19,10 +55,7 @@ static FaceRecord make_face(const Scene& scene, const SurfaceModel& model, const
   face.mirrors = is_mirror(material);
   face.mirror = mirrors.mirror_of_surface[index(patch.surface)][static_cast<std::size_t>(facing)];
   face.reflectance = mirror_reflectance(material);
-  const auto& uv = model.corner_uv[triangle];
-  face.uv0 = uv[0];
-  face.uv1 = uv[1] - uv[0];
-  face.uv2 = uv[2] - uv[0];
+  set_uv_map(face, patch, model.corner_uv[triangle]);
   return face;
 }
 
@@ -45,10 +78,7 @@ LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces
   return table;
 }
 
-glm::vec2 landing_uv(const FaceRecord& face, const SurfaceModel& surfaces, std::uint32_t triangle,
-                     float b1, float b2) {
-  if (face.affine)
-    return face.uv0 + b1 * face.uv1 + b2 * face.uv2;
+glm::vec2 general_uv(const SurfaceModel& surfaces, std::uint32_t triangle, float b1, float b2) {
   return patch_uv(surfaces, static_cast<TriangleId>(triangle), Vec2(b1, b2));
 }
 

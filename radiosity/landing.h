@@ -4,9 +4,17 @@
 #include "mirror/mirrors.h"
 #include "radiosity/element_mesh.h"
 
+#include <cmath>
 #include <vector>
 
 namespace meninas {
+
+/// From barycentrics to the (u, v) of a patch.
+enum class UvMap : std::uint8_t {
+  affine,
+  bilinear, ///< of a quad whose opposite sides are not parallel: (x, y) along two of its sides is affine
+  general ///< of a sliver, by patch_uv
+};
 
 /// One face (front or back) of one triangle, in single precision for the inner loops.
 struct FaceRecord {
@@ -14,14 +22,15 @@ struct FaceRecord {
 
   std::uint32_t side = nothing; ///< index of a SideId where the face carries radiosity
   bool mirrors = false;         ///< an ideal mirror, enumerated or a facet
-  bool affine = true;           ///< (u, v) is affine in the barycentrics
+  UvMap map = UvMap::affine;
   MirrorId mirror = none<MirrorId>;
   std::uint32_t plane_class = nothing;
-  glm::vec2 uv0{0.0F}, uv1{0.0F},
-      uv2{0.0F};               ///< (u, v) at b = (0, 0), and its changes along b1 and b2
-  glm::vec3 reflectance{1.0F}; ///< of the mirror
-  glm::dvec3 normal{0.0};      ///< towards this face
-  double frame_offset = 0.0;   ///< of its plane in the frame of the ray scene
+  glm::vec2 uv0{0.0F};            ///< (u, v), or (x, y), at b = (0, 0)
+  glm::vec2 uv1{0.0F}, uv2{0.0F}; ///< and its changes along b1 and b2
+  glm::vec2 widening{0.0F};       ///< of a bilinear map: (x, y) = (u, v) + u v widening
+  glm::vec3 reflectance{1.0F};    ///< of the mirror
+  glm::dvec3 normal{0.0};         ///< towards this face
+  double frame_offset = 0.0;      ///< of its plane in the frame of the ray scene
 };
 
 /// What the inner loops need of a side, close together.
@@ -40,9 +49,29 @@ LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces
                                 const MirrorSet& mirrors, const ElementMesh& mesh,
                                 Point3 frame_centre, double frame_scale);
 
+/// (u, v) of the point (x, y) of a quad: v is the root of  v (1 + u w_y) = y  with  u (1 + v w_x) = x,  that is of
+///   w_x v^2 + (1 + w_y x - w_x y) v - y = 0,
+/// at which the polynomial rises. Its slope there is the root of the discriminant, 1 + u w_y + v w_x; with the linear term it
+/// makes 2 (1 + u w_y), which is positive all over the quad.
+inline glm::vec2 bilinear_uv(const glm::vec2& w, const glm::vec2& xy) {
+  const float linear = 1.0F + w.y * xy.x - w.x * xy.y;
+  const float squared = linear * linear + 4.0F * w.x * xy.y;
+  const float slope = std::sqrt(squared > 0.0F ? squared : 0.0F);
+  const float v = 2.0F * xy.y / (linear + slope);
+  return {xy.x / (1.0F + v * w.x), v};
+}
+
+/// (u, v) of a hit on a sliver in its patch.
+glm::vec2 general_uv(const SurfaceModel& surfaces, std::uint32_t triangle, float b1, float b2);
+
 /// (u, v) of a hit in its patch.
-glm::vec2 landing_uv(const FaceRecord& face, const SurfaceModel& surfaces, std::uint32_t triangle,
-                     float b1, float b2);
+inline glm::vec2 landing_uv(const FaceRecord& face, const SurfaceModel& surfaces,
+                            std::uint32_t triangle, float b1, float b2) {
+  if (face.map == UvMap::general)
+    return general_uv(surfaces, triangle, b1, b2);
+  const glm::vec2 at = face.uv0 + b1 * face.uv1 + b2 * face.uv2;
+  return face.map == UvMap::affine ? at : bilinear_uv(face.widening, at);
+}
 
 /// Index of the element at (u, v) and the place (s, t) in it; locate() in single precision.
 struct Landing {

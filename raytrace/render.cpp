@@ -81,8 +81,6 @@ void reflect(const RenderContext& context, const FaceRecord& face, const RayPack
 
 glm::vec2 uv_of(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                 std::uint32_t k) {
-  if (face.affine)
-    return face.uv0 + hits.b1[k] * face.uv1 + hits.b2[k] * face.uv2;
   return landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
 }
 
@@ -126,12 +124,18 @@ struct alignas(64) LanePoints {
 LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const SideRecord& side,
                         const HitPacket& hits) {
   LanePoints at;
-  if (face.affine) {
+  if (face.map != UvMap::general) {
     const glm::vec2 uv0 = face.uv0, uv1 = face.uv1, uv2 = face.uv2;
     for (std::size_t k = 0; k < packet_size; ++k)
       at.s[k] = uv0.x + hits.b1[k] * uv1.x + hits.b2[k] * uv2.x;
     for (std::size_t k = 0; k < packet_size; ++k)
       at.t[k] = uv0.y + hits.b1[k] * uv1.y + hits.b2[k] * uv2.y;
+    if (face.map == UvMap::bilinear)
+      for (std::size_t k = 0; k < packet_size; ++k) {
+        const glm::vec2 uv = bilinear_uv(face.widening, {at.s[k], at.t[k]});
+        at.s[k] = uv.x;
+        at.t[k] = uv.y;
+      }
   } else {
     for (std::uint32_t k = 0; k < packet_size; ++k) {
       const glm::vec2 uv = uv_of(light, face, hits, k);

@@ -1,5 +1,5 @@
-#include "scenes/near_planes.h"
 #include "scenes/contacts.h"
+#include "scenes/near_planes.h"
 #include "tests/support/random.h"
 #include "tests/support/rooms.h"
 
