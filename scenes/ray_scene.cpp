@@ -186,17 +186,23 @@ void set_directions(const float* x, const float* y, const float* z, RTCRay16& ra
   copy_lanes(z, rays.dir_z);
 }
 
-void set_ranges(const RayPacket& packet, RTCRay16& rays) {
-  copy_lanes(packet.max_distance, rays.tfar);
-  std::fill_n(rays.tnear, packet_size, 0.0F);
+// Where sixteen rays are not native, Embree forgets the mask, but skips what ends before it begins.
+constexpr float never = std::numeric_limits<float>::infinity();
+
+void set_ranges(const RayPacket& packet, const LaneFlags& valid, RTCRay16& rays) {
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    rays.tnear[k] = valid[k] != 0 ? 0.0F : never;
+    rays.tfar[k] = valid[k] != 0 ? packet.max_distance[k] : 0.0F;
+  }
   std::fill_n(rays.time, packet_size, 0.0F);
   std::fill_n(rays.mask, packet_size, ~0U);
   std::fill_n(rays.flags, packet_size, 0U);
   std::iota(rays.id, rays.id + packet_size, 0U);
 }
 
-void load_rays(const FrameGeometry& geometry, const RayPacket& packet, RTCRay16& rays) {
-  set_ranges(packet, rays);
+void load_rays(const FrameGeometry& geometry, const RayPacket& packet, const LaneFlags& valid,
+               RTCRay16& rays) {
+  set_ranges(packet, valid, rays);
   set_directions(packet.direction_x, packet.direction_y, packet.direction_z, rays);
   if (leaves_nothing(packet)) {
     set_origins(packet.origin_x, packet.origin_y, packet.origin_z, rays);
@@ -206,8 +212,9 @@ void load_rays(const FrameGeometry& geometry, const RayPacket& packet, RTCRay16&
   set_origins(origins.x, origins.y, origins.z, rays);
 }
 
-void load_legs(const FrameGeometry& geometry, const RayPacket& packet, RTCRay16& rays) {
-  set_ranges(packet, rays);
+void load_legs(const FrameGeometry& geometry, const RayPacket& packet, const LaneFlags& valid,
+               RTCRay16& rays) {
+  set_ranges(packet, valid, rays);
   const auto origins = lifted_origins(geometry, packet);
   const auto directions = lifted_directions(geometry, packet, origins);
   set_origins(origins.x, origins.y, origins.z, rays);
@@ -250,9 +257,9 @@ void trace_through(const Impl& impl, const RayPacket& packet, Coherence coherenc
   alignas(64) LaneFlags valid;
   for (std::size_t k = 0; k < packet_size; ++k) {
     valid[k] = (through >> k) & 1U ? -1 : 0;
+    traced.ray.tnear[k] = valid[k] != 0 ? 0.99F * traced.ray.tfar[k] : never;
     if (valid[k] == 0)
       continue;
-    traced.ray.tnear[k] = 0.99F * traced.ray.tfar[k];
     traced.ray.tfar[k] = packet.max_distance[k];
     traced.hit.primID[k] = no_index;
     traced.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
@@ -270,7 +277,7 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
   const auto& impl = rays.impl();
   RTCRayHit16 traced;
   alignas(64) const auto valid = traceable_lanes(packet);
-  load_rays(impl.geometry, packet, traced.ray);
+  load_rays(impl.geometry, packet, valid, traced.ray);
   clear_hits(traced.hit);
 
   RTCIntersectContext context;
@@ -297,7 +304,7 @@ std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence 
   const auto& impl = rays.impl();
   RTCRay16 traced;
   alignas(64) const auto valid = traceable_lanes(packet);
-  load_legs(impl.geometry, packet, traced);
+  load_legs(impl.geometry, packet, valid, traced);
 
   LegContext context;
   rtcInitIntersectContext(&context);
@@ -389,9 +396,5 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
 const RayFrame& RayScene::frame() const { return impl_->geometry.frame; }
 const FrameGeometry& RayScene::geometry() const { return impl_->geometry; }
-
-RayScene make_ray_scene(const Scene& scene, const SurfaceModel& surfaces) {
-  return {scene, surfaces};
-}
 
 } // namespace meninas

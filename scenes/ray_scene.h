@@ -91,7 +91,9 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-RayScene make_ray_scene(const Scene& scene, const SurfaceModel& surfaces);
+inline RayScene make_ray_scene(const Scene& scene, const SurfaceModel& surfaces) {
+  return {scene, surfaces};
+}
 
 std::optional<Hit> closest_hit(const RayScene& rays, const Ray& ray, Backs backs = Backs::absorb);
 bool occluded(const RayScene& rays, const Leg& leg);
