@@ -122,8 +122,9 @@ double visible_fraction(const LightScene& light, const VirtualLight& image,
 
 } // namespace
 
-Rgb direct_irradiance(const LightScene& light, const Receiver& receiver,
-                      const DirectSettings& settings, std::uint32_t seed, DirectWorkspace& work) {
+ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
+                                const DirectSettings& settings, std::uint32_t seed,
+                                DirectWorkspace& work) {
   virtual_lights(light.worlds, light.emitters, receiver.position, receiver.normal,
                  light.surfaces.tolerance, work.lights);
 
@@ -143,19 +144,23 @@ Rgb direct_irradiance(const LightScene& light, const Receiver& receiver,
                    [&](auto a, auto b) { return work.brought[a] > work.brought[b]; });
 
   // An image is worth shadow rays by its share of what has arrived so far: a bright one that is hidden takes none from the others.
-  Rgb sum(0.0);
+  ArrivingLight sum;
   for (const auto k : work.order) {
     if (work.brought[k] <= 0.0)
       break;
     const VirtualLight& image = work.lights[k];
-    const double worth = work.brought[k] / std::max(work.brought[k], largest(sum));
+    const double worth = work.brought[k] / std::max(work.brought[k], largest(sum.total));
     const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
     const int penumbra = static_cast<int>(std::lround(settings.penumbra_rays * worth));
     const auto image_seed = hash(seed, image.emitter, index(image.world));
     const double visible =
         visible_fraction(light, image, receiver, samples, penumbra, image_seed, work);
-    sum += visible * work.form_factors[k] * light.worlds.worlds[index(image.world)].throughput *
-           light.emitters[image.emitter].radiosity;
+    const Rgb arrived = visible * work.form_factors[k] *
+                        light.worlds.worlds[index(image.world)].throughput *
+                        light.emitters[image.emitter].radiosity;
+    sum.total += arrived;
+    if (image.world != real_world)
+      sum.mirrored += arrived;
   }
   return sum;
 }
@@ -182,7 +187,7 @@ Rgb mean_over_element(const LightScene& light, ElementId element, CoveredCells c
       continue;
     const Receiver receiver{point_in(area, Vec2(sample[0], sample[1])), area.normal,
                             area.plane_class};
-    sum += direct_irradiance(light, receiver, at_point, hash(seed, p, 1), work);
+    sum += direct_irradiance(light, receiver, at_point, hash(seed, p, 1), work).total;
     if (++taken < wanted)
       continue;
 

@@ -40,9 +40,14 @@ struct DirectWorkspace {
   std::uint64_t shadow_rays = 0;
 };
 
-Rgb direct_irradiance(const LightScene& light, const Receiver& receiver,
-                      const DirectSettings& settings, std::uint32_t seed,
-                      DirectWorkspace& workspace);
+/// Irradiance, and the part of it whose last leg came by way of mirrors.
+struct ArrivingLight {
+  Rgb total{0.0}, mirrored{0.0};
+};
+
+ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
+                                const DirectSettings& settings, std::uint32_t seed,
+                                DirectWorkspace& workspace);
 
 struct DirectIrradiance {
   std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element

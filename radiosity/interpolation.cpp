@@ -132,22 +132,26 @@ struct VertexGathering {
 };
 
 struct VertexValue {
-  glm::vec3 irradiance;
+  ArrivingLight irradiance;
   bool covered; ///< something stands on it: no value of its own
 };
 
 /// What landed rays bring: light reflected by elements, where no cluster owns it, and emission, where no closed form owns that.
-Rgb landed_light(const VertexGathering& context, const GatheredRays& gathered) {
+ArrivingLight landed_light(const VertexGathering& context, const GatheredRays& gathered) {
   const std::size_t cluster_worlds = context.clusters.worlds.worlds.size();
-  Rgb sum(0.0);
+  ArrivingLight sum;
   for (const auto& landing : gathered.landings) {
     const bool owned =
         context.clusters.owned[landing.element] != 0 && index(landing.world) < cluster_worlds;
+    Rgb arrived = gathered_emission(context.light, landing);
     if (!owned)
-      sum += Rgb(landing.throughput) * context.radiosity[landing.element];
-    sum += gathered_emission(context.light, landing);
+      arrived += Rgb(landing.throughput) * context.radiosity[landing.element];
+    sum.total += arrived;
+    if (landing.world != real_world)
+      sum.mirrored += arrived;
   }
-  return sum / kept_light(gathered, context.net.points.size());
+  const Rgb kept = kept_light(gathered, context.net.points.size());
+  return {sum.total / kept, sum.mirrored / kept};
 }
 
 /// Whether something lies on the surface here: nearly all of the hemisphere is blocked within a fraction of an element, as under
@@ -193,9 +197,10 @@ VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, 
   const GatheredRays& gathered = work.gather.result;
   work.rays += gathered.traced;
 
-  const Rgb from_source =
+  const ArrivingLight from_rays = landed_light(context, gathered);
+  const ArrivingLight from_source =
       direct_irradiance(context.light, receiver, context.direct, hash(seed, 1), work.direct);
-  const Rgb from_clusters =
+  const ArrivingLight from_clusters =
       direct_irradiance(context.clustered, receiver, context.secondary, hash(seed, 2), work.direct);
   const auto lit = [&](const RayLanding& landing) {
     return context.irradiance[landing.element] != Rgb(0.0);
@@ -204,8 +209,10 @@ VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, 
       gathered.black > most_black * double(context.net.points.size()) ||
       (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
   const bool covered =
-      (enclosed && from_source == Rgb(0.0)) || is_under_something(context, receiver);
-  return {glm::vec3(landed_light(context, gathered) + from_source + from_clusters), covered};
+      (enclosed && from_source.total == Rgb(0.0)) || is_under_something(context, receiver);
+  return {{from_rays.total + from_source.total + from_clusters.total,
+           from_rays.mirrored + from_source.mirrored + from_clusters.mirrored},
+          covered};
 }
 
 } // namespace
@@ -240,7 +247,9 @@ gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
                                 make_direction_net(settings.rays)};
 
   InterpolatedField result;
-  result.field.irradiance.assign(mesh.vertices.size(), glm::vec3(0.0F));
+  DiffuseField& field = result.field;
+  field.irradiance.assign(mesh.vertices.size(), glm::vec3(0.0F));
+  field.mirrored = field.irradiance;
   std::vector<std::uint8_t> valid(mesh.vertices.size(), 1);
   tbb::enumerable_thread_specific<VertexWorkspace> workspaces;
   tbb::parallel_for(
@@ -255,7 +264,8 @@ gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
           const VertexValue value =
               gather_at(context, receiver,
                         hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27), work);
-          result.field.irradiance[v] = value.irradiance;
+          field.irradiance[v] = glm::vec3(value.irradiance.total);
+          field.mirrored[v] = glm::vec3(value.irradiance.mirrored);
           valid[v] = value.covered ? 0 : 1;
         }
       });
@@ -263,7 +273,8 @@ gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
     result.form_factor_rays += work.rays;
     result.shadow_rays += work.direct.shadow_rays;
   }
-  fill_vertices(mesh, valid, result.field.irradiance);
+  fill_vertices(mesh, valid, field.irradiance);
+  fill_vertices(mesh, valid, field.mirrored);
   return result;
 }
 
@@ -272,7 +283,7 @@ InterpolatedField interpolate(const LightScene& light, const std::vector<Rgb>& r
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
                               const InterpolationSettings& settings) {
   if (settings.method == Interpolation::average)
-    return {{average_at_vertices(light.mesh, irradiance)}, 0, 0};
+    return {{average_at_vertices(light.mesh, irradiance), {}}, 0, 0};
   return gather_at_vertices(light, radiosity, irradiance, form_factors, direct, settings);
 }
 

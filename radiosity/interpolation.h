@@ -21,9 +21,11 @@ struct InterpolationSettings {
       8; ///< per bright cluster (bright_clusters.h) and vertex, where it matters most
 };
 
-/// Irradiance by ElementVertexId. The mesh it belongs to must outlive it.
+/// By ElementVertexId. The mesh it belongs to must outlive it.
 struct DiffuseField {
   std::vector<glm::vec3> irradiance;
+  std::vector<glm::vec3>
+      mirrored; ///< the part of it whose last leg came by way of mirrors; empty from `average`
 };
 
 struct InterpolatedField {
