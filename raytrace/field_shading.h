@@ -5,6 +5,8 @@
 
 #include "radiosity/interpolation.h"
 
+#include <span>
+#include <string>
 #include <vector>
 
 namespace meninas {
@@ -17,6 +19,20 @@ struct SideShading {
 /// By SideId.
 std::vector<SideShading> make_side_shading(const ElementMesh& mesh);
 
+/// What landing points show.
+struct VisibleLight {
+  std::vector<SideShading> shading;  ///< by SideId
+  std::vector<glm::vec3> irradiance; ///< by ElementVertexId
+};
+
+/// What a field shows, in the parts that add up to it: `emission`, and reflected light by its last leg to the surface, straight
+/// (`diffuse.direct`) or by way of mirrors (`diffuse.mirrored`).
+struct LightPart {
+  std::string name;
+  VisibleLight light;
+};
+std::vector<LightPart> light_parts(const ElementMesh& mesh, const DiffuseField& field);
+
 /// Sums over points (s, t) of one element: of 1, s, t and s t. The field is linear in them.
 struct PointSums {
   float n = 0.0F, s = 0.0F, t = 0.0F, st = 0.0F;
@@ -24,24 +40,24 @@ struct PointSums {
 
 /// The sum of the radiances at points of an element. Those of a triangle have no sum of s t: its third corner stands for its fourth,
 /// so that the bilinear form without the product is its linear one.
-inline glm::vec3 field_radiance(const ElementMesh& mesh, const DiffuseField& field,
+inline glm::vec3 field_radiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
                                 const SideShading& shading, std::uint32_t element,
                                 const PointSums& p) {
   const auto& corners = mesh.corners[element];
-  const glm::vec3& h0 = field.irradiance[index(corners[0])];
-  const glm::vec3& h1 = field.irradiance[index(corners[1])];
-  const glm::vec3& h2 = field.irradiance[index(corners[2])];
-  const glm::vec3& h3 = field.irradiance[index(corners[3])];
+  const glm::vec3& h0 = irradiance[index(corners[0])];
+  const glm::vec3& h1 = irradiance[index(corners[1])];
+  const glm::vec3& h2 = irradiance[index(corners[2])];
+  const glm::vec3& h3 = irradiance[index(corners[3])];
   const glm::vec3 h =
       (p.n - p.s - p.t + p.st) * h0 + (p.s - p.st) * h1 + p.st * h2 + (p.t - p.st) * h3;
   return p.n * shading.emitted + shading.albedo_over_pi * h;
 }
 
-inline glm::vec3 field_radiance(const ElementMesh& mesh, const DiffuseField& field,
+inline glm::vec3 field_radiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
                                 const SideShading& shading, const SideRecord& side, glm::vec2 uv) {
   const Landing at = land(side, uv);
   const float st = side.triangle ? 0.0F : at.st.x * at.st.y;
-  return field_radiance(mesh, field, shading, at.element, {1.0F, at.st.x, at.st.y, st});
+  return field_radiance(mesh, irradiance, shading, at.element, {1.0F, at.st.x, at.st.y, st});
 }
 
 } // namespace meninas

@@ -2,20 +2,26 @@
 
 #include "raytrace/camera_rays.h"
 #include "raytrace/field_shading.h"
+#include "raytrace/quad_lanes.h"
 #include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <bit>
+#include <functional>
 
 namespace meninas {
 
 namespace {
 
 constexpr int tile_size = 32; ///< pixels square
+
+/// A pixel's radiance by how it is seen: straight, in one mirror, by way of several.
+constexpr std::size_t seen_ways = 3;
+using SeenRadiance = std::array<glm::vec3, seen_ways>;
 
 /// A specular path that goes on: where, in which pixel of the tile, with what throughput.
 struct SpecularRay {
@@ -26,7 +32,9 @@ struct SpecularRay {
 };
 
 struct TileWorkspace {
-  std::vector<glm::vec3> sums; ///< by pixel of the tile
+  std::array<std::vector<glm::vec3>, seen_ways>
+      sums;            ///< by way of seeing, then by pixel of the tile
+  std::size_t way = 0; ///< that of the rays under way
   std::vector<SpecularRay> current, next;
   std::uint64_t camera_rays = 0, specular_rays = 0;
 };
@@ -38,10 +46,9 @@ struct TileArea {
 /// Everything the tiles share.
 struct RenderContext {
   const LightScene& light;
-  const DiffuseField& field;
+  const VisibleLight& visible;
   const RenderSettings& settings;
   CameraFrame camera;
-  std::vector<SideShading> shading;
   std::vector<std::uint32_t> net_x, net_y; ///< stratified points of the pixel, as integers
 };
 
@@ -79,11 +86,6 @@ void reflect(const RenderContext& context, const FaceRecord& face, const RayPack
   work.next.push_back(ray);
 }
 
-glm::vec2 uv_of(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
-                std::uint32_t k) {
-  return landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
-}
-
 const FaceRecord& face_of(const LandingTable& landing, const HitPacket& hits, std::uint32_t k) {
   return landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
 }
@@ -100,8 +102,8 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
       if (face.side != FaceRecord::nothing) {
         const glm::vec2 uv = uv_of(light, face, hits, k);
         const glm::vec3 radiance =
-            field_radiance(light.mesh, context.field, context.shading[face.side],
-                           light.landing.sides[face.side], uv);
+            field_radiance(light.mesh, context.visible.irradiance,
+                           context.visible.shading[face.side], light.landing.sides[face.side], uv);
         sum += state.specular ? state.specular[k].throughput * radiance : radiance;
       }
       if (face.mirrors && mirrors)
@@ -109,94 +111,9 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
     }
     if (k + 1 < packet.count && state.pixel[k + 1] == state.pixel[k])
       continue;
-    work.sums[state.pixel[k]] += sum;
+    work.sums[work.way][state.pixel[k]] += sum;
     sum = glm::vec3(0.0F);
   }
-}
-
-/// Where on a quad side the lanes have landed: element, and place in it.
-struct alignas(64) LanePoints {
-  std::array<std::int32_t, packet_size> element;
-  std::array<float, packet_size> s, t;
-};
-
-/// land(), sixteen at a time.
-LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const SideRecord& side,
-                        const HitPacket& hits) {
-  LanePoints at;
-  if (face.map != UvMap::general) {
-    const glm::vec2 uv0 = face.uv0, uv1 = face.uv1, uv2 = face.uv2;
-    for (std::size_t k = 0; k < packet_size; ++k)
-      at.s[k] = uv0.x + hits.b1[k] * uv1.x + hits.b2[k] * uv2.x;
-    for (std::size_t k = 0; k < packet_size; ++k)
-      at.t[k] = uv0.y + hits.b1[k] * uv1.y + hits.b2[k] * uv2.y;
-    if (face.map == UvMap::bilinear)
-      for (std::size_t k = 0; k < packet_size; ++k) {
-        const glm::vec2 uv = bilinear_uv(face.widening, {at.s[k], at.t[k]});
-        at.s[k] = uv.x;
-        at.t[k] = uv.y;
-      }
-  } else {
-    for (std::uint32_t k = 0; k < packet_size; ++k) {
-      const glm::vec2 uv = uv_of(light, face, hits, k);
-      at.s[k] = uv.x;
-      at.t[k] = uv.y;
-    }
-  }
-  const std::int32_t nu = side.nu, nv = side.nv;
-  const auto fu = static_cast<float>(nu), fv = static_cast<float>(nv);
-  const auto first = static_cast<std::int32_t>(side.first_element);
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    const float u = (at.s[k] < 0.0F ? 0.0F : at.s[k] > 1.0F ? 1.0F : at.s[k]) * fu;
-    const float v = (at.t[k] < 0.0F ? 0.0F : at.t[k] > 1.0F ? 1.0F : at.t[k]) * fv;
-    const auto iu = static_cast<std::int32_t>(u), iv = static_cast<std::int32_t>(v);
-    const std::int32_t i = iu < nu ? iu : nu - 1, j = iv < nv ? iv : nv - 1;
-    at.s[k] = u - static_cast<float>(i);
-    at.t[k] = v - static_cast<float>(j);
-    at.element[k] = first + j * nu + i;
-  }
-  return at;
-}
-
-/// The sum over all lanes, four at a time.
-float sum_of(const std::array<float, packet_size>& values) {
-  std::array<float, 4> sums;
-  for (std::size_t k = 0; k < 4; ++k)
-    sums[k] = (values[k] + values[k + 4]) + (values[k + 8] + values[k + 12]);
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
-/// The sum of the radiances at the points, with one look-up for each element: the bilinear field is linear in the sums of 1, s, t and s t.
-glm::vec3 quad_radiance(const RenderContext& context, std::uint32_t side, const LanePoints& at) {
-  const auto radiance = [&](std::int32_t element, const PointSums& points) {
-    return field_radiance(context.light.mesh, context.field, context.shading[side],
-                          static_cast<std::uint32_t>(element), points);
-  };
-  std::uint32_t differ = 0;
-  for (std::size_t k = 0; k < packet_size; ++k)
-    differ |= static_cast<std::uint32_t>(at.element[k] ^ at.element[0]);
-  if (differ == 0) {
-    alignas(64) std::array<float, packet_size> st;
-    for (std::size_t k = 0; k < packet_size; ++k)
-      st[k] = at.s[k] * at.t[k];
-    return radiance(at.element[0], {float{packet_size}, sum_of(at.s), sum_of(at.t), sum_of(st)});
-  }
-  glm::vec3 sum(0.0F);
-  for (std::uint32_t rest = 0xffffU; rest != 0;) {
-    const std::int32_t element = at.element[static_cast<std::size_t>(std::countr_zero(rest))];
-    PointSums points;
-    for (std::size_t k = 0; k < packet_size; ++k) {
-      if (at.element[k] != element)
-        continue;
-      rest &= ~(1U << k);
-      points.n += 1.0F;
-      points.s += at.s[k];
-      points.t += at.t[k];
-      points.st += at.s[k] * at.t[k];
-    }
-    sum += radiance(element, points);
-  }
-  return sum;
 }
 
 /// The common case of sixteen samples of one pixel that land on one quad side. Returns false where they do not.
@@ -226,7 +143,8 @@ bool shade_as_one(const RenderContext& context, const LaneState& state, const Hi
   }
 
   const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits);
-  work.sums[state.pixel[0]] += throughput * quad_radiance(context, face.side, at);
+  work.sums[work.way][state.pixel[0]] +=
+      throughput * quad_radiance(light.mesh, context.visible, face.side, at);
   return true;
 }
 
@@ -244,6 +162,7 @@ void follow_mirrors(const RenderContext& context, TileWorkspace& work) {
   for (int bounce = 0; !work.next.empty() && bounce < context.settings.max_bounces; ++bounce) {
     work.current.swap(work.next);
     work.next.clear();
+    work.way = std::min(work.way + 1, seen_ways - 1);
     work.specular_rays += work.current.size();
     for (std::size_t first = 0; first < work.current.size(); first += packet_size) {
       packet.count = static_cast<std::uint32_t>(std::min(packet_size, work.current.size() - first));
@@ -322,17 +241,24 @@ void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileW
   work.camera_rays += std::uint64_t{pixels} * samples;
 }
 
+using StorePixel = std::function<void(int x, int y, const SeenRadiance&)>;
+
 void render_tile(const RenderContext& context, const TileArea& tile, TileWorkspace& work,
-                 Image& image) {
-  work.sums.assign(static_cast<std::size_t>(tile.width * tile.height), glm::vec3(0.0F));
+                 const StorePixel& store) {
+  for (auto& sums : work.sums)
+    sums.assign(static_cast<std::size_t>(tile.width * tile.height), glm::vec3(0.0F));
   work.next.clear();
+  work.way = 0;
   trace_camera_rays(context, tile, work);
   follow_mirrors(context, work);
   const float share = 1.0F / static_cast<float>(context.net_x.size());
   for (int y = 0; y < tile.height; ++y)
-    for (int x = 0; x < tile.width; ++x)
-      image.at(tile.x0 + x, tile.y0 + y) =
-          share * work.sums[static_cast<std::size_t>(y * tile.width + x)];
+    for (int x = 0; x < tile.width; ++x) {
+      const auto pixel = static_cast<std::size_t>(y * tile.width + x);
+      store(
+          tile.x0 + x, tile.y0 + y,
+          {share * work.sums[0][pixel], share * work.sums[1][pixel], share * work.sums[2][pixel]});
+    }
 }
 
 /// Coordinate d of the stratified points of a pixel.
@@ -343,20 +269,21 @@ std::vector<std::uint32_t> pixel_net(int samples, std::size_t d) {
   return net;
 }
 
-} // namespace
+struct RayTotals {
+  std::uint64_t camera = 0, specular = 0;
+};
 
-Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera,
-                 const RenderSettings& settings, const Progress& progress) {
-  expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
+/// Every pixel of what is visible, handed to `store` from any thread.
+RayTotals trace_picture(const LightScene& light, const VisibleLight& visible, const Camera& camera,
+                        const RenderSettings& settings, const Progress& progress,
+                        const StorePixel& store) {
   const double aspect = double(settings.width) / settings.height;
   const RenderContext context{light,
-                              field,
+                              visible,
                               settings,
                               make_camera_frame(camera, aspect, light.rays.frame()),
-                              make_side_shading(light.mesh),
                               pixel_net(settings.samples, 0),
                               pixel_net(settings.samples, 1)};
-  Rendering result{Image(settings.width, settings.height), 0, 0};
   const int columns = (settings.width + tile_size - 1) / tile_size,
             rows = (settings.height + tile_size - 1) / tile_size;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
@@ -365,14 +292,56 @@ Rendering render(const LightScene& light, const DiffuseField& field, const Camer
     const int x0 = t % columns * tile_size, y0 = t / columns * tile_size;
     const TileArea tile{x0, y0, std::min(tile_size, settings.width - x0),
                         std::min(tile_size, settings.height - y0)};
-    render_tile(context, tile, workspaces.local(), result.image);
+    render_tile(context, tile, workspaces.local(), store);
     if (progress)
       progress("render", double(++done) / (columns * rows));
   });
+  RayTotals totals;
   for (const auto& work : workspaces) {
-    result.camera_rays += work.camera_rays;
-    result.specular_rays += work.specular_rays;
+    totals.camera += work.camera_rays;
+    totals.specular += work.specular_rays;
   }
+  return totals;
+}
+
+} // namespace
+
+Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera,
+                 const RenderSettings& settings, const Progress& progress) {
+  expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
+  Rendering result;
+  result.image = Image(settings.width, settings.height);
+  const VisibleLight all{make_side_shading(light.mesh), field.irradiance};
+  const RayTotals rays = trace_picture(light, all, camera, settings, progress,
+                                       [&](int x, int y, const SeenRadiance& seen) {
+                                         result.image.at(x, y) = seen[0] + seen[1] + seen[2];
+                                       });
+  result.camera_rays = rays.camera;
+  result.specular_rays = rays.specular;
+  return result;
+}
+
+Rendering render_layers(const LightScene& light, const DiffuseField& field, const Camera& camera,
+                        const RenderSettings& settings, const Progress& progress) {
+  expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
+  expects(field.mirrored.size() == field.irradiance.size(), "the field knows its mirrored part");
+  Rendering result;
+  result.image = Image(settings.width, settings.height);
+  for (const LightPart& part : light_parts(light.mesh, field)) {
+    const std::size_t first = result.layers.size();
+    for (const char* way : {"", ".mirror", ".mirrors"})
+      result.layers.push_back({part.name + way, Image(settings.width, settings.height)});
+    const RayTotals rays = trace_picture(light, part.light, camera, settings, progress,
+                                         [&](int x, int y, const SeenRadiance& seen) {
+                                           for (std::size_t way = 0; way < seen_ways; ++way)
+                                             result.layers[first + way].image.at(x, y) = seen[way];
+                                         });
+    result.camera_rays += rays.camera;
+    result.specular_rays += rays.specular;
+  }
+  for (std::size_t p = 0; p < result.image.pixels.size(); ++p)
+    for (const Layer& layer : result.layers)
+      result.image.pixels[p] += layer.image.pixels[p];
   return result;
 }
 

@@ -28,12 +28,20 @@ struct RenderSettings {
 };
 
 struct Rendering {
-  Image image; ///< radiance
+  Image image;               ///< radiance
+  std::vector<Layer> layers; ///< of render_layers: they add up to the image, in their order
   std::uint64_t camera_rays = 0;
   std::uint64_t specular_rays = 0;
 };
 
 Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera,
                  const RenderSettings& settings, const Progress& progress = {});
+
+/// The same picture as the sum of nine layers, each traced for itself: `emission`, `diffuse.direct` and `diffuse.mirrored` (light
+/// whose last leg to the surface was straight, or by way of mirrors), seen straight, in one mirror (`.mirror`) and by way of
+/// several (`.mirrors`). The four transport mechanisms: diffuse to diffuse is `diffuse.direct`, specular to diffuse `diffuse.mirrored`,
+/// diffuse to specular what `.mirror` shows, specular to specular what `.mirrors` shows. The field must know its mirrored part.
+Rendering render_layers(const LightScene& light, const DiffuseField& field, const Camera& camera,
+                        const RenderSettings& settings, const Progress& progress = {});
 
 } // namespace meninas
