@@ -170,6 +170,10 @@ json viewer_json(Geometry& geometry, const ElementMesh& mesh, const DiffuseField
   attributes["COLOR_0"] =
       add_array(geometry, display_colours(mesh, field), gltf_array_buffer, vec3);
   attributes["_IRRADIANCE"] = add_array(geometry, field.irradiance, gltf_array_buffer, vec3);
+  if (!field.mirrored.empty()) {
+    attributes["_IRRADIANCE_MIRRORED"] =
+        add_array(geometry, field.mirrored, gltf_array_buffer, vec3);
+  }
   const std::size_t indices =
       add_array(geometry, triangles_of(mesh), gltf_element_array_buffer, scalar);
   const json primitive{
@@ -220,11 +224,13 @@ void read_figures(const json& figures, StoredSolution& stored) {
   stored.closure = {closure.at("mean_error"), closure.at("max_error"), closure.at("cut")};
 }
 
+const json& attributes_of(const GlbContent& glb) {
+  return glb.root.at("meshes").at(0).at("primitives").at(0).at("attributes");
+}
+
 std::vector<glm::vec3> read_irradiance(const std::filesystem::path& file, const GlbContent& glb,
-                                       std::size_t vertices) {
+                                       std::size_t accessor_index, std::size_t vertices) {
   const json& root = glb.root;
-  const json& primitive = root.at("meshes").at(0).at("primitives").at(0);
-  const std::size_t accessor_index = primitive.at("attributes").at("_IRRADIANCE");
   const json& accessor = root.at("accessors").at(accessor_index);
   const json& view = root.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
   const std::size_t offset = view.at("byteOffset");
@@ -283,7 +289,13 @@ StoredSolution read_checked(const std::filesystem::path& file, const GlbContent&
   StoredSolution stored;
   stored.mesh = read_mesh_settings(file, extras.at("mesh"));
   stored.elements = extras.at("elements");
-  stored.field.irradiance = read_irradiance(file, glb, extras.at("vertices"));
+  const json& attributes = attributes_of(glb);
+  const std::size_t vertices = extras.at("vertices");
+  stored.field.irradiance = read_irradiance(file, glb, attributes.at("_IRRADIANCE"), vertices);
+  if (attributes.contains("_IRRADIANCE_MIRRORED")) {
+    stored.field.mirrored =
+        read_irradiance(file, glb, attributes.at("_IRRADIANCE_MIRRORED"), vertices);
+  }
   read_figures(extras.at("figures"), stored);
   return stored;
 }
