@@ -100,11 +100,13 @@ int guarded_main(int argc, char** argv) {
   program.get_formatter()->column_width(36);
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
   program.get_formatter()->label("Subcommands", "Commands");
-  program.footer("Exit codes: 2 wrong usage, 3 bad input, 4 failed write or exhausted resource.");
+  program.footer("Exit codes: 1 a comparison beyond its limits, 2 wrong usage, 3 bad input, 4 "
+                 "failed write or exhausted resource.");
   program.require_subcommand(0, 1);
   program.allow_extras();
   const std::vector<Command> commands{add_render_command(program), add_solve_command(program),
-                                      add_plan_command(program), add_formfactors_command(program)};
+                                      add_plan_command(program), add_formfactors_command(program),
+                                      add_diff_command(program)};
   for (const Command& command : commands) {
     command.options->allow_extras();
   }

@@ -278,6 +278,7 @@ ImageFile read_image(const fs::path& file) {
   // R, G and B are the picture; every other NAME.R with its G and B is a layer.
   auto channels = channel_numbers(*decoded);
   ImageFile result;
+  result.encoding = decoded->code_values == 0 ? Encoding::linear : Encoding::srgb;
   result.picture = extract(*decoded, reader, take_picture(channels, name));
   std::vector<std::string> layer_names;
   for (const auto& [channel, number] : channels)

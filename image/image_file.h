@@ -41,12 +41,15 @@ void write_exr(const std::filesystem::path& file, const Image& picture, std::spa
 /// No value may be NaN.
 void write_png(const std::filesystem::path& file, const Image& picture, double exposure);
 
+enum class Encoding { srgb, linear };
+
 /// Layers and attributes come sorted by name, as an EXR stores them.
 struct ImageFile {
   Image picture;
   std::vector<Layer> layers;                 ///< every NAME with NAME.R, NAME.G and NAME.B
   Attributes attributes;                     ///< those that write_exr wrote
   std::vector<std::string> ignored_channels; ///< all others, alpha among them, by the name they have in the file
+  Encoding encoding = Encoding::linear;      ///< of the file; the values here are linear
 };
 /// EXR and HDR as they are; PNG and JPEG decoded from sRGB to linear. Grey becomes R = G = B.
 /// The kind is recognised by the content. Refuses more than 65536 pixels on a side and more than 2^30 values in all.
@@ -59,7 +62,6 @@ struct Bitmap {
   int width = 0, height = 0;
   std::vector<glm::vec4> pixels;
 };
-enum class Encoding { srgb, linear };
 Bitmap decode_image(std::span<const std::byte> encoded, Encoding encoding, const std::string& name);
 
 /// Throws OutputError when a picture could not be written there (unknown extension, no such folder, no permission),

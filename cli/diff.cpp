@@ -1,0 +1,116 @@
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "cli/values.h"
+#include "runs/diff_run.h"
+#include "scenes/errors.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iostream>
+
+namespace meninas {
+namespace {
+
+struct DiffOptions {
+  DiffRequest request;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+struct LimitOption {
+  const char* option;
+  Metric metric;
+  const char* description;
+};
+constexpr LimitOption limit_options[] = {
+    {"--max-rmse", Metric::rmse, "root of the mean squared difference"},
+    {"--max-relmse", Metric::relmse, "mean of (a - b)^2 / (b^2 + epsilon)"},
+    {"--max-mae", Metric::mae, "mean absolute difference"},
+    {"--max-abs", Metric::max_abs, "largest difference of any channel of any pixel"},
+    {"--min-psnr", Metric::psnr, "decibels"},
+    {"--min-ssim", Metric::ssim, "structural similarity, 1 for identical pictures"},
+    {"--max-flip", Metric::flip, "mean visible difference when flipping between both, 0 to 1"}};
+
+Choices<Metric> metric_choices() {
+  Choices<Metric> choices;
+  for (const Metric metric : all_metrics) {
+    if (metric != Metric::psnr) {
+      choices.emplace_back(name_of(metric), metric);
+    }
+  }
+  return choices;
+}
+
+void run(DiffOptions& options) {
+  Console console(options.verbosity);
+  const DiffResult result = diff_run(options.request, console.events());
+  std::cout << result.text << std::flush;
+  if (!std::cout) {
+    throw OutputError("", "standard output", "cannot write");
+  }
+  if (!result.broken.empty()) {
+    throw UserError(ExitCode::out_of_tolerance, options.request.picture.string(), "",
+                    fmt::format("{}", fmt::join(result.broken, ", ")));
+  }
+}
+
+void add_limits(CLI::App& command, DiffRequest& request) {
+  for (const LimitOption& limit : limit_options) {
+    const std::string name = limit.option;
+    const Metric metric = limit.metric;
+    command
+        .add_option_function<std::string>(
+            name,
+            [&request, name, metric](const std::string& text) {
+              request.limits.push_back({metric, parse_number(name, text, Sign::any)});
+            },
+            limit.description)
+        ->type_name("X")
+        ->group("Limits: exit code 1 when one does not hold");
+  }
+}
+
+void add_picture_options(CLI::App& command, DiffRequest& request) {
+  const auto add = [&](const std::string& option, const std::string& shown,
+                       const std::string& description,
+                       std::function<void(const std::string&)> take) {
+    command.add_option_function<std::string>(option, take, description)->type_name(shown);
+  };
+  add("--layer", "NAME", "compare this layer of both EXRs instead of their pictures",
+      [&](const std::string& text) { request.layer = text; });
+  add("--heat", fmt::format("{}", fmt::join(names_of(metric_choices()), "|")),
+      "what the heat map shows of each pixel [flip]", [&](const std::string& text) {
+        request.heat_metric = parse_choice("--heat", text, metric_choices());
+      });
+  add("--exposure", "EV",
+      "stops at which ssim and flip see radiance [automatic for B; PNGs are seen as they are]",
+      [&](const std::string& text) {
+        request.exposure = parse_number("--exposure", text, Sign::any);
+      });
+  add("--relmse-epsilon", "X",
+      fmt::format("of relmse, in units of radiance squared [{}]", request.relmse_epsilon),
+      [&](const std::string& text) {
+        request.relmse_epsilon = parse_number("--relmse-epsilon", text, Sign::positive);
+      });
+}
+
+} // namespace
+
+Command add_diff_command(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("diff", "Measure how far a picture is from a reference");
+  const auto options = std::make_shared<DiffOptions>();
+  DiffRequest& request = options->request;
+  command->add_option("A", request.picture, "picture, EXR or PNG (taken to linear light)")
+      ->type_name("")
+      ->required();
+  command->add_option("B", request.reference, "its reference")->type_name("")->required();
+  add_file(*command, "-o,--output", request.heat_map, "write the errors as colours, a .png");
+  add_picture_options(*command, request);
+  add_limits(*command, request);
+  command->add_flag_callback(
+      "--json", [=] { options->request.format = DiffFormat::json; }, "as JSON instead of text");
+  return {command, [=] { run(*options); }};
+}
+
+} // namespace meninas
