@@ -4,7 +4,7 @@
 // are one):
 //   F = sum_w tau_w F^w,  tau_w the mean of the channels of the product of the mirrors' reflectances, F^w geometric.
 // `analytic` is extended_form_factor.h. `rays` follows cosine-distributed rays (gather_rays.h) from points spread over A in sixteen
-// independent replicas: their scatter is the standard error.
+// independent replicas: their scatter is the standard error, and the share of one ray the least.
 #pragma once
 
 #include "radiosity/extended_form_factor.h"

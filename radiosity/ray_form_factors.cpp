@@ -98,27 +98,33 @@ Replica run_replica(const LightScene& light, const std::vector<Sender>& senders,
   return replica;
 }
 
-/// The mean of the replicas and the standard error of that mean.
-Estimate estimate_of(const std::vector<double>& values) {
+/// The mean of the replicas and the standard error of that mean. That all replicas agree, because none of their rays was the odd one out,
+/// is no proof: the share of one ray is the least error.
+Estimate estimate_of(const std::vector<double>& values, double one_ray) {
   double mean = 0.0, squares = 0.0;
   for (const double value : values)
     mean += value / replicas;
   for (const double value : values)
     squares += (value - mean) * (value - mean);
-  return {mean, std::sqrt(squares / (replicas * (replicas - 1.0)))};
+  return {mean, std::hypot(std::sqrt(squares / (replicas * (replicas - 1.0))), one_ray)};
 }
 
 std::vector<ExtendedFactor> summarise(const LightScene& light, const std::vector<Replica>& runs,
-                                      std::size_t group_count) {
+                                      std::size_t group_count, const NodeFactorSettings& settings) {
   std::vector<ExtendedFactor> factors(group_count);
+  const double one_ray = 1.0 / settings.rays;
   double cut = 0.0;
   for (const Replica& run : runs)
     cut += run.cut / replicas;
+  // What lies beyond the depth asked for is not asked for; all that is missing then is what has grown too faint on the way.
+  const FormFactorSettings standard;
+  if (settings.max_depth < standard.max_bounces)
+    cut = std::min(cut, standard.min_throughput);
   for (std::size_t g = 0; g < group_count; ++g) {
     std::vector<double> totals;
     for (const Replica& run : runs)
       totals.push_back(run.totals[g]);
-    factors[g].total = estimate_of(totals);
+    factors[g].total = estimate_of(totals, one_ray);
     factors[g].total.error += cut;
   }
   std::map<Key, std::vector<double>> by_world;
@@ -135,7 +141,7 @@ std::vector<ExtendedFactor> summarise(const LightScene& light, const std::vector
       continue;
     factors[key.first].worlds.push_back({chain_of(light.worlds, world),
                                          light.worlds.worlds[key.second].throughput,
-                                         estimate_of(values)});
+                                         estimate_of(values, one_ray)});
   }
   for (auto& factor : factors)
     std::stable_sort(
@@ -178,7 +184,7 @@ std::vector<ExtendedFactor> ray_form_factors(const Scene& scene, const SurfaceMo
     runs[r] = run_replica(light, senders, groups, to.size(), ray_settings,
                           hash(settings.seed, r, 0x5e71));
   });
-  return summarise(light, runs, to.size());
+  return summarise(light, runs, to.size(), settings);
 }
 
 } // namespace meninas
