@@ -1,6 +1,7 @@
 #include "radiosity/extended_form_factor.h"
 
 #include "radiosity/area_form_factor.h"
+#include "radiosity/kaleidoscope.h"
 #include "radiosity/world_shares.h"
 
 #include <tbb/parallel_for.h>
@@ -322,11 +323,7 @@ private:
       add_error(region, factors);
     for (std::uint32_t g = 0; g < groups_; ++g) {
       factors.to[g].total.error += closed_[g].error;
-      auto& worlds = factors.to[g].worlds;
-      std::stable_sort(
-          worlds.begin(), worlds.end(), [](const WorldFactor& a, const WorldFactor& b) {
-            return mean_of(a.throughput) * a.factor.value > mean_of(b.throughput) * b.factor.value;
-          });
+      sort_worlds(factors.to[g]);
     }
   }
 
@@ -359,8 +356,18 @@ private:
 
 } // namespace
 
+void sort_worlds(ExtendedFactor& factor) {
+  std::stable_sort(factor.worlds.begin(), factor.worlds.end(),
+                   [](const WorldFactor& a, const WorldFactor& b) {
+                     return mean_of(a.throughput) * a.factor.value >
+                            mean_of(b.throughput) * b.factor.value;
+                   });
+}
+
 ExtendedFactors extended_form_factors(const WorldView& view, const std::vector<Face>& from,
                                       std::size_t group_count, const ExtendedSettings& settings) {
+  if (auto factors = kaleidoscope_form_factors(view, from, group_count, settings))
+    return *std::move(factors);
   return Integration(view, from, group_count, settings).run();
 }
 

@@ -4,7 +4,8 @@
 //
 // F^w is geometric and dimensionless: reciprocity is A_A F^w_AB = A_B F^rev(w)_BA. The total weights each world by tau_w, the mean of the
 // channels of the product of its mirrors' reflectances. Emitting, receiving: the fronts of both.
-// Pairs of faces between which nothing can stand take the closed form (area_form_factor.h). The rest is integrated over A: triangles
+// Pairs of faces between which nothing can stand take the closed form (area_form_factor.h), and so do all images where mirrors are whole
+// walls of a convex cell (kaleidoscope.h). The rest is integrated over A: triangles
 // with Radon's seven points of degree five, the one with the largest error split next. A triangle's error is what its factors changed
 // by when its parent was split: sound for smooth parts and for kinks alike. Deterministic for any number of threads.
 #pragma once
@@ -40,6 +41,9 @@ struct ExtendedFactors {
   std::size_t points = 0;         ///< of the integration
   bool converged = true;
 };
+
+/// The largest tau_w F^w first.
+void sort_worlds(ExtendedFactor& factor);
 
 /// From all fronts `from`, weighted by area, to the groups of the view's targets.
 ExtendedFactors extended_form_factors(const WorldView& view, const std::vector<Face>& from,

@@ -83,6 +83,19 @@ TEST_P(KnownFactors, Analytic) {
   }
 }
 
+// All light that enters a duct of perfect mirrors leaves it, which takes thousands of images; and they are visited up to a tail of 1e-3.
+TEST(KnownFactorsInDucts, APerfectDuctPassesEverything) {
+  std::vector<ScenePolygon> duct = known_scene("duct_L10");
+  for (ScenePolygon& polygon : duct)
+    for (Point3& corner : polygon.corners)
+      corner.z *= 0.1;
+  const Asked asked = ask(scene_of(duct, 1.0), "A", "B", {.accuracy = 1e-3});
+  EXPECT_NEAR(asked.factor.total.value, 1.0, 1e-3);
+  EXPECT_LE(1.0 - asked.factor.total.value, asked.factor.total.error);
+  EXPECT_TRUE(asked.converged);
+  EXPECT_GT(asked.factor.worlds.size(), 1000U);
+}
+
 /// A millionth of the scene, the width of a slit or a strip, is below what rays in single precision resolve.
 bool too_small_for_rays(const Question& q) {
   return q.name.starts_with("par_rect.1000x1_gap_1e-3") || q.name.starts_with("perp.w1e-6_h1e-6");
