@@ -1,5 +1,7 @@
 #include "mirror/worlds.h"
 
+#include "mirror/penumbra.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,43 +18,81 @@ ConvexPolygon image_of(const Isometry& map, const ConvexPolygon& polygon) {
   return image;
 }
 
-/// Some point of the window lies in front of the plane, by more than the rounding of their coordinates.
-bool reaches_front(std::span<const ConvexPolygon> window, const Plane& plane) {
+/// What of the window lies in front of the plane, by more than the rounding of their coordinates.
+std::vector<ConvexPolygon> in_front(std::span<const ConvexPolygon> window, const Plane& plane) {
   constexpr double rounding = 1e-13;
-  for (const auto& part : window)
-    for (const auto& vertex : part.span())
-      if (signed_distance(plane, vertex) >
-          rounding * (glm::length(vertex) + std::abs(plane.offset)))
-        return true;
-  return false;
+  std::vector<ConvexPolygon> front;
+  for (const auto& part : window) {
+    double magnitude = std::abs(plane.offset), highest = 0.0;
+    for (const auto& vertex : part.span()) {
+      magnitude = std::max(magnitude, glm::length(vertex));
+      highest = std::max(highest, signed_distance(plane, vertex));
+    }
+    if (highest > 2.0 * rounding * magnitude)
+      front.push_back(clip(part, plane.offset * plane.normal, plane.normal));
+  }
+  std::erase_if(front, [](const ConvexPolygon& part) { return part.empty(); });
+  return front;
 }
 
-/// A segment on its way to the front of the child's plane crosses every window before it in front of that plane.
-bool seen_through(const WorldTree& tree, WorldId parent, const Plane& plane) {
-  for (WorldId w = parent; w != real_world; w = tree.worlds[index(w)].parent)
-    if (!reaches_front(tree.worlds[index(w)].window, plane))
-      return false;
-  return true;
+/// The parts of windows that lines through the whole chain can meet, by world; kept while the tree grows.
+using OpenParts = std::vector<std::vector<ConvexPolygon>>;
+
+/// The part that lines through some part of `first` and then some part of `second` meet. Where several of them show it, it is not
+/// convex: then all of it is kept.
+ConvexPolygon part_behind(const ConvexPolygon& part, std::span<const ConvexPolygon> first,
+                          std::span<const ConvexPolygon> second) {
+  ConvexPolygon seen;
+  for (const auto& a : first)
+    for (const auto& b : second) {
+      const ConvexPolygon behind = clip_to_penumbra(part, a, b);
+      if (behind.empty())
+        continue;
+      if (!seen.empty())
+        return part;
+      seen = behind;
+    }
+  return seen;
 }
 
-/// The mirror's window in the parent's world, without what lies on the observer's side of the parent's own mirror.
-std::vector<ConvexPolygon> child_window(const MirrorWorld& parent, const Mirror& mirror) {
+/// The parts of a child's window that lines can meet which have crossed all windows before it, first one first.
+std::vector<ConvexPolygon> open_parts(const WorldTree& tree, const OpenParts& open, WorldId parent,
+                                      const Plane& plane,
+                                      const std::vector<ConvexPolygon>& window) {
+  if (parent == real_world)
+    return window;
+
+  // A line on its way to the front of the child's plane crosses every window before it in front of that plane.
+  std::vector<ConvexPolygon> parts = window;
+  const auto second = in_front(open[index(parent)], plane);
+  for (WorldId w = tree.worlds[index(parent)].parent; w != real_world;
+       w = tree.worlds[index(w)].parent) {
+    const auto first = in_front(in_front(open[index(w)], plane), tree.worlds[index(parent)].plane);
+    for (auto& part : parts)
+      part = part_behind(part, first, second);
+    std::erase_if(parts, [](const ConvexPolygon& part) { return part.empty(); });
+  }
+  return second.empty() ? std::vector<ConvexPolygon>{} : parts;
+}
+
+} // namespace
+
+std::vector<ConvexPolygon> window_in_world(const MirrorWorld& world, const Mirror& mirror) {
   std::vector<ConvexPolygon> window;
   for (const auto& part : mirror.window) {
-    ConvexPolygon image = image_of(parent.image, part);
-    if (parent.depth > 0)
-      image = clip(image, parent.plane.offset * parent.plane.normal, -parent.plane.normal);
+    ConvexPolygon image = image_of(world.image, part);
+    if (world.depth > 0)
+      image = clip(image, world.plane.offset * world.plane.normal, -world.plane.normal);
     if (!image.empty())
       window.push_back(image);
   }
   return window;
 }
 
-} // namespace
-
 WorldTree mirror_worlds(const MirrorSet& mirrors, const WorldSettings& settings) {
   WorldTree tree;
   tree.worlds.emplace_back();
+  OpenParts open(1);
   const std::size_t mirror_count = mirrors.mirrors.size();
 
   // Breadth first, so that a limit on the number of worlds leaves out the deepest.
@@ -65,20 +105,20 @@ WorldTree mirror_worlds(const MirrorSet& mirrors, const WorldSettings& settings)
         continue;
       ++tree.considered;
 
-      const Rgb throughput = parent.throughput * mirror.reflectance;
-      if (largest(throughput) < settings.min_throughput) {
-        ++tree.pruned_throughput;
-        continue;
-      }
       const Plane plane = apply(parent.image, mirror.plane);
-      auto window = child_window(parent, mirror);
-      if (window.empty() || !seen_through(tree, static_cast<WorldId>(w), plane)) {
+      auto window = window_in_world(parent, mirror);
+      auto parts = open_parts(tree, open, static_cast<WorldId>(w), plane, window);
+      if (parts.empty()) {
         ++tree.pruned_unseen;
         continue;
       }
-      if (parent.depth >= settings.max_depth ||
-          tree.worlds.size() > static_cast<std::size_t>(settings.max_worlds)) {
-        ++tree.pruned_limit;
+      const Rgb throughput = parent.throughput * mirror.reflectance;
+      const bool faint = largest(throughput) < settings.min_throughput;
+      const bool beyond = parent.depth >= settings.max_depth ||
+                          tree.worlds.size() > static_cast<std::size_t>(settings.max_worlds);
+      if (faint || beyond) {
+        ++(faint ? tree.pruned_throughput : tree.pruned_limit);
+        tree.cut.push_back({static_cast<WorldId>(w), static_cast<MirrorId>(m), throughput});
         continue;
       }
       MirrorWorld world{static_cast<WorldId>(w),
@@ -90,6 +130,7 @@ WorldTree mirror_worlds(const MirrorSet& mirrors, const WorldSettings& settings)
                         std::move(window)};
       tree.children[w][m] = static_cast<WorldId>(tree.worlds.size());
       tree.worlds.push_back(std::move(world));
+      open.push_back(std::move(parts));
     }
   }
   return tree;

@@ -5,8 +5,10 @@
 // and `plane` are the last mirror's, placed in the parent's world and cut where an earlier mirror's plane ends that world.
 // tau_w is the product of the reflectances.
 //
-// The tree holds the worlds worth a closed form: throughput at least `min_throughput`, depth at most `max_depth`, at most
-// `max_worlds`, breadth first. Nothing is lost beyond it: rays go on through mirrors and carry what deeper worlds throw.
+// The tree holds the worlds worth a closed form. A chain that no straight line can follow through all of its windows is no world. The
+// others are opened breadth first while their throughput is at least `min_throughput`, their depth at most `max_depth` and their
+// number at most `max_worlds`. Those that are not, `cut`, lose nothing: rays go on through mirrors and carry what they throw
+// (radiosity/world_tail.h says how much that can be).
 #pragma once
 
 #include "mirror/mirrors.h"
@@ -35,14 +37,23 @@ struct MirrorWorld {
   std::vector<ConvexPolygon> window; ///< of the last mirror in unfolded space
 };
 
+/// A world that light reaches but that is not in the tree.
+struct CutWorld {
+  WorldId parent = none<WorldId>;
+  MirrorId mirror = none<MirrorId>;
+  Rgb throughput{1.0};
+};
+
 struct WorldTree {
   std::vector<MirrorWorld> worlds; ///< [0] is the real world
   std::vector<std::vector<WorldId>>
       children; ///< by world, then by mirror: none where there is no such world
+  // Children of worlds in the tree: considered = worlds in the tree but the real one + the three below.
   std::size_t considered = 0;
-  std::size_t pruned_unseen = 0;     ///< the window cannot be seen through the ones before
+  std::size_t pruned_unseen = 0;     ///< no line passes all windows of the chain
   std::size_t pruned_throughput = 0; ///< below min_throughput
-  std::size_t pruned_limit = 0;      ///< beyond max_depth or max_worlds: followed by rays alone
+  std::size_t pruned_limit = 0;      ///< beyond max_depth or max_worlds
+  std::vector<CutWorld> cut;         ///< the latter two
 };
 
 WorldTree mirror_worlds(const MirrorSet& mirrors, const WorldSettings& settings = {});
@@ -52,6 +63,10 @@ inline WorldId child(const WorldTree& tree, WorldId world, MirrorId mirror) {
     return none<WorldId>;
   return tree.children[index(world)][index(mirror)];
 }
+
+/// The images of a mirror's window and plane in a world, as an observer in the real room sees them. The window is without what lies
+/// on the observer's side of that world's own mirror.
+std::vector<ConvexPolygon> window_in_world(const MirrorWorld& world, const Mirror& mirror);
 
 /// The mirrors of the chain, first one first.
 std::vector<MirrorId> chain_of(const WorldTree& tree, WorldId world);

@@ -1,6 +1,7 @@
 #include "radiosity/plan.h"
 
 #include "radiosity/closedness.h"
+#include "radiosity/world_tail.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -176,6 +177,7 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
   TransportPlan plan;
   plan.mirrors = find_mirrors(scene, surfaces, settings.mirrors);
   plan.worlds = mirror_worlds(plan.mirrors, settings.worlds);
+  plan.world_tail = world_tail_bound(plan.worlds, plan.mirrors, receiving_area(scene, surfaces));
   plan.mirror_list = list_mirrors(scene, plan.mirrors);
   plan.emitters = count_emitters(scene, surfaces);
   plan.punctual_lights = scene.lights.size();

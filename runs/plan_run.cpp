@@ -35,11 +35,27 @@ std::vector<std::string> describe_mirrors(const TransportPlan& plan) {
   return lines;
 }
 
+std::vector<std::string> describe_worlds(const TransportPlan& plan) {
+  const WorldTree& worlds = plan.worlds;
+  std::vector<std::string> lines{fmt::format("{}", worlds.worlds.size() - 1)};
+  if (worlds.considered == 0) {
+    return lines;
+  }
+  lines.front() += fmt::format(
+      " of {} considered; left out: {} unseen, {} too faint, {} too deep or too many",
+      worlds.considered, worlds.pruned_unseen, worlds.pruned_throughput, worlds.pruned_limit);
+  if (plan.world_tail > 0.0) {
+    lines.push_back(
+        fmt::format("beyond them at most {:.2g} of the light, followed by rays", plan.world_tail));
+  }
+  return lines;
+}
+
 std::string plan_text(const std::string& file, const TransportPlan& plan, std::size_t patches,
                       std::size_t elements) {
   std::string text = fact("scene", file);
   text += list("mirrors", describe_mirrors(plan));
-  text += fact("mirror worlds", std::to_string(plan.worlds.worlds.size() - 1));
+  text += list("mirror worlds", describe_worlds(plan));
   text += fact("emitters", fmt::format("{} patch sides", plan.emitters));
   text += fact("punctual lights", std::to_string(plan.punctual_lights));
   text += fact("materials", fmt::format("{} glossy, {} transmissive, {} textured", plan.glossy,

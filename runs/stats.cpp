@@ -42,6 +42,18 @@ Json solve_json(const RunFigures& figures) {
           {"converged", solver.converged},     {"residuals", solver.residuals}};
 }
 
+WorldFigures world_figures(const TransportPlan& plan) {
+  const WorldTree& worlds = plan.worlds;
+  return {worlds.considered,        worlds.worlds.size() - 1, worlds.pruned_unseen,
+          worlds.pruned_throughput, worlds.pruned_limit,      plan.world_tail};
+}
+
+Json worlds_json(const WorldFigures& worlds) {
+  return {{"considered", worlds.considered},       {"kept", worlds.kept},
+          {"pruned_unseen", worlds.pruned_unseen}, {"pruned_throughput", worlds.pruned_throughput},
+          {"pruned_limit", worlds.pruned_limit},   {"tail_bound", worlds.tail_bound}};
+}
+
 Json energy_json(const EnergyBalance& energy) {
   return {{"emitted", as_json(energy.emitted)},
           {"absorbed", as_json(energy.absorbed)},
@@ -63,6 +75,7 @@ Json seconds_json(const RunSeconds& seconds) {
 void add_preparation(RunFigures& figures, const PreparedScene& prepared) {
   figures.mirrors = prepared.plan.mirror_list.size();
   figures.mirror_worlds = prepared.plan.worlds.worlds.size() - 1;
+  figures.worlds = world_figures(prepared.plan);
   figures.emitters = prepared.plan.emitters;
   figures.bands = prepared.plan.bands;
   figures.surfaces = prepared.surfaces.surfaces.size();
@@ -90,29 +103,31 @@ void add_rendering(RunFigures& figures, const Rendering& rendering) {
 }
 
 std::string stats_json(const RunFigures& figures) {
-  const Json json{
-      {"plan",
-       {{"mirrors", figures.mirrors},
-        {"mirror_worlds", figures.mirror_worlds},
-        {"emitters", figures.emitters},
-        {"bands", figures.bands}}},
-      {"mesh",
-       {{"surfaces", figures.surfaces},
-        {"patches", figures.patches},
-        {"elements", figures.elements},
-        {"vertices", figures.vertices}}},
-      {"solve", solve_json(figures)},
-      {"energy", energy_json(figures.energy)},
-      {"closure",
-       {{"mean_error", figures.closure.mean_error}, {"max_error", figures.closure.max_error}}},
-      {"rays",
-       {{"form_factor", figures.rays.form_factor},
-        {"shadow", figures.rays.shadow},
-        {"camera", figures.rays.camera},
-        {"specular", figures.rays.specular}}},
-      {"seconds", seconds_json(figures.seconds)},
-      {"peak_memory_bytes", figures.peak_memory_bytes},
-      {"threads", figures.threads}};
+  const Json json{{"plan",
+                   {{"mirrors", figures.mirrors},
+                    {"mirror_worlds", figures.mirror_worlds},
+                    {"worlds", worlds_json(figures.worlds)},
+                    {"emitters", figures.emitters},
+                    {"bands", figures.bands}}},
+                  {"mesh",
+                   {{"surfaces", figures.surfaces},
+                    {"patches", figures.patches},
+                    {"elements", figures.elements},
+                    {"vertices", figures.vertices}}},
+                  {"solve", solve_json(figures)},
+                  {"energy", energy_json(figures.energy)},
+                  {"closure",
+                   {{"mean_error", figures.closure.mean_error},
+                    {"max_error", figures.closure.max_error},
+                    {"cut", figures.closure.cut}}},
+                  {"rays",
+                   {{"form_factor", figures.rays.form_factor},
+                    {"shadow", figures.rays.shadow},
+                    {"camera", figures.rays.camera},
+                    {"specular", figures.rays.specular}}},
+                  {"seconds", seconds_json(figures.seconds)},
+                  {"peak_memory_bytes", figures.peak_memory_bytes},
+                  {"threads", figures.threads}};
   return text_of(json);
 }
 
@@ -135,13 +150,21 @@ std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_
                        {"area", mirror.area},
                        {"reflectance", as_json(mirror.reflectance)}});
   }
-  const Json json{{"mirrors", std::move(mirrors)}, {"mirror_worlds", plan.worlds.worlds.size() - 1},
-                  {"emitters", plan.emitters},     {"punctual_lights", plan.punctual_lights},
-                  {"glossy", plan.glossy},         {"transmissive", plan.transmissive},
-                  {"textured", plan.textured},     {"bands", plan.bands},
-                  {"closed", plan.closed},         {"patches", patches},
-                  {"elements", elements},          {"stages", plan.stages},
-                  {"ignored", plan.ignored},       {"warnings", plan.warnings}};
+  const Json json{{"mirrors", std::move(mirrors)},
+                  {"mirror_worlds", plan.worlds.worlds.size() - 1},
+                  {"worlds", worlds_json(world_figures(plan))},
+                  {"emitters", plan.emitters},
+                  {"punctual_lights", plan.punctual_lights},
+                  {"glossy", plan.glossy},
+                  {"transmissive", plan.transmissive},
+                  {"textured", plan.textured},
+                  {"bands", plan.bands},
+                  {"closed", plan.closed},
+                  {"patches", patches},
+                  {"elements", elements},
+                  {"stages", plan.stages},
+                  {"ignored", plan.ignored},
+                  {"warnings", plan.warnings}};
   return text_of(json);
 }
 

@@ -20,8 +20,15 @@ struct RayCounts {
   std::uint64_t form_factor = 0, shadow = 0, camera = 0, specular = 0;
 };
 
+/// What became of the mirror worlds that were looked at: considered = kept + unseen + faint + beyond the limits.
+struct WorldFigures {
+  std::size_t considered = 0, kept = 0, pruned_unseen = 0, pruned_throughput = 0, pruned_limit = 0;
+  double tail_bound = 0.0; ///< radiosity/world_tail.h
+};
+
 struct RunFigures {
   std::size_t mirrors = 0, mirror_worlds = 0, emitters = 0;
+  WorldFigures worlds;
   int bands = 1;
   std::size_t surfaces = 0, patches = 0, elements = 0, vertices = 0;
   SolverMethod method = SolverMethod::gauss_seidel;

@@ -150,6 +150,44 @@ TEST(MirrorWorlds, LimitsLeaveOutTheDeepest) {
   EXPECT_EQ(flat.worlds.size(), 1U);
 }
 
+/// Two mirrors at 45 degrees, one above the other, as in a periscope: what comes in at the top goes out at the bottom.
+Scene periscope(double height) {
+  Scene scene;
+  add_polygon(scene, "bottom", {{0, 0, 0}, {0, 1, 1}, {1, 1, 1}, {1, 0, 0}}, mirror(0.9));
+  add_polygon(scene, "top",
+              {{0, height, 0}, {1, height, 0}, {1, height + 1, 1}, {0, height + 1, 1}},
+              mirror(0.9));
+  return scene;
+}
+
+// Between parallel planes there is no end of images; through the windows of a periscope only chains of two can be followed.
+TEST(MirrorWorlds, APeriscopeHasNoDeepWorlds) {
+  const WorldTree tree =
+      mirror_worlds(mirrors_of(periscope(3.0)).set, {.min_throughput = 0.0, .max_depth = 50});
+  EXPECT_EQ(deepest(tree), 2);
+  EXPECT_EQ(tree.worlds.size(), 5U);
+  EXPECT_EQ(tree.pruned_unseen, 2U);
+  EXPECT_TRUE(tree.cut.empty());
+}
+
+// Whatever was looked at is in the tree or was left out for one reason, and every world left out though light reaches it is named.
+TEST(MirrorWorlds, TheReportAddsUp) {
+  for (const auto& walls : {std::array<double, 6>{0.9, 0.9, 0.5, 0, 0, 0},
+                            {0.3, 0.1, 0.2, 0.9, 1, 1},
+                            {1, 1, 1, 1, 1, 1},
+                            {0, 0, 0.99, 0.99, 0, 0}})
+    for (const WorldSettings& settings :
+         {WorldSettings{},
+          WorldSettings{.min_throughput = 0.1, .max_depth = 4, .max_worlds = 40}}) {
+      const WorldTree tree = mirror_worlds(mirror_room(walls).set, settings);
+      EXPECT_EQ(tree.considered, tree.worlds.size() - 1 + tree.pruned_unseen +
+                                     tree.pruned_throughput + tree.pruned_limit);
+      EXPECT_EQ(tree.cut.size(), tree.pruned_throughput + tree.pruned_limit);
+      for (const auto& cut : tree.cut)
+        EXPECT_EQ(child(tree, cut.parent, cut.mirror), none<WorldId>);
+    }
+}
+
 TEST(MirrorWorlds, ABlackMirrorOpensNoWorld) {
   const Mirrors mirrors = mirror_room({0.005, 0, 0, 0, 0, 0});
   EXPECT_EQ(mirror_worlds(mirrors.set).worlds.size(), 1U);
