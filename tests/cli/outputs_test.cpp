@@ -128,13 +128,17 @@ TEST_F(Outputs, TheMirrorIsBlackInRadiosityMode) {
   EXPECT_GT(blackened, 10U);
 }
 
+/// The report on the mirror worlds of the tiny room: its one mirror can see no other.
+const json one_world{{"considered", 1},        {"kept", 1},         {"pruned_unseen", 0},
+                     {"pruned_throughput", 0}, {"pruned_limit", 0}, {"tail_bound", 0.0}};
+
 TEST_F(Outputs, StatsHaveTheDocumentedKeys) {
   const std::map<std::string, std::set<std::string>> documented{
-      {"plan", {"mirrors", "mirror_worlds", "emitters", "bands"}},
+      {"plan", {"mirrors", "mirror_worlds", "worlds", "emitters", "bands"}},
       {"mesh", {"surfaces", "patches", "elements", "vertices"}},
       {"solve", {"solver", "iterations", "residual", "error_bound", "converged", "residuals"}},
       {"energy", {"emitted", "absorbed", "escaped", "mirror_absorbed", "imbalance"}},
-      {"closure", {"mean_error", "max_error"}},
+      {"closure", {"mean_error", "max_error", "cut"}},
       {"rays", {"form_factor", "shadow", "camera", "specular"}},
       {"seconds",
        {"load", "plan", "mesh", "form_factors", "solve", "interpolate", "render", "write",
@@ -150,8 +154,10 @@ TEST_F(Outputs, StatsHaveTheDocumentedKeys) {
       EXPECT_EQ(keys_of(stats.at(key)), inner) << name << ' ' << key;
     }
     EXPECT_EQ(keys_of(stats), keys) << name;
-    EXPECT_EQ(stats["plan"],
-              (json{{"mirrors", 1}, {"mirror_worlds", 1}, {"emitters", 1}, {"bands", 1}}));
+    json plan = stats["plan"];
+    EXPECT_EQ(plan["worlds"], one_world);
+    plan.erase("worlds");
+    EXPECT_EQ(plan, (json{{"mirrors", 1}, {"mirror_worlds", 1}, {"emitters", 1}, {"bands", 1}}));
     EXPECT_EQ(stats["solve"]["converged"], true);
   }
   EXPECT_EQ(json_of("render.json")["threads"], 2);
@@ -182,14 +188,15 @@ TEST_F(Outputs, PerNodeFiguresNameEveryNode) {
 TEST_F(Outputs, ThePlanAsJson) {
   const Outcome outcome = run("plan", {"--json"});
   const json plan = json::parse(outcome.out);
-  EXPECT_EQ(keys_of(plan),
-            (std::set<std::string>{"mirrors", "mirror_worlds", "emitters", "punctual_lights",
-                                   "glossy", "transmissive", "textured", "bands", "closed",
-                                   "patches", "elements", "stages", "ignored", "warnings"}));
+  EXPECT_EQ(keys_of(plan), (std::set<std::string>{"mirrors", "mirror_worlds", "worlds", "emitters",
+                                                  "punctual_lights", "glossy", "transmissive",
+                                                  "textured", "bands", "closed", "patches",
+                                                  "elements", "stages", "ignored", "warnings"}));
   ASSERT_EQ(plan["mirrors"].size(), 1U);
   EXPECT_EQ(plan["mirrors"][0]["name"], "mirror");
   EXPECT_NEAR(plan["mirrors"][0]["area"].get<double>(), 0.36, 1e-6); // floats in the file
   EXPECT_EQ(plan["mirrors"][0]["reflectance"].size(), 3U);
+  EXPECT_EQ(plan["worlds"], one_world);
   EXPECT_EQ(plan["closed"], false);
   EXPECT_EQ(plan["patches"], 7);
   EXPECT_GT(plan["elements"], 0);
