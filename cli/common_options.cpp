@@ -15,7 +15,13 @@ constexpr const char* pass_one_group = "Pass one";
 const Choices<Quality> qualities{
     {"draft", Quality::draft}, {"normal", Quality::normal}, {"fine", Quality::fine}};
 const Choices<FormFactorMethod> form_factor_methods{{"rays", FormFactorMethod::rays}};
-const Choices<SolverMethod> solvers{{"gauss-seidel", SolverMethod::gauss_seidel}};
+const Choices<SolverMethod> solvers = [] {
+  Choices<SolverMethod> choices;
+  for (const SolverMethod method : solver_methods) {
+    choices.emplace_back(name_of(method), method);
+  }
+  return choices;
+}();
 const Choices<Interpolation> interpolations{{"average", Interpolation::average},
                                             {"gather", Interpolation::gather}};
 

@@ -52,6 +52,7 @@ EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& s
 RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
                                  const Progress& progress) {
   const ElementMesh& mesh = light.mesh;
+  check_size(settings.solver.method, element_count(mesh));
   RadiositySolution solution;
   Stopwatch watch;
 

@@ -120,16 +120,29 @@ json bounds_json(const std::vector<glm::vec3>& points) {
           {"max", {high.x, high.y, high.z}}};
 }
 
+json colours_json(const std::vector<Rgb>& colours) {
+  json list = json::array();
+  for (const Rgb& colour : colours) {
+    list.push_back(as_json(colour));
+  }
+  return list;
+}
+
 json figures_json(const RadiositySolution& solution) {
   const SolverResult& solver = solution.solver;
   const EnergyBalance& energy = solution.energy;
   const ClosureError& closure = solution.closure;
   return {{"solve",
-           {{"iterations", solver.iterations},
+           {{"solver", name_of(solver.method)},
+            {"end", static_cast<int>(solver.end)},
+            {"bands", solver.bands},
+            {"iterations", solver.iterations},
             {"residual", solver.residual},
             {"error_bound", solver.error_bound},
             {"converged", solver.converged},
-            {"residuals", solver.residuals}}},
+            {"residuals", solver.residuals},
+            {"channel_residuals", colours_json(solver.channel_residuals)},
+            {"channel_error_bounds", colours_json(solver.channel_error_bounds)}}},
           {"energy",
            {{"emitted", as_json(energy.emitted)},
             {"absorbed", as_json(energy.absorbed)},
@@ -205,15 +218,43 @@ Rgb colour_of(const json& value) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-void read_figures(const json& figures, StoredSolution& stored) {
-  const json& solve = figures.at("solve");
-  stored.solver.iterations = solve.at("iterations");
-  stored.solver.residual = number_or_infinity(solve.at("residual"));
-  stored.solver.error_bound = number_or_infinity(solve.at("error_bound"));
-  stored.solver.converged = solve.at("converged");
-  for (const json& residual : solve.at("residuals")) {
-    stored.solver.residuals.push_back(number_or_infinity(residual));
+SolverMethod method_of(const std::filesystem::path& file, const std::string& name) {
+  for (const SolverMethod method : solver_methods) {
+    if (name == name_of(method)) {
+      return method;
+    }
   }
+  refuse(file, "damaged: it names no solver");
+}
+
+std::vector<Rgb> colours_of(const json& list) {
+  std::vector<Rgb> colours;
+  for (const json& value : list) {
+    colours.emplace_back(number_or_infinity(value.at(0)), number_or_infinity(value.at(1)),
+                         number_or_infinity(value.at(2)));
+  }
+  return colours;
+}
+
+SolverResult read_solver(const std::filesystem::path& file, const json& solve) {
+  SolverResult solver;
+  solver.method = method_of(file, solve.at("solver"));
+  solver.end = static_cast<SolverEnd>(solve.at("end").get<int>());
+  solver.bands = solve.at("bands");
+  solver.iterations = solve.at("iterations");
+  solver.residual = number_or_infinity(solve.at("residual"));
+  solver.error_bound = number_or_infinity(solve.at("error_bound"));
+  solver.converged = solve.at("converged");
+  for (const json& residual : solve.at("residuals")) {
+    solver.residuals.push_back(number_or_infinity(residual));
+  }
+  solver.channel_residuals = colours_of(solve.at("channel_residuals"));
+  solver.channel_error_bounds = colours_of(solve.at("channel_error_bounds"));
+  return solver;
+}
+
+void read_figures(const std::filesystem::path& file, const json& figures, StoredSolution& stored) {
+  stored.solver = read_solver(file, figures.at("solve"));
   const json& energy = figures.at("energy");
   stored.energy.emitted = colour_of(energy.at("emitted"));
   stored.energy.absorbed = colour_of(energy.at("absorbed"));
@@ -296,7 +337,7 @@ StoredSolution read_checked(const std::filesystem::path& file, const GlbContent&
     stored.field.mirrored =
         read_irradiance(file, glb, attributes.at("_IRRADIANCE_MIRRORED"), vertices);
   }
-  read_figures(extras.at("figures"), stored);
+  read_figures(file, extras.at("figures"), stored);
   return stored;
 }
 

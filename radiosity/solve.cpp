@@ -1,144 +1,148 @@
 #include "radiosity/solve.h"
 
-#include <tbb/parallel_for.h>
+#include "radiosity/solvers/solvers.h"
+#include "scenes/errors.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace meninas {
 
 namespace {
 
-/// Rows of a step are computed from the same values, steps follow one another: Gauss-Seidel between steps, so that the
-/// result does not depend on how many threads share a step.
-constexpr std::size_t gauss_seidel_steps = 32;
-
+/// Without a bound of the error there is nothing to iterate for; this many bounces show what light there is.
 constexpr int unbounded_iterations = 100;
 
-template <int bands>
-Rgb row_product(const Transport& transport, std::size_t row, const std::vector<Rgb>& x) {
-  Rgb sum(0.0);
-  for (auto k = transport.row_begin[row]; k < transport.row_begin[row + 1]; ++k) {
-    const Rgb& value = x[transport.columns[k]];
-    if constexpr (bands == 1)
-      sum += double{transport.weights[k]} * value;
-    else
-      sum += Rgb(transport.weights[3 * k], transport.weights[3 * k + 1],
-                 transport.weights[3 * k + 2]) *
-             value;
+bool is_grey(const Rgb& colour) { return colour.r == colour.g && colour.g == colour.b; }
+
+template <typename Value>
+Value value_of(const Rgb& colour) {
+  if constexpr (channel_count<Value> == 1)
+    return colour.r;
+  else
+    return colour;
+}
+
+template <typename Value>
+std::vector<Value> values_of(const std::vector<Rgb>& colours) {
+  std::vector<Value> values;
+  values.reserve(colours.size());
+  for (const auto& colour : colours)
+    values.push_back(value_of<Value>(colour));
+  return values;
+}
+
+template <typename Value>
+std::vector<Rgb> colours_of(const std::vector<Value>& values) {
+  std::vector<Rgb> colours;
+  colours.reserve(values.size());
+  for (const auto& value : values)
+    colours.emplace_back(value);
+  return colours;
+}
+
+template <typename Value>
+void run(SolverMethod method, const LinearSystem<Value>& system, std::vector<Value>& x,
+         Convergence<Value>& convergence) {
+  switch (method) {
+  case SolverMethod::direct:
+    return factorise_and_solve(system, x, convergence);
+  case SolverMethod::jacobi:
+    return relax(system, Relaxation::jacobi, x, convergence);
+  case SolverMethod::gauss_seidel:
+    return relax(system, Relaxation::gauss_seidel, x, convergence);
+  case SolverMethod::bicgstab:
+    return bicgstab(system, x, convergence);
   }
-  return sum;
 }
 
-Rgb row_product(const Transport& transport, std::size_t row, const std::vector<Rgb>& x) {
-  return transport.bands == 1 ? row_product<1>(transport, row, x)
-                              : row_product<3>(transport, row, x);
+template <typename Value>
+SolverEnd end_of(const Convergence<Value>& convergence) {
+  if (converged(convergence))
+    return SolverEnd::converged;
+  return convergence.iterations >= convergence.max_iterations ? SolverEnd::iteration_limit
+                                                              : SolverEnd::rounding;
 }
 
-Rgb maximum_norm(const std::vector<Rgb>& x) {
-  Rgb norm(0.0);
-  for (const auto& value : x)
-    norm = glm::max(norm, glm::abs(value));
-  return norm;
-}
-
-/// S + rho T x - x
-std::vector<Rgb> residual_of(const Transport& transport, const std::vector<Rgb>& source,
-                             const std::vector<Rgb>& reflectance, const std::vector<Rgb>& x) {
-  std::vector<Rgb> residual = apply_transport(transport, x);
+/// B - S >= 0 in the solution: what is below S can only come nearer when it is raised to it.
+template <typename Value>
+void raise_to_source(const std::vector<Value>& source, std::vector<Value>& x) {
   for (std::size_t i = 0; i < x.size(); ++i)
-    residual[i] = source[i] + reflectance[i] * residual[i] - x[i];
-  return residual;
+    x[i] = glm::max(x[i], source[i]);
 }
 
-/// One pass over all rows, in place.
-void sweep(const Transport& transport, const std::vector<Rgb>& source,
-           const std::vector<Rgb>& reflectance, std::vector<Rgb>& x, std::vector<Rgb>& scratch) {
-  const std::size_t step =
-      std::max<std::size_t>(64, (x.size() + gauss_seidel_steps - 1) / gauss_seidel_steps);
-  for (std::size_t begin = 0; begin < x.size(); begin += step) {
-    const std::size_t end = std::min(x.size(), begin + step);
-    tbb::parallel_for(begin, end, [&](std::size_t i) {
-      scratch[i] = source[i] + reflectance[i] * row_product(transport, i, x);
-    });
-    std::copy(scratch.begin() + static_cast<std::ptrdiff_t>(begin),
-              scratch.begin() + static_cast<std::ptrdiff_t>(end),
-              x.begin() + static_cast<std::ptrdiff_t>(begin));
+template <typename Value>
+SolverResult solve_system(const LinearSystem<Value>& system, const SolverSettings& settings) {
+  SolverResult result;
+  result.method = settings.method;
+  result.bands = channel_count<Value>;
+  std::vector<Value> x = system.source;
+  Convergence<Value> convergence;
+  convergence.tolerance = settings.tolerance;
+  convergence.max_iterations = settings.max_iterations;
+  if (has_lit_trap(system)) {
+    convergence.amplification = Value(std::numeric_limits<double>::infinity());
+    record(convergence, maximum_norm(residual_of(system, x)), maximum_norm(x));
+    result.end = SolverEnd::unsolvable;
+  } else {
+    convergence.amplification = amplification_bound(system);
+    if (worst(convergence.amplification) == std::numeric_limits<double>::infinity())
+      convergence.max_iterations = std::min(convergence.max_iterations, unbounded_iterations);
+    run(settings.method, system, x, convergence);
+    raise_to_source(system.source, x);
+    result.end = end_of(convergence);
   }
-}
-
-/// Raises m in G <= (sum_{j<m} ||(rho T)^j 1||) / (1 - ||(rho T)^m 1||) until more would not sharpen it much.
-Rgb amplification_bound(const Transport& transport, const std::vector<Rgb>& reflectance) {
-  constexpr int most_powers = 64;
-  constexpr double sharp = 0.5;
-  std::vector<Rgb> power(transport.size, Rgb(1.0));
-  Rgb sum(0.0), best(std::numeric_limits<double>::infinity());
-  for (int m = 1; m <= most_powers; ++m) {
-    sum += maximum_norm(power);
-    power = apply_transport(transport, power);
-    for (std::size_t i = 0; i < power.size(); ++i)
-      power[i] *= reflectance[i];
-    const Rgb norm = maximum_norm(power);
-
-    // The weights are floats: m products of rows that add up to one may come out this much below it.
-    const double rounding = 4.0 * m * std::numeric_limits<float>::epsilon();
-    for (int band = 0; band < 3; ++band)
-      if (norm[band] < 1.0 - rounding)
-        best[band] = std::min(best[band], sum[band] / (1.0 - norm[band]));
-    if (glm::all(glm::lessThan(norm, Rgb(sharp))))
-      break;
-  }
-  return best;
-}
-
-/// Largest over the channels of bound * residual / size, where a dark channel has no error to speak of.
-double relative(const Rgb& bound, const Rgb& residual, const Rgb& size) {
-  double worst = 0.0;
-  for (int band = 0; band < 3; ++band)
-    if (residual[band] > 0.0)
-      worst = std::max(worst, bound[band] * (residual[band] / size[band]));
-  return worst;
+  result.radiosity = colours_of(x);
+  result.iterations = convergence.iterations;
+  result.converged = result.end == SolverEnd::converged;
+  result.channel_residuals = colours_of(convergence.residuals);
+  result.channel_error_bounds = colours_of(convergence.error_bounds);
+  for (const auto& residual : convergence.residuals)
+    result.residuals.push_back(worst(residual));
+  result.residual = result.residuals.back();
+  result.error_bound = worst(convergence.error_bounds.back());
+  return result;
 }
 
 } // namespace
 
+const char* name_of(SolverMethod method) {
+  switch (method) {
+  case SolverMethod::direct:
+    return "direct";
+  case SolverMethod::jacobi:
+    return "jacobi";
+  case SolverMethod::gauss_seidel:
+    return "gauss-seidel";
+  case SolverMethod::bicgstab:
+    return "cg";
+  }
+  return "";
+}
+
+void check_size(SolverMethod method, std::size_t unknowns) {
+  if (method == SolverMethod::direct && unknowns > most_direct_unknowns)
+    throw UsageError("--solver direct", fmt::format("solves for at most {} elements, here are {}",
+                                                    most_direct_unknowns, unknowns));
+}
+
 std::vector<Rgb> apply_transport(const Transport& transport, const std::vector<Rgb>& x) {
   expects(x.size() == transport.size, "the transport applies to one value per element");
-  std::vector<Rgb> product(x.size());
-  tbb::parallel_for(std::size_t{0}, x.size(),
-                    [&](std::size_t i) { product[i] = row_product(transport, i, x); });
-  return product;
+  return transport_product(transport, x);
 }
 
 SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
                    const std::vector<Rgb>& reflectance, const SolverSettings& settings) {
   expects(source.size() == transport.size && reflectance.size() == transport.size,
           "source and reflectance have one value per element");
-  const Rgb bound = amplification_bound(transport, reflectance);
-
-  SolverResult result;
-  result.radiosity = source;
-  std::vector<Rgb> scratch(source.size());
-  for (;;) {
-    const Rgb size = maximum_norm(result.radiosity);
-    const Rgb residual =
-        maximum_norm(residual_of(transport, source, reflectance, result.radiosity));
-    result.residual = relative(Rgb(1.0), residual, size);
-    result.error_bound = relative(bound, residual, size);
-    result.residuals.push_back(result.residual);
-    result.converged = result.error_bound <= settings.tolerance;
-
-    // Below the rounding of the values the residual cannot fall any further.
-    const bool exhausted = result.residual <= 4.0 * std::numeric_limits<double>::epsilon();
-    if (result.converged || exhausted || result.iterations >= settings.max_iterations)
-      return result;
-
-    // Without a bound there may be no solution: a few sweeps show the light spreading, more would only run for ever.
-    if (!std::isfinite(result.error_bound) && result.iterations >= unbounded_iterations)
-      return result;
-    sweep(transport, source, reflectance, result.radiosity, scratch);
-    ++result.iterations;
-  }
+  check_size(settings.method, transport.size);
+  const bool grey = transport.bands == 1 && std::ranges::all_of(source, is_grey) &&
+                    std::ranges::all_of(reflectance, is_grey);
+  if (grey)
+    return solve_system<double>(
+        {transport, values_of<double>(source), values_of<double>(reflectance)}, settings);
+  return solve_system<Rgb>({transport, source, reflectance}, settings);
 }
 
 } // namespace meninas

@@ -1,35 +1,63 @@
 // Solves the radiosity system  B = S + rho T B  (Eq. 1 with the direct light in the source S), knowing no geometry.
 //
 // Input: source in W/m^2, reflectance dimensionless, transport rows T >= 0. Output: B in W/m^2, by ElementId.
-// Error bound: with the residual r_k = S + rho T B_k - B_k and T >= 0,
-//   ||B - B_k|| <= G ||r_k||,   G = ||(1 - rho T)^-1|| <= (sum_{j<m} ||(rho T)^j 1||) / (1 - ||(rho T)^m 1||)
-// in the maximum norm, per channel; m is raised until the bound is sharp. Iteration stops when G ||r_k|| <= tolerance ||B_k||.
-// No such m (reflectance 1 in a closed room, say) means no bound: the result says converged = false.
-// Deterministic for any thread count.
+//   direct        dense LU of 1 - rho T, for at most `most_direct_unknowns`: the oracle of the others
+//   jacobi        B_{k+1} = S + rho T B_k: one bounce of light a sweep
+//   gauss-seidel  the same, in 32 steps that use what the steps before have found
+//   cg            the Krylov method for what sampled form factors make of the symmetric system of conjugate gradients: an almost
+//                 symmetric one, on which they stall. BiCGStab (van der Vorst 1992) does not, and is what runs.
+// All stop on one bound of the error (solvers/error_bound.h): with the residual r_k = S + rho T B_k - B_k,
+//   ||B - B_k|| <= G ||r_k|| <= tolerance ||B_k||    in the maximum norm, for every channel.
+// None returns less than S, and so nothing negative: light only adds to what is there without bounces.
+// Where light enters a closed part of the scene that absorbs nothing there is no solution: that is found out beforehand, B = S is
+// returned and the end says so. Grey systems are solved in one band. Deterministic for any thread count.
 #pragma once
 
 #include "radiosity/form_factors.h"
 
+#include <array>
 #include <vector>
 
 namespace meninas {
 
-enum class SolverMethod { gauss_seidel };
+enum class SolverMethod { direct, jacobi, gauss_seidel, bicgstab };
+inline constexpr std::array solver_methods{SolverMethod::direct, SolverMethod::jacobi,
+                                           SolverMethod::gauss_seidel, SolverMethod::bicgstab};
+/// As users call it.
+const char* name_of(SolverMethod method);
 
 struct SolverSettings {
-  SolverMethod method = SolverMethod::gauss_seidel;
-  double tolerance = 1e-4;     ///< on ||B - B_k|| / ||B||, maximum norm, worst channel
-  int max_iterations = 10'000; ///< a safety net; reaching it is reported as converged = false
+  SolverMethod method = SolverMethod::bicgstab;
+  double tolerance = 1e-4;     ///< on ||B - B_k|| / ||B_k||, maximum norm, every channel
+  int max_iterations = 10'000; ///< a safety net; reaching it is reported
+};
+
+/// Why a solver stopped.
+enum class SolverEnd {
+  converged,
+  iteration_limit,
+  rounding, ///< the residual is as small as rounding lets it be, the bound is not
+  unsolvable ///< light enters a closed part of the scene that absorbs nothing: it would grow without end
 };
 
 struct SolverResult {
+  SolverMethod method = SolverMethod::bicgstab;
   std::vector<Rgb> radiosity;
   int iterations = 0;
+  int bands = 3;            ///< solved for: one when everything is grey
   double residual = 0.0;    ///< ||r|| / ||B|| at the end, worst channel
   double error_bound = 0.0; ///< G ||r|| / ||B||, worst channel; infinite when there is no bound
   bool converged = false;
-  std::vector<double> residuals; ///< after every check, first one first
+  SolverEnd end = SolverEnd::converged;
+  std::vector<double> residuals; ///< of every iterate, first one first, worst channel
+  std::vector<Rgb> channel_residuals, channel_error_bounds; ///< the same for every channel
 };
+
+/// LU factors of that many unknowns take 128 MiB and some ten seconds a band.
+inline constexpr std::size_t most_direct_unknowns = 4096;
+
+/// Throws UsageError when the method is not for systems of that size.
+void check_size(SolverMethod method, std::size_t unknowns);
 
 SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
                    const std::vector<Rgb>& reflectance, const SolverSettings& settings = {});

@@ -19,7 +19,11 @@ std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& s
 
 void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
                       const RunEvents& events) {
-  if (!solver.converged) {
+  if (solver.end == SolverEnd::unsolvable) {
+    warn(events,
+         "pass one has no solution: light enters a closed part of the scene that absorbs nothing; "
+         "only light that has not been reflected is shown");
+  } else if (!solver.converged) {
     warn(events, fmt::format("pass one has not converged: residual {:.2g} after {} iterations, "
                              "error bound {:.2g}",
                              solver.residual, solver.iterations, solver.error_bound));

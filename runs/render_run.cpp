@@ -67,7 +67,6 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   const ThreadLimit limit(request.settings.threads);
   TwoPassSettings settings = two_pass_settings(request.settings);
   RunFigures figures;
-  figures.method = settings.pass_one.solver.method;
   figures.threads = limit.threads();
   Stopwatch total;
   Stopwatch watch;

@@ -30,7 +30,7 @@ struct RunSettings {
   std::optional<double> element_size; ///< metres
   FormFactorMethod form_factors = FormFactorMethod::rays;
   std::optional<int> rays;
-  SolverMethod solver = SolverMethod::gauss_seidel;
+  SolverMethod solver = SolverSettings{}.method;
   std::optional<double> tolerance;
   std::optional<int> mirror_depth; ///< no path meets more mirrors
   std::optional<Interpolation> interpolation;

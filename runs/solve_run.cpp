@@ -24,7 +24,6 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   const ThreadLimit limit(request.settings.threads);
   const PassOneSettings settings = two_pass_settings(request.settings).pass_one;
   RunFigures figures;
-  figures.method = settings.solver.method;
   figures.threads = limit.threads();
   Stopwatch total;
   Stopwatch watch;

@@ -17,29 +17,29 @@ std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-const char* name_of(SolverMethod method) {
-  switch (method) {
-  case SolverMethod::gauss_seidel:
-    return "gauss-seidel";
-  }
-  return "";
-}
-
 SolverResult without_radiosity(const SolverResult& solver) {
-  SolverResult figures;
-  figures.iterations = solver.iterations;
-  figures.residual = solver.residual;
-  figures.error_bound = solver.error_bound;
-  figures.converged = solver.converged;
-  figures.residuals = solver.residuals;
+  SolverResult figures = solver;
+  figures.radiosity.clear();
   return figures;
 }
 
-Json solve_json(const RunFigures& figures) {
-  const SolverResult& solver = figures.solver;
-  return {{"solver", name_of(figures.method)}, {"iterations", solver.iterations},
-          {"residual", solver.residual},       {"error_bound", solver.error_bound},
-          {"converged", solver.converged},     {"residuals", solver.residuals}};
+Json solve_json(const SolverResult& solver) {
+  Json channel_residuals = Json::array(), channel_error_bounds = Json::array();
+  for (const Rgb& residual : solver.channel_residuals) {
+    channel_residuals.push_back(as_json(residual));
+  }
+  for (const Rgb& bound : solver.channel_error_bounds) {
+    channel_error_bounds.push_back(as_json(bound));
+  }
+  return {{"solver", name_of(solver.method)},
+          {"iterations", solver.iterations},
+          {"residual", solver.residual},
+          {"error_bound", solver.error_bound},
+          {"converged", solver.converged},
+          {"residuals", solver.residuals},
+          {"bands", solver.bands},
+          {"channel_residuals", std::move(channel_residuals)},
+          {"channel_error_bounds", std::move(channel_error_bounds)}};
 }
 
 WorldFigures world_figures(const TransportPlan& plan) {
@@ -114,7 +114,7 @@ std::string stats_json(const RunFigures& figures) {
                     {"patches", figures.patches},
                     {"elements", figures.elements},
                     {"vertices", figures.vertices}}},
-                  {"solve", solve_json(figures)},
+                  {"solve", solve_json(figures.solver)},
                   {"energy", energy_json(figures.energy)},
                   {"closure",
                    {{"mean_error", figures.closure.mean_error},

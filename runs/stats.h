@@ -31,7 +31,6 @@ struct RunFigures {
   WorldFigures worlds;
   int bands = 1;
   std::size_t surfaces = 0, patches = 0, elements = 0, vertices = 0;
-  SolverMethod method = SolverMethod::gauss_seidel;
   SolverResult solver; ///< without its radiosity
   EnergyBalance energy;
   ClosureError closure;

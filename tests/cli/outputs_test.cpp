@@ -136,7 +136,9 @@ TEST_F(Outputs, StatsHaveTheDocumentedKeys) {
   const std::map<std::string, std::set<std::string>> documented{
       {"plan", {"mirrors", "mirror_worlds", "worlds", "emitters", "bands"}},
       {"mesh", {"surfaces", "patches", "elements", "vertices"}},
-      {"solve", {"solver", "iterations", "residual", "error_bound", "converged", "residuals"}},
+      {"solve",
+       {"solver", "iterations", "residual", "error_bound", "converged", "residuals", "bands",
+        "channel_residuals", "channel_error_bounds"}},
       {"energy", {"emitted", "absorbed", "escaped", "mirror_absorbed", "imbalance"}},
       {"closure", {"mean_error", "max_error", "cut"}},
       {"rays", {"form_factor", "shadow", "camera", "specular"}},

@@ -1,0 +1,157 @@
+#include "radiosity/solvers/error_bound.h"
+
+#include "radiosity/solvers/solvers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+/// A row that returns all but this of what it gathers absorbs nothing as far as can be told: weights are floats.
+constexpr double closed_rounding = 1.2e-7;
+
+/// By row and channel: 1 where light can still leave or be absorbed.
+template <typename Value>
+struct Escapes {
+  std::vector<Value> open;
+  bool all = true;
+};
+
+template <typename Value>
+Escapes<Value> rows_that_lose_light(const LinearSystem<Value>& system) {
+  const std::size_t size = system.transport.size;
+  const std::vector<Value> kept = reflected(system, std::vector<Value>(size, Value(1.0)));
+  Escapes<Value> escapes{std::vector<Value>(size, Value(0.0)), true};
+  for (std::size_t i = 0; i < size; ++i)
+    for (int band = 0; band < channel_count<Value>; ++band) {
+      const bool loses = channel(kept[i], band) < 1.0 - closed_rounding;
+      channel(escapes.open[i], band) = loses ? 1.0 : 0.0;
+      escapes.all = escapes.all && loses;
+    }
+  return escapes;
+}
+
+} // namespace
+
+template <typename Value>
+bool has_lit_trap(const LinearSystem<Value>& system) {
+  const Transport& transport = system.transport;
+  Escapes<Value> escapes = rows_that_lose_light(system);
+
+  // A row is open when it loses light or gathers from an open one: light that goes round long enough gets there.
+  bool changed = !escapes.all;
+  while (changed) {
+    changed = false;
+    for (std::size_t i = 0; i < transport.size; ++i) {
+      Value open = escapes.open[i];
+      for (auto k = transport.row_begin[i]; k < transport.row_begin[i + 1]; ++k)
+        open = glm::max(open, escapes.open[transport.columns[k]]);
+      changed = changed || open != escapes.open[i];
+      escapes.open[i] = open;
+    }
+  }
+
+  // Closed rows gather from closed rows alone: light is among them only where they have some of their own.
+  for (std::size_t i = 0; i < transport.size; ++i)
+    for (int band = 0; band < channel_count<Value>; ++band)
+      if (channel(escapes.open[i], band) == 0.0 && channel(system.source[i], band) > 0.0)
+        return true;
+  return false;
+}
+
+template <typename Value>
+Value contraction(const LinearSystem<Value>& system) {
+  return maximum_norm(reflected(system, std::vector<Value>(system.transport.size, Value(1.0))));
+}
+
+template <typename Value>
+Value amplification_bound(const LinearSystem<Value>& system) {
+  constexpr double sharp = 0.1;   // of ||q||: leaves the bound within a factor (1 + q) / (1 - q)
+  constexpr int most_bounces = 4; // of the Neumann series, which suffices for dark rooms
+  constexpr int most_iterations = 200;
+  const LinearSystem<Value> ones{
+      system.transport, std::vector<Value>(system.transport.size, Value(1.0)), system.reflectance};
+
+  // The sum of m bounces of ones leaves q = (rho T)^m 1.
+  std::vector<Value> g = ones.source, q = reflected(system, g);
+  for (int m = 1; m < most_bounces && worst(maximum_norm(q)) > sharp; ++m) {
+    for (std::size_t i = 0; i < g.size(); ++i)
+      g[i] += q[i];
+    q = reflected(system, q);
+  }
+  int iterations = 0;
+  bicgstab_run<Value>(ones, g, [&](const Value& residual, const Value&) {
+    const bool enough = worst(residual) <= sharp || iterations++ >= most_iterations;
+    return Value(enough ? 0.0 : 1.0);
+  });
+
+  const Value left = maximum_norm(residual_of(ones, g)), size = maximum_norm(g);
+  Value bound(0.0);
+  for (int band = 0; band < channel_count<Value>; ++band)
+    channel(bound, band) = channel(left, band) < 1.0
+                               ? channel(size, band) / (1.0 - channel(left, band))
+                               : std::numeric_limits<double>::infinity();
+  return bound;
+}
+
+template <typename Value>
+void record(Convergence<Value>& convergence, const Value& residual_norm, const Value& size) {
+  // A residual computed from values of that size is itself not known better than their rounding.
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  Value bound(0.0);
+  for (int band = 0; band < channel_count<Value>; ++band)
+    if (channel(size, band) > 0.0)
+      channel(bound, band) = channel(convergence.amplification, band) *
+                             (channel(residual_norm, band) / channel(size, band) + rounding);
+  convergence.residuals.push_back(share_of(residual_norm, size));
+  convergence.error_bounds.push_back(bound);
+}
+
+template <typename Value>
+void record_again(Convergence<Value>& convergence, const Value& residual_norm, const Value& size) {
+  convergence.residuals.pop_back();
+  convergence.error_bounds.pop_back();
+  record(convergence, residual_norm, size);
+}
+
+template <typename Value>
+Value unfinished_channels(const Convergence<Value>& convergence) {
+  Value unfinished(0.0);
+  for (int band = 0; band < channel_count<Value>; ++band)
+    channel(unfinished, band) = !finished(convergence) && channel(convergence.error_bounds.back(),
+                                                                  band) > convergence.tolerance
+                                    ? 1.0
+                                    : 0.0;
+  return unfinished;
+}
+
+template <typename Value>
+bool converged(const Convergence<Value>& convergence) {
+  return worst(convergence.error_bounds.back()) <= convergence.tolerance;
+}
+
+template <typename Value>
+bool exhausted(const Convergence<Value>& convergence) {
+  return worst(convergence.residuals.back()) <= 4.0 * std::numeric_limits<double>::epsilon();
+}
+
+template bool has_lit_trap(const LinearSystem<Rgb>&);
+template bool has_lit_trap(const LinearSystem<double>&);
+template Rgb contraction(const LinearSystem<Rgb>&);
+template double contraction(const LinearSystem<double>&);
+template Rgb amplification_bound(const LinearSystem<Rgb>&);
+template double amplification_bound(const LinearSystem<double>&);
+template void record(Convergence<Rgb>&, const Rgb&, const Rgb&);
+template void record(Convergence<double>&, const double&, const double&);
+template void record_again(Convergence<Rgb>&, const Rgb&, const Rgb&);
+template void record_again(Convergence<double>&, const double&, const double&);
+template Rgb unfinished_channels(const Convergence<Rgb>&);
+template double unfinished_channels(const Convergence<double>&);
+template bool converged(const Convergence<Rgb>&);
+template bool converged(const Convergence<double>&);
+template bool exhausted(const Convergence<Rgb>&);
+template bool exhausted(const Convergence<double>&);
+
+} // namespace meninas

@@ -1,0 +1,62 @@
+// How far an iterate can be from the solution, from its residual alone; and whether there is a solution.
+//
+// The error e = B - B_k solves (1 - rho T) e = r_k, so ||e|| <= G ||r_k|| with the amplification G = ||(1 - rho T)^-1||, in the maximum
+// norm. The inverse 1 + rho T + (rho T)^2 + ... is not negative, so that its norm is that of its row sums, the solution of
+// (1 - rho T) g = 1. For any approximation g_k with the residual q = 1 - (1 - rho T) g_k,
+//   G = ||g_k + (1 - rho T)^-1 q|| <= ||g_k|| + G ||q||,   so   G <= ||g_k|| / (1 - ||q||)   where ||q|| < 1.
+// The bound is sharp, and what is left of it is known: G itself is at least ||g_k|| / (1 + ||q||).
+#pragma once
+
+#include "radiosity/solvers/linear_system.h"
+
+namespace meninas {
+
+/// G by channel, at most a quarter too large; infinite where no bound was found.
+template <typename Value>
+Value amplification_bound(const LinearSystem<Value>& system);
+
+/// ||rho T||: what is left of a change after one bounce, by channel.
+template <typename Value>
+Value contraction(const LinearSystem<Value>& system);
+
+/// Whether light enters a part of the scene that it cannot leave and that absorbs nothing: rows that reflect all they gather, all of it
+/// from one another. (Then, and only then, 1 - rho T is singular: a weakly chained diagonally dominant matrix is not.)
+template <typename Value>
+bool has_lit_trap(const LinearSystem<Value>& system);
+
+/// The iterates of a solver, as far as the stopping rule is concerned.
+template <typename Value>
+struct Convergence {
+  Value amplification; ///< G
+  double tolerance = 0.0;
+  int max_iterations = 0;
+  int iterations = 0;
+  std::vector<Value> residuals, error_bounds; ///< ||r_k|| / ||B_k|| and G times that
+};
+
+template <typename Value>
+void record(Convergence<Value>& convergence, const Value& residual_norm, const Value& size);
+
+/// The last iterate once more, measured.
+template <typename Value>
+void record_again(Convergence<Value>& convergence, const Value& residual_norm, const Value& size);
+
+/// No channel may be further from the solution than asked.
+template <typename Value>
+bool converged(const Convergence<Value>& convergence);
+
+/// The residual is that of rounding.
+template <typename Value>
+bool exhausted(const Convergence<Value>& convergence);
+
+template <typename Value>
+bool finished(const Convergence<Value>& convergence) {
+  return converged(convergence) || exhausted(convergence) ||
+         convergence.iterations >= convergence.max_iterations;
+}
+
+/// 1 for every channel that is further from the solution than asked, or 0 for all when there is nothing more to do.
+template <typename Value>
+Value unfinished_channels(const Convergence<Value>& convergence);
+
+} // namespace meninas

@@ -1,0 +1,79 @@
+// Solvers against one another and against closed forms, on whole scenes.
+#include "scenes/gltf.h"
+#include "tests/radiosity/lit_scene.h"
+#include "tests/radiosity/radiosity_systems.h"
+#include "tests/support/rooms.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace meninas::test {
+namespace {
+
+System system_of(const LitScene& lit, int rays) {
+  const FormFactors factors = assemble_transport(*lit.light, {.rays = rays});
+  const DirectIrradiance direct =
+      direct_irradiance(*lit.light, factors.covered, {.points = 4, .most_points = 4});
+  System system{factors.transport, {}, {}};
+  for (std::size_t i = 0; i < element_count(lit.mesh); ++i) {
+    system.reflectance.push_back(lit.mesh.sides[index(lit.mesh.side_of_element[i])].reflectance);
+    system.source.push_back(system.reflectance[i] *
+                            (direct.irradiance[i] + factors.gathered_emission[i]));
+  }
+  return system;
+}
+
+TEST(SolverAgreement, EveryGallerySceneWithinTenTolerancesOfTheDirectSolution) {
+  constexpr double tolerance = 1e-6;
+  int scenes = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(MENINAS_SOURCE_DIR "/scenes/gallery")) {
+    if (entry.path().extension() != ".gltf" && entry.path().extension() != ".glb")
+      continue;
+    const auto l = lit(load_gltf(entry.path()), {.target_elements = 150});
+    if (element_count(l->mesh) > 1000)
+      continue; // of many small patches: elimination would take its time
+    ++scenes;
+    const System system = system_of(*l, 64);
+    const SolverResult direct = solve(system.transport, system.source, system.reflectance,
+                                      {SolverMethod::direct, tolerance});
+    EXPECT_TRUE(direct.converged);
+    for (const SolverMethod method : solver_methods) {
+      const SolverResult result =
+          solve(system.transport, system.source, system.reflectance, {method, tolerance});
+      EXPECT_TRUE(result.converged) << entry.path() << name_of(method);
+      EXPECT_LT(true_error(direct.radiosity, result.radiosity), 10.0 * tolerance)
+          << entry.path() << name_of(method);
+    }
+  }
+  EXPECT_GE(scenes, 9);
+}
+
+// B = E / (1 - rho) with rho = 1 - 1e-6. Rows are counts of 2^8 rays: they close without any rounding.
+TEST(SolverAgreement, FurnaceOfAMillionBounces) {
+  const double rho = 1.0 - 1e-6;
+  for (const bool with_mirrors : {false, true}) {
+    const auto l = lit(furnace(rho, {with_mirrors}), {.element_size = 0.25});
+    const System system = system_of(*l, 256);
+    for (const SolverMethod method : {SolverMethod::direct, SolverMethod::bicgstab}) {
+      const SolverResult result =
+          solve(system.transport, system.source, system.reflectance, {method, 1e-3});
+      EXPECT_TRUE(result.converged);
+      for (const auto& reflected : result.radiosity)
+        EXPECT_NEAR(reflected.g + 1.0, 1e6, 1e3);
+    }
+    const SolverResult sweeps = solve(system.transport, system.source, system.reflectance,
+                                      {SolverMethod::jacobi, 1e-3, 200});
+    EXPECT_EQ(sweeps.end, SolverEnd::iteration_limit);
+  }
+}
+
+TEST(SolverAgreement, FurnaceWithoutAbsorption) {
+  const auto l = lit(furnace(1.0, {true}), {.element_size = 0.25});
+  const System system = system_of(*l, 256);
+  EXPECT_EQ(solve(system.transport, system.source, system.reflectance).end, SolverEnd::unsolvable);
+}
+
+} // namespace
+} // namespace meninas::test
