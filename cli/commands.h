@@ -18,5 +18,6 @@ Command add_solve_command(CLI::App& program);
 Command add_plan_command(CLI::App& program);
 Command add_formfactors_command(CLI::App& program);
 Command add_diff_command(CLI::App& program);
+Command add_regress_command(CLI::App& program);
 
 } // namespace meninas

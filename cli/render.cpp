@@ -1,9 +1,12 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/settings.h"
 #include "cli/values.h"
 #include "runs/render_run.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace meninas {
 namespace {
@@ -69,12 +72,27 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       ->group(picture_group);
 }
 
-void run(const CLI::App& command, RenderOptions& options) {
+/// What makes a picture what it is, wherever it is written.
+void add_settings(CLI::App& command, RenderOptions& options) {
+  add_quality(command, options.common);
+  add_picture_options(command, options);
+  add_mesh_options(command, options.common);
+  add_pass_one_options(command, options.common);
+  add_run_options(command, options.common);
+}
+
+/// The request, after a check that all options given have an effect together.
+RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
   if (options.request.solution) {
     refuse_pass_one_options(command, "has no effect with --solution: pass one is not run");
   }
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
+  return options.request;
+}
+
+void run(const CLI::App& command, RenderOptions& options) {
+  completed_request(command, options);
   Console console(options.common.verbosity);
   console.say_rounding(options.request.settings);
   render_run(options.request, console.events());
@@ -87,12 +105,45 @@ Command add_render_command(CLI::App& program) {
   const auto options = std::make_shared<RenderOptions>();
   add_scene(*command, options->common);
   add_outputs(*command, *options);
-  add_quality(*command, options->common);
-  add_picture_options(*command, *options);
-  add_mesh_options(*command, options->common);
-  add_pass_one_options(*command, options->common);
-  add_run_options(*command, options->common);
+  add_settings(*command, *options);
   return {command, [=] { run(*command, *options); }};
+}
+
+RenderRequest parse_render_settings(const std::filesystem::path& scene,
+                                    const std::vector<Setting>& settings) {
+  CLI::App command;
+  RenderOptions options;
+  add_settings(command, options);
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_lnames().front();
+    if (name != "help" && name != "threads" && name != "quiet") {
+      known.push_back(name);
+    }
+  }
+  // CLI11 takes what is left to parse from the back of the list.
+  std::vector<std::string> arguments;
+  for (const Setting& setting : settings) {
+    if (std::ranges::find(known, setting.name) == known.end()) {
+      throw UsageError(setting.name, "unknown setting" + hint_for(setting.name, known));
+    }
+    const bool flag = command.get_option("--" + setting.name)->get_expected_max() == 0;
+    if (flag == setting.value.has_value()) {
+      throw UsageError(setting.name, flag ? "takes true or false" : "takes a value");
+    }
+    arguments.insert(arguments.begin(),
+                     "--" + setting.name + (setting.value ? '=' + *setting.value : ""));
+  }
+  options.common.scene = scene;
+  try {
+    command.parse(arguments);
+    return completed_request(command, options);
+  } catch (const CLI::ParseError& error) {
+    throw UsageError("", error.what());
+  } catch (const UsageError& error) {
+    const std::string text = error.what();
+    throw UsageError("", text.starts_with("--") ? text.substr(2) : text);
+  }
 }
 
 } // namespace meninas
