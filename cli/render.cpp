@@ -13,8 +13,9 @@ namespace {
 
 constexpr const char* picture_group = "Picture";
 
-const Choices<RenderMode> modes{{"radiosity", RenderMode::radiosity},
-                                {"hybrid", RenderMode::hybrid}};
+const Choices<PictureMode> modes{{"radiosity", PictureMode::radiosity},
+                                 {"hybrid", PictureMode::hybrid},
+                                 {"reference", PictureMode::reference}};
 
 struct RenderOptions {
   CommonOptions common;
@@ -43,7 +44,8 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
         ->type_name(shown)
         ->group(picture_group);
   };
-  add("--mode", "radiosity|hybrid", "pass one alone, with black mirrors, or both passes [hybrid]",
+  add("--mode", "radiosity|hybrid|reference",
+      "pass one alone, with black mirrors, both passes, or path tracing [hybrid]",
       [&](const std::string& text) {
         options.common.settings.mode = parse_choice("--mode", text, modes);
       });
@@ -54,12 +56,26 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       fmt::format("pixels [{}x{}, or as wide as the camera asks]", standard.width, standard.height),
       [&](const std::string& text) { request.size = parse_size("--size", text); });
   add("--samples", "N",
-      fmt::format("camera rays per pixel, a power of two [draft {}, normal {}, fine {}]",
+      fmt::format("camera rays per pixel, a power of two [draft {}, normal {}, fine {}]; of a "
+                  "reference the most there are [no limit]",
                   preset_of(Quality::draft).samples, preset_of(Quality::normal).samples,
                   preset_of(Quality::fine).samples),
       [&](const std::string& text) {
         options.common.settings.samples =
-            static_cast<int>(parse_integer("--samples", text, 1, 1 << 16));
+            static_cast<int>(parse_integer("--samples", text, 1, 1 << 24));
+      });
+  add("--max-error", "X",
+      fmt::format(
+          "a reference ends when its standard error is X times its mean radiance [draft {}, "
+          "normal {}, fine {}, unless it has another limit]",
+          preset_of(Quality::draft).max_error, preset_of(Quality::normal).max_error,
+          preset_of(Quality::fine).max_error),
+      [&](const std::string& text) {
+        options.common.settings.max_error = parse_number("--max-error", text, Sign::positive);
+      });
+  add("--max-seconds", "S", "a reference ends after about so long [no limit]",
+      [&](const std::string& text) {
+        options.common.settings.max_seconds = parse_number("--max-seconds", text, Sign::positive);
       });
   add("--exposure", "EV", "stops by which a PNG is brightened [automatic]",
       [&](const std::string& text) {
@@ -81,11 +97,32 @@ void add_settings(CLI::App& command, RenderOptions& options) {
   add_run_options(command, options.common);
 }
 
-/// The request, after a check that all options given have an effect together.
-RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
+void refuse(const CLI::App& command, std::initializer_list<const char*> options,
+            const std::string& reason) {
+  for (const char* option : options) {
+    if (command.count(option) > 0) {
+      throw UsageError(option, reason);
+    }
+  }
+}
+
+/// What the mode does not heed is refused, not ignored.
+void check_mode(const CLI::App& command, const RenderOptions& options) {
+  if (options.common.settings.mode == PictureMode::reference) {
+    const std::string reason = "has no effect with --mode reference: there is no pass one";
+    refuse_pass_one_options(command, reason);
+    refuse(command, {"--solution", "--mirror-depth"}, reason);
+    return;
+  }
+  refuse(command, {"--max-error", "--max-seconds"}, "has no effect without --mode reference");
   if (options.request.solution) {
     refuse_pass_one_options(command, "has no effect with --solution: pass one is not run");
   }
+}
+
+/// The request, after a check that all options given have an effect together.
+RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
+  check_mode(command, options);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
   return options.request;

@@ -11,9 +11,7 @@
 #pragma once
 
 #include "radiosity/light_scene.h"
-
-#include <functional>
-#include <string_view>
+#include "scenes/progress.h"
 
 namespace meninas {
 
@@ -52,9 +50,6 @@ struct FormFactors {
   std::vector<Rgb> gathered_emission;   ///< by ElementId: irradiance from emission that no closed form owns
   std::uint64_t rays_traced = 0;        ///< legs, reflected ones included
 };
-
-/// Called with the stage's name and the fraction of it that is done, from any thread; may be empty. Never affects the result.
-using Progress = std::function<void(std::string_view stage, double fraction)>;
 
 FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings, const Progress& progress = {});
 

@@ -13,9 +13,6 @@
 namespace meninas {
 namespace {
 
-/// A dielectric with a smoother coat than this shows visible reflections, which are not traced yet.
-constexpr double visible_coat_roughness = 0.2;
-
 bool is_grey(const Rgb& colour) { return colour.r == colour.g && colour.g == colour.b; }
 
 bool has_visible_coat(const Material& material) {

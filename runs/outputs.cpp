@@ -55,12 +55,12 @@ void check_outputs(const OutputFiles& outputs, const std::vector<fs::path>& inpu
 }
 
 void write_pictures(const std::vector<fs::path>& files, const Image& picture,
-                    const PictureSettings& settings, const Attributes& attributes,
-                    const RunEvents& events) {
+                    std::span<const Layer> layers, const PictureSettings& settings,
+                    const Attributes& attributes, const RunEvents& events) {
   std::optional<double> exposure = settings.exposure;
   for (const fs::path& file : files) {
     if (picture_format(file) == PictureFormat::exr) {
-      write_exr(file, picture, {}, settings.exr_type, attributes);
+      write_exr(file, picture, layers, settings.exr_type, attributes);
       continue;
     }
     if (!exposure) {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace meninas {
@@ -24,8 +25,9 @@ struct PictureSettings {
   std::optional<double> exposure; ///< stops, of a PNG; chosen for the picture otherwise
 };
 
+/// Layers go into EXRs only.
 void write_pictures(const std::vector<std::filesystem::path>& files, const Image& picture,
-                    const PictureSettings& settings, const Attributes& attributes,
-                    const RunEvents& events);
+                    std::span<const Layer> layers, const PictureSettings& settings,
+                    const Attributes& attributes, const RunEvents& events);
 
 } // namespace meninas

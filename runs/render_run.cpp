@@ -2,6 +2,7 @@
 
 #include "radiosity/solution_file.h"
 #include "runs/preparation.h"
+#include "runs/reference_run.h"
 #include "runs/resources.h"
 #include "scenes/gltf.h"
 #include "scenes/stopwatch.h"
@@ -23,14 +24,19 @@ void check_files(const RenderRequest& request) {
   check_outputs(outputs, inputs);
 }
 
-/// What makes a picture what it is; the same for the same bits, whether pass one was run or read.
-Attributes attributes_of(const Scene& scene, const Camera& camera, const RenderSettings& render) {
+/// A picture and what it is: the same bits belong to the same attributes, whether pass one was run or read.
+struct Rendered {
+  Image image;
+  std::vector<Layer> layers;
+  Attributes attributes;
+};
+
+Attributes common_attributes(const Scene& scene, const Camera& camera,
+                             const RunSettings& settings) {
   return {{"scene", std::filesystem::path(scene.file).filename().string()},
           {"sceneHash", fmt::format("{:016x}", content_hash(scene))},
           {"camera", camera.name},
-          {"mode", render.mode == RenderMode::hybrid ? "hybrid" : "radiosity"},
-          {"samples", std::to_string(render.samples)},
-          {"seed", std::to_string(render.seed)}};
+          {"seed", std::to_string(settings.seed)}};
 }
 
 /// Both passes, timed.
@@ -60,12 +66,54 @@ Image run_pass_two(const PreparedScene& prepared, StoredSolution stored, const C
   return std::move(rendering.image);
 }
 
+Rendered render_two_pass(const RenderRequest& request, Scene scene, const Camera& camera,
+                         PictureSize size, const RunEvents& events, RunFigures& figures) {
+  TwoPassSettings settings = two_pass_settings(request.settings);
+  settings.render.width = size.width;
+  settings.render.height = size.height;
+  figures.method = settings.pass_one.solver.method;
+  std::optional<StoredSolution> stored;
+  if (request.solution) {
+    Stopwatch watch;
+    stored = read_solution(*request.solution, scene);
+    settings.pass_one.mesh = stored->mesh;
+    figures.seconds.load += watch.lap();
+  }
+  const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
+  if (stored) {
+    check_belongs(*request.solution, *stored, prepared->mesh);
+  }
+  Rendered rendered;
+  rendered.image =
+      stored ? run_pass_two(*prepared, std::move(*stored), camera, settings, events, figures)
+             : run_two_pass(*prepared, camera, settings, events, figures);
+  warn_of_solution(figures.solver, figures.closure, events);
+  rendered.attributes = {
+      {"mode", settings.render.mode == RenderMode::hybrid ? "hybrid" : "radiosity"},
+      {"samples", std::to_string(settings.render.samples)}};
+  return rendered;
+}
+
+Rendered render_reference(const RenderRequest& request, Scene scene, const Camera& camera,
+                          PictureSize size, const RunEvents& events, RunFigures& figures) {
+  reference::ReferenceSettings settings = reference_settings(request.settings);
+  settings.width = size.width;
+  settings.height = size.height;
+  auto picture = run_reference(std::move(scene), camera, settings, events, figures);
+  Rendered rendered;
+  rendered.image = std::move(picture.mean);
+  rendered.layers.push_back({"variance", std::move(picture.variance)});
+  rendered.attributes = {{"mode", "reference"},
+                         {"samples", std::to_string(picture.samples)},
+                         {"standardError", fmt::format("{:.4g}", picture.standard_error)}};
+  return rendered;
+}
+
 } // namespace
 
 RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   check_files(request);
   const ThreadLimit limit(request.settings.threads);
-  TwoPassSettings settings = two_pass_settings(request.settings);
   RunFigures figures;
   figures.threads = limit.threads();
   Stopwatch total;
@@ -73,29 +121,19 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
 
   Scene scene = load_gltf(request.scene);
   const Camera camera = choose_camera(scene, request.camera, events);
-  std::optional<StoredSolution> stored;
-  if (request.solution) {
-    stored = read_solution(*request.solution, scene);
-    settings.pass_one.mesh = stored->mesh;
-  }
+  const PictureSize size = choose_size(request.size, camera);
+  Attributes attributes = common_attributes(scene, camera, request.settings);
   preload_image_io();
   figures.seconds.load = watch.lap();
 
-  const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
-  if (stored) {
-    check_belongs(*request.solution, *stored, prepared->mesh);
-  }
-  const PictureSize size = choose_size(request.size, camera);
-  settings.render.width = size.width;
-  settings.render.height = size.height;
-  const Image picture =
-      stored ? run_pass_two(*prepared, std::move(*stored), camera, settings, events, figures)
-             : run_two_pass(*prepared, camera, settings, events, figures);
-  warn_of_solution(figures.solver, figures.closure, events);
+  const auto render_mode =
+      request.settings.mode == PictureMode::reference ? render_reference : render_two_pass;
+  const Rendered rendered = render_mode(request, std::move(scene), camera, size, events, figures);
 
   watch.lap();
-  write_pictures(request.pictures, picture, request.picture,
-                 attributes_of(prepared->scene, camera, settings.render), events);
+  attributes.insert(attributes.end(), rendered.attributes.begin(), rendered.attributes.end());
+  write_pictures(request.pictures, rendered.image, rendered.layers, request.picture, attributes,
+                 events);
   figures.seconds.write = watch.lap();
   figures.seconds.total = total.lap();
   figures.peak_memory_bytes = peak_memory_bytes();

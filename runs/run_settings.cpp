@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 
 namespace meninas {
@@ -13,11 +14,20 @@ static int power_of_two(int count) {
 QualityPreset preset_of(Quality quality) {
   switch (quality) {
   case Quality::draft:
-    return {.target_elements = 2'250, .rays = 128, .penumbra_rays = 32, .samples = 4};
+    return {
+        .target_elements = 2'250, .rays = 128, .penumbra_rays = 32, .samples = 4, .max_error = 0.1};
   case Quality::normal:
-    return {.target_elements = 16'000, .rays = 512, .penumbra_rays = 128, .samples = 16};
+    return {.target_elements = 16'000,
+            .rays = 512,
+            .penumbra_rays = 128,
+            .samples = 16,
+            .max_error = 0.03};
   case Quality::fine:
-    return {.target_elements = 64'000, .rays = 2'048, .penumbra_rays = 512, .samples = 64};
+    return {.target_elements = 64'000,
+            .rays = 2'048,
+            .penumbra_rays = 512,
+            .samples = 64,
+            .max_error = 0.01};
   }
   return {};
 }
@@ -38,7 +48,8 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   pass_one.interpolation.method = settings.interpolation.value_or(pass_one.interpolation.method);
   pass_one.interpolation.rays = pass_one.form_factors.rays;
 
-  result.render.mode = settings.mode;
+  result.render.mode =
+      settings.mode == PictureMode::radiosity ? RenderMode::radiosity : RenderMode::hybrid;
   result.render.samples = power_of_two(settings.samples.value_or(preset.samples));
   result.render.seed = settings.seed;
   if (settings.mirror_depth) {
@@ -51,8 +62,35 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   return result;
 }
 
+/// Whole batches, at least two: one says nothing about its variance.
+static int whole_batches(int samples) {
+  constexpr int batch = reference::batch_samples;
+  return std::max(2, (samples + batch - 1) / batch) * batch;
+}
+
+reference::ReferenceSettings reference_settings(const RunSettings& settings) {
+  reference::ReferenceSettings result;
+  result.seed = settings.seed;
+  result.max_error = settings.max_error.value_or(0.0);
+  result.max_seconds = settings.max_seconds.value_or(result.max_seconds);
+  if (settings.samples) {
+    result.max_samples = whole_batches(*settings.samples);
+  }
+  if (!settings.samples && !settings.max_error && !settings.max_seconds) {
+    result.max_error = preset_of(settings.quality).max_error;
+  }
+  return result;
+}
+
 std::vector<std::string> rounding_notes(const RunSettings& settings) {
   std::vector<std::string> notes;
+  if (settings.mode == PictureMode::reference) {
+    if (settings.samples && whole_batches(*settings.samples) != *settings.samples) {
+      notes.push_back(fmt::format("--samples {} is rounded up to {}", *settings.samples,
+                                  whole_batches(*settings.samples)));
+    }
+    return notes;
+  }
   const auto compare = [&](const char* option, const std::optional<int>& asked) {
     if (asked && power_of_two(*asked) != *asked) {
       notes.push_back(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raytrace/two_pass.h"
+#include "reference/reference_picture.h"
 
 #include <optional>
 #include <string>
@@ -15,14 +16,22 @@ enum class Quality { draft, normal, fine };
 struct QualityPreset {
   double target_elements = 0.0; ///< about how many elements share the meshed area
   int rays = 0; ///< form-factor rays per element, and per vertex where irradiance is gathered there
-  int penumbra_rays = 0; ///< shadow rays from a vertex to an emitter that it sees in part
-  int samples = 0;       ///< camera rays per pixel
+  int penumbra_rays = 0;  ///< shadow rays from a vertex to an emitter that it sees in part
+  int samples = 0;        ///< camera rays per pixel
+  double max_error = 0.0; ///< of a reference: relative standard error of the picture
 };
 QualityPreset preset_of(Quality quality);
 
 struct PictureSize {
   int width = 512;
   int height = 512;
+};
+
+/// How a picture is made.
+enum class PictureMode {
+  radiosity, ///< pass one alone: mirrors are black
+  hybrid,    ///< both passes
+  reference  ///< path tracing, which shares nothing with them
 };
 
 struct RunSettings {
@@ -35,13 +44,18 @@ struct RunSettings {
   std::optional<int> mirror_depth; ///< no path meets more mirrors
   std::optional<Interpolation> interpolation;
   std::optional<int> samples;
-  RenderMode mode = RenderMode::hybrid;
-  int threads = 0; ///< 0: all the machine has
+  PictureMode mode = PictureMode::hybrid;
+  std::optional<double> max_error;   ///< of a reference
+  std::optional<double> max_seconds; ///< of a reference
+  int threads = 0;                   ///< 0: all the machine has
   std::uint32_t seed = 0;
 };
 
 /// Numbers of rays and samples are rounded up to powers of two.
 TwoPassSettings two_pass_settings(const RunSettings& settings);
+
+/// The limits that are given, or else the preset's error. Samples are rounded up to whole batches.
+reference::ReferenceSettings reference_settings(const RunSettings& settings);
 
 /// What was rounded, a sentence each.
 std::vector<std::string> rounding_notes(const RunSettings& settings);

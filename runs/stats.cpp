@@ -70,7 +70,38 @@ Json seconds_json(const RunSeconds& seconds) {
           {"total", seconds.total}};
 }
 
+Json reference_json(const RunFigures& figures) {
+  return {{"reference",
+           {{"samples", figures.reference->samples},
+            {"standard_error", figures.reference->standard_error},
+            {"stopped_by", stop_name(figures.reference->stopped_by)}}},
+          {"rays",
+           {{"shadow", figures.rays.shadow},
+            {"camera", figures.rays.camera},
+            {"path", figures.rays.path}}},
+          {"seconds",
+           {{"load", figures.seconds.load},
+            {"plan", figures.seconds.plan},
+            {"render", figures.seconds.render},
+            {"write", figures.seconds.write},
+            {"total", figures.seconds.total}}},
+          {"peak_memory_bytes", figures.peak_memory_bytes},
+          {"threads", figures.threads}};
+}
+
 } // namespace
+
+const char* stop_name(reference::StoppedBy limit) {
+  switch (limit) {
+  case reference::StoppedBy::samples:
+    return "samples";
+  case reference::StoppedBy::error:
+    return "error";
+  case reference::StoppedBy::time:
+    return "time";
+  }
+  return "";
+}
 
 void add_preparation(RunFigures& figures, const PreparedScene& prepared) {
   figures.mirrors = prepared.plan.mirror_list.size();
@@ -102,7 +133,17 @@ void add_rendering(RunFigures& figures, const Rendering& rendering) {
   figures.rays.specular = rendering.specular_rays;
 }
 
+void add_reference(RunFigures& figures, const reference::ReferencePicture& picture) {
+  figures.reference = {picture.samples, picture.standard_error, picture.stopped_by};
+  figures.rays.camera = picture.rays.camera_rays;
+  figures.rays.shadow = picture.rays.shadow_rays;
+  figures.rays.path = picture.rays.path_rays;
+}
+
 std::string stats_json(const RunFigures& figures) {
+  if (figures.reference) {
+    return text_of(reference_json(figures));
+  }
   const Json json{{"plan",
                    {{"mirrors", figures.mirrors},
                     {"mirror_worlds", figures.mirror_worlds},

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "raytrace/two_pass.h"
+#include "reference/reference_picture.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,14 @@ struct RunSeconds {
 };
 
 struct RayCounts {
-  std::uint64_t form_factor = 0, shadow = 0, camera = 0, specular = 0;
+  std::uint64_t form_factor = 0, shadow = 0, camera = 0, specular = 0, path = 0;
+};
+
+/// How good a reference is.
+struct ReferenceFigures {
+  int samples = 0;
+  double standard_error = 0.0;
+  reference::StoppedBy stopped_by = reference::StoppedBy::samples;
 };
 
 /// What became of the mirror worlds that were looked at: considered = kept + unseen + faint + beyond the limits.
@@ -27,6 +36,8 @@ struct WorldFigures {
 };
 
 struct RunFigures {
+  std::optional<ReferenceFigures>
+      reference; ///< of a reference, which has no plan, mesh or solution
   std::size_t mirrors = 0, mirror_worlds = 0, emitters = 0;
   WorldFigures worlds;
   int bands = 1;
@@ -45,6 +56,10 @@ void add_preparation(RunFigures& figures, const PreparedScene& prepared);
 /// Fills in what pass one has said about itself; its radiosities stay where they are.
 void add_solution(RunFigures& figures, const RadiositySolution& solution);
 void add_rendering(RunFigures& figures, const Rendering& rendering);
+void add_reference(RunFigures& figures, const reference::ReferencePicture& picture);
+
+/// "samples", "error" or "time"
+const char* stop_name(reference::StoppedBy limit);
 
 std::string stats_json(const RunFigures& figures);
 std::string per_node_json(const std::vector<NodeLight>& nodes);

@@ -54,8 +54,8 @@ static void read_metallic_roughness(const Document& document, const Json& json, 
       says_metallic ? fraction(number_or(model, "metallicFactor", 1.0), name, findings) : 0.0;
 
   const auto base_color = numbers_at(model, "baseColorFactor");
-  const auto alpha = base_color.empty() ? 1.0 : base_color[3];
-  if (material.alpha_mode != AlphaMode::opaque && alpha < 1.0)
+  material.alpha = base_color.empty() ? 1.0 : std::clamp(base_color[3], 0.0, 1.0);
+  if (material.alpha_mode != AlphaMode::opaque && material.alpha < 1.0)
     findings.about("transparency by alpha is not applied yet, materials are opaque", name);
 }
 

@@ -4,7 +4,8 @@
 //   specular reflectance  rho_s = base_color metallic
 //
 // A metal whose roughness is at most `ideal_mirror_roughness` is an ideal mirror of constant reflectance rho_s.
-// Rougher metals have no lobe of their own yet: they reflect rho_s diffusely, and `plan` names them.
+// The lobes of rougher metals, coats and panes are in bsdf.h. The two passes do not model them yet: there rough metals reflect rho_s
+// diffusely, coats and transmission are left out, and `plan` names them.
 #pragma once
 
 #include "scenes/types.h"
@@ -15,6 +16,9 @@
 namespace meninas {
 
 inline constexpr double ideal_mirror_roughness = 0.01;
+
+/// The Schlick coat of a dielectric shows up to this roughness; a rougher one counts as diffuse.
+inline constexpr double visible_coat_roughness = 0.2;
 
 /// Which texture, by which texture coordinates, after which affine map of them (KHR_texture_transform).
 struct TextureUse {
@@ -30,6 +34,7 @@ enum class AlphaMode { opaque, mask, blend };
 struct Material {
   std::string name;
   Rgb base_color{0.8};   ///< in [0, 1] per channel
+  double alpha = 1.0;    ///< in [0, 1]: matters where alpha_mode is not opaque
   double metallic = 0.0; ///< in [0, 1]
   double roughness = 1.0;
   Rgb emission{0.0};         ///< emitted radiance L, W/m^2/sr; emitted radiosity is E = pi L

@@ -54,6 +54,7 @@ void add_texture_use(ContentHash& hash, const std::optional<TextureUse>& use) {
 
 void add_material(ContentHash& hash, const Material& material) {
   hash.add(material.base_color);
+  hash.add(material.alpha);
   hash.add(material.metallic);
   hash.add(material.roughness);
   hash.add(material.emission);

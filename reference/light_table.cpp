@@ -1,0 +1,96 @@
+#include "reference/light_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meninas::reference {
+
+namespace {
+
+double mean(const Rgb& c) { return (c.r + c.g + c.b) / 3.0; }
+
+/// A share for what shines on the whole scene, comparable with the power of lamps in it.
+double punctual_power(const PunctualLight& light, const Bounds& bounds) {
+  const double radius = 0.5 * glm::length(bounds.high - bounds.low);
+  switch (light.kind) {
+  case PunctualKind::point:
+    return 4.0 * std::numbers::pi * mean(light.intensity);
+  case PunctualKind::spot:
+    return 2.0 * std::numbers::pi * (1.0 - std::cos(light.outer_cone)) * mean(light.intensity);
+  case PunctualKind::directional:
+    return std::numbers::pi * radius * radius * mean(light.intensity);
+  }
+  return 0.0;
+}
+
+/// KHR_lights_punctual: a smooth fall from the inner to the outer cone.
+double spot_falloff(const PunctualLight& light, double cosine) {
+  const double inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
+  const double t = std::clamp((cosine - outer) / std::max(1e-3, inner - outer), 0.0, 1.0);
+  return t * t;
+}
+
+} // namespace
+
+LightTable make_light_table(const Scene& scene) {
+  LightTable table;
+  table.area_density.assign(scene.triangles.size(), 0.0);
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    const TriangleId triangle{static_cast<std::uint32_t>(t)};
+    const Material& material = material_of(scene, triangle);
+    const double area = glm::length(area_vector(corners(scene, triangle)));
+    const double sides = material.double_sided ? 2.0 : 1.0;
+    const double power = std::numbers::pi * area * sides * mean(material.emission);
+    if (power > 0.0)
+      table.lights.push_back({triangle, 0, power});
+  }
+  const Bounds bounds = bounds_of(scene);
+  for (std::size_t k = 0; k < scene.lights.size(); ++k) {
+    const double power = punctual_power(scene.lights[k], bounds);
+    if (power > 0.0)
+      table.lights.push_back({none<TriangleId>, static_cast<std::uint32_t>(k), power});
+  }
+
+  // Relative to the largest, so that no sum overflows.
+  double largest = 0.0, sum = 0.0;
+  for (const Light& light : table.lights)
+    largest = std::max(largest, light.power);
+  for (Light& light : table.lights)
+    sum += light.power /= largest;
+  double below = 0.0;
+  for (Light& light : table.lights) {
+    light.power /= sum;
+    table.cumulative.push_back(below += light.power);
+    if (light.triangle != none<TriangleId>)
+      table.area_density[index(light.triangle)] =
+          light.power / glm::length(area_vector(corners(scene, light.triangle)));
+  }
+  return table;
+}
+
+const Light& choose_light(const LightTable& table, double u) {
+  const auto found = std::ranges::upper_bound(table.cumulative, u * table.cumulative.back());
+  const auto k = std::min<std::size_t>(static_cast<std::size_t>(found - table.cumulative.begin()),
+                                       table.lights.size() - 1);
+  return table.lights[k];
+}
+
+PunctualSample punctual_sample(const PunctualLight& light, const Point3& x, double reach) {
+  if (light.kind == PunctualKind::directional)
+    return {x - reach * light.direction, light.intensity};
+  const Vec3 from_light = x - light.position;
+  const double distance2 = glm::dot(from_light, from_light);
+  if (distance2 == 0.0)
+    return {light.position, Rgb(0.0)};
+  const double cosine = glm::dot(from_light, light.direction) / std::sqrt(distance2);
+  const double falloff = light.kind == PunctualKind::spot ? spot_falloff(light, cosine) : 1.0;
+  return {light.position, light.intensity * (falloff / distance2)};
+}
+
+Vec2 even_barycentric(double u, double v) {
+  const double root = std::sqrt(u);
+  return {root * (1.0 - v), root * v};
+}
+
+} // namespace meninas::reference

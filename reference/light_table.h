@@ -1,0 +1,44 @@
+// The lights of a scene, for next-event estimation: emitting triangles and punctual lights, chosen by their power.
+//
+// A point on an emitting triangle is chosen evenly over its area. As a density of directions at x that is
+//   p(omega) = P(triangle) / area * distance^2 / |cos at the light|,
+// the same number whether the light was chosen or met by chance: both are needed for multiple importance sampling.
+#pragma once
+
+#include "scenes/ray_scene.h"
+
+#include <array>
+#include <vector>
+
+namespace meninas::reference {
+
+/// An emitting triangle, or a punctual light where `triangle` is none.
+struct Light {
+  TriangleId triangle = none<TriangleId>;
+  std::uint32_t punctual = 0;
+  double power = 0.0; ///< as a share of all: the chance to be chosen
+};
+
+struct LightTable {
+  std::vector<Light> lights;
+  std::vector<double> cumulative;   ///< chances up to and with each light; the last is 1
+  std::vector<double> area_density; ///< by triangle: P(triangle) / area, 0 where it does not emit
+};
+
+LightTable make_light_table(const Scene& scene);
+
+/// The light a number in [0, 1) stands for; precondition: there is one.
+const Light& choose_light(const LightTable& table, double u);
+
+/// Irradiance at normal incidence from a punctual light, in W/m^2, and where its shadow rays end.
+struct PunctualSample {
+  Point3 position;
+  Rgb irradiance{0.0};
+};
+/// `reach` is farther than anything in the scene.
+PunctualSample punctual_sample(const PunctualLight& light, const Point3& x, double reach);
+
+/// Evenly over the triangle: weights of its second and third corner from two numbers in [0, 1).
+Vec2 even_barycentric(double u, double v);
+
+} // namespace meninas::reference

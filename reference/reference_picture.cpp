@@ -1,0 +1,132 @@
+#include "reference/reference_picture.h"
+
+#include "scenes/sampling.h"
+#include "scenes/stopwatch.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace meninas::reference {
+
+namespace {
+
+/// Mean and sum of squared deviations of the batches so far (Welford 1962).
+struct PixelEstimate {
+  Rgb mean{0.0};
+  Rgb deviations{0.0};
+};
+
+void add_batch(PixelEstimate& pixel, const Rgb& batch, int batches) {
+  const Rgb from_old = batch - pixel.mean;
+  pixel.mean += from_old / double(batches);
+  pixel.deviations += from_old * (batch - pixel.mean);
+}
+
+Rgb variance_of_mean(const PixelEstimate& pixel, int batches) {
+  return pixel.deviations / (double(batches) * (batches - 1));
+}
+
+/// One batch of one pixel: stratified over its box.
+Rgb trace_batch(const TracedScene& traced, const Camera& camera, const ReferenceSettings& settings,
+                int pixel, int batch, PathCounts& counts) {
+  const std::uint32_t seed =
+      hash(static_cast<std::uint32_t>(pixel), static_cast<std::uint32_t>(batch), settings.seed);
+  const double aspect = double(settings.width) / settings.height;
+  std::array<CameraRay, packet_size> rays;
+  for (std::uint32_t k = 0; k < packet_size; ++k) {
+    const auto u = sobol4(k, seed);
+    const double x = pixel % settings.width + double(u[0]);
+    const double y = pixel / settings.width + double(u[1]);
+    rays[k] = camera_ray(camera, aspect, x / settings.width, y / settings.height);
+  }
+  Rgb sum(0.0);
+  for (const Rgb& radiance : trace_paths(traced, rays, seed, settings.search, counts))
+    sum += radiance;
+  return sum / double(packet_size);
+}
+
+double relative_error(const std::vector<PixelEstimate>& pixels, int batches) {
+  double variance = 0.0, mean = 0.0;
+  for (const PixelEstimate& pixel : pixels) {
+    const Rgb v = variance_of_mean(pixel, batches);
+    variance += v.r + v.g + v.b;
+    mean += pixel.mean.r + pixel.mean.g + pixel.mean.b;
+  }
+  const double values = 3.0 * double(pixels.size());
+  return mean > 0.0 ? std::sqrt(variance / values) / (mean / values) : 0.0;
+}
+
+/// How far the samples are on their way to a limit; the error falls like the root of their number.
+double progress_of(const ReferenceSettings& settings, int samples, double error, double seconds) {
+  double fraction =
+      std::max(double(samples) / settings.max_samples, seconds / settings.max_seconds);
+  if (error > 0.0)
+    fraction = std::max(fraction, settings.max_error * settings.max_error / (error * error));
+  return std::min(1.0, fraction);
+}
+
+std::optional<StoppedBy> reached_limit(const ReferenceSettings& settings, int samples, double error,
+                                       double seconds) {
+  // Fewer batches say too little about their own variance to end by it.
+  constexpr int fewest = 4 * batch_samples;
+  if (samples >= settings.max_samples)
+    return StoppedBy::samples;
+  if (settings.max_error > 0.0 && samples >= fewest && error <= settings.max_error)
+    return StoppedBy::error;
+  // One more round takes as long as those before have taken in the mean.
+  const double round = seconds * batch_samples / samples;
+  if (seconds + round > settings.max_seconds)
+    return StoppedBy::time;
+  return std::nullopt;
+}
+
+void fill_images(const std::vector<PixelEstimate>& pixels, int batches, ReferencePicture& picture) {
+  for (std::size_t k = 0; k < pixels.size(); ++k) {
+    picture.mean.pixels[k] = glm::vec3(pixels[k].mean);
+    picture.variance.pixels[k] = glm::vec3(variance_of_mean(pixels[k], batches));
+  }
+}
+
+} // namespace
+
+ReferencePicture reference_picture(const TracedScene& traced, const Camera& camera,
+                                   const ReferenceSettings& settings, const Progress& progress) {
+  expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
+  ReferencePicture picture;
+  picture.mean = picture.variance = Image(settings.width, settings.height);
+  std::vector<PixelEstimate> pixels(picture.mean.pixels.size());
+  tbb::enumerable_thread_specific<PathCounts> counts;
+  Stopwatch watch;
+  double seconds = 0.0;
+  for (int batches = 1;; ++batches) {
+    tbb::parallel_for(0, static_cast<int>(pixels.size()), [&](int k) {
+      const Rgb batch = trace_batch(traced, camera, settings, k, batches, counts.local());
+      add_batch(pixels[static_cast<std::size_t>(k)], batch, batches);
+    });
+    seconds += watch.lap();
+    if (batches < 2)
+      continue;
+    picture.samples = batches * batch_samples;
+    picture.standard_error = relative_error(pixels, batches);
+    if (progress)
+      progress("paths", progress_of(settings, picture.samples, picture.standard_error, seconds));
+    if (const auto limit =
+            reached_limit(settings, picture.samples, picture.standard_error, seconds)) {
+      picture.stopped_by = *limit;
+      fill_images(pixels, batches, picture);
+      break;
+    }
+  }
+  for (const PathCounts& own : counts) {
+    picture.rays.camera_rays += own.camera_rays;
+    picture.rays.path_rays += own.path_rays;
+    picture.rays.shadow_rays += own.shadow_rays;
+  }
+  return picture;
+}
+
+} // namespace meninas::reference

@@ -1,0 +1,40 @@
+#include "reference/traced_scene.h"
+
+namespace meninas::reference {
+
+TracedScene make_traced_scene(Scene scene) {
+  SurfaceModel surfaces = find_surfaces(scene);
+  RayScene rays = make_ray_scene(scene, surfaces);
+  std::vector<Direction> normals;
+  normals.reserve(scene.triangles.size());
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+    normals.push_back(glm::normalize(area_vector(corners(scene, TriangleId{t}))));
+  std::vector<Bsdf> bsdfs;
+  bsdfs.reserve(scene.materials.size());
+  for (const Material& material : scene.materials)
+    bsdfs.push_back(make_bsdf(material, untextured(material)));
+  LightTable lights = make_light_table(scene);
+  return {std::move(scene),   std::move(surfaces), std::move(rays),
+          std::move(normals), std::move(bsdfs),    std::move(lights)};
+}
+
+SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 barycentric,
+                           bool front) {
+  const Material& material = material_of(traced.scene, triangle);
+  const auto [a, b, c] = corners(traced.scene, triangle);
+  SurfacePoint at;
+  at.triangle = triangle;
+  at.position = a + barycentric.x * (b - a) + barycentric.y * (c - a);
+  at.plane = traced.surfaces.plane_of_triangle[index(triangle)];
+  at.normal = front ? traced.normals[index(triangle)] : -traced.normals[index(triangle)];
+  at.material = untextured(material);
+  at.bsdf = traced.bsdfs[index(traced.scene.triangles[index(triangle)].material)];
+  if (!front && !material.double_sided) {
+    at.material.emission = Rgb(0.0);
+    // A pane is one from both sides.
+    at.black = material.transmission == 0.0;
+  }
+  return at;
+}
+
+} // namespace meninas::reference

@@ -1,0 +1,41 @@
+// What the reference traces: geometry, materials and lights of a scene, ready to be asked.
+//
+// It shares the scene and its ray queries with the two passes, and nothing else: no mesh, no mirror worlds, no form factors.
+#pragma once
+
+#include "reference/light_table.h"
+#include "scenes/bsdf.h"
+#include "scenes/ray_scene.h"
+#include "scenes/surfaces.h"
+
+#include <vector>
+
+namespace meninas::reference {
+
+struct TracedScene {
+  Scene scene;
+  SurfaceModel surfaces;
+  RayScene rays;
+  std::vector<Direction> normals; ///< of the triangles, towards the front
+  std::vector<Bsdf> bsdfs;        ///< of the materials, without their textures
+  LightTable lights;
+};
+
+TracedScene make_traced_scene(Scene scene);
+
+/// Where a ray has met a surface, as that surface is there.
+struct SurfacePoint {
+  TriangleId triangle = none<TriangleId>;
+  Point3 position{0.0};
+  PlaneId plane = none<PlaneId>;
+  Direction normal{0.0, 0.0, 1.0}; ///< of the side that was met
+  MaterialPoint material;
+  Bsdf bsdf;
+  bool black = false; ///< the back of a single-sided surface: neither reflects nor emits
+};
+
+/// The point of a triangle with weights b1, b2 of its second and third corner, met on its front or back.
+SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 barycentric,
+                           bool front);
+
+} // namespace meninas::reference

@@ -1,0 +1,166 @@
+#include "scenes/bsdf.h"
+
+#include "scenes/microfacets.h"
+#include "scenes/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meninas {
+
+namespace {
+
+double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
+
+/// The coat's Fresnel reflectance for light that meets a facet at this cosine (Schlick 1994), over the whole surface.
+Rgb coat_fresnel(const Bsdf& bsdf, double cosine) {
+  if (bsdf.coat == 0.0)
+    return Rgb(0.0);
+  const double x = 1.0 - std::clamp(cosine, 0.0, 1.0);
+  return glm::mix(bsdf.coat_f0, Rgb(bsdf.coat_f90), x * x * x * x * x);
+}
+
+/// S of the reflection lobe and what stands in its place in transmission.
+Rgb reflected(const Bsdf& bsdf, double cosine) {
+  return bsdf.metal + bsdf.coat * coat_fresnel(bsdf, cosine);
+}
+Rgb transmitted(const Bsdf& bsdf, double cosine) {
+  return bsdf.transmission * (1.0 - largest(coat_fresnel(bsdf, cosine)));
+}
+
+/// Chances to choose the lobes: what they reflect, about.
+struct LobeChances {
+  double diffuse = 0.0, reflection = 0.0, transmission = 0.0;
+};
+LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
+  const double e = coat_albedo(bsdf, out.z);
+  LobeChances chances{largest(bsdf.diffuse) * (1.0 - e), largest(bsdf.metal) + bsdf.coat * e,
+                      largest(bsdf.transmission) * (1.0 - e)};
+  const double sum = chances.diffuse + chances.reflection + chances.transmission;
+  if (sum > 0.0) {
+    chances.diffuse /= sum;
+    chances.reflection /= sum;
+    chances.transmission /= sum;
+  }
+  return chances;
+}
+
+/// rho_d (1 - e(o)) (1 - e(i)) / (1 - e_avg)
+Rgb diffuse_coupled(const Bsdf& bsdf, double cos_out, double cos_in) {
+  if (bsdf.coat == 0.0)
+    return bsdf.diffuse;
+  const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
+  const double below = 1.0 - mean.f0 * largest(bsdf.coat_f0) - mean.f90 * bsdf.coat_f90;
+  if (below <= 0.0)
+    return Rgb(0.0);
+  return bsdf.diffuse *
+         ((1.0 - coat_albedo(bsdf, cos_out)) * (1.0 - coat_albedo(bsdf, cos_in)) / below);
+}
+
+/// D G2 / (4 cos_o cos_i) and the density of sampling visible facets and reflecting at them.
+struct FacetLobe {
+  double f = 0.0, density = 0.0, cosine = 0.0; ///< cosine: o.h
+};
+FacetLobe facet_lobe(double alpha, const Direction& out, const Direction& in) {
+  const Direction h = glm::normalize(out + in);
+  const double d = facet_density(alpha, h);
+  const double lambda_out = smith_lambda(alpha, out), lambda_in = smith_lambda(alpha, in);
+  const double quarter = 0.25 / out.z;
+  return {d * quarter / (in.z * (1.0 + lambda_out + lambda_in)), d * quarter / (1.0 + lambda_out),
+          glm::dot(out, h)};
+}
+
+BsdfSample spread_sample(const Bsdf& bsdf, const Direction& out, const Direction& in) {
+  const double density = sample_density(bsdf, out, in);
+  const Rgb weight =
+      density > 0.0 ? evaluate(bsdf, out, in) * (std::abs(in.z) / density) : Rgb(0.0);
+  return {in, weight, density, Lobe::spread};
+}
+
+} // namespace
+
+MaterialPoint untextured(const Material& material) {
+  return {material.base_color, material.alpha, material.metallic, material.roughness,
+          material.emission};
+}
+
+Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
+  Bsdf bsdf;
+  const double dielectric = 1.0 - point.metallic;
+  bsdf.metal = point.base_color * point.metallic;
+  bsdf.diffuse = point.base_color * (dielectric * (1.0 - material.transmission));
+  bsdf.transmission = point.base_color * (dielectric * material.transmission);
+  bsdf.roughness = point.roughness;
+  bsdf.alpha = point.roughness <= ideal_mirror_roughness ? 0.0 : point.roughness * point.roughness;
+  if (point.roughness <= visible_coat_roughness) {
+    // KHR_materials_ior and KHR_materials_specular; ior 0 stands for F0 = 1.
+    const double ratio = (material.ior - 1.0) / (material.ior + 1.0);
+    bsdf.coat_f0 = glm::min(ratio * ratio * material.specular_color, Rgb(1.0)) * material.specular;
+    bsdf.coat_f90 = material.specular;
+    bsdf.coat = material.specular > 0.0 ? dielectric : 0.0;
+  }
+  return bsdf;
+}
+
+double coat_albedo(const Bsdf& bsdf, double cosine) {
+  if (bsdf.coat == 0.0)
+    return 0.0;
+  const SchlickAlbedo e = schlick_albedo(bsdf.roughness, cosine);
+  return std::min(1.0, e.f0 * largest(bsdf.coat_f0) + e.f90 * bsdf.coat_f90);
+}
+
+Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
+  if (out.z <= 0.0 || in.z == 0.0)
+    return Rgb(0.0);
+  if (in.z < 0.0) {
+    if (bsdf.alpha == 0.0 || bsdf.transmission == Rgb(0.0))
+      return Rgb(0.0);
+    const FacetLobe lobe = facet_lobe(bsdf.alpha, out, {in.x, in.y, -in.z});
+    return lobe.f * transmitted(bsdf, lobe.cosine);
+  }
+  Rgb f = diffuse_coupled(bsdf, out.z, in.z) * std::numbers::inv_pi;
+  if (bsdf.alpha > 0.0 && (bsdf.coat > 0.0 || bsdf.metal != Rgb(0.0))) {
+    const FacetLobe lobe = facet_lobe(bsdf.alpha, out, in);
+    f += lobe.f * reflected(bsdf, lobe.cosine);
+  }
+  return f;
+}
+
+double sample_density(const Bsdf& bsdf, const Direction& out, const Direction& in) {
+  if (out.z <= 0.0 || in.z == 0.0)
+    return 0.0;
+  const LobeChances chances = lobe_chances(bsdf, out);
+  const double facet_chance = in.z > 0.0 ? chances.reflection : chances.transmission;
+  double density = in.z > 0.0 ? chances.diffuse * in.z * std::numbers::inv_pi : 0.0;
+  if (bsdf.alpha > 0.0 && facet_chance > 0.0)
+    density += facet_chance * facet_lobe(bsdf.alpha, out, {in.x, in.y, std::abs(in.z)}).density;
+  return density;
+}
+
+std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
+                                 const std::array<double, 3>& u) {
+  const LobeChances chances = lobe_chances(bsdf, out);
+  if (out.z <= 0.0 || chances.diffuse + chances.reflection + chances.transmission == 0.0)
+    return std::nullopt;
+  if (u[0] < chances.diffuse) {
+    const glm::vec3 in = cosine_hemisphere(static_cast<float>(u[1]), static_cast<float>(u[2]));
+    return spread_sample(bsdf, out, glm::normalize(Vec3(in)));
+  }
+  const bool through = u[0] >= chances.diffuse + chances.reflection && chances.transmission > 0.0;
+  if (bsdf.alpha == 0.0) {
+    if (through)
+      return BsdfSample{-out, transmitted(bsdf, out.z) / chances.transmission, 0.0, Lobe::straight};
+    return BsdfSample{{-out.x, -out.y, out.z},
+                      reflected(bsdf, out.z) / chances.reflection,
+                      0.0,
+                      Lobe::ideal_reflection};
+  }
+  const Direction h = visible_facet(bsdf.alpha, out, u[1], u[2]);
+  const Direction in = 2.0 * glm::dot(out, h) * h - out;
+  if (in.z <= 0.0)
+    return std::nullopt;
+  return spread_sample(bsdf, out, {in.x, in.y, through ? -in.z : in.z});
+}
+
+} // namespace meninas
