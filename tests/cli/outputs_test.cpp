@@ -169,6 +169,39 @@ TEST_F(Outputs, StatsHaveTheDocumentedKeys) {
   EXPECT_GT(json_of("render.json")["peak_memory_bytes"], 1 << 20);
 }
 
+TEST_F(Outputs, AReferenceHasItsVarianceAndItsFigures) {
+  const Outcome outcome = render({"--mode", "reference", "--samples", "50", "-o", "a.exr", "-o",
+                                  "a.png", "--stats", "stats.json"});
+  EXPECT_THAT(outcome.err, HasSubstr("meninas: --samples 50 is rounded up to 64\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("meninas: 64 samples per pixel, standard error "));
+  const ImageFile file = read_image(folder_ / "a.exr");
+  ASSERT_EQ(file.layers.size(), 1U);
+  EXPECT_EQ(file.layers[0].name, "variance");
+  const json stats = json_of("stats.json");
+  EXPECT_EQ(keys_of(stats), (std::set<std::string>{"reference", "rays", "seconds",
+                                                   "peak_memory_bytes", "threads"}));
+  EXPECT_EQ(stats["reference"]["samples"], 64);
+  EXPECT_EQ(stats["reference"]["stopped_by"], "samples");
+  EXPECT_EQ(stats["rays"]["camera"], 64 * 40 * 30);
+
+  // The same room as the two passes see it: the means of the pictures differ by the draft's mesh and the noise, each a few per cent.
+  render({"-o", "b.exr"});
+  const Image hybrid = read_image(folder_ / "b.exr").picture;
+  glm::dvec3 traced(0.0), solved(0.0);
+  for (std::size_t k = 0; k < hybrid.pixels.size(); ++k) {
+    traced += glm::dvec3(file.picture.pixels[k]);
+    solved += glm::dvec3(hybrid.pixels[k]);
+  }
+  EXPECT_NEAR(traced.g, solved.g, 0.05 * solved.g);
+}
+
+TEST_F(Outputs, AReferenceStopsAtTheErrorThatIsAskedFor) {
+  render({"--mode", "reference", "--max-error", "0.2", "-o", "a.exr", "--stats", "stats.json"});
+  const json figures = json_of("stats.json")["reference"];
+  EXPECT_EQ(figures["stopped_by"], "error");
+  EXPECT_LE(figures["standard_error"], 0.2);
+}
+
 TEST_F(Outputs, PerNodeFiguresNameEveryNode) {
   run("solve", {"-o", "solution.glb", "--per-node", "nodes.json"});
   const json nodes = json_of("nodes.json");
