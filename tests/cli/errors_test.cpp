@@ -57,7 +57,7 @@ TEST_F(Errors, WhatIsMissingIsNamed) {
 
 TEST_F(Errors, ValuesAreChecked) {
   const std::vector<std::array<std::string, 3>> cases{
-      {"--mode", "reference", "no value 'reference', there is radiosity, hybrid"},
+      {"--mode", "raytracing", "no value 'raytracing', there is radiosity, hybrid, reference"},
       {"--quality", "drafd", "no value 'drafd', did you mean 'draft'?"},
       {"--form-factors", "hemicube", "no value 'hemicube', there is rays"},
       {"--rays", "0", "'0' is not a whole number from 1 to 1048576"},
