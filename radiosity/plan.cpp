@@ -1,6 +1,7 @@
 #include "radiosity/plan.h"
 
 #include "radiosity/closedness.h"
+#include "scenes/texture_lookup.h"
 #include "radiosity/world_tail.h"
 
 #include <fmt/format.h>
@@ -138,6 +139,19 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
   if (const auto names = names_where(materials, has_visible_coat); !names.empty()) {
     plan.warnings.push_back("smooth dielectric coats are not traced yet: " + quoted(names));
   }
+  const auto transmits = [](const Material& m) { return m.transmission > 0.0; };
+  if (const auto names = names_where(materials, transmits); !names.empty()) {
+    plan.warnings.push_back("transmission is not rendered yet, materials are opaque: " +
+                            quoted(names));
+  }
+  const auto is_cut = [](const Material& m) { return m.alpha_mode == AlphaMode::mask; };
+  if (const auto names = names_where(materials, is_cut); !names.empty()) {
+    plan.warnings.push_back("cut-outs are not applied yet, materials are opaque: " + quoted(names));
+  }
+  if (const auto names = names_where(materials, is_textured); !names.empty()) {
+    plan.warnings.push_back("textures are not applied yet, the factors are used alone: " +
+                            quoted(names));
+  }
 }
 
 /// What will run, and why, in the order in which it runs.
@@ -186,9 +200,7 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
   };
   plan.glossy = count(is_glossy);
   plan.transmissive = count([](const Material& m) { return m.transmission > 0.0; });
-  plan.textured = count([](const Material& m) {
-    return m.base_color_texture || m.metallic_roughness_texture || m.emissive_texture;
-  });
+  plan.textured = count(is_textured);
   const std::size_t grey = count([](const Material& m) {
     return is_grey(diffuse_reflectance(m)) && is_grey(mirror_reflectance(m)) && is_grey(m.emission);
   });

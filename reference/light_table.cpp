@@ -10,6 +10,23 @@ namespace {
 
 double mean(const Rgb& c) { return (c.r + c.g + c.b) / 3.0; }
 
+/// By MaterialId: mean emission, textures included.
+std::vector<double> mean_emissions(const Scene& scene, const DecodedTextures& textures) {
+  std::vector<double> emissions;
+  for (const Material& material : scene.materials) {
+    Rgb emission = material.emission;
+    if (const auto& use = material.emissive_texture) {
+      const auto& texels = textures.colours[index(use->texture)].texels;
+      Rgb sum(0.0);
+      for (const glm::vec4& texel : texels)
+        sum += Rgb(texel) / double(texels.size());
+      emission *= sum;
+    }
+    emissions.push_back(mean(emission));
+  }
+  return emissions;
+}
+
 /// A share for what shines on the whole scene, comparable with the power of lamps in it.
 double punctual_power(const PunctualLight& light, const Bounds& bounds) {
   const double radius = 0.5 * glm::length(bounds.high - bounds.low);
@@ -33,7 +50,8 @@ double spot_falloff(const PunctualLight& light, double cosine) {
 
 } // namespace
 
-LightTable make_light_table(const Scene& scene) {
+LightTable make_light_table(const Scene& scene, const DecodedTextures& textures) {
+  const std::vector<double> emissions = mean_emissions(scene, textures);
   LightTable table;
   table.area_density.assign(scene.triangles.size(), 0.0);
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
@@ -41,7 +59,8 @@ LightTable make_light_table(const Scene& scene) {
     const Material& material = material_of(scene, triangle);
     const double area = glm::length(area_vector(corners(scene, triangle)));
     const double sides = material.double_sided ? 2.0 : 1.0;
-    const double power = std::numbers::pi * area * sides * mean(material.emission);
+    const double power =
+        std::numbers::pi * area * sides * emissions[index(scene.triangles[t].material)];
     if (power > 0.0)
       table.lights.push_back({triangle, 0, power});
   }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "scenes/ray_scene.h"
+#include "scenes/texture_lookup.h"
 
 #include <array>
 #include <vector>
@@ -25,7 +26,8 @@ struct LightTable {
   std::vector<double> area_density; ///< by triangle: P(triangle) / area, 0 where it does not emit
 };
 
-LightTable make_light_table(const Scene& scene);
+/// The power of a textured triangle is that of the texture's mean.
+LightTable make_light_table(const Scene& scene, const DecodedTextures& textures);
 
 /// The light a number in [0, 1) stands for; precondition: there is one.
 const Light& choose_light(const LightTable& table, double u);

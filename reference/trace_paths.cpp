@@ -52,6 +52,15 @@ Direction local_out(const Path& path) {
   return glm::normalize(Vec3(out.x, out.y, std::max(1e-9, out.z)));
 }
 
+void set_lane(RayPacket& packet, std::uint32_t lane, const Point3& origin, const Vec3& direction) {
+  packet.origin_x[lane] = static_cast<float>(origin.x);
+  packet.origin_y[lane] = static_cast<float>(origin.y);
+  packet.origin_z[lane] = static_cast<float>(origin.z);
+  packet.direction_x[lane] = static_cast<float>(direction.x);
+  packet.direction_y[lane] = static_cast<float>(direction.y);
+  packet.direction_z[lane] = static_cast<float>(direction.z);
+}
+
 /// Carries the living paths whose backs are alike to the next surface; those that meet none end.
 void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts& counts) {
   const RayFrame& frame = traced.rays.frame();
@@ -61,15 +70,9 @@ void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts&
     if (!paths[k].alive || paths[k].backs != backs)
       continue;
     const std::uint32_t lane = packet.count++;
-    const glm::vec3 origin((paths[k].ray.origin - frame.centre) * frame.scale);
-    const glm::vec3 direction(paths[k].ray.direction);
     lanes[lane] = k;
-    packet.origin_x[lane] = origin.x;
-    packet.origin_y[lane] = origin.y;
-    packet.origin_z[lane] = origin.z;
-    packet.direction_x[lane] = direction.x;
-    packet.direction_y[lane] = direction.y;
-    packet.direction_z[lane] = direction.z;
+    set_lane(packet, lane, (paths[k].ray.origin - frame.centre) * frame.scale,
+             paths[k].ray.direction);
     packet.max_distance[lane] = std::numeric_limits<float>::infinity();
     packet.leaving[lane] = index(paths[k].ray.leaving);
   }
@@ -87,7 +90,7 @@ void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts&
       continue;
     path.at =
         surface_point(traced, triangle, {hits.b1[lane], hits.b2[lane]}, hits.front[lane] != 0);
-    path.alive = !path.at.black;
+    path.alive = path.at.hole || !path.at.black;
   }
 }
 
@@ -164,13 +167,61 @@ std::optional<Connection> connect_to_light(const TracedScene& traced, const Path
   return connect_to_triangle(traced, path, light, {u[1], u[2]}, search);
 }
 
-/// Adds what arrives over the connections that nothing blocks.
+/// What a leg lets through: all or nothing, but for panes and holes, which are passed one after the other, up to `most_layers`.
+Rgb transmittance(const TracedScene& traced, const Leg& leg) {
+  const double length = glm::length(leg.to - leg.from);
+  Ray ray{leg.from, (leg.to - leg.from) / length, leg.leaving, length};
+  Rgb through(1.0);
+  constexpr int most_layers = 256;
+  for (int layer = 0;; ++layer) {
+    const auto hit = closest_hit(traced.rays, ray);
+    if (!hit)
+      return through;
+    const SurfacePoint at = surface_point(traced, hit->triangle, hit->barycentric, hit->front);
+    if (at.plane == leg.arriving)
+      return through;
+    if (!at.hole)
+      through *=
+          at.black ? Rgb(0.0) : straight_transmission(at.bsdf, -glm::dot(at.normal, ray.direction));
+    if (through == Rgb(0.0) || layer == most_layers)
+      return Rgb(0.0);
+    ray = {at.position, ray.direction, at.plane, ray.max_distance - hit->distance};
+  }
+}
+
+/// Adds what arrives over at most sixteen connections.
 void add_connections(const TracedScene& traced, const std::vector<Connection>& connections,
                      Paths& paths, PathCounts& counts) {
-  for (const Connection& connection : connections)
-    if (!occluded(traced.rays, connection.leg))
-      paths[connection.path].radiance += connection.radiance;
   counts.shadow_rays += connections.size();
+  if (traced.see_through) {
+    for (const Connection& connection : connections)
+      paths[connection.path].radiance +=
+          connection.radiance * transmittance(traced, connection.leg);
+    return;
+  }
+  RayPacket packet{};
+  const RayFrame& frame = traced.rays.frame();
+  for (const Connection& connection : connections) {
+    const std::uint32_t lane = packet.count++;
+    const Leg& leg = connection.leg;
+    set_lane(packet, lane, (leg.from - frame.centre) * frame.scale,
+             (leg.to - leg.from) * frame.scale);
+    packet.max_distance[lane] = 1.0F;
+    packet.leaving[lane] = index(leg.leaving);
+    packet.arriving[lane] = index(leg.arriving);
+  }
+  if (packet.count == 0)
+    return;
+  const std::uint32_t blocked = occluded(traced.rays, packet, Coherence::incoherent);
+  for (std::uint32_t lane = 0; lane < packet.count; ++lane)
+    if (((blocked >> lane) & 1U) == 0)
+      paths[connections[lane].path].radiance += connections[lane].radiance;
+}
+
+/// The ray goes on behind what it has met; where and how its direction was drawn still holds.
+void go_straight_on(Path& path) {
+  path.ray.origin = path.at.position;
+  path.ray.leaving = path.at.plane;
 }
 
 /// Draws the path's next direction, or ends it.
@@ -180,11 +231,10 @@ void scatter(Path& path, const std::array<float, 4>& u) {
   if (!drawn)
     return;
   path.throughput *= drawn->weight;
-  path.ray.origin = path.at.position;
-  path.ray.direction = to_world(path.at.normal, drawn->in);
-  path.ray.leaving = path.at.plane;
+  go_straight_on(path);
   if (drawn->lobe == Lobe::straight)
-    return; // what was drawn before still holds
+    return;
+  path.ray.direction = to_world(path.at.normal, drawn->in);
   path.scattered_at = path.at.position;
   path.density = drawn->density;
   path.backs = Backs::absorb;
@@ -226,6 +276,11 @@ std::array<Rgb, packet_size> trace_paths(const TracedScene& traced,
       if (!path.alive)
         continue;
       const VertexNumbers u = vertex_numbers(k, bounce, seed);
+      if (path.at.hole) {
+        go_straight_on(path);
+        play_roulette(path, bounce, u.scatter[3]);
+        continue;
+      }
       add_emission(traced, search, path);
       if (auto connection = connect_to_light(traced, path, u.light, search)) {
         connection->path = k;

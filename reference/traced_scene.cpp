@@ -1,6 +1,25 @@
 #include "reference/traced_scene.h"
 
+#include "image/image_file.h"
+
+#include <algorithm>
+
 namespace meninas::reference {
+
+namespace {
+
+TexturePixels decode(const Texture& texture, TextureContent content) {
+  Bitmap bitmap = decode_image(
+      texture.encoded, content == TextureContent::colour ? Encoding::srgb : Encoding::linear,
+      texture.name);
+  return {bitmap.width, bitmap.height, std::move(bitmap.pixels)};
+}
+
+bool is_see_through(const Material& material) {
+  return material.alpha_mode == AlphaMode::mask || material.transmission > 0.0;
+}
+
+} // namespace
 
 TracedScene make_traced_scene(Scene scene) {
   SurfaceModel surfaces = find_surfaces(scene);
@@ -13,9 +32,11 @@ TracedScene make_traced_scene(Scene scene) {
   bsdfs.reserve(scene.materials.size());
   for (const Material& material : scene.materials)
     bsdfs.push_back(make_bsdf(material, untextured(material)));
-  LightTable lights = make_light_table(scene);
-  return {std::move(scene),   std::move(surfaces), std::move(rays),
-          std::move(normals), std::move(bsdfs),    std::move(lights)};
+  DecodedTextures textures = decode_textures(scene, decode);
+  LightTable lights = make_light_table(scene, textures);
+  const bool see_through = std::ranges::any_of(scene.materials, is_see_through);
+  return {std::move(scene),    std::move(surfaces), std::move(rays),   std::move(normals),
+          std::move(textures), std::move(bsdfs),    std::move(lights), see_through};
 }
 
 SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 barycentric,
@@ -27,8 +48,14 @@ SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 
   at.position = a + barycentric.x * (b - a) + barycentric.y * (c - a);
   at.plane = traced.surfaces.plane_of_triangle[index(triangle)];
   at.normal = front ? traced.normals[index(triangle)] : -traced.normals[index(triangle)];
-  at.material = untextured(material);
-  at.bsdf = traced.bsdfs[index(traced.scene.triangles[index(triangle)].material)];
+  if (is_textured(material)) {
+    at.material = material_at(traced.scene, traced.textures, triangle, barycentric);
+    at.bsdf = make_bsdf(material, at.material);
+  } else {
+    at.material = untextured(material);
+    at.bsdf = traced.bsdfs[index(traced.scene.triangles[index(triangle)].material)];
+  }
+  at.hole = is_cut_out(material, at.material);
   if (!front && !material.double_sided) {
     at.material.emission = Rgb(0.0);
     // A pane is one from both sides.

@@ -7,6 +7,7 @@
 #include "scenes/bsdf.h"
 #include "scenes/ray_scene.h"
 #include "scenes/surfaces.h"
+#include "scenes/texture_lookup.h"
 
 #include <vector>
 
@@ -17,10 +18,13 @@ struct TracedScene {
   SurfaceModel surfaces;
   RayScene rays;
   std::vector<Direction> normals; ///< of the triangles, towards the front
-  std::vector<Bsdf> bsdfs;        ///< of the materials, without their textures
+  DecodedTextures textures;
+  std::vector<Bsdf> bsdfs; ///< of the materials, without their textures
   LightTable lights;
+  bool see_through = false; ///< there are panes or cut-outs that light passes straight
 };
 
+/// Throws InputError for a texture that cannot be decoded.
 TracedScene make_traced_scene(Scene scene);
 
 /// Where a ray has met a surface, as that surface is there.
@@ -31,6 +35,7 @@ struct SurfacePoint {
   Direction normal{0.0, 0.0, 1.0}; ///< of the side that was met
   MaterialPoint material;
   Bsdf bsdf;
+  bool hole = false;  ///< cut out: nothing is there
   bool black = false; ///< the back of a single-sided surface: neither reflects nor emits
 };
 

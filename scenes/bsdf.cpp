@@ -29,6 +29,24 @@ Rgb transmitted(const Bsdf& bsdf, double cosine) {
   return bsdf.transmission * (1.0 - largest(coat_fresnel(bsdf, cosine)));
 }
 
+/// 1 - E of the facets: the share of light from a direction that meets them more than once.
+double met_again(const Bsdf& bsdf, double cosine) {
+  const SchlickAlbedo e = schlick_albedo(bsdf.roughness, cosine);
+  return std::max(0.0, 1.0 - e.f0 - e.f90);
+}
+
+bool has_facets_of_metal(const Bsdf& bsdf) { return bsdf.alpha > 0.0 && bsdf.metal != Rgb(0.0); }
+
+/// What comes out of it in the end: rho^2 E_avg / (1 - rho (1 - E_avg)), as every further meeting reflects rho again.
+Rgb spread_by_facets(const Bsdf& bsdf, double mean_again) {
+  return bsdf.metal * bsdf.metal * (1.0 - mean_again) / (1.0 - bsdf.metal * mean_again);
+}
+
+double mean_met_again(const Bsdf& bsdf) {
+  const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
+  return std::max(0.0, 1.0 - mean.f0 - mean.f90);
+}
+
 /// Chances to choose the lobes: what they reflect, about.
 struct LobeChances {
   double diffuse = 0.0, reflection = 0.0, transmission = 0.0;
@@ -37,6 +55,11 @@ LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
   const double e = coat_albedo(bsdf, out.z);
   LobeChances chances{largest(bsdf.diffuse) * (1.0 - e), largest(bsdf.metal) + bsdf.coat * e,
                       largest(bsdf.transmission) * (1.0 - e)};
+  if (has_facets_of_metal(bsdf)) {
+    const double again = met_again(bsdf, out.z);
+    chances.diffuse += again * largest(spread_by_facets(bsdf, mean_met_again(bsdf)));
+    chances.reflection -= again * largest(bsdf.metal);
+  }
   const double sum = chances.diffuse + chances.reflection + chances.transmission;
   if (sum > 0.0) {
     chances.diffuse /= sum;
@@ -56,6 +79,15 @@ Rgb diffuse_coupled(const Bsdf& bsdf, double cos_out, double cos_in) {
     return Rgb(0.0);
   return bsdf.diffuse *
          ((1.0 - coat_albedo(bsdf, cos_out)) * (1.0 - coat_albedo(bsdf, cos_in)) / below);
+}
+
+/// (1 - E(o)) (1 - E(i)) / (pi (1 - E_avg)) of what facets of metal spread.
+Rgb spread_metal(const Bsdf& bsdf, double cos_out, double cos_in) {
+  const double mean_again = mean_met_again(bsdf);
+  if (mean_again < 1e-6)
+    return Rgb(0.0);
+  return spread_by_facets(bsdf, mean_again) *
+         (met_again(bsdf, cos_out) * met_again(bsdf, cos_in) / (std::numbers::pi * mean_again));
 }
 
 /// D G2 / (4 cos_o cos_i) and the density of sampling visible facets and reflecting at them.
@@ -110,6 +142,10 @@ double coat_albedo(const Bsdf& bsdf, double cosine) {
   return std::min(1.0, e.f0 * largest(bsdf.coat_f0) + e.f90 * bsdf.coat_f90);
 }
 
+Rgb straight_transmission(const Bsdf& bsdf, double cosine) {
+  return bsdf.alpha == 0.0 ? transmitted(bsdf, cosine) : Rgb(0.0);
+}
+
 Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
   if (out.z <= 0.0 || in.z == 0.0)
     return Rgb(0.0);
@@ -123,6 +159,8 @@ Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
   if (bsdf.alpha > 0.0 && (bsdf.coat > 0.0 || bsdf.metal != Rgb(0.0))) {
     const FacetLobe lobe = facet_lobe(bsdf.alpha, out, in);
     f += lobe.f * reflected(bsdf, lobe.cosine);
+    if (has_facets_of_metal(bsdf))
+      f += spread_metal(bsdf, out.z, in.z);
   }
   return f;
 }

@@ -4,8 +4,9 @@
 //   diffuse       f = rho_d (1 - e(o)) (1 - e(i)) / (pi (1 - e_avg))
 //   reflection    f = S(o.h) D(h) G2(o, i) / (4 cos_o cos_i),  S = rho_s + coat Fresnel(o.h),  h the half vector
 //   transmission  the reflection lobe folded through the surface, with tau (1 - Fresnel(o.h)) in place of S: a thin pane does not bend light
-// D is GGX of width alpha = roughness^2, G2 Smith's height-correlated masking and shadowing (Walter et al. 2007, Heitz 2014): single
-// scattering, so that rough metals lose a little light. At roughness `ideal_mirror_roughness` and below reflection and transmission are ideal:
+// D is GGX of width alpha = roughness^2, G2 Smith's height-correlated masking and shadowing (Walter et al. 2007, Heitz 2014). What
+// facets of metal send to each other, which single scattering loses, comes out spread (Kulla and Conty 2017): a white metal reflects all light,
+// however rough. At roughness `ideal_mirror_roughness` and below reflection and transmission are ideal:
 // one direction each, of weight S and tau (1 - Fresnel), which only sampling can find.
 //
 // rho_s, the reflectance of metals, is constant (material.h). The Schlick coat F0 + (F90 - F0)(1 - o.h)^5 of dielectrics is there up to
@@ -70,6 +71,9 @@ struct BsdfSample {
 /// A direction from which light may come, `u` evenly in [0, 1)^3; none where the surface absorbs or the lobe dips below it.
 std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
                                  const std::array<double, 3>& u);
+
+/// The weight of ideal transmission straight through at this cosine; 0 where there is none.
+Rgb straight_transmission(const Bsdf& bsdf, double cosine);
 
 /// What the coat reflects of light from a direction, e(w) above: the largest channel.
 double coat_albedo(const Bsdf& bsdf, double cosine);

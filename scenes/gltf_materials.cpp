@@ -55,8 +55,6 @@ static void read_metallic_roughness(const Document& document, const Json& json, 
 
   const auto base_color = numbers_at(model, "baseColorFactor");
   material.alpha = base_color.empty() ? 1.0 : std::clamp(base_color[3], 0.0, 1.0);
-  if (material.alpha_mode != AlphaMode::opaque && material.alpha < 1.0)
-    findings.about("transparency by alpha is not applied yet, materials are opaque", name);
 }
 
 static void read_emission(const Document& document, std::size_t index, const Json& json,
@@ -95,8 +93,6 @@ static void read_coat(const Json& json, Material& material, Findings& findings) 
   if (const auto* extension = find(json, {"extensions", "KHR_materials_transmission"})) {
     material.transmission =
         fraction(number_or(*extension, "transmissionFactor", 0.0), material.name, findings);
-    if (material.transmission > 0.0)
-      findings.about("transmission is not rendered yet, materials are opaque", material.name);
   }
 }
 
@@ -120,6 +116,9 @@ static Material read_material(const Document& document, std::size_t index, Findi
   read_metallic_roughness(document, json, material, findings);
   read_emission(document, index, json, material, findings);
   read_coat(json, material, findings);
+  if (material.alpha_mode == AlphaMode::blend &&
+      (material.alpha < 1.0 || material.base_color_texture))
+    findings.about("blending by alpha is not modelled, materials are opaque", material.name);
   if (find(json, {"extensions", "KHR_materials_unlit"}))
     findings.about("unlit materials are lit: their colour is read as reflectance", material.name);
   if (json.contains("normalTexture"))

@@ -135,9 +135,7 @@ private:
 
 void read_textures(const Document& document, Scene& scene, Findings& findings) {
   TextureShelf shelf(document, scene, findings);
-  std::size_t textured = 0;
   for (auto& material : scene.materials) {
-    bool uses_one = false;
     for (auto* use : {&material.base_color_texture, &material.metallic_roughness_texture,
                       &material.emissive_texture}) {
       if (!*use)
@@ -145,14 +143,8 @@ void read_textures(const Document& document, Scene& scene, Findings& findings) {
       (*use)->texture = shelf.of(index((*use)->texture));
       if ((*use)->texture == none<TextureId>)
         use->reset();
-      uses_one = uses_one || *use;
     }
-    if (uses_one)
-      ++textured;
   }
-  if (textured > 0)
-    findings.say(fmt::format("textures are not applied yet: {} material{} their factors", textured,
-                             textured == 1 ? " uses" : "s use"));
 }
 
 } // namespace meninas::gltf

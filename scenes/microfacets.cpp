@@ -44,7 +44,7 @@ Direction visible_facet(double alpha, const Direction& out, double u, double v) 
 
 namespace {
 
-constexpr int roughness_steps = 16, cosine_steps = 64;
+constexpr int roughness_steps = 32, cosine_steps = 64;
 
 /// By roughness and by the square root of the cosine, because albedos change fast at grazing angles.
 struct AlbedoTable {
@@ -61,7 +61,7 @@ SchlickAlbedo ideal_albedo(double cosine) {
 
 /// The mean over visible facets of G2 / G1 times the parts of Schlick's term.
 SchlickAlbedo rough_albedo(double alpha, double cosine) {
-  constexpr std::uint32_t points = 1024;
+  constexpr std::uint32_t points = 512;
   const Direction out{std::sqrt(std::max(0.0, 1.0 - cosine * cosine)), 0.0, cosine};
   const double lambda = smith_lambda(alpha, out);
   SchlickAlbedo sum;
@@ -80,8 +80,7 @@ SchlickAlbedo rough_albedo(double alpha, double cosine) {
 }
 
 double table_roughness(int step) {
-  return ideal_mirror_roughness +
-         (visible_coat_roughness - ideal_mirror_roughness) * step / roughness_steps;
+  return ideal_mirror_roughness + (1.0 - ideal_mirror_roughness) * step / roughness_steps;
 }
 
 SchlickAlbedo mixed(const SchlickAlbedo& a, const SchlickAlbedo& b, double t) {
@@ -134,8 +133,7 @@ Cell cell_of(double x, int steps) {
 }
 
 Cell roughness_cell(double roughness) {
-  return cell_of((roughness - ideal_mirror_roughness) /
-                     (visible_coat_roughness - ideal_mirror_roughness),
+  return cell_of((roughness - ideal_mirror_roughness) / (1.0 - ideal_mirror_roughness),
                  roughness_steps);
 }
 

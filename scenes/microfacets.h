@@ -20,8 +20,8 @@ struct SchlickAlbedo {
   double f0 = 0.0, f90 = 0.0;
 };
 
-/// At the given cosine, for roughnesses (alpha = roughness^2) up to `visible_coat_roughness`; the ideal lobe, up to
-/// `ideal_mirror_roughness`, in closed form, others from a table good to 1e-3.
+/// At the given cosine, for a roughness (alpha = roughness^2): the ideal lobe, up to `ideal_mirror_roughness`, in closed form, others
+/// from a table good to 1e-3.
 SchlickAlbedo schlick_albedo(double roughness, double cosine);
 
 /// Its mean over the hemisphere, weighted by the cosine: 2 integral of e(c) c dc.

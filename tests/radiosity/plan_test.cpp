@@ -55,6 +55,18 @@ TEST(Plan, ColourAnywhereNeedsThreeBands) {
   EXPECT_EQ(plan_of(room_with(diffuse(Rgb(0.5), {1.0, 1.0, 0.5}))).bands, 3);
 }
 
+TEST(Plan, WhatTheTwoPassesLeaveOutIsNamed) {
+  Material wall = diffuse(0.5);
+  wall.transmission = 0.5;
+  wall.alpha_mode = AlphaMode::mask;
+  wall.emissive_texture = TextureUse{.texture = TextureId{0}};
+  const TransportPlan plan = plan_of(room_with(wall));
+  EXPECT_EQ(plan.transmissive, 1U);
+  EXPECT_EQ(plan.textured, 1U);
+  for (const std::string part : {"transmission", "cut-outs", "textures"})
+    EXPECT_THAT(plan.warnings, Contains(testing::AllOf(HasSubstr(part), HasSubstr("'first'"))));
+}
+
 TEST(Plan, MaterialsThatAreOnNothingDoNotCount) {
   Scene scene = room_with(diffuse(0.5));
   scene.materials.push_back(diffuse({0.1, 0.2, 0.3}));

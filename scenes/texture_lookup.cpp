@@ -1,0 +1,106 @@
+#include "scenes/texture_lookup.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+/// The texel that index k stands for.
+int wrapped(std::int64_t k, int size, bool repeat) {
+  if (!repeat)
+    return static_cast<int>(std::clamp<std::int64_t>(k, 0, size - 1));
+  const std::int64_t rest = k % size;
+  return static_cast<int>(rest < 0 ? rest + size : rest);
+}
+
+/// The texel below a coordinate and how far the coordinate is towards the next one.
+struct TexelPlace {
+  std::int64_t first;
+  double share;
+};
+TexelPlace texel_place(double coordinate, int size) {
+  // Coordinates beyond this have no fraction of a texel left.
+  const double centred = std::clamp(coordinate * size - 0.5, -1e15, 1e15);
+  const double below = std::floor(centred);
+  return {static_cast<std::int64_t>(below), centred - below};
+}
+
+Vec2 texcoord_at(const Scene& scene, TriangleId triangle, int set, Vec2 barycentric) {
+  const auto corner = [&](std::size_t k) {
+    const VertexId vertex = scene.triangles[index(triangle)].vertices[k];
+    return Vec2(scene.vertices[index(vertex)].texcoord[static_cast<std::size_t>(set)]);
+  };
+  const Vec2 a = corner(0);
+  return a + barycentric.x * (corner(1) - a) + barycentric.y * (corner(2) - a);
+}
+
+} // namespace
+
+DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode) {
+  DecodedTextures decoded;
+  decoded.colours.resize(scene.textures.size());
+  decoded.numbers.resize(scene.textures.size());
+  const auto need = [&](const std::optional<TextureUse>& use, std::vector<TexturePixels>& list,
+                        TextureContent content) {
+    if (use && list[index(use->texture)].texels.empty())
+      list[index(use->texture)] = decode(scene.textures[index(use->texture)], content);
+  };
+  for (const Material& material : scene.materials) {
+    need(material.base_color_texture, decoded.colours, TextureContent::colour);
+    need(material.emissive_texture, decoded.colours, TextureContent::colour);
+    need(material.metallic_roughness_texture, decoded.numbers, TextureContent::numbers);
+  }
+  return decoded;
+}
+
+Vec2 transformed_texcoord(const TextureUse& use, Vec2 texcoord) {
+  const double c = std::cos(use.rotation), s = std::sin(use.rotation);
+  const Vec2 scaled = use.scale * texcoord;
+  return use.offset + Vec2(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x);
+}
+
+glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Vec2 uv) {
+  const TexelPlace u = texel_place(uv.x, pixels.width), v = texel_place(uv.y, pixels.height);
+  const auto texel = [&](std::int64_t i, std::int64_t j) {
+    const int x = wrapped(i, pixels.width, texture.repeat_u);
+    const int y = wrapped(j, pixels.height, texture.repeat_v);
+    return glm::dvec4(pixels.texels[static_cast<std::size_t>(y) * pixels.width + x]);
+  };
+  const glm::dvec4 upper = glm::mix(texel(u.first, v.first), texel(u.first + 1, v.first), u.share);
+  const glm::dvec4 lower =
+      glm::mix(texel(u.first, v.first + 1), texel(u.first + 1, v.first + 1), u.share);
+  return glm::mix(upper, lower, v.share);
+}
+
+bool is_textured(const Material& material) {
+  return material.base_color_texture || material.metallic_roughness_texture ||
+         material.emissive_texture;
+}
+
+MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
+                          Vec2 barycentric) {
+  const Material& material = material_of(scene, triangle);
+  MaterialPoint point = untextured(material);
+  const auto value = [&](const TextureUse& use, const std::vector<TexturePixels>& list) {
+    const Vec2 uv = texcoord_at(scene, triangle, use.texcoord_set, barycentric);
+    return texture_value(list[index(use.texture)], scene.textures[index(use.texture)],
+                         transformed_texcoord(use, uv));
+  };
+  if (const auto& use = material.base_color_texture) {
+    const glm::dvec4 texel = value(*use, textures.colours);
+    point.base_color *= glm::clamp(Rgb(texel), 0.0, 1.0);
+    point.alpha *= texel.a;
+  }
+  if (const auto& use = material.metallic_roughness_texture) {
+    const glm::dvec4 texel = value(*use, textures.numbers);
+    point.roughness *= std::clamp(texel.g, 0.0, 1.0);
+    point.metallic *= std::clamp(texel.b, 0.0, 1.0);
+  }
+  if (const auto& use = material.emissive_texture)
+    point.emission *= glm::max(Rgb(value(*use, textures.colours)), Rgb(0.0));
+  return point;
+}
+
+} // namespace meninas

@@ -1,0 +1,51 @@
+// Materials at a point: textures decoded, wrapped as their samplers say, and interpolated bilinearly between texels.
+//
+// KHR_texture_transform takes (u, v) to offset + R (scale (u, v)) with R = (cos, sin; -sin, cos), counter-clockwise as glTF sees it: v runs down
+// the image. Texel (i, j) of a w x h image has its centre at ((i + 1/2) / w, (j + 1/2) / h).
+//
+// Images are decoded by the caller's function, because this folder reads no pictures: image/'s decode_image, usually.
+#pragma once
+
+#include "scenes/bsdf.h"
+#include "scenes/scene.h"
+
+#include <functional>
+
+namespace meninas {
+
+/// Rows from the top; red, green, blue and alpha.
+struct TexturePixels {
+  int width = 0, height = 0;
+  std::vector<glm::vec4> texels;
+};
+
+/// Colours are stored as sRGB and wanted linear; metalness and roughness are numbers as they are.
+enum class TextureContent { colour, numbers };
+
+using DecodeTexture = std::function<TexturePixels(const Texture&, TextureContent)>;
+
+/// By TextureId; without texels where no material uses it so.
+struct DecodedTextures {
+  std::vector<TexturePixels> colours, numbers;
+};
+
+DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode);
+
+/// Where on the image a texture coordinate falls.
+Vec2 transformed_texcoord(const TextureUse& use, Vec2 texcoord);
+
+/// The texture's value; `texture` says how it wraps.
+glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Vec2 uv);
+
+bool is_textured(const Material& material);
+
+/// Factors times textures at a point of a triangle, given by the weights of its second and third corner.
+MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
+                          Vec2 barycentric);
+
+/// A hole of a cut-out material (alphaMode MASK): nothing is there.
+inline bool is_cut_out(const Material& material, const MaterialPoint& point) {
+  return material.alpha_mode == AlphaMode::mask && point.alpha < material.alpha_cutoff;
+}
+
+} // namespace meninas
