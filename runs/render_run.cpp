@@ -71,7 +71,6 @@ Rendered render_two_pass(const RenderRequest& request, Scene scene, const Camera
   TwoPassSettings settings = two_pass_settings(request.settings);
   settings.render.width = size.width;
   settings.render.height = size.height;
-  figures.method = settings.pass_one.solver.method;
   std::optional<StoredSolution> stored;
   if (request.solution) {
     Stopwatch watch;
