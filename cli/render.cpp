@@ -100,7 +100,9 @@ void add_settings(CLI::App& command, RenderOptions& options) {
 void refuse(const CLI::App& command, std::initializer_list<const char*> options,
             const std::string& reason) {
   for (const char* option : options) {
-    if (command.count(option) > 0) {
+    // Not every command that takes these settings has every option.
+    const CLI::Option* known = command.get_option_no_throw(option);
+    if (known != nullptr && known->count() > 0) {
       throw UsageError(option, reason);
     }
   }
