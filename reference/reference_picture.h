@@ -5,7 +5,7 @@
 // so that stratification lowers the noise without spoiling its estimate. The pixel is a box, as in pass two.
 //
 // Conventions of the two passes hold (sides, backs, ideal mirrors, what counts as diffuse), and what these do not model yet is there: rough
-// metals, dielectric coats, panes, textures, cut-outs, punctual lights. Light of a punctual light by way of a mirror is not found.
+// metals, dielectric coats, panes, textures, cut-outs, punctual lights. Light of a punctual light is found over chains of at most two mirrors.
 #pragma once
 
 #include "image/image.h"

@@ -1,5 +1,6 @@
 #include "reference/trace_paths.h"
 
+#include "reference/mirrored_lights.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -13,9 +14,10 @@ struct Path {
   Ray ray;
   Rgb throughput{1.0};
   Rgb radiance{0.0};
-  Point3 scattered_at{0.0}; ///< the vertex where its direction was drawn
+  Point3 scattered_at{0.0}; ///< where its direction was drawn, or the image in the mirrors since
   double density =
-      0.0; ///< of that direction; 0 at the eye and for ideal lobes, whose light is never looked for
+      0.0; ///< of that direction; 0 where light is met only: from the eye, over long chains
+  std::size_t chain_length = 0;     ///< mirrors since
   Backs backs = Backs::transparent; ///< to the eye, up to the first scattering
   bool alive = true;
   SurfacePoint at; ///< where it is
@@ -24,17 +26,24 @@ using Paths = std::array<Path, packet_size>;
 
 /// A chosen point of a light, and what it adds to the path if nothing is between.
 struct Connection {
-  Leg leg;
+  Chain chain;
+  Point3 light;
+  PlaneId arriving = none<PlaneId>;
   Rgb radiance{0.0};
   std::size_t path = 0;
 };
 
-/// The random numbers of a vertex: four for each of its two decisions.
+/// The random numbers of a vertex: four for each of its decisions.
 struct VertexNumbers {
-  std::array<float, 4> light, scatter;
+  std::array<std::array<float, 4>, longest_chain + 1> light;
+  std::array<float, 4> scatter;
 };
 VertexNumbers vertex_numbers(std::uint32_t path, std::uint32_t bounce, std::uint32_t seed) {
-  return {sobol4(path, hash(seed, bounce, 1)), sobol4(path, hash(seed, bounce, 2))};
+  VertexNumbers numbers;
+  numbers.scatter = sobol4(path, hash(seed, bounce, 1));
+  for (std::uint32_t length = 0; length <= longest_chain; ++length)
+    numbers.light[length] = sobol4(path, hash(seed, bounce, 2 + length));
+  return numbers;
 }
 
 Direction to_local(const Direction& normal, const Direction& w) {
@@ -103,6 +112,11 @@ double choosing_density(const TracedScene& traced, const Point3& x, const Surfac
   return cosine > 0.0 ? area_density * distance2 / cosine : 0.0;
 }
 
+/// p_l of a chain of that many mirrors, as a share of that of direct light.
+double chain_chance(const TracedScene& traced, std::size_t length) {
+  return std::pow(double(traced.mirror_planes.size()), -double(length));
+}
+
 /// Light the surface emits towards the path, with the weight of having been met.
 void add_emission(const TracedScene& traced, LightSearch search, Path& path) {
   const Rgb& emission = path.at.material.emission;
@@ -111,111 +125,107 @@ void add_emission(const TracedScene& traced, LightSearch search, Path& path) {
   double weight = 1.0;
   if (path.density > 0.0 && search == LightSearch::choosing)
     weight = 0.0;
-  if (path.density > 0.0 && search == LightSearch::both)
-    weight = path.density / (path.density + choosing_density(traced, path.scattered_at, path.at));
+  if (path.density > 0.0 && search == LightSearch::both) {
+    const double p_l = choosing_density(traced, path.scattered_at, path.at) *
+                       chain_chance(traced, path.chain_length);
+    weight = path.density / (path.density + p_l);
+  }
   path.radiance += path.throughput * emission * weight;
 }
 
-/// Light from a point of an emitting triangle, with the weight of having been chosen.
-std::optional<Connection> connect_to_triangle(const TracedScene& traced, const Path& path,
-                                              const Light& light, Vec2 u, LightSearch search) {
-  const SurfacePoint front =
-      surface_point(traced, light.triangle, even_barycentric(u.x, u.y), true);
-  const Vec3 leg = front.position - path.at.position;
-  const bool seen_in_front = glm::dot(leg, front.normal) < 0.0;
-  const SurfacePoint lit =
-      seen_in_front ? front
-                    : surface_point(traced, light.triangle, even_barycentric(u.x, u.y), false);
-  if (lit.material.emission == Rgb(0.0) || glm::dot(leg, leg) == 0.0)
-    return std::nullopt;
+/// A point of a light as it is seen from somewhere.
+struct LightPoint {
+  Point3 position;
+  PlaneId plane = none<PlaneId>;
+  Rgb light{0.0};       ///< radiance; of a punctual light irradiance
+  double density = 0.0; ///< p_l; of a punctual light the chance to choose it
+  bool can_be_met = true;
+};
 
+LightPoint choose_point(const TracedScene& traced, const Point3& view,
+                        const std::array<float, 4>& u) {
+  const Light& light = choose_light(traced.lights, u[0]);
+  if (light.triangle == none<TriangleId>) {
+    const double reach = 8.0 / traced.rays.frame().scale;
+    const auto [position, irradiance] =
+        punctual_sample(traced.scene.lights[light.punctual], view, reach);
+    return {position, none<PlaneId>, irradiance, light.power, false};
+  }
+  const Vec2 place = even_barycentric(u[1], u[2]);
+  SurfacePoint at = surface_point(traced, light.triangle, place, true);
+  if (glm::dot(view - at.position, at.normal) < 0.0)
+    at = surface_point(traced, light.triangle, place, false);
+  return {at.position, at.plane, at.hole ? Rgb(0.0) : at.material.emission,
+          choosing_density(traced, view, at), true};
+}
+
+/// Light from a chosen point of a light, over a chain of mirrors or none, with the weight of having been chosen.
+std::optional<Connection> connect(const TracedScene& traced, const Path& path, const Chain& chain,
+                                  const std::array<float, 4>& u, LightSearch search) {
+  const LightPoint point = choose_point(traced, chain.image, u);
+  const Vec3 leg = first_target(traced, chain, point.position) - path.at.position;
+  if (point.light == Rgb(0.0) || point.density == 0.0 || glm::dot(leg, leg) == 0.0 ||
+      (point.can_be_met && search == LightSearch::meeting))
+    return std::nullopt;
   const Direction out = local_out(path);
   const Direction in = to_local(path.at.normal, glm::normalize(leg));
   const Rgb f = evaluate(path.at.bsdf, out, in);
-  const double p_l = choosing_density(traced, path.at.position, lit);
-  if (f == Rgb(0.0) || p_l == 0.0)
+  if (f == Rgb(0.0))
     return std::nullopt;
-  const double p_s = search == LightSearch::both ? sample_density(path.at.bsdf, out, in) : 0.0;
-  return Connection{{path.at.position, lit.position, path.at.plane, lit.plane},
-                    path.throughput * f * lit.material.emission * (std::abs(in.z) / (p_s + p_l))};
+  const bool met_as_well = point.can_be_met && search == LightSearch::both;
+  const double p_s = met_as_well ? sample_density(path.at.bsdf, out, in) : 0.0;
+  const double p_l = point.density * chain_chance(traced, chain.planes.size());
+  return Connection{chain, point.position, point.plane,
+                    path.throughput * f * point.light * (std::abs(in.z) / (p_s + p_l))};
 }
 
-std::optional<Connection> connect_to_punctual(const TracedScene& traced, const Path& path,
-                                              const Light& light) {
-  const double reach = 8.0 / traced.rays.frame().scale;
-  const PunctualSample sample =
-      punctual_sample(traced.scene.lights[light.punctual], path.at.position, reach);
-  const Vec3 leg = sample.position - path.at.position;
-  if (sample.irradiance == Rgb(0.0))
-    return std::nullopt;
-  const Direction in = to_local(path.at.normal, glm::normalize(leg));
-  const Rgb f = evaluate(path.at.bsdf, local_out(path), in);
-  return Connection{{path.at.position, sample.position, path.at.plane, none<PlaneId>},
-                    path.throughput * f * sample.irradiance * (std::abs(in.z) / light.power)};
-}
-
-/// Light straight from a chosen point of a light.
-std::optional<Connection> connect_to_light(const TracedScene& traced, const Path& path,
-                                           const std::array<float, 4>& u, LightSearch search) {
+/// Looks for light directly and by way of chains of mirrors.
+void look_for_light(const TracedScene& traced, const Paths& paths, std::uint32_t k,
+                    const VertexNumbers& u, LightSearch search,
+                    std::vector<Connection>& connections) {
   if (traced.lights.lights.empty())
-    return std::nullopt;
-  const Light& light = choose_light(traced.lights, u[0]);
-  if (light.triangle == none<TriangleId>)
-    return connect_to_punctual(traced, path, light);
-  if (search == LightSearch::meeting)
-    return std::nullopt;
-  return connect_to_triangle(traced, path, light, {u[1], u[2]}, search);
-}
-
-/// What a leg lets through: all or nothing, but for panes and holes, which are passed one after the other, up to `most_layers`.
-Rgb transmittance(const TracedScene& traced, const Leg& leg) {
-  const double length = glm::length(leg.to - leg.from);
-  Ray ray{leg.from, (leg.to - leg.from) / length, leg.leaving, length};
-  Rgb through(1.0);
-  constexpr int most_layers = 256;
-  for (int layer = 0;; ++layer) {
-    const auto hit = closest_hit(traced.rays, ray);
-    if (!hit)
-      return through;
-    const SurfacePoint at = surface_point(traced, hit->triangle, hit->barycentric, hit->front);
-    if (at.plane == leg.arriving)
-      return through;
-    if (!at.hole)
-      through *=
-          at.black ? Rgb(0.0) : straight_transmission(at.bsdf, -glm::dot(at.normal, ray.direction));
-    if (through == Rgb(0.0) || layer == most_layers)
-      return Rgb(0.0);
-    ray = {at.position, ray.direction, at.plane, ray.max_distance - hit->distance};
+    return;
+  const std::size_t longest = traced.mirror_planes.empty() ? 0 : longest_chain;
+  for (std::size_t length = 0; length <= longest; ++length) {
+    const auto& numbers = u.light[length];
+    const auto chain = choose_chain(traced, paths[k].at.position, length, numbers[3]);
+    auto connection = chain ? connect(traced, paths[k], *chain, numbers, search) : std::nullopt;
+    if (!connection)
+      continue;
+    connection->path = k;
+    connections.push_back(std::move(*connection));
   }
 }
 
-/// Adds what arrives over at most sixteen connections.
+/// Adds what arrives over the connections: those over nothing but air sixteen at a time.
 void add_connections(const TracedScene& traced, const std::vector<Connection>& connections,
                      Paths& paths, PathCounts& counts) {
   counts.shadow_rays += connections.size();
-  if (traced.see_through) {
-    for (const Connection& connection : connections)
-      paths[connection.path].radiance +=
-          connection.radiance * transmittance(traced, connection.leg);
-    return;
-  }
   RayPacket packet{};
+  std::array<const Connection*, packet_size> lanes{};
   const RayFrame& frame = traced.rays.frame();
   for (const Connection& connection : connections) {
+    const SurfacePoint& x = paths[connection.path].at;
+    if (traced.see_through || !connection.chain.planes.empty()) {
+      paths[connection.path].radiance +=
+          connection.radiance *
+          chain_throughput(traced, x, connection.chain, connection.light, connection.arriving);
+      continue;
+    }
     const std::uint32_t lane = packet.count++;
-    const Leg& leg = connection.leg;
-    set_lane(packet, lane, (leg.from - frame.centre) * frame.scale,
-             (leg.to - leg.from) * frame.scale);
+    lanes[lane] = &connection;
+    set_lane(packet, lane, (x.position - frame.centre) * frame.scale,
+             (connection.light - x.position) * frame.scale);
     packet.max_distance[lane] = 1.0F;
-    packet.leaving[lane] = index(leg.leaving);
-    packet.arriving[lane] = index(leg.arriving);
+    packet.leaving[lane] = index(x.plane);
+    packet.arriving[lane] = index(connection.arriving);
   }
   if (packet.count == 0)
     return;
   const std::uint32_t blocked = occluded(traced.rays, packet, Coherence::incoherent);
   for (std::uint32_t lane = 0; lane < packet.count; ++lane)
     if (((blocked >> lane) & 1U) == 0)
-      paths[connections[lane].path].radiance += connections[lane].radiance;
+      paths[lanes[lane]->path].radiance += lanes[lane]->radiance;
 }
 
 /// The ray goes on behind what it has met; where and how its direction was drawn still holds.
@@ -225,7 +235,7 @@ void go_straight_on(Path& path) {
 }
 
 /// Draws the path's next direction, or ends it.
-void scatter(Path& path, const std::array<float, 4>& u) {
+void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& u) {
   const auto drawn = sample(path.at.bsdf, local_out(path), {u[0], u[1], u[2]});
   path.alive = drawn.has_value();
   if (!drawn)
@@ -235,8 +245,18 @@ void scatter(Path& path, const std::array<float, 4>& u) {
   if (drawn->lobe == Lobe::straight)
     return;
   path.ray.direction = to_world(path.at.normal, drawn->in);
-  path.scattered_at = path.at.position;
-  path.density = drawn->density;
+  if (drawn->lobe == Lobe::ideal_reflection) {
+    const bool looked_for = path.chain_length < longest_chain &&
+                            std::ranges::binary_search(traced.mirror_planes, path.at.plane);
+    path.density = looked_for ? path.density : 0.0;
+    path.scattered_at =
+        reflected_in(traced.surfaces.planes[index(path.at.plane)], path.scattered_at);
+    ++path.chain_length;
+  } else {
+    path.density = drawn->density;
+    path.scattered_at = path.at.position;
+    path.chain_length = 0;
+  }
   path.backs = Backs::absorb;
 }
 
@@ -282,11 +302,8 @@ std::array<Rgb, packet_size> trace_paths(const TracedScene& traced,
         continue;
       }
       add_emission(traced, search, path);
-      if (auto connection = connect_to_light(traced, path, u.light, search)) {
-        connection->path = k;
-        connections.push_back(*connection);
-      }
-      scatter(path, u.scatter);
+      look_for_light(traced, paths, k, u, search, connections);
+      scatter(traced, path, u.scatter);
       if (path.alive)
         play_roulette(path, bounce, u.scatter[3]);
     }

@@ -4,8 +4,8 @@
 //   L(x, o) = L_e(x, o) + integral f(x, o, i) L(y(x, i), -i) cos_i d i
 // A path follows one direction i per vertex, drawn from the material's own density p_s; light that is emitted at y is also looked for from x
 // by choosing y among the lights, with density p_l. Each is counted with the weight of the balance heuristic, p_s / (p_s + p_l) and
-// p_l / (p_s + p_l), which add up to one for every path. Ideal lobes have no density: what they lead to is counted whole, and
-// never looked for. Paths end by Russian roulette with the survivors' weight raised, so that the expectation is untouched.
+// p_l / (p_s + p_l), which add up to one for every path. Light over one or two plane mirrors is looked
+// for as well (mirrored_lights.h); otherwise ideal lobes have no density: what they lead to is counted whole and never looked for. Paths end by Russian roulette with the survivors' weight raised, so that the expectation is untouched.
 #pragma once
 
 #include "reference/traced_scene.h"
@@ -15,7 +15,7 @@
 namespace meninas::reference {
 
 /// Which of the two ways to find emitting surfaces is used. All have the same expectation: that is a test. Punctual lights can only be
-/// chosen, mirrored ones only be met.
+/// chosen, those behind long chains of mirrors only be met.
 enum class LightSearch { both, choosing, meeting };
 
 struct PathCounts {

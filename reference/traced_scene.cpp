@@ -1,6 +1,7 @@
 #include "reference/traced_scene.h"
 
 #include "image/image_file.h"
+#include "reference/mirrored_lights.h"
 
 #include <algorithm>
 
@@ -34,9 +35,11 @@ TracedScene make_traced_scene(Scene scene) {
     bsdfs.push_back(make_bsdf(material, untextured(material)));
   DecodedTextures textures = decode_textures(scene, decode);
   LightTable lights = make_light_table(scene, textures);
+  std::vector<PlaneId> mirror_planes = find_mirror_planes(scene, surfaces, bsdfs);
   const bool see_through = std::ranges::any_of(scene.materials, is_see_through);
-  return {std::move(scene),    std::move(surfaces), std::move(rays),   std::move(normals),
-          std::move(textures), std::move(bsdfs),    std::move(lights), see_through};
+  return {std::move(scene),   std::move(surfaces),      std::move(rays),
+          std::move(normals), std::move(textures),      std::move(bsdfs),
+          std::move(lights),  std::move(mirror_planes), see_through};
 }
 
 SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 barycentric,

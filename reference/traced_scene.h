@@ -21,7 +21,8 @@ struct TracedScene {
   DecodedTextures textures;
   std::vector<Bsdf> bsdfs; ///< of the materials, without their textures
   LightTable lights;
-  bool see_through = false; ///< there are panes or cut-outs that light passes straight
+  std::vector<PlaneId> mirror_planes; ///< mirrored_lights.h
+  bool see_through = false;           ///< there are panes or cut-outs that light passes straight
 };
 
 /// Throws InputError for a texture that cannot be decoded.

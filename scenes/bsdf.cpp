@@ -146,6 +146,10 @@ Rgb straight_transmission(const Bsdf& bsdf, double cosine) {
   return bsdf.alpha == 0.0 ? transmitted(bsdf, cosine) : Rgb(0.0);
 }
 
+Rgb ideal_reflection(const Bsdf& bsdf, double cosine) {
+  return bsdf.alpha == 0.0 ? reflected(bsdf, cosine) : Rgb(0.0);
+}
+
 Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
   if (out.z <= 0.0 || in.z == 0.0)
     return Rgb(0.0);

@@ -75,6 +75,9 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
 /// The weight of ideal transmission straight through at this cosine; 0 where there is none.
 Rgb straight_transmission(const Bsdf& bsdf, double cosine);
 
+/// The weight of ideal reflection at this cosine; 0 where there is none.
+Rgb ideal_reflection(const Bsdf& bsdf, double cosine);
+
 /// What the coat reflects of light from a direction, e(w) above: the largest channel.
 double coat_albedo(const Bsdf& bsdf, double cosine);
 

@@ -46,11 +46,24 @@ TEST(LightSearch, ChoosingAndMeetingAndBothAgree) {
 }
 
 TEST(LightSearch, LightByWayOfMirrorsIsFoundInEveryWay) {
-  // What mirrors bring is met, whichever way is chosen for the rest.
   const Scene scene = half_room();
   const Camera camera = look_at({1.6, 1.3, 2.7}, {0.0, 1.0, 1.0}, 1.0);
   const MeanRadiance both = by(LightSearch::both, scene, camera, 1024);
-  expect_same(both, by(LightSearch::meeting, scene, camera, 2048));
+  expect_same(both, by(LightSearch::choosing, scene, camera, 1024));
+  expect_same(both, by(LightSearch::meeting, scene, camera, 1024));
+}
+
+/// Two mirrors at a right angle, so that chains of two and more matter, in a room with a large lamp.
+TEST(LightSearch, ChainsOfMirrorsAreFoundInEveryWay) {
+  Scene scene;
+  add_room(scene, {0, 0, 0}, {3, 2.5, 4},
+           {mirror(0.9), diffuse(0.6), diffuse(0.5), diffuse(0.7), mirror(0.8), diffuse(0.6)});
+  add_polygon(scene, "lamp", {{0.5, 2.4, 0.5}, {2.5, 2.4, 0.5}, {2.5, 2.4, 3.5}, {0.5, 2.4, 3.5}},
+              diffuse(0.0, 4.0));
+  const Camera camera = look_at({2.3, 1.3, 3.6}, {1.0, 0.2, 0.5}, 0.6);
+  const MeanRadiance both = by(LightSearch::both, scene, camera, 256);
+  expect_same(both, by(LightSearch::choosing, scene, camera, 512));
+  expect_same(both, by(LightSearch::meeting, scene, camera, 1024));
 }
 
 TEST(LightSearch, AMirrorRoomIsAsBrightAsTheDoubledRoom) {

@@ -92,7 +92,7 @@ TEST(ReferenceMaterials, ATexturedFloor) {
 }
 
 /// So dark that what it sends back to a screen does not matter.
-constexpr double floor_reflectance = 1e-3;
+constexpr double floor_reflectance = 1e-6;
 
 /// A floor, a light two metres over it, and a screen between.
 Scene screened(const Material& material) {

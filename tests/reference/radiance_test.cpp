@@ -129,6 +129,29 @@ TEST(ReferenceRadiance, PointAndSpotLightFollowTheInverseSquare) {
                   Rgb(3, 2, 1) * (fall * fall * std::cos(off) / (distance * distance) * 0.5 / pi));
 }
 
+TEST(ReferenceRadiance, APointLightByWayOfAMirror) {
+  // So dark a floor that what it sends to the mirror does not come back.
+  constexpr double rho = 1e-6;
+  Scene scene;
+  add_polygon(scene, "floor", {{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}}, diffuse(rho));
+  add_polygon(scene, "mirror", {{-9, 3, -9}, {9, 3, -9}, {9, 3, 9}, {-9, 3, 9}}, mirror(0.8));
+  add_polygon(scene, "shield", {{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}}, diffuse(0.0));
+  scene.lights = {{.name = "bulb",
+                   .kind = PunctualKind::point,
+                   .intensity = Rgb(3, 2, 1),
+                   .position = {0, 2, 0}}};
+  // Past the shield the floor at x = 4 sees the light, distance^2 20, and its image at y = 4, distance^2 32.
+  const double direct = 2.0 / std::sqrt(20.0) / 20.0, image = std::sqrt(0.5) / 32.0;
+  const Rgb lit = Rgb(3, 2, 1) * ((direct + 0.8 * image) * rho / pi);
+  expect_radiance(radiance_seen(scene, {6, 1, 1}, {4, 0, 0}, 32), lit);
+  // From x = 1.5 the shield hides the light, passed at x = 0.75, but not the image, passed at x = 1.125.
+  const double near = 4.0 / std::pow(1.5 * 1.5 + 16.0, 1.5);
+  expect_radiance(radiance_seen(scene, {1.6, 0.5, 0.1}, {1.5, 0, 0}, 32),
+                  Rgb(3, 2, 1) * (0.8 * near * rho / pi));
+  // Under it there is neither.
+  EXPECT_LT(radiance_seen(scene, {0.5, 0.5, 0.5}, {0.1, 0, 0.2}, 32).mean.r, 1e-4 * lit.r);
+}
+
 TEST(ReferenceRadiance, DirectionalLight) {
   Scene scene = floor_and_lamp(0.5, 1.0, Rgb(0.5));
   scene.materials[1].emission = Rgb(0.0);

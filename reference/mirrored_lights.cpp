@@ -1,0 +1,86 @@
+#include "reference/mirrored_lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas::reference {
+
+std::vector<PlaneId> find_mirror_planes(const Scene& scene, const SurfaceModel& surfaces,
+                                        const std::vector<Bsdf>& bsdfs) {
+  std::vector<PlaneId> planes;
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    const Bsdf& bsdf = bsdfs[index(scene.triangles[t].material)];
+    if (bsdf.alpha == 0.0 && bsdf.metal != Rgb(0.0))
+      planes.push_back(surfaces.plane_of_triangle[t]);
+  }
+  std::ranges::sort(planes);
+  planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+  if (planes.size() > most_mirror_planes)
+    planes.clear();
+  return planes;
+}
+
+Point3 reflected_in(const Plane& plane, const Point3& x) {
+  return x - 2.0 * signed_distance(plane, x) * plane.normal;
+}
+
+std::optional<Chain> choose_chain(const TracedScene& traced, const Point3& x, std::size_t length,
+                                  double u) {
+  const auto& planes = traced.mirror_planes;
+  Chain chain{{}, x};
+  for (std::size_t k = 0; k < length; ++k) {
+    // One number makes all choices: its whole part this one, the rest the others.
+    const double scaled = u * double(planes.size());
+    const auto choice = std::min(static_cast<std::size_t>(scaled), planes.size() - 1);
+    u = scaled - double(choice);
+    // No ray meets the plane it leaves.
+    if (k > 0 && chain.planes.back() == planes[choice])
+      return std::nullopt;
+    chain.planes.push_back(planes[choice]);
+    chain.image = reflected_in(traced.surfaces.planes[index(planes[choice])], chain.image);
+  }
+  return chain;
+}
+
+Point3 first_target(const TracedScene& traced, const Chain& chain, Point3 y) {
+  for (std::size_t k = chain.planes.size(); k-- > 0;)
+    y = reflected_in(traced.surfaces.planes[index(chain.planes[k])], y);
+  return y;
+}
+
+Rgb chain_throughput(const TracedScene& traced, const SurfacePoint& x, const Chain& chain,
+                     const Point3& y, PlaneId arriving) {
+  constexpr int most_layers = 256;
+  Rgb throughput(1.0);
+  Point3 from = x.position, target = first_target(traced, chain, y);
+  PlaneId leaving = x.plane;
+  std::size_t reflections = 0;
+  for (int layer = 0; layer < most_layers && throughput != Rgb(0.0); ++layer) {
+    const bool last_leg = reflections == chain.planes.size();
+    const double length = glm::length(target - from);
+    const Direction direction = (target - from) / length;
+    const auto hit = closest_hit(traced.rays, {from, direction, leaving, length});
+    if (!hit)
+      return last_leg ? throughput : Rgb(0.0);
+    const SurfacePoint at = surface_point(traced, hit->triangle, hit->barycentric, hit->front);
+    if (last_leg && at.plane == arriving)
+      return throughput;
+    const double cosine = -glm::dot(at.normal, direction);
+    from = at.position;
+    leaving = at.plane;
+    if (at.hole)
+      continue;
+    if (at.black)
+      return Rgb(0.0);
+    if (!last_leg && at.plane == chain.planes[reflections]) {
+      throughput *= ideal_reflection(at.bsdf, cosine);
+      target = reflected_in(traced.surfaces.planes[index(at.plane)], target);
+      ++reflections;
+    } else {
+      throughput *= straight_transmission(at.bsdf, cosine);
+    }
+  }
+  return Rgb(0.0);
+}
+
+} // namespace meninas::reference
