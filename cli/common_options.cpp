@@ -14,7 +14,8 @@ constexpr const char* pass_one_group = "Pass one";
 
 const Choices<Quality> qualities{
     {"draft", Quality::draft}, {"normal", Quality::normal}, {"fine", Quality::fine}};
-const Choices<FormFactorMethod> form_factor_methods{{"rays", FormFactorMethod::rays}};
+const Choices<FormFactorMethod> form_factor_methods{{"rays", FormFactorMethod::rays},
+                                                    {"hemicube", FormFactorMethod::hemicube}};
 const Choices<SolverMethod> solvers = [] {
   Choices<SolverMethod> choices;
   for (const SolverMethod method : solver_methods) {
@@ -24,16 +25,6 @@ const Choices<SolverMethod> solvers = [] {
 }();
 const Choices<Interpolation> interpolations{{"average", Interpolation::average},
                                             {"gather", Interpolation::gather}};
-
-template <typename Value>
-std::string name_of(Value value, const Choices<Value>& choices) {
-  for (const auto& [name, known] : choices) {
-    if (known == value) {
-      return name;
-    }
-  }
-  return "";
-}
 
 /// An option whose text `take` parses; `shown` stands for its value in the help.
 CLI::Option* add_text(CLI::App& command, const std::string& option, const std::string& shown,
@@ -107,6 +98,13 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
              settings.rays = static_cast<int>(parse_integer("--rays", text, 1, 1 << 20));
            })
       ->group(pass_one_group);
+  add_text(command, "--hemicube-resolution", "N",
+           fmt::format("cells along an edge of a hemicube's top, an even number [{}]",
+                       by_preset(&QualityPreset::hemicube_resolution)),
+           [&](const std::string& text) {
+             settings.hemicube_resolution = parse_resolution("--hemicube-resolution", text);
+           })
+      ->group(pass_one_group);
   add_choice(command, "--solver", solvers, standard.solver.method, "how radiosities are found",
              [&](SolverMethod method) { settings.solver = method; })
       ->group(pass_one_group);
@@ -142,9 +140,21 @@ void add_file(CLI::App& command, const std::string& option,
   add_text(command, option, "FILE", description, [&](const std::string& text) { file = text; });
 }
 
+void check_pass_one_options(const CLI::App& command, const RunSettings& settings) {
+  const bool by_cubes = settings.form_factors == FormFactorMethod::hemicube;
+  if (by_cubes && command.count("--rays") > 0) {
+    throw UsageError("--rays", "has no effect with --form-factors hemicube: choose "
+                               "--hemicube-resolution");
+  }
+  if (!by_cubes && command.count("--hemicube-resolution") > 0) {
+    throw UsageError("--hemicube-resolution", "has no effect without --form-factors hemicube");
+  }
+}
+
 void refuse_pass_one_options(const CLI::App& command, const std::string& reason) {
-  constexpr std::array options{"--element-size", "--form-factors", "--rays",
-                               "--solver",       "--tolerance",    "--interpolation"};
+  constexpr std::array options{"--element-size",        "--form-factors", "--rays",
+                               "--hemicube-resolution", "--solver",       "--tolerance",
+                               "--interpolation"};
   for (const char* option : options) {
     if (command.count(option) > 0) {
       throw UsageError(option, reason);

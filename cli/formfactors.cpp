@@ -7,18 +7,39 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <iostream>
 
 namespace meninas {
 namespace {
 
 const Choices<NodeFactorMethod> methods{{"analytic", NodeFactorMethod::analytic},
-                                        {"rays", NodeFactorMethod::rays}};
+                                        {"rays", NodeFactorMethod::rays},
+                                        {"hemicube", NodeFactorMethod::hemicube}};
 
 struct FormFactorsOptions {
   CommonOptions common;
   FormFactorsRequest request;
 };
+
+/// Which method an option belongs to.
+struct MethodOption {
+  const char* option;
+  NodeFactorMethod method;
+};
+constexpr std::array method_options{MethodOption{"--accuracy", NodeFactorMethod::analytic},
+                                    MethodOption{"--rays", NodeFactorMethod::rays},
+                                    MethodOption{"--resolution", NodeFactorMethod::hemicube},
+                                    MethodOption{"--points", NodeFactorMethod::hemicube}};
+
+void refuse_options_of_other_methods(const CLI::App& command, NodeFactorMethod method) {
+  for (const MethodOption& given : method_options) {
+    if (given.method != method && command.count(given.option) > 0) {
+      throw UsageError(given.option, fmt::format("has no effect without --method {}",
+                                                 name_of(given.method, methods)));
+    }
+  }
+}
 
 /// Options that would do nothing together with others are refused.
 void check(const CLI::App& command, const FormFactorsRequest& request) {
@@ -34,12 +55,7 @@ void check(const CLI::App& command, const FormFactorsRequest& request) {
   if (all && command.count("--json") > 0) {
     throw UsageError("--json", "has no effect with --all, which prints CSV");
   }
-  if (request.factors.method == NodeFactorMethod::rays && command.count("--accuracy") > 0) {
-    throw UsageError("--accuracy", "has no effect with --method rays: choose --rays");
-  }
-  if (request.factors.method != NodeFactorMethod::rays && command.count("--rays") > 0) {
-    throw UsageError("--rays", "has no effect without --method rays");
-  }
+  refuse_options_of_other_methods(command, request.factors.method);
 }
 
 void run(const CLI::App& command, FormFactorsOptions& options) {
@@ -73,6 +89,17 @@ void add_method_options(CLI::App& command, NodeFactorSettings& settings) {
   add("--rays", "N", fmt::format("in all, with --method rays [{}]", standard.rays),
       [&](const std::string& text) {
         settings.rays = static_cast<int>(parse_integer("--rays", text, 16, 1 << 30));
+      });
+  add("--resolution", "N",
+      fmt::format("cells along an edge of a cube's top, with --method hemicube [{}]",
+                  standard.resolution),
+      [&](const std::string& text) {
+        settings.resolution = parse_resolution("--resolution", text);
+      });
+  add("--points", "N",
+      fmt::format("hemicubes over the sender, about, with --method hemicube [{}]", standard.points),
+      [&](const std::string& text) {
+        settings.points = static_cast<int>(parse_integer("--points", text, 1, 1 << 20));
       });
   add("--mirror-depth", "N", "the most mirrors a path may meet [as many as matter]",
       [&](const std::string& text) {

@@ -125,6 +125,7 @@ void check_mode(const CLI::App& command, const RenderOptions& options) {
 /// The request, after a check that all options given have an effect together.
 RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
   check_mode(command, options);
+  check_pass_one_options(command, options.common.settings);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
   return options.request;

@@ -10,7 +10,8 @@ struct SolveOptions {
   SolveRequest request;
 };
 
-void run(SolveOptions& options) {
+void run(const CLI::App& command, SolveOptions& options) {
+  check_pass_one_options(command, options.common.settings);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
   Console console(options.common.verbosity);
@@ -35,7 +36,7 @@ Command add_solve_command(CLI::App& program) {
   add_mesh_options(*command, options->common);
   add_pass_one_options(*command, options->common);
   add_run_options(*command, options->common);
-  return {command, [=] { run(*options); }};
+  return {command, [=] { run(*command, *options); }};
 }
 
 } // namespace meninas

@@ -36,6 +36,15 @@ std::int64_t parse_integer(const std::string& option, const std::string& text, s
   return *value;
 }
 
+int parse_resolution(const std::string& option, const std::string& text) {
+  constexpr int finest = 1024;
+  const auto value = whole_number_in<int>(text);
+  if (!value || *value < 2 || *value > finest || *value % 2 != 0) {
+    throw UsageError(option, fmt::format("'{}' is not an even number from 2 to {}", text, finest));
+  }
+  return *value;
+}
+
 double parse_number(const std::string& option, const std::string& text, Sign sign) {
   const auto value = whole_number_in<double>(text);
   if (!value || !std::isfinite(*value)) {

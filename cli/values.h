@@ -16,6 +16,9 @@ namespace meninas {
 std::int64_t parse_integer(const std::string& option, const std::string& text, std::int64_t low,
                            std::int64_t high);
 
+/// Cells along the edge of a hemicube: even, for its sides are half as high.
+int parse_resolution(const std::string& option, const std::string& text);
+
 enum class Sign { any, positive };
 
 /// A finite decimal number.
@@ -38,6 +41,16 @@ std::vector<std::string> names_of(const Choices<Value>& choices) {
     names.push_back(name);
   }
   return names;
+}
+
+template <typename Value>
+std::string name_of(Value value, const Choices<Value>& choices) {
+  for (const auto& [name, known] : choices) {
+    if (known == value) {
+      return name;
+    }
+  }
+  return "";
 }
 
 template <typename Value>

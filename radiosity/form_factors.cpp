@@ -1,6 +1,6 @@
 #include "radiosity/form_factors.h"
 
-#include "radiosity/gather_rays.h"
+#include "radiosity/element_hemicube.h"
 #include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -77,20 +77,19 @@ std::vector<std::uint8_t> emitting_elements(const ElementMesh& mesh) {
 }
 
 /// Fractions of the rays of the exposed part.
-RowClosure closure_of(const GatheredRays& gathered, std::size_t rays) {
-  const std::size_t exposed = rays - gathered.covered_rays;
+RowClosure closure_of(const GatheredRays& gathered) {
+  const double exposed = gathered.rays - gathered.covered_rays;
   RowClosure closure;
-  if (exposed == 0) {
+  if (exposed == 0.0) {
     closure.black = 1.0F;
     closure.black_light = glm::vec3(1.0F);
     return closure;
   }
-  const float share = 1.0F / static_cast<float>(exposed);
-  const auto black = gathered.black - gathered.covered_rays;
-  closure.escaped = static_cast<float>(gathered.escaped) * share;
-  closure.black = static_cast<float>(black) * share;
-  closure.cut = static_cast<float>(gathered.cut) * share;
-  closure.landed = static_cast<float>(exposed - gathered.escaped - black - gathered.cut) * share;
+  closure.landed = static_cast<float>(gathered.landed / exposed);
+  closure.escaped = static_cast<float>(gathered.escaped / exposed);
+  closure.black = static_cast<float>((gathered.black - gathered.covered_rays) / exposed);
+  closure.cut = static_cast<float>(gathered.cut / exposed);
+  const auto share = static_cast<float>(1.0 / exposed);
   closure.mirror_absorbed = gathered.mirror_absorbed * share;
   closure.escaped_light = gathered.escaped_light * share;
   closure.black_light = (gathered.black_light - static_cast<float>(gathered.covered_rays)) * share;
@@ -146,25 +145,38 @@ void append_rows(const RowChunk& chunk, Transport& transport) {
 struct Assembly {
   const LightScene& light;
   const FormFactorSettings& settings;
-  DirectionNet net;
+  DirectionNet net; ///< `rays`: what is traced; `hemicube`: what finds the covered part
+  Hemicube cube;    ///< `hemicube`
   std::vector<std::uint8_t> emits; ///< by ElementId
   int bands;
 };
 
+void gather(const Assembly& assembly, const ReceiverArea& element, std::uint32_t seed,
+            GatherWorkspace& work) {
+  switch (assembly.settings.method) {
+  case FormFactorMethod::rays:
+    gather_rays(assembly.light, assembly.net, element, seed, assembly.settings, work);
+    break;
+  case FormFactorMethod::hemicube:
+    gather_element(assembly.light, assembly.cube, assembly.net, element, seed, assembly.settings,
+                   work);
+    break;
+  }
+}
+
 void assemble_row(const Assembly& assembly, std::size_t row, Workspace& work, RowChunk& chunk,
                   FormFactors& result) {
-  const std::size_t rays = assembly.net.points.size();
   const auto seed = hash(static_cast<std::uint32_t>(row), assembly.settings.seed, 0x9a7e);
   const ReceiverArea receiver = receiver_of(assembly.light, static_cast<ElementId>(row));
-  gather_rays(assembly.light, assembly.net, receiver, seed, assembly.settings, work.gather);
+  gather(assembly, receiver, seed, work.gather);
   const GatheredRays& gathered = work.gather.result;
-  const Rgb kept = kept_light(gathered, rays);
+  const Rgb kept = kept_light(gathered);
   result.covered[row] = gathered.covered;
   result.exposed[row] = 1.0F - static_cast<float>(std::popcount(gathered.covered)) / 64.0F;
-  result.closure[row] = closure_of(gathered, rays);
+  result.closure[row] = closure_of(gathered);
   work.row.make_room(gathered.landings.size());
   for (const auto& landing : gathered.landings) {
-    work.row.add(landing.element, landing.throughput);
+    work.row.add(landing.element, landing.light);
     if (assembly.emits[landing.element] != 0)
       result.gathered_emission[row] += gathered_emission(assembly.light, landing) / kept;
   }
@@ -178,8 +190,13 @@ void assemble_row(const Assembly& assembly, std::size_t row, Workspace& work, Ro
 FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings,
                                const Progress& progress) {
   const std::size_t size = element_count(light.mesh);
-  const Assembly assembly{light, settings, make_direction_net(settings.rays),
-                          emitting_elements(light.mesh), grey_mirrors(light.scene) ? 1 : 3};
+  const bool by_cubes = settings.method == FormFactorMethod::hemicube;
+  const Assembly assembly{light,
+                          settings,
+                          by_cubes ? make_coverage_net() : make_direction_net(settings.rays),
+                          by_cubes ? make_hemicube(settings.hemicube_resolution) : Hemicube{},
+                          emitting_elements(light.mesh),
+                          grey_mirrors(light.scene) ? 1 : 3};
   FormFactors result;
   result.closure.resize(size);
   result.covered.resize(size);

@@ -1,10 +1,13 @@
-// Transport between elements: the rows of Eq. 1, by quasi-Monte Carlo rays (`rays`).
+// Transport between elements: the rows of Eq. 1, by rays over the hemisphere of each element.
 //
-// Row i of the transport is  sum_w tau_w F^w_ij  over all mirror worlds w, estimated by N cosine-distributed rays from low-discrepancy
-// points spread over element i (Malley's method): F_ij = (rays that land on j) / N. A ray that meets a mirror is reflected
-// exactly and goes on with the product of reflectances tau, to any depth: it ends when it lands, escapes, meets a black back, when tau falls
-// below `min_throughput`, or after `max_bounces`. Counts are integers, so that a row closes exactly:
-//   landed + escaped + black + cut = N.
+// Row i of the transport is  sum_w tau_w F^w_ij  over all mirror worlds w.
+// `rays`: N cosine-distributed rays from low-discrepancy points spread over element i (Malley's method): F_ij = (rays that land on j) / N.
+// `hemicube`: one hemicube at the centre of element i, F_ij = sum of the delta form factors of its cells that land on j (hemicube.h);
+// what is near is seen as from the centre alone (element_hemicube.h).
+// A ray that meets a mirror is reflected exactly and goes on with the product of reflectances tau, to any depth: it ends when it lands,
+// escapes, meets a black back, when tau falls below `min_throughput`, or after `max_bounces`. So a row closes, exactly by counts of rays, to
+// rounding by delta form factors:
+//   landed + escaped + black + cut = 1.
 // Where something stands on an element (cells whose every ray meets a black back at once), the row speaks of the exposed rest.
 // Emission is not part of the rows: light that comes straight from an emitter, or by mirrors, is the direct irradiance
 // (direct_irradiance.h); `gathered_emission` holds the emission that no closed form owns (deep worlds, facets, large emitters).
@@ -15,11 +18,12 @@
 
 namespace meninas {
 
-enum class FormFactorMethod { rays };
+enum class FormFactorMethod { rays, hemicube };
 
 struct FormFactorSettings {
   FormFactorMethod method = FormFactorMethod::rays;
   int rays = 512;                ///< per element, a power of two
+  int hemicube_resolution = 64;  ///< cells along an edge of the top of a hemicube, even
   double min_throughput = 1e-4;  ///< a chain of mirrors is followed while tau can matter
   int max_bounces = 10'000;      ///< ends chains between perfect mirrors; the light cut so is reported as closure.cut
   std::uint32_t seed = 0;
@@ -34,7 +38,7 @@ struct Transport {
   std::vector<float> weights; ///< entry k, band b at [k * bands + b]: sum_w tau_w F^w
 };
 
-/// What became of the rays of each row, as fractions of N, and of the light they carry: landed + escaped + black + mirror_absorbed
+/// What became of the rays of each row, as fractions of all, and of the light they carry: landed + escaped + black + mirror_absorbed
 /// + cut = 1 in either. The light that is cut is shared out among the rest in proportion.
 struct RowClosure {
   float landed = 0.0F, escaped = 0.0F, black = 0.0F, cut = 0.0F;

@@ -1,7 +1,6 @@
 #include "radiosity/gather_rays.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace meninas {
 
@@ -10,32 +9,48 @@ namespace {
 /// What a ray carries besides its geometry.
 struct Carried {
   glm::dvec3 origin, direction;
+  float weight;
   glm::vec3 throughput;
   WorldId world;
 };
 
-/// Rays straight from the receiver are what their packet says.
+/// Rays straight from the receiver are what their packet says, and `Weights` of lane k.
+template <typename Weights>
 struct FirstLegs {
   const RayPacket& packet;
+  Weights weights;
 
+  constexpr float weight(std::uint32_t k) const { return weights(k); }
   static constexpr glm::vec3 throughput(std::uint32_t) { return glm::vec3(1.0F); }
   static constexpr WorldId world(std::uint32_t) { return real_world; }
   Carried carried(std::uint32_t k) const {
     return {{packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]},
             {packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]},
+            weight(k),
             glm::vec3(1.0F),
             real_world};
   }
 };
 
+/// The rays of a net weigh 1, those of a hemicube as much as their cells.
+constexpr auto weights_of(const NetPacket&) {
+  return [](std::uint32_t) { return 1.0F; };
+}
+auto weights_of(const HemicubePacket& cells) {
+  return [&cells](std::uint32_t k) { return cells.weight[k]; };
+}
+std::size_t ray_count(const DirectionNet& net) { return net.points.size(); }
+std::size_t ray_count(const Hemicube& cube) { return cube.cells; }
+
 /// Rays from mirrors have their record.
 struct MirroredLegs {
   const MirroredRay* rays;
 
+  float weight(std::uint32_t k) const { return rays[k].weight; }
   const glm::vec3& throughput(std::uint32_t k) const { return rays[k].throughput; }
   WorldId world(std::uint32_t k) const { return rays[k].world; }
   Carried carried(std::uint32_t k) const {
-    return {rays[k].origin, rays[k].direction, rays[k].throughput, rays[k].world};
+    return {rays[k].origin, rays[k].direction, rays[k].weight, rays[k].throughput, rays[k].world};
   }
 };
 
@@ -49,6 +64,7 @@ MirroredRay reflected(const LightScene& light, const FaceRecord& face, const Car
   MirroredRay ray;
   ray.origin = from.origin + t * from.direction;
   ray.direction = from.direction - 2.0 * approach * face.normal;
+  ray.weight = from.weight;
   ray.throughput = from.throughput * face.reflectance;
   ray.world = child(light.worlds, from.world, face.mirror);
   ray.leaving = face.plane_class;
@@ -57,15 +73,28 @@ MirroredRay reflected(const LightScene& light, const FaceRecord& face, const Car
 
 float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
 
-/// How rays ended that did not land.
+/// How rays ended: sums of their weights and of their light.
 struct Ends {
-  std::uint32_t escaped = 0, black_lanes = 0, cut = 0;
+  double landed = 0.0, escaped = 0.0, black = 0.0, cut = 0.0;
+  std::uint32_t black_lanes = 0;
   glm::vec3 mirror_absorbed{0.0F}, escaped_light{0.0F}, black_light{0.0F}, cut_light{0.0F};
+
+  void escape(float weight, const glm::vec3& throughput) {
+    escaped += weight;
+    escaped_light += weight * throughput;
+    mirror_absorbed += weight * (1.0F - throughput);
+  }
+  void stop(float weight, const glm::vec3& throughput) {
+    cut += weight;
+    cut_light += weight * throughput;
+    mirror_absorbed += weight * (1.0F - throughput);
+  }
 };
 
 void add(const Ends& ends, GatheredRays& result) {
+  result.landed += ends.landed;
   result.escaped += ends.escaped;
-  result.black += static_cast<std::uint32_t>(std::popcount(ends.black_lanes));
+  result.black += ends.black;
   result.cut += ends.cut;
   result.mirror_absorbed += ends.mirror_absorbed;
   result.escaped_light += ends.escaped_light;
@@ -80,11 +109,10 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
                         GatherWorkspace& work) {
   Ends ends;
   for (std::uint32_t k = 0; k < count; ++k) {
+    const float weight = legs.weight(k);
     const glm::vec3 tau = legs.throughput(k);
     if (hits.triangle[k] == index(none<TriangleId>)) {
-      ++ends.escaped;
-      ends.escaped_light += tau;
-      ends.mirror_absorbed += 1.0F - tau;
+      ends.escape(weight, tau);
       continue;
     }
     const FaceRecord& face =
@@ -95,43 +123,48 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
       RayLanding& landing = work.result.landings.emplace_back();
       landing.element = land(light.landing.sides[face.side], uv).element;
       landing.world = legs.world(k);
-      landing.throughput = tau;
+      landing.light = weight * tau;
     }
     if (face.mirrors) {
       const MirroredRay ray = reflected(light, face, legs.carried(k), hits.distance[k]);
-      if (largest(ray.throughput) >= settings.min_throughput) {
+      if (largest(ray.throughput) >= settings.min_throughput)
         work.next.push_back(ray);
-        continue;
-      }
-      ++ends.cut;
-      ends.cut_light += ray.throughput;
-      ends.mirror_absorbed += 1.0F - ray.throughput;
+      else
+        ends.stop(weight, ray.throughput);
       continue;
     }
     if (face.side == FaceRecord::nothing) {
+      ends.black += weight;
       ends.black_lanes |= 1U << k;
-      ends.black_light += tau;
+      ends.black_light += weight * tau;
+    } else {
+      ends.landed += weight;
     }
-    ends.mirror_absorbed += 1.0F - tau;
+    ends.mirror_absorbed += weight * (1.0F - tau);
   }
   add(ends, work.result);
   return ends.black_lanes;
 }
 
-void trace_first_legs(const LightScene& light, const DirectionNet& net, const RaySource& source,
+/// `Rays`: a DirectionNet or a Hemicube.
+template <typename Rays>
+void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource& source,
                       const FormFactorSettings& settings, GatherWorkspace& work) {
+  work.result.clear();
+  work.result.rays = static_cast<double>(ray_count(rays));
+  work.next.clear();
+  work.black_lanes.clear();
   RayPacket packet;
   HitPacket hits;
-  work.black_lanes.clear();
-  for (std::size_t n = 0; n < net.packets.size(); ++n) {
+  for (std::size_t n = 0; n < rays.packets.size(); ++n) {
     packet.count =
-        static_cast<std::uint32_t>(std::min(packet_size, net.points.size() - n * packet_size));
-    set_rays(net.packets[n], source, packet);
+        static_cast<std::uint32_t>(std::min(packet_size, ray_count(rays) - n * packet_size));
+    set_rays(rays.packets[n], source, packet);
     closest_hits(light.rays, packet, hits, Backs::absorb, Coherence::coherent);
-    work.black_lanes.push_back(
-        sort_hits(light, settings, FirstLegs{packet}, packet.count, hits, work));
+    const FirstLegs legs{packet, weights_of(rays.packets[n])};
+    work.black_lanes.push_back(sort_hits(light, settings, legs, packet.count, hits, work));
   }
-  work.result.traced += net.points.size();
+  work.result.traced += ray_count(rays);
 }
 
 void set_lane(RayPacket& packet, std::uint32_t k, const MirroredRay& ray) {
@@ -154,11 +187,10 @@ void follow_mirrors(const LightScene& light, const FormFactorSettings& settings,
     work.current.swap(work.next);
     work.next.clear();
     if (bounce > settings.max_bounces) {
-      for (const auto& ray : work.current) {
-        work.result.cut_light += ray.throughput;
-        work.result.mirror_absorbed += 1.0F - ray.throughput;
-      }
-      work.result.cut += static_cast<std::uint32_t>(work.current.size());
+      Ends ends;
+      for (const auto& ray : work.current)
+        ends.stop(ray.weight, ray.throughput);
+      add(ends, work.result);
       return;
     }
     for (std::size_t first = 0; first < work.current.size(); first += packet_size) {
@@ -176,24 +208,30 @@ void follow_mirrors(const LightScene& light, const FormFactorSettings& settings,
 
 void gather_rays(const LightScene& light, const DirectionNet& net, const ReceiverArea& receiver,
                  std::uint32_t seed, const FormFactorSettings& settings, GatherWorkspace& work) {
-  GatheredRays& result = work.result;
-  result.landings.clear();
-  result.escaped = result.black = result.cut = 0;
-  result.mirror_absorbed = result.escaped_light = result.black_light = result.cut_light =
-      glm::vec3(0.0F);
-  result.traced = 0;
-  result.covered = 0;
-  result.covered_rays = 0;
-  work.next.clear();
-
   const RaySource source = ray_source(receiver, light.rays.frame(), seed);
   trace_first_legs(light, net, source, settings, work);
-  if (result.black > 0 && !receiver.is_point()) {
+  GatheredRays& result = work.result;
+  if (result.black > 0.0 && !receiver.is_point()) {
     const Covered covered = find_covered(light, net, source, work.black_lanes);
     result.covered = covered.cells;
     result.covered_rays = covered.rays;
   }
   follow_mirrors(light, settings, work);
+}
+
+void gather_rays(const LightScene& light, const Hemicube& cube, const ReceiverArea& receiver,
+                 const FormFactorSettings& settings, GatherWorkspace& work) {
+  expects(receiver.is_point(), "a hemicube stands at a point");
+  trace_first_legs(light, cube, ray_source(receiver, light.rays.frame(), 0), settings, work);
+  follow_mirrors(light, settings, work);
+}
+
+Covered covered_part(const LightScene& light, const DirectionNet& net, const ReceiverArea& receiver,
+                     std::uint32_t seed, const FormFactorSettings& settings,
+                     GatherWorkspace& work) {
+  const RaySource source = ray_source(receiver, light.rays.frame(), seed);
+  trace_first_legs(light, net, source, settings, work);
+  return work.result.black > 0.0 ? find_covered(light, net, source, work.black_lanes) : Covered{};
 }
 
 ReceiverArea receiver_of(const LightScene& light, ElementId element) {

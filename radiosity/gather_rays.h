@@ -1,41 +1,56 @@
-// The hemisphere of one receiver, followed by rays: where they land, in which mirror world, with what throughput.
+// The hemisphere of one receiver, followed by rays: where they land, in which mirror world, with what light.
+//
+// The rays are those of a net, which all weigh the same, or the cells of a hemicube, which weigh as much as their delta form factors;
+// weights are 1 in the mean, so that `rays` stands for the whole hemisphere in either case.
 #pragma once
 
 #include "radiosity/covered_cells.h"
 #include "radiosity/form_factors.h"
+#include "radiosity/hemicube.h"
 #include "radiosity/receiver_rays.h"
 
 #include <span>
+#include <utility>
 
 namespace meninas {
 
 struct RayLanding {
   std::uint32_t element;
-  WorldId world;        ///< none beyond the enumerated worlds
-  glm::vec3 throughput; ///< product of the mirrors' reflectances
+  WorldId world;   ///< none beyond the enumerated worlds
+  glm::vec3 light; ///< weight times tau, the product of the mirrors' reflectances
 };
 
-/// All N rays of one receiver; storage reused from one to the next.
+/// All rays of one receiver; storage reused from one to the next. A ray with its weight w ends in one place:
+///   landed + escaped + black + cut = rays, exactly where all weigh 1, to rounding otherwise.
 struct GatheredRays {
   std::vector<RayLanding> landings;
-  std::uint32_t escaped = 0, black = 0, cut = 0; ///< rays that ended otherwise
-  glm::vec3 mirror_absorbed{0.0F};               ///< sum of 1 - tau over all rays
+  double rays = 0.0; ///< how many there are
+  double landed = 0.0, escaped = 0.0, black = 0.0,
+         cut = 0.0;                ///< sums of w over those that ended so
+  glm::vec3 mirror_absorbed{0.0F}; ///< sum of w (1 - tau) over all rays
   glm::vec3 escaped_light{0.0F}, black_light{0.0F},
-      cut_light{0.0F}; ///< sums of tau over the rays that ended so
+      cut_light{0.0F}; ///< sums of w tau over the rays that ended so
   std::uint64_t traced = 0;
   CoveredCells covered = 0;
-  std::uint32_t covered_rays = 0; ///< of `black`, those from covered cells
+  double covered_rays = 0.0; ///< of `black`, those from covered cells
+
+  void clear() {
+    auto storage = std::move(landings);
+    storage.clear();
+    *this = {};
+    landings = std::move(storage);
+  }
 };
 
 /// How many rays' light was followed to its end: what is cut is left out, what a mirror has absorbed on the way is not.
-inline Rgb kept_light(const GatheredRays& gathered, std::size_t rays) {
-  return glm::max(Rgb(1.0),
-                  static_cast<double>(rays) - gathered.covered_rays - Rgb(gathered.cut_light));
+inline Rgb kept_light(const GatheredRays& gathered) {
+  return glm::max(Rgb(1.0), gathered.rays - gathered.covered_rays - Rgb(gathered.cut_light));
 }
 
 /// A continuing ray between mirrors; kept by the caller so that its storage is reused.
 struct MirroredRay {
   glm::dvec3 origin, direction; ///< in the frame of the ray scene
+  float weight;
   glm::vec3 throughput;
   WorldId world;
   std::uint32_t leaving;
@@ -53,14 +68,23 @@ void gather_rays(const LightScene& light, const DirectionNet& net, const Receive
                  std::uint32_t seed, const FormFactorSettings& settings,
                  GatherWorkspace& workspace);
 
+/// Traces the cells of a hemicube about the corner of the receiver, which is a point.
+void gather_rays(const LightScene& light, const Hemicube& cube, const ReceiverArea& receiver,
+                 const FormFactorSettings& settings, GatherWorkspace& workspace);
+
+/// The part of the receiver on which something stands, by the first legs of the net.
+Covered covered_part(const LightScene& light, const DirectionNet& net, const ReceiverArea& receiver,
+                     std::uint32_t seed, const FormFactorSettings& settings,
+                     GatherWorkspace& workspace);
+
 ReceiverArea receiver_of(const LightScene& light, ElementId element);
 
-/// The emission (times throughput) a landed ray brings where no closed form owns it: emitters gathered as a whole,
+/// The emission (times weight and throughput) a landed ray brings where no closed form owns it: emitters gathered as a whole,
 /// and the others beyond the enumerated worlds.
 inline Rgb gathered_emission(const LightScene& light, const RayLanding& landing) {
   const SideId side = light.mesh.side_of_element[landing.element];
   const bool owned = light.from_source[index(side)] != 0 && landing.world != none<WorldId>;
-  return owned ? Rgb(0.0) : light.mesh.sides[index(side)].emission * Rgb(landing.throughput);
+  return owned ? Rgb(0.0) : light.mesh.sides[index(side)].emission * Rgb(landing.light);
 }
 
 } // namespace meninas

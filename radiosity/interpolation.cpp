@@ -129,6 +129,7 @@ struct VertexGathering {
   const DirectSettings& direct;
   DirectSettings secondary;
   DirectionNet net;
+  Hemicube cube; ///< where the form factors are found so
 };
 
 struct VertexValue {
@@ -145,12 +146,12 @@ ArrivingLight landed_light(const VertexGathering& context, const GatheredRays& g
         context.clusters.owned[landing.element] != 0 && index(landing.world) < cluster_worlds;
     Rgb arrived = gathered_emission(context.light, landing);
     if (!owned)
-      arrived += Rgb(landing.throughput) * context.radiosity[landing.element];
+      arrived += Rgb(landing.light) * context.radiosity[landing.element];
     sum.total += arrived;
     if (landing.world != real_world)
       sum.mirrored += arrived;
   }
-  const Rgb kept = kept_light(gathered, context.net.points.size());
+  const Rgb kept = kept_light(gathered);
   return {sum.total / kept, sum.mirrored / kept};
 }
 
@@ -193,7 +194,10 @@ VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, 
   point.normal = receiver.normal;
   point.plane_class = receiver.plane_class;
   point.tangent = receiver.tangent;
-  gather_rays(context.light, context.net, point, seed, context.form_factors, work.gather);
+  if (context.form_factors.method == FormFactorMethod::hemicube)
+    gather_rays(context.light, context.cube, point, context.form_factors, work.gather);
+  else
+    gather_rays(context.light, context.net, point, seed, context.form_factors, work.gather);
   const GatheredRays& gathered = work.gather.result;
   work.rays += gathered.traced;
 
@@ -206,7 +210,7 @@ VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, 
     return context.irradiance[landing.element] != Rgb(0.0);
   };
   const bool enclosed =
-      gathered.black > most_black * double(context.net.points.size()) ||
+      gathered.black > most_black * gathered.rays ||
       (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
   const bool covered =
       (enclosed && from_source.total == Rgb(0.0)) || is_under_something(context, receiver);
@@ -244,7 +248,10 @@ gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
                                 form_factors,
                                 direct,
                                 secondary,
-                                make_direction_net(settings.rays)};
+                                make_direction_net(settings.rays),
+                                form_factors.method == FormFactorMethod::hemicube
+                                    ? make_hemicube(form_factors.hemicube_resolution)
+                                    : Hemicube{}};
 
   InterpolatedField result;
   DiffuseField& field = result.field;

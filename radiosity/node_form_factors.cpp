@@ -89,6 +89,9 @@ NodeFactors node_form_factors(const Scene& scene, const SurfaceModel& surfaces, 
   case NodeFactorMethod::rays:
     result.to = ray_form_factors(scene, surfaces, result.mirrors, senders, to, settings);
     break;
+  case NodeFactorMethod::hemicube:
+    result.to = hemicube_form_factors(scene, surfaces, result.mirrors, senders, to, settings);
+    break;
   }
   return result;
 }

@@ -4,7 +4,10 @@
 // are one):
 //   F = sum_w tau_w F^w,  tau_w the mean of the channels of the product of the mirrors' reflectances, F^w geometric.
 // `analytic` is extended_form_factor.h. `rays` follows cosine-distributed rays (gather_rays.h) from points spread over A in sixteen
-// independent replicas: their scatter is the standard error, and the share of one ray the least.
+// independent replicas: their scatter is the standard error, and the share of one ray the least. `hemicube` sets hemicubes in the middle of
+// equal pieces of A (hemicube.h): its error estimate adds up twice what half the resolution changes, four times what four times as many
+// pieces change, and what no cell may have met. It covers most errors, not those of features of A finer than its pieces, such as the rim of a
+// gap of a thousandth.
 #pragma once
 
 #include "radiosity/extended_form_factor.h"
@@ -13,12 +16,14 @@
 
 namespace meninas {
 
-enum class NodeFactorMethod { analytic, rays };
+enum class NodeFactorMethod { analytic, rays, hemicube };
 
 struct NodeFactorSettings {
   NodeFactorMethod method = NodeFactorMethod::analytic;
   double accuracy = 1e-4;    ///< analytic: wanted relative error
   int rays = 1 << 20;        ///< rays: in all, about
+  int resolution = 128;      ///< hemicube: cells along an edge of the top, even
+  int points = 64;           ///< hemicube: pieces of A, about
   int max_depth = 1'000'000; ///< mirrors a path may meet
   std::uint32_t seed = 0;
 };
@@ -40,5 +45,12 @@ std::vector<ExtendedFactor> ray_form_factors(const Scene& scene, const SurfaceMo
                                              const std::vector<Face>& from,
                                              std::span<const NodeId> to,
                                              const NodeFactorSettings& settings);
+
+/// The same by hemicubes.
+std::vector<ExtendedFactor> hemicube_form_factors(const Scene& scene, const SurfaceModel& surfaces,
+                                                  const MirrorSet& mirrors,
+                                                  const std::vector<Face>& from,
+                                                  std::span<const NodeId> to,
+                                                  const NodeFactorSettings& settings);
 
 } // namespace meninas

@@ -48,15 +48,6 @@ void set_origins(const LanePlaces& places, const ReceiverArea& area, RayPacket& 
   }
 }
 
-void set_directions(const LaneDirections& local, const RaySource& source, RayPacket& packet) {
-  const glm::vec3 a(source.tangents.tangent), b(source.tangents.bitangent), n(source.area.normal);
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    packet.direction_x[k] = local.x[k] * a.x + local.y[k] * b.x + local.z[k] * n.x;
-    packet.direction_y[k] = local.x[k] * a.y + local.y[k] * b.y + local.z[k] * n.y;
-    packet.direction_z[k] = local.x[k] * a.z + local.y[k] * b.z + local.z[k] * n.z;
-  }
-}
-
 } // namespace
 
 DirectionNet make_direction_net(int rays) {
@@ -125,6 +116,15 @@ LaneDirections cosine_hemisphere(const LaneFloats& u, const LaneFloats& v) {
   for (std::size_t k = 0; k < packet_size; ++k)
     d.z[k] = std::sqrt(d.z[k] > 1e-7F ? d.z[k] : 1e-7F);
   return d;
+}
+
+void set_directions(const LaneDirections& local, const RaySource& source, RayPacket& packet) {
+  const glm::vec3 a(source.tangents.tangent), b(source.tangents.bitangent), n(source.area.normal);
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    packet.direction_x[k] = local.x[k] * a.x + local.y[k] * b.x + local.z[k] * n.x;
+    packet.direction_y[k] = local.x[k] * a.y + local.y[k] * b.y + local.z[k] * n.y;
+    packet.direction_z[k] = local.x[k] * a.z + local.y[k] * b.z + local.z[k] * n.z;
+  }
 }
 
 void set_rays(const NetPacket& net, const RaySource& source, RayPacket& packet) {

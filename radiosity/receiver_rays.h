@@ -75,6 +75,9 @@ struct alignas(64) LaneDirections {
 };
 LaneDirections cosine_hemisphere(const LaneFloats& u, const LaneFloats& v);
 
+/// Directions in the frame of the source's tangents and normal into those of the rays.
+void set_directions(const LaneDirections& local, const RaySource& source, RayPacket& packet);
+
 /// Puts the rays of a packet of the net into all lanes but `count`.
 void set_rays(const NetPacket& net, const RaySource& source, RayPacket& packet);
 

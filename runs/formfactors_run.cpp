@@ -22,6 +22,8 @@ const char* name_of(NodeFactorMethod method) {
     return "analytic";
   case NodeFactorMethod::rays:
     return "rays";
+  case NodeFactorMethod::hemicube:
+    return "hemicube";
   }
   return "";
 }

@@ -14,17 +14,23 @@ static int power_of_two(int count) {
 QualityPreset preset_of(Quality quality) {
   switch (quality) {
   case Quality::draft:
-    return {
-        .target_elements = 2'250, .rays = 128, .penumbra_rays = 32, .samples = 4, .max_error = 0.1};
+    return {.target_elements = 2'250,
+            .rays = 128,
+            .hemicube_resolution = 32,
+            .penumbra_rays = 32,
+            .samples = 4,
+            .max_error = 0.1};
   case Quality::normal:
     return {.target_elements = 16'000,
             .rays = 512,
+            .hemicube_resolution = 64,
             .penumbra_rays = 128,
             .samples = 16,
             .max_error = 0.03};
   case Quality::fine:
     return {.target_elements = 64'000,
             .rays = 2'048,
+            .hemicube_resolution = 128,
             .penumbra_rays = 512,
             .samples = 64,
             .max_error = 0.01};
@@ -40,6 +46,8 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   pass_one.mesh.target_elements = preset.target_elements;
   pass_one.form_factors.method = settings.form_factors;
   pass_one.form_factors.rays = power_of_two(settings.rays.value_or(preset.rays));
+  pass_one.form_factors.hemicube_resolution =
+      settings.hemicube_resolution.value_or(preset.hemicube_resolution);
   pass_one.form_factors.seed = settings.seed;
   pass_one.direct.seed = settings.seed;
   pass_one.direct.penumbra_rays = preset.penumbra_rays;

@@ -16,6 +16,7 @@ enum class Quality { draft, normal, fine };
 struct QualityPreset {
   double target_elements = 0.0; ///< about how many elements share the meshed area
   int rays = 0; ///< form-factor rays per element, and per vertex where irradiance is gathered there
+  int hemicube_resolution = 0; ///< cells along an edge of the top, where hemicubes are used instead
   int penumbra_rays = 0;  ///< shadow rays from a vertex to an emitter that it sees in part
   int samples = 0;        ///< camera rays per pixel
   double max_error = 0.0; ///< of a reference: relative standard error of the picture
@@ -39,6 +40,7 @@ struct RunSettings {
   std::optional<double> element_size; ///< metres
   FormFactorMethod form_factors = FormFactorMethod::rays;
   std::optional<int> rays;
+  std::optional<int> hemicube_resolution; ///< even
   SolverMethod solver = SolverSettings{}.method;
   std::optional<double> tolerance;
   std::optional<int> mirror_depth; ///< no path meets more mirrors

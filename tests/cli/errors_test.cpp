@@ -59,7 +59,12 @@ TEST_F(Errors, ValuesAreChecked) {
   const std::vector<std::array<std::string, 3>> cases{
       {"--mode", "raytracing", "no value 'raytracing', there is radiosity, hybrid, reference"},
       {"--quality", "drafd", "no value 'drafd', did you mean 'draft'?"},
-      {"--form-factors", "hemicube", "no value 'hemicube', there is rays"},
+      {"--form-factors", "hemicub", "no value 'hemicub', did you mean 'hemicube'?"},
+      {"--hemicube-resolution", "0", "'0' is not an even number from 2 to 1024"},
+      {"--hemicube-resolution", "2048", "'2048' is not an even number from 2 to 1024"},
+      {"--hemicube-resolution", "63", "'63' is not an even number from 2 to 1024"},
+      {"--hemicube-resolution", "64x64", "'64x64' is not an even number from 2 to 1024"},
+      {"--hemicube-resolution", "64", "has no effect without --form-factors hemicube"},
       {"--rays", "0", "'0' is not a whole number from 1 to 1048576"},
       {"--rays", "1e3", "'1e3' is not a whole number from 1 to 1048576"},
       {"--seed", "-1", "'-1' is not a whole number from 0 to 4294967295"},

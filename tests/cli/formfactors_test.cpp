@@ -72,6 +72,18 @@ TEST_F(FormFactorsCommand, RaysAgree) {
               4.0 * sigma + exact["error_estimate"].get<double>());
 }
 
+TEST_F(FormFactorsCommand, HemicubesAgree) {
+  const auto exact = nlohmann::json::parse(run({"--from", "floor", "--to", "right", "--json"}).out);
+  const auto cubes = nlohmann::json::parse(run({"--from", "floor", "--to", "right", "--json", "--method",
+                                                "hemicube", "--resolution", "64", "--points", "16"})
+                                               .out);
+  EXPECT_EQ(cubes["method"], "hemicube");
+  EXPECT_EQ(cubes["worlds"].size(), exact["worlds"].size());
+  const double estimate = cubes["error_estimate"];
+  EXPECT_GT(estimate, 0.0);
+  EXPECT_NEAR(cubes["form_factor"].get<double>(), exact["form_factor"].get<double>(), estimate);
+}
+
 TEST_F(FormFactorsCommand, TheMatrixHasARowForEveryNodeAndItsSum) {
   const Outcome outcome = run({"--all", "--accuracy", "1e-2", "--quiet"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -97,6 +109,16 @@ TEST_F(FormFactorsCommand, WhatCannotBeAskedIsRefusedInOneLine) {
   expect_refused("--json: has no effect with --all, which prints CSV", {"--all", "--json"});
   expect_refused("--rays: has no effect without --method rays",
                  {"--from", "floor", "--to", "right", "--rays", "64"});
+  expect_refused("--accuracy: has no effect without --method analytic",
+                 {"--from", "floor", "--to", "right", "--method", "rays", "--accuracy", "1e-2"});
+  expect_refused("--resolution: has no effect without --method hemicube",
+                 {"--from", "floor", "--to", "right", "--resolution", "64"});
+  expect_refused("--points: has no effect without --method hemicube",
+                 {"--from", "floor", "--to", "right", "--method", "rays", "--points", "4"});
+  expect_refused("--resolution: '3' is not an even number from 2 to 1024",
+                 {"--from", "floor", "--to", "right", "--method", "hemicube", "--resolution", "3"});
+  expect_refused("--points: '0' is not a whole number from 1 to 1048576",
+                 {"--from", "floor", "--to", "right", "--method", "hemicube", "--points", "0"});
 }
 
 } // namespace

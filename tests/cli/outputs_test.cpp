@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
@@ -73,6 +74,26 @@ TEST_F(Outputs, QuietSaysNothing) {
 TEST_F(Outputs, RoundedNumbersAreSaid) {
   EXPECT_THAT(without_progress(render({"-o", "a.exr", "--rays", "100"}).err),
               "meninas: --rays 100 is rounded up to 128\n");
+}
+
+// Rows by hemicubes close as those by rays do, and light the same room: exposure and energy hold to what both methods leave.
+TEST_F(Outputs, HemicubesLightTheSameRoom) {
+  render({"-o", "rays.exr", "--stats", "rays.json"});
+  render({"-o", "cubes.exr", "--stats", "cubes.json", "--form-factors", "hemicube",
+          "--hemicube-resolution", "16"});
+  const json cubes = json_of("cubes.json");
+  EXPECT_LT(cubes["closure"]["mean_error"].get<double>(), 1e-6);
+  EXPECT_LT(std::abs(cubes["energy"]["imbalance"].get<double>()), 0.02);
+  const Image by_rays = read_image(folder_ / "rays.exr").picture,
+              by_cubes = read_image(folder_ / "cubes.exr").picture;
+  double difference = 0.0, sum = 0.0;
+  for (std::size_t k = 0; k < by_rays.pixels.size(); ++k) {
+    difference += std::abs(double{by_rays.pixels[k].g} - double{by_cubes.pixels[k].g});
+    sum += double{by_rays.pixels[k].g};
+  }
+  EXPECT_GT(sum, 0.0);
+  EXPECT_GT(difference, 0.0);
+  EXPECT_LT(difference, 0.01 * sum); // 128 rays leave about 0.5 %
 }
 
 TEST_F(Outputs, ThePictureIsTheSameForAnyThreadCountAndRun) {

@@ -103,26 +103,31 @@ std::vector<Scene> sample_rooms() {
   return scenes;
 }
 
+void expect_closed_rows(const FormFactors& factors) {
+  const Transport& t = factors.transport;
+  for (std::size_t i = 0; i < t.size; ++i) {
+    // Every ray ends in one place: fractions of at most 256 rays, or delta form factors of 768 cells, added in floats.
+    const RowClosure& row = factors.closure[i];
+    EXPECT_NEAR(row.landed + row.escaped + row.black + row.cut, 1.0F, 1e-6F);
+    // And so does the light of all rays; the light of cut rays is shared out among the rest.
+    for (int band = 0; band < 3; ++band) {
+      double landed = 0.0;
+      for (auto k = t.row_begin[i]; k < t.row_begin[i + 1]; ++k)
+        landed += t.weights[k * static_cast<std::size_t>(t.bands) +
+                            static_cast<std::size_t>(t.bands == 1 ? 0 : band)];
+      const double lost =
+          row.escaped_light[band] + row.black_light[band] + row.mirror_absorbed[band];
+      EXPECT_NEAR(landed + lost / (1.0 - row.cut_light[band]), 1.0, 1e-5);
+    }
+  }
+}
+
 TEST(FormFactors, RowsClose) {
   for (const auto& scene : sample_rooms()) {
     const auto l = lit(scene, {.target_elements = 300});
-    const FormFactors factors = assemble_transport(*l->light, {.rays = 256});
-    const Transport& t = factors.transport;
-    for (std::size_t i = 0; i < t.size; ++i) {
-      // Every ray ends in one place: fractions of at most 256 rays, added in floats.
-      const RowClosure& row = factors.closure[i];
-      EXPECT_NEAR(row.landed + row.escaped + row.black + row.cut, 1.0F, 1e-6F);
-      // And so does the light of all rays; the light of cut rays is shared out among the rest.
-      for (int band = 0; band < 3; ++band) {
-        double landed = 0.0;
-        for (auto k = t.row_begin[i]; k < t.row_begin[i + 1]; ++k)
-          landed += t.weights[k * static_cast<std::size_t>(t.bands) +
-                              static_cast<std::size_t>(t.bands == 1 ? 0 : band)];
-        const double lost =
-            row.escaped_light[band] + row.black_light[band] + row.mirror_absorbed[band];
-        EXPECT_NEAR(landed + lost / (1.0 - row.cut_light[band]), 1.0, 1e-5);
-      }
-    }
+    expect_closed_rows(assemble_transport(*l->light, {.rays = 256}));
+    expect_closed_rows(assemble_transport(
+        *l->light, {.method = FormFactorMethod::hemicube, .hemicube_resolution = 16}));
   }
 }
 

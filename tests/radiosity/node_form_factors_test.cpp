@@ -116,6 +116,29 @@ TEST_P(KnownFactors, Rays) {
   }
 }
 
+// The estimate is no bound, for it knows no more than what two resolutions and two numbers of pieces give: features finer than the pieces,
+// such as the rims of narrow gaps, are not seen. It covers nine in ten, and is of use: below a fifth of the factor for three in four.
+TEST(KnownFactorsByHemicubes, MostErrorsAreWithinTheirEstimates) {
+  int asked_count = 0, covered = 0, useful = 0;
+  for (const Family& family : families)
+    for (const Question& q : family.questions()) {
+      if (std::string(family.name) == "ExtremePairs" || std::string(family.name) == "Strips")
+        continue; // nearly all of them are finer than a cell or a piece
+      const Asked asked = ask(q.scene, q.from, q.to,
+                              {.method = NodeFactorMethod::hemicube,
+                               .resolution = 32,
+                               .points = 16,
+                               .max_depth = q.depth});
+      const Estimate& total = asked.factor.total;
+      const double error = std::abs(total.value - q.form_factor);
+      ++asked_count;
+      covered += error <= total.error ? 1 : 0;
+      useful += total.error <= 0.2 * q.form_factor ? 1 : 0;
+    }
+  EXPECT_GE(covered, 0.9 * asked_count);
+  EXPECT_GE(useful, 0.75 * asked_count);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, KnownFactors, testing::ValuesIn(families),
                          [](const auto& family) { return std::string(family.param.name); });
 

@@ -32,7 +32,7 @@ Tail tail_of(Scene scene, const WorldSettings& worlds, int rays) {
     double beyond = 0.0;
     for (const auto& landing : work.result.landings)
       if (landing.world == none<WorldId>)
-        beyond += double{landing.throughput.r};
+        beyond += double{landing.light.r};
     tail.measured += l->mesh.area[e] * beyond / rays;
     tail.cut += l->mesh.area[e] * double{work.result.cut_light.r} / rays;
     area += l->mesh.area[e];

@@ -1,0 +1,47 @@
+// What the methods of node_form_factors.h that trace rays share: the scene they look light up in, and tallies of landings.
+#pragma once
+
+#include "radiosity/gather_rays.h"
+#include "radiosity/node_form_factors.h"
+
+#include <functional>
+#include <map>
+
+namespace meninas {
+
+/// One element for each patch: enough to know whose it is. A mirror's landing is known by its table.
+struct NodeScene {
+  NodeScene(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
+            std::span<const NodeId> to, int max_depth);
+  NodeScene(const NodeScene&) = delete;
+  NodeScene& operator=(const NodeScene&) = delete;
+
+  std::size_t group_count;
+  ElementMesh mesh;
+  std::vector<std::uint32_t> groups; ///< by SideId: the place of its node among those asked for
+  RayScene rays;
+  WorldTree worlds;
+  LightScene light;
+  FormFactorSettings settings;
+};
+
+/// The share of the light of A that has arrived, by (group, world), and by group over all worlds.
+struct NodeTally {
+  using Key = std::pair<std::uint32_t, std::uint32_t>;
+  std::map<Key, double> by_world; ///< sums of tau_w F^w
+  std::vector<double> totals;
+  double cut = 0.0; ///< the share of the light whose way was not followed to its end
+};
+
+/// Adds rays that stand for `share` of A.
+void add(const NodeScene& scene, const GatheredRays& gathered, double share, NodeTally& tally);
+void add(const NodeTally& part, NodeTally& tally);
+
+/// From the values of several tallies of the same thing to an estimate of it.
+using Combine = std::function<Estimate(std::span<const double> values)>;
+
+/// By group, each world's reflectances taken out. What was cut adds to the error of the totals.
+std::vector<ExtendedFactor>
+node_factors_of(const NodeScene& scene, std::span<const NodeTally> tallies, const Combine& combine);
+
+} // namespace meninas
