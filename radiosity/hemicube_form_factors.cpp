@@ -107,9 +107,9 @@ NodeTally tally_of(const NodeScene& scene, const Hemicube& cube,
 /// divide an edge by powers of two, whose rays would all graze the same outlines.
 int about_half(int resolution) { return resolution / 8 * 4 + 2; }
 
-/// Values with the cubes asked for; with half the resolution; and with four times as many of these. The error of the cells, of order one or more,
-/// loses half of itself with the resolution, if it does not change its sign. One of the pieces that falls with the square root
-/// of a piece's size, slower than at any kink that pieces resolve, loses 0.3 of itself when pieces are halved.
+/// Values with the cubes asked for; with half the resolution; and with four times as many of these. The error of the cells is of order one or
+/// more: with half the resolution it at least doubles, unless it changes its sign. The error of the pieces is at worst, at kinks, of
+/// order 1/2: halving them takes 0.3 of it away.
 Estimate estimate_of(std::span<const double> values, double unseen) {
   const double cells = std::abs(values[0] - values[1]), pieces = std::abs(values[2] - values[1]);
   return {values[0], 2.0 * cells + 4.0 * pieces + unseen};
