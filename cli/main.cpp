@@ -104,9 +104,10 @@ int guarded_main(int argc, char** argv) {
                  "failed write or exhausted resource.");
   program.require_subcommand(0, 1);
   program.allow_extras();
-  const std::vector<Command> commands{add_render_command(program), add_solve_command(program),
-                                      add_plan_command(program),   add_formfactors_command(program),
-                                      add_diff_command(program),   add_regress_command(program)};
+  const std::vector<Command> commands{add_render_command(program),     add_solve_command(program),
+                                      add_plan_command(program),       add_compare_command(program),
+                                      add_diff_command(program),       add_regress_command(program),
+                                      add_formfactors_command(program)};
   for (const Command& command : commands) {
     command.options->allow_extras();
   }

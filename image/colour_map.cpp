@@ -1,7 +1,10 @@
 #include "image/colour_map.h"
 
+#include "image/display.h"
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace meninas {
 
@@ -29,6 +32,25 @@ glm::vec3 magma(double t) {
   const auto below = std::min(static_cast<std::size_t>(place), knots.size() - 2);
   return glm::mix(knots[below], knots[below + 1],
                   static_cast<float>(place - static_cast<double>(below)));
+}
+
+glm::vec3 blue_orange(double t) {
+  // Lightness and chroma grow with |t|; the hues are 65 degrees and 250 degrees.
+  const auto size = static_cast<float>(std::min(std::abs(t), 1.0));
+  const float lightness = 0.2F + 0.62F * size, chroma = 0.145F * std::min(1.0F, 2.5F * size);
+  const float hue = glm::radians(t > 0.0 ? 65.0F : 250.0F);
+  const float a = chroma * std::cos(hue), b = chroma * std::sin(hue);
+
+  // From Oklab by cone responses to linear light.
+  const float l = lightness + 0.3963377774F * a + 0.2158037573F * b;
+  const float m = lightness - 0.1055613458F * a - 0.0638541728F * b;
+  const float s = lightness - 0.0894841775F * a - 1.2914855480F * b;
+  const glm::vec3 cones{l * l * l, m * m * m, s * s * s};
+  const glm::mat3 to_rgb{4.0767416621F,  -1.2684380046F, -0.0041960863F, //
+                         -3.3077115913F, 2.6097574011F,  -0.7034186147F, //
+                         0.2309699292F,  -0.3413193965F, 1.7076147010F};
+  const glm::vec3 linear = to_rgb * cones;
+  return {srgb_encode(linear.r), srgb_encode(linear.g), srgb_encode(linear.b)};
 }
 
 } // namespace meninas

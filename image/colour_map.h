@@ -11,4 +11,8 @@ namespace meninas {
 /// sRGB-encoded colour for t in [0, 1], clipped outside. Off the published 256 colours by at most 2.6 / 255, between them.
 glm::vec3 magma(double t);
 
+/// sRGB-encoded colour for t in [-1, 1], clipped outside: blue below zero, orange above, dark at zero. Its lightness in Oklab
+/// (B. Ottosson 2020) grows evenly with |t|.
+glm::vec3 blue_orange(double t);
+
 } // namespace meninas

@@ -14,7 +14,6 @@ namespace meninas {
 namespace {
 
 constexpr int wanted_width = 512; ///< of the picture, before pixels get larger than one
-constexpr int ticks = 5;
 
 glm::vec3 linear(const glm::vec3& encoded) {
   return {srgb_decode(encoded.r), srgb_decode(encoded.g), srgb_decode(encoded.b)};
@@ -44,6 +43,15 @@ Layout layout_of(int width, std::string_view title) {
   return {.scale = scale, .margin = margin, .bar = 12 * scale};
 }
 
+/// The colour at a place along the scale, 0 at its left end.
+glm::vec3 colour_at(double place, ErrorScale scale) {
+  return linear(scale == ErrorScale::magnitude ? magma(place) : blue_orange(2.0 * place - 1.0));
+}
+
+double lower_end(const HeatMapSettings& settings) {
+  return settings.scale == ErrorScale::magnitude ? 0.0 : -settings.top;
+}
+
 void draw_legend(Image& picture, int top, const Layout& layout, const HeatMapSettings& settings) {
   const glm::vec3 ink(1.0F);
   const int left = layout.margin, right = picture.width - layout.margin;
@@ -52,12 +60,14 @@ void draw_legend(Image& picture, int top, const Layout& layout, const HeatMapSet
   y += letter_height * layout.scale + layout.gap();
   for (int x = left; x < right; ++x)
     fill(picture, x, y, x + 1, y + layout.bar,
-         linear(magma(static_cast<double>(x - left) / (right - left - 1))));
+         colour_at(static_cast<double>(x - left) / (right - left - 1), settings.scale));
   y += layout.bar;
+  const double from = lower_end(settings), length = settings.top - from;
+  const int ticks = settings.scale == ErrorScale::magnitude ? 5 : 4;
   for (int k = 0; k <= ticks; ++k) {
     const int x = left + (right - left - 1) * k / ticks;
     fill(picture, x, y, x + layout.scale, y + layout.tick(), ink);
-    const std::string number = fmt::format("{:.3g}", settings.top * k / ticks);
+    const std::string number = fmt::format("{:.3g}", from + length * k / ticks);
     const int width = text_width(number, layout.scale);
     const int start = std::clamp(x - width / 2, 1, std::max(1, picture.width - width - 1));
     draw_text(picture, start, y + layout.tick() + layout.scale, number, layout.scale, ink);
@@ -66,13 +76,23 @@ void draw_legend(Image& picture, int top, const Layout& layout, const HeatMapSet
 
 } // namespace
 
+Channel signed_difference(const Image& picture, const Image& reference) {
+  const glm::vec3 luminance{0.2126F, 0.7152F, 0.0722F};
+  Channel difference(picture.width, picture.height);
+  for (std::size_t p = 0; p < difference.values.size(); ++p)
+    difference.values[p] = glm::dot(luminance, picture.pixels[p] - reference.pixels[p]);
+  return difference;
+}
+
 double readable_top(const Channel& errors) {
   std::vector<float> sorted = errors.values;
+  for (float& value : sorted)
+    value = std::abs(value);
   const auto rank = static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(sorted.size() - 1));
   std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
   double value = sorted[static_cast<std::size_t>(rank)];
   if (!(value > 0.0))
-    value = *std::ranges::max_element(errors.values);
+    value = *std::ranges::max_element(sorted);
   if (!(value > 0.0))
     return 1.0;
   const double power = std::pow(10.0, std::floor(std::log10(value)));
@@ -102,10 +122,11 @@ Image heat_map(const Channel& errors, const HeatMapSettings& settings) {
   fill(picture, 0, 0, width, picture.height, linear(glm::vec3(0.2F)));
 
   const int left = (width - magnified * errors.width) / 2;
+  const double from = lower_end(settings), length = settings.top - from;
   for (int y = 0; y < errors.height; ++y)
     for (int x = 0; x < errors.width; ++x)
       fill(picture, left + x * magnified, y * magnified, left + (x + 1) * magnified,
-           (y + 1) * magnified, linear(magma(errors.at(x, y) / settings.top)));
+           (y + 1) * magnified, colour_at((errors.at(x, y) - from) / length, settings.scale));
   draw_legend(picture, map_height, layout, settings);
   return picture;
 }

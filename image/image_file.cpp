@@ -81,15 +81,16 @@ static void expect_attributes(const Attributes& attributes) {
   }
 }
 
-/// Writes what the module encoded; the reason it gives when it could not is the user's to read.
-static void write_encoded(const fs::path& file, image_io::Encoded encoded) {
+/// What the module encoded; the reason it gives when it could not is the user's to read.
+static std::vector<std::byte> take_bytes(image_io::Encoded encoded, const std::string& file) {
   if (encoded.owner == nullptr)
-    throw OutputError(file.string(), "", fmt::format("cannot write: {}", encoded.error));
+    throw OutputError(file, "", fmt::format("cannot write: {}", encoded.error));
   const auto release = [](image_io::Encoded* owned) {
     image_io::module_table().release_encoded(owned);
   };
   const std::unique_ptr<image_io::Encoded, decltype(release)> owner(&encoded, release);
-  write_whole_file(file, std::as_bytes(std::span(encoded.bytes, encoded.size)));
+  const auto bytes = std::as_bytes(std::span(encoded.bytes, encoded.size));
+  return {bytes.begin(), bytes.end()};
 }
 
 void write_exr(const fs::path& file, const Image& picture, std::span<const Layer> layers,
@@ -120,19 +121,23 @@ void write_exr(const fs::path& file, const Image& picture, std::span<const Layer
       .attributes = header.data(),
       .attribute_count = header.size(),
       .software = software};
-  write_encoded(file, image_io::module_table().encode_exr(&request));
+  write_whole_file(file, take_bytes(image_io::module_table().encode_exr(&request), file.string()));
 }
 
-void write_png(const fs::path& file, const Image& picture, double exposure) {
+std::vector<std::byte> encode_png(const Image& picture, double exposure) {
   expect_picture(picture);
-  if (picture_format(file) != PictureFormat::png)
-    throw OutputError(file.string(), "", "a PNG's name must end in .png");
   const auto code_values = display_codes(picture, exposure);
   const image_io::PngRequest request{.width = picture.width,
                                      .height = picture.height,
                                      .rgb = code_values.data(),
                                      .software = software};
-  write_encoded(file, image_io::module_table().encode_png(&request));
+  return take_bytes(image_io::module_table().encode_png(&request), "PNG");
+}
+
+void write_png(const fs::path& file, const Image& picture, double exposure) {
+  if (picture_format(file) != PictureFormat::png)
+    throw OutputError(file.string(), "", "a PNG's name must end in .png");
+  write_whole_file(file, encode_png(picture, exposure));
 }
 
 void check_writable_image(const fs::path& file) {

@@ -40,6 +40,7 @@ void write_exr(const std::filesystem::path& file, const Image& picture, std::spa
 /// sRGB-encoded 8-bit PNG of the picture times 2^exposure, clipped at white and rounded to the nearest code value.
 /// No value may be NaN.
 void write_png(const std::filesystem::path& file, const Image& picture, double exposure);
+std::vector<std::byte> encode_png(const Image& picture, double exposure);
 
 enum class Encoding { srgb, linear };
 

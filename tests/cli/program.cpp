@@ -36,8 +36,13 @@ static std::string quoted(const std::string& text) {
 }
 
 Outcome run_program(const fs::path& folder, const std::vector<std::string>& arguments) {
+  return run_other_program(MENINAS_PROGRAM, folder, arguments);
+}
+
+Outcome run_other_program(const fs::path& program, const fs::path& folder,
+                          const std::vector<std::string>& arguments) {
   const TemporaryFolder streams;
-  std::string command = "cd " + quoted(folder.string()) + " && " + quoted(MENINAS_PROGRAM);
+  std::string command = "cd " + quoted(folder.string()) + " && " + quoted(program.string());
   for (const std::string& argument : arguments) {
     command += ' ' + quoted(argument);
   }

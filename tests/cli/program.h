@@ -31,6 +31,9 @@ struct Outcome {
 /// Runs `meninas ARGUMENTS` with `folder` as its current folder.
 Outcome run_program(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
+Outcome run_other_program(const std::filesystem::path& program, const std::filesystem::path& folder,
+                          const std::vector<std::string>& arguments);
+
 /// What was said apart from progress lines, which appear only where a machine is slow.
 std::string without_progress(const std::string& err);
 

@@ -1,0 +1,132 @@
+#include "runs/compare_run.h"
+
+#include "image/display.h"
+#include "image/image_file.h"
+#include "image/whole_file.h"
+#include "runs/compare_report.h"
+#include "runs/preparation.h"
+#include "runs/reference_run.h"
+#include "runs/resources.h"
+#include "scenes/errors.h"
+#include "scenes/gltf.h"
+#include "scenes/stopwatch.h"
+
+#include <fmt/format.h>
+
+namespace meninas {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    throw OutputError(
+        folder.string(), "",
+        fmt::format("cannot be made a folder{}", error ? ": " + error.message() : std::string()));
+  }
+  check_writable_file(folder / "index.html");
+}
+
+/// Both modes of the two passes, from one solve.
+void compare_passes(const PreparedScene& prepared, const Camera& camera, TwoPassSettings settings,
+                    const RunEvents& events, RunFigures& figures, Comparison& comparison) {
+  Stopwatch watch;
+  const RadiositySolution solution =
+      solve_pass_one(*prepared.light, settings.pass_one, events.progress);
+  warn_of_solution(solution.solver, solution.closure, events);
+  add_solution(figures, solution);
+  const double pass_one = watch.lap();
+
+  const auto picture = [&](RenderMode mode) {
+    settings.render.mode = mode;
+    return render(*prepared.light, solution.field, camera, settings.render, events.progress).image;
+  };
+  Image radiosity = picture(RenderMode::radiosity);
+  const double radiosity_seconds = pass_one + watch.lap();
+  Image hybrid = picture(RenderMode::hybrid);
+  const double hybrid_seconds = pass_one + watch.lap();
+  comparison.modes.push_back(
+      {"radiosity", "radiosity only", std::move(radiosity), radiosity_seconds});
+  comparison.modes.push_back({"hybrid", "hybrid", std::move(hybrid), hybrid_seconds});
+  comparison.layers =
+      render_layers(*prepared.light, solution.field, camera, settings.render, events.progress)
+          .layers;
+}
+
+void write_modes(const fs::path& folder, const Comparison& comparison) {
+  for (const ComparedMode& mode : comparison.modes) {
+    const Attributes attributes{
+        {"scene", comparison.scene}, {"camera", comparison.camera}, {"mode", mode.id}};
+    const bool layered = mode.id == "hybrid";
+    write_exr(folder / (mode.id + ".exr"), mode.image,
+              layered ? std::span<const Layer>(comparison.layers) : std::span<const Layer>(),
+              PixelType::half, attributes);
+    write_png(folder / (mode.id + ".png"), mode.image, comparison.exposure);
+  }
+  for (const DifferencePicture& difference : difference_pictures(comparison)) {
+    write_png(folder / (difference.name + ".png"), difference.image, 0.0);
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(const TwoPassSettings& settings,
+                                                             const RunFigures& figures) {
+  return {{"elements", fmt::format("{}", figures.elements)},
+          {"form-factor rays per element", fmt::format("{}", settings.pass_one.form_factors.rays)},
+          {"camera rays per pixel", fmt::format("{}", settings.render.samples)},
+          {"mirrors", fmt::format("{}", figures.mirrors)},
+          {"mirror worlds", fmt::format("{}", figures.mirror_worlds)},
+          {"energy imbalance", fmt::format("{:.2g}", figures.energy.imbalance)},
+          {"threads", fmt::format("{}", figures.threads)}};
+}
+
+} // namespace
+
+void compare_run(const CompareRequest& request, const RunEvents& events) {
+  make_folder(request.folder);
+  const ThreadLimit limit(request.settings.threads);
+  RunFigures figures;
+  figures.threads = limit.threads();
+  preload_image_io();
+
+  Scene scene = load_gltf(request.scene);
+  const Camera camera = choose_camera(scene, request.camera, events);
+  const PictureSize size = choose_size(request.size, camera);
+  Comparison comparison;
+  comparison.scene = request.scene.filename().string();
+  comparison.camera = camera.name;
+
+  TwoPassSettings settings = two_pass_settings(request.settings);
+  settings.pass_one.interpolation.method = Interpolation::gather; // knows what mirrors brought
+  settings.render.width = size.width;
+  settings.render.height = size.height;
+  std::optional<Scene> for_reference;
+  if (request.reference == WithReference::yes) {
+    for_reference = scene;
+  }
+  const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
+  compare_passes(*prepared, camera, settings, events, figures, comparison);
+
+  if (for_reference) {
+    reference::ReferenceSettings limits = reference_settings(request.settings);
+    limits.width = size.width;
+    limits.height = size.height;
+    RunFigures own;
+    auto picture = run_reference(std::move(*for_reference), camera, limits, events, own);
+    comparison.modes.push_back(
+        {"reference",
+         fmt::format("reference (path tracer, {:.2g} % noise)", 100.0 * picture.standard_error),
+         std::move(picture.mean), own.seconds.render});
+  }
+
+  comparison.exposure =
+      request.exposure ? *request.exposure : automatic_exposure(comparison.modes.back().image);
+  comparison.settings = settings_of(settings, figures);
+  write_modes(request.folder, comparison);
+  write_text_file(request.folder / "figures.json", compare_json(comparison));
+  write_text_file(request.folder / "index.html", compare_page_of(comparison));
+  note(events, fmt::format("open {}", (request.folder / "index.html").string()));
+}
+
+} // namespace meninas

@@ -1,0 +1,23 @@
+// Self-contained HTML pages: a template with one place for data, and pictures inside it, so that a page is one file that needs nothing else.
+#pragma once
+
+#include "image/image.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace meninas {
+
+/// The template with JSON in place of `@DATA@`, written so that no text in it can end the script element it stands in.
+/// Precondition: the template has that place.
+std::string fill_page(std::string_view page, std::string_view json);
+
+/// RFC 4648, section 4.
+std::string base64(std::span<const std::byte> bytes);
+
+/// The picture as it is shown, times 2^exposure: a PNG as a `data:` address.
+std::string png_address(const Image& picture, double exposure);
+
+} // namespace meninas
