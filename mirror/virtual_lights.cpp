@@ -6,85 +6,93 @@ namespace meninas {
 
 namespace {
 
-/// What stays the same while the tree is walked from one point.
-struct Observer {
-  const WorldTree& tree;
-  std::span<const Emitter> emitters;
-  Point3 x;
-  Direction normal;
-  double tolerance;
-  std::vector<VirtualLight>& lights;
-};
-
-/// The image of one emitter in one world, cut by the horizon, the last mirror's plane and each visible part of its window.
-void add_images(const Observer& observer, const MirrorWorld& world, WorldId id,
-                std::uint32_t emitter, std::span<const ConvexPolygon> visible) {
-  const Emitter& e = observer.emitters[emitter];
-  const Plane plane = apply(world.image, e.plane);
-  if (signed_distance(plane, observer.x) <= observer.tolerance)
+/// Appends the parts of a world's window that x sees through the visible parts of its parent's.
+void add_openings(const MirrorWorld& world, const Observer& observer, const SeenWorld& parent,
+                  std::vector<ConvexPolygon>& openings) {
+  if (signed_distance(world.plane, observer.position) <= 0.0)
     return;
-
-  ConvexPolygon image;
-  for (const auto& vertex : e.polygon.span())
-    image.push_back(apply(world.image, vertex));
-  image = clip(image, observer.x, observer.normal);
-  if (world.depth == 0) {
-    if (!image.empty())
-      observer.lights.push_back({emitter, id, image, plane.normal});
-    return;
-  }
-  image = clip(image, world.plane.offset * world.plane.normal, -world.plane.normal);
-  for (const auto& window : visible) {
-    const ConvexPolygon part = clip_to_cone(image, observer.x, window);
-    if (!part.empty())
-      observer.lights.push_back({emitter, id, part, plane.normal});
-  }
-}
-
-/// The parts of a child's window that x sees through the visible parts of its parent's.
-std::vector<ConvexPolygon> visible_window(const Observer& observer, const MirrorWorld& world,
-                                          std::span<const ConvexPolygon> parent_visible) {
-  std::vector<ConvexPolygon> visible;
-  if (signed_distance(world.plane, observer.x) <= 0.0)
-    return visible;
   for (const auto& part : world.window) {
-    const ConvexPolygon above = clip(part, observer.x, observer.normal);
+    const ConvexPolygon above = clip(part, observer.position, observer.normal);
     if (above.empty())
       continue;
     if (world.depth == 1) {
-      visible.push_back(above);
+      openings.push_back(above);
       continue;
     }
-    for (const auto& opening : parent_visible) {
-      const ConvexPolygon seen = clip_to_cone(above, observer.x, opening);
+    for (std::uint32_t k = parent.first; k < parent.last; ++k) {
+      const ConvexPolygon seen = clip_to_cone(above, observer.position, openings[k]);
       if (!seen.empty())
-        visible.push_back(seen);
+        openings.push_back(seen);
     }
   }
-  return visible;
 }
 
-void walk(const Observer& observer, WorldId id, std::span<const ConvexPolygon> visible) {
-  const MirrorWorld& world = observer.tree.worlds[index(id)];
-  for (std::uint32_t e = 0; e < observer.emitters.size(); ++e)
-    add_images(observer, world, id, e, visible);
-  for (const WorldId next : observer.tree.children[index(id)]) {
+void walk(const WorldTree& tree, const Observer& observer, const SeenWorld& at, SeenWorlds& seen) {
+  seen.worlds.push_back(at);
+  for (const WorldId next : tree.children[index(at.world)]) {
     if (next == none<WorldId>)
       continue;
-    const auto opening = visible_window(observer, observer.tree.worlds[index(next)], visible);
-    if (!opening.empty())
-      walk(observer, next, opening);
+    const auto first = static_cast<std::uint32_t>(seen.openings.size());
+    add_openings(tree.worlds[index(next)], observer, at, seen.openings);
+    const auto last = static_cast<std::uint32_t>(seen.openings.size());
+    if (last > first)
+      walk(tree, observer, {next, first, last}, seen);
   }
 }
 
 } // namespace
+
+void seen_worlds(const WorldTree& tree, const Observer& observer, SeenWorlds& seen) {
+  seen.worlds.clear();
+  seen.openings.clear();
+  walk(tree, observer, {}, seen);
+}
+
+void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,
+                const SeenWorld& at, std::uint32_t emitter, const Observer& observer, double weight,
+                std::vector<VirtualLight>& lights) {
+  const Emitter& e = emitters[emitter];
+  const MirrorWorld& world = tree.worlds[index(at.world)];
+  const Plane plane = world.depth == 0 ? e.plane : apply(world.image, e.plane);
+  if (signed_distance(plane, observer.position) <= observer.tolerance)
+    return;
+
+  // The image is cut by the horizon, by the last mirror's plane, and by each visible part of the last window.
+  ConvexPolygon image = e.polygon;
+  if (world.depth > 0)
+    for (std::size_t k = 0; k < image.size; ++k)
+      image.vertices[k] = apply(world.image, image.vertices[k]);
+  image = clip(image, observer.position, observer.normal);
+  if (image.empty())
+    return;
+  if (world.depth == 0) {
+    lights.push_back({emitter, at.world, image, plane.normal, weight});
+    return;
+  }
+  image = clip(image, world.plane.offset * world.plane.normal, -world.plane.normal);
+  for (std::uint32_t k = at.first; k < at.last && !image.empty(); ++k) {
+    const ConvexPolygon part = clip_to_cone(image, observer.position, seen.openings[k]);
+    if (!part.empty())
+      lights.push_back({emitter, at.world, part, plane.normal, weight});
+  }
+}
+
+void all_lights(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,
+                const Observer& observer, std::vector<VirtualLight>& lights) {
+  for (const auto& world : seen.worlds)
+    for (std::uint32_t e = 0; e < emitters.size(); ++e)
+      add_images(tree, emitters, seen, world, e, observer, 1.0, lights);
+}
 
 void virtual_lights(const WorldTree& tree, std::span<const Emitter> emitters, const Point3& x,
                     const Direction& normal, double tolerance, std::vector<VirtualLight>& lights) {
   lights.clear();
   if (emitters.empty())
     return;
-  walk({tree, emitters, x, normal, tolerance, lights}, real_world, {});
+  SeenWorlds seen;
+  const Observer observer{x, normal, tolerance};
+  seen_worlds(tree, observer, seen);
+  all_lights(tree, emitters, seen, observer, lights);
 }
 
 void fold_legs(const WorldTree& tree, const MirrorSet& mirrors, WorldId world, const Point3& x,

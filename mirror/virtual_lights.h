@@ -6,6 +6,7 @@
 // plane (what pierces a mirror ends there) and by the cone through the visible part of the last window.
 #pragma once
 
+#include "mirror/emitters.h"
 #include "mirror/worlds.h"
 #include "scenes/ray_scene.h"
 
@@ -14,26 +15,47 @@
 
 namespace meninas {
 
-/// One emitting face: the front or the back of a patch.
-struct Emitter {
-  ConvexPolygon polygon; ///< counter-clockwise seen from the side that emits
-  Plane plane;           ///< normal towards that side
-  PlaneId plane_class = none<PlaneId>;
-  Rgb radiosity{0.0}; ///< E = pi L
-  double area = 0.0;
-};
-
 /// The visible part of an emitter's image: convex, in unfolded space.
 struct VirtualLight {
   std::uint32_t emitter = 0; ///< index into the emitters
   WorldId world = real_world;
   ConvexPolygon polygon;
-  Direction normal; ///< of the image, towards the observer
+  Direction normal;    ///< of the image, towards the observer
+  double weight = 1.0; ///< how many times it counts, where it stands for others (light_choice.h)
 };
 
+/// Who looks: a point on a surface. A point within `tolerance` of an emitter's plane sees nothing of it: there, rounding would decide
+/// between nothing and all of the hemisphere.
+struct Observer {
+  Point3 position;
+  Direction normal;
+  double tolerance = 0.0;
+};
+
+/// The worlds an observer looks into, depth first, each with the visible parts of its window: openings first to last - 1.
+struct SeenWorld {
+  WorldId world = real_world;
+  std::uint32_t first = 0, last = 0;
+};
+struct SeenWorlds {
+  std::vector<SeenWorld> worlds;
+  std::vector<ConvexPolygon> openings;
+};
+
+/// Clears and fills `seen`, whose storage is reused from call to call.
+void seen_worlds(const WorldTree& tree, const Observer& observer, SeenWorlds& seen);
+
+/// Appends the parts of the image of one emitter in one of the seen worlds.
+void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,
+                const SeenWorld& world, std::uint32_t emitter, const Observer& observer,
+                double weight, std::vector<VirtualLight>& lights);
+
+/// Appends the images of all emitters in all seen worlds.
+void all_lights(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,
+                const Observer& observer, std::vector<VirtualLight>& lights);
+
 /// All parts of all emitters' images in all worlds of the tree that x sees above the horizon of `normal`, blockers aside.
-/// A point within `tolerance` of an emitter's plane sees nothing of it: there, rounding would decide between nothing and all of the
-/// hemisphere. Clears and fills `lights`, whose storage is reused from call to call.
+/// Clears and fills `lights`, whose storage is reused from call to call.
 void virtual_lights(const WorldTree& tree, std::span<const Emitter> emitters, const Point3& x,
                     const Direction& normal, double tolerance, std::vector<VirtualLight>& lights);
 

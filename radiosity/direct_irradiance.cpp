@@ -125,8 +125,11 @@ double visible_fraction(const LightScene& light, const VirtualLight& image,
 ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& work) {
-  virtual_lights(light.worlds, light.emitters, receiver.position, receiver.normal,
-                 light.surfaces.tolerance, work.lights);
+  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const LightChoice choice{static_cast<std::size_t>(settings.images),
+                           0x1p-32 * hash(seed, 0xc401ce, 0)};
+  chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
+                work.lights);
 
   // What every image would bring without blockers; brightest first.
   work.form_factors.clear();
@@ -136,7 +139,7 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
     const Rgb source = light.worlds.worlds[index(image.world)].throughput *
                        light.emitters[image.emitter].radiosity;
     work.form_factors.push_back(
-        point_form_factor(receiver.position, receiver.normal, image.polygon.span()));
+        image.weight * point_form_factor(receiver.position, receiver.normal, image.polygon.span()));
     work.brought.push_back(work.form_factors.back() * largest(source));
     work.order.push_back(static_cast<std::uint32_t>(work.order.size()));
   }
@@ -179,6 +182,7 @@ Rgb mean_over_element(const LightScene& light, ElementId element, CoveredCells c
   const auto seed = hash(index(element), settings.seed, 0xd17ec7);
   DirectSettings at_point = settings;
   at_point.penumbra_rays = settings.shadow_rays;
+  at_point.images = settings.images_in_element;
   Rgb sum(0.0), before(0.0);
   int taken = 0, wanted = settings.points;
   for (std::uint32_t p = 0;; ++p) {

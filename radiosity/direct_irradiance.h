@@ -7,6 +7,7 @@
 // agree, more in penumbrae.
 #pragma once
 
+#include "mirror/light_choice.h"
 #include "radiosity/form_factors.h"
 
 namespace meninas {
@@ -19,6 +20,9 @@ struct DirectSettings {
       16; ///< per emitter image and point where it matters most; images that bring less get fewer
   int penumbra_rays =
       128; ///< when the first ones disagree; an element's many points need no more than the first
+  int images =
+      256; ///< emitter images computed at a point; of more, a choice (mirror/light_choice.h)
+  int images_in_element = 32; ///< likewise, at each of an element's many points
   std::uint32_t seed = 0;
 };
 
@@ -32,6 +36,7 @@ struct Receiver {
 
 /// Storage reused from point to point; one for each thread.
 struct DirectWorkspace {
+  LightChoiceWorkspace choice;
   std::vector<VirtualLight> lights;
   std::vector<double> form_factors; ///< unoccluded, by light
   std::vector<double> brought;      ///< brightest channel of what each light brings unoccluded

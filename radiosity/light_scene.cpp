@@ -39,6 +39,7 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    mesh,
                    make_landing_table(scene, surfaces, mirrors, mesh, frame.centre, frame.scale),
                    {},
+                   {},
                    {}};
   light.from_source.assign(mesh.sides.size(), 0);
 
@@ -58,6 +59,7 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
     light.from_source[s] = 1;
     light.emitters.push_back(make_emitter(surfaces, mesh.sides[s]));
   }
+  light.emitter_tree = make_emitter_tree(light.emitters);
   return light;
 }
 

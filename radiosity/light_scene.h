@@ -1,6 +1,7 @@
 // Everything light is looked up in while it is gathered: geometry, rays, mirrors, mesh, and who computes which emitter.
 //
-// Emitters are taken from the source (closed form, direct_irradiance.h) when they are few and small, as lamps and windows are.
+// Emitters are taken from the source (closed form, direct_irradiance.h) when they are small, as lamps and windows are.
+// However many they are, a point computes a bounded number of them (mirror/light_choice.h).
 // When emitters make up more than half of the meshed area they are gathered by rays like everything else, which is exact
 // where all walls glow. No light path is in both: `from_source` says which.
 #pragma once
@@ -24,6 +25,7 @@ struct LightScene {
   std::vector<Emitter> emitters; ///< those whose light is computed from the source
   std::vector<std::uint8_t>
       from_source; ///< by SideId: 1 where the closed form owns its emission in the enumerated worlds
+  EmitterTree emitter_tree; ///< over the emitters
 };
 
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,

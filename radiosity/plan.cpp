@@ -111,11 +111,25 @@ void warn_of_facets(const Scene& scene, const SurfaceModel& surfaces, TransportP
   if (plan.mirrors.facets == 0) {
     return;
   }
-  for (const auto& [node, planes] : faceted_nodes(scene, surfaces, plan.mirrors)) {
-    plan.warnings.push_back(
-        fmt::format("'{}' is a curved or faceted mirror of {}: followed by rays, not enumerated",
-                    scene.nodes[index(node)].name, plural(planes.size(), "plane")));
+  const auto nodes = faceted_nodes(scene, surfaces, plan.mirrors);
+  constexpr std::size_t few = 8; // more are told in one line
+  if (nodes.size() <= few) {
+    for (const auto& [node, planes] : nodes) {
+      plan.warnings.push_back(
+          fmt::format("'{}' is a curved or faceted mirror of {}: followed by rays, not enumerated",
+                      scene.nodes[index(node)].name, plural(planes.size(), "plane")));
+    }
+    return;
   }
+  std::vector<std::string> names;
+  std::set<PlaneId> all;
+  for (const auto& [node, planes] : nodes) {
+    names.push_back(scene.nodes[index(node)].name);
+    all.insert(planes.begin(), planes.end());
+  }
+  plan.warnings.push_back(
+      fmt::format("{} are small mirrors of {}: followed by rays, not enumerated", quoted(names),
+                  plural(all.size(), "plane")));
 }
 
 void warn_of_lights(const Scene& scene, TransportPlan& plan) {
