@@ -29,40 +29,36 @@ std::vector<Point3> upright(double x, double y0, double z0, double y1, double z1
 }
 
 /// Direct irradiance by element of one node, by closed form through the mirror worlds.
-std::vector<double> direct_on(const Scene& scene, const std::string& node) {
+std::vector<double> direct_on(const Scene& scene, const std::string& node,
+                              const DirectSettings& settings = {}) {
   const auto l = lit(scene, {.element_size = 0.25});
-  const DirectIrradiance direct = direct_irradiance(*l->light, {}, {});
+  const DirectIrradiance direct = direct_irradiance(*l->light, {}, settings);
   std::vector<double> values;
   for (const std::size_t e : elements_of(*l, node))
     values.push_back(direct.irradiance[e].g);
   return values;
 }
 
-/// The whole irradiance of an element's mean by rays alone.
-double mean_by_rays(const Scene& scene, const std::string& node) {
-  const auto l = lit(scene, {.element_size = 0.25});
+/// Rays alone against the closed form and what it leaves to rays, on the mean of every wall. Some hundreds of thousands of rays leave a
+/// wall; the error is that of the number of those that meet the lamp of 10 W/m^2.
+void expect_source_and_rays_agree(const Scene& scene, double element_size = 0.25) {
+  const auto l = lit(scene, {.element_size = element_size});
+  const FormFactorSettings settings{.rays = 4096};
   LightScene rays = *l->light;
   rays.emitters.clear();
   rays.emitter_tree = {};
   std::fill(rays.from_source.begin(), rays.from_source.end(), std::uint8_t{0});
-  FormFactorSettings settings;
-  settings.rays = 16384;
-  return mean_over(*l, assemble_transport(rays, settings).gathered_emission, node).g;
-}
-
-double mean_by_source(const Scene& scene, const std::string& node) {
-  const auto l = lit(scene, {.element_size = 0.25});
-  const FormFactors factors = assemble_transport(*l->light, {});
+  const std::vector<Rgb> by_rays = assemble_transport(rays, settings).gathered_emission;
+  const FormFactors factors = assemble_transport(*l->light, settings);
   const DirectIrradiance direct = direct_irradiance(*l->light, factors.covered, {});
-  return mean_over(*l, direct.irradiance, node).g +
-         mean_over(*l, factors.gathered_emission, node).g;
-}
-
-/// A million rays leave a node's 64 elements, of which some thousands meet the lamp: their mean is good to a hundredth.
-void expect_source_and_rays_agree(const Scene& scene, const std::string& node) {
-  const double by_rays = mean_by_rays(scene, node);
-  EXPECT_GT(by_rays, 0.0);
-  EXPECT_NEAR(mean_by_source(scene, node), by_rays, 0.01 * by_rays) << node;
+  for (const char* node : {"x0", "x1", "y0", "z0", "z1"}) {
+    const double expected = mean_over(*l, by_rays, node).g;
+    const double found =
+        mean_over(*l, direct.irradiance, node).g + mean_over(*l, factors.gathered_emission, node).g;
+    const double hits = double(elements_of(*l, node).size()) * settings.rays * expected / 10.0;
+    EXPECT_GT(hits, 100.0) << node;
+    EXPECT_NEAR(found, expected, (4.0 / std::sqrt(hits) + 0.002) * expected) << node;
+  }
 }
 
 TEST(HostileMirrors, ASliver) {
@@ -89,8 +85,7 @@ TEST(HostileMirrors, ASheetSeenEdgeOn) {
     Scene scene = black_room();
     add_polygon(scene, "sheet", upright(0.5, 0.5, 0.5, 1.5, 1.5),
                 both ? double_sided(mirror(0.9)) : mirror(0.9));
-    for (const char* node : {"y0", "x0", "x1", "z0"})
-      expect_source_and_rays_agree(scene, node);
+    expect_source_and_rays_agree(scene);
   }
 }
 
@@ -103,19 +98,19 @@ TEST(HostileMirrors, AnEmitterThatTouchesItsMirror) {
   add_polygon(half, "lamp", {{0, 0.9, 0.3}, {0.3, 0.9, 0.3}, {0.3, 0.9, 0.6}, {0, 0.9, 0.6}}, glow);
   add_polygon(whole, "lamp", {{-0.3, 0.9, 0.3}, {0.3, 0.9, 0.3}, {0.3, 0.9, 0.6}, {-0.3, 0.9, 0.6}},
               glow);
-  // The wall opposite has the same elements and points in either room; nothing stands in the way.
-  const auto mirrored = direct_on(half, "x1"), real = direct_on(whole, "x1");
+  // The wall opposite has the same elements in either room, with other points in them; nothing stands in the way.
+  const DirectSettings fine{.points = 512, .most_points = 512};
+  const auto mirrored = direct_on(half, "x1", fine), real = direct_on(whole, "x1", fine);
   ASSERT_EQ(mirrored.size(), real.size());
   for (std::size_t e = 0; e < real.size(); ++e)
-    EXPECT_NEAR(mirrored[e], real[e], 1e-3 * real[e]) << e; // the points differ by element number
+    EXPECT_NEAR(mirrored[e], real[e], 2e-3 * real[e]) << e;
 }
 
 // What pierces a mirror is cut by it: the half of the lamp before it is mirrored, the half behind is not.
 TEST(HostileMirrors, AnEmitterThatCrossesTheMirror) {
   Scene scene = black_room();
   add_polygon(scene, "sheet", upright(1.0, 0.3, 0.3, 1.95, 1.7), mirror(1.0));
-  for (const char* node : {"y0", "x1", "x0", "z0"})
-    expect_source_and_rays_agree(scene, node);
+  expect_source_and_rays_agree(scene);
 }
 
 /// The mirrored part of the direct light on the floor: with the mirror, less with a black one.
@@ -192,8 +187,7 @@ TEST(HostileMirrors, FiveHundredTilts) {
   ASSERT_NE(told, l->plan.warnings.end());
   EXPECT_NE(told->find("500 planes"), std::string::npos) << *told;
   EXPECT_LT(told->size(), 300U) << *told;
-  for (const char* node : {"y0", "x0"})
-    expect_source_and_rays_agree(scene, node);
+  expect_source_and_rays_agree(scene, 0.5);
 }
 
 } // namespace
