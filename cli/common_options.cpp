@@ -15,7 +15,8 @@ constexpr const char* pass_one_group = "Pass one";
 const Choices<Quality> qualities{
     {"draft", Quality::draft}, {"normal", Quality::normal}, {"fine", Quality::fine}};
 const Choices<FormFactorMethod> form_factor_methods{{"rays", FormFactorMethod::rays},
-                                                    {"hemicube", FormFactorMethod::hemicube}};
+                                                    {"hemicube", FormFactorMethod::hemicube},
+                                                    {"analytic", FormFactorMethod::analytic}};
 const Choices<SolverMethod> solvers = [] {
   Choices<SolverMethod> choices;
   for (const SolverMethod method : solver_methods) {

@@ -1,6 +1,6 @@
 #include "radiosity/extended_form_factor.h"
 
-#include "radiosity/area_form_factor.h"
+#include "radiosity/clear_form_factors.h"
 #include "radiosity/kaleidoscope.h"
 #include "radiosity/world_shares.h"
 
@@ -47,17 +47,18 @@ class Integration {
 public:
   Integration(const WorldView& view, const std::vector<Face>& from, std::size_t groups,
               const ExtendedSettings& settings)
-      : view_(view), from_(from), settings_(settings), groups_(groups), index_(view.mirrors) {
+      : view_(view), from_(from), settings_(settings), groups_(groups), index_(view.mirrors),
+        clear_(clear_form_factors(view, from, groups)), weights_(groups, 1.0) {
     for (const Face& face : from)
       area_ += face.area;
   }
 
   ExtendedFactors run() {
-    add_closed_forms();
     std::vector<Region> whole = first_regions();
     if (!whole.empty()) {
       choose_tail(whole);
       evaluate(whole);
+      choose_weights(whole);
       split(whole);
       refine();
     }
@@ -68,43 +69,8 @@ private:
   bool needs_points(std::size_t face) const {
     if (!view_.mirrors.mirrors.empty() && settings_.max_depth > 0)
       return true;
-    const auto& known = known_[face];
+    const auto& known = clear_.known[face];
     return std::any_of(known.begin(), known.end(), [](std::uint8_t k) { return k == 0; });
-  }
-
-  /// Whether the closed form holds between two faces in the real world: nothing can stand between them.
-  bool is_clear(const Face& a, const Face& b) const {
-    const ConvexPolygon lit = clip(a.polygon, b.polygon.vertices[0], b.plane.normal);
-    const ConvexPolygon seen = clip(b.polygon, a.polygon.vertices[0], a.plane.normal);
-    if (lit.empty() || seen.empty())
-      return true;
-    return std::all_of(view_.blockers.begin(), view_.blockers.end(), [&](const Face& blocker) {
-      return blocker.plane_class == a.plane_class || blocker.plane_class == b.plane_class ||
-             holds_apart(lit, seen, blocker.polygon, view_.tolerance);
-    });
-  }
-
-  /// Beyond this many triples of faces the search for clear pairs would take longer than the points it saves.
-  static constexpr double most_triples = 2e7;
-
-  void add_closed_forms() {
-    known_.assign(from_.size(), std::vector<std::uint8_t>(view_.targets.size(), 0));
-    closed_.assign(groups_, {});
-    const double triples = static_cast<double>(from_.size() * view_.targets.size()) *
-                           static_cast<double>(view_.blockers.size());
-    if (triples > most_triples)
-      return;
-    tbb::parallel_for(std::size_t{0}, from_.size(), [&](std::size_t a) {
-      for (std::size_t b = 0; b < view_.targets.size(); ++b)
-        known_[a][b] = is_clear(from_[a], view_.targets[b]) ? 1 : 0;
-    });
-    for (std::size_t a = 0; a < from_.size(); ++a)
-      for (std::size_t b = 0; b < view_.targets.size(); ++b) {
-        if (known_[a][b] == 0 || from_[a].plane_class == view_.targets[b].plane_class)
-          continue;
-        const Estimate factor = area_form_factor(from_[a].polygon, view_.targets[b].polygon);
-        closed_[view_.groups[b]] = closed_[view_.groups[b]] + from_[a].area / area_ * factor;
-      }
   }
 
   std::vector<Region> first_regions() const {
@@ -134,7 +100,7 @@ private:
   double total_of(const WorldShares& shares) const {
     double sum = 0.0;
     for (const WalkShare& share : shares)
-      sum += mean_of(index_[share.world].throughput) * share.factor;
+      sum += weights_[share.group] * mean_of(index_[share.world].throughput) * share.factor;
     return sum;
   }
 
@@ -148,11 +114,12 @@ private:
     const std::size_t stride = (regions.size() + looks - 1) / looks;
     std::size_t count = 0;
     for (std::size_t r = 0; r < regions.size(); r += stride, ++count)
-      append(seen,
-             walk_worlds(view_, point_of(regions[r], radon[0]), walk_, known_[regions[r].face]),
-             1.0, index_);
+      append(
+          seen,
+          walk_worlds(view_, point_of(regions[r], radon[0]), walk_, clear_.known[regions[r].face]),
+          1.0, index_);
     double factor = total_of(seen) / static_cast<double>(std::max<std::size_t>(count, 1));
-    for (const Estimate& closed : closed_)
+    for (const Estimate& closed : clear_.factors)
       factor += closed.value;
     walk_.tail = part * settings_.accuracy * std::max(factor, least_factor);
   }
@@ -165,7 +132,7 @@ private:
       tbb::parallel_for(std::size_t{0}, walks.size(), [&](std::size_t k) {
         const Region& region = regions[first + k / radon.size()];
         walks[k] = walk_worlds(view_, point_of(region, radon[k % radon.size()]), walk_,
-                               known_[region.face]);
+                               clear_.known[region.face]);
       });
       for (std::size_t k = 0; k < walks.size(); ++k) {
         Region& region = regions[first + k / radon.size()];
@@ -190,7 +157,7 @@ private:
     std::vector<double> rest(groups_, 0.0);
     for (const WalkShare& change : changes) {
       const auto& world = index_[change.world];
-      const double weighted = mean_of(world.throughput) * change.factor;
+      const double weighted = weights_[change.group] * mean_of(world.throughput) * change.factor;
       if (world.depth <= near)
         sum += std::abs(weighted);
       else
@@ -244,9 +211,28 @@ private:
 
   double closed_value() const {
     double sum = 0.0;
-    for (const Estimate& closed : closed_)
-      sum += closed.value;
+    for (std::size_t g = 0; g < groups_; ++g)
+      sum += weights_[g] * clear_.factors[g].value;
     return sum;
+  }
+
+  /// Half of the weight is that of the factors themselves, half that of what they bring.
+  void choose_weights(const std::vector<Region>& regions) {
+    if (settings_.importance.empty())
+      return;
+    double all = 0.0, important = 0.0;
+    const auto add = [&](std::size_t group, double factor) {
+      all += factor;
+      important += settings_.importance[group] * factor;
+    };
+    for (std::size_t g = 0; g < groups_; ++g)
+      add(g, clear_.factors[g].value);
+    for (const Region& region : regions)
+      for (const WalkShare& share : region.shares)
+        add(share.group, mean_of(index_[share.world].throughput) * share.factor);
+    if (important > 0.0)
+      for (std::size_t g = 0; g < groups_; ++g)
+        weights_[g] = 1.0 + settings_.importance[g] * all / important;
   }
 
   bool settled() const {
@@ -287,11 +273,12 @@ private:
       }
     }
     for (std::uint32_t g = 0; g < groups_; ++g) {
-      if (closed_[g].value > 0.0)
-        sum.push_back({0, g, closed_[g].value});
-      errors.push_back({0, g, closed_[g].error});
+      if (clear_.factors[g].value > 0.0)
+        sum.push_back({0, g, clear_.factors[g].value});
+      errors.push_back({0, g, clear_.factors[g].error});
       factors.to[g].total.error = tail;
     }
+    factors.tail = tail;
     combine(sum);
     combine(errors);
     add_worlds(sum, errors, factors);
@@ -315,14 +302,19 @@ private:
       const bool found =
           error != errors.end() && error->world == share.world && error->group == share.group;
       const Rgb& throughput = index_[share.world].throughput;
-      factors.to[share.group].worlds.push_back(
-          {index_.chain_of(share.world), throughput, {share.factor, found ? error->factor : 0.0}});
-      factors.to[share.group].total.value += mean_of(throughput) * share.factor;
+      ExtendedFactor& factor = factors.to[share.group];
+      factor.total.value += mean_of(throughput) * share.factor;
+      factor.light += throughput * share.factor;
+      factor.geometric += share.factor;
+      if (settings_.listing == WorldListing::worlds)
+        factor.worlds.push_back({index_.chain_of(share.world),
+                                 throughput,
+                                 {share.factor, found ? error->factor : 0.0}});
     }
     for (const Region& region : regions_)
       add_error(region, factors);
     for (std::uint32_t g = 0; g < groups_; ++g) {
-      factors.to[g].total.error += closed_[g].error;
+      factors.to[g].total.error += clear_.factors[g].error;
       sort_worlds(factors.to[g]);
     }
   }
@@ -345,9 +337,8 @@ private:
   WalkSettings walk_;
   static constexpr std::size_t most_kept = 4'000'000, most_regions = 64;
   std::size_t batch_ = 2; ///< regions evaluated at once
-  std::vector<std::vector<std::uint8_t>>
-      known_; ///< by face of A, then target: its real-world factor is in closed form
-  std::vector<Estimate> closed_; ///< by group
+  ClearFormFactors clear_;
+  std::vector<double> weights_; ///< by group: how much its errors count
   std::vector<Region> regions_;
   std::priority_queue<std::pair<double, std::size_t>> heap_;
   double value_ = 0.0, error_ = 0.0;
@@ -357,17 +348,22 @@ private:
 } // namespace
 
 void sort_worlds(ExtendedFactor& factor) {
-  std::stable_sort(factor.worlds.begin(), factor.worlds.end(),
-                   [](const WorldFactor& a, const WorldFactor& b) {
-                     return mean_of(a.throughput) * a.factor.value >
-                            mean_of(b.throughput) * b.factor.value;
-                   });
+  std::stable_sort(
+      factor.worlds.begin(), factor.worlds.end(), [](const WorldFactor& a, const WorldFactor& b) {
+        return mean_of(a.throughput) * a.factor.value > mean_of(b.throughput) * b.factor.value;
+      });
 }
 
 ExtendedFactors extended_form_factors(const WorldView& view, const std::vector<Face>& from,
                                       std::size_t group_count, const ExtendedSettings& settings) {
-  if (auto factors = kaleidoscope_form_factors(view, from, group_count, settings))
-    return *std::move(factors);
+  // Few images in the corner of mirrors are left to the points, which tell the chains apart.
+  constexpr std::size_t few = 64;
+  const auto cell = settings.max_depth > 0 ? find_kaleidoscope(view, from) : std::nullopt;
+  if (cell) {
+    ExtendedFactors factors = kaleidoscope_form_factors(view, from, group_count, settings, *cell);
+    if (!cell->corners || factors.points > few)
+      return factors;
+  }
   return Integration(view, from, group_count, settings).run();
 }
 

@@ -17,11 +17,16 @@
 
 namespace meninas {
 
+enum class WorldListing { worlds, totals };
+
 struct ExtendedSettings {
   double accuracy = 1e-4;           ///< wanted error, relative to the sum of all factors asked for
   int max_depth = 1'000'000;        ///< mirrors a path may meet
   std::size_t max_points = 200'000; ///< of the integration
   std::size_t max_visits = 30'000'000; ///< worlds looked at from all points together
+  WorldListing listing = WorldListing::worlds;
+  /// By group, the brightness of what is there: the accuracy is wanted of the sum weighted by it as well. Empty: all count alike.
+  std::vector<double> importance;
 };
 
 /// One mirror world's share, reflectances aside.
@@ -33,12 +38,15 @@ struct WorldFactor {
 
 struct ExtendedFactor {
   Estimate total; ///< sum_w tau_w F^w; the error holds the bound on all worlds that were left out
+  Rgb light{0.0}; ///< the same by channel
+  double geometric = 0.0;          ///< sum_w F^w
   std::vector<WorldFactor> worlds; ///< those with a factor, the largest tau_w F^w first
 };
 
 struct ExtendedFactors {
   std::vector<ExtendedFactor> to; ///< by group
   std::size_t points = 0;         ///< of the integration
+  double tail = 0.0;              ///< bound on sum tau_w F^w over the worlds that were left out
   bool converged = true;
 };
 

@@ -1,5 +1,6 @@
 #include "radiosity/form_factors.h"
 
+#include "radiosity/analytic_transport.h"
 #include "radiosity/element_hemicube.h"
 #include "scenes/sampling.h"
 
@@ -189,6 +190,8 @@ void assemble_row(const Assembly& assembly, std::size_t row, Workspace& work, Ro
 
 FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings,
                                const Progress& progress) {
+  if (settings.method == FormFactorMethod::analytic)
+    return analytic_transport(light, settings, progress);
   const std::size_t size = element_count(light.mesh);
   const bool by_cubes = settings.method == FormFactorMethod::hemicube;
   const Assembly assembly{light,

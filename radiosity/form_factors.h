@@ -18,7 +18,8 @@
 
 namespace meninas {
 
-enum class FormFactorMethod { rays, hemicube };
+/// `analytic` is analytic_transport.h.
+enum class FormFactorMethod { rays, hemicube, analytic };
 
 struct FormFactorSettings {
   FormFactorMethod method = FormFactorMethod::rays;
@@ -26,6 +27,7 @@ struct FormFactorSettings {
   int hemicube_resolution = 64;  ///< cells along an edge of the top of a hemicube, even
   double min_throughput = 1e-4;  ///< a chain of mirrors is followed while tau can matter
   int max_bounces = 10'000;      ///< ends chains between perfect mirrors; the light cut so is reported as closure.cut
+  double accuracy = 1e-4;        ///< analytic: wanted of each row, relative to its light
   std::uint32_t seed = 0;
 };
 

@@ -87,8 +87,6 @@ public:
     return result();
   }
 
-  std::size_t visited() const { return visited_; }
-
 private:
   static constexpr std::size_t most_images = 200'000, most_at_once = 64;
 
@@ -101,6 +99,8 @@ private:
     Visit found;
     found.to_targets.resize(view_.targets.size());
     for (std::size_t t = 0; t < view_.targets.size(); ++t) {
+      if (signed_distance(view_.targets[t].plane, cell_.inside) <= view_.tolerance)
+        continue; // it shows its front to the outside
       const ConvexPolygon target = image_of(image.map, view_.targets[t].polygon);
       for (const Face& face : from_)
         if (image.depth > 0 || face.plane_class != view_.targets[t].plane_class)
@@ -197,6 +197,7 @@ private:
   ExtendedFactors result() const {
     ExtendedFactors result;
     result.to.resize(factors_.size());
+    result.points = visited_;
     const double tail = heap_.empty() ? 0.0 : std::max(0.0, waiting_bound_);
     double error = 0.0;
     for (std::size_t g = 0; g < factors_.size(); ++g) {
@@ -206,10 +207,14 @@ private:
       for (const auto& [image, share] : factors_[g]) {
         const Rgb& throughput = images_[image].throughput;
         factor.total.value += mean_of(throughput) * share.value;
-        factor.worlds.push_back({chain_of(image), throughput, share});
+        factor.light += throughput * share.value;
+        factor.geometric += share.value;
+        if (settings_.listing == WorldListing::worlds)
+          factor.worlds.push_back({chain_of(image), throughput, share});
       }
       sort_worlds(factor);
     }
+    result.tail = tail;
     result.converged = error <= settings_.accuracy * value_ + 1e-15;
     return result;
   }
@@ -230,21 +235,10 @@ private:
 
 } // namespace
 
-std::optional<ExtendedFactors> kaleidoscope_form_factors(const WorldView& view,
-                                                         const std::vector<Face>& from,
-                                                         std::size_t group_count,
-                                                         const ExtendedSettings& settings) {
-  constexpr std::size_t few = 64;
-  if (settings.max_depth == 0)
-    return std::nullopt;
-  const auto cell = find_kaleidoscope(view, from);
-  if (!cell)
-    return std::nullopt;
-  Images images(view, from, group_count, settings, *cell);
-  ExtendedFactors factors = images.run();
-  if (cell->corners && images.visited() <= few)
-    return std::nullopt;
-  return factors;
+ExtendedFactors kaleidoscope_form_factors(const WorldView& view, const std::vector<Face>& from,
+                                          std::size_t group_count, const ExtendedSettings& settings,
+                                          const KaleidoscopeCell& cell) {
+  return Images(view, from, group_count, settings, cell).run();
 }
 
 } // namespace meninas

@@ -27,11 +27,9 @@ struct KaleidoscopeCell {
 std::optional<KaleidoscopeCell> find_kaleidoscope(const WorldView& view,
                                                   const std::vector<Face>& from);
 
-/// As extended_form_factors(); where mirrors meet, an image's factor stands under one of its chains. Nothing when there is no such
-/// cell, or when it has corners and so few images that the chains are better told apart.
-std::optional<ExtendedFactors> kaleidoscope_form_factors(const WorldView& view,
-                                                         const std::vector<Face>& from,
-                                                         std::size_t group_count,
-                                                         const ExtendedSettings& settings);
+/// As extended_form_factors(); where mirrors meet, an image's factor stands under one of its chains. `points` are images.
+ExtendedFactors kaleidoscope_form_factors(const WorldView& view, const std::vector<Face>& from,
+                                          std::size_t group_count, const ExtendedSettings& settings,
+                                          const KaleidoscopeCell& cell);
 
 } // namespace meninas

@@ -47,6 +47,14 @@ EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& s
   return energy;
 }
 
+/// The direct light that the transport has not gathered.
+DirectIrradiance remaining_direct_light(const LightScene& light, const FormFactors& factors,
+                                        const PassOneSettings& settings, const Progress& progress) {
+  if (settings.form_factors.method == FormFactorMethod::analytic)
+    return {std::vector<Rgb>(element_count(light.mesh), Rgb(0.0)), 0};
+  return direct_irradiance(light, factors.covered, settings.direct, progress);
+}
+
 } // namespace
 
 RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
@@ -58,8 +66,7 @@ RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings&
 
   // Eq. 1, split by who owns the path: direct light from the source, gathered emission, and reflected light by the transport.
   const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
-  const DirectIrradiance direct =
-      direct_irradiance(light, factors.covered, settings.direct, progress);
+  const DirectIrradiance direct = remaining_direct_light(light, factors, settings, progress);
   solution.seconds.form_factors = watch.lap();
 
   std::vector<Rgb> first(mesh.area.size()), source(mesh.area.size()), reflectance(mesh.area.size());

@@ -212,6 +212,9 @@ private:
       if (station.depth == 0 && !known_.empty() && known_[t] != 0)
         continue;
       const Face& target = view_.targets[t];
+      // A leg that leaves a plane meets nothing in it, such as the back of the mirror, which its image would show.
+      if (target.plane_class == station.plane_class)
+        continue;
       if (!within_reach(station, apply(station.image, target.centre), target.radius))
         continue;
       const Plane plane = apply(station.image, target.plane);

@@ -43,7 +43,11 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   TwoPassSettings result;
   PassOneSettings& pass_one = result.pass_one;
   pass_one.mesh.element_size = settings.element_size.value_or(0.0);
-  pass_one.mesh.target_elements = preset.target_elements;
+  // What the analytic method takes grows with the square of the elements.
+  constexpr double few_elements = 500.0;
+  pass_one.mesh.target_elements = settings.form_factors == FormFactorMethod::analytic
+                                      ? std::min(preset.target_elements, few_elements)
+                                      : preset.target_elements;
   pass_one.form_factors.method = settings.form_factors;
   pass_one.form_factors.rays = power_of_two(settings.rays.value_or(preset.rays));
   pass_one.form_factors.hemicube_resolution =
