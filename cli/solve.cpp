@@ -32,6 +32,11 @@ Command add_solve_command(CLI::App& program) {
   add_file(*command, "--per-node", options->request.per_node,
            "write area, emitted radiosity, radiosity and irradiance per node as JSON");
   add_file(*command, "--stats", options->request.stats, "write the run's figures as JSON");
+  add_file(*command, "--factors", options->request.factors,
+           "write the form factors, so that later runs need not find them");
+  add_file(
+      *command, "--reuse", options->request.reuse,
+      "form factors of an earlier run: only emission and diffuse reflectances may have changed");
   add_quality(*command, options->common);
   add_mesh_options(*command, options->common);
   add_pass_one_options(*command, options->common);

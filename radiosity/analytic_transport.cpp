@@ -196,7 +196,6 @@ void assemble_row(const Assembly& assembly, std::size_t i, Row& row, FormFactors
     const Rgb& light = factors.to[e].light;
     if (light == Rgb(0.0))
       continue;
-    result.gathered_emission[i] += light * mesh.sides[index(mesh.side_of_element[e])].emission;
     row.columns.push_back(e);
     for (int band = 0; band < result.transport.bands; ++band)
       row.weights.push_back(static_cast<float>(light[band]));
@@ -250,7 +249,6 @@ FormFactors analytic_transport(const LightScene& light, const FormFactorSettings
   result.closure.resize(size);
   result.covered.resize(size);
   result.exposed.resize(size);
-  result.gathered_emission.assign(size, Rgb(0.0));
   result.transport.size = size;
   result.transport.bands = bands_of(around.mirrors);
 
@@ -268,6 +266,7 @@ FormFactors analytic_transport(const LightScene& light, const FormFactorSettings
     transport.weights.insert(transport.weights.end(), row.weights.begin(), row.weights.end());
     transport.row_begin.push_back(transport.columns.size());
   }
+  result.beyond = transport; // no other term brings the light of emitters
   return result;
 }
 

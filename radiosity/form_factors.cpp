@@ -19,11 +19,15 @@ namespace {
 constexpr std::size_t chunk_size =
     64; ///< rows a task assembles; fixed, so that nothing depends on the number of threads
 
-/// Rows of one chunk, to be strung together in order; storage reused from one to the next.
-struct RowChunk {
+struct RowList {
   std::vector<std::uint32_t> lengths;
   std::vector<std::uint32_t> columns;
   std::vector<float> weights;
+};
+
+/// Rows of one chunk, to be strung together in order; storage reused from one to the next.
+struct RowChunk {
+  RowList transport, beyond;
   std::uint64_t rays = 0;
 };
 
@@ -58,7 +62,7 @@ struct RowAccumulator {
 
 struct Workspace {
   GatherWorkspace gather;
-  RowAccumulator row;
+  RowAccumulator row, beyond;
 };
 
 bool grey_mirrors(const Scene& scene) {
@@ -68,13 +72,22 @@ bool grey_mirrors(const Scene& scene) {
   });
 }
 
-/// By ElementId: 1 where its side emits.
-std::vector<std::uint8_t> emitting_elements(const ElementMesh& mesh) {
-  std::vector<std::uint8_t> emits;
-  emits.reserve(mesh.side_of_element.size());
+/// By ElementId: 1 where what lies beyond the enumerated worlds may matter.
+std::vector<std::uint8_t> kept_beyond(const ElementMesh& mesh, const FormFactorSettings& settings) {
+  std::vector<std::uint8_t> kept;
+  kept.reserve(mesh.side_of_element.size());
   for (const SideId side : mesh.side_of_element)
-    emits.push_back(mesh.sides[index(side)].emission != Rgb(0.0) ? 1 : 0);
-  return emits;
+    kept.push_back(settings.relightable || mesh.sides[index(side)].emission != Rgb(0.0) ? 1 : 0);
+  return kept;
+}
+
+Transport empty_transport(std::size_t size, int bands) {
+  Transport transport;
+  transport.size = size;
+  transport.bands = bands;
+  transport.row_begin.reserve(size + 1);
+  transport.row_begin.push_back(0);
+  return transport;
 }
 
 /// Fractions of the rays of the exposed part.
@@ -98,24 +111,29 @@ RowClosure closure_of(const GatheredRays& gathered) {
   return closure;
 }
 
-/// Appends the accumulated row to its chunk as fractions of the light that was not cut, so that a row still closes.
-void append_row(const RowAccumulator& row, const Rgb& kept, int bands, RowChunk& chunk) {
+/// Appends the accumulated row to the others as fractions of the light that was not cut, so that a row still closes.
+void append_row(const RowAccumulator& row, const Rgb& kept, int bands, RowList& rows) {
   const auto columns = std::span(row.columns).first(row.used);
-  chunk.lengths.push_back(static_cast<std::uint32_t>(columns.size()));
-  chunk.columns.insert(chunk.columns.end(), columns.begin(), columns.end());
+  rows.lengths.push_back(static_cast<std::uint32_t>(columns.size()));
+  rows.columns.insert(rows.columns.end(), columns.begin(), columns.end());
   const glm::vec3 share(1.0 / kept);
-  const std::size_t first = chunk.weights.size();
-  chunk.weights.resize(first + columns.size() * static_cast<std::size_t>(bands));
-  float* to = chunk.weights.data() + first;
+  const std::size_t first = rows.weights.size();
+  rows.weights.resize(first + columns.size() * static_cast<std::size_t>(bands));
+  float* to = rows.weights.data() + first;
   for (const auto& weight : std::span(row.weights).first(row.used))
     for (int band = 0; band < bands; ++band)
       *to++ = weight[band] * share[band];
 }
 
+void clear(RowList& rows) {
+  rows.lengths.clear();
+  rows.columns.clear();
+  rows.weights.clear();
+}
+
 void clear(RowChunk& chunk) {
-  chunk.lengths.clear();
-  chunk.columns.clear();
-  chunk.weights.clear();
+  clear(chunk.transport);
+  clear(chunk.beyond);
   chunk.rays = 0;
 }
 
@@ -130,16 +148,16 @@ void make_room(std::vector<Value>& values, std::size_t more, double share_done) 
       2 * needed, static_cast<std::size_t>(margin * static_cast<double>(needed) / share_done)));
 }
 
-/// Appends the rows of the next chunk.
-void append_rows(const RowChunk& chunk, Transport& transport) {
-  const std::size_t rows = transport.row_begin.size() - 1 + chunk.lengths.size();
+/// Appends the rows of the next more.
+void append_rows(const RowList& more, Transport& transport) {
+  const std::size_t rows = transport.row_begin.size() - 1 + more.lengths.size();
   const double share_done = static_cast<double>(rows) / static_cast<double>(transport.size);
-  make_room(transport.columns, chunk.columns.size(), share_done);
-  make_room(transport.weights, chunk.weights.size(), share_done);
-  for (const auto length : chunk.lengths)
+  make_room(transport.columns, more.columns.size(), share_done);
+  make_room(transport.weights, more.weights.size(), share_done);
+  for (const auto length : more.lengths)
     transport.row_begin.push_back(transport.row_begin.back() + length);
-  transport.columns.insert(transport.columns.end(), chunk.columns.begin(), chunk.columns.end());
-  transport.weights.insert(transport.weights.end(), chunk.weights.begin(), chunk.weights.end());
+  transport.columns.insert(transport.columns.end(), more.columns.begin(), more.columns.end());
+  transport.weights.insert(transport.weights.end(), more.weights.begin(), more.weights.end());
 }
 
 /// What the tasks share.
@@ -148,7 +166,8 @@ struct Assembly {
   const FormFactorSettings& settings;
   DirectionNet net; ///< `rays`: what is traced; `hemicube`: what finds the covered part
   Hemicube cube;    ///< `hemicube`
-  std::vector<std::uint8_t> emits; ///< by ElementId
+  std::vector<std::uint8_t>
+      beyond; ///< by ElementId: 1 where its row beyond the enumerated worlds is kept
   int bands;
 };
 
@@ -161,6 +180,8 @@ void gather(const Assembly& assembly, const ReceiverArea& element, std::uint32_t
   case FormFactorMethod::hemicube:
     gather_element(assembly.light, assembly.cube, assembly.net, element, seed, assembly.settings,
                    work);
+    break;
+  case FormFactorMethod::analytic: // has rows of its own
     break;
   }
 }
@@ -176,13 +197,16 @@ void assemble_row(const Assembly& assembly, std::size_t row, Workspace& work, Ro
   result.exposed[row] = 1.0F - static_cast<float>(std::popcount(gathered.covered)) / 64.0F;
   result.closure[row] = closure_of(gathered);
   work.row.make_room(gathered.landings.size());
+  work.beyond.make_room(gathered.landings.size());
   for (const auto& landing : gathered.landings) {
     work.row.add(landing.element, landing.light);
-    if (assembly.emits[landing.element] != 0)
-      result.gathered_emission[row] += gathered_emission(assembly.light, landing) / kept;
+    if (landing.world == none<WorldId> && assembly.beyond[landing.element] != 0)
+      work.beyond.add(landing.element, landing.light);
   }
-  append_row(work.row, kept, assembly.bands, chunk);
+  append_row(work.row, kept, assembly.bands, chunk.transport);
+  append_row(work.beyond, kept, assembly.bands, chunk.beyond);
   work.row.clear();
+  work.beyond.clear();
   chunk.rays += gathered.traced;
 }
 
@@ -198,18 +222,14 @@ FormFactors assemble_transport(const LightScene& light, const FormFactorSettings
                           settings,
                           by_cubes ? make_coverage_net() : make_direction_net(settings.rays),
                           by_cubes ? make_hemicube(settings.hemicube_resolution) : Hemicube{},
-                          emitting_elements(light.mesh),
+                          kept_beyond(light.mesh, settings),
                           grey_mirrors(light.scene) ? 1 : 3};
   FormFactors result;
   result.closure.resize(size);
   result.covered.resize(size);
   result.exposed.resize(size);
-  result.gathered_emission.resize(size);
-  Transport& transport = result.transport;
-  transport.size = size;
-  transport.bands = assembly.bands;
-  transport.row_begin.reserve(size + 1);
-  transport.row_begin.push_back(0);
+  result.transport = empty_transport(size, assembly.bands);
+  result.beyond = empty_transport(size, assembly.bands);
 
   // Chunks are assembled by any thread and appended in order. No more are under way than there are slots, so that chunk c finds
   // its slot, c modulo their number, free again.
@@ -228,13 +248,15 @@ FormFactors assemble_transport(const LightScene& light, const FormFactorSettings
     RowChunk& chunk = slots[c % slots.size()];
     clear(chunk);
     work.row.place.resize(size, 0);
+    work.beyond.place.resize(size, 0);
     for (std::size_t row = c * chunk_size; row < std::min(size, (c + 1) * chunk_size); ++row)
       assemble_row(assembly, row, work, chunk, result);
     return c;
   };
   const auto append_chunk = [&](std::size_t c) {
     const RowChunk& chunk = slots[c % slots.size()];
-    append_rows(chunk, transport);
+    append_rows(chunk.transport, result.transport);
+    append_rows(chunk.beyond, result.beyond);
     result.rays_traced += chunk.rays;
     if (progress)
       progress("form factors", static_cast<double>(++done) / static_cast<double>(chunk_count));

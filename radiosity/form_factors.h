@@ -10,7 +10,8 @@
 //   landed + escaped + black + cut = 1.
 // Where something stands on an element (cells whose every ray meets a black back at once), the row speaks of the exposed rest.
 // Emission is not part of the rows: light that comes straight from an emitter, or by mirrors, is the direct irradiance
-// (direct_irradiance.h); `gathered_emission` holds the emission that no closed form owns (deep worlds, facets, large emitters).
+// (direct_irradiance.h), and what no closed form owns (deep worlds, facets, large emitters) is found from the rows (gathered_emission.h).
+// So form factors do not depend on what emits how much, nor on diffuse reflectances, and may be kept for other light (factor_file.h).
 #pragma once
 
 #include "radiosity/light_scene.h"
@@ -29,6 +30,7 @@ struct FormFactorSettings {
   int max_bounces = 10'000;      ///< ends chains between perfect mirrors; the light cut so is reported as closure.cut
   double accuracy = 1e-4;        ///< analytic: wanted of each row, relative to its light
   std::uint32_t seed = 0;
+  bool relightable = false; ///< whether `beyond` speaks of all elements, or of those that emit now
 };
 
 /// The sparse transport operator, row by row. One band when no mirror is coloured, else three.
@@ -50,10 +52,10 @@ struct RowClosure {
 
 struct FormFactors {
   Transport transport;
+  Transport beyond; ///< the part in which no closed form owns emission: beyond the enumerated worlds (deep chains, facets); all of `analytic`
   std::vector<RowClosure> closure;      ///< by ElementId
   std::vector<std::uint64_t> covered;   ///< by ElementId: the cells on which something stands (gather_rays.h)
   std::vector<float> exposed;           ///< by ElementId: the share of its area on which nothing stands
-  std::vector<Rgb> gathered_emission;   ///< by ElementId: irradiance from emission that no closed form owns
   std::uint64_t rays_traced = 0;        ///< legs, reflected ones included
 };
 

@@ -1,5 +1,6 @@
 #include "radiosity/pass_one.h"
 
+#include "radiosity/gathered_emission.h"
 #include "scenes/stopwatch.h"
 
 #include <cmath>
@@ -59,20 +60,30 @@ DirectIrradiance remaining_direct_light(const LightScene& light, const FormFacto
 
 RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
                                  const Progress& progress) {
+  check_size(settings.solver.method, element_count(light.mesh));
+  Stopwatch watch;
+  const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
+  const double seconds = watch.lap();
+  RadiositySolution solution = solve_pass_one(light, factors, settings, progress);
+  solution.seconds.form_factors += seconds;
+  return solution;
+}
+
+RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& factors,
+                                 const PassOneSettings& settings, const Progress& progress) {
   const ElementMesh& mesh = light.mesh;
-  check_size(settings.solver.method, element_count(mesh));
   RadiositySolution solution;
   Stopwatch watch;
 
   // Eq. 1, split by who owns the path: direct light from the source, gathered emission, and reflected light by the transport.
-  const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
+  const std::vector<Rgb> gathered = gathered_emission(light, factors);
   const DirectIrradiance direct = remaining_direct_light(light, factors, settings, progress);
   solution.seconds.form_factors = watch.lap();
 
   std::vector<Rgb> first(mesh.area.size()), source(mesh.area.size()), reflectance(mesh.area.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
     reflectance[i] = mesh.sides[index(mesh.side_of_element[i])].reflectance;
-    first[i] = direct.irradiance[i] + factors.gathered_emission[i];
+    first[i] = direct.irradiance[i] + gathered[i];
     source[i] = reflectance[i] * first[i];
   }
   solution.solver = solve(factors.transport, source, reflectance, settings.solver);

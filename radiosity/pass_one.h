@@ -56,4 +56,8 @@ std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh
 RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
                                  const Progress& progress = {});
 
+/// The same with form factors that are there already (of an earlier run, under other light): only light is found.
+RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& factors,
+                                 const PassOneSettings& settings, const Progress& progress = {});
+
 } // namespace meninas

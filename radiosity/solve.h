@@ -4,8 +4,8 @@
 //   direct        dense LU of 1 - rho T, for at most `most_direct_unknowns`: the oracle of the others
 //   jacobi        B_{k+1} = S + rho T B_k: one bounce of light a sweep
 //   gauss-seidel  the same, in 32 steps that use what the steps before have found
-//   cg            the Krylov method for what sampled form factors make of the symmetric system of conjugate gradients: an almost
-//                 symmetric one, on which they stall. BiCGStab (van der Vorst 1992) does not, and is what runs.
+//   cg            a Krylov method that needs neither areas nor symmetry, which sampled form factors lack: BiCGStab (van der
+//                 Vorst 1992). Conjugate gradients on the symmetrised system are no faster (ARCHITECTURE.md).
 // All stop on one bound of the error (solvers/error_bound.h): with the residual r_k = S + rho T B_k - B_k,
 //   ||B - B_k|| <= G ||r_k|| <= tolerance ||B_k||    in the maximum norm, for every channel.
 // None returns less than S, and so nothing negative: light only adds to what is there without bounces.

@@ -1,5 +1,6 @@
 #include "runs/solve_run.h"
 
+#include "radiosity/factor_file.h"
 #include "radiosity/solution_file.h"
 #include "runs/outputs.h"
 #include "runs/preparation.h"
@@ -11,12 +12,38 @@ namespace meninas {
 
 static void check_files(const SolveRequest& request) {
   OutputFiles outputs{.pictures = {}, .solution = request.solution, .texts = {}};
-  for (const auto& text : {request.per_node, request.stats}) {
+  for (const auto& text : {request.per_node, request.stats, request.factors}) {
     if (text) {
       outputs.texts.push_back(*text);
     }
   }
-  check_outputs(outputs, {request.scene});
+  std::vector<std::filesystem::path> inputs{request.scene};
+  if (request.reuse) {
+    inputs.push_back(*request.reuse);
+  }
+  check_outputs(outputs, inputs);
+}
+
+/// Pass one with form factors that are read or assembled, and kept if asked for.
+static RadiositySolution solve_or_relight(const SolveRequest& request, const LightScene& light,
+                                          PassOneSettings settings, const RunEvents& events) {
+  if (!request.factors && !request.reuse) {
+    return solve_pass_one(light, settings, events.progress);
+  }
+  check_size(settings.solver.method, element_count(light.mesh));
+  settings.form_factors.relightable = true;
+  const FactorKey key = factor_key(light, settings.form_factors);
+  Stopwatch watch;
+  FormFactors factors = request.reuse
+                            ? read_factors(*request.reuse, key)
+                            : assemble_transport(light, settings.form_factors, events.progress);
+  const double seconds = watch.lap();
+  if (request.factors) {
+    write_factors(*request.factors, factors, key);
+  }
+  RadiositySolution solution = solve_pass_one(light, factors, settings, events.progress);
+  solution.seconds.form_factors += seconds;
+  return solution;
 }
 
 RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
@@ -31,7 +58,7 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   Scene scene = load_gltf(request.scene);
   figures.seconds.load = watch.lap();
   const auto prepared = prepare_run(std::move(scene), settings, events, figures);
-  const RadiositySolution solution = solve_pass_one(*prepared->light, settings, events.progress);
+  const RadiositySolution solution = solve_or_relight(request, *prepared->light, settings, events);
   add_solution(figures, solution);
   warn_of_solution(figures.solver, figures.closure, events);
 

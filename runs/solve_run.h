@@ -15,6 +15,8 @@ struct SolveRequest {
   std::filesystem::path solution; ///< .glb
   std::optional<std::filesystem::path> per_node;
   std::optional<std::filesystem::path> stats;
+  std::optional<std::filesystem::path> factors; ///< written: the form factors, for later runs
+  std::optional<std::filesystem::path> reuse;   ///< read: form factors of an earlier run
   RunSettings settings;
 };
 

@@ -117,6 +117,25 @@ TEST_F(Outputs, ASolutionRendersTheSamePicture) {
   EXPECT_EQ(contents("whole.png"), contents("stored.png"));
 }
 
+TEST_F(Outputs, KeptFormFactorsGiveTheSameSolution) {
+  run("solve", {"-o", "first.glb", "--factors", "room.factors"});
+  run("solve", {"-o", "again.glb", "--reuse", "room.factors", "--stats", "again.json"});
+  run("solve", {"-o", "plain.glb"});
+  EXPECT_EQ(contents("first.glb"), contents("plain.glb"));
+  EXPECT_EQ(contents("again.glb"), contents("plain.glb"));
+
+  const auto refused = [&](const std::string& reuse, const std::string& rays) {
+    return run_program(folder_.path(), {"solve", "room.glb", "-o", "no.glb", "--quality", "draft",
+                                        "--rays", rays, "--reuse", reuse});
+  };
+  EXPECT_EQ(refused("room.factors", "64").code, 3);
+  EXPECT_THAT(refused("room.factors", "64").err,
+              HasSubstr("room.factors: cannot be reused: the settings of the form factors"));
+  EXPECT_EQ(refused("plain.glb", "128").code, 3);
+  EXPECT_EQ(refused("missing", "128").code, 3);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "no.glb"));
+}
+
 TEST_F(Outputs, DamagedSolutionsAreRefused) {
   run("solve", {"-o", "solution.glb"});
   const std::string whole = contents("solution.glb");

@@ -1,4 +1,5 @@
 // Mirrors that break careless code: slivers, sheets seen edge-on, lamps that touch or pierce a mirror, tiles, holes, and hundreds of tilts.
+#include "radiosity/gathered_emission.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/random.h"
 #include "tests/support/rooms.h"
@@ -48,13 +49,14 @@ void expect_source_and_rays_agree(const Scene& scene, double element_size = 0.25
   rays.emitters.clear();
   rays.emitter_tree = {};
   std::fill(rays.from_source.begin(), rays.from_source.end(), std::uint8_t{0});
-  const std::vector<Rgb> by_rays = assemble_transport(rays, settings).gathered_emission;
+  const std::vector<Rgb> by_rays = gathered_emission(rays, assemble_transport(rays, settings));
   const FormFactors factors = assemble_transport(*l->light, settings);
+  const std::vector<Rgb> gathered = gathered_emission(*l->light, factors);
   const DirectIrradiance direct = direct_irradiance(*l->light, factors.covered, {});
   for (const char* node : {"x0", "x1", "y0", "z0", "z1"}) {
     const double expected = mean_over(*l, by_rays, node).g;
     const double found =
-        mean_over(*l, direct.irradiance, node).g + mean_over(*l, factors.gathered_emission, node).g;
+        mean_over(*l, direct.irradiance, node).g + mean_over(*l, gathered, node).g;
     const double hits = double(elements_of(*l, node).size()) * settings.rays * expected / 10.0;
     EXPECT_GT(hits, 100.0) << node;
     EXPECT_NEAR(found, expected, (4.0 / std::sqrt(hits) + 0.002) * expected) << node;

@@ -1,4 +1,5 @@
 // Solvers against one another and against closed forms, on whole scenes.
+#include "radiosity/gathered_emission.h"
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/radiosity/radiosity_systems.h"
@@ -15,11 +16,11 @@ System system_of(const LitScene& lit, int rays) {
   const FormFactors factors = assemble_transport(*lit.light, {.rays = rays});
   const DirectIrradiance direct =
       direct_irradiance(*lit.light, factors.covered, {.points = 4, .most_points = 4});
+  const std::vector<Rgb> gathered = gathered_emission(*lit.light, factors);
   System system{factors.transport, {}, {}};
   for (std::size_t i = 0; i < element_count(lit.mesh); ++i) {
     system.reflectance.push_back(lit.mesh.sides[index(lit.mesh.side_of_element[i])].reflectance);
-    system.source.push_back(system.reflectance[i] *
-                            (direct.irradiance[i] + factors.gathered_emission[i]));
+    system.source.push_back(system.reflectance[i] * (direct.irradiance[i] + gathered[i]));
   }
   return system;
 }
