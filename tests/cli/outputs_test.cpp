@@ -117,6 +117,41 @@ TEST_F(Outputs, ASolutionRendersTheSamePicture) {
   EXPECT_EQ(contents("whole.png"), contents("stored.png"));
 }
 
+TEST_F(Outputs, EverySolverSaysHowItWent) {
+  for (const std::string solver : {"direct", "jacobi", "gauss-seidel", "cg"}) {
+    run("solve", {"-o", "solution.glb", "--element-size", "0.2", "--solver", solver, "--stats",
+                  "solve.json"});
+    const json solve = json_of("solve.json").at("solve");
+    EXPECT_EQ(solve.at("solver"), solver);
+    EXPECT_TRUE(solve.at("converged"));
+    EXPECT_LE(solve.at("error_bound"), 1e-4);
+    EXPECT_EQ(solve.at("bands"), 1); // the room is grey
+    EXPECT_EQ(solve.at("channel_error_bounds").size(), solve.at("residuals").size());
+  }
+  const Outcome misspelt =
+      run_program(folder_.path(), {"solve", "room.glb", "-o", "no.glb", "--solver", "gaus-seidel"});
+  EXPECT_EQ(misspelt.code, 2);
+  EXPECT_THAT(misspelt.err, HasSubstr("did you mean 'gauss-seidel'?"));
+}
+
+TEST_F(Outputs, ARoomThatAbsorbsNothingHasNoSolution) {
+  std::ifstream furnace(MENINAS_SOURCE_DIR "/scenes/gallery/furnace.gltf");
+  json root = json::parse(furnace);
+  for (json& material : root.at("materials")) {
+    material["pbrMetallicRoughness"]["baseColorFactor"] = {1.0, 1.0, 1.0, 1.0};
+  }
+  std::ofstream(folder_ / "white.gltf") << root;
+  const Outcome outcome =
+      run_program(folder_.path(), {"solve", "white.gltf", "-o", "white.glb", "--element-size",
+                                   "0.25", "--rays", "64", "--stats", "white.json"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("pass one has no solution"));
+  const json solve = json_of("white.json").at("solve");
+  EXPECT_FALSE(solve.at("converged"));
+  EXPECT_TRUE(solve.at("error_bound").is_null());
+  EXPECT_EQ(solve.at("iterations"), 0);
+}
+
 TEST_F(Outputs, KeptFormFactorsGiveTheSameSolution) {
   run("solve", {"-o", "first.glb", "--factors", "room.factors"});
   run("solve", {"-o", "again.glb", "--reuse", "room.factors", "--stats", "again.json"});

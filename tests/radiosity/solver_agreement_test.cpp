@@ -51,6 +51,64 @@ TEST(SolverAgreement, EveryGallerySceneWithinTenTolerancesOfTheDirectSolution) {
   EXPECT_GE(scenes, 9);
 }
 
+double mean_of(const LitScene& lit, const std::vector<Rgb>& values, const std::string& node) {
+  return mean_over(lit, values, node).g;
+}
+
+// Two plates of reflectance rho between four perfect mirrors are infinite: B1 = E / (1 - rho^2), B2 = rho B1. Rays bring the light of
+// worlds that are not enumerated, with an error of a percent of that small part.
+TEST(SolverAgreement, InfinitePlatesBetweenMirrors) {
+  for (const double rho : {0.3, 0.9, 0.99}) {
+    Scene scene;
+    const Material glass = mirror(1.0);
+    add_room(scene, Point3(0.0), Point3(1.0),
+             {glass, glass, diffuse(rho, 1.0), diffuse(rho), glass, glass});
+    const auto l = lit(std::move(scene), {.element_size = 0.25});
+    const System system = system_of(*l, 1024);
+    for (const SolverMethod method : solver_methods) {
+      const SolverResult result =
+          solve(system.transport, system.source, system.reflectance, {method, 1e-5});
+      EXPECT_TRUE(result.converged);
+      const double floor = 1.0 + mean_of(*l, result.radiosity, "y0");
+      const double ceiling = mean_of(*l, result.radiosity, "y1");
+      const double exact = 1.0 / (1.0 - rho * rho);
+      EXPECT_NEAR(floor, exact, 2e-3 * exact) << name_of(method) << rho;
+      EXPECT_NEAR(ceiling, rho * exact, 2e-3 * exact) << name_of(method) << rho;
+    }
+  }
+}
+
+// The unit cube of one patch a face, floor E = 1: six diffuse walls, and with the wall x = 1 a perfect mirror. Rows of 2^14 rays are right
+// to 1e-3 of the values (known_radiosities_test.cpp has their origin).
+TEST(SolverAgreement, CubesOfOnePatchAFace) {
+  struct Cube {
+    Material fifth;
+    double floor, ceiling;
+  };
+  for (const Cube& cube : {Cube{diffuse(0.8), 1.55172415364491464, 0.689551070737637626},
+                           Cube{mirror(1.0), 1.66733031622334667, 0.85346220405127841}}) {
+    Scene scene;
+    const Material wall = diffuse(0.8);
+    add_room(scene, Point3(0.0), Point3(1.0),
+             {wall, cube.fifth, diffuse(0.8, 1.0), wall, wall, wall});
+    const auto l = lit(std::move(scene), {.element_size = 1e6});
+    System system = system_of(*l, 1 << 14);
+    // The floor's light by the rows themselves: one point of four would not be the mean over a whole wall.
+    std::vector<Rgb> emission(element_count(l->mesh), Rgb(0.0));
+    for (const std::size_t e : elements_of(*l, "y0"))
+      emission[e] = Rgb(1.0);
+    system.source = apply_transport(system.transport, emission);
+    for (std::size_t e = 0; e < system.source.size(); ++e)
+      system.source[e] *= system.reflectance[e];
+    for (const SolverMethod method : solver_methods) {
+      const SolverResult result =
+          solve(system.transport, system.source, system.reflectance, {method, 1e-8});
+      EXPECT_NEAR(1.0 + mean_of(*l, result.radiosity, "y0"), cube.floor, 1e-3 * cube.floor);
+      EXPECT_NEAR(mean_of(*l, result.radiosity, "y1"), cube.ceiling, 1e-3 * cube.ceiling);
+    }
+  }
+}
+
 // B = E / (1 - rho) with rho = 1 - 1e-6. Rows are counts of 2^8 rays: they close without any rounding.
 TEST(SolverAgreement, FurnaceOfAMillionBounces) {
   const double rho = 1.0 - 1e-6;
