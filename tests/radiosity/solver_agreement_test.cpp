@@ -78,37 +78,6 @@ TEST(SolverAgreement, InfinitePlatesBetweenMirrors) {
   }
 }
 
-// The unit cube of one patch a face, floor E = 1: six diffuse walls, and with the wall x = 1 a perfect mirror. Rows of 2^14 rays are right
-// to 1e-3 of the values (known_radiosities_test.cpp has their origin).
-TEST(SolverAgreement, CubesOfOnePatchAFace) {
-  struct Cube {
-    Material fifth;
-    double floor, ceiling;
-  };
-  for (const Cube& cube : {Cube{diffuse(0.8), 1.55172415364491464, 0.689551070737637626},
-                           Cube{mirror(1.0), 1.66733031622334667, 0.85346220405127841}}) {
-    Scene scene;
-    const Material wall = diffuse(0.8);
-    add_room(scene, Point3(0.0), Point3(1.0),
-             {wall, cube.fifth, diffuse(0.8, 1.0), wall, wall, wall});
-    const auto l = lit(std::move(scene), {.element_size = 1e6});
-    System system = system_of(*l, 1 << 14);
-    // The floor's light by the rows themselves: one point of four would not be the mean over a whole wall.
-    std::vector<Rgb> emission(element_count(l->mesh), Rgb(0.0));
-    for (const std::size_t e : elements_of(*l, "y0"))
-      emission[e] = Rgb(1.0);
-    system.source = apply_transport(system.transport, emission);
-    for (std::size_t e = 0; e < system.source.size(); ++e)
-      system.source[e] *= system.reflectance[e];
-    for (const SolverMethod method : solver_methods) {
-      const SolverResult result =
-          solve(system.transport, system.source, system.reflectance, {method, 1e-8});
-      EXPECT_NEAR(1.0 + mean_of(*l, result.radiosity, "y0"), cube.floor, 1e-3 * cube.floor);
-      EXPECT_NEAR(mean_of(*l, result.radiosity, "y1"), cube.ceiling, 1e-3 * cube.ceiling);
-    }
-  }
-}
-
 // B = E / (1 - rho) with rho = 1 - 1e-6. Rows are counts of 2^8 rays: they close without any rounding.
 TEST(SolverAgreement, FurnaceOfAMillionBounces) {
   const double rho = 1.0 - 1e-6;
