@@ -86,10 +86,12 @@ std::uint64_t hash_of_mesh(const ElementMesh& mesh) {
 
 std::uint64_t hash_of_sampling(const FormFactorSettings& settings) {
   // All of them, by name: a new setting does not compile before it has a place here.
-  const auto& [method, rays, min_throughput, max_bounces, accuracy, seed, relightable] = settings;
+  const auto& [method, rays, hemicube_resolution, min_throughput, max_bounces, accuracy, seed,
+               relightable] = settings;
   Hash hash;
   hash.add(static_cast<std::uint64_t>(method));
   hash.add(static_cast<std::uint64_t>(rays));
+  hash.add(static_cast<std::uint64_t>(hemicube_resolution));
   hash.add(accuracy);
   hash.add(min_throughput);
   hash.add(static_cast<std::uint64_t>(max_bounces));
