@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace meninas {
 
@@ -232,6 +233,7 @@ gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
   DirectSettings secondary = direct;
   secondary.shadow_rays = settings.cluster_shadow_rays;
   secondary.penumbra_rays = 4 * settings.cluster_shadow_rays;
+  secondary.images = std::numeric_limits<int>::max(); // there are not many, by construction
   const VertexGathering context{light,
                                 {light.scene,
                                  light.surfaces,

@@ -1,9 +1,9 @@
 #include "runs/compare_report.h"
 
-#include "compare_page.h"
 #include "image/heat_map.h"
 #include "image/metrics.h"
 #include "runs/page.h"
+#include "runs/pages/compare_page.h"
 #include "scenes/version.h"
 
 #include <fmt/format.h>

@@ -50,8 +50,11 @@ protected:
       ADD_FAILURE() << outcome.err;
       return {};
     }
-    const std::string text = std::regex_replace(report[1].str(), std::regex("&quot;"), "\"");
-    return json::parse(std::regex_replace(text, std::regex("&amp;"), "&"));
+    std::string text = report[1].str();
+    for (const auto& [code, sign] :
+         {std::pair{"&quot;", "\""}, {"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}})
+      text = std::regex_replace(text, std::regex(code), sign);
+    return json::parse(text);
   }
 
   TemporaryFolder folder_;
@@ -61,8 +64,8 @@ TEST_F(Compare, WritesPicturesDifferencesFiguresAndAPage) {
   const Outcome outcome = compare({"-o", "out"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(files_in(folder_ / "out"),
-              ElementsAre("figures.json", "hybrid.exr", "hybrid.png", "index.html", "radiosity.exr",
-                          "radiosity.png", "radiosity-minus-hybrid.png"));
+              ElementsAre("figures.json", "hybrid.exr", "hybrid.png", "index.html",
+                          "radiosity-minus-hybrid.png", "radiosity.exr", "radiosity.png"));
 }
 
 TEST_F(Compare, LayersAddUpToTheHybridPicture) {

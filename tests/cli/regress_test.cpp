@@ -168,7 +168,7 @@ TEST_F(Regress, MalformedCasesAreRefusedByTheirPlace) {
   expect_refused(with("/settings/smaples", 4),
                  "/cases/0/settings/smaples: unknown setting, did you mean 'samples'?");
   expect_refused(with("/settings/samples", 1.5),
-                 "/cases/0/settings/samples: '1.5' is not a whole number from 1 to 65536");
+                 "/cases/0/settings/samples: '1.5' is not a whole number from 1 to 16777216");
   expect_refused(with("/settings/quality", "drafd"),
                  "/cases/0/settings/quality: no value 'drafd', did you mean 'draft'?");
   expect_refused(with("/settings/float", 1), "/cases/0/settings/float: takes true or false");

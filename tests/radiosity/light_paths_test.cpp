@@ -144,7 +144,8 @@ INSTANTIATE_TEST_SUITE_P(Gallery, LightPaths,
 // Whoever owns the deep worlds, the closed form or the rays, the answer is the same.
 TEST(LightPathsByDepth, OwnershipMovesNothing) {
   for (const int depth : {0, 1, 3})
-    expect_agreement(facing_mirrors(Rgb(0.9)), 100.0, {.rays = 128}, {.max_depth = depth});
+    expect_agreement(facing_mirrors(Rgb(0.9)), 100.0, {.scene = "facing-mirrors", .rays = 128},
+                     {.max_depth = depth});
 }
 
 } // namespace
