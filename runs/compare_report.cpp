@@ -178,6 +178,7 @@ std::string compare_page_of(const Comparison& comparison) {
   for (const ComparedMode& mode : comparison.modes) {
     Json picture{{"id", mode.id},
                  {"name", mode.name},
+                 {"note", mode.note},
                  {"seconds", mode.seconds},
                  {"png", png_address(mode.image, comparison.exposure)}};
     if (&mode != &comparison.modes.back()) {

@@ -17,6 +17,7 @@ namespace meninas {
 struct ComparedMode {
   std::string id;   ///< of its files: ID.exr, ID.png
   std::string name; ///< for people
+  std::string note; ///< beside the name, in the table
   Image image;
   double seconds = 0.0; ///< that this picture takes from the prepared scene, pass one included
 };

@@ -47,9 +47,10 @@ void compare_passes(const PreparedScene& prepared, const Camera& camera, TwoPass
   const double radiosity_seconds = pass_one + watch.lap();
   Image hybrid = picture(RenderMode::hybrid);
   const double hybrid_seconds = pass_one + watch.lap();
+  comparison.modes.push_back({"radiosity", "radiosity only", "mirrors are black",
+                              std::move(radiosity), radiosity_seconds});
   comparison.modes.push_back(
-      {"radiosity", "radiosity only", std::move(radiosity), radiosity_seconds});
-  comparison.modes.push_back({"hybrid", "hybrid", std::move(hybrid), hybrid_seconds});
+      {"hybrid", "hybrid", "both passes", std::move(hybrid), hybrid_seconds});
   comparison.layers =
       render_layers(*prepared.light, solution.field, camera, settings.render, events.progress)
           .layers;
@@ -115,8 +116,8 @@ void compare_run(const CompareRequest& request, const RunEvents& events) {
     RunFigures own;
     auto picture = run_reference(std::move(*for_reference), camera, limits, events, own);
     comparison.modes.push_back(
-        {"reference",
-         fmt::format("reference (path tracer, {:.2g} % noise)", 100.0 * picture.standard_error),
+        {"reference", "reference",
+         fmt::format("path tracer, {:.2g} % noise", 100.0 * picture.standard_error),
          std::move(picture.mean), own.seconds.render});
   }
 
