@@ -83,6 +83,11 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       });
   command
       .add_flag_callback(
+          "--layers", [&] { options.common.settings.layers = WithLayers::yes; },
+          "EXRs also hold the picture's nine parts, by how surfaces are seen and lit; in 32 bits")
+      ->group(picture_group);
+  command
+      .add_flag_callback(
           "--float", [&] { request.picture.exr_type = PixelType::float32; },
           "32 bits per channel of an EXR instead of 16")
       ->group(picture_group);
@@ -108,6 +113,26 @@ void refuse(const CLI::App& command, std::initializer_list<const char*> options,
   }
 }
 
+void check_layers(const RenderOptions& options) {
+  const RunSettings& settings = options.common.settings;
+  if (settings.layers == WithLayers::no) {
+    return;
+  }
+  if (settings.mode == PictureMode::radiosity) {
+    throw UsageError("--layers", "has no effect with --mode radiosity: its mirrors are black");
+  }
+  if (settings.interpolation == Interpolation::average) {
+    throw UsageError("--layers", "needs --interpolation gather");
+  }
+  const auto is_exr = [](const std::filesystem::path& file) {
+    return picture_format(file) == PictureFormat::exr;
+  };
+  const auto& pictures = options.request.pictures;
+  if (!pictures.empty() && std::ranges::none_of(pictures, is_exr)) {
+    throw UsageError("--layers", "needs an EXR to write them to");
+  }
+}
+
 /// What the mode does not heed is refused, not ignored.
 void check_mode(const CLI::App& command, const RenderOptions& options) {
   if (options.common.settings.mode == PictureMode::reference) {
@@ -125,9 +150,13 @@ void check_mode(const CLI::App& command, const RenderOptions& options) {
 /// The request, after a check that all options given have an effect together.
 RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
   check_mode(command, options);
+  check_layers(options);
   check_pass_one_options(command, options.common.settings);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
+  if (options.common.settings.layers == WithLayers::yes) {
+    options.request.picture.exr_type = PixelType::float32; // in halves they would not add up
+  }
   return options.request;
 }
 

@@ -18,7 +18,9 @@ struct Image {
   Image(int width, int height);
 
   glm::vec3& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
-  const glm::vec3& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width + x]; }
+  const glm::vec3& at(int x, int y) const {
+    return pixels[static_cast<std::size_t>(y) * width + x];
+  }
 };
 
 /// A named picture inside a multi-layer EXR (`diffuse.direct`, `variance`, ...).
@@ -26,5 +28,8 @@ struct Layer {
   std::string name;
   Image image;
 };
+
+/// Whether a picture is also wanted as a sum of layers.
+enum class WithLayers { no, yes };
 
 } // namespace meninas

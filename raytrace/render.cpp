@@ -309,6 +309,8 @@ RayTotals trace_picture(const LightScene& light, const VisibleLight& visible, co
 Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera,
                  const RenderSettings& settings, const Progress& progress) {
   expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
+  if (settings.layers == WithLayers::yes)
+    return render_layers(light, field, camera, settings, progress);
   Rendering result;
   result.image = Image(settings.width, settings.height);
   const VisibleLight all{make_side_shading(light.mesh), field.irradiance};

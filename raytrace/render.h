@@ -25,6 +25,7 @@ struct RenderSettings {
   double min_throughput = 1.0 / 1024.0; ///< of a specular path, below which it ends
   int max_bounces = 1000;
   std::uint32_t seed = 0;
+  WithLayers layers = WithLayers::no; ///< as `render_layers` makes them
 };
 
 struct Rendering {

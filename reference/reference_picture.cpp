@@ -31,8 +31,9 @@ Rgb variance_of_mean(const PixelEstimate& pixel, int batches) {
 }
 
 /// One batch of one pixel: stratified over its box.
-Rgb trace_batch(const TracedScene& traced, const Camera& camera, const ReferenceSettings& settings,
-                int pixel, int batch, PathCounts& counts) {
+LayerRadiance trace_batch(const TracedScene& traced, const Camera& camera,
+                          const ReferenceSettings& settings, int pixel, int batch,
+                          PathCounts& counts) {
   const std::uint32_t seed =
       hash(static_cast<std::uint32_t>(pixel), static_cast<std::uint32_t>(batch), settings.seed);
   const double aspect = double(settings.width) / settings.height;
@@ -43,10 +44,31 @@ Rgb trace_batch(const TracedScene& traced, const Camera& camera, const Reference
     const double y = pixel / settings.width + double(u[1]);
     rays[k] = camera_ray(camera, aspect, x / settings.width, y / settings.height);
   }
-  Rgb sum(0.0);
-  for (const Rgb& radiance : trace_paths(traced, rays, seed, settings.search, counts))
-    sum += radiance;
-  return sum / double(packet_size);
+  LayerRadiance mean{};
+  for (const LayerRadiance& path : trace_paths(traced, rays, seed, settings.search, counts))
+    for (std::size_t layer = 0; layer < layer_count; ++layer)
+      mean[layer] += path[layer] / double(packet_size);
+  return mean;
+}
+
+/// The layers of the batches so far, by pixel; none where they are not asked for.
+struct LayerSums {
+  std::vector<LayerRadiance> all;  ///< over the batches
+  std::vector<LayerRadiance> last; ///< the latest batch alone
+};
+
+void add_batch(LayerSums& sums, std::size_t pixel, const LayerRadiance& batch) {
+  sums.last[pixel] = batch;
+  for (std::size_t layer = 0; layer < layer_count; ++layer)
+    sums.all[pixel][layer] += batch[layer];
+}
+
+LayerLuminances mean_luminances(const std::vector<LayerRadiance>& pixels) {
+  LayerLuminances means{};
+  for (const LayerRadiance& pixel : pixels)
+    for (std::size_t layer = 0; layer < layer_count; ++layer)
+      means[layer] += glm::dot(Rgb(0.2126, 0.7152, 0.0722), pixel[layer]) / double(pixels.size());
+  return means;
 }
 
 double relative_error(const std::vector<PixelEstimate>& pixels, int batches) {
@@ -91,6 +113,28 @@ void fill_images(const std::vector<PixelEstimate>& pixels, int batches, Referenc
   }
 }
 
+void fill_layers(const LayerSums& sums, int batches, ReferencePicture& picture) {
+  picture.mean = Image(picture.mean.width, picture.mean.height);
+  for (std::size_t layer = 0; layer < layer_count; ++layer) {
+    Image image(picture.mean.width, picture.mean.height);
+    for (std::size_t k = 0; k < image.pixels.size(); ++k) {
+      image.pixels[k] = glm::vec3(sums.all[k][layer] / double(batches));
+      picture.mean.pixels[k] += image.pixels[k];
+    }
+    picture.layers.push_back({layer_name(layer), std::move(image)});
+  }
+}
+
+PathCounts total_of(const tbb::enumerable_thread_specific<PathCounts>& counts) {
+  PathCounts sum;
+  for (const PathCounts& own : counts) {
+    sum.camera_rays += own.camera_rays;
+    sum.path_rays += own.path_rays;
+    sum.shadow_rays += own.shadow_rays;
+  }
+  return sum;
+}
+
 } // namespace
 
 ReferencePicture reference_picture(const TracedScene& traced, const Camera& camera,
@@ -99,14 +143,23 @@ ReferencePicture reference_picture(const TracedScene& traced, const Camera& came
   ReferencePicture picture;
   picture.mean = picture.variance = Image(settings.width, settings.height);
   std::vector<PixelEstimate> pixels(picture.mean.pixels.size());
+  const bool layered = settings.layers == WithLayers::yes;
+  LayerSums layers;
+  layers.all.resize(layered ? pixels.size() : 0);
+  layers.last.resize(layers.all.size());
   tbb::enumerable_thread_specific<PathCounts> counts;
   Stopwatch watch;
   double seconds = 0.0;
   for (int batches = 1;; ++batches) {
     tbb::parallel_for(0, static_cast<int>(pixels.size()), [&](int k) {
-      const Rgb batch = trace_batch(traced, camera, settings, k, batches, counts.local());
-      add_batch(pixels[static_cast<std::size_t>(k)], batch, batches);
+      const auto pixel = static_cast<std::size_t>(k);
+      const LayerRadiance batch = trace_batch(traced, camera, settings, k, batches, counts.local());
+      add_batch(pixels[pixel], sum_of(batch), batches);
+      if (layered)
+        add_batch(layers, pixel, batch);
     });
+    if (layered)
+      picture.batches.push_back(mean_luminances(layers.last));
     seconds += watch.lap();
     if (batches < 2)
       continue;
@@ -118,14 +171,12 @@ ReferencePicture reference_picture(const TracedScene& traced, const Camera& came
             reached_limit(settings, picture.samples, picture.standard_error, seconds)) {
       picture.stopped_by = *limit;
       fill_images(pixels, batches, picture);
+      if (layered)
+        fill_layers(layers, batches, picture);
       break;
     }
   }
-  for (const PathCounts& own : counts) {
-    picture.rays.camera_rays += own.camera_rays;
-    picture.rays.path_rays += own.path_rays;
-    picture.rays.shadow_rays += own.shadow_rays;
-  }
+  picture.rays = total_of(counts);
   return picture;
 }
 

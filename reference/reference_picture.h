@@ -27,18 +27,21 @@ struct ReferenceSettings {
   double max_seconds = std::numeric_limits<double>::infinity();
   std::uint32_t seed = 0;
   LightSearch search = LightSearch::both;
+  WithLayers layers = WithLayers::no;
 };
 
 enum class StoppedBy { samples, error, time };
 
 struct ReferencePicture {
-  Image mean;     ///< radiance
+  Image mean;     ///< radiance; with layers exactly their sum, in their order
   Image variance; ///< of the mean, by pixel and channel
   int samples = 0;
   double standard_error =
       0.0; ///< root mean square of the pixels' standard errors over the mean radiance; 0 for a black picture
   StoppedBy stopped_by = StoppedBy::samples;
   PathCounts rays;
+  std::vector<Layer> layers;            ///< of light_layers.h, if asked for
+  std::vector<LayerLuminances> batches; ///< each batch's picture alone, for shares and their errors
 };
 
 /// The same bits for any number of threads; a limit of time alone decides about the number of samples by the clock.

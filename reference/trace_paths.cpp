@@ -13,7 +13,8 @@ namespace {
 struct Path {
   Ray ray;
   Rgb throughput{1.0};
-  Rgb radiance{0.0};
+  LayerRadiance radiance{}; ///< gathered so far
+  LightRoute route;
   Point3 scattered_at{0.0}; ///< where its direction was drawn, or the image in the mirrors since
   double density =
       0.0; ///< of that direction; 0 where light is met only: from the eye, over long chains
@@ -30,6 +31,7 @@ struct Connection {
   Point3 light;
   PlaneId arriving = none<PlaneId>;
   Rgb radiance{0.0};
+  std::size_t layer = 0;
   std::size_t path = 0;
 };
 
@@ -130,7 +132,7 @@ void add_emission(const TracedScene& traced, LightSearch search, Path& path) {
                        chain_chance(traced, path.chain_length);
     weight = path.density / (path.density + p_l);
   }
-  path.radiance += path.throughput * emission * weight;
+  path.radiance[layer_of(path.route)] += path.throughput * emission * weight;
 }
 
 /// A point of a light as it is seen from somewhere.
@@ -176,7 +178,8 @@ std::optional<Connection> connect(const TracedScene& traced, const Path& path, c
   const double p_s = met_as_well ? sample_density(path.at.bsdf, out, in) : 0.0;
   const double p_l = point.density * chain_chance(traced, chain.planes.size());
   return Connection{chain, point.position, point.plane,
-                    path.throughput * f * point.light * (std::abs(in.z) / (p_s + p_l))};
+                    path.throughput * f * point.light * (std::abs(in.z) / (p_s + p_l)),
+                    layer_of(reflected(scattered(path.route), chain.planes.size()))};
 }
 
 /// Looks for light directly and by way of chains of mirrors.
@@ -207,7 +210,7 @@ void add_connections(const TracedScene& traced, const std::vector<Connection>& c
   for (const Connection& connection : connections) {
     const SurfacePoint& x = paths[connection.path].at;
     if (traced.see_through || !connection.chain.planes.empty()) {
-      paths[connection.path].radiance +=
+      paths[connection.path].radiance[connection.layer] +=
           connection.radiance *
           chain_throughput(traced, x, connection.chain, connection.light, connection.arriving);
       continue;
@@ -225,7 +228,7 @@ void add_connections(const TracedScene& traced, const std::vector<Connection>& c
   const std::uint32_t blocked = occluded(traced.rays, packet, Coherence::incoherent);
   for (std::uint32_t lane = 0; lane < packet.count; ++lane)
     if (((blocked >> lane) & 1U) == 0)
-      paths[lanes[lane]->path].radiance += lanes[lane]->radiance;
+      paths[lanes[lane]->path].radiance[lanes[lane]->layer] += lanes[lane]->radiance;
 }
 
 /// The ray goes on behind what it has met; where and how its direction was drawn still holds.
@@ -252,10 +255,12 @@ void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& 
     path.scattered_at =
         reflected_in(traced.surfaces.planes[index(path.at.plane)], path.scattered_at);
     ++path.chain_length;
+    path.route = reflected(path.route, 1);
   } else {
     path.density = drawn->density;
     path.scattered_at = path.at.position;
     path.chain_length = 0;
+    path.route = scattered(path.route);
   }
   path.backs = Backs::absorb;
 }
@@ -277,10 +282,9 @@ void play_roulette(Path& path, std::uint32_t bounce, double u) {
 
 } // namespace
 
-std::array<Rgb, packet_size> trace_paths(const TracedScene& traced,
-                                         const std::array<CameraRay, packet_size>& camera_rays,
-                                         std::uint32_t seed, LightSearch search,
-                                         PathCounts& counts) {
+std::array<LayerRadiance, packet_size>
+trace_paths(const TracedScene& traced, const std::array<CameraRay, packet_size>& camera_rays,
+            std::uint32_t seed, LightSearch search, PathCounts& counts) {
   Paths paths;
   for (std::size_t k = 0; k < packet_size; ++k)
     paths[k].ray = {.origin = camera_rays[k].origin, .direction = camera_rays[k].direction};
@@ -309,7 +313,7 @@ std::array<Rgb, packet_size> trace_paths(const TracedScene& traced,
     }
     add_connections(traced, connections, paths, counts);
   }
-  std::array<Rgb, packet_size> radiances;
+  std::array<LayerRadiance, packet_size> radiances;
   std::ranges::transform(paths, radiances.begin(), &Path::radiance);
   return radiances;
 }

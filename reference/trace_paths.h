@@ -8,6 +8,7 @@
 // for as well (mirrored_lights.h); otherwise ideal lobes have no density: what they lead to is counted whole and never looked for. Paths end by Russian roulette with the survivors' weight raised, so that the expectation is untouched.
 #pragma once
 
+#include "reference/light_layers.h"
 #include "reference/traced_scene.h"
 
 #include <array>
@@ -22,10 +23,9 @@ struct PathCounts {
   std::uint64_t camera_rays = 0, path_rays = 0, shadow_rays = 0;
 };
 
-/// The radiance that arrives along sixteen camera rays. Path k uses point k of low-discrepancy sequences that belong to `seed`.
-std::array<Rgb, packet_size> trace_paths(const TracedScene& traced,
-                                         const std::array<CameraRay, packet_size>& camera_rays,
-                                         std::uint32_t seed, LightSearch search,
-                                         PathCounts& counts);
+/// The radiance that arrives along sixteen camera rays, by layer (light_layers.h). Path k uses point k of low-discrepancy sequences that belong to `seed`.
+std::array<LayerRadiance, packet_size>
+trace_paths(const TracedScene& traced, const std::array<CameraRay, packet_size>& camera_rays,
+            std::uint32_t seed, LightSearch search, PathCounts& counts);
 
 } // namespace meninas::reference

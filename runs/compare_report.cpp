@@ -49,13 +49,42 @@ bool is_seen_in_mirrors(std::string_view layer) {
   return layer.ends_with(".mirror") || layer.ends_with(".mirrors");
 }
 
+bool is_diffuse(std::string_view layer) { return layer.starts_with("diffuse."); }
+bool is_mirrored(std::string_view layer) { return layer.starts_with("diffuse.mirrored"); }
+
 /// Of the light that diffuse surfaces reflect in this picture, what mirrors have thrown on them.
 double mirrored_of_diffuse(const Comparison& comparison) {
-  const auto starts = [](const char* text) {
-    return [text](std::string_view layer) { return layer.starts_with(text); };
-  };
-  const double diffuse = share_where(comparison, starts("diffuse."));
-  return diffuse > 0.0 ? share_where(comparison, starts("diffuse.mirrored")) / diffuse : 0.0;
+  const double diffuse = share_where(comparison, is_diffuse);
+  return diffuse > 0.0 ? share_where(comparison, is_mirrored) / diffuse : 0.0;
+}
+
+/// The same two figures by the reference's own split.
+struct ReferenceShares {
+  reference::Share mirrored_of_diffuse, seen_in_mirrors;
+};
+ReferenceShares reference_shares(const Comparison& comparison) {
+  const auto any = [](std::string_view) { return true; };
+  return {reference::share_of(comparison.reference, is_mirrored, is_diffuse),
+          reference::share_of(comparison.reference, is_seen_in_mirrors, any)};
+}
+
+Json share_json(const reference::Share& share) {
+  return {{"value", share.value}, {"standard_error", share.standard_error}};
+}
+
+std::string mirrored_text(const Comparison& comparison) {
+  std::string text = fmt::format(
+      "Of the light that diffuse surfaces reflect here, mirrors throw {:.2f} %. {:.2f} "
+      "% of the picture's light is seen in mirrors.",
+      100.0 * mirrored_of_diffuse(comparison), 100.0 * share_where(comparison, is_seen_in_mirrors));
+  if (!comparison.reference.empty()) {
+    const auto [mirrored, seen] = reference_shares(comparison);
+    text += fmt::format(" The reference, split path by path, says {:.2f} ± {:.2g} % and {:.2f} ± "
+                        "{:.2g} % (standard errors).",
+                        100.0 * mirrored.value, 100.0 * mirrored.standard_error, 100.0 * seen.value,
+                        100.0 * seen.standard_error);
+  }
+  return text;
 }
 
 std::string meaning_of(std::string_view layer) {
@@ -152,6 +181,11 @@ std::string compare_json(const Comparison& comparison) {
   }
   json["mirrored_of_diffuse"] = mirrored_of_diffuse(comparison);
   json["seen_in_mirrors"] = share_where(comparison, is_seen_in_mirrors);
+  if (!comparison.reference.empty()) {
+    const ReferenceShares shares = reference_shares(comparison);
+    json["reference"] = {{"mirrored_of_diffuse", share_json(shares.mirrored_of_diffuse)},
+                         {"seen_in_mirrors", share_json(shares.seen_in_mirrors)}};
+  }
   return text_of(json, 2) + '\n';
 }
 
@@ -188,10 +222,7 @@ std::string compare_page_of(const Comparison& comparison) {
     json["pictures"].push_back(picture);
   }
   json["mechanisms"] = mechanisms_json(comparison);
-  json["mirrored_text"] = fmt::format(
-      "Of the light that diffuse surfaces reflect here, mirrors throw {:.2f} %. {:.2f} % "
-      "of the picture's light is seen in mirrors.",
-      100.0 * mirrored_of_diffuse(comparison), 100.0 * share_where(comparison, is_seen_in_mirrors));
+  json["mirrored_text"] = mirrored_text(comparison);
   json["differences"] = Json::array();
   for (const DifferencePicture& difference : difference_pictures(comparison)) {
     json["differences"].push_back({{"name", difference.name},

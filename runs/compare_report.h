@@ -5,6 +5,7 @@
 #pragma once
 
 #include "image/image.h"
+#include "reference/light_layers.h"
 
 #include <filesystem>
 #include <string>
@@ -24,14 +25,16 @@ struct ComparedMode {
 
 struct Comparison {
   std::string scene, camera;
-  double exposure = 0.0;           ///< stops, the same for all
-  std::vector<ComparedMode> modes; ///< the less accurate first
-  std::vector<Layer> layers;       ///< of the hybrid picture
+  double exposure = 0.0;                             ///< stops, the same for all
+  std::vector<ComparedMode> modes;                   ///< the less accurate first
+  std::vector<Layer> layers;                         ///< of the hybrid picture
+  std::vector<reference::LayerLuminances> reference; ///< batches of its own split, if there is one
   std::vector<std::pair<std::string, std::string>> settings;
 };
 
 /// {"scene", "camera", "width", "height", "exposure", "modes": [{"id", "seconds", "compared_with", "rmse", ...}], "layers": [{"name",
-/// "share"}], "mirrored_of_diffuse", "seen_in_mirrors", "settings", "version"}; no figure that does not exist.
+/// "share"}], "mirrored_of_diffuse", "seen_in_mirrors", "settings", "version"}; no figure that does not exist. With a reference there is what
+/// its own split says: "reference": {"mirrored_of_diffuse": {"value", "standard_error"}, "seen_in_mirrors": {...}}.
 std::string compare_json(const Comparison& comparison);
 
 /// index.html: self-contained.

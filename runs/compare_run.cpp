@@ -113,12 +113,14 @@ void compare_run(const CompareRequest& request, const RunEvents& events) {
     reference::ReferenceSettings limits = reference_settings(request.settings);
     limits.width = size.width;
     limits.height = size.height;
+    limits.layers = WithLayers::yes;
     RunFigures own;
     auto picture = run_reference(std::move(*for_reference), camera, limits, events, own);
     comparison.modes.push_back(
         {"reference", "reference",
          fmt::format("path tracer, {:.2g} % noise", 100.0 * picture.standard_error),
          std::move(picture.mean), own.seconds.render});
+    comparison.reference = std::move(picture.batches);
   }
 
   comparison.exposure =

@@ -4,6 +4,7 @@
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
 #include "runs/resources.h"
+#include "scenes/errors.h"
 #include "scenes/gltf.h"
 #include "scenes/stopwatch.h"
 
@@ -40,8 +41,9 @@ Attributes common_attributes(const Scene& scene, const Camera& camera,
 }
 
 /// Both passes, timed.
-Image run_two_pass(const PreparedScene& prepared, const Camera& camera,
-                   const TwoPassSettings& settings, const RunEvents& events, RunFigures& figures) {
+Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
+                       const TwoPassSettings& settings, const RunEvents& events,
+                       RunFigures& figures) {
   Stopwatch watch;
   TwoPassResult result = two_pass(prepared, camera, settings, events.progress);
   add_solution(figures, result.solution);
@@ -49,12 +51,13 @@ Image run_two_pass(const PreparedScene& prepared, const Camera& camera,
   const PassOneSeconds& pass_one = result.solution.seconds;
   figures.seconds.render =
       watch.lap() - pass_one.form_factors - pass_one.solve - pass_one.interpolate;
-  return std::move(result.rendering.image);
+  return std::move(result.rendering);
 }
 
 /// Pass two over the field of an earlier pass one, whose figures are repeated.
-Image run_pass_two(const PreparedScene& prepared, StoredSolution stored, const Camera& camera,
-                   const TwoPassSettings& settings, const RunEvents& events, RunFigures& figures) {
+Rendering run_pass_two(const PreparedScene& prepared, StoredSolution stored, const Camera& camera,
+                       const TwoPassSettings& settings, const RunEvents& events,
+                       RunFigures& figures) {
   Stopwatch watch;
   figures.solver = std::move(stored.solver);
   figures.energy = stored.energy;
@@ -63,7 +66,7 @@ Image run_pass_two(const PreparedScene& prepared, StoredSolution stored, const C
       render(*prepared.light, stored.field, camera, settings.render, events.progress);
   add_rendering(figures, rendering);
   figures.seconds.render = watch.lap();
-  return std::move(rendering.image);
+  return rendering;
 }
 
 Rendered render_two_pass(const RenderRequest& request, Scene scene, const Camera& camera,
@@ -81,12 +84,19 @@ Rendered render_two_pass(const RenderRequest& request, Scene scene, const Camera
   const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
   if (stored) {
     check_belongs(*request.solution, *stored, prepared->mesh);
+    if (settings.render.layers == WithLayers::yes && stored->field.mirrored.empty()) {
+      throw InputError(request.solution->string(), "",
+                       "does not know what mirrors brought: solve again with --interpolation "
+                       "gather");
+    }
   }
-  Rendered rendered;
-  rendered.image =
+  Rendering rendering =
       stored ? run_pass_two(*prepared, std::move(*stored), camera, settings, events, figures)
              : run_two_pass(*prepared, camera, settings, events, figures);
   warn_of_solution(figures.solver, figures.closure, events);
+  Rendered rendered;
+  rendered.image = std::move(rendering.image);
+  rendered.layers = std::move(rendering.layers);
   rendered.attributes = {
       {"mode", settings.render.mode == RenderMode::hybrid ? "hybrid" : "radiosity"},
       {"samples", std::to_string(settings.render.samples)}};
@@ -101,6 +111,7 @@ Rendered render_reference(const RenderRequest& request, Scene scene, const Camer
   auto picture = run_reference(std::move(scene), camera, settings, events, figures);
   Rendered rendered;
   rendered.image = std::move(picture.mean);
+  rendered.layers = std::move(picture.layers);
   rendered.layers.push_back({"variance", std::move(picture.variance)});
   rendered.attributes = {{"mode", "reference"},
                          {"samples", std::to_string(picture.samples)},

@@ -64,6 +64,7 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
       settings.mode == PictureMode::radiosity ? RenderMode::radiosity : RenderMode::hybrid;
   result.render.samples = power_of_two(settings.samples.value_or(preset.samples));
   result.render.seed = settings.seed;
+  result.render.layers = settings.layers;
   if (settings.mirror_depth) {
     // A cap holds for every kind of path: in closed form, gathered, and seen by the camera.
     pass_one.plan.worlds.max_depth =
@@ -83,6 +84,7 @@ static int whole_batches(int samples) {
 reference::ReferenceSettings reference_settings(const RunSettings& settings) {
   reference::ReferenceSettings result;
   result.seed = settings.seed;
+  result.layers = settings.layers;
   result.max_error = settings.max_error.value_or(0.0);
   result.max_seconds = settings.max_seconds.value_or(result.max_seconds);
   if (settings.samples) {

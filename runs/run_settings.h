@@ -17,9 +17,9 @@ struct QualityPreset {
   double target_elements = 0.0; ///< about how many elements share the meshed area
   int rays = 0; ///< form-factor rays per element, and per vertex where irradiance is gathered there
   int hemicube_resolution = 0; ///< cells along an edge of the top, where hemicubes are used instead
-  int penumbra_rays = 0;  ///< shadow rays from a vertex to an emitter that it sees in part
-  int samples = 0;        ///< camera rays per pixel
-  double max_error = 0.0; ///< of a reference: relative standard error of the picture
+  int penumbra_rays = 0;       ///< shadow rays from a vertex to an emitter that it sees in part
+  int samples = 0;             ///< camera rays per pixel
+  double max_error = 0.0;      ///< of a reference: relative standard error of the picture
 };
 QualityPreset preset_of(Quality quality);
 
@@ -47,9 +47,10 @@ struct RunSettings {
   std::optional<Interpolation> interpolation;
   std::optional<int> samples;
   PictureMode mode = PictureMode::hybrid;
-  std::optional<double> max_error;   ///< of a reference
-  std::optional<double> max_seconds; ///< of a reference
-  int threads = 0;                   ///< 0: all the machine has
+  WithLayers layers = WithLayers::no; ///< of a hybrid picture or a reference
+  std::optional<double> max_error;    ///< of a reference
+  std::optional<double> max_seconds;  ///< of a reference
+  int threads = 0;                    ///< 0: all the machine has
   std::uint32_t seed = 0;
 };
 

@@ -356,7 +356,7 @@ TEST(Help, ListsEveryOptionOfItsCommand) {
       {"solve", pass_one},
       {"plan", {"--json", "--quality", "--element-size"}}};
   for (const char* option :
-       {"--samples", "--size", "--camera", "--exposure", "--mode", "--solution"}) {
+       {"--samples", "--size", "--camera", "--exposure", "--mode", "--layers", "--solution"}) {
     options["render"].emplace_back(option);
   }
   options["solve"].emplace_back("--per-node");
