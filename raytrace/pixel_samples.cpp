@@ -1,0 +1,81 @@
+#include "raytrace/pixel_samples.h"
+
+#include "raytrace/shading.h"
+#include "scenes/sampling.h"
+
+#include <algorithm>
+
+namespace meninas {
+
+namespace {
+
+/// Samples of one or more pixels, lane by lane.
+struct alignas(64) SampleLanes {
+  std::array<std::uint32_t, packet_size> bits_x, bits_y; ///< of the place in the pixel
+  std::array<float, packet_size> left, top;              ///< of the pixel in the picture, in pixels
+  std::array<std::uint32_t, packet_size> pixel;
+  std::uint32_t count = 0;
+};
+
+void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileWorkspace& work) {
+  const float pixel_width = 1.0F / static_cast<float>(context.settings.width);
+  const float pixel_height = 1.0F / static_cast<float>(context.settings.height);
+  const auto unit = [](std::uint32_t bits) {
+    return static_cast<float>(static_cast<std::int32_t>(bits >> 8U)) * 0x1p-24F;
+  };
+  alignas(64) std::array<float, packet_size> x, y;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    x[k] = (lanes.left[k] + unit(lanes.bits_x[k])) * pixel_width;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    y[k] = (lanes.top[k] + unit(lanes.bits_y[k])) * pixel_height;
+  RayPacket packet;
+  HitPacket hits;
+  packet.count = lanes.count;
+  set_camera_rays(packet, context.camera, x, y);
+  closest_hits(context.light.rays, packet, hits, Backs::transparent, Coherence::coherent);
+  shade_packet(context, packet, {lanes.pixel.data(), nullptr}, hits, work);
+}
+
+} // namespace
+
+std::vector<std::uint32_t> pixel_net(int samples, std::size_t d) {
+  std::vector<std::uint32_t> net(static_cast<std::size_t>(std::max(samples, 1)));
+  for (std::uint32_t k = 0; k < net.size(); ++k)
+    net[k] = static_cast<std::uint32_t>(sobol4(k, 0)[d] * 0x1p32F);
+  return net;
+}
+void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileWorkspace& work) {
+  const auto samples = static_cast<std::uint32_t>(context.net_x.size());
+  const auto pixels = static_cast<std::uint32_t>(tile.width * tile.height);
+  SampleLanes lanes{};
+  for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
+    const int px = tile.x0 + static_cast<int>(pixel) % tile.width,
+              py = tile.y0 + static_cast<int>(pixel) / tile.width;
+    const std::uint32_t shift_x =
+        hash(static_cast<std::uint32_t>(px), static_cast<std::uint32_t>(py), context.settings.seed);
+    const std::uint32_t shift_y = hash(shift_x, 1);
+    for (std::uint32_t sample = 0; sample < samples;) {
+      const std::uint32_t first = lanes.count;
+      const auto end = std::min(static_cast<std::uint32_t>(packet_size), first + samples - sample);
+      for (std::uint32_t k = first; k < end; ++k) {
+        lanes.bits_x[k] = context.net_x[sample + k - first] ^ shift_x;
+        lanes.bits_y[k] = context.net_y[sample + k - first] ^ shift_y;
+        lanes.left[k] = static_cast<float>(px);
+        lanes.top[k] = static_cast<float>(py);
+        lanes.pixel[k] = pixel;
+      }
+      sample += end - first;
+      lanes.count = end % packet_size;
+      if (lanes.count != 0)
+        continue;
+      lanes.count = packet_size;
+      trace_samples(context, lanes, work);
+      lanes.count = 0;
+    }
+  }
+  if (lanes.count > 0)
+    trace_samples(context, lanes, work);
+  work.camera_rays += std::uint64_t{pixels} * samples;
+}
+
+} // namespace meninas

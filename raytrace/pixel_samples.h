@@ -1,0 +1,14 @@
+// Camera rays of a tile: stratified points of every pixel, sixteen at a time.
+#pragma once
+
+#include "raytrace/tile.h"
+
+namespace meninas {
+
+/// Coordinate d of the stratified points of a pixel.
+std::vector<std::uint32_t> pixel_net(int samples, std::size_t d);
+
+/// Traces and shades the camera rays of the tile, pixel by pixel.
+void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileWorkspace& work);
+
+} // namespace meninas

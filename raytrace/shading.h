@@ -1,0 +1,11 @@
+// What rays show of what they have met: the field's radiance, added to their pixels; mirrors queue the rays that go on.
+#pragma once
+
+#include "raytrace/tile.h"
+
+namespace meninas {
+
+void shade_packet(const RenderContext& context, const RayPacket& packet, const LaneState& state,
+                  const HitPacket& hits, TileWorkspace& work);
+
+} // namespace meninas

@@ -1,0 +1,17 @@
+// Specular paths: what a mirror sends on, and the tile's rays followed from mirror to mirror.
+//
+// A path ends where it lands on the field, escapes, or when its throughput falls below `RenderSettings::min_throughput`.
+#pragma once
+
+#include "raytrace/tile.h"
+
+namespace meninas {
+
+/// Queues the path behind the mirror that lane k has hit, from where it meets the mirror's exact plane.
+void reflect(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
+             const LaneState& state, std::uint32_t k, float distance, TileWorkspace& work);
+
+/// Traces what is queued, bounce after bounce, until nothing is left.
+void follow_mirrors(const RenderContext& context, TileWorkspace& work);
+
+} // namespace meninas

@@ -1,0 +1,58 @@
+// What a tile of the picture is made with: what all tiles share, and the storage of one.
+#pragma once
+
+#include "raytrace/camera_rays.h"
+#include "raytrace/field_shading.h"
+#include "raytrace/render.h"
+
+#include <array>
+#include <vector>
+
+namespace meninas {
+
+/// A pixel's radiance by how it is seen: straight, in one mirror, by way of several.
+inline constexpr std::size_t seen_ways = 3;
+using SeenRadiance = std::array<glm::vec3, seen_ways>;
+
+/// A specular path that goes on: where, in which pixel of the tile, with what throughput.
+struct SpecularRay {
+  glm::dvec3 origin, direction; ///< in the frame of the ray scene
+  glm::vec3 throughput;
+  std::uint32_t pixel;
+  std::uint32_t leaving;
+};
+
+struct TileWorkspace {
+  std::array<std::vector<glm::vec3>, seen_ways>
+      sums;            ///< by way of seeing, then by pixel of the tile
+  std::size_t way = 0; ///< that of the rays under way
+  std::vector<SpecularRay> current, next;
+  std::uint64_t camera_rays = 0, specular_rays = 0;
+};
+
+struct TileArea {
+  int x0, y0, width, height;
+};
+
+/// Everything the tiles share.
+struct RenderContext {
+  const LightScene& light;
+  const VisibleLight& visible;
+  const RenderSettings& settings;
+  CameraFrame camera;
+  std::vector<std::uint32_t> net_x, net_y; ///< stratified points of the pixel, as integers
+};
+
+/// What the rays of a packet carry: camera rays nothing but their pixel, specular rays their record.
+struct LaneState {
+  const std::uint32_t* pixel;
+  const SpecularRay* specular; ///< of lane 0; null for camera rays
+};
+
+/// The face of its triangle that lane k has hit.
+inline const FaceRecord& face_of(const LandingTable& landing, const HitPacket& hits,
+                                 std::uint32_t k) {
+  return landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
+}
+
+} // namespace meninas

@@ -1,0 +1,21 @@
+// The picture tile by tile: tiles run in parallel, and each writes its own pixels.
+#pragma once
+
+#include "raytrace/tile.h"
+
+#include <functional>
+
+namespace meninas {
+
+using StorePixel = std::function<void(int x, int y, const SeenRadiance&)>;
+
+struct RayTotals {
+  std::uint64_t camera = 0, specular = 0;
+};
+
+/// Every pixel of what is visible, handed to `store` from any thread.
+RayTotals trace_picture(const LightScene& light, const VisibleLight& visible, const Camera& camera,
+                        const RenderSettings& settings, const Progress& progress,
+                        const StorePixel& store);
+
+} // namespace meninas
