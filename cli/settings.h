@@ -2,7 +2,7 @@
 // very definitions that read them on the command line.
 #pragma once
 
-#include "runs/cases_file.h"
+#include "runs/setting.h"
 
 namespace meninas {
 

@@ -9,26 +9,14 @@
 #pragma once
 
 #include "runs/comparison.h"
-#include "runs/render_run.h"
+#include "runs/setting.h"
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace meninas {
-
-/// An option by its name without dashes; no value for a flag.
-struct Setting {
-  std::string name;
-  std::optional<std::string> value;
-  bool operator==(const Setting&) const = default;
-};
-
-/// Puts settings into a request. Throws UsageError, `NAME: WHAT` where one setting is to blame. The command line's own parser is one.
-using SettingsParser =
-    std::function<RenderRequest(const std::filesystem::path& scene, const std::vector<Setting>&)>;
 
 struct CaseRendering {
   RenderRequest request; ///< without outputs

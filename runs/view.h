@@ -1,0 +1,54 @@
+// One view of a scene: the picture, and what it says about itself, whichever command asks for it.
+//
+// Pass one does not know the view: a LitScene serves any number of them, from any number of threads.
+#pragma once
+
+#include "image/image_file.h"
+#include "runs/run_events.h"
+#include "runs/run_settings.h"
+#include "runs/stats.h"
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace meninas {
+
+/// A scene with its diffuse light, as far as pass one finds it.
+struct LitScene {
+  std::unique_ptr<PreparedScene> prepared;
+  DiffuseField field;
+};
+
+/// Pass one, run now; the figures of its stages are filled in, its warnings said. `kept`, if given, is written: a solution file that
+/// `read_lit_scene` takes.
+LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
+                         const std::optional<std::filesystem::path>& kept, const RunEvents& events,
+                         RunFigures& figures);
+
+/// Pass one of an earlier run, whose figures are repeated. Throws InputError when the file is damaged or belongs to another scene
+/// or version.
+LitScene read_lit_scene(const std::filesystem::path& solution, Scene scene,
+                        PassOneSettings settings, const RunEvents& events, RunFigures& figures);
+
+/// A picture and what it is: the same bits belong to the same attributes, whether pass one was run or read.
+struct ViewPicture {
+  Image image;
+  std::vector<Layer> layers;
+  Attributes attributes;
+};
+
+/// What the two passes have rendered, with the attributes of this view.
+ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettings& settings,
+                       Rendering rendering);
+
+/// Pass two. Settings of pass one are not heeded; layers need a field that knows its mirrored part.
+ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize size,
+                        const RunSettings& settings, const RunEvents& events, RunFigures& figures);
+
+/// By the path tracer; the layer `variance` comes last.
+ViewPicture render_reference_view(Scene scene, const Camera& camera, PictureSize size,
+                                  const RunSettings& settings, const RunEvents& events,
+                                  RunFigures& figures);
+
+} // namespace meninas
