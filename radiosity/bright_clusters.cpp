@@ -9,10 +9,11 @@ namespace {
 
 double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
 
-/// Elements i0 .. i1 - 1 by j0 .. j1 - 1 of a quad side, or one element of a triangle side (then i1 = i0 + 1, j unused).
+/// Root cells i0 .. i1 - 1 by j0 .. j1 - 1 of a quad side, or one cell of any side.
 struct Block {
   std::uint32_t side;
   int i0, i1, j0, j1;
+  CellId cell = none<CellId>;
 };
 
 struct Candidate {
@@ -31,42 +32,69 @@ struct ClusterSearch {
   std::vector<Candidate> found;
 };
 
-std::uint32_t element_at(const MeshSide& side, int i, int j) {
-  return side.first_element + static_cast<std::uint32_t>(side.triangle ? i : j * side.nu + i);
+CellId root_at(const MeshSide& side, int i, int j) {
+  return static_cast<CellId>(side.first_cell + static_cast<std::uint32_t>(j * side.nu + i));
 }
 
-/// Takes the block as one cluster if all of it is bright and alike; otherwise looks into its quarters.
+/// Calls visit(element) for every element of the block.
+template <typename Visit>
+void for_each_element(const ElementMesh& mesh, const Block& block, Visit&& visit) {
+  const auto visit_cell = [&](CellId id) {
+    const MeshCell& cell = mesh.cells[index(id)];
+    for (std::uint32_t k = 0; k < cell.element_count; ++k)
+      visit(cell.first_element + k);
+  };
+  if (block.cell != none<CellId>) {
+    visit_cell(block.cell);
+    return;
+  }
+  for (int j = block.j0; j < block.j1; ++j)
+    for (int i = block.i0; i < block.i1; ++i)
+      visit_cell(root_at(mesh.sides[block.side], i, j));
+}
+
+/// Calls visit(block) for the parts of a block, none for an element.
+template <typename Visit>
+void for_each_part(const ElementMesh& mesh, const Block& block, Visit&& visit) {
+  const int width = block.i1 - block.i0, height = block.j1 - block.j0;
+  if (block.cell == none<CellId> && width * height > 1) {
+    const int im = width > 1 ? block.i0 + width / 2 : block.i1,
+              jm = height > 1 ? block.j0 + height / 2 : block.j1;
+    visit({block.side, block.i0, im, block.j0, jm});
+    if (im < block.i1)
+      visit({block.side, im, block.i1, block.j0, jm});
+    if (jm < block.j1)
+      visit({block.side, block.i0, im, jm, block.j1});
+    if (im < block.i1 && jm < block.j1)
+      visit({block.side, im, block.i1, jm, block.j1});
+    return;
+  }
+  const CellId cell = block.cell == none<CellId>
+                          ? root_at(mesh.sides[block.side], block.i0, block.j0)
+                          : block.cell;
+  const CellId child = mesh.cells[index(cell)].first_child;
+  for (std::uint32_t k = 0; child != none<CellId> && k < 4; ++k)
+    visit({block.side, 0, 0, 0, 0, static_cast<CellId>(index(child) + k)});
+}
+
+/// Takes the block as one cluster if all of it is bright and alike; otherwise looks into its parts.
 void search(ClusterSearch& context, const Block& block) {
-  const MeshSide& side = context.mesh.sides[block.side];
   double low = std::numeric_limits<double>::infinity(), high = 0.0, area = 0.0;
   Rgb sum(0.0);
-  for (int j = block.j0; j < block.j1; ++j)
-    for (int i = block.i0; i < block.i1; ++i) {
-      const auto element = element_at(side, i, j);
-      const double value = largest(context.reflected[element]);
-      low = std::min(low, value);
-      high = std::max(high, value);
-      area += context.mesh.area[element];
-      sum += context.mesh.area[element] * context.reflected[element];
-    }
+  for_each_element(context.mesh, block, [&](std::uint32_t element) {
+    const double value = largest(context.reflected[element]);
+    low = std::min(low, value);
+    high = std::max(high, value);
+    area += context.mesh.area[element];
+    sum += context.mesh.area[element] * context.reflected[element];
+  });
   if (high < context.threshold || area <= 0.0)
     return;
   if (low >= context.threshold && high <= context.evenness * low) {
     context.found.push_back({block, sum / area, largest(sum) / std::sqrt(area)});
     return;
   }
-  const int width = block.i1 - block.i0, height = block.j1 - block.j0;
-  if (width == 1 && height == 1)
-    return;
-  const int im = width > 1 ? block.i0 + width / 2 : block.i1,
-            jm = height > 1 ? block.j0 + height / 2 : block.j1;
-  search(context, {block.side, block.i0, im, block.j0, jm});
-  if (im < block.i1)
-    search(context, {block.side, im, block.i1, block.j0, jm});
-  if (jm < block.j1)
-    search(context, {block.side, block.i0, im, jm, block.j1});
-  if (im < block.i1 && jm < block.j1)
-    search(context, {block.side, im, block.i1, jm, block.j1});
+  for_each_part(context.mesh, block, [&](const Block& part) { search(context, part); });
 }
 
 void search_sides(ClusterSearch& context) {
@@ -77,8 +105,8 @@ void search_sides(ClusterSearch& context) {
       search(context, {s, 0, side.nu, 0, side.nv});
       continue;
     }
-    for (int e = 0; e < static_cast<int>(side.element_count); ++e)
-      search(context, {s, e, e + 1, 0, 1});
+    for (std::uint32_t k = 0; k < side.root_count; ++k)
+      search(context, {s, 0, 0, 0, 0, static_cast<CellId>(side.first_cell + k)});
   }
 }
 
@@ -86,15 +114,16 @@ Emitter make_emitter(const LightScene& light, const Candidate& candidate) {
   const MeshSide& side = light.mesh.sides[candidate.block.side];
   const Patch& patch = light.surfaces.patches[index(side.patch)];
   const Block& block = candidate.block;
-  const auto corner = [&](int i, int j) {
-    return point_at(patch, Vec2(double(i) / side.nu, double(j) / side.nv));
-  };
   std::vector<Point3> corners;
-  if (side.triangle) {
-    const auto local = static_cast<std::uint32_t>(block.i0);
-    for (const Vec2 st : {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)})
-      corners.push_back(point_at(patch, patch_uv_of(side, local, st)));
+  if (block.cell != none<CellId>) {
+    const MeshCell& cell = light.mesh.cells[index(block.cell)];
+    for (const Vec2 st : {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(1.0, 1.0), Vec2(0.0, 1.0)})
+      if (!side.triangle || st != Vec2(1.0))
+        corners.push_back(point_at(patch, patch_uv_of(light.mesh, cell, st)));
   } else {
+    const auto corner = [&](int i, int j) {
+      return point_at(patch, Vec2(double(i) / side.nu, double(j) / side.nv));
+    };
     corners = {corner(block.i0, block.j0), corner(block.i1, block.j0), corner(block.i1, block.j1),
                corner(block.i0, block.j1)};
   }
@@ -174,10 +203,8 @@ BrightClusters find_bright_clusters(const LightScene& light, const std::vector<R
   }
   for (const auto& candidate : context.found) {
     clusters.emitters.push_back(make_emitter(light, candidate));
-    const MeshSide& side = mesh.sides[candidate.block.side];
-    for (int j = candidate.block.j0; j < candidate.block.j1; ++j)
-      for (int i = candidate.block.i0; i < candidate.block.i1; ++i)
-        clusters.owned[element_at(side, i, j)] = 1;
+    for_each_element(mesh, candidate.block,
+                     [&](std::uint32_t element) { clusters.owned[element] = 1; });
   }
   return clusters;
 }

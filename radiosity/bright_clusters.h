@@ -3,7 +3,7 @@
 //
 // An element is bright when its reflected radiosity exceeds `contrast` times the median over the
 // lit area. Bright neighbours of like radiosity
-// on one quad side are joined into blocks of up to 2^k x 2^k elements. If there are more than `most` clusters they are made
+// on one side are joined into blocks of root cells of a quad, or into cells of the forest. If there are more than `most` clusters they are made
 // coarser; beyond that those that would be noisiest are kept, and the rest is gathered. No path is in both: `owner` says which elements are taken from the source.
 #pragma once
 

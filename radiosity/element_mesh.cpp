@@ -1,6 +1,8 @@
 #include "radiosity/element_mesh.h"
 
+#include "radiosity/cell_children.h"
 #include "radiosity/edge_divisions.h"
+#include "radiosity/mesh_cells.h"
 #include "scenes/errors.h"
 
 #include <fmt/format.h>
@@ -8,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
 
 namespace meninas {
 
@@ -42,7 +43,7 @@ MeshSide make_side(const Scene& scene, const SurfaceModel& model, PatchId id, Fa
   side.nu = divisions.u;
   side.nv = divisions.v;
   side.triangle = patch.corner_count == 3;
-  side.element_count = elements_of(side.nu, side.nv, side.triangle);
+  side.root_count = elements_of(side.nu, side.nv, side.triangle);
   side.reflectance = diffuse_reflectance(material);
   side.emission = std::numbers::pi * material.emission;
   return side;
@@ -61,90 +62,13 @@ void add_sides(ElementMesh& mesh, const Scene& scene, const SurfaceModel& model,
         continue;
       MeshSide side = make_side(scene, model, static_cast<PatchId>(p), static_cast<Facing>(facing),
                                 divisions[p]);
-      side.first_element = static_cast<std::uint32_t>(total);
-      total += side.element_count;
+      side.first_cell = static_cast<std::uint32_t>(total);
+      total += side.root_count;
       mesh.sides_of_patch[p][static_cast<std::size_t>(facing)] =
           static_cast<SideId>(mesh.sides.size());
       mesh.sides.push_back(side);
     }
   }
-}
-
-double area_of(std::span<const Point3> polygon) {
-  Vec3 sum(0.0);
-  for (std::size_t k = 2; k < polygon.size(); ++k)
-    sum += glm::cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
-  return 0.5 * glm::length(sum);
-}
-
-/// Shared vertices by position: those of one surface side that round to the same cell are one vertex.
-class VertexWelder {
-public:
-  VertexWelder(std::vector<Point3>& vertices, double cell) : vertices_(vertices), cell_(cell) {}
-
-  void start_surface(std::uint64_t surface_side) { surface_side_ = surface_side; }
-
-  ElementVertexId vertex_at(const Point3& x) {
-    const auto place = [this](double c) {
-      return static_cast<std::int64_t>(std::floor(c / cell_ + 0.37));
-    };
-    const Key key{place(x.x), place(x.y), place(x.z), surface_side_};
-    const auto [entry, is_new] =
-        known_.emplace(key, static_cast<ElementVertexId>(vertices_.size()));
-    if (is_new)
-      vertices_.push_back(x);
-    return entry->second;
-  }
-
-private:
-  struct Key {
-    std::int64_t x, y, z;
-    std::uint64_t surface_side;
-    bool operator==(const Key&) const = default;
-  };
-  struct KeyHash {
-    std::size_t operator()(const Key& k) const {
-      std::uint64_t h = k.surface_side * 0x9e3779b97f4a7c15ULL;
-      for (const std::int64_t c : {k.x, k.y, k.z})
-        h = (h ^ static_cast<std::uint64_t>(c)) * 0xff51afd7ed558ccdULL + (h >> 29U);
-      return h;
-    }
-  };
-  std::vector<Point3>& vertices_;
-  double cell_;
-  std::uint64_t surface_side_ = 0;
-  std::unordered_map<Key, ElementVertexId, KeyHash> known_;
-};
-
-std::array<Vec2, 4> corner_coordinates(bool triangle) {
-  if (triangle)
-    return {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0), Vec2(0.0, 1.0)};
-  return {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(1.0, 1.0), Vec2(0.0, 1.0)};
-}
-
-void add_elements(ElementMesh& mesh, const SurfaceModel& model, double weld_cell) {
-  VertexWelder welder(mesh.vertices, weld_cell);
-  for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
-    const MeshSide& side = mesh.sides[s];
-    const Patch& patch = model.patches[index(side.patch)];
-    welder.start_surface(2ULL * index(patch.surface) + static_cast<std::uint64_t>(side.facing));
-    const auto coordinates = corner_coordinates(side.triangle);
-    for (std::uint32_t e = 0; e < side.element_count; ++e) {
-      ElementCorners corners;
-      std::array<Point3, 4> points;
-      for (std::size_t c = 0; c < 4; ++c) {
-        points[c] = point_at(patch, patch_uv_of(side, e, coordinates[c]));
-        corners[c] = c == 3 && side.triangle ? corners[2] : welder.vertex_at(points[c]);
-      }
-      mesh.side_of_element.push_back(static_cast<SideId>(s));
-      mesh.corners.push_back(corners);
-      mesh.area.push_back(area_of(std::span(points).first(side.triangle ? 3 : 4)));
-    }
-  }
-  mesh.element_of_vertex.assign(mesh.vertices.size(), none<ElementId>);
-  for (std::size_t e = mesh.corners.size(); e-- > 0;)
-    for (const auto vertex : mesh.corners[e])
-      mesh.element_of_vertex[index(vertex)] = static_cast<ElementId>(e);
 }
 
 /// Area of all sides that carry radiosity, and the number of elements a size would make of them.
@@ -199,22 +123,26 @@ ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces,
   }
 
   add_sides(mesh, scene, surfaces, divisions, dark);
-  mesh.side_of_element.reserve(elements);
-  mesh.corners.reserve(elements);
-  mesh.area.reserve(elements);
-  add_elements(mesh, surfaces, std::max(16.0 * surfaces.tolerance, 1e-7 * mesh.element_size));
+  add_root_cells(mesh);
+  add_elements(mesh, surfaces);
   return mesh;
 }
 
-ElementPoint locate(const MeshSide& side, Vec2 uv) {
+namespace {
+
+/// A cell by its number, and where in it a point is.
+struct CellPoint {
+  std::uint32_t cell;
+  Vec2 st;
+};
+
+CellPoint locate_root(const MeshSide& side, Vec2 uv) {
   const double fu = std::clamp(uv.x, 0.0, 1.0) * side.nu;
   const double fv = std::clamp(uv.y, 0.0, 1.0) * side.nv;
   if (!side.triangle) {
     const int i = std::min(static_cast<int>(fu), side.nu - 1);
     const int j = std::min(static_cast<int>(fv), side.nv - 1);
-    return {
-        static_cast<ElementId>(side.first_element + static_cast<std::uint32_t>(j * side.nu + i)),
-        {fu - i, fv - j}};
+    return {side.first_cell + static_cast<std::uint32_t>(j * side.nu + i), {fu - i, fv - j}};
   }
 
   // Row j holds 2 (n - j) - 1 triangles, so it starts at j (2n - j); beyond the diagonal of its cell a point is in the upper one.
@@ -224,29 +152,26 @@ ElementPoint locate(const MeshSide& side, Vec2 uv) {
   const double s = fu - i, t = fv - j;
   const bool upper = s + t > 1.0 && i + j < n - 1;
   const auto local = static_cast<std::uint32_t>(j * (2 * n - j) + 2 * i + (upper ? 1 : 0));
-  return {static_cast<ElementId>(side.first_element + local),
-          upper ? Vec2(1.0 - s, 1.0 - t) : Vec2(s, t)};
+  return {side.first_cell + local, upper ? Vec2(1.0 - s, 1.0 - t) : Vec2(s, t)};
 }
 
-Vec2 patch_uv_of(const MeshSide& side, std::uint32_t local_element, Vec2 st) {
-  const int n = side.nu;
-  if (!side.triangle) {
-    const int i = static_cast<int>(local_element) % n, j = static_cast<int>(local_element) / n;
-    return {(i + st.x) / side.nu, (j + st.y) / side.nv};
-  }
+} // namespace
 
-  // The row is the largest j with j (2n - j) <= local_element.
-  const double root = n - std::sqrt(static_cast<double>(n) * n - local_element);
-  int j = std::clamp(static_cast<int>(root), 0, n - 1);
-  while (j + 1 < n && static_cast<std::uint32_t>((j + 1) * (2 * n - j - 1)) <= local_element)
-    ++j;
-  while (j > 0 && static_cast<std::uint32_t>(j * (2 * n - j)) > local_element)
-    --j;
-  const int in_row = static_cast<int>(local_element) - j * (2 * n - j);
-  const int i = in_row / 2;
-  if (in_row % 2 == 1)
-    return {(i + 1 - st.x) / n, (j + 1 - st.y) / n};
-  return {(i + st.x) / n, (j + st.y) / n};
+ElementPoint locate(const ElementMesh& mesh, SideId id, Vec2 uv) {
+  const MeshSide& side = mesh.sides[index(id)];
+  CellPoint at = locate_root(side, uv);
+  while (!is_leaf(mesh.cells[at.cell])) {
+    const ChildPoint<Vec2> child = child_at(at.st, side.triangle);
+    at = {index(mesh.cells[at.cell].first_child) + child.child, child.st};
+  }
+  return {static_cast<ElementId>(mesh.cells[at.cell].first_element), at.st};
+}
+
+Vec2 patch_uv_of(const ElementMesh& mesh, const MeshCell& cell, Vec2 st) {
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  const double sign = cell.flipped ? -1.0 : 1.0;
+  return {(cell.i + sign * st.x) / (side.nu << cell.level),
+          (cell.j + sign * st.y) / (side.nv << cell.level)};
 }
 
 } // namespace meninas

@@ -1,9 +1,11 @@
 // The element mesh of pass one: every patch side that can carry radiosity, divided in its own (u, v).
 //
-// A side is the front, or of a double-sided patch also the back, of a patch. A quad side has nu x nv elements, element (i, j) covers
+// A side is the front, or of a double-sided patch also the back, of a patch. A quad side has nu x nv root cells, cell (i, j) covers
 // u in [i, i+1]/nu, v in [j, j+1]/nv; a triangle side has n rows of triangles, n = nu = nv, row j holds 2 (n - j) - 1 of them, lower
-// and upper alternating. So the element of a hit (patch, u, v) is index arithmetic, and no ray is ever traced against elements.
-// Sides of the same surface share the vertices on their common edge; edges that meet in one surface get the same division.
+// and upper alternating. Every root cell may be divided, into four by the middles of its edges, and so may its quarters
+// (mesh_division.h): the mesh is a forest of quadtrees, its leaves are the elements. Those of a side are numbered in a row, depth first.
+// So the element of a hit (patch, u, v) is index arithmetic and a descent by halves, and no ray is ever traced against elements.
+// Sides of the same surface share the vertices on their common edge; edges that meet in one surface get the same division into roots.
 // Ideal mirrors (no diffuse reflectance, no emission) have no side: they are not unknowns.
 #pragma once
 
@@ -15,6 +17,7 @@
 namespace meninas {
 
 enum class SideId : std::uint32_t {};
+enum class CellId : std::uint32_t {};
 enum class ElementId : std::uint32_t {};
 enum class ElementVertexId : std::uint32_t {};
 
@@ -40,39 +43,80 @@ struct MeshSide {
   bool triangle = false;
   std::uint32_t first_element = 0;
   std::uint32_t element_count = 0;
+  std::uint32_t first_cell = 0; ///< of its root cells, which stand in a row
+  std::uint32_t root_count = 0;
   Rgb reflectance{0.0}; ///< rho, diffuse
   Rgb emission{0.0};    ///< E = pi L, W/m^2
 };
 
+/// A node of the forest: a leaf is an element, others have four children in a row. At level l it covers, for (s, t) in its own
+/// [0, 1]^2 (triangles: s + t <= 1),
+///   (u, v) = ((i + s) / nu 2^l, (j + t) / nv 2^l),   flipped ((i - s) / n 2^l, (j - t) / n 2^l).
+struct MeshCell {
+  CellId parent = none<CellId>;
+  CellId first_child = none<CellId>; ///< none: a leaf
+  SideId side = none<SideId>;
+  std::uint32_t first_element = 0, element_count = 0; ///< the leaves below; of a leaf, itself
+  std::int32_t i = 0, j = 0;
+  std::uint8_t level = 0;
+  bool flipped = false; ///< a triangle that points the other way: upper ones, and the middle one of four
+  double area = 0.0;    ///< m^2
+};
+/// Cells may be divided as often as that.
+inline constexpr int most_levels = 12;
+
+inline bool is_leaf(const MeshCell& cell) { return cell.first_child == none<CellId>; }
+
 /// Corner vertices in the order of the cell's corners (0,0), (1,0), (1,1), (0,1); a triangle repeats its third.
 using ElementCorners = std::array<ElementVertexId, 4>;
+
+/// A corner of some elements in the middle of the edge of a larger one. The field has no crack there when its value is the mean of
+/// those at the ends of that edge.
+struct HangingVertex {
+  ElementVertexId vertex, end_a, end_b;
+};
 
 struct ElementMesh {
   std::vector<MeshSide> sides;
   std::vector<std::array<SideId, 2>>
       sides_of_patch; ///< by PatchId, then Facing; none where there is no side
+  std::vector<MeshCell> cells; ///< the roots of all sides, then every cell after its parent
+  std::vector<CellId> cell_of_element;
   std::vector<SideId> side_of_element;
   std::vector<ElementCorners> corners;      ///< by ElementId
   std::vector<double> area;                 ///< by ElementId, m^2
   std::vector<Point3> vertices;             ///< by ElementVertexId
   std::vector<ElementId> element_of_vertex; ///< one of the elements that share it
-  double element_size = 0.0;                ///< what was used, metres
+  std::vector<HangingVertex> hanging; ///< those whose ends hang themselves after these
+  double element_size = 0.0;          ///< what was used for the roots, metres
 };
 
-/// Sides marked in `dark` get no elements; empty: all are meshed.
+/// Sides marked in `dark` get no elements; empty: all are meshed. No cell is divided.
 ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces,
                               const MeshSettings& settings = {}, const DarkSides& dark = {});
 
 inline std::size_t element_count(const ElementMesh& mesh) { return mesh.area.size(); }
+
+/// Whether any cell of the side is divided.
+inline bool is_divided(const MeshSide& side) { return side.element_count != side.root_count; }
 
 /// Where in its element a point of a side is: the element and (s, t) in [0, 1]^2 (for triangles s + t <= 1 from corner 0).
 struct ElementPoint {
   ElementId element;
   Vec2 st;
 };
-ElementPoint locate(const MeshSide& side, Vec2 uv);
+ElementPoint locate(const ElementMesh& mesh, SideId side, Vec2 uv);
 
-/// The (u, v) of its patch for the point (s, t) of an element; `local_element` counts from the side's first.
-Vec2 patch_uv_of(const MeshSide& side, std::uint32_t local_element, Vec2 st);
+/// The (u, v) of its patch for the point (s, t) of a cell.
+Vec2 patch_uv_of(const ElementMesh& mesh, const MeshCell& cell, Vec2 st);
+
+inline const MeshCell& cell_of(const ElementMesh& mesh, ElementId element) {
+  return mesh.cells[index(mesh.cell_of_element[index(element)])];
+}
+
+/// The wanted edge length at the element's level.
+inline double size_of(const ElementMesh& mesh, ElementId element) {
+  return mesh.element_size / static_cast<double>(1U << cell_of(mesh, element).level);
+}
 
 } // namespace meninas

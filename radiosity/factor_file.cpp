@@ -78,6 +78,9 @@ std::uint64_t hash_of_mesh(const ElementMesh& mesh) {
     hash.add(static_cast<std::uint64_t>(side.nu));
     hash.add(static_cast<std::uint64_t>(side.nv));
   }
+  for (const MeshCell& cell : mesh.cells) {
+    hash.add(std::uint64_t{cell.level});
+  }
   for (const Point3& vertex : mesh.vertices) {
     hash.add(vertex);
   }

@@ -121,7 +121,7 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
       const glm::vec2 uv =
           landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
       RayLanding& landing = work.result.landings.emplace_back();
-      landing.element = land(light.landing.sides[face.side], uv).element;
+      landing.element = land(light.landing, face.side, uv).element;
       landing.world = legs.world(k);
       landing.light = weight * tau;
     }
@@ -235,11 +235,11 @@ Covered covered_part(const LightScene& light, const DirectionNet& net, const Rec
 }
 
 ReceiverArea receiver_of(const LightScene& light, ElementId element) {
-  const MeshSide& side = light.mesh.sides[index(light.mesh.side_of_element[index(element)])];
+  const MeshCell& cell = cell_of(light.mesh, element);
+  const MeshSide& side = light.mesh.sides[index(cell.side)];
   const Patch& patch = light.surfaces.patches[index(side.patch)];
-  const std::uint32_t local = index(element) - side.first_element;
   const auto at = [&](double s, double t) {
-    return point_at(patch, patch_uv_of(side, local, Vec2(s, t)));
+    return point_at(patch, patch_uv_of(light.mesh, cell, Vec2(s, t)));
   };
   ReceiverArea area;
   area.corner = at(0.0, 0.0);

@@ -2,6 +2,7 @@
 
 #include "radiosity/bright_clusters.h"
 #include "radiosity/gather_rays.h"
+#include "radiosity/mesh_division.h"
 #include "radiosity/vertex_fill.h"
 #include "scenes/sampling.h"
 
@@ -77,7 +78,7 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
     // A vertex inside its surface lies at the centre of its elements; on the border they all lie to one side.
     const Vec3 inward = centre[v] - mesh.vertices[v];
     const double reach = glm::length(inward);
-    if (reach < 0.2 * mesh.element_size * 0.5)
+    if (reach < 0.2 * size_of(mesh, mesh.element_of_vertex[v]) * 0.5)
       continue;
 
     // Of the corners of those elements the one most straight inward carries the inner mean.
@@ -99,6 +100,7 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
     const double step = std::min(reach / further, 1.0);
     value[v] = glm::max(glm::vec3(mean[v] + step * (mean[v] - mean[inner])), glm::vec3(0.0F));
   }
+  settle_hanging(mesh, value);
   return value;
 }
 
@@ -158,8 +160,9 @@ ArrivingLight landed_light(const VertexGathering& context, const GatheredRays& g
 
 /// Whether something lies on the surface here: nearly all of the hemisphere is blocked within a fraction of an element, as under
 /// a box that stands on a floor. What little light there is there must not be interpolated out into the open.
-bool is_under_something(const VertexGathering& context, const Receiver& receiver) {
-  constexpr double reach = 0.35;
+bool is_under_something(const VertexGathering& context, const Receiver& receiver,
+                        double element_size) {
+  constexpr double reach = 0.35; // of an element
   constexpr int least = packet_size - 1;
   const TangentFrame frame = frame_along(receiver.normal, receiver.tangent);
   const RayFrame& ray_frame = context.light.rays.frame();
@@ -179,15 +182,15 @@ bool is_under_something(const VertexGathering& context, const Receiver& receiver
     packet.direction_y[k] = direction.y;
     packet.direction_z[k] = direction.z;
     packet.max_distance[k] =
-        static_cast<float>(reach * context.light.mesh.element_size * ray_frame.scale);
+        static_cast<float>(reach * element_size * ray_frame.scale);
     packet.leaving[k] = index(receiver.plane_class);
     packet.arriving[k] = index(none<PlaneId>);
   }
   return std::popcount(occluded(context.light.rays, packet, Coherence::coherent)) >= least;
 }
 
-VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, std::uint32_t seed,
-                      VertexWorkspace& work) {
+VertexValue gather_at(const VertexGathering& context, const Receiver& receiver,
+                      double element_size, std::uint32_t seed, VertexWorkspace& work) {
   constexpr double most_black =
       0.9; // of the hemisphere: the vertex is inside something that stands on its surface
   ReceiverArea point;
@@ -214,7 +217,8 @@ VertexValue gather_at(const VertexGathering& context, const Receiver& receiver, 
       gathered.black > most_black * gathered.rays ||
       (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
   const bool covered =
-      (enclosed && from_source.total == Rgb(0.0)) || is_under_something(context, receiver);
+      (enclosed && from_source.total == Rgb(0.0)) ||
+                       is_under_something(context, receiver, element_size);
   return {{from_rays.total + from_source.total + from_clusters.total,
            from_rays.mirrored + from_source.mirrored + from_clusters.mirrored},
           covered};
@@ -272,7 +276,7 @@ gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
           const Receiver receiver{gathering_point(mesh, all, v), side.normal, side.plane_class,
                                   side.tangent};
           const VertexValue value =
-              gather_at(context, receiver,
+              gather_at(context, receiver, size_of(mesh, mesh.element_of_vertex[v]),
                         hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27), work);
           field.irradiance[v] = glm::vec3(value.irradiance.total);
           field.mirrored[v] = glm::vec3(value.irradiance.mirrored);
@@ -285,6 +289,8 @@ gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
   }
   fill_vertices(mesh, valid, field.irradiance);
   fill_vertices(mesh, valid, field.mirrored);
+  settle_hanging(mesh, field.irradiance);
+  settle_hanging(mesh, field.mirrored);
   return result;
 }
 
@@ -298,7 +304,7 @@ InterpolatedField interpolate(const LightScene& light, const std::vector<Rgb>& r
 }
 
 glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv) {
-  const ElementPoint at = locate(mesh.sides[index(side)], uv);
+  const ElementPoint at = locate(mesh, side, uv);
   const auto& corners = mesh.corners[index(at.element)];
   const auto value = [&](int c) {
     return field.irradiance[index(corners[static_cast<std::size_t>(c)])];

@@ -1,5 +1,6 @@
 #include "radiosity/landing.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace meninas {
@@ -74,7 +75,12 @@ LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces
     }
   }
   for (const auto& side : mesh.sides)
-    table.sides.push_back({side.first_element, side.nu, side.nv, side.triangle});
+    table.sides.push_back({is_divided(side) ? side.first_cell : side.first_element, side.nu,
+                           side.nv, side.triangle, is_divided(side)});
+  if (std::any_of(mesh.sides.begin(), mesh.sides.end(), is_divided))
+    for (const auto& cell : mesh.cells)
+      table.descent.push_back(is_leaf(cell) ? LandingTable::leaf | cell.first_element
+                                            : index(cell.first_child));
   return table;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mirror/mirrors.h"
+#include "radiosity/cell_children.h"
 #include "radiosity/element_mesh.h"
 
 #include <cmath>
@@ -35,14 +36,19 @@ struct FaceRecord {
 
 /// What the inner loops need of a side, close together.
 struct SideRecord {
-  std::uint32_t first_element = 0;
+  std::uint32_t first_element = 0; ///< its first root cell where cells of it are divided
   std::int32_t nu = 1, nv = 1;
   bool triangle = false;
+  bool divided = false;
 };
 
 struct LandingTable {
+  /// Marks the element in `descent`.
+  static constexpr std::uint32_t leaf = 0x80000000U;
+
   std::vector<FaceRecord> faces; ///< [2 triangle + (0 front, 1 back)]
   std::vector<SideRecord> sides; ///< by SideId
+  std::vector<std::uint32_t> descent; ///< by CellId: `leaf` and the element, or the first child; empty when nothing is divided
 };
 
 LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces,
@@ -78,7 +84,20 @@ struct Landing {
   std::uint32_t element;
   glm::vec2 st;
 };
-inline Landing land(const SideRecord& side, glm::vec2 uv) {
+
+/// From a root cell of a divided side to the element.
+inline Landing descend(const LandingTable& table, bool triangle, Landing root) {
+  std::uint32_t at = table.descent[root.element];
+  while ((at & LandingTable::leaf) == 0) {
+    const ChildPoint<glm::vec2> child = child_at(root.st, triangle);
+    at = table.descent[at + child.child];
+    root.st = child.st;
+  }
+  return {at & ~LandingTable::leaf, root.st};
+}
+
+/// The element, or the root cell of a divided side.
+inline Landing land_on_root(const SideRecord& side, glm::vec2 uv) {
   const float fu = glm::clamp(uv.x, 0.0F, 1.0F) * static_cast<float>(side.nu);
   const float fv = glm::clamp(uv.y, 0.0F, 1.0F) * static_cast<float>(side.nv);
   if (!side.triangle) {
@@ -94,6 +113,12 @@ inline Landing land(const SideRecord& side, glm::vec2 uv) {
   const bool upper = s + t > 1.0F && i + j < n - 1;
   const auto local = static_cast<std::uint32_t>(j * (2 * n - j) + 2 * i + (upper ? 1 : 0));
   return {side.first_element + local, upper ? glm::vec2(1.0F - s, 1.0F - t) : glm::vec2(s, t)};
+}
+
+inline Landing land(const LandingTable& table, std::uint32_t side, glm::vec2 uv) {
+  const SideRecord& record = table.sides[side];
+  const Landing at = land_on_root(record, uv);
+  return record.divided ? descend(table, record.triangle, at) : at;
 }
 
 } // namespace meninas

@@ -54,9 +54,10 @@ inline glm::vec3 field_radiance(const ElementMesh& mesh, std::span<const glm::ve
 }
 
 inline glm::vec3 field_radiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
-                                const SideShading& shading, const SideRecord& side, glm::vec2 uv) {
-  const Landing at = land(side, uv);
-  const float st = side.triangle ? 0.0F : at.st.x * at.st.y;
+                                const SideShading& shading, const LandingTable& landing,
+                                std::uint32_t side, glm::vec2 uv) {
+  const Landing at = land(landing, side, uv);
+  const float st = landing.sides[side].triangle ? 0.0F : at.st.x * at.st.y;
   return field_radiance(mesh, irradiance, shading, at.element, {1.0F, at.st.x, at.st.y, st});
 }
 

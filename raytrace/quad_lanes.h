@@ -56,6 +56,15 @@ inline LanePoints land_on_quad(const LightScene& light, const FaceRecord& face,
     at.t[k] = v - static_cast<float>(j);
     at.element[k] = first + j * nu + i;
   }
+  if (side.divided)
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      const Landing found = descend(
+          light.landing, false,
+          {static_cast<std::uint32_t>(at.element[k]), glm::vec2(at.s[k], at.t[k])});
+      at.element[k] = static_cast<std::int32_t>(found.element);
+      at.s[k] = found.st.x;
+      at.t[k] = found.st.y;
+    }
   return at;
 }
 

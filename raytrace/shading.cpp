@@ -20,7 +20,7 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
         const glm::vec2 uv = uv_of(light, face, hits, k);
         const glm::vec3 radiance =
             field_radiance(light.mesh, context.visible.irradiance,
-                           context.visible.shading[face.side], light.landing.sides[face.side], uv);
+                           context.visible.shading[face.side], light.landing, face.side, uv);
         sum += state.specular ? state.specular[k].throughput * radiance : radiance;
       }
       if (face.mirrors && mirrors)

@@ -1,6 +1,6 @@
-#include "radiosity/element_mesh.h"
 #include "radiosity/landing.h"
 #include "scenes/errors.h"
+#include "tests/radiosity/meshed.h"
 #include "tests/support/random.h"
 #include "tests/support/rooms.h"
 
@@ -12,39 +12,6 @@
 
 namespace meninas::test {
 namespace {
-
-struct Meshed {
-  Scene scene;
-  SurfaceModel surfaces;
-  ElementMesh mesh;
-};
-
-Meshed meshed(Scene scene, const MeshSettings& settings) {
-  Meshed result{std::move(scene), {}, {}};
-  result.surfaces = find_surfaces(result.scene);
-  result.mesh = make_element_mesh(result.scene, result.surfaces, settings);
-  return result;
-}
-
-Scene square() {
-  Scene scene;
-  add_polygon(scene, "square", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, diffuse(0.5));
-  return scene;
-}
-
-/// A parallelogram, a trapezoid, a general quad, triangles, a sliver.
-Scene all_shapes() {
-  Scene scene;
-  add_polygon(scene, "parallelogram", {{0, 0, 0}, {2, 0, 0}, {2.5, 1, 0}, {0.5, 1, 0}},
-              diffuse(0.5));
-  add_polygon(scene, "trapezoid", {{0, 0, 1}, {2, 0, 1}, {1.4, 1, 1}, {0.5, 1, 1}}, diffuse(0.5));
-  add_polygon(scene, "quad", {{0, 0, 2}, {2, 0.3, 2}, {1.7, 1.5, 2}, {0.1, 1, 2}}, diffuse(0.5));
-  add_polygon(scene, "triangle", {{0, 0, 3}, {2, 0, 3}, {0.3, 1.3, 3}}, diffuse(0.5));
-  add_polygon(scene, "back", {{0, 0, 4}, {0, 1, 4}, {1, 1, 4.5}}, double_sided(diffuse(0.5)));
-  add_polygon(scene, "sliver", {{0, 0, 5}, {2, 0, 5}, {2, 1e-4, 5}}, diffuse(0.5));
-  add_polygon(scene, "ribbon", {{0, 0, 6}, {2, 0, 6}, {2, 1e-4, 6}, {0, 1e-4, 6}}, diffuse(0.5));
-  return scene;
-}
 
 TEST(ElementMesh, AreasAddUpToThePatches) {
   for (const double size : {0.03, 0.2, 1.0, 100.0}) {
@@ -80,39 +47,46 @@ TEST(ElementMesh, LocateInvertsPatchUv) {
   for (const double size : {0.05, 0.31, 10.0}) {
     const Meshed m = meshed(all_shapes(), {.element_size = size});
     Random random(1);
-    for (const auto& side : m.mesh.sides)
+    const LandingTable table =
+        make_landing_table(
+        m.scene, m.surfaces, find_mirrors(m.scene, m.surfaces), m.mesh, Point3(0.0), 1.0);
+    for (std::uint32_t s = 0; s < m.mesh.sides.size(); ++s) {
+      const MeshSide& side = m.mesh.sides[s];
       for (std::uint32_t local = 0; local < side.element_count; ++local) {
+        const ElementId element{side.first_element + local};
         Vec2 st(random.between(0.01, 0.99), random.between(0.01, 0.99));
         if (side.triangle && st.x + st.y > 0.99)
           st = 0.995 - st;
         if (glm::any(glm::lessThan(st, Vec2(0.005))))
           st = Vec2(0.3);
-        const Vec2 uv = patch_uv_of(side, local, st);
-        const ElementPoint at = locate(side, uv);
-        ASSERT_EQ(index(at.element), side.first_element + local);
+        const Vec2 uv = patch_uv_of(m.mesh, cell_of(m.mesh, element), st);
+        const ElementPoint at = locate(m.mesh, SideId{s}, uv);
+        ASSERT_EQ(at.element, element);
         EXPECT_LT(glm::distance(at.st, st), 1e-11);
-        const Landing landing =
-            land({side.first_element, side.nu, side.nv, side.triangle}, glm::vec2(uv));
+        const Landing landing = land(table, s, glm::vec2(uv));
         // A float of (u, v) is known to 6e-8, times at most 40 divisions.
         EXPECT_LT(glm::distance(Vec2(landing.st), st), 1e-5);
-        ASSERT_EQ(landing.element, side.first_element + local);
+        ASSERT_EQ(landing.element, index(element));
       }
+    }
   }
 }
 
 TEST(ElementMesh, LocateTakesEveryPointOfThePatch) {
   const Meshed m = meshed(all_shapes(), {.element_size = 0.17});
-  for (const auto& side : m.mesh.sides)
+  for (std::uint32_t s = 0; s < m.mesh.sides.size(); ++s) {
+    const MeshSide& side = m.mesh.sides[s];
     for (int i = -1; i <= 65; ++i)
       for (int j = -1; j <= 65; ++j) {
         const Vec2 uv(i / 64.0, j / 64.0);
         if (side.triangle && uv.x + uv.y > 1.0 + 1e-9)
           continue;
-        const ElementPoint at = locate(side, uv);
+        const ElementPoint at = locate(m.mesh, SideId{s}, uv);
         EXPECT_GE(index(at.element), side.first_element);
         EXPECT_LT(index(at.element), side.first_element + side.element_count);
         EXPECT_TRUE(at.st.x >= 0.0 && at.st.x <= 1.0 && at.st.y >= 0.0 && at.st.y <= 1.0);
       }
+  }
 }
 
 TEST(ElementMesh, VerticesLieWhereTheirElementsSay) {
@@ -120,9 +94,9 @@ TEST(ElementMesh, VerticesLieWhereTheirElementsSay) {
   for (std::size_t e = 0; e < element_count(m.mesh); ++e) {
     const MeshSide& side = m.mesh.sides[index(m.mesh.side_of_element[e])];
     const Patch& patch = m.surfaces.patches[index(side.patch)];
-    const auto local = static_cast<std::uint32_t>(e) - side.first_element;
+    const MeshCell& cell = cell_of(m.mesh, static_cast<ElementId>(e));
     const auto at = [&](double s, double t) {
-      return point_at(patch, patch_uv_of(side, local, {s, t}));
+      return point_at(patch, patch_uv_of(m.mesh, cell, {s, t}));
     };
     const std::array<Point3, 4> points{at(0, 0), at(1, 0), side.triangle ? at(0, 1) : at(1, 1),
                                        at(0, 1)};
@@ -135,20 +109,6 @@ TEST(ElementMesh, AGridSharesItsVertices) {
   const Meshed m = meshed(square(), {.element_size = 0.1});
   EXPECT_EQ(element_count(m.mesh), 100U);
   EXPECT_EQ(m.mesh.vertices.size(), 121U);
-}
-
-/// A wall of two quads and two triangles in one material: one surface.
-Scene patched_wall() {
-  Scene scene = square();
-  const auto extend = [&scene](const std::vector<Point3>& corners, const std::string& name) {
-    add_polygon(scene, name, corners, diffuse(0.5));
-    for (auto& triangle : scene.triangles)
-      triangle.material = MaterialId{0};
-  };
-  extend({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}, "right");
-  extend({{0, 1, 0}, {1, 1, 0}, {0, 2, 0}}, "above");
-  extend({{1, 1, 0}, {2, 1, 0}, {2, 2.7, 0}}, "beside");
-  return scene;
 }
 
 TEST(ElementMesh, PatchesOfASurfaceConform) {

@@ -1,0 +1,133 @@
+#include "radiosity/mesh_cells.h"
+
+#include <algorithm>
+#include <span>
+
+namespace meninas {
+
+namespace {
+
+double area_of(std::span<const Point3> polygon) {
+  Vec3 sum(0.0);
+  for (std::size_t k = 2; k < polygon.size(); ++k)
+    sum += glm::cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+  return 0.5 * glm::length(sum);
+}
+
+std::array<Vec2, 4> corner_coordinates(bool triangle) {
+  if (triangle)
+    return {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0), Vec2(0.0, 1.0)};
+  return {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(1.0, 1.0), Vec2(0.0, 1.0)};
+}
+
+void add_element(ElementMesh& mesh, const SurfaceModel& surfaces, std::uint32_t number,
+                 VertexWelder& welder) {
+  MeshCell& cell = mesh.cells[number];
+  const bool triangle = mesh.sides[index(cell.side)].triangle;
+  const auto coordinates = corner_coordinates(triangle);
+  ElementCorners corners;
+  std::array<Point3, 4> points;
+  for (std::size_t c = 0; c < 4; ++c) {
+    points[c] = point_in(mesh, surfaces, cell, coordinates[c]);
+    corners[c] =
+        c == 3 && triangle
+            ? corners[2]
+            : welder.vertex_at(surface_side(mesh, surfaces, cell), points[c], mesh.vertices);
+  }
+  cell.area = area_of(std::span(points).first(triangle ? 3 : 4));
+  cell.first_element = static_cast<std::uint32_t>(mesh.area.size());
+  cell.element_count = 1;
+  mesh.cell_of_element.push_back(static_cast<CellId>(number));
+  mesh.side_of_element.push_back(cell.side);
+  mesh.corners.push_back(corners);
+  mesh.area.push_back(cell.area);
+}
+
+/// The leaves below a cell, depth first.
+void add_leaves(ElementMesh& mesh, const SurfaceModel& surfaces, std::uint32_t number,
+                VertexWelder& welder) {
+  if (is_leaf(mesh.cells[number])) {
+    add_element(mesh, surfaces, number, welder);
+    return;
+  }
+  const auto first = static_cast<std::uint32_t>(mesh.area.size());
+  const std::uint32_t child = index(mesh.cells[number].first_child);
+  double area = 0.0;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    add_leaves(mesh, surfaces, child + k, welder);
+    area += mesh.cells[child + k].area;
+  }
+  MeshCell& cell = mesh.cells[number];
+  cell.area = area;
+  cell.first_element = first;
+  cell.element_count = static_cast<std::uint32_t>(mesh.area.size()) - first;
+}
+
+} // namespace
+
+Point3 point_in(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& cell,
+                Vec2 st) {
+  return point_at(surfaces.patches[index(mesh.sides[index(cell.side)].patch)],
+                  patch_uv_of(mesh, cell, st));
+}
+
+std::uint64_t surface_side(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                           const MeshCell& cell) {
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  return 2ULL * index(surfaces.patches[index(side.patch)].surface) +
+         static_cast<std::uint64_t>(side.facing);
+}
+
+void add_root_cells(ElementMesh& mesh) {
+  for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
+    const MeshSide& side = mesh.sides[s];
+    MeshCell root;
+    root.side = static_cast<SideId>(s);
+    for (int j = 0; j < side.nv; ++j)
+      for (int k = 0; k < (side.triangle ? 2 * (side.nu - j) - 1 : side.nu); ++k) {
+        // In a row of triangles every second one is the upper half of its cell, and starts at the far corner.
+        root.flipped = side.triangle && k % 2 == 1;
+        root.i = (side.triangle ? k / 2 : k) + (root.flipped ? 1 : 0);
+        root.j = j + (root.flipped ? 1 : 0);
+        mesh.cells.push_back(root);
+      }
+  }
+}
+
+void divide_cell(ElementMesh& mesh, std::uint32_t number) {
+  const MeshCell parent = mesh.cells[number];
+  const bool triangle = mesh.sides[index(parent.side)].triangle;
+  const int step = parent.flipped ? -1 : 1;
+  mesh.cells[number].first_child = static_cast<CellId>(mesh.cells.size());
+  for (int k = 0; k < 4; ++k) {
+    MeshCell child;
+    child.parent = static_cast<CellId>(number);
+    child.side = parent.side;
+    child.level = static_cast<std::uint8_t>(parent.level + 1);
+    child.flipped = triangle && k == 3 ? !parent.flipped : parent.flipped;
+    child.i = 2 * parent.i + (k % 2 == 1 ? step : 0);
+    child.j = 2 * parent.j + (k / 2 == 1 ? step : 0);
+    mesh.cells.push_back(child);
+  }
+}
+
+double vertex_grain(const ElementMesh& mesh, const SurfaceModel& surfaces) {
+  return std::max(16.0 * surfaces.tolerance, 1e-7 * mesh.element_size);
+}
+
+VertexWelder add_elements(ElementMesh& mesh, const SurfaceModel& surfaces) {
+  VertexWelder welder(vertex_grain(mesh, surfaces));
+  for (MeshSide& side : mesh.sides) {
+    side.first_element = static_cast<std::uint32_t>(mesh.area.size());
+    for (std::uint32_t k = 0; k < side.root_count; ++k)
+      add_leaves(mesh, surfaces, side.first_cell + k, welder);
+    side.element_count = static_cast<std::uint32_t>(mesh.area.size()) - side.first_element;
+  }
+  mesh.element_of_vertex.assign(mesh.vertices.size(), none<ElementId>);
+  for (std::size_t e = mesh.corners.size(); e-- > 0;)
+    for (const auto vertex : mesh.corners[e])
+      mesh.element_of_vertex[index(vertex)] = static_cast<ElementId>(e);
+  return welder;
+}
+
+} // namespace meninas

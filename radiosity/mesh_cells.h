@@ -1,0 +1,31 @@
+// The forest of cells under an element mesh, and the elements and vertices that follow from it.
+//
+// Steps of make_element_mesh() and divide_elements(); who uses a mesh needs neither.
+#pragma once
+
+#include "radiosity/element_mesh.h"
+#include "radiosity/vertex_welder.h"
+
+namespace meninas {
+
+/// The root cells of all sides, which know their divisions: in the order of the sides.
+void add_root_cells(ElementMesh& mesh);
+
+/// Divides cell number `cell` into four, which are appended.
+void divide_cell(ElementMesh& mesh, std::uint32_t cell);
+
+/// Points closer than about this are one vertex, metres.
+double vertex_grain(const ElementMesh& mesh, const SurfaceModel& surfaces);
+
+/// Numbers the leaves, depth first, and makes their corners, vertices and areas. Returns the vertices by place.
+VertexWelder add_elements(ElementMesh& mesh, const SurfaceModel& surfaces);
+
+/// The point (s, t) of a cell.
+Point3 point_in(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& cell,
+                Vec2 st);
+
+/// What keeps the vertices of different surfaces and sides apart.
+std::uint64_t surface_side(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                           const MeshCell& cell);
+
+} // namespace meninas

@@ -1,0 +1,218 @@
+#include "radiosity/mesh_division.h"
+
+#include "radiosity/mesh_cells.h"
+
+#include <algorithm>
+
+namespace meninas {
+
+namespace {
+
+/// The sides and root cells of a mesh, and nothing that follows from them.
+ElementMesh roots_of(const ElementMesh& mesh) {
+  ElementMesh roots;
+  roots.sides = mesh.sides;
+  roots.sides_of_patch = mesh.sides_of_patch;
+  roots.element_size = mesh.element_size;
+  add_root_cells(roots);
+  return roots;
+}
+
+constexpr std::array<Vec2, 4> quad_corners{Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(1.0, 1.0),
+                                           Vec2(0.0, 1.0)};
+constexpr std::array<Vec2, 3> triangle_corners{Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
+
+std::span<const Vec2> corners_of(const ElementMesh& mesh, const MeshCell& cell) {
+  if (mesh.sides[index(cell.side)].triangle)
+    return triangle_corners;
+  return quad_corners;
+}
+
+/// Vertices by place, with the mesh and the surfaces they are of.
+struct PlacedVertices {
+  const ElementMesh& mesh;
+  const SurfaceModel& surfaces;
+  const VertexWelder& welder;
+
+  /// The vertex at a share of the way along edge k of an element's cell, not one of its ends; none if there is none.
+  ElementVertexId on_edge(const MeshCell& cell, std::size_t k, double share) const {
+    const auto corners = corners_of(mesh, cell);
+    const std::size_t next = (k + 1) % corners.size();
+    const Vec2 st = glm::mix(corners[k], corners[next], share);
+    const ElementVertexId found =
+        welder.find(surface_side(mesh, surfaces, cell), point_in(mesh, surfaces, cell, st));
+    const ElementCorners& ends = mesh.corners[cell.first_element];
+    return found == ends[k] || found == ends[next] ? none<ElementVertexId> : found;
+  }
+};
+
+bool has_much_smaller_neighbour(const PlacedVertices& placed, const MeshCell& cell) {
+  for (std::size_t k = 0; k < corners_of(placed.mesh, cell).size(); ++k)
+    for (const double quarter : {0.25, 0.75})
+      if (placed.on_edge(cell, k, quarter) != none<ElementVertexId>)
+        return true;
+  return false;
+}
+
+/// Cells may be divided but for those at the last level, and slivers hardly wider than the distance at which two points are the same.
+bool is_divisible(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& leaf) {
+  if (leaf.level >= most_levels)
+    return false;
+  const ElementCorners& corners = mesh.corners[leaf.first_element];
+  double longest = 0.0;
+  for (std::size_t k = 0; k < 4; ++k)
+    longest = std::max(longest, glm::distance(mesh.vertices[index(corners[k])],
+                                              mesh.vertices[index(corners[(k + 1) % 4])]));
+  return leaf.area > 64.0 * vertex_grain(mesh, surfaces) * longest;
+}
+
+/// The elements that have to be divided for the sake of their neighbours; empty when there is none.
+std::vector<std::uint8_t> to_follow(const PlacedVertices& placed) {
+  const ElementMesh& mesh = placed.mesh;
+  std::vector<std::uint8_t> marked(element_count(mesh), 0);
+  for (std::size_t e = 0; e < marked.size(); ++e) {
+    const MeshCell& cell = cell_of(mesh, static_cast<ElementId>(e));
+    if (has_much_smaller_neighbour(placed, cell) && is_divisible(mesh, placed.surfaces, cell))
+      marked[e] = 1;
+  }
+  if (std::find(marked.begin(), marked.end(), 1) == marked.end())
+    marked.clear();
+  return marked;
+}
+
+/// Larger edges first: the ends of a smaller one may hang on a larger one, never the other way round.
+std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed) {
+  struct Found {
+    HangingVertex vertex;
+    double edge;
+  };
+  const ElementMesh& mesh = placed.mesh;
+  std::vector<Found> found;
+  for (std::size_t e = 0; e < element_count(mesh); ++e) {
+    const MeshCell& cell = cell_of(mesh, static_cast<ElementId>(e));
+    const std::size_t count = corners_of(mesh, cell).size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const ElementVertexId middle = placed.on_edge(cell, k, 0.5);
+      const ElementVertexId a = mesh.corners[e][k], b = mesh.corners[e][(k + 1) % count];
+      if (middle == none<ElementVertexId>)
+        continue;
+      found.push_back(
+          {{middle, a, b}, glm::distance(mesh.vertices[index(a)], mesh.vertices[index(b)])});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& a, const Found& b) { return a.edge > b.edge; });
+  std::vector<HangingVertex> hanging;
+  for (const Found& f : found)
+    hanging.push_back(f.vertex);
+  return hanging;
+}
+
+/// The roots with every cell divided that `is_divided(its number)` names, before its children are asked about.
+template <typename Predicate>
+ElementMesh grown(const ElementMesh& mesh, Predicate&& is_divided) {
+  ElementMesh result = roots_of(mesh);
+  for (std::uint32_t cell = 0; cell < result.cells.size(); ++cell)
+    if (is_divided(cell))
+      divide_cell(result, cell);
+  return result;
+}
+
+/// The mesh with the marked elements divided, whatever their neighbours are.
+ElementMesh with_divided(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                         std::span<const std::uint8_t> marked) {
+  // By cell of the new mesh: the cell of the old one that it was, none for what is new.
+  std::vector<CellId> was;
+  for (const MeshSide& side : mesh.sides)
+    for (std::uint32_t k = 0; k < side.root_count; ++k)
+      was.push_back(static_cast<CellId>(side.first_cell + k));
+  return grown(mesh, [&](std::uint32_t number) {
+    if (was[number] == none<CellId>)
+      return false;
+    const MeshCell& before = mesh.cells[index(was[number])];
+    if (is_leaf(before)) {
+      if (marked[before.first_element] == 0 || !is_divisible(mesh, surfaces, before))
+        return false;
+      was.insert(was.end(), 4, none<CellId>);
+      return true;
+    }
+    for (std::uint32_t k = 0; k < 4; ++k)
+      was.push_back(static_cast<CellId>(index(before.first_child) + k));
+    return true;
+  });
+}
+
+} // namespace
+
+ElementMesh divide_elements(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                            std::span<const std::uint8_t> marked) {
+  ElementMesh result = with_divided(mesh, surfaces, marked);
+  for (;;) {
+    const VertexWelder welder = add_elements(result, surfaces);
+    const PlacedVertices placed{result, surfaces, welder};
+    const std::vector<std::uint8_t> more = to_follow(placed);
+    if (more.empty()) {
+      result.hanging = hanging_vertices(placed);
+      return result;
+    }
+    result = with_divided(result, surfaces, more);
+  }
+}
+
+std::vector<std::uint8_t> division_of(const ElementMesh& mesh) {
+  std::vector<std::uint8_t> division;
+  division.reserve(mesh.cells.size());
+  for (const MeshCell& cell : mesh.cells)
+    division.push_back(is_leaf(cell) ? 0 : 1);
+  return division;
+}
+
+bool is_division_of(const ElementMesh& roots, std::span<const std::uint8_t> division) {
+  const std::size_t first = roots_of(roots).cells.size();
+  std::vector<std::uint8_t> levels(first, 0);
+  for (std::size_t cell = 0; cell < division.size(); ++cell) {
+    if (cell >= levels.size() || division[cell] > 1 ||
+        (division[cell] == 1 && levels[cell] >= most_levels))
+      return false;
+    if (division[cell] == 1)
+      levels.insert(levels.end(), 4, static_cast<std::uint8_t>(levels[cell] + 1));
+  }
+  return levels.size() == division.size();
+}
+
+ElementMesh divided_mesh(const ElementMesh& roots, const SurfaceModel& surfaces,
+                         std::span<const std::uint8_t> division) {
+  ElementMesh result = grown(roots, [&](std::uint32_t cell) { return division[cell] != 0; });
+  const VertexWelder welder = add_elements(result, surfaces);
+  result.hanging = hanging_vertices({result, surfaces, welder});
+  return result;
+}
+
+ElementMesh overlaid(const ElementMesh& a, const ElementMesh& b, const SurfaceModel& surfaces) {
+  // By cell of the result: what it is in either mesh, none where that one ends above.
+  struct Pair {
+    CellId a, b;
+  };
+  std::vector<Pair> pairs;
+  for (const MeshSide& side : a.sides)
+    for (std::uint32_t k = 0; k < side.root_count; ++k)
+      pairs.push_back(
+          {static_cast<CellId>(side.first_cell + k), static_cast<CellId>(side.first_cell + k)});
+  const auto children = [](const ElementMesh& mesh, CellId cell) {
+    return cell == none<CellId> ? none<CellId> : mesh.cells[index(cell)].first_child;
+  };
+  const auto child = [](CellId first, std::uint32_t k) {
+    return first == none<CellId> ? first : static_cast<CellId>(index(first) + k);
+  };
+  const ElementMesh both = grown(a, [&](std::uint32_t number) {
+    const CellId in_a = children(a, pairs[number].a), in_b = children(b, pairs[number].b);
+    if (in_a == none<CellId> && in_b == none<CellId>)
+      return false;
+    for (std::uint32_t k = 0; k < 4; ++k)
+      pairs.push_back({child(in_a, k), child(in_b, k)});
+    return true;
+  });
+  return divided_mesh(a, surfaces, division_of(both));
+}
+
+} // namespace meninas
