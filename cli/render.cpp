@@ -17,6 +17,10 @@ const Choices<PictureMode> modes{{"radiosity", PictureMode::radiosity},
                                  {"hybrid", PictureMode::hybrid},
                                  {"reference", PictureMode::reference}};
 
+const Choices<DiffuseTerm> diffuse_terms{{"interpolated", DiffuseTerm::interpolated},
+                                         {"direct", DiffuseTerm::direct},
+                                         {"gather", DiffuseTerm::gather}};
+
 struct RenderOptions {
   CommonOptions common;
   RenderRequest request;
@@ -48,6 +52,12 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       "pass one alone, with black mirrors, both passes, or path tracing [hybrid]",
       [&](const std::string& text) {
         options.common.settings.mode = parse_choice("--mode", text, modes);
+      });
+  add("--diffuse", "interpolated|direct|gather",
+      "light on diffuse surfaces: as pass one has it at vertices, with that of emitters and their "
+      "mirror images computed at every hit, or all of it gathered there [interpolated]",
+      [&](const std::string& text) {
+        options.common.settings.diffuse = parse_choice("--diffuse", text, diffuse_terms);
       });
   add("--camera", "NAME", "camera of the scene [its first]",
       [&](const std::string& text) { request.camera = text; });
@@ -113,6 +123,16 @@ void refuse(const CLI::App& command, std::initializer_list<const char*> options,
   }
 }
 
+/// `direct` builds on the light without that of emitters, which means of elements by the analytic method do not tell apart.
+void check_diffuse(const RunSettings& settings) {
+  if (settings.diffuse == DiffuseTerm::direct &&
+      settings.form_factors == FormFactorMethod::analytic &&
+      settings.interpolation == Interpolation::average) {
+    throw UsageError("--diffuse direct", "needs --interpolation gather with --form-factors "
+                                         "analytic");
+  }
+}
+
 void check_layers(const RenderOptions& options) {
   const RunSettings& settings = options.common.settings;
   if (settings.layers == WithLayers::no) {
@@ -138,8 +158,11 @@ void check_mode(const CLI::App& command, const RenderOptions& options) {
   if (options.common.settings.mode == PictureMode::reference) {
     const std::string reason = "has no effect with --mode reference: there is no pass one";
     refuse_pass_one_options(command, reason);
-    refuse(command, {"--solution", "--mirror-depth"}, reason);
+    refuse(command, {"--solution", "--mirror-depth", "--diffuse"}, reason);
     return;
+  }
+  if (options.common.settings.mode == PictureMode::radiosity) {
+    refuse(command, {"--diffuse"}, "has no effect with --mode radiosity: it shows pass one");
   }
   refuse(command, {"--max-error", "--max-seconds"}, "has no effect without --mode reference");
   if (options.request.solution) {
@@ -151,6 +174,7 @@ void check_mode(const CLI::App& command, const RenderOptions& options) {
 RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
   check_mode(command, options);
   check_layers(options);
+  check_diffuse(options.common.settings);
   check_pass_one_options(command, options.common.settings);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;

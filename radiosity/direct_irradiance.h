@@ -48,6 +48,10 @@ struct DirectWorkspace {
 /// Irradiance, and the part of it whose last leg came by way of mirrors.
 struct ArrivingLight {
   Rgb total{0.0}, mirrored{0.0};
+
+  friend ArrivingLight operator+(const ArrivingLight& a, const ArrivingLight& b) {
+    return {a.total + b.total, a.mirrored + b.mirrored};
+  }
 };
 
 ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,

@@ -1,8 +1,7 @@
 #include "radiosity/interpolation.h"
 
-#include "radiosity/bright_clusters.h"
-#include "radiosity/gather_rays.h"
 #include "radiosity/mesh_division.h"
+#include "radiosity/point_gathering.h"
 #include "radiosity/vertex_fill.h"
 #include "scenes/sampling.h"
 
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 namespace meninas {
 
@@ -115,57 +113,19 @@ Point3 gathering_point(const ElementMesh& mesh, const VertexElements& all, std::
   return glm::mix(mesh.vertices[vertex], centre, inset);
 }
 
-struct VertexWorkspace {
-  GatherWorkspace gather;
-  DirectWorkspace direct;
-  std::uint64_t rays = 0;
-};
-
-/// What every vertex gathers from.
-struct VertexGathering {
-  const LightScene& light;
-  const LightScene clustered; ///< the same, with the bright clusters for emitters
-  const BrightClusters& clusters;
-  const std::vector<Rgb>& radiosity;  ///< reflected, by ElementId
-  const std::vector<Rgb>& irradiance; ///< by ElementId
-  const FormFactorSettings& form_factors;
-  const DirectSettings& direct;
-  DirectSettings secondary;
-  DirectionNet net;
-  Hemicube cube; ///< where the form factors are found so
-};
-
 struct VertexValue {
   ArrivingLight irradiance;
-  bool covered; ///< something stands on it: no value of its own
+  ArrivingLight indirect; ///< the part of it that does not come from the source
+  bool covered;           ///< something stands on it: no value of its own
 };
-
-/// What landed rays bring: light reflected by elements, where no cluster owns it, and emission, where no closed form owns that.
-ArrivingLight landed_light(const VertexGathering& context, const GatheredRays& gathered) {
-  const std::size_t cluster_worlds = context.clusters.worlds.worlds.size();
-  ArrivingLight sum;
-  for (const auto& landing : gathered.landings) {
-    const bool owned =
-        context.clusters.owned[landing.element] != 0 && index(landing.world) < cluster_worlds;
-    Rgb arrived = gathered_emission(context.light, landing);
-    if (!owned)
-      arrived += Rgb(landing.light) * context.radiosity[landing.element];
-    sum.total += arrived;
-    if (landing.world != real_world)
-      sum.mirrored += arrived;
-  }
-  const Rgb kept = kept_light(gathered);
-  return {sum.total / kept, sum.mirrored / kept};
-}
 
 /// Whether something lies on the surface here: nearly all of the hemisphere is blocked within a fraction of an element, as under
 /// a box that stands on a floor. What little light there is there must not be interpolated out into the open.
-bool is_under_something(const VertexGathering& context, const Receiver& receiver,
-                        double element_size) {
+bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size) {
   constexpr double reach = 0.35; // of an element
   constexpr int least = packet_size - 1;
   const TangentFrame frame = frame_along(receiver.normal, receiver.tangent);
-  const RayFrame& ray_frame = context.light.rays.frame();
+  const RayFrame& ray_frame = light.rays.frame();
   const glm::vec3 origin = (receiver.position - ray_frame.centre) * ray_frame.scale;
   RayPacket packet;
   packet.count = packet_size;
@@ -186,89 +146,50 @@ bool is_under_something(const VertexGathering& context, const Receiver& receiver
     packet.leaving[k] = index(receiver.plane_class);
     packet.arriving[k] = index(none<PlaneId>);
   }
-  return std::popcount(occluded(context.light.rays, packet, Coherence::coherent)) >= least;
+  return std::popcount(occluded(light.rays, packet, Coherence::coherent)) >= least;
 }
 
-VertexValue gather_at(const VertexGathering& context, const Receiver& receiver,
-                      double element_size, std::uint32_t seed, VertexWorkspace& work) {
+/// `irradiance` by ElementId tells which elements are lit.
+VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                     const Receiver& receiver, double element_size, std::uint32_t seed,
+                     PointWorkspace& work) {
   constexpr double most_black =
       0.9; // of the hemisphere: the vertex is inside something that stands on its surface
-  ReceiverArea point;
-  point.corner = receiver.position;
-  point.normal = receiver.normal;
-  point.plane_class = receiver.plane_class;
-  point.tangent = receiver.tangent;
-  if (context.form_factors.method == FormFactorMethod::hemicube)
-    gather_rays(context.light, context.cube, point, context.form_factors, work.gather);
-  else
-    gather_rays(context.light, context.net, point, seed, context.form_factors, work.gather);
+  const PointLight arrived = light_at(gathering, receiver, seed, work);
   const GatheredRays& gathered = work.gather.result;
-  work.rays += gathered.traced;
-
-  const ArrivingLight from_rays = landed_light(context, gathered);
-  const ArrivingLight from_source =
-      direct_irradiance(context.light, receiver, context.direct, hash(seed, 1), work.direct);
-  const ArrivingLight from_clusters =
-      direct_irradiance(context.clustered, receiver, context.secondary, hash(seed, 2), work.direct);
   const auto lit = [&](const RayLanding& landing) {
-    return context.irradiance[landing.element] != Rgb(0.0);
+    return irradiance[landing.element] != Rgb(0.0);
   };
   const bool enclosed =
       gathered.black > most_black * gathered.rays ||
       (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
-  const bool covered =
-      (enclosed && from_source.total == Rgb(0.0)) ||
-                       is_under_something(context, receiver, element_size);
-  return {{from_rays.total + from_source.total + from_clusters.total,
-           from_rays.mirrored + from_source.mirrored + from_clusters.mirrored},
-          covered};
+  const bool covered = (enclosed && arrived.from_source.total == Rgb(0.0)) ||
+                       is_under_something(gathering.light, receiver, element_size);
+  return {arrived.all(), arrived.indirect(), covered};
 }
 
 } // namespace
 
 static InterpolatedField
-gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
-                   const std::vector<Rgb>& irradiance, const FormFactorSettings& form_factors,
-                   const DirectSettings& direct, const InterpolationSettings& settings) {
+gather_at_vertices(const LightScene& light, const ElementLight& elements,
+                   const FormFactorSettings& form_factors, const DirectSettings& direct,
+                   const InterpolationSettings& settings) {
   constexpr std::size_t chunk_size = 64;
   const ElementMesh& mesh = light.mesh;
   const VertexElements all = elements_around(mesh);
-  const BrightClusters clusters = find_bright_clusters(light, radiosity);
-  DirectSettings secondary = direct;
-  secondary.shadow_rays = settings.cluster_shadow_rays;
-  secondary.penumbra_rays = 4 * settings.cluster_shadow_rays;
-  secondary.images = std::numeric_limits<int>::max(); // there are not many, by construction
-  const VertexGathering context{light,
-                                {light.scene,
-                                 light.surfaces,
-                                 light.rays,
-                                 light.mirrors,
-                                 clusters.worlds,
-                                 mesh,
-                                 {},
-                                 clusters.emitters,
-                                 {},
-                                 make_emitter_tree(clusters.emitters)},
-                                clusters,
-                                radiosity,
-                                irradiance,
-                                form_factors,
-                                direct,
-                                secondary,
-                                make_direction_net(settings.rays),
-                                form_factors.method == FormFactorMethod::hemicube
-                                    ? make_hemicube(form_factors.hemicube_resolution)
-                                    : Hemicube{}};
+  const PointGathering gathering(
+      light, elements.reflected, form_factors, direct,
+      {.rays = settings.rays, .cluster_shadow_rays = settings.cluster_shadow_rays});
 
   InterpolatedField result;
   DiffuseField& field = result.field;
   field.irradiance.assign(mesh.vertices.size(), glm::vec3(0.0F));
-  field.mirrored = field.irradiance;
+  field.mirrored = field.indirect = field.indirect_mirrored = field.irradiance;
   std::vector<std::uint8_t> valid(mesh.vertices.size(), 1);
-  tbb::enumerable_thread_specific<VertexWorkspace> workspaces;
+  tbb::enumerable_thread_specific<PointWorkspace> workspaces;
   tbb::parallel_for(
       std::size_t{0}, (mesh.vertices.size() + chunk_size - 1) / chunk_size, [&](std::size_t c) {
-        VertexWorkspace& work = workspaces.local();
+        PointWorkspace& work = workspaces.local();
         for (std::size_t v = c * chunk_size;
              v < std::min(mesh.vertices.size(), (c + 1) * chunk_size); ++v) {
           const MeshSide& side =
@@ -276,10 +197,13 @@ gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
           const Receiver receiver{gathering_point(mesh, all, v), side.normal, side.plane_class,
                                   side.tangent};
           const VertexValue value =
-              gather_at(context, receiver, size_of(mesh, mesh.element_of_vertex[v]),
-                        hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27), work);
+              value_at(gathering, elements.irradiance, receiver,
+                       size_of(mesh, mesh.element_of_vertex[v]),
+                       hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27), work);
           field.irradiance[v] = glm::vec3(value.irradiance.total);
           field.mirrored[v] = glm::vec3(value.irradiance.mirrored);
+          field.indirect[v] = glm::vec3(value.indirect.total);
+          field.indirect_mirrored[v] = glm::vec3(value.indirect.mirrored);
           valid[v] = value.covered ? 0 : 1;
         }
       });
@@ -287,20 +211,33 @@ gather_at_vertices(const LightScene& light, const std::vector<Rgb>& radiosity,
     result.form_factor_rays += work.rays;
     result.shadow_rays += work.direct.shadow_rays;
   }
-  fill_vertices(mesh, valid, field.irradiance);
-  fill_vertices(mesh, valid, field.mirrored);
-  settle_hanging(mesh, field.irradiance);
-  settle_hanging(mesh, field.mirrored);
+  for (auto* values :
+       {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored}) {
+    fill_vertices(mesh, valid, *values);
+    settle_hanging(mesh, *values);
+  }
   return result;
 }
 
-InterpolatedField interpolate(const LightScene& light, const std::vector<Rgb>& radiosity,
-                              const std::vector<Rgb>& irradiance,
+/// The means of elements know nothing of mirrors; what emitters send is known where it was found from the source.
+static DiffuseField averaged_field(const ElementMesh& mesh, const ElementLight& elements) {
+  DiffuseField field;
+  field.irradiance = average_at_vertices(mesh, elements.irradiance);
+  if (elements.from_source.empty())
+    return field;
+  std::vector<Rgb> indirect = elements.irradiance;
+  for (std::size_t e = 0; e < indirect.size(); ++e)
+    indirect[e] -= elements.from_source[e];
+  field.indirect = average_at_vertices(mesh, indirect);
+  return field;
+}
+
+InterpolatedField interpolate(const LightScene& light, const ElementLight& elements,
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
                               const InterpolationSettings& settings) {
   if (settings.method == Interpolation::average)
-    return {{average_at_vertices(light.mesh, irradiance), {}}, 0, 0};
-  return gather_at_vertices(light, radiosity, irradiance, form_factors, direct, settings);
+    return {averaged_field(light.mesh, elements), 0, 0};
+  return gather_at_vertices(light, elements, form_factors, direct, settings);
 }
 
 glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv) {

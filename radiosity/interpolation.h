@@ -26,6 +26,11 @@ struct DiffuseField {
   std::vector<glm::vec3> irradiance;
   std::vector<glm::vec3>
       mirrored; ///< the part of it whose last leg came by way of mirrors; empty from `average`
+
+  /// The part without what is computed from the source (direct_irradiance.h), for those who compute that themselves; empty where
+  /// that is not known: from `average` with form factors `analytic`.
+  std::vector<glm::vec3> indirect;
+  std::vector<glm::vec3> indirect_mirrored; ///< likewise of `mirrored`
 };
 
 struct InterpolatedField {
@@ -34,9 +39,14 @@ struct InterpolatedField {
   std::uint64_t shadow_rays = 0;
 };
 
-/// `radiosity` is B by ElementId, emission left out; `irradiance` is H by ElementId.
-InterpolatedField interpolate(const LightScene& light, const std::vector<Rgb>& radiosity,
-                              const std::vector<Rgb>& irradiance,
+/// The light of the elements, by ElementId, W/m^2.
+struct ElementLight {
+  std::vector<Rgb> reflected;   ///< B without emission
+  std::vector<Rgb> irradiance;  ///< H
+  std::vector<Rgb> from_source; ///< the part of H found from the source; empty: not known
+};
+
+InterpolatedField interpolate(const LightScene& light, const ElementLight& elements,
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
                               const InterpolationSettings& settings);
 

@@ -87,7 +87,7 @@ RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& fac
     source[i] = reflectance[i] * first[i];
   }
   solution.solver = solve(factors.transport, source, reflectance, settings.solver);
-  const std::vector<Rgb> reflected = std::move(solution.solver.radiosity);
+  std::vector<Rgb> reflected = std::move(solution.solver.radiosity);
 
   // H = first light + T B, and B = E + what is reflected.
   solution.irradiance = apply_transport(factors.transport, reflected);
@@ -98,8 +98,11 @@ RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& fac
   }
   solution.seconds.solve = watch.lap();
 
-  auto interpolated = interpolate(light, reflected, solution.irradiance, settings.form_factors,
-                                  settings.direct, settings.interpolation);
+  const bool source_known = settings.form_factors.method != FormFactorMethod::analytic;
+  const ElementLight elements{std::move(reflected), solution.irradiance,
+                              source_known ? direct.irradiance : std::vector<Rgb>{}};
+  auto interpolated = interpolate(light, elements, settings.form_factors, settings.direct,
+                                  settings.interpolation);
   solution.field = std::move(interpolated.field);
   solution.seconds.interpolate = watch.lap();
   solution.exposed = factors.exposed;

@@ -26,6 +26,17 @@ constexpr const char* unlit = "KHR_materials_unlit";
 constexpr std::size_t vec3_size = sizeof(glm::vec3);
 static_assert(vec3_size == 12);
 
+/// The attributes that keep a field; all but the first may be missing.
+struct FieldPart {
+  const char* attribute;
+  std::vector<glm::vec3> DiffuseField::*values;
+};
+constexpr FieldPart field_parts[] = {
+    {"_IRRADIANCE", &DiffuseField::irradiance},
+    {"_IRRADIANCE_MIRRORED", &DiffuseField::mirrored},
+    {"_IRRADIANCE_INDIRECT", &DiffuseField::indirect},
+    {"_IRRADIANCE_INDIRECT_MIRRORED", &DiffuseField::indirect_mirrored}};
+
 /// FNV-1a: any changed byte changes it.
 std::uint64_t data_hash(std::span<const std::byte> bytes) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
@@ -182,10 +193,11 @@ json viewer_json(Geometry& geometry, const ElementMesh& mesh, const DiffuseField
       add_array(geometry, positions, gltf_array_buffer, bounds_json(positions));
   attributes["COLOR_0"] =
       add_array(geometry, display_colours(mesh, field), gltf_array_buffer, vec3);
-  attributes["_IRRADIANCE"] = add_array(geometry, field.irradiance, gltf_array_buffer, vec3);
-  if (!field.mirrored.empty()) {
-    attributes["_IRRADIANCE_MIRRORED"] =
-        add_array(geometry, field.mirrored, gltf_array_buffer, vec3);
+  for (const FieldPart& part : field_parts) {
+    if (!(field.*part.values).empty()) {
+      attributes[part.attribute] =
+          add_array(geometry, field.*part.values, gltf_array_buffer, vec3);
+    }
   }
   const std::size_t indices =
       add_array(geometry, triangles_of(mesh), gltf_element_array_buffer, scalar);
@@ -332,10 +344,11 @@ StoredSolution read_checked(const std::filesystem::path& file, const GlbContent&
   stored.elements = extras.at("elements");
   const json& attributes = attributes_of(glb);
   const std::size_t vertices = extras.at("vertices");
-  stored.field.irradiance = read_irradiance(file, glb, attributes.at("_IRRADIANCE"), vertices);
-  if (attributes.contains("_IRRADIANCE_MIRRORED")) {
-    stored.field.mirrored =
-        read_irradiance(file, glb, attributes.at("_IRRADIANCE_MIRRORED"), vertices);
+  for (const FieldPart& part : field_parts) {
+    if (part.values == &DiffuseField::irradiance || attributes.contains(part.attribute)) {
+      stored.field.*part.values =
+          read_irradiance(file, glb, attributes.at(part.attribute), vertices);
+    }
   }
   read_figures(file, extras.at("figures"), stored);
   return stored;

@@ -1,8 +1,8 @@
 // A solution as a file: a GLB any viewer shows (COLOR_0) that keeps the exact irradiance (_IRRADIANCE) with the settings
 // of its mesh and the hash of its scene, so that one solve serves any number of views.
 //
-// One mesh of one primitive holds all element vertices (POSITION, COLOR_0, _IRRADIANCE, and _IRRADIANCE_MIRRORED, the part of it whose
-// last leg came by way of mirrors, where it was gathered; VEC3 float) and the elements' triangles. COLOR_0 is the radiosity, exposed for display and linear. `extras` of the asset holds {"meninas": {version,
+// One mesh of one primitive holds all element vertices (POSITION, COLOR_0, _IRRADIANCE, and the parts of the field that are known:
+// _IRRADIANCE_MIRRORED, _IRRADIANCE_INDIRECT, _IRRADIANCE_INDIRECT_MIRRORED, see DiffuseField; VEC3 float) and the elements' triangles. COLOR_0 is the radiosity, exposed for display and linear. `extras` of the asset holds {"meninas": {version,
 // scene_hash, data_hash, mesh settings, counts, figures of the solve}}.
 #pragma once
 

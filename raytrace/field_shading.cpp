@@ -13,20 +13,28 @@ std::vector<SideShading> make_side_shading(const ElementMesh& mesh) {
   return shading;
 }
 
-std::vector<LightPart> light_parts(const ElementMesh& mesh, const DiffuseField& field) {
-  const auto shading = make_side_shading(mesh);
-  auto glowing = shading, reflecting = shading;
+VisibleLight visible_light(const ElementMesh& mesh, const DiffuseField& field,
+                           FieldContent content) {
+  return {make_side_shading(mesh),
+          content == FieldContent::all ? field.irradiance : field.indirect, ReflectedPart::all};
+}
+
+std::vector<LightPart> light_parts(const ElementMesh& mesh, const DiffuseField& field,
+                                   FieldContent content) {
+  const VisibleLight all = visible_light(mesh, field, content);
+  const auto& mirrored = content == FieldContent::all ? field.mirrored : field.indirect_mirrored;
+  auto glowing = all.shading, reflecting = all.shading;
   for (auto& side : glowing)
     side.albedo_over_pi = glm::vec3(0.0F);
   for (auto& side : reflecting)
     side.emitted = glm::vec3(0.0F);
 
-  std::vector<glm::vec3> straight = field.irradiance;
+  std::vector<glm::vec3> straight = all.irradiance;
   for (std::size_t v = 0; v < straight.size(); ++v)
-    straight[v] = glm::max(straight[v] - field.mirrored[v], glm::vec3(0.0F));
-  return {{"emission", {glowing, field.irradiance}},
-          {"diffuse.direct", {reflecting, std::move(straight)}},
-          {"diffuse.mirrored", {reflecting, field.mirrored}}};
+    straight[v] = glm::max(straight[v] - mirrored[v], glm::vec3(0.0F));
+  return {{"emission", {glowing, all.irradiance, ReflectedPart::none}},
+          {"diffuse.direct", {reflecting, std::move(straight), ReflectedPart::straight}},
+          {"diffuse.mirrored", {reflecting, mirrored, ReflectedPart::mirrored}}};
 }
 
 } // namespace meninas

@@ -19,11 +19,24 @@ struct SideShading {
 /// By SideId.
 std::vector<SideShading> make_side_shading(const ElementMesh& mesh);
 
+/// Which of the light that arrives at a surface is reflected: by its last leg, straight or by way of mirrors.
+enum class ReflectedPart { all, straight, mirrored, none };
+
 /// What landing points show.
 struct VisibleLight {
   std::vector<SideShading> shading;  ///< by SideId
-  std::vector<glm::vec3> irradiance; ///< by ElementVertexId
+  std::vector<glm::vec3> irradiance; ///< by ElementVertexId: of the part, all of it or the indirect
+  ReflectedPart part = ReflectedPart::all;
 };
+
+/// How much of the light a field's values are.
+enum class FieldContent {
+  all,
+  indirect ///< without what is computed from the source
+};
+
+VisibleLight visible_light(const ElementMesh& mesh, const DiffuseField& field,
+                           FieldContent content);
 
 /// What a field shows, in the parts that add up to it: `emission`, and reflected light by its last leg to the surface, straight
 /// (`diffuse.direct`) or by way of mirrors (`diffuse.mirrored`).
@@ -31,34 +44,49 @@ struct LightPart {
   std::string name;
   VisibleLight light;
 };
-std::vector<LightPart> light_parts(const ElementMesh& mesh, const DiffuseField& field);
+std::vector<LightPart> light_parts(const ElementMesh& mesh, const DiffuseField& field,
+                                   FieldContent content);
 
 /// Sums over points (s, t) of one element: of 1, s, t and s t. The field is linear in them.
 struct PointSums {
   float n = 0.0F, s = 0.0F, t = 0.0F, st = 0.0F;
 };
 
-/// The sum of the radiances at points of an element. Those of a triangle have no sum of s t: its third corner stands for its fourth,
+/// The sum of the irradiances, and of the radiances, at points of an element. Those of a triangle have no sum of s t: its third corner stands for its fourth,
 /// so that the bilinear form without the product is its linear one.
-inline glm::vec3 field_radiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
-                                const SideShading& shading, std::uint32_t element,
-                                const PointSums& p) {
+inline glm::vec3 field_irradiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
+                                  std::uint32_t element, const PointSums& p) {
   const auto& corners = mesh.corners[element];
   const glm::vec3& h0 = irradiance[index(corners[0])];
   const glm::vec3& h1 = irradiance[index(corners[1])];
   const glm::vec3& h2 = irradiance[index(corners[2])];
   const glm::vec3& h3 = irradiance[index(corners[3])];
-  const glm::vec3 h =
-      (p.n - p.s - p.t + p.st) * h0 + (p.s - p.st) * h1 + p.st * h2 + (p.t - p.st) * h3;
-  return p.n * shading.emitted + shading.albedo_over_pi * h;
+  return (p.n - p.s - p.t + p.st) * h0 + (p.s - p.st) * h1 + p.st * h2 + (p.t - p.st) * h3;
+}
+
+inline glm::vec3 field_radiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
+                                const SideShading& shading, std::uint32_t element,
+                                const PointSums& p) {
+  return p.n * shading.emitted +
+         shading.albedo_over_pi * field_irradiance(mesh, irradiance, element, p);
+}
+
+/// The one point (u, v) of a side.
+struct FieldPoint {
+  std::uint32_t element;
+  PointSums place;
+};
+inline FieldPoint field_point(const LandingTable& landing, std::uint32_t side, glm::vec2 uv) {
+  const Landing at = land(landing, side, uv);
+  const float st = landing.sides[side].triangle ? 0.0F : at.st.x * at.st.y;
+  return {at.element, {1.0F, at.st.x, at.st.y, st}};
 }
 
 inline glm::vec3 field_radiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
                                 const SideShading& shading, const LandingTable& landing,
                                 std::uint32_t side, glm::vec2 uv) {
-  const Landing at = land(landing, side, uv);
-  const float st = landing.sides[side].triangle ? 0.0F : at.st.x * at.st.y;
-  return field_radiance(mesh, irradiance, shading, at.element, {1.0F, at.st.x, at.st.y, st});
+  const FieldPoint at = field_point(landing, side, uv);
+  return field_radiance(mesh, irradiance, shading, at.element, at.place);
 }
 
 } // namespace meninas

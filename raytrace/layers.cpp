@@ -8,17 +8,18 @@ Rendering render_layers(const LightScene& light, const DiffuseField& field, cons
   expects(field.mirrored.size() == field.irradiance.size(), "the field knows its mirrored part");
   Rendering result;
   result.image = Image(settings.width, settings.height);
-  for (const LightPart& part : light_parts(light.mesh, field)) {
+  const auto gathering = make_gathering(light, field, settings.diffuse);
+  const FieldContent content = field_content(field, settings.diffuse);
+  for (const LightPart& part : light_parts(light.mesh, field, content)) {
     const std::size_t first = result.layers.size();
     for (const char* way : {"", ".mirror", ".mirrors"})
       result.layers.push_back({part.name + way, Image(settings.width, settings.height)});
-    const RayTotals rays = trace_picture(light, part.light, camera, settings, progress,
-                                         [&](int x, int y, const SeenRadiance& seen) {
-                                           for (std::size_t way = 0; way < seen_ways; ++way)
-                                             result.layers[first + way].image.at(x, y) = seen[way];
-                                         });
-    result.camera_rays += rays.camera;
-    result.specular_rays += rays.specular;
+    const auto store = [&](int x, int y, const SeenRadiance& seen) {
+      for (std::size_t way = 0; way < seen_ways; ++way)
+        result.layers[first + way].image.at(x, y) = seen[way];
+    };
+    add(result,
+        trace_picture(light, part.light, gathering.get(), camera, settings, progress, store));
   }
   for (std::size_t p = 0; p < result.image.pixels.size(); ++p)
     for (const Layer& layer : result.layers)

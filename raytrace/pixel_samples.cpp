@@ -33,7 +33,7 @@ void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileW
   packet.count = lanes.count;
   set_camera_rays(packet, context.camera, x, y);
   closest_hits(context.light.rays, packet, hits, Backs::transparent, Coherence::coherent);
-  shade_packet(context, packet, {lanes.pixel.data(), nullptr}, hits, work);
+  shade_packet(context, packet, {lanes.pixel.data(), nullptr, lanes.bits_x.data()}, hits, work);
 }
 
 } // namespace

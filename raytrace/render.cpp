@@ -9,13 +9,13 @@ Rendering render(const LightScene& light, const DiffuseField& field, const Camer
     return render_layers(light, field, camera, settings, progress);
   Rendering result;
   result.image = Image(settings.width, settings.height);
-  const VisibleLight all{make_side_shading(light.mesh), field.irradiance};
-  const RayTotals rays = trace_picture(light, all, camera, settings, progress,
+  const VisibleLight all = visible_light(light.mesh, field, field_content(field, settings.diffuse));
+  const auto gathering = make_gathering(light, field, settings.diffuse);
+  const RayTotals rays = trace_picture(light, all, gathering.get(), camera, settings, progress,
                                        [&](int x, int y, const SeenRadiance& seen) {
                                          result.image.at(x, y) = seen[0] + seen[1] + seen[2];
                                        });
-  result.camera_rays = rays.camera;
-  result.specular_rays = rays.specular;
+  add(result, rays);
   return result;
 }
 } // namespace meninas

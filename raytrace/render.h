@@ -9,6 +9,7 @@
 #include "image/image.h"
 #include "radiosity/interpolation.h"
 #include "radiosity/pass_one.h"
+#include "raytrace/diffuse_term.h"
 
 namespace meninas {
 
@@ -26,6 +27,7 @@ struct RenderSettings {
   int max_bounces = 1000;
   std::uint32_t seed = 0;
   WithLayers layers = WithLayers::no; ///< as `render_layers` makes them
+  DiffuseSettings diffuse;
 };
 
 struct Rendering {
@@ -33,6 +35,8 @@ struct Rendering {
   std::vector<Layer> layers; ///< of render_layers: they add up to the image, in their order
   std::uint64_t camera_rays = 0;
   std::uint64_t specular_rays = 0;
+  std::uint64_t shadow_rays = 0; ///< of diffuse terms computed at the hit
+  std::uint64_t gather_rays = 0;
 };
 
 Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera,

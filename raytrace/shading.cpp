@@ -3,9 +3,63 @@
 #include "raytrace/quad_lanes.h"
 #include "raytrace/specular_paths.h"
 
+#include <limits>
+
 namespace meninas {
 
 namespace {
+
+/// Where lane k has landed, as one who receives light there.
+Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
+                     std::uint32_t k) {
+  const auto [a, b, c] = corners(light.scene, TriangleId{hits.triangle[k]});
+  return {a + double{hits.b1[k]} * (b - a) + double{hits.b2[k]} * (c - a), face.normal,
+          static_cast<PlaneId>(face.plane_class), light.mesh.sides[face.side].tangent};
+}
+
+/// H where lane k has landed on a side.
+glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& state,
+                             const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
+                             TileWorkspace& work) {
+  const LightScene& light = context.light;
+  const FieldPoint at =
+      field_point(light.landing, face.side, uv_of(light, face, hits, k));
+  const glm::vec3 field =
+      field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
+  return irradiance_at_point(light, context.settings.diffuse, context.gathering,
+                             context.visible.part, field, receiver_at(light, face, hits, k),
+                             state.key(k, context.settings.seed), work.point);
+}
+
+glm::vec3 radiance_of_lane(const RenderContext& context, const LaneState& state,
+                           const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
+                           TileWorkspace& work) {
+  const SideShading& shading = context.visible.shading[face.side];
+  if (context.settings.diffuse.term != DiffuseTerm::interpolated)
+    return shading.emitted + shading.albedo_over_pi *
+                                 irradiance_of_lane(context, state, face, hits, k, work);
+  return field_radiance(context.light.mesh, context.visible.irradiance, shading,
+                        context.light.landing, face.side,
+                        uv_of(context.light, face, hits, k));
+}
+
+/// The sum of H over sixteen samples of one pixel on one side: of the first four, which are spread over the pixel, where they agree.
+glm::vec3 irradiance_of_packet(const RenderContext& context, const LaneState& state,
+                               const FaceRecord& face, const HitPacket& hits,
+                               TileWorkspace& work) {
+  constexpr std::uint32_t few = 4;
+  constexpr float alike = 0.005F; // relative: too little to be seen
+  glm::vec3 sum(0.0F), low(std::numeric_limits<float>::infinity()), high(0.0F);
+  for (std::uint32_t k = 0; k < packet_size; ++k) {
+    const glm::vec3 h = irradiance_of_lane(context, state, face, hits, k, work);
+    sum += h;
+    low = glm::min(low, h);
+    high = glm::max(high, h);
+    if (k + 1 == few && glm::all(glm::lessThanEqual(high - low, alike * high)))
+      return static_cast<float>(packet_size) / static_cast<float>(few) * sum;
+  }
+  return sum;
+}
 
 /// Adds what each ray has landed on to its pixel, and queues the rays that a mirror sends on.
 void shade_one_by_one(const RenderContext& context, const RayPacket& packet, const LaneState& state,
@@ -17,10 +71,7 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
     if (hits.triangle[k] != index(none<TriangleId>)) {
       const FaceRecord& face = face_of(light.landing, hits, k);
       if (face.side != FaceRecord::nothing) {
-        const glm::vec2 uv = uv_of(light, face, hits, k);
-        const glm::vec3 radiance =
-            field_radiance(light.mesh, context.visible.irradiance,
-                           context.visible.shading[face.side], light.landing, face.side, uv);
+        const glm::vec3 radiance = radiance_of_lane(context, state, face, hits, k, work);
         sum += state.specular ? state.specular[k].throughput * radiance : radiance;
       }
       if (face.mirrors && mirrors)
@@ -59,6 +110,13 @@ bool shade_as_one(const RenderContext& context, const LaneState& state, const Hi
         return false;
   }
 
+  if (context.settings.diffuse.term != DiffuseTerm::interpolated) {
+    const SideShading& shading = context.visible.shading[face.side];
+    const glm::vec3 h = irradiance_of_packet(context, state, face, hits, work);
+    work.sums[work.way][state.pixel[0]] +=
+        throughput * (static_cast<float>(packet_size) * shading.emitted + shading.albedo_over_pi * h);
+    return true;
+  }
   const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits);
   work.sums[work.way][state.pixel[0]] +=
       throughput * quad_radiance(light.mesh, context.visible, face.side, at);

@@ -13,6 +13,7 @@ void reflect(const RenderContext& context, const FaceRecord& face, const RayPack
   SpecularRay ray;
   ray.pixel = state.pixel[k];
   ray.leaving = face.plane_class;
+  ray.key = state.key(k, context.settings.seed);
   ray.throughput =
       face.reflectance * (state.specular ? state.specular[k].throughput : glm::vec3(1.0F));
   if (largest(ray.throughput) < context.settings.min_throughput)
@@ -44,7 +45,7 @@ void follow_mirrors(const RenderContext& context, TileWorkspace& work) {
     work.specular_rays += work.current.size();
     for (std::size_t first = 0; first < work.current.size(); first += packet_size) {
       packet.count = static_cast<std::uint32_t>(std::min(packet_size, work.current.size() - first));
-      const LaneState state{pixel.data(), &work.current[first]};
+      const LaneState state{pixel.data(), &work.current[first], nullptr};
       for (std::uint32_t k = 0; k < packet.count; ++k) {
         const SpecularRay& ray = state.specular[k];
         pixel[k] = ray.pixel;

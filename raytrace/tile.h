@@ -2,8 +2,9 @@
 #pragma once
 
 #include "raytrace/camera_rays.h"
-#include "raytrace/field_shading.h"
+#include "raytrace/diffuse_term.h"
 #include "raytrace/render.h"
+#include "scenes/sampling.h"
 
 #include <array>
 #include <vector>
@@ -20,6 +21,7 @@ struct SpecularRay {
   glm::vec3 throughput;
   std::uint32_t pixel;
   std::uint32_t leaving;
+  std::uint32_t key; ///< of its samples
 };
 
 struct TileWorkspace {
@@ -27,6 +29,7 @@ struct TileWorkspace {
       sums;            ///< by way of seeing, then by pixel of the tile
   std::size_t way = 0; ///< that of the rays under way
   std::vector<SpecularRay> current, next;
+  PointWorkspace point; ///< of diffuse terms computed at the hit
   std::uint64_t camera_rays = 0, specular_rays = 0;
 };
 
@@ -38,6 +41,7 @@ struct TileArea {
 struct RenderContext {
   const LightScene& light;
   const VisibleLight& visible;
+  const PointGathering* gathering; ///< of the diffuse term `gather`, else null
   const RenderSettings& settings;
   CameraFrame camera;
   std::vector<std::uint32_t> net_x, net_y; ///< stratified points of the pixel, as integers
@@ -46,7 +50,13 @@ struct RenderContext {
 /// What the rays of a packet carry: camera rays nothing but their pixel, specular rays their record.
 struct LaneState {
   const std::uint32_t* pixel;
-  const SpecularRay* specular; ///< of lane 0; null for camera rays
+  const SpecularRay* specular;  ///< of lane 0; null for camera rays
+  const std::uint32_t* sample; ///< numbers that tell the samples of a pixel apart; null for specular rays
+  
+  /// Of the samples taken where lane k lands.
+  std::uint32_t key(std::uint32_t k, std::uint32_t seed) const {
+    return specular ? specular[k].key : hash(sample[k], pixel[k], seed);
+  }
 };
 
 /// The face of its triangle that lane k has hit.

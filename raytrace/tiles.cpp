@@ -35,12 +35,14 @@ void render_tile(const RenderContext& context, const TileArea& tile, TileWorkspa
 
 } // namespace
 
-RayTotals trace_picture(const LightScene& light, const VisibleLight& visible, const Camera& camera,
+RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
+                        const PointGathering* gathering, const Camera& camera,
                         const RenderSettings& settings, const Progress& progress,
                         const StorePixel& store) {
   const double aspect = double(settings.width) / settings.height;
   const RenderContext context{light,
                               visible,
+                              gathering,
                               settings,
                               make_camera_frame(camera, aspect, light.rays.frame()),
                               pixel_net(settings.samples, 0),
@@ -61,8 +63,17 @@ RayTotals trace_picture(const LightScene& light, const VisibleLight& visible, co
   for (const auto& work : workspaces) {
     totals.camera += work.camera_rays;
     totals.specular += work.specular_rays;
+    totals.shadow += work.point.direct.shadow_rays;
+    totals.gather += work.point.rays;
   }
   return totals;
+}
+
+void add(Rendering& rendering, const RayTotals& rays) {
+  rendering.camera_rays += rays.camera;
+  rendering.specular_rays += rays.specular;
+  rendering.shadow_rays += rays.shadow;
+  rendering.gather_rays += rays.gather;
 }
 
 } // namespace meninas

@@ -10,12 +10,15 @@ namespace meninas {
 using StorePixel = std::function<void(int x, int y, const SeenRadiance&)>;
 
 struct RayTotals {
-  std::uint64_t camera = 0, specular = 0;
+  std::uint64_t camera = 0, specular = 0, shadow = 0, gather = 0;
 };
 
 /// Every pixel of what is visible, handed to `store` from any thread.
-RayTotals trace_picture(const LightScene& light, const VisibleLight& visible, const Camera& camera,
+RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
+                        const PointGathering* gathering, const Camera& camera,
                         const RenderSettings& settings, const Progress& progress,
                         const StorePixel& store);
+
+void add(Rendering& rendering, const RayTotals& rays);
 
 } // namespace meninas

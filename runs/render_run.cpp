@@ -36,6 +36,20 @@ Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
   return std::move(result.rendering);
 }
 
+/// Throws InputError where the field does not know what the picture builds on.
+void check_field(const std::filesystem::path& solution, const DiffuseField& field,
+                 const RenderSettings& settings) {
+  if (settings.layers == WithLayers::yes && field.mirrored.empty()) {
+    throw InputError(solution.string(), "",
+                     "does not know what mirrors brought: solve again with --interpolation gather");
+  }
+  if (settings.diffuse.term == DiffuseTerm::direct && field.indirect.empty()) {
+    throw InputError(solution.string(), "",
+                     "does not know its light without that of emitters, which --diffuse direct "
+                     "builds on: solve again with --interpolation gather");
+  }
+}
+
 ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Camera& camera,
                             PictureSize size, const RunEvents& events, RunFigures& figures) {
   TwoPassSettings settings = two_pass_settings(request.settings);
@@ -49,10 +63,7 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   }
   const LitScene lit =
       read_lit_scene(*request.solution, std::move(scene), settings.pass_one, events, figures);
-  if (settings.render.layers == WithLayers::yes && lit.field.mirrored.empty()) {
-    throw InputError(request.solution->string(), "",
-                     "does not know what mirrors brought: solve again with --interpolation gather");
-  }
+  check_field(*request.solution, lit.field, settings.render);
   return render_view(lit, camera, size, request.settings, events, figures);
 }
 

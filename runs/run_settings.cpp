@@ -38,6 +38,20 @@ QualityPreset preset_of(Quality quality) {
   return {};
 }
 
+/// A pixel's rays are shared out among its samples.
+static DiffuseSettings diffuse_settings(const RunSettings& settings,
+                                        const FormFactorSettings& form_factors, int samples) {
+  constexpr int penumbra_rays = 1024, gather_rays = 2048, least = 16; // of a pixel; of a sample
+  DiffuseSettings result;
+  result.term = settings.diffuse;
+  result.direct.seed = settings.seed;
+  result.direct.penumbra_rays = std::max(least, penumbra_rays / samples);
+  result.gather = form_factors;
+  result.gather.method = FormFactorMethod::rays;
+  result.points.rays = std::max(least, gather_rays / samples);
+  return result;
+}
+
 TwoPassSettings two_pass_settings(const RunSettings& settings) {
   const QualityPreset preset = preset_of(settings.quality);
   TwoPassSettings result;
@@ -65,12 +79,14 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   result.render.samples = power_of_two(settings.samples.value_or(preset.samples));
   result.render.seed = settings.seed;
   result.render.layers = settings.layers;
+  result.render.diffuse = diffuse_settings(settings, pass_one.form_factors, result.render.samples);
   if (settings.mirror_depth) {
     // A cap holds for every kind of path: in closed form, gathered, and seen by the camera.
     pass_one.plan.worlds.max_depth =
         std::min(pass_one.plan.worlds.max_depth, *settings.mirror_depth);
     pass_one.form_factors.max_bounces = *settings.mirror_depth;
     result.render.max_bounces = *settings.mirror_depth;
+    result.render.diffuse.gather.max_bounces = *settings.mirror_depth;
   }
   return result;
 }

@@ -47,6 +47,7 @@ struct RunSettings {
   std::optional<Interpolation> interpolation;
   std::optional<int> samples;
   PictureMode mode = PictureMode::hybrid;
+  DiffuseTerm diffuse = DiffuseTerm::interpolated; ///< of a hybrid picture
   WithLayers layers = WithLayers::no; ///< of a hybrid picture or a reference
   std::optional<double> max_error;    ///< of a reference
   std::optional<double> max_seconds;  ///< of a reference

@@ -131,6 +131,8 @@ void add_solution(RunFigures& figures, const RadiositySolution& solution) {
 void add_rendering(RunFigures& figures, const Rendering& rendering) {
   figures.rays.camera = rendering.camera_rays;
   figures.rays.specular = rendering.specular_rays;
+  figures.rays.shadow += rendering.shadow_rays;
+  figures.rays.form_factor += rendering.gather_rays;
 }
 
 void add_reference(RunFigures& figures, const reference::ReferencePicture& picture) {

@@ -86,5 +86,17 @@ TEST_F(LayersOption, WhereTheyCannotBeIsSaid) {
                {"--layers", "-o", "no.png"});
 }
 
+TEST_F(LayersOption, DiffuseTermsThatHaveNoEffectAreRefused) {
+  expect_error(2, "--diffuse: has no effect with --mode reference: there is no pass one", "render",
+               {"--diffuse", "direct", "--mode", "reference", "-o", "no.exr"});
+  expect_error(2, "--diffuse: has no effect with --mode radiosity: it shows pass one", "render",
+               {"--diffuse", "gather", "--mode", "radiosity", "-o", "no.exr"});
+  expect_error(2,
+               "--diffuse direct: needs --interpolation gather with --form-factors analytic",
+               "render",
+               {"--diffuse", "direct", "--form-factors", "analytic", "--interpolation", "average",
+                "-o", "no.exr"});
+}
+
 } // namespace
 } // namespace meninas::test

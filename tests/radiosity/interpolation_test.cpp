@@ -15,7 +15,7 @@ InterpolatedField field_of(const LitScene& l, const RadiositySolution& solution,
   std::vector<Rgb> reflected = solution.radiosity;
   for (std::size_t e = 0; e < reflected.size(); ++e)
     reflected[e] -= l.mesh.sides[index(l.mesh.side_of_element[e])].emission;
-  return interpolate(*l.light, reflected, solution.irradiance, {}, {},
+  return interpolate(*l.light, {reflected, solution.irradiance, {}}, {}, {},
                      {.method = method, .rays = 256});
 }
 
@@ -66,7 +66,7 @@ TEST(Interpolation, AverageIsExactForLinearLight) {
   for (const auto& corners : {square, triangle}) {
     const Wall wall = wall_with(corners, linear);
     const ElementMesh& mesh = wall.lit->mesh;
-    const InterpolatedField f = interpolate(*wall.lit->light, wall.values, wall.values, {}, {},
+    const InterpolatedField f = interpolate(*wall.lit->light, {wall.values, wall.values, {}}, {}, {},
                                             {.method = Interpolation::average});
     int inside = 0;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -87,7 +87,7 @@ TEST(Interpolation, NeverBelowZero) {
   const Wall wall = wall_with({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, [](const Point3& x) {
     return Rgb(x.x < 0.2 ? 0.0 : 10.0 * x.x, x.y > 0.9 ? 0.0 : 1.0, 0.0);
   });
-  const InterpolatedField f = interpolate(*wall.lit->light, wall.values, wall.values, {}, {},
+  const InterpolatedField f = interpolate(*wall.lit->light, {wall.values, wall.values, {}}, {}, {},
                                           {.method = Interpolation::average});
   for (const auto& h : f.field.irradiance)
     for (int band = 0; band < 3; ++band)

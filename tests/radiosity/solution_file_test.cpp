@@ -30,6 +30,8 @@ protected:
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
       solution_.field.irradiance.emplace_back(1.0F / static_cast<float>(v + 1), 0.1F, 1e-30F);
       solution_.field.mirrored.emplace_back(0.5F / static_cast<float>(v + 1), 0.0F, 1e-31F);
+      solution_.field.indirect.emplace_back(0.25F / static_cast<float>(v + 1), 2.0F, 0.0F);
+      solution_.field.indirect_mirrored.emplace_back(0.125F / static_cast<float>(v + 1), 1.0F, 0.0F);
     }
     solution_.solver.iterations = 7;
     solution_.solver.error_bound = std::numeric_limits<double>::infinity();
@@ -76,6 +78,8 @@ TEST_F(SolutionFile, KeepsEveryBitAndFigure) {
   const StoredSolution stored = read_solution(file_, scene_);
   EXPECT_EQ(stored.field.irradiance, solution_.field.irradiance);
   EXPECT_EQ(stored.field.mirrored, solution_.field.mirrored);
+  EXPECT_EQ(stored.field.indirect, solution_.field.indirect);
+  EXPECT_EQ(stored.field.indirect_mirrored, solution_.field.indirect_mirrored);
   EXPECT_EQ(stored.mesh.element_size, settings_.element_size);
   EXPECT_EQ(stored.elements, element_count(mesh_));
   EXPECT_EQ(stored.solver.iterations, 7);

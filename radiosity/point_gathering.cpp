@@ -1,0 +1,81 @@
+#include "radiosity/point_gathering.h"
+
+#include "scenes/sampling.h"
+
+#include <limits>
+
+namespace meninas {
+
+namespace {
+
+DirectSettings cluster_settings(DirectSettings direct, int shadow_rays) {
+  direct.shadow_rays = shadow_rays;
+  direct.penumbra_rays = 4 * shadow_rays;
+  direct.images = std::numeric_limits<int>::max(); // there are not many, by construction
+  return direct;
+}
+
+/// What landed rays bring: light reflected by elements, where no cluster owns it, and emission, where no closed form owns that.
+ArrivingLight landed_light(const PointGathering& gathering, const GatheredRays& gathered) {
+  const std::size_t cluster_worlds = gathering.clusters.worlds.worlds.size();
+  ArrivingLight sum;
+  for (const auto& landing : gathered.landings) {
+    const bool owned =
+        gathering.clusters.owned[landing.element] != 0 && index(landing.world) < cluster_worlds;
+    Rgb arrived = gathered_emission(gathering.light, landing);
+    if (!owned)
+      arrived += Rgb(landing.light) * gathering.reflected[landing.element];
+    sum.total += arrived;
+    if (landing.world != real_world)
+      sum.mirrored += arrived;
+  }
+  const Rgb kept = kept_light(gathered);
+  return {sum.total / kept, sum.mirrored / kept};
+}
+
+} // namespace
+
+PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosity,
+                               const FormFactorSettings& factors,
+                               const DirectSettings& direct_light,
+                               const PointGatheringSettings& settings)
+    : light(scene), reflected(std::move(radiosity)), form_factors(factors), direct(direct_light),
+      secondary(cluster_settings(direct_light, settings.cluster_shadow_rays)),
+      clusters(find_bright_clusters(scene, reflected)),
+      clustered{scene.scene,
+                scene.surfaces,
+                scene.rays,
+                scene.mirrors,
+                clusters.worlds,
+                scene.mesh,
+                {},
+                clusters.emitters,
+                {},
+                make_emitter_tree(clusters.emitters)},
+      net(make_direction_net(settings.rays)),
+      cube(factors.method == FormFactorMethod::hemicube
+               ? make_hemicube(factors.hemicube_resolution)
+               : Hemicube{}) {}
+
+PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
+                    PointWorkspace& work) {
+  ReceiverArea point;
+  point.corner = receiver.position;
+  point.normal = receiver.normal;
+  point.plane_class = receiver.plane_class;
+  point.tangent = receiver.tangent;
+  if (gathering.form_factors.method == FormFactorMethod::hemicube)
+    gather_rays(gathering.light, gathering.cube, point, gathering.form_factors, work.gather);
+  else
+    gather_rays(gathering.light, gathering.net, point, seed, gathering.form_factors, work.gather);
+  work.rays += work.gather.result.traced;
+
+  const ArrivingLight from_rays = landed_light(gathering, work.gather.result);
+  const ArrivingLight from_source =
+      direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);
+  const ArrivingLight from_clusters = direct_irradiance(
+      gathering.clustered, receiver, gathering.secondary, hash(seed, 2), work.direct);
+  return {from_rays, from_source, from_clusters};
+}
+
+} // namespace meninas

@@ -1,0 +1,56 @@
+// The light that arrives at one point: from emitters by closed form, from everything else by rays over its hemisphere.
+//
+//   H(x) = D(x) + 1/N sum over rays of  tau B(landing)  + bright clusters
+//
+// D is the light from the source (direct_irradiance.h). Rays land on elements of known radiosity; elements so bright that rays would find
+// them by chance are taken from the source as well (bright_clusters.h). Each path is in one of the three.
+#pragma once
+
+#include "radiosity/bright_clusters.h"
+#include "radiosity/direct_irradiance.h"
+#include "radiosity/gather_rays.h"
+
+namespace meninas {
+
+struct PointGatheringSettings {
+  int rays = 512;              ///< over the hemisphere
+  int cluster_shadow_rays = 8; ///< per bright cluster, where it matters most
+};
+
+/// What light is gathered from, the same for all points. Stays where it was made.
+struct PointGathering {
+  /// `reflected` is B by ElementId, emission left out. Samples follow the methods of pass one.
+  PointGathering(const LightScene& light, std::vector<Rgb> reflected,
+                 const FormFactorSettings& form_factors, const DirectSettings& direct,
+                 const PointGatheringSettings& settings);
+  PointGathering(const PointGathering&) = delete;
+  PointGathering& operator=(const PointGathering&) = delete;
+
+  const LightScene& light;
+  std::vector<Rgb> reflected;
+  FormFactorSettings form_factors;
+  DirectSettings direct, secondary;
+  BrightClusters clusters;
+  LightScene clustered; ///< the same scene with the bright clusters for emitters
+  DirectionNet net;
+  Hemicube cube; ///< where the form factors are found so
+};
+
+/// Storage reused from point to point; one for each thread.
+struct PointWorkspace {
+  GatherWorkspace gather;
+  DirectWorkspace direct;
+  std::uint64_t rays = 0;
+};
+
+struct PointLight {
+  ArrivingLight from_rays, from_source, from_clusters;
+
+  ArrivingLight all() const { return from_rays + from_source + from_clusters; }
+  ArrivingLight indirect() const { return from_rays + from_clusters; }
+};
+
+PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
+                    PointWorkspace& work);
+
+} // namespace meninas

@@ -1,0 +1,60 @@
+#include "raytrace/diffuse_term.h"
+
+namespace meninas {
+
+FieldContent field_content(const DiffuseField& field, const DiffuseSettings& settings) {
+  if (settings.term != DiffuseTerm::direct)
+    return FieldContent::all;
+  expects(field.indirect.size() == field.irradiance.size(), "the field knows its indirect part");
+  return FieldContent::indirect;
+}
+
+std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const DiffuseField& field) {
+  std::vector<Rgb> reflected(element_count(mesh));
+  for (std::size_t e = 0; e < reflected.size(); ++e) {
+    const ElementCorners& corners = mesh.corners[e];
+    const std::size_t count = corners[3] == corners[2] ? 3 : 4;
+    Rgb sum(0.0);
+    for (std::size_t c = 0; c < count; ++c)
+      sum += Rgb(field.irradiance[index(corners[c])]);
+    reflected[e] = mesh.sides[index(mesh.side_of_element[e])].reflectance * sum / double(count);
+  }
+  return reflected;
+}
+
+std::unique_ptr<const PointGathering> make_gathering(const LightScene& light,
+                                                     const DiffuseField& field,
+                                                     const DiffuseSettings& settings) {
+  if (settings.term != DiffuseTerm::gather)
+    return nullptr;
+  return std::make_unique<PointGathering>(light, reflected_by_elements(light.mesh, field),
+                                          settings.gather, settings.direct, settings.points);
+}
+
+static glm::vec3 part_of(const ArrivingLight& arrived, ReflectedPart part) {
+  switch (part) {
+  case ReflectedPart::all:
+    return arrived.total;
+  case ReflectedPart::straight:
+    return glm::max(arrived.total - arrived.mirrored, Rgb(0.0));
+  case ReflectedPart::mirrored:
+    return arrived.mirrored;
+  case ReflectedPart::none:
+    break;
+  }
+  return glm::vec3(0.0F);
+}
+
+glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& settings,
+                              const PointGathering* gathering, ReflectedPart part,
+                              const glm::vec3& field, const Receiver& receiver, std::uint32_t seed,
+                              PointWorkspace& work) {
+  if (part == ReflectedPart::none || settings.term == DiffuseTerm::interpolated)
+    return field;
+  if (gathering)
+    return part_of(light_at(*gathering, receiver, seed, work).all(), part);
+  return field +
+         part_of(direct_irradiance(light, receiver, settings.direct, seed, work.direct), part);
+}
+
+} // namespace meninas

@@ -1,0 +1,44 @@
+// The diffuse term of pass two at a point: the irradiance that a surface reflects there.
+//
+//   interpolated   H = the field of pass one
+//   direct         H = D(x) + the interpolated field without D: what emitters and their mirror images send is computed at the point itself,
+//                  so that shadows and mirror spots are as sharp as they are
+//   gather         H = D(x) + one gathering over the hemisphere, from elements as bright as the field says
+//
+// D(x) owns the same paths in all three (direct_irradiance.h, point_gathering.h), so that none is counted twice.
+#pragma once
+
+#include "radiosity/point_gathering.h"
+#include "raytrace/field_shading.h"
+
+#include <memory>
+
+namespace meninas {
+
+enum class DiffuseTerm { interpolated, direct, gather };
+
+struct DiffuseSettings {
+  DiffuseTerm term = DiffuseTerm::interpolated;
+  DirectSettings direct{.shadow_rays = 16, .penumbra_rays = 64}; ///< at a camera ray's hit
+  FormFactorSettings gather;    ///< how the rays of `gather` are followed
+  PointGatheringSettings points{.rays = 64, .cluster_shadow_rays = 4}; ///< of `gather`, at a hit
+};
+
+/// Which values of the field the term builds on; `direct` expects a field that knows its indirect part.
+FieldContent field_content(const DiffuseField& field, const DiffuseSettings& settings);
+
+/// The reflected radiosity of the elements, as a field says: rho times the mean of H at their corners.
+std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const DiffuseField& field);
+
+/// What the term needs besides the field; for `gather` alone.
+std::unique_ptr<const PointGathering> make_gathering(const LightScene& light,
+                                                     const DiffuseField& field,
+                                                     const DiffuseSettings& settings);
+
+/// H at a point. `field` is what the interpolated part of it says there.
+glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& settings,
+                              const PointGathering* gathering, ReflectedPart part,
+                              const glm::vec3& field, const Receiver& receiver, std::uint32_t seed,
+                              PointWorkspace& work);
+
+} // namespace meninas

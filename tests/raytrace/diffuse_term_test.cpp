@@ -1,0 +1,150 @@
+#include "radiosity/point_form_factor.h"
+#include "raytrace/two_pass.h"
+#include "tests/support/rooms.h"
+#include "tests/support/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace meninas::test {
+namespace {
+
+constexpr std::array all_terms{DiffuseTerm::interpolated, DiffuseTerm::direct,
+                               DiffuseTerm::gather};
+
+TwoPassSettings quick(int width, int height, DiffuseTerm term) {
+  TwoPassSettings settings;
+  settings.pass_one.mesh.element_size = 0.25;
+  settings.pass_one.form_factors.rays = settings.pass_one.interpolation.rays = 256;
+  settings.render.width = width;
+  settings.render.height = height;
+  settings.render.samples = 4;
+  settings.render.diffuse.term = term;
+  settings.render.diffuse.points.rays = 256;
+  return settings;
+}
+
+Rendering rendering_of(const Scene& scene, const TwoPassSettings& settings) {
+  const auto prepared = prepare_scene(scene, settings.pass_one);
+  return two_pass(*prepared, scene.cameras.at(0), settings).rendering;
+}
+
+double mean_of(const Image& image) {
+  double sum = 0.0;
+  for (const auto& pixel : image.pixels)
+    sum += pixel.r + pixel.g + pixel.b;
+  return sum / (3.0 * double(image.pixels.size()));
+}
+
+/// Only the floor scatters: its light is that of the lamp and of the lamp's image behind the mirror x = 0.
+struct LampAndImage {
+  static constexpr double reflectance = 0.6, rho = 0.9, emitted = 10.0;
+  std::vector<Point3> lamp{{1, 1, -0.5}, {1.5, 1, -0.5}, {1.5, 1, 0.5}, {1, 1, 0.5}};
+  Scene scene;
+
+  explicit LampAndImage(const Point3& seen) {
+    add_polygon(scene, "floor", {{0.1, 0, -1}, {0.1, 0, 1}, {2.5, 0, 1}, {2.5, 0, -1}},
+                diffuse(reflectance));
+    add_polygon(scene, "lamp", lamp, diffuse(0.0, emitted));
+    add_polygon(scene, "mirror", {{0, 0, 3}, {0, 0, -3}, {0, 4, -3}, {0, 4, 3}}, mirror(rho));
+    scene.cameras = {look_at(seen + Vec3(0.0, 0.5, 0.4), seen, 1e-5)};
+  }
+
+  double exact(const Point3& seen) const {
+    std::vector<Point3> image;
+    for (auto corner = lamp.rbegin(); corner != lamp.rend(); ++corner)
+      image.emplace_back(-corner->x, corner->y, corner->z);
+    const Direction up(0, 1, 0);
+    return emitted * reflectance / std::numbers::pi *
+           (point_form_factor(seen, up, lamp) + rho * point_form_factor(seen, up, image));
+  }
+};
+
+TEST(DiffuseTerm, DirectIsTheClosedFormAnywhereOnAnElement) {
+  // Elements are a metre wide and the light changes by a factor over each: what is interpolated is far off, what is computed at the
+  // hit is right to the rounding of the hit's place.
+  for (const Point3 seen : {Point3(1.23, 0.0, 0.31), Point3(0.55, 0.0, -0.45)}) {
+    const LampAndImage room(seen);
+    const double exact = room.exact(seen);
+    for (const DiffuseTerm term : all_terms) {
+      TwoPassSettings settings = quick(1, 1, term);
+      settings.pass_one.mesh.element_size = 1.2;
+      const double radiance = rendering_of(room.scene, settings).image.at(0, 0).g;
+      if (term == DiffuseTerm::interpolated)
+        EXPECT_GT(std::abs(radiance - exact), 0.02 * exact) << "or else nothing is tested";
+      else
+        EXPECT_NEAR(radiance, exact, 1e-4 * exact) << static_cast<int>(term);
+    }
+  }
+}
+
+TEST(DiffuseTerm, AllAgreeInAFurnace) {
+  // E = 1, rho = 1/2: B = 2 and L = 2 / pi. Emitters are all there is, so they are gathered: no path may come twice.
+  for (const DiffuseTerm term : all_terms) {
+    TwoPassSettings settings = quick(8, 8, term);
+    settings.pass_one.solver.tolerance = 1e-6;
+    Scene scene = furnace(0.5, {false, true});
+    scene.cameras = {look_at({0.4, 0.5, 0.9}, {0.6, 0.4, 0.0}, 1.5)};
+    for (const auto& pixel : rendering_of(scene, settings).image.pixels)
+      EXPECT_NEAR(pixel.g, 2.0 / std::numbers::pi, 1e-4) << static_cast<int>(term);
+  }
+}
+
+TEST(DiffuseTerm, AllShowTheSameLight) {
+  // In the mean over the picture what sharper shadows give to one pixel they take from another: one per cent is the error of elements
+  // of a quarter of a metre; a path counted twice would be tens of per cent.
+  Scene scene = half_room_with_small_mirror();
+  scene.cameras = {look_at({1.8, 1.1, 2.8}, {0.4, 0.6, 1.0}, 1.4)};
+  const double interpolated =
+      mean_of(rendering_of(scene, quick(24, 24, DiffuseTerm::interpolated)).image);
+  for (const DiffuseTerm term : {DiffuseTerm::direct, DiffuseTerm::gather})
+    EXPECT_NEAR(mean_of(rendering_of(scene, quick(24, 24, term)).image), interpolated,
+                0.01 * interpolated)
+        << static_cast<int>(term);
+}
+
+TEST(DiffuseTerm, LayersAddUpWhateverTheTerm) {
+  Scene scene = half_room_with_small_mirror();
+  scene.cameras = {look_at({1.8, 1.1, 2.8}, {0.4, 0.6, 1.0}, 1.4)};
+  for (const DiffuseTerm term : {DiffuseTerm::direct, DiffuseTerm::gather}) {
+    TwoPassSettings settings = quick(12, 12, term);
+    const Image whole = rendering_of(scene, settings).image;
+    settings.render.layers = WithLayers::yes;
+    const Rendering layered = rendering_of(scene, settings);
+    for (std::size_t p = 0; p < whole.pixels.size(); ++p) {
+      glm::vec3 sum(0.0F);
+      for (const Layer& layer : layered.layers)
+        sum += layer.image.pixels[p];
+      ASSERT_EQ(sum, layered.image.pixels[p]) << "exactly, in their order";
+      // Four samples may settle in one of the two and go on in the other (shading.cpp: half a per cent).
+      for (int band = 0; band < 3; ++band)
+        ASSERT_NEAR(sum[band], whole.pixels[p][band], 0.01 * whole.pixels[p][band]);
+    }
+  }
+}
+
+TEST(DiffuseTerm, DirectShadowsHaveTheWidthOfTheirPenumbra) {
+  // A lamp of a millimetre two metres up, and a blade half way: the shadow's edge is a millimetre wide, the elements are a metre.
+  Scene scene;
+  add_polygon(scene, "floor", {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}}, diffuse(0.5));
+  add_polygon(scene, "lamp",
+              {{-5e-4, 2, -5e-4}, {5e-4, 2, -5e-4}, {5e-4, 2, 5e-4}, {-5e-4, 2, 5e-4}},
+              diffuse(0.0, 1e6));
+  add_polygon(scene, "blade", {{0, 1, 2}, {0, 1, -2}, {2, 1, -2}, {2, 1, 2}},
+              double_sided(diffuse(0.0)));
+  scene.cameras = {look_at({0.0, 0.5, 0.001}, {0.0, 0.0, 0.0}, 0.1)};
+  TwoPassSettings settings = quick(32, 4, DiffuseTerm::direct);
+  settings.pass_one.mesh.element_size = 1.0;
+  const Image image = rendering_of(scene, settings).image;
+  // The picture is 0.4 m wide; its pixels are 12.5 mm: all but the two at the edge are lit or dark.
+  for (int x = 0; x < 32; ++x) {
+    if (x == 15 || x == 16)
+      continue;
+    const double exact = 0.5 * 1e6 / std::numbers::pi * 1e-6 / (std::numbers::pi * 4.0);
+    EXPECT_NEAR(image.at(x, 2).g, x < 16 ? exact : 0.0, 0.05 * exact) << x;
+  }
+}
+
+} // namespace
+} // namespace meninas::test
