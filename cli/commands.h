@@ -20,5 +20,6 @@ Command add_formfactors_command(CLI::App& program);
 Command add_diff_command(CLI::App& program);
 Command add_regress_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
+Command add_batch_command(CLI::App& program);
 
 } // namespace meninas

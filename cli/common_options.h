@@ -49,6 +49,10 @@ public:
   explicit Console(Verbosity verbosity);
   ~Console();
   RunEvents events();
+  /// Shows how far something is, on the line that is written over.
+  void show_status(const std::string& line);
+  /// The line an error is, for a process that ends without unwinding.
+  void say_error(const std::string& line);
   /// Says what `settings` rounds.
   void say_rounding(const RunSettings& settings);
 

@@ -45,6 +45,10 @@ RunEvents Console::events() {
   return events;
 }
 
+void Console::show_status(const std::string& line) { state_->line.report(line); }
+
+void Console::say_error(const std::string& line) { state_->say("", line); }
+
 void Console::say_rounding(const RunSettings& settings) {
   for (const std::string& text : rounding_notes(settings)) {
     note(events(), text);

@@ -202,6 +202,12 @@ Command add_render_command(CLI::App& program) {
   return {command, [=] { run(*command, *options); }};
 }
 
+/// Options that are not what a picture is made of.
+static bool is_setting(const CLI::Option& option) {
+  const std::string name = option.get_lnames().front();
+  return name != "help" && name != "threads" && name != "quiet";
+}
+
 RenderRequest parse_render_settings(const std::filesystem::path& scene,
                                     const std::vector<Setting>& settings) {
   CLI::App command;
@@ -209,9 +215,8 @@ RenderRequest parse_render_settings(const std::filesystem::path& scene,
   add_settings(command, options);
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_lnames().front();
-    if (name != "help" && name != "threads" && name != "quiet") {
-      known.push_back(name);
+    if (is_setting(*option)) {
+      known.push_back(option->get_lnames().front());
     }
   }
   // CLI11 takes what is left to parse from the back of the list.
@@ -237,6 +242,21 @@ RenderRequest parse_render_settings(const std::filesystem::path& scene,
     const std::string text = error.what();
     throw UsageError("", text.starts_with("--") ? text.substr(2) : text);
   }
+}
+
+std::vector<SettingHelp> render_settings_help() {
+  CLI::App command;
+  RenderOptions options;
+  add_settings(command, options);
+  std::vector<SettingHelp> help;
+  for (const CLI::Option* option : command.get_options()) {
+    if (is_setting(*option)) {
+      const bool flag = option->get_expected_max() == 0;
+      help.push_back({option->get_lnames().front(), option->get_description(),
+                      flag ? "" : option->get_type_name()});
+    }
+  }
+  return help;
 }
 
 } // namespace meninas

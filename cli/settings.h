@@ -11,4 +11,11 @@ namespace meninas {
 RenderRequest parse_render_settings(const std::filesystem::path& scene,
                                     const std::vector<Setting>& settings);
 
+/// An option that may be a setting, as its help says it.
+struct SettingHelp {
+  std::string name, description;
+  std::string takes; ///< what its value looks like, or names joined by '|'; empty for a flag
+};
+std::vector<SettingHelp> render_settings_help();
+
 } // namespace meninas

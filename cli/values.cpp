@@ -56,6 +56,25 @@ double parse_number(const std::string& option, const std::string& text, Sign sig
   return *value;
 }
 
+std::uint64_t parse_bytes(const std::string& option, const std::string& text) {
+  constexpr std::string_view units = "KMGT";
+  const auto unit_begin = std::min(text.find_first_not_of("0123456789."), text.size());
+  const auto number = whole_number_in<double>(std::string_view(text).substr(0, unit_begin));
+  std::string_view unit = std::string_view(text).substr(unit_begin);
+  double factor = 1.0;
+  if (const auto power = unit.empty() ? units.npos : units.find(unit.front());
+      power != units.npos) {
+    factor = std::exp2(10.0 * static_cast<double>(power + 1));
+    unit.remove_prefix(1);
+  }
+  const bool known = unit.empty() || unit == "B" || (factor > 1.0 && unit == "iB");
+  // Beyond that it is no limit.
+  if (!number || !known || !(*number * factor >= 1.0) || *number * factor > 0x1p60) {
+    throw UsageError(option, fmt::format("'{}' is no size such as 800M or 1.5G", text));
+  }
+  return static_cast<std::uint64_t>(*number * factor);
+}
+
 PictureSize parse_size(const std::string& option, const std::string& text) {
   constexpr int longest_side = 65'536;
   constexpr std::int64_t most_pixels = std::int64_t{1} << 27;

@@ -19,6 +19,9 @@ std::int64_t parse_integer(const std::string& option, const std::string& text, s
 /// Cells along the edge of a hemicube: even, for its sides are half as high.
 int parse_resolution(const std::string& option, const std::string& text);
 
+/// Bytes: a number, with a unit of 1024 bytes and its powers behind it or none: 800M, 1.5G, 2GiB.
+std::uint64_t parse_bytes(const std::string& option, const std::string& text);
+
 enum class Sign { any, positive };
 
 /// A finite decimal number.

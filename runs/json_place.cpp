@@ -100,7 +100,7 @@ std::vector<Setting> settings_at(const Place& place) {
 }
 
 void fail_settings(const Place& place, const std::vector<Setting>& settings,
-                                const std::string& what) {
+                   const std::string& what) {
   for (const Setting& setting : settings) {
     if (const std::string prefix = setting.name + ": ";
         what.starts_with(prefix) && place.json.contains(setting.name)) {

@@ -11,7 +11,7 @@ ProgressStyle progress_style(std::FILE* stream) {
   return isatty(fileno(stream)) != 0 ? ProgressStyle::terminal : ProgressStyle::log;
 }
 
-static std::string duration(double seconds) {
+std::string readable_duration(double seconds) {
   const auto whole = static_cast<long>(seconds + 0.5);
   return whole < 60 ? fmt::format("{} s", whole)
                     : fmt::format("{} min {:02} s", whole / 60, whole % 60);
@@ -26,28 +26,46 @@ void ProgressLine::report(std::string_view stage, double fraction) {
   if (!lock) {
     return;
   }
-  const auto now = Clock::now();
   if (stage != stage_) {
     stage_ = stage;
-    stage_begin_ = now;
+    stage_begin_ = Clock::now();
     furthest_ = 0.0;
   }
   furthest_ = std::max(furthest_, fraction);
-  const auto pause = style_ == ProgressStyle::terminal ? std::chrono::milliseconds(100)
-                                                       : std::chrono::milliseconds(5000);
-  if (now - last_shown_ >= pause) {
-    last_shown_ = now;
-    show(furthest_);
+  if (is_due()) {
+    show(line_for(furthest_));
   }
 }
 
-void ProgressLine::show(double fraction) {
+void ProgressLine::report(const std::string& line) {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (style_ != ProgressStyle::none && lock && is_due()) {
+    show(line);
+  }
+}
+
+bool ProgressLine::is_due() {
+  const auto now = Clock::now();
+  const auto pause = style_ == ProgressStyle::terminal ? std::chrono::milliseconds(100)
+                                                       : std::chrono::milliseconds(5000);
+  if (now - last_shown_ < pause) {
+    return false;
+  }
+  last_shown_ = now;
+  return true;
+}
+
+std::string ProgressLine::line_for(double fraction) const {
   const double elapsed = std::chrono::duration<double>(Clock::now() - stage_begin_).count();
   std::string line = fmt::format("{}: {:.0f} %", stage_, 100.0 * fraction);
   // Too little done says nothing about the rest.
   if (fraction > 0.02 && fraction < 1.0) {
-    line += fmt::format(", {} left", duration(elapsed * (1.0 - fraction) / fraction));
+    line += fmt::format(", {} left", readable_duration(elapsed * (1.0 - fraction) / fraction));
   }
+  return line;
+}
+
+void ProgressLine::show(const std::string& line) {
   if (style_ == ProgressStyle::terminal) {
     fmt::print(stream_, "\r{}\x1b[K", line);
     std::fflush(stream_);

@@ -14,6 +14,9 @@ enum class ProgressStyle { none, terminal, log };
 /// A terminal where the stream is one, a log otherwise.
 ProgressStyle progress_style(std::FILE* stream);
 
+/// "12 s", "3 min 05 s"
+std::string readable_duration(double seconds);
+
 /// Safe to be told from any thread.
 class ProgressLine {
 public:
@@ -23,12 +26,16 @@ public:
   ~ProgressLine() { clear(); }
 
   void report(std::string_view stage, double fraction);
+  /// A line that says how far things are by itself.
+  void report(const std::string& line);
   /// Takes the line away, so that something else can be written there.
   void clear();
 
 private:
   using Clock = std::chrono::steady_clock;
-  void show(double fraction);
+  bool is_due();
+  std::string line_for(double fraction) const;
+  void show(const std::string& line);
 
   std::FILE* stream_;
   ProgressStyle style_;

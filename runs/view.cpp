@@ -3,7 +3,7 @@
 #include "radiosity/solution_file.h"
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
-#include "scenes/errors.h"
+#include "scenes/content_hash.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 static Attributes attributes_of(const Scene& scene, const Camera& camera,
                                 const RunSettings& settings) {
   return {{"scene", fs::path(scene.file).filename().string()},
-          {"sceneHash", fmt::format("{:016x}", content_hash(scene))},
+          {"sceneHash", hex_digits(content_hash(scene))},
           {"camera", camera.name},
           {"seed", std::to_string(settings.seed)}};
 }

@@ -1,42 +1,13 @@
 #include "scenes/scene.h"
 
+#include "scenes/content_hash.h"
 #include "scenes/errors.h"
 #include "scenes/names.h"
 
 #include <fmt/format.h>
 
-#include <bit>
-
 namespace meninas {
 namespace {
-
-/// Mixes 64-bit words one after another; the order of the words counts.
-class ContentHash {
-public:
-  void add(std::uint64_t word) {
-    // Multiplying spreads low bits upwards (the constants of splitmix64), the shifts bring high
-    // bits down again.
-    state_ = (state_ ^ word) * 0xbf58476d1ce4e5b9ULL;
-    state_ ^= state_ >> 29;
-    state_ *= 0x94d049bb133111ebULL;
-    state_ ^= state_ >> 32;
-  }
-  /// Adding zero turns -0.0 into 0.0, which is the same number.
-  void add(double x) { add(std::bit_cast<std::uint64_t>(x + 0.0)); }
-  void add(const Vec2& x) {
-    add(x.x);
-    add(x.y);
-  }
-  void add(const Vec3& x) {
-    add(x.x);
-    add(x.y);
-    add(x.z);
-  }
-  std::uint64_t value() const { return state_; }
-
-private:
-  std::uint64_t state_ = 0x9e3779b97f4a7c15ULL;
-};
 
 std::uint64_t word(bool x) { return x ? 1 : 0; }
 
@@ -82,15 +53,7 @@ void add_light(ContentHash& hash, const PunctualLight& light) {
 void add_texture(ContentHash& hash, const Texture& texture) {
   hash.add(word(texture.repeat_u));
   hash.add(word(texture.repeat_v));
-  hash.add(std::uint64_t{texture.encoded.size()});
-  std::uint64_t packed = 0;
-  for (std::size_t i = 0; i < texture.encoded.size(); ++i) {
-    packed = packed << 8 | std::to_integer<std::uint64_t>(texture.encoded[i]);
-    if (i % 8 == 7 || i + 1 == texture.encoded.size()) {
-      hash.add(packed);
-      packed = 0;
-    }
-  }
+  hash.add(std::span(texture.encoded));
 }
 
 void add_geometry(ContentHash& hash, const Scene& scene) {

@@ -4,11 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace meninas::test {
 
@@ -51,6 +54,45 @@ Outcome run_other_program(const fs::path& program, const fs::path& folder,
   return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
           .out = read_file(streams / "out"),
           .err = read_file(streams / "err")};
+}
+
+RunningProgram::RunningProgram(const fs::path& folder, const std::vector<std::string>& arguments)
+    : streams_(std::make_unique<TemporaryFolder>()) {
+  const std::string out = (*streams_ / "out").string(), err = (*streams_ / "err").string();
+  std::vector<char*> words{const_cast<char*>(MENINAS_PROGRAM)};
+  for (const std::string& argument : arguments) {
+    words.push_back(const_cast<char*>(argument.c_str()));
+  }
+  words.push_back(nullptr);
+  process_ = fork();
+  if (process_ == 0) {
+    const bool ready = chdir(folder.c_str()) == 0 && std::freopen(out.c_str(), "w", stdout) &&
+                       std::freopen(err.c_str(), "w", stderr);
+    if (ready) {
+      execv(words.front(), words.data());
+    }
+    _exit(127);
+  }
+}
+
+RunningProgram::RunningProgram(RunningProgram&& other) noexcept
+    : streams_(std::move(other.streams_)), process_(std::exchange(other.process_, -1)) {}
+
+RunningProgram::~RunningProgram() {
+  if (process_ > 0) {
+    send(SIGKILL);
+    outcome();
+  }
+}
+
+void RunningProgram::send(int signal) const { kill(process_, signal); }
+
+Outcome RunningProgram::outcome() {
+  int status = 0;
+  waitpid(std::exchange(process_, -1), &status, 0);
+  return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+          .out = read_file(*streams_ / "out"),
+          .err = read_file(*streams_ / "err")};
 }
 
 std::string without_progress(const std::string& err) {

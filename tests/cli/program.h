@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,22 @@ struct Outcome {
 
 /// Runs `meninas ARGUMENTS` with `folder` as its current folder.
 Outcome run_program(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+
+/// The program, started and left to itself; killed when out of scope.
+class RunningProgram {
+public:
+  RunningProgram(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+  ~RunningProgram();
+  RunningProgram(RunningProgram&& other) noexcept;
+
+  void send(int signal) const;
+  /// Waits for its end.
+  Outcome outcome();
+
+private:
+  std::unique_ptr<TemporaryFolder> streams_;
+  int process_ = -1;
+};
 
 Outcome run_other_program(const std::filesystem::path& program, const std::filesystem::path& folder,
                           const std::vector<std::string>& arguments);

@@ -1,0 +1,191 @@
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "cli/settings.h"
+#include "cli/values.h"
+#include "runs/batch/batch_run.h"
+#include "runs/progress_line.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <set>
+
+namespace meninas {
+namespace {
+
+enum class BatchTask { run, outlook };
+
+struct BatchOptions {
+  BatchRequest request;
+  BatchTask task = BatchTask::run;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+void print(const std::string& text) {
+  std::cout << text << std::flush;
+  if (!std::cout) {
+    throw OutputError("", "standard output", "cannot write");
+  }
+}
+
+/// The schema with every option that may be a setting, so that editors know them too.
+std::string schema_with_settings() {
+  auto schema = nlohmann::ordered_json::parse(batch_schema());
+  auto& properties = schema["$defs"]["settings"]["properties"];
+  for (const SettingHelp& setting : render_settings_help()) {
+    if (setting.name == "camera" || setting.name == "mode") {
+      continue; // a job has them itself
+    }
+    nlohmann::ordered_json property{{"description", setting.description}};
+    if (setting.takes.empty()) {
+      property["type"] = {"boolean", "null"};
+    } else if (setting.takes.find('|') != std::string::npos) {
+      property["enum"] = nlohmann::ordered_json::array();
+      std::string_view names = setting.takes;
+      for (auto bar = names.find('|'); !names.empty(); bar = names.find('|')) {
+        property["enum"].push_back(std::string(names.substr(0, bar)));
+        names.remove_prefix(bar == std::string_view::npos ? names.size() : bar + 1);
+      }
+    } else {
+      property["type"] = {"string", "number", "null"};
+    }
+    properties[setting.name] = property;
+  }
+  return schema.dump(2) + '\n';
+}
+
+/// K/N. Whether K counts from 0 or from 1 does not matter: 0/N and N/N are the same part.
+Shard parse_shard(const std::string& option, const std::string& text) {
+  const auto slash = text.find('/');
+  if (slash == std::string::npos) {
+    throw UsageError(option, fmt::format("'{}' is no part such as 1/4", text));
+  }
+  const auto count = parse_integer(option, text.substr(slash + 1), 1, 1'000'000);
+  const auto number = parse_integer(option, text.substr(0, slash), 0, count);
+  return {static_cast<int>(number), static_cast<int>(count)};
+}
+
+std::string status_line(const BatchProgress& progress, double seconds) {
+  std::string line =
+      fmt::format("{} of {} done, {} running", progress.done, progress.pictures, progress.running);
+  if (progress.solving > 0) {
+    line += fmt::format(", {} solving", progress.solving);
+  }
+  if (progress.failed > 0) {
+    line += fmt::format(", {} failed", progress.failed);
+  }
+  // Too little done says nothing about the rest.
+  if (progress.share > 0.02 && progress.share < 1.0) {
+    line += fmt::format(", {} left",
+                        readable_duration(seconds * (1.0 - progress.share) / progress.share));
+  }
+  return line + fmt::format(", {:.1f} million rays/s", 1e-6 * double(progress.rays) / seconds);
+}
+
+void say_result(const RunEvents& events, const BatchPicture& picture, const PictureResult& result) {
+  if (result.status == PictureStatus::failed) {
+    warn(events, fmt::format("{} failed: {}", picture.name, result.record.error));
+  } else if (result.status == PictureStatus::made) {
+    note(events, fmt::format("{} ({:.2f} s)", picture.name, result.record.seconds));
+  }
+}
+
+BatchEvents events_of(Console& console) {
+  BatchEvents events;
+  events.run = console.events();
+  events.finished = [told = events.run](const BatchPicture& picture, const PictureResult& result) {
+    say_result(told, picture, result);
+  };
+  events.progress = [&console](const BatchProgress& progress, double seconds) {
+    console.show_status(status_line(progress, seconds));
+  };
+  events.last_words = [&console](const std::string& line) { console.say_error(line); };
+  return events;
+}
+
+void say_rounding(const RunEvents& events, const std::vector<BatchJob>& jobs) {
+  std::set<std::string> said;
+  for (const BatchJob& job : jobs) {
+    for (const JobMode& mode : job.modes) {
+      for (const std::string& text : rounding_notes(mode.request.settings)) {
+        if (said.insert(text).second) {
+          note(events, text);
+        }
+      }
+    }
+  }
+}
+
+void run(BatchOptions& options) {
+  const BatchRequest& request = options.request;
+  const auto jobs = read_batch(request.jobs_file, parse_render_settings);
+  Console console(options.verbosity);
+  auto pictures = plan_batch(request.jobs_file, jobs);
+  if (options.task == BatchTask::outlook) {
+    print(batch_outlook(request, pictures));
+    return;
+  }
+  const BatchEvents events = events_of(console);
+  say_rounding(events.run, jobs);
+  const BatchReport report = batch_run(request, std::move(pictures), events);
+  const BatchCounts counts = count(report.results);
+  note(events.run,
+       fmt::format("{} made, {} found done, in {}; see {}", counts.made, counts.found,
+                   readable_duration(report.seconds), (request.folder / "index.html").string()));
+}
+
+void add_options(CLI::App& command, BatchOptions& options) {
+  BatchRequest& request = options.request;
+  const auto add = [&](const std::string& option, const std::string& shown,
+                       const std::string& description,
+                       std::function<void(const std::string&)> take) {
+    return command.add_option_function<std::string>(option, take, description)->type_name(shown);
+  };
+  add("-o,--output", "DIR", "folder of the pictures, made if it is not there",
+      [&](const std::string& text) { request.folder = text; })
+      ->required();
+  command.add_flag_callback(
+      "--resume", [&] { request.resume = Resume::yes; },
+      "leave the pictures as they are that an earlier run has made from the same scene and "
+      "settings");
+  command.add_flag_callback(
+      "--dry-run", [&] { options.task = BatchTask::outlook; },
+      "list what would be solved and rendered, and what is done already");
+  add("--shard", "K/N", "only part K of N; K may count from 0 or from 1",
+      [&](const std::string& text) { request.shard = parse_shard("--shard", text); });
+  add("--memory-limit", "SIZE", "what the process may need, such as 4G [all the machine has]",
+      [&](const std::string& text) { request.memory_limit = parse_bytes("--memory-limit", text); });
+  add("--cache", "DIR", "where solutions are kept [.meninas/solutions in the output folder]",
+      [&](const std::string& text) { request.cache = text; });
+  add_file(command, "--junit", request.junit, "write the results as JUnit XML");
+  command.add_flag_callback(
+      "--schema",
+      [] {
+        print(schema_with_settings());
+        throw CLI::Success();
+      },
+      "print the JSON Schema of jobs files, with every setting, and end");
+  add("--threads", "N", "threads at work [all]", [&](const std::string& text) {
+    request.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
+  });
+  command.add_flag_callback(
+      "--quiet", [&] { options.verbosity = Verbosity::quiet; },
+      "no progress and no notes, only warnings and errors");
+}
+
+} // namespace
+
+Command add_batch_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "batch", "Render many scenes, cameras and settings side by side, resumable");
+  const auto options = std::make_shared<BatchOptions>();
+  command
+      ->add_option("JOBS", options->request.jobs_file, "JSON: scenes, cameras, settings, outputs")
+      ->type_name("")
+      ->required();
+  add_options(*command, *options);
+  return {command, [=] { run(*options); }};
+}
+
+} // namespace meninas

@@ -1,0 +1,305 @@
+#include "runs/batch/batch_plan.h"
+
+#include "runs/batch/output_name.h"
+#include "runs/preparation.h"
+#include "scenes/content_hash.h"
+#include "scenes/errors.h"
+#include "scenes/gltf.h"
+#include "scenes/version.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <glob.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <set>
+
+namespace meninas {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What was found out about a scene file, or why nothing could be.
+struct KnownScene {
+  std::shared_ptr<const SceneFacts> facts;
+  std::optional<BatchProblem> problem;
+};
+using KnownScenes = std::map<fs::path, KnownScene>;
+
+bool is_pattern(const std::string& text) { return text.find_first_of("*?[{") != std::string::npos; }
+
+/// The files that a pattern matches, sorted; a file of that very name is itself.
+std::vector<fs::path> matching_files(const fs::path& pattern) {
+  std::error_code error;
+  if (!is_pattern(pattern.string()) || fs::exists(pattern, error)) {
+    return {pattern};
+  }
+  const auto release = [](glob_t* found) { ::globfree(found); };
+  glob_t found{};
+  const std::unique_ptr<glob_t, decltype(release)> owner(&found, release);
+  std::vector<fs::path> files;
+  if (::glob(pattern.c_str(), GLOB_BRACE, nullptr, &found) == 0) {
+    files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+    std::ranges::sort(files);
+    files.erase(std::unique(files.begin(), files.end()), files.end());
+  }
+  return files;
+}
+
+/// The files of every pattern of the jobs, looked up once: what appears meanwhile is not there.
+using FoundFiles = std::map<fs::path, std::vector<fs::path>>;
+FoundFiles find_files(const std::vector<BatchJob>& jobs) {
+  FoundFiles found;
+  for (const BatchJob& job : jobs) {
+    for (const fs::path& pattern : job.scenes) {
+      if (!found.contains(pattern)) {
+        found.emplace(pattern, matching_files(pattern));
+      }
+    }
+  }
+  return found;
+}
+
+KnownScenes read_scenes(const FoundFiles& found) {
+  KnownScenes scenes;
+  for (const auto& [pattern, files] : found) {
+    for (const fs::path& file : files) {
+      scenes.emplace(file, KnownScene{});
+    }
+  }
+  std::vector<KnownScenes::value_type*> list;
+  for (auto& entry : scenes) {
+    list.push_back(&entry);
+  }
+  tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t k) {
+    auto& [file, known] = *list[k];
+    try {
+      known.facts = std::make_shared<const SceneFacts>(facts_of(load_gltf(file)));
+    } catch (const UserError& error) {
+      known.problem = {error.what(), static_cast<int>(error.code())};
+    }
+  });
+  return scenes;
+}
+
+/// A camera of a job in a scene: one, or the frames of a path.
+std::vector<Camera> chosen_cameras(const CameraChoice& choice, const Scene& cameras_only,
+                                   const Bounds& bounds) {
+  const auto& cameras = cameras_only.cameras;
+  if (const auto* path = std::get_if<CameraPath>(&choice)) {
+    return cameras_along(*path, bounds);
+  }
+  const auto* name = std::get_if<std::string>(&choice);
+  const auto is_named = [&](const Camera& camera) { return camera.name == *name; };
+  if (name == nullptr || (cameras.empty() && *name == "*")) {
+    return {cameras.empty() ? default_camera(bounds) : cameras.front()};
+  }
+  if (!is_pattern(*name) || std::ranges::any_of(cameras, is_named)) {
+    return {find_camera(cameras_only, *name)};
+  }
+  std::vector<Camera> matching;
+  for (const Camera& camera : cameras) {
+    if (::fnmatch(name->c_str(), camera.name.c_str(), FNM_EXTMATCH) == 0) {
+      matching.push_back(camera);
+    }
+  }
+  if (matching.empty()) {
+    throw InputError(cameras_only.file, "", fmt::format("no camera matches '{}'", *name));
+  }
+  return matching;
+}
+
+void add_camera(ContentHash& hash, const Camera& camera) {
+  hash.add(camera.name);
+  hash.add(static_cast<std::uint64_t>(camera.projection));
+  for (const Vec3& vector : {camera.position, camera.right, camera.up, camera.forward}) {
+    hash.add(vector);
+  }
+  for (const double number : {camera.vertical_fov, camera.half_height, camera.aspect}) {
+    hash.add(number);
+  }
+}
+
+void add_settings(ContentHash& hash, std::vector<Setting> settings) {
+  std::ranges::sort(settings, {}, &Setting::name);
+  for (const Setting& setting : settings) {
+    hash.add(setting.name);
+    hash.add(setting.value ? '=' + *setting.value : "");
+  }
+}
+
+/// Settings of the picture alone. What is not listed counts for pass one: at worst it is solved once too often.
+bool is_of_pass_two(const Setting& setting) {
+  constexpr std::array names{"mode", "diffuse", "camera", "size",   "samples", "max-error",
+                             "max-seconds", "exposure", "layers", "float"};
+  return std::ranges::find(names, setting.name) != names.end();
+}
+
+std::string solution_key(const SceneFacts& facts, std::vector<Setting> settings) {
+  std::erase_if(settings, is_of_pass_two);
+  ContentHash hash;
+  hash.add(program_version());
+  hash.add(facts.hash);
+  add_settings(hash, std::move(settings));
+  return hex_digits(hash.value());
+}
+
+std::string picture_key(const BatchPicture& picture, const std::vector<Setting>& settings) {
+  ContentHash hash;
+  hash.add(program_version());
+  hash.add(picture.facts->hash);
+  hash.add(picture.scene.filename().string());
+  add_camera(hash, picture.camera);
+  hash.add(static_cast<std::uint64_t>(picture.size.width));
+  hash.add(static_cast<std::uint64_t>(picture.size.height));
+  add_settings(hash, settings);
+  for (const fs::path& output : picture.outputs) {
+    hash.add(output.string());
+  }
+  return hex_digits(hash.value());
+}
+
+/// What a job asks for in one scene.
+struct JobScene {
+  const BatchJob& job;
+  const fs::path& scene;
+  const KnownScene& known;
+};
+
+BatchPicture broken_picture(const BatchJob& job, const fs::path& scene, BatchProblem problem) {
+  BatchPicture picture;
+  picture.name = fmt::format("{} {}", job.place, scene.string());
+  picture.job = job.name;
+  picture.scene = scene;
+  picture.problem = std::move(problem);
+  return picture;
+}
+
+BatchPicture picture_of(const JobScene& at, const JobMode& mode, const Camera& camera, int frame) {
+  BatchPicture picture;
+  picture.job = at.job.name;
+  picture.mode = mode.name;
+  picture.scene = at.scene;
+  picture.facts = at.known.facts;
+  picture.camera = camera;
+  picture.frame = frame;
+  picture.size = choose_size(mode.request.size, camera);
+  picture.request = mode.request;
+  picture.request.scene = at.scene;
+  const NameParts parts{at.scene.stem().string(), camera.name, mode.name, at.job.name, frame};
+  for (const std::string& name_template : at.job.outputs) {
+    picture.outputs.push_back(output_name(name_template, parts));
+  }
+  picture.name = picture.outputs.front().string();
+  picture.key = picture_key(picture, mode.settings);
+  if (mode.request.settings.mode != PictureMode::reference) {
+    picture.solution_key = solution_key(*at.known.facts, mode.settings);
+  }
+  return picture;
+}
+
+void add_pictures(const JobScene& at, std::vector<BatchPicture>& pictures) {
+  if (at.known.problem) {
+    pictures.push_back(broken_picture(at.job, at.scene, *at.known.problem));
+    return;
+  }
+  Scene named;
+  named.file = at.scene.string();
+  named.cameras = at.known.facts->cameras;
+  for (const CameraChoice& choice : at.job.cameras) {
+    try {
+      const auto cameras = chosen_cameras(choice, named, at.known.facts->bounds);
+      const bool path = std::holds_alternative<CameraPath>(choice);
+      for (std::size_t k = 0; k < cameras.size(); ++k) {
+        for (const JobMode& mode : at.job.modes) {
+          pictures.push_back(picture_of(at, mode, cameras[k], path ? static_cast<int>(k) : 0));
+        }
+      }
+    } catch (const UserError& error) {
+      const int code = static_cast<int>(ExitCode::bad_input);
+      pictures.push_back(broken_picture(at.job, at.scene, {error.what(), code}));
+    }
+  }
+}
+
+/// No file may belong to two pictures: which of them it showed in the end would be chance.
+void check_distinct(const fs::path& file, const BatchJob& job,
+                    std::span<const BatchPicture> pictures,
+                    std::map<fs::path, std::string>& owners) {
+  for (const BatchPicture& picture : pictures) {
+    const std::string owner =
+        fmt::format("{} (scene {}, camera {}, mode {}, frame {})", job.place,
+                    picture.scene.string(), picture.camera.name, picture.mode, picture.frame);
+    for (const fs::path& output : picture.outputs) {
+      const auto [other, is_new] = owners.emplace(output, owner);
+      if (!is_new) {
+        throw InputError(
+            file.string(), job.place,
+            fmt::format("'{}' would be two pictures, {} and {}: name its outputs by more "
+                        "of {{job}}, {{scene}}, {{camera}}, {{mode}}, {{frame}}",
+                        output.string(), other->second, owner));
+      }
+    }
+  }
+}
+
+} // namespace
+
+SceneFacts facts_of(const Scene& scene) {
+  SceneFacts facts{.hash = content_hash(scene),
+                   .cameras = scene.cameras,
+                   .bounds = bounds_of(scene),
+                   .vertices = scene.vertices.size(),
+                   .triangles = scene.triangles.size()};
+  for (const Texture& texture : scene.textures) {
+    facts.texture_bytes += texture.encoded.size();
+  }
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    const auto triangle = static_cast<TriangleId>(t);
+    const double sides = material_of(scene, triangle).double_sided ? 2.0 : 1.0;
+    facts.area += sides * glm::length(area_vector(corners(scene, triangle)));
+  }
+  return facts;
+}
+
+std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<BatchJob>& jobs) {
+  const FoundFiles found = find_files(jobs);
+  const KnownScenes scenes = read_scenes(found);
+  std::map<fs::path, std::string> owners;
+  std::vector<BatchPicture> pictures;
+  for (const BatchJob& job : jobs) {
+    const std::size_t first = pictures.size();
+    std::set<fs::path> seen;
+    for (const fs::path& pattern : job.scenes) {
+      const auto& files = found.at(pattern);
+      if (files.empty()) {
+        const int code = static_cast<int>(ExitCode::bad_input);
+        pictures.push_back(
+            broken_picture(job, pattern, {pattern.string() + ": no file matches", code}));
+      }
+      for (const fs::path& scene : files) {
+        if (seen.insert(scene).second) {
+          add_pictures({job, scene, scenes.at(scene)}, pictures);
+        }
+      }
+    }
+    check_distinct(file, job, std::span(pictures).subspan(first), owners);
+  }
+  return pictures;
+}
+
+std::vector<BatchPicture> pictures_of(std::vector<BatchPicture> pictures, const Shard& shard) {
+  const auto count = static_cast<std::size_t>(shard.count);
+  const std::size_t number = static_cast<std::size_t>(shard.number) % count;
+  const auto begin =
+      pictures.begin() + static_cast<std::ptrdiff_t>(pictures.size() * number / count);
+  const auto end =
+      pictures.begin() + static_cast<std::ptrdiff_t>(pictures.size() * (number + 1) / count);
+  return {std::make_move_iterator(begin), std::make_move_iterator(end)};
+}
+
+} // namespace meninas

@@ -1,0 +1,55 @@
+// What a batch has to do: its jobs taken apart into single pictures, each with the scene, the camera and the settings it is made of.
+//
+// Pictures are in the order of jobs, scenes, cameras, frames and modes: the same for every process that reads the same files.
+#pragma once
+
+#include "runs/batch/batch_file.h"
+
+#include <cstdint>
+
+namespace meninas {
+
+/// What has to be known about a scene before it is rendered.
+struct SceneFacts {
+  std::uint64_t hash = 0; ///< of everything light depends on, content_hash
+  std::vector<Camera> cameras;
+  Bounds bounds;
+  std::size_t vertices = 0, triangles = 0, texture_bytes = 0;
+  double area = 0.0; ///< m^2, both sides of what is double-sided
+};
+SceneFacts facts_of(const Scene& scene);
+
+/// Why something cannot even be begun.
+struct BatchProblem {
+  std::string what; ///< FILE: WHERE: WHAT
+  int exit_code = 0;
+};
+
+struct BatchPicture {
+  std::string name; ///< of its first output, for people; of job and scene where there is a problem
+  std::string job, mode;
+  std::filesystem::path scene;
+  std::shared_ptr<const SceneFacts> facts;
+  Camera camera;
+  int frame = 0;
+  PictureSize size;
+  RenderRequest request;                      ///< without files
+  std::vector<std::filesystem::path> outputs; ///< relative to the batch's folder
+  std::string
+      key; ///< a hash of all that its outputs depend on: scene, camera, settings, their names, the program's version
+  std::string solution_key; ///< of all that pass one depends on; empty where there is none
+  std::optional<BatchProblem> problem; ///< a scene that cannot be read, a camera it does not have
+};
+
+/// Reads every scene once. Throws InputError, at the job's place, when two pictures would be one file.
+std::vector<BatchPicture> plan_batch(const std::filesystem::path& file,
+                                     const std::vector<BatchJob>& jobs);
+
+/// Part `number` of `count`: neighbours stay together, so that few parts need the same scene. Numbers may count from 0 or from 1,
+/// `count` being the same as 0.
+struct Shard {
+  int number = 0, count = 1;
+};
+std::vector<BatchPicture> pictures_of(std::vector<BatchPicture> pictures, const Shard& shard);
+
+} // namespace meninas

@@ -1,0 +1,134 @@
+#include "runs/batch/scene_work.h"
+
+#include "image/display.h"
+#include "runs/outputs.h"
+#include "runs/page.h"
+#include "runs/thumbnail.h"
+#include "scenes/errors.h"
+#include "scenes/gltf.h"
+#include "scenes/stopwatch.h"
+
+#include <fmt/format.h>
+
+namespace meninas {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scene load_planned(const BatchPicture& picture) {
+  Scene scene = load_gltf(picture.scene);
+  if (content_hash(scene) != picture.facts->hash) {
+    throw InputError(picture.scene.string(), "",
+                     "has changed since the batch began: run it again with --resume");
+  }
+  return scene;
+}
+
+/// The cached solution, if there is one that can be used.
+std::optional<SceneLight> read_light(const fs::path& file, const BatchPicture& picture,
+                                     const RunEvents& events) {
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    return std::nullopt;
+  }
+  try {
+    SceneLight light;
+    const PassOneSettings settings = two_pass_settings(picture.request.settings).pass_one;
+    light.lit = read_lit_scene(file, load_planned(picture), settings, events, light.figures);
+    return light;
+  } catch (const InputError& problem) {
+    if (!std::string(problem.what()).starts_with(file.string())) {
+      throw;
+    }
+    warn(events, fmt::format("{}: solving again", problem.what()));
+    return std::nullopt;
+  }
+}
+
+std::uint64_t rays_of(const RunFigures& figures) {
+  const RayCounts& rays = figures.rays;
+  return rays.form_factor + rays.shadow + rays.camera + rays.specular + rays.path;
+}
+
+ViewPicture view_of(const BatchPicture& picture, const LitScene* light, const RunEvents& events,
+                    RunFigures& figures) {
+  const RunSettings& settings = picture.request.settings;
+  return light == nullptr
+             ? render_reference_view(load_planned(picture), picture.camera, picture.size, settings,
+                                     events, figures)
+             : render_view(*light, picture.camera, picture.size, settings, events, figures);
+}
+
+void write_outputs(const BatchFolder& folder, const BatchPicture& picture,
+                   const ViewPicture& view) {
+  std::vector<fs::path> files;
+  for (const fs::path& output : picture.outputs) {
+    files.push_back(folder.path() / output);
+    std::error_code error;
+    fs::create_directories(files.back().parent_path(), error);
+    if (error) {
+      throw OutputError(files.back().parent_path().string(), "",
+                        "cannot be made a folder: " + error.message());
+    }
+  }
+  write_pictures(files, view.image, view.layers, picture.request.picture, view.attributes, {});
+}
+
+std::string thumbnail_of(const BatchPicture& picture, const Image& image) {
+  constexpr int longest_side = 240;
+  const auto& exposure = picture.request.picture.exposure;
+  return png_address(thumbnail(image, longest_side),
+                     exposure ? *exposure : automatic_exposure(image));
+}
+
+} // namespace
+
+std::optional<SceneLight> find_light(const BatchFolder& folder, const BatchPicture& picture,
+                                     const RunEvents& events) {
+  const fs::path file = folder.solution(picture.solution_key);
+  if (auto light = read_light(file, picture, events)) {
+    return light;
+  }
+  const auto lock = folder.try_lock_solution(picture.solution_key);
+  if (!lock) {
+    return std::nullopt;
+  }
+  // Whoever held the lock before may have just finished.
+  if (auto light = read_light(file, picture, {})) {
+    return light;
+  }
+  SceneLight light;
+  light.solved = true;
+  light.lit =
+      solve_lit_scene(load_planned(picture), two_pass_settings(picture.request.settings).pass_one,
+                      file, events, light.figures);
+  return light;
+}
+
+PictureResult make_picture(const BatchFolder& folder, const BatchPicture& picture,
+                           const LitScene* light, std::shared_timed_mutex& writing,
+                           const RunEvents& events) {
+  const auto lock = folder.try_lock_picture(picture);
+  if (!lock) {
+    return {PictureStatus::held, {}};
+  }
+  if (auto record = folder.done(picture)) {
+    return {PictureStatus::found, std::move(*record)};
+  }
+  Stopwatch watch;
+  RunFigures figures;
+  const ViewPicture view = view_of(picture, light, events, figures);
+  PictureRecord record;
+  record.width = view.image.width;
+  record.height = view.image.height;
+  record.rays = rays_of(figures);
+  record.thumbnail = thumbnail_of(picture, view.image);
+  const std::shared_lock gate(writing);
+  write_outputs(folder, picture, view);
+  record.file_hashes = hashes_of(folder.path(), picture.outputs);
+  record.seconds = watch.lap();
+  folder.keep(picture, record);
+  return {PictureStatus::made, std::move(record)};
+}
+
+} // namespace meninas

@@ -1,0 +1,33 @@
+// A hash of values, for telling whether things are what they were: not for keeping secrets.
+//
+// 64-bit words are mixed one after another (the constants of splitmix64); their order counts, and so does the division of bytes into texts.
+#pragma once
+
+#include "scenes/types.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace meninas {
+
+class ContentHash {
+public:
+  void add(std::uint64_t word);
+  void add(double x); ///< -0.0 is the same number as 0.0
+  void add(const Vec2& x);
+  void add(const Vec3& x);
+  void add(std::span<const std::byte> bytes); ///< with their number
+  void add(std::string_view text);
+  std::uint64_t value() const { return state_; }
+
+private:
+  std::uint64_t state_ = 0x9e3779b97f4a7c15ULL;
+};
+
+/// Sixteen hexadecimal digits.
+std::string hex_digits(std::uint64_t hash);
+
+} // namespace meninas

@@ -1,0 +1,173 @@
+// `batch` as several processes, killed and stopped ones among them: nothing is lost, nothing is done twice, all bits are the same.
+#include "image/image_file.h"
+#include "tests/cli/batch_folder.h"
+#include "tests/support/random.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+namespace meninas::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Json view_job() {
+  return {{"scenes", "room.glb"},
+          {"cameras", {"*", orbit(6)}},
+          {"outputs", {"{camera}{frame}.exr", "{camera}{frame}.png"}}};
+}
+Json other_job() {
+  return {{"scenes", "room.glb"},
+          {"cameras", orbit(4)},
+          {"settings", {{"rays", 32}}},
+          {"outputs", "other{frame}.exr"}};
+}
+constexpr std::size_t job_files = 8 * 2 + 4, job_pictures = 8 + 4;
+
+/// How many pictures a process says it has made.
+std::size_t made_by(const std::string& err) {
+  std::size_t count = 0;
+  for (auto at = err.find(" s)\n"); at != std::string::npos; at = err.find(" s)\n", at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST_F(BatchTest, TheSameBitsInAnyOrderWithAnyThreadsAndShards) {
+  write_jobs({view_job(), other_job()});
+  ASSERT_EQ(batch({"-o", "one", "--threads", "1"}).code, 0);
+  const auto expected = pictures("one");
+  ASSERT_EQ(expected.size(), job_files);
+  ASSERT_EQ(batch({"-o", "two", "--threads", "3"}).code, 0);
+  EXPECT_EQ(pictures("two"), expected);
+  std::size_t made = 0;
+  for (const char* shard : {"2/3", "3/3", "1/3"}) {
+    const Outcome outcome = batch({"-o", "shards", "--shard", shard});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(made_by(outcome.err), job_pictures / 3);
+    made += made_by(outcome.err);
+  }
+  EXPECT_EQ(made, job_pictures);
+  EXPECT_EQ(pictures("shards"), expected);
+  EXPECT_EQ(summary("shards")["counts"]["open"], 0) << "the last one knows of all";
+  write_jobs({other_job(), view_job()});
+  ASSERT_EQ(batch({"-o", "turned"}).code, 0);
+  EXPECT_EQ(pictures("turned"), expected);
+}
+
+TEST_F(BatchTest, ProcessesOnOneFolderShareTheWork) {
+  write_jobs({view_job(), other_job()});
+  ASSERT_EQ(batch({"-o", "alone"}).code, 0);
+  std::vector<RunningProgram> processes;
+  for (int k = 0; k < 3; ++k) {
+    processes.push_back(begin_batch({"--threads", "1", "--resume"}));
+  }
+  std::size_t made = 0;
+  for (RunningProgram& process : processes) {
+    const Outcome outcome = process.outcome();
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    made += made_by(outcome.err);
+  }
+  EXPECT_EQ(made, job_pictures) << "every picture once";
+  EXPECT_EQ(pictures(), pictures("alone"));
+  EXPECT_EQ(summary()["counts"]["open"], 0);
+}
+
+TEST_F(BatchTest, ShardsAtTheSameTimeDoEveryPictureOnce) {
+  write_jobs({view_job(), other_job()});
+  std::vector<RunningProgram> processes;
+  for (const char* shard : {"0/3", "1/3", "2/3"}) {
+    processes.push_back(begin_batch({"--threads", "1", "--shard", shard}));
+  }
+  std::size_t made = 0;
+  for (RunningProgram& process : processes) {
+    const Outcome outcome = process.outcome();
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    made += made_by(outcome.err);
+  }
+  EXPECT_EQ(made, job_pictures);
+  EXPECT_EQ(summary()["counts"]["made"].get<int>() + summary()["counts"]["found"].get<int>(),
+            job_pictures);
+}
+
+/// Everything that has a name people look for is whole.
+void expect_whole_files(const fs::path& folder) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path file = entry->path();
+    if (file.extension() == ".exr" || file.extension() == ".png") {
+      EXPECT_NO_THROW(read_image(file)) << file;
+    } else if (file.extension() == ".json") {
+      EXPECT_TRUE(Json::accept(read_file(file))) << file;
+    } else if (file.extension() == ".html") {
+      EXPECT_THAT(read_file(file), testing::EndsWith("</html>\n"));
+    }
+  }
+}
+
+TEST_F(BatchTest, KilledAtThirtyMomentsAndResumedItEndsTheSame) {
+  write_jobs({view_job(), other_job()});
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(batch({"-o", "undisturbed"}).code, 0);
+  const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
+  Random random(4);
+  int killed = 0;
+  for (int k = 0; k < 30; ++k) {
+    if (k % 10 == 0) {
+      fs::remove_all(folder_ / "out"); // begins, middles and ends three times over
+    }
+    RunningProgram process = begin_batch({"--resume"});
+    std::this_thread::sleep_for(random.between(0.0, 1.2) * whole);
+    process.send(SIGKILL);
+    killed += process.outcome().code == 128 + SIGKILL ? 1 : 0;
+    expect_whole_files(folder_ / "out");
+  }
+  EXPECT_GE(killed, 10) << "most of them were still at it";
+  const Outcome resumed = batch({"--resume"});
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(pictures(), pictures("undisturbed"));
+  for (const fs::path& folder : {folder_ / "out", folder_ / "out" / ".meninas" / "solutions"}) {
+    for (const std::string& name : files_in(folder)) {
+      EXPECT_THAT(name, testing::Not(testing::EndsWith(".tmp")))
+          << "left behind by a killed process";
+    }
+  }
+  const auto before = fs::last_write_time(folder_ / "out" / "camera0000.exr");
+  EXPECT_EQ(made_by(batch({"--resume"}).err), 0);
+  EXPECT_EQ(fs::last_write_time(folder_ / "out" / "camera0000.exr"), before);
+}
+
+TEST_F(BatchTest, CtrlCStopsItAndSaysHowToGoOn) {
+  Json job = view_job();
+  job["settings"] = {{"size", "256x256"}, {"samples", 1024}};
+  write_jobs({job});
+  for (const int signal : {SIGINT, SIGTERM}) {
+    fs::remove_all(folder_ / "out");
+    RunningProgram process = begin_batch({"--threads", "1"});
+    const fs::path locks = folder_ / "out" / ".meninas" / "locks";
+    while (!fs::exists(locks) || files_in(locks).empty()) { // until a picture is being made
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    const auto asked = std::chrono::steady_clock::now();
+    process.send(signal);
+    const Outcome outcome = process.outcome();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - asked;
+    EXPECT_EQ(outcome.code, 128 + signal) << outcome.err;
+    EXPECT_LT(taken.count(), 3.0) << "two seconds, and one for a machine with other work";
+    EXPECT_THAT(outcome.err,
+                testing::ContainsRegex(
+                    "meninas: jobs.json: stopped by [^:]+: [0-9] of 8 pictures are done; "
+                    "the same command with --resume goes on from here\n"));
+    expect_whole_files(folder_ / "out");
+    EXPECT_GT(summary()["counts"]["open"], 0);
+  }
+}
+
+} // namespace
+} // namespace meninas::test
