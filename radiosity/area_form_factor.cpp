@@ -42,6 +42,10 @@ std::vector<double> breaks(const Point3& p, const Direction& u, double length, c
   return at;
 }
 
+/// The terms of the logarithmic potential are of the size of the polygons, one, and so is what they round off: an edge much shorter than that
+/// (slivers of clipping) has no digits beyond.
+constexpr double rounding_of_potential = 1e-15;
+
 Estimate edge_pair(const Point3& p0, const Point3& p1, const Point3& q0, const Point3& q1) {
   const double length = glm::distance(p0, p1), other = glm::distance(q0, q1);
   if (length == 0.0 || other == 0.0)
@@ -55,7 +59,8 @@ Estimate edge_pair(const Point3& p0, const Point3& p1, const Point3& q0, const P
   Estimate sum;
   for (std::size_t k = 1; k < at.size(); ++k)
     if (at[k] > at[k - 1])
-      sum = sum + integrate(f, at[k - 1], at[k], 1e-15 * length * other);
+      sum = sum +
+            integrate(f, at[k - 1], at[k], rounding_of_potential * length * std::max(other, 1.0));
   return cosine * sum;
 }
 

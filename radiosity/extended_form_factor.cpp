@@ -1,6 +1,7 @@
 #include "radiosity/extended_form_factor.h"
 
 #include "radiosity/clear_form_factors.h"
+#include "radiosity/error_sum.h"
 #include "radiosity/kaleidoscope.h"
 #include "radiosity/world_shares.h"
 
@@ -36,7 +37,6 @@ struct Region {
   WorldShares shares;
   WorldShares errors;
   double tail = 0.0;
-  double error = 0.0; ///< what decides which triangle is split next
 };
 
 double area_of(const std::array<Point3, 3>& c) {
@@ -48,7 +48,7 @@ public:
   Integration(const WorldView& view, const std::vector<Face>& from, std::size_t groups,
               const ExtendedSettings& settings)
       : view_(view), from_(from), settings_(settings), groups_(groups), index_(view.mirrors),
-        clear_(clear_form_factors(view, from, groups)), weights_(groups, 1.0) {
+        clear_(clear_form_factors(view, from, groups)), weights_(groups, 1.0), errors_(groups) {
     for (const Face& face : from)
       area_ += face.area;
   }
@@ -150,22 +150,27 @@ private:
     }
   }
 
-  /// The change that decides: of the near worlds one by one, of all others together, for each group.
-  double change_of(const WorldShares& changes) const {
+  /// What a group's total changed by: as it adds up, and with the near worlds taken one by one, all others together.
+  struct Change {
+    double error = 0.0, signed_error = 0.0;
+  };
+
+  std::vector<Change> changes_by_group(const WorldShares& changes) const {
     constexpr int near = 2;
-    double sum = 0.0;
+    std::vector<Change> by_group(groups_);
     std::vector<double> rest(groups_, 0.0);
     for (const WalkShare& change : changes) {
       const auto& world = index_[change.world];
-      const double weighted = weights_[change.group] * mean_of(world.throughput) * change.factor;
+      const double light = mean_of(world.throughput) * change.factor;
+      by_group[change.group].signed_error += light;
       if (world.depth <= near)
-        sum += std::abs(weighted);
+        by_group[change.group].error += std::abs(light);
       else
-        rest[change.group] += weighted;
+        rest[change.group] += light;
     }
-    for (const double change : rest)
-      sum += std::abs(change);
-    return sum;
+    for (std::size_t g = 0; g < groups_; ++g)
+      by_group[g].error += std::abs(rest[g]);
+    return by_group;
   }
 
   /// Replaces each region by four, with errors from what that changed.
@@ -196,7 +201,6 @@ private:
         change.factor *= 0.25;
       for (std::size_t k = 4 * p; k < 4 * p + 4; ++k) {
         children[k].errors = changes;
-        children[k].error = change_of(changes);
         push(std::move(children[k]));
       }
     }
@@ -204,9 +208,25 @@ private:
 
   void push(Region region) {
     value_ += total_of(region.shares);
-    error_ += region.error;
-    heap_.emplace(region.error, regions_.size());
+    const auto changes = changes_by_group(region.errors);
+    double error = 0.0;
+    for (std::size_t g = 0; g < groups_; ++g) {
+      errors_[g].add(changes[g].error, changes[g].signed_error);
+      error += weights_[g] * changes[g].error;
+    }
+    heap_.emplace(error, regions_.size());
     regions_.push_back(std::move(region));
+  }
+
+  Region pop() {
+    Region region = std::move(regions_[heap_.top().second]);
+    regions_[heap_.top().second] = {};
+    heap_.pop();
+    value_ -= total_of(region.shares);
+    const auto changes = changes_by_group(region.errors);
+    for (std::size_t g = 0; g < groups_; ++g)
+      errors_[g].remove(changes[g].error, changes[g].signed_error);
+    return region;
   }
 
   double closed_value() const {
@@ -237,23 +257,20 @@ private:
 
   bool settled() const {
     constexpr double part = 0.7, rounding = 1e-15;
-    return error_ <= part * settings_.accuracy * (value_ + closed_value()) + rounding;
+    double error = 0.0;
+    for (std::size_t g = 0; g < groups_; ++g)
+      error += weights_[g] * errors_[g].estimate();
+    return error <= part * settings_.accuracy * (value_ + closed_value()) + rounding;
   }
 
   void refine() {
     constexpr std::size_t most_at_once = 8;
     while (!settled() && points_ < settings_.max_points && visits_ < settings_.max_visits) {
       std::vector<Region> parents;
-      for (std::size_t k = 0; k < most_at_once && !heap_.empty(); ++k) {
-        const auto [error, place] = heap_.top();
-        if (!parents.empty() && error < 0.25 * parents.front().error)
-          break;
-        heap_.pop();
-        parents.push_back(std::move(regions_[place]));
-        regions_[place] = {};
-        value_ -= total_of(parents.back().shares);
-        error_ -= parents.back().error;
-      }
+      const double largest = heap_.top().first;
+      while (parents.size() < most_at_once && !heap_.empty() &&
+             heap_.top().first >= 0.25 * largest)
+        parents.push_back(pop());
       split(parents);
     }
   }
@@ -311,21 +328,10 @@ private:
                                  throughput,
                                  {share.factor, found ? error->factor : 0.0}});
     }
-    for (const Region& region : regions_)
-      add_error(region, factors);
     for (std::uint32_t g = 0; g < groups_; ++g) {
-      factors.to[g].total.error += clear_.factors[g].error;
+      factors.to[g].total.error += clear_.factors[g].error + errors_[g].estimate();
       sort_worlds(factors.to[g]);
     }
-  }
-
-  /// The error of a total: worlds of one region may cancel, regions may not.
-  void add_error(const Region& region, ExtendedFactors& factors) const {
-    std::vector<WorldShares> by_group(groups_);
-    for (const WalkShare& change : region.errors)
-      by_group[change.group].push_back(change);
-    for (std::uint32_t g = 0; g < groups_; ++g)
-      factors.to[g].total.error += change_of(by_group[g]);
   }
 
   const WorldView& view_;
@@ -340,8 +346,9 @@ private:
   ClearFormFactors clear_;
   std::vector<double> weights_; ///< by group: how much its errors count
   std::vector<Region> regions_;
-  std::priority_queue<std::pair<double, std::size_t>> heap_;
-  double value_ = 0.0, error_ = 0.0;
+  std::priority_queue<std::pair<double, std::size_t>> heap_; ///< the region with the largest error first
+  double value_ = 0.0;
+  std::vector<ErrorSum> errors_; ///< by group, of the regions
   std::size_t points_ = 0, visits_ = 0;
 };
 

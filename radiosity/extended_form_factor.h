@@ -7,7 +7,7 @@
 // Pairs of faces between which nothing can stand take the closed form (area_form_factor.h), and so do all images where mirrors are whole
 // walls of a convex cell (kaleidoscope.h). The rest is integrated over A: triangles
 // with Radon's seven points of degree five, the one with the largest error split next. A triangle's error is what its factors changed
-// by when its parent was split: sound for smooth parts and for kinks alike. Deterministic for any number of threads.
+// by when its parent was split: sound for smooth parts and for kinks alike. Many errors are added up as in error_sum.h. Deterministic for any number of threads.
 #pragma once
 
 #include "radiosity/point_worlds.h"
@@ -22,7 +22,7 @@ enum class WorldListing { worlds, totals };
 struct ExtendedSettings {
   double accuracy = 1e-4;           ///< wanted error, relative to the sum of all factors asked for
   int max_depth = 1'000'000;        ///< mirrors a path may meet
-  std::size_t max_points = 200'000; ///< of the integration
+  std::size_t max_points = 50'000; ///< of the integration: in a cluttered room some ten seconds
   std::size_t max_visits = 30'000'000; ///< worlds looked at from all points together
   WorldListing listing = WorldListing::worlds;
   /// By group, the brightness of what is there: the accuracy is wanted of the sum weighted by it as well. Empty: all count alike.

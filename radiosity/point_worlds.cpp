@@ -40,6 +40,46 @@ struct PackedPolygons {
   }
 };
 
+/// The ball of directions and distances in which something is seen from a point.
+struct Appearance {
+  Direction towards{0.0};
+  double distance = 0.0, radius = 0.0;
+  double sine = 1.0, cosine = 0.0; ///< of the half angle of the ball
+};
+
+Appearance appearance_of(const Point3& x, const Point3& centre, double radius) {
+  Appearance ball;
+  ball.distance = glm::distance(centre, x);
+  ball.radius = radius;
+  if (ball.distance > radius) {
+    ball.towards = (centre - x) / ball.distance;
+    ball.sine = radius / ball.distance;
+    ball.cosine = std::sqrt((1.0 - ball.sine) * (1.0 + ball.sine));
+  }
+  return ball;
+}
+
+Appearance appearance_of(const Point3& x, const ConvexPolygon& polygon) {
+  Point3 centre(0.0);
+  for (const auto& vertex : polygon.span())
+    centre += vertex / static_cast<double>(polygon.size);
+  double radius = 0.0;
+  for (const auto& vertex : polygon.span())
+    radius = std::max(radius, glm::distance(vertex, centre));
+  return appearance_of(x, centre, radius);
+}
+
+/// Whether the one may stand before the other: not wholly behind it, nor wholly beside it.
+bool may_hide(const Appearance& near, const Appearance& far) {
+  if (near.distance - near.radius > far.distance + far.radius)
+    return false;
+  if (near.distance <= near.radius || far.distance <= far.radius)
+    return true;
+  constexpr double rounding = 1e-12;
+  const double cosine_of_both = near.cosine * far.cosine - near.sine * far.sine;
+  return glm::dot(near.towards, far.towards) >= cosine_of_both - rounding;
+}
+
 /// One world on the way: where it stands in unfolded space, and what of the way in is open.
 struct Station {
   std::uint32_t world = 0;
@@ -94,6 +134,7 @@ private:
   struct Obstacle {
     ConvexPolygon polygon;
     PlaneId plane_class;
+    Appearance ball;
   };
 
   static bool by_bound(const Waiting& a, const Waiting& b) { return a.bound < b.bound; }
@@ -160,7 +201,8 @@ private:
     for (const Face& face : view_.blockers) {
       if (face.plane_class == station.plane_class)
         continue;
-      if (!within_reach(station, apply(station.image, face.centre), face.radius))
+      const Point3 centre = apply(station.image, face.centre);
+      if (!within_reach(station, centre, face.radius))
         continue;
       if (std::abs(signed_distance(apply(station.image, face.plane), point_.x)) <= view_.tolerance)
         continue;
@@ -168,7 +210,8 @@ private:
       if (station.depth > 0)
         image = clip(image, origin_of(station.plane), -station.plane.normal);
       if (!image.empty())
-        obstacles.push_back({image, face.plane_class});
+        obstacles.push_back(
+            {image, face.plane_class, appearance_of(point_.x, centre, face.radius)});
     }
     return obstacles;
   }
@@ -190,10 +233,11 @@ private:
       if (!part.empty())
         parts.push_back(part);
     }
+    const Appearance ball = appearance_of(point_.x, above);
     for (const auto& obstacle : obstacles) {
       if (parts.empty())
         break;
-      if (obstacle.plane_class == plane_class)
+      if (obstacle.plane_class == plane_class || !may_hide(obstacle.ball, ball))
         continue;
       subtract_cone(parts, point_.x, clip(obstacle.polygon, origin_of(plane), plane.normal));
     }

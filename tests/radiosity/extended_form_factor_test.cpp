@@ -1,4 +1,6 @@
 // The analytic method against closed forms, and against the laws that hold whatever the scene is.
+#include "radiosity/area_form_factor.h"
+#include "radiosity/error_sum.h"
 #include "tests/radiosity/asked_factors.h"
 #include "tests/support/scene_builder.h"
 
@@ -17,6 +19,43 @@ TEST(ExtendedFormFactor, PairsOfPolygonsInClosedForm) {
     EXPECT_LT(error, 1e-9 * c.form_factor + 1e-14) << c.name << " (" << c.formula << ")";
     EXPECT_LE(error, factor.total.error + 1e-15) << c.name;
   }
+}
+
+// Clipping leaves edges of the length of rounding, over which the logarithmic potential has no digits: integrating one that lies on an edge
+// of the other polygon to more took for ever. Without it the polygon is the same to its length.
+TEST(ExtendedFormFactor, EdgesAsShortAsRounding) {
+  const Point3 far{0.31622770107943937, -0.89442672882015972, 0.31622913819267412},
+      corner{-0.15811521718146096, 0.44721336441008236, -0.15811378006822624},
+      beside{-0.15811521717582064, 0.44721336439412462, -0.15811378006258595};
+  const std::vector<Point3> a{far, corner, far + Vec3(1.0, 0.0, 0.0)};
+  const std::vector<Point3> plain{corner, corner + Vec3(-0.6, -0.3, -0.7),
+                                  corner + Vec3(0.2, -0.5, -0.8)};
+  std::vector<Point3> with_short_edge = plain;
+  with_short_edge.insert(with_short_edge.begin() + 1, beside);
+  const Estimate expected = area_form_factor(ConvexPolygon(a), ConvexPolygon(plain)),
+                 found = area_form_factor(ConvexPolygon(a), ConvexPolygon(with_short_edge));
+  EXPECT_GT(expected.value, 0.0);
+  EXPECT_NEAR(found.value, expected.value, glm::distance(corner, beside));
+}
+
+// Four standard deviations of 1,000 independent errors hold their sum; errors that all lean one way add up; few never exceed their sum.
+TEST(ExtendedFormFactor, ErrorsOfManyParts) {
+  ErrorSum independent, leaning, few;
+  double sum = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    const double sign = (k * 2654435761U >> 16U) % 2 == 0 ? 1.0 : -1.0;
+    sum += sign;
+    independent.add(1.0, sign);
+    leaning.add(1.0, 1.0);
+  }
+  few.add(1.0, 1.0);
+  few.add(2.0, -2.0);
+  EXPECT_GE(independent.estimate(), std::abs(sum));
+  EXPECT_LT(independent.estimate(), 400.0);
+  EXPECT_DOUBLE_EQ(leaning.estimate(), 1000.0);
+  EXPECT_DOUBLE_EQ(few.estimate(), 3.0);
+  few.remove(2.0, -2.0);
+  EXPECT_DOUBLE_EQ(few.estimate(), 1.0);
 }
 
 // Facing mirrors have two worlds of every depth.
