@@ -1,13 +1,15 @@
 // What solving costs: a sweep beside the memory's bandwidth, one band beside three, the solvers beside one another, and how time and memory
 // grow with the number of elements.
 //
-//   solvers [SCENE.gltf]
+//   solvers [SCENE.gltf]             all of them, while form factors fit
+//   solvers SCENE.gltf progressive   shots by rays alone, to a million elements
 //
 // A sweep reads every form factor once: its bytes over its time is the rate that counts, beside that of a plain sum over an array of
 // the same size, read by all threads in the same process. The two take turns; rates are medians.
 #include "radiosity/pass_one.h"
 #include "radiosity/solve.h"
 #include "raytrace/two_pass.h"
+#include "runs/resources.h"
 #include "runs/run_settings.h"
 #include "scenes/errors.h"
 #include "scenes/gltf.h"
@@ -20,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string_view>
 
 using namespace meninas;
 
@@ -99,6 +102,12 @@ void compare_with_memory(const System& system) {
              rate(memory), sum == 0 ? "!" : "", rate(three), rate(three) / rate(memory));
 }
 
+/// Elimination is cubic, and shots of single elements look for the brightest of all: neither is for large systems.
+bool takes_seconds(SolverMethod method, const System& system) {
+  return system.transport.size <=
+         (method == SolverMethod::direct || method == SolverMethod::progressive ? 2500U : ~0U);
+}
+
 /// The same room with grey walls and light, and with the same values in three channels that differ in one place.
 void compare_bands(System system) {
   if (system.transport.bands != 1)
@@ -109,7 +118,7 @@ void compare_bands(System system) {
   System coloured{system.transport, system.source, system.reflectance};
   coloured.source[0].r *= 1.5;
   for (const SolverMethod method : solver_methods) {
-    if (method == SolverMethod::direct && system.transport.size > 2500)
+    if (!takes_seconds(method, system))
       continue;
     std::vector<double> ratios;
     for (int turn = 0; turn < (method == SolverMethod::direct ? 1 : turns); ++turn) {
@@ -128,7 +137,7 @@ void compare_bands(System system) {
 void compare_solvers(const System& system) {
   for (const double tolerance : {1e-4, 1e-8})
     for (const SolverMethod method : solver_methods) {
-      if (method == SolverMethod::direct && system.transport.size > 2500)
+      if (!takes_seconds(method, system))
         continue;
       SolverResult result;
       std::vector<double> seconds;
@@ -139,6 +148,43 @@ void compare_solvers(const System& system) {
       fmt::print("{:<14}to {:.0e}: {:>4} iterations {:>9.4f} s, bound {:.1e}\n", name_of(method),
                  tolerance, result.iterations, median(seconds), result.error_bound);
     }
+}
+
+/// log-log slope between two measurements
+double slope(double before, double after, double steps) {
+  return std::log(after / before) / std::log(steps);
+}
+
+/// Pass one by shots, up to the radiosities; memory is the most the process has had.
+void run_progressive(const char* file) {
+  struct Measured {
+    double elements = 0.0, solve = 0.0, all = 0.0, rays = 0.0, bytes = 0.0;
+  } last;
+  RunSettings draft;
+  draft.quality = Quality::draft;
+  for (const double target : {1e3, 1e4, 1e5, 1e6}) {
+    PassOneSettings settings = two_pass_settings(draft).pass_one;
+    settings.mesh.target_elements = target;
+    settings.solver.method = SolverMethod::progressive;
+    settings.interpolation.method = Interpolation::average;
+    const auto prepared = prepare_scene(load_gltf(file), settings);
+    Stopwatch watch;
+    const RadiositySolution solution = solve_pass_one(*prepared->light, settings);
+    const Measured now{static_cast<double>(element_count(prepared->mesh)), solution.seconds.solve,
+                       watch.lap(), static_cast<double>(solution.form_factor_rays),
+                       static_cast<double>(peak_memory_bytes())};
+    fmt::print("{:>8.0f} elements: {:>6} shots {:>9.3f} s, pass one {:>9.3f} s, {:.3g} rays, peak "
+               "memory {:.1f} MB, bound {:.1e}\n",
+               now.elements, solution.solver.iterations, now.solve, now.all, now.rays,
+               1e-6 * now.bytes, solution.solver.error_bound);
+    if (last.elements > 0.0) {
+      const double steps = now.elements / last.elements;
+      fmt::print("log-log slopes: shots {:.2f}, pass one {:.2f}, rays {:.2f}, memory {:.2f}\n",
+                 slope(last.solve, now.solve, steps), slope(last.all, now.all, steps),
+                 slope(last.rays, now.rays, steps), slope(last.bytes, now.bytes, steps));
+    }
+    last = now;
+  }
 }
 
 void run(const char* file) {
@@ -152,10 +198,10 @@ void run(const char* file) {
     fmt::print("--- {} elements: form factors {:.2f} s, solve {:.4f} s, {:.0f} bytes an element\n",
                elements, system.seconds_of_factors, solving, bytes / elements);
     if (last_elements > 0.0) {
-      const double steps = std::log(elements / last_elements);
+      const double steps = elements / last_elements;
       fmt::print("log-log slopes: form factors {:.2f}, solve {:.2f}, memory {:.2f}\n",
-                 std::log(system.seconds_of_factors / last_factors) / steps,
-                 std::log(solving / last_solve) / steps, std::log(bytes / last_bytes) / steps);
+                 slope(last_factors, system.seconds_of_factors, steps),
+                 slope(last_solve, solving, steps), slope(last_bytes, bytes, steps));
     }
     last_elements = elements;
     last_factors = system.seconds_of_factors;
@@ -171,7 +217,10 @@ void run(const char* file) {
 
 int main(int argc, char** argv) {
   try {
-    run(argc > 1 ? argv[1] : MENINAS_BENCH_SCENE);
+    if (argc > 2 && std::string_view(argv[2]) == "progressive")
+      run_progressive(argv[1]);
+    else
+      run(argc > 1 ? argv[1] : MENINAS_BENCH_SCENE);
   } catch (const UserError& error) {
     fmt::print(stderr, "solvers: {}\n", error.what());
     return static_cast<int>(error.code());

@@ -65,13 +65,6 @@ struct Workspace {
   RowAccumulator row, beyond;
 };
 
-bool grey_mirrors(const Scene& scene) {
-  return std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
-    const Rgb r = mirror_reflectance(material);
-    return r.r == r.g && r.g == r.b;
-  });
-}
-
 /// By ElementId: 1 where what lies beyond the enumerated worlds may matter.
 std::vector<std::uint8_t> kept_beyond(const ElementMesh& mesh, const FormFactorSettings& settings) {
   std::vector<std::uint8_t> kept;
@@ -88,27 +81,6 @@ Transport empty_transport(std::size_t size, int bands) {
   transport.row_begin.reserve(size + 1);
   transport.row_begin.push_back(0);
   return transport;
-}
-
-/// Fractions of the rays of the exposed part.
-RowClosure closure_of(const GatheredRays& gathered) {
-  const double exposed = gathered.rays - gathered.covered_rays;
-  RowClosure closure;
-  if (exposed == 0.0) {
-    closure.black = 1.0F;
-    closure.black_light = glm::vec3(1.0F);
-    return closure;
-  }
-  closure.landed = static_cast<float>(gathered.landed / exposed);
-  closure.escaped = static_cast<float>(gathered.escaped / exposed);
-  closure.black = static_cast<float>((gathered.black - gathered.covered_rays) / exposed);
-  closure.cut = static_cast<float>(gathered.cut / exposed);
-  const auto share = static_cast<float>(1.0 / exposed);
-  closure.mirror_absorbed = gathered.mirror_absorbed * share;
-  closure.escaped_light = gathered.escaped_light * share;
-  closure.black_light = (gathered.black_light - static_cast<float>(gathered.covered_rays)) * share;
-  closure.cut_light = gathered.cut_light * share;
-  return closure;
 }
 
 /// Appends the accumulated row to the others as fractions of the light that was not cut, so that a row still closes.

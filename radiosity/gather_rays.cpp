@@ -42,6 +42,23 @@ auto weights_of(const HemicubePacket& cells) {
 std::size_t ray_count(const DirectionNet& net) { return net.points.size(); }
 std::size_t ray_count(const Hemicube& cube) { return cube.cells; }
 
+/// Rays that left with light of their own.
+struct LitLegs {
+  const LitPacket& packet;
+
+  static constexpr float weight(std::uint32_t) { return 1.0F; }
+  const glm::vec3& throughput(std::uint32_t k) const { return packet.light[k]; }
+  static constexpr WorldId world(std::uint32_t) { return real_world; }
+  Carried carried(std::uint32_t k) const {
+    const RayPacket& rays = packet.rays;
+    return {{rays.origin_x[k], rays.origin_y[k], rays.origin_z[k]},
+            {rays.direction_x[k], rays.direction_y[k], rays.direction_z[k]},
+            1.0F,
+            packet.light[k],
+            real_world};
+  }
+};
+
 /// Rays from mirrors have their record.
 struct MirroredLegs {
   const MirroredRay* rays;
@@ -226,12 +243,46 @@ void gather_rays(const LightScene& light, const Hemicube& cube, const ReceiverAr
   follow_mirrors(light, settings, work);
 }
 
+void follow_light(const LightScene& light, std::span<const LitPacket> packets,
+                  const FormFactorSettings& settings, GatherWorkspace& work) {
+  work.result.clear();
+  work.next.clear();
+  HitPacket hits;
+  for (const LitPacket& packet : packets) {
+    closest_hits(light.rays, packet.rays, hits, Backs::absorb, Coherence::incoherent);
+    sort_hits(light, settings, LitLegs{packet}, packet.rays.count, hits, work);
+    work.result.traced += packet.rays.count;
+  }
+  follow_mirrors(light, settings, work);
+  work.result.mirror_absorbed = glm::vec3(0.0F);
+}
+
 Covered covered_part(const LightScene& light, const DirectionNet& net, const ReceiverArea& receiver,
                      std::uint32_t seed, const FormFactorSettings& settings,
                      GatherWorkspace& work) {
   const RaySource source = ray_source(receiver, light.rays.frame(), seed);
   trace_first_legs(light, net, source, settings, work);
   return work.result.black > 0.0 ? find_covered(light, net, source, work.black_lanes) : Covered{};
+}
+
+RowClosure closure_of(const GatheredRays& gathered) {
+  const double exposed = gathered.rays - gathered.covered_rays;
+  RowClosure closure;
+  if (exposed == 0.0) {
+    closure.black = 1.0F;
+    closure.black_light = glm::vec3(1.0F);
+    return closure;
+  }
+  closure.landed = static_cast<float>(gathered.landed / exposed);
+  closure.escaped = static_cast<float>(gathered.escaped / exposed);
+  closure.black = static_cast<float>((gathered.black - gathered.covered_rays) / exposed);
+  closure.cut = static_cast<float>(gathered.cut / exposed);
+  const auto share = static_cast<float>(1.0 / exposed);
+  closure.mirror_absorbed = gathered.mirror_absorbed * share;
+  closure.escaped_light = gathered.escaped_light * share;
+  closure.black_light = (gathered.black_light - static_cast<float>(gathered.covered_rays)) * share;
+  closure.cut_light = gathered.cut_light * share;
+  return closure;
 }
 
 ReceiverArea receiver_of(const LightScene& light, ElementId element) {

@@ -47,6 +47,9 @@ inline Rgb kept_light(const GatheredRays& gathered) {
   return glm::max(Rgb(1.0), gathered.rays - gathered.covered_rays - Rgb(gathered.cut_light));
 }
 
+/// Fractions of the rays of the exposed part.
+RowClosure closure_of(const GatheredRays& gathered);
+
 /// A continuing ray between mirrors; kept by the caller so that its storage is reused.
 struct MirroredRay {
   glm::dvec3 origin, direction; ///< in the frame of the ray scene
@@ -71,6 +74,17 @@ void gather_rays(const LightScene& light, const DirectionNet& net, const Receive
 /// Traces the cells of a hemicube about the corner of the receiver, which is a point.
 void gather_rays(const LightScene& light, const Hemicube& cube, const ReceiverArea& receiver,
                  const FormFactorSettings& settings, GatherWorkspace& workspace);
+
+/// Rays that leave with some light each, from anywhere.
+struct LitPacket {
+  RayPacket rays;
+  std::array<glm::vec3, packet_size> light; ///< by lane, the brightest channel of all rays about 1
+};
+
+/// Traces them on through mirrors to their ends: landings and ends speak of the light the rays left with times tau.
+/// What mirrors absorb is not counted.
+void follow_light(const LightScene& light, std::span<const LitPacket> packets,
+                  const FormFactorSettings& settings, GatherWorkspace& workspace);
 
 /// The part of the receiver on which something stands, by the first legs of the net.
 Covered covered_part(const LightScene& light, const DirectionNet& net, const ReceiverArea& receiver,

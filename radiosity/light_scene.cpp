@@ -27,6 +27,13 @@ Emitter make_emitter(const SurfaceModel& surfaces, const MeshSide& side) {
 
 } // namespace
 
+bool grey_mirrors(const Scene& scene) {
+  return std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+    const Rgb r = mirror_reflectance(material);
+    return r.r == r.g && r.g == r.b;
+  });
+}
+
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
                             const MirrorSet& mirrors, const WorldTree& worlds,
                             const ElementMesh& mesh) {

@@ -28,6 +28,9 @@ struct LightScene {
   EmitterTree emitter_tree; ///< over the emitters
 };
 
+/// Whether mirrors treat all channels alike: transport needs but one band.
+bool grey_mirrors(const Scene& scene);
+
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
                             const MirrorSet& mirrors, const WorldTree& worlds,
                             const ElementMesh& mesh);

@@ -48,22 +48,122 @@ EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& s
   return energy;
 }
 
-/// The direct light that the transport has not gathered.
-DirectIrradiance remaining_direct_light(const LightScene& light, const FormFactors& factors,
-                                        const PassOneSettings& settings, const Progress& progress) {
-  if (settings.form_factors.method == FormFactorMethod::analytic)
-    return {std::vector<Rgb>(element_count(light.mesh), Rgb(0.0)), 0};
-  return direct_irradiance(light, factors.covered, settings.direct, progress);
+/// Light that no element has reflected yet, and what it makes of the walls.
+struct FirstLight {
+  std::vector<Rgb> irradiance, source, reflectance; ///< D + G, S = rho (D + G), rho by ElementId
+  std::vector<Rgb> from_source;                     ///< D; empty where it is not set apart
+  std::uint64_t shadow_rays = 0;
+};
+
+FirstLight first_light(const LightScene& light, const std::vector<Rgb>& gathered,
+                       const std::vector<std::uint64_t>& covered, const PassOneSettings& settings,
+                       const Progress& progress) {
+  FirstLight first;
+  first.irradiance = gathered;
+  // The analytic method leaves nothing to the closed form of points.
+  if (settings.form_factors.method != FormFactorMethod::analytic) {
+    DirectIrradiance direct = direct_irradiance(light, covered, settings.direct, progress);
+    first.shadow_rays = direct.shadow_rays;
+    first.from_source = std::move(direct.irradiance);
+    for (std::size_t i = 0; i < gathered.size(); ++i)
+      first.irradiance[i] += first.from_source[i];
+  }
+  for (std::size_t i = 0; i < gathered.size(); ++i) {
+    first.reflectance.push_back(
+        light.mesh.sides[index(light.mesh.side_of_element[i])].reflectance);
+    first.source.push_back(first.reflectance[i] * first.irradiance[i]);
+  }
+  return first;
+}
+
+/// The elements' own rays, as far as figures depend on them.
+struct ElementRays {
+  const std::vector<RowClosure>& closure;
+  const std::vector<float>& exposed;
+  std::uint64_t traced = 0;
+};
+
+/// From what was reflected, and the irradiance that elements have sent one another, to the solution with its field and figures.
+void complete(const LightScene& light, const PassOneSettings& settings, const FirstLight& first,
+              const std::vector<Rgb>& arrived, const ElementRays& rays,
+              RadiositySolution& solution) {
+  const ElementMesh& mesh = light.mesh;
+  Stopwatch watch;
+
+  // H = first light + T B, and B = E + what is reflected.
+  std::vector<Rgb> reflected = std::move(solution.solver.radiosity);
+  solution.irradiance = arrived;
+  solution.radiosity = reflected;
+  for (std::size_t i = 0; i < arrived.size(); ++i) {
+    solution.irradiance[i] += first.irradiance[i];
+    solution.radiosity[i] += mesh.sides[index(mesh.side_of_element[i])].emission;
+  }
+
+  const ElementLight elements{std::move(reflected), solution.irradiance, first.from_source};
+  auto interpolated = interpolate(light, elements, settings.form_factors, settings.direct,
+                                  settings.interpolation);
+  solution.field = std::move(interpolated.field);
+  solution.seconds.interpolate = watch.lap();
+  solution.exposed = rays.exposed;
+
+  solution.closure = closure_error(rays.closure);
+  solution.energy = energy_balance(mesh, solution, rays.closure);
+  solution.form_factor_rays = rays.traced + interpolated.form_factor_rays;
+  solution.shadow_rays = first.shadow_rays + interpolated.shadow_rays;
+}
+
+/// The watch of shots, shown the field there is so far; adds up the time that takes.
+ShotWatch watched(const LightScene& light, const PassOneSettings& settings,
+                  const FirstLight& first, const PassOneWatch& watch, double& seconds) {
+  const auto look = [&](const ShotsSoFar& shots) {
+    Stopwatch stopwatch;
+    std::vector<Rgb> irradiance = shots.arrived;
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+      irradiance[i] += first.irradiance[i];
+    const auto interpolated =
+        interpolate(light, {{}, std::move(irradiance), first.from_source}, settings.form_factors,
+                    settings.direct, {Interpolation::average});
+    watch.look({shots.shots, interpolated.field, shots.ambient});
+    seconds += stopwatch.lap();
+  };
+  return {watch.every, look};
+}
+
+RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings& settings,
+                                 const Progress& progress, const PassOneWatch& watch) {
+  RadiositySolution solution;
+  Stopwatch stopwatch;
+  const HemisphereSurvey survey = survey_hemispheres(light, settings.form_factors, progress);
+  const FirstLight first =
+      first_light(light, survey.gathered, survey.covered, settings, progress);
+  solution.seconds.form_factors = stopwatch.lap();
+
+  double watching = 0.0;
+  ShotSolution shots = solve_by_shots(light, survey, first.source, first.reflectance,
+                                      settings.form_factors, settings.solver, progress,
+                                      watched(light, settings, first, watch, watching));
+  solution.solver = std::move(shots.solver);
+  solution.seconds.solve = stopwatch.lap() - watching;
+  complete(light, settings, first, shots.arrived,
+           {survey.closure, survey.exposed, survey.rays_traced + shots.rays_traced}, solution);
+  return solution;
 }
 
 } // namespace
 
+bool shoots_rays(const PassOneSettings& settings) {
+  return settings.solver.method == SolverMethod::progressive &&
+         settings.form_factors.method == FormFactorMethod::rays;
+}
+
 RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
-                                 const Progress& progress) {
+                                 const Progress& progress, const PassOneWatch& watch) {
   check_size(settings.solver.method, element_count(light.mesh));
-  Stopwatch watch;
+  if (shoots_rays(settings))
+    return shoot_pass_one(light, settings, progress, watch);
+  Stopwatch stopwatch;
   const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
-  const double seconds = watch.lap();
+  const double seconds = stopwatch.lap();
   RadiositySolution solution = solve_pass_one(light, factors, settings, progress);
   solution.seconds.form_factors += seconds;
   return solution;
@@ -71,46 +171,20 @@ RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings&
 
 RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& factors,
                                  const PassOneSettings& settings, const Progress& progress) {
-  const ElementMesh& mesh = light.mesh;
   RadiositySolution solution;
-  Stopwatch watch;
+  Stopwatch stopwatch;
 
   // Eq. 1, split by who owns the path: direct light from the source, gathered emission, and reflected light by the transport.
-  const std::vector<Rgb> gathered = gathered_emission(light, factors);
-  const DirectIrradiance direct = remaining_direct_light(light, factors, settings, progress);
-  solution.seconds.form_factors = watch.lap();
+  const FirstLight first = first_light(light, gathered_emission(light, factors), factors.covered,
+                                       settings, progress);
+  solution.seconds.form_factors = stopwatch.lap();
 
-  std::vector<Rgb> first(mesh.area.size()), source(mesh.area.size()), reflectance(mesh.area.size());
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    reflectance[i] = mesh.sides[index(mesh.side_of_element[i])].reflectance;
-    first[i] = direct.irradiance[i] + gathered[i];
-    source[i] = reflectance[i] * first[i];
-  }
-  solution.solver = solve(factors.transport, source, reflectance, settings.solver);
-  std::vector<Rgb> reflected = std::move(solution.solver.radiosity);
-
-  // H = first light + T B, and B = E + what is reflected.
-  solution.irradiance = apply_transport(factors.transport, reflected);
-  solution.radiosity = reflected;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    solution.irradiance[i] += first[i];
-    solution.radiosity[i] += mesh.sides[index(mesh.side_of_element[i])].emission;
-  }
-  solution.seconds.solve = watch.lap();
-
-  const bool source_known = settings.form_factors.method != FormFactorMethod::analytic;
-  const ElementLight elements{std::move(reflected), solution.irradiance,
-                              source_known ? direct.irradiance : std::vector<Rgb>{}};
-  auto interpolated = interpolate(light, elements, settings.form_factors, settings.direct,
-                                  settings.interpolation);
-  solution.field = std::move(interpolated.field);
-  solution.seconds.interpolate = watch.lap();
-  solution.exposed = factors.exposed;
-
-  solution.closure = closure_error(factors.closure);
-  solution.energy = energy_balance(mesh, solution, factors.closure);
-  solution.form_factor_rays = factors.rays_traced + interpolated.form_factor_rays;
-  solution.shadow_rays = direct.shadow_rays + interpolated.shadow_rays;
+  solution.solver =
+      solve(factors.transport, first.source, first.reflectance, settings.solver);
+  const std::vector<Rgb> arrived = apply_transport(factors.transport, solution.solver.radiosity);
+  solution.seconds.solve = stopwatch.lap();
+  complete(light, settings, first, arrived,
+           {factors.closure, factors.exposed, factors.rays_traced}, solution);
   return solution;
 }
 

@@ -3,6 +3,7 @@
 
 #include "radiosity/interpolation.h"
 #include "radiosity/plan.h"
+#include "radiosity/progressive.h"
 
 namespace meninas {
 
@@ -53,8 +54,23 @@ struct NodeLight {
 std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh,
                                      const RadiositySolution& solution);
 
+/// What shots have brought so far, as a field that averages over elements (interpolation.h), and what the light yet to be shot may add to it.
+struct PassOneSoFar {
+  int shots = 0;
+  DiffuseField field;
+  Rgb ambient{0.0}; ///< irradiance, everywhere
+};
+struct PassOneWatch {
+  int every = 0; ///< shots; 0: never
+  std::function<void(const PassOneSoFar&)> look;
+};
+
+/// `progressive` over rays shoots, with no transport in memory (progressive.h), and can be watched.
 RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
-                                 const Progress& progress = {});
+                                 const Progress& progress = {}, const PassOneWatch& watch = {});
+
+/// Whether these settings shoot rays instead of assembling a transport.
+bool shoots_rays(const PassOneSettings& settings);
 
 /// The same with form factors that are there already (of an earlier run, under other light): only light is found.
 RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& factors,

@@ -1,46 +1,17 @@
 #include "radiosity/solve.h"
 
+#include "radiosity/solvers/report.h"
 #include "radiosity/solvers/solvers.h"
 #include "scenes/errors.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace meninas {
 
 namespace {
-
-/// Without a bound of the error there is nothing to iterate for; this many bounces show what light there is.
-constexpr int unbounded_iterations = 100;
-
-bool is_grey(const Rgb& colour) { return colour.r == colour.g && colour.g == colour.b; }
-
-template <typename Value>
-Value value_of(const Rgb& colour) {
-  if constexpr (channel_count<Value> == 1)
-    return colour.r;
-  else
-    return colour;
-}
-
-template <typename Value>
-std::vector<Value> values_of(const std::vector<Rgb>& colours) {
-  std::vector<Value> values;
-  values.reserve(colours.size());
-  for (const auto& colour : colours)
-    values.push_back(value_of<Value>(colour));
-  return values;
-}
-
-template <typename Value>
-std::vector<Rgb> colours_of(const std::vector<Value>& values) {
-  std::vector<Rgb> colours;
-  colours.reserve(values.size());
-  for (const auto& value : values)
-    colours.emplace_back(value);
-  return colours;
-}
 
 template <typename Value>
 void run(SolverMethod method, const LinearSystem<Value>& system, std::vector<Value>& x,
@@ -54,15 +25,9 @@ void run(SolverMethod method, const LinearSystem<Value>& system, std::vector<Val
     return relax(system, Relaxation::gauss_seidel, x, convergence);
   case SolverMethod::bicgstab:
     return bicgstab(system, x, convergence);
+  case SolverMethod::progressive:
+    return shoot_stored(system, x, convergence);
   }
-}
-
-template <typename Value>
-SolverEnd end_of(const Convergence<Value>& convergence) {
-  if (converged(convergence))
-    return SolverEnd::converged;
-  return convergence.iterations >= convergence.max_iterations ? SolverEnd::iteration_limit
-                                                              : SolverEnd::rounding;
 }
 
 /// B - S >= 0 in the solution: what is below S can only come nearer when it is raised to it.
@@ -74,34 +39,23 @@ void raise_to_source(const std::vector<Value>& source, std::vector<Value>& x) {
 
 template <typename Value>
 SolverResult solve_system(const LinearSystem<Value>& system, const SolverSettings& settings) {
-  SolverResult result;
-  result.method = settings.method;
-  result.bands = channel_count<Value>;
+  const bool trapped = has_lit_trap(system);
+  const Value unbounded(std::numeric_limits<double>::infinity());
+  const bool by_shots = settings.method == SolverMethod::progressive;
   std::vector<Value> x = system.source;
-  Convergence<Value> convergence;
-  convergence.tolerance = settings.tolerance;
-  convergence.max_iterations = settings.max_iterations;
-  if (has_lit_trap(system)) {
-    convergence.amplification = Value(std::numeric_limits<double>::infinity());
+  auto convergence =
+      stopping_rule(settings, trapped ? unbounded : amplification_bound(system),
+                    by_shots ? std::max<std::size_t>(1, system.transport.size) : 1);
+  SolverEnd end = SolverEnd::unsolvable;
+  if (trapped) {
     record(convergence, maximum_norm(residual_of(system, x)), maximum_norm(x));
-    result.end = SolverEnd::unsolvable;
   } else {
-    convergence.amplification = amplification_bound(system);
-    if (worst(convergence.amplification) == std::numeric_limits<double>::infinity())
-      convergence.max_iterations = std::min(convergence.max_iterations, unbounded_iterations);
     run(settings.method, system, x, convergence);
     raise_to_source(system.source, x);
-    result.end = end_of(convergence);
+    end = end_of(convergence);
   }
+  SolverResult result = report_of(settings, convergence, end);
   result.radiosity = colours_of(x);
-  result.iterations = convergence.iterations;
-  result.converged = result.end == SolverEnd::converged;
-  result.channel_residuals = colours_of(convergence.residuals);
-  result.channel_error_bounds = colours_of(convergence.error_bounds);
-  for (const auto& residual : convergence.residuals)
-    result.residuals.push_back(worst(residual));
-  result.residual = result.residuals.back();
-  result.error_bound = worst(convergence.error_bounds.back());
   return result;
 }
 
@@ -117,6 +71,8 @@ const char* name_of(SolverMethod method) {
     return "gauss-seidel";
   case SolverMethod::bicgstab:
     return "cg";
+  case SolverMethod::progressive:
+    return "progressive";
   }
   return "";
 }

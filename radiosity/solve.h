@@ -6,6 +6,8 @@
 //   gauss-seidel  the same, in 32 steps that use what the steps before have found
 //   cg            a Krylov method that needs neither areas nor symmetry, which sampled form factors lack: BiCGStab (van der
 //                 Vorst 1992). Conjugate gradients on the symmetrised system are no faster (ARCHITECTURE.md).
+//   progressive   shooting by columns, the largest unshot radiosity first (solvers/shooting.h). Pass one shoots rays instead, and
+//                 stores no transport (progressive.h), unless form factors are there.
 // All stop on one bound of the error (solvers/error_bound.h): with the residual r_k = S + rho T B_k - B_k,
 //   ||B - B_k|| <= G ||r_k|| <= tolerance ||B_k||    in the maximum norm, for every channel.
 // None returns less than S, and so nothing negative: light only adds to what is there without bounces.
@@ -16,21 +18,25 @@
 #include "radiosity/form_factors.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace meninas {
 
-enum class SolverMethod { direct, jacobi, gauss_seidel, bicgstab };
+enum class SolverMethod { direct, jacobi, gauss_seidel, bicgstab, progressive };
 inline constexpr std::array solver_methods{SolverMethod::direct, SolverMethod::jacobi,
-                                           SolverMethod::gauss_seidel, SolverMethod::bicgstab};
+                                           SolverMethod::gauss_seidel, SolverMethod::bicgstab,
+                                           SolverMethod::progressive};
 /// As users call it.
 const char* name_of(SolverMethod method);
 
 struct SolverSettings {
   SolverMethod method = SolverMethod::bicgstab;
   double tolerance = 1e-4;     ///< on ||B - B_k|| / ||B_k||, maximum norm, every channel
-  int max_iterations = 10'000; ///< a safety net; reaching it is reported
+  int max_iterations = 10'000; ///< a safety net; reaching it is reported. Of `progressive`: by shooter
+  std::optional<int> max_shots = {}; ///< of `progressive`, whose iterations are shots
 };
+
 
 /// Why a solver stopped.
 enum class SolverEnd {
@@ -49,7 +55,7 @@ struct SolverResult {
   double error_bound = 0.0; ///< G ||r|| / ||B||, worst channel; infinite when there is no bound
   bool converged = false;
   SolverEnd end = SolverEnd::converged;
-  std::vector<double> residuals; ///< of every iterate, first one first, worst channel
+  std::vector<double> residuals; ///< of every iterate, first one first, worst channel; of many shots every second, fourth, ...
   std::vector<Rgb> channel_residuals, channel_error_bounds; ///< the same for every channel
 };
 

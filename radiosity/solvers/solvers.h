@@ -31,6 +31,12 @@ template <typename Value>
 void bicgstab(const LinearSystem<Value>& system, std::vector<Value>& x,
               Convergence<Value>& convergence);
 
+/// Progressive radiosity over the columns of T, transposed in storage (shooting.h), in the maximum norm: every unknown is a shooter.
+/// An iteration is a shot. Begins with all light unshot, whatever x is.
+template <typename Value>
+void shoot_stored(const LinearSystem<Value>& system, std::vector<Value>& x,
+                  Convergence<Value>& convergence);
+
 /// LU with partial pivoting and iterative refinement, in dense storage.
 template <typename Value>
 void factorise_and_solve(const LinearSystem<Value>& system, std::vector<Value>& x,

@@ -18,6 +18,10 @@ protected:
     return solve(system.transport, system.source, system.reflectance,
                  {GetParam(), tolerance, max_iterations});
   }
+  /// What counts for one of max_iterations.
+  int iteration_of(const System& system) const {
+    return GetParam() == SolverMethod::progressive ? static_cast<int>(system.source.size()) : 1;
+  }
 };
 
 INSTANTIATE_TEST_SUITE_P(Each, Solvers, testing::ValuesIn(solver_methods), [](const auto& method) {
@@ -69,7 +73,8 @@ TEST_P(Solvers, DimChannelsAreSolvedAsWell) {
   const SolverResult result = run(system);
   EXPECT_TRUE(result.converged);
   EXPECT_LT(true_error(exact_solution(system), result.radiosity), 1e-8);
-  EXPECT_EQ(result.channel_error_bounds.size(), static_cast<std::size_t>(result.iterations) + 1);
+  EXPECT_LE(result.channel_error_bounds.size(), static_cast<std::size_t>(result.iterations) + 1);
+  EXPECT_EQ(result.channel_error_bounds.size(), result.residuals.size());
   EXPECT_EQ(result.channel_residuals.size(), result.residuals.size());
 }
 
@@ -139,7 +144,7 @@ TEST_P(Solvers, AMillionBounces) {
     source = random.in_box(Vec3(0.0), Vec3(1.0));
   const SolverResult uneven = run(system, 1e-3);
   const bool sweeps =
-      GetParam() == SolverMethod::jacobi || GetParam() == SolverMethod::gauss_seidel;
+      GetParam() != SolverMethod::direct && GetParam() != SolverMethod::bicgstab; // or shots
   for (const SolverResult* result : {&even, &uneven}) {
     EXPECT_NE(result->converged, sweeps);
     EXPECT_EQ(result->end, sweeps ? SolverEnd::iteration_limit : SolverEnd::converged);
@@ -224,7 +229,7 @@ TEST_P(Solvers, TheLimitOfIterationsIsReported) {
   const System system = random_system(random, 60, 1, 0.999);
   const SolverResult result = run(system, 1e-15, 1);
   EXPECT_FALSE(result.converged);
-  EXPECT_EQ(result.iterations, 1);
+  EXPECT_EQ(result.iterations, iteration_of(system));
   EXPECT_EQ(result.end, SolverEnd::iteration_limit);
   EXPECT_LE(true_error(exact_solution(system), result.radiosity), result.error_bound + 1e-15);
 }
@@ -234,7 +239,7 @@ TEST_P(Solvers, BelowRoundingNothingRunsForEver) {
   const System system = random_system(random, 60, 3, 0.99);
   const SolverResult result = run(system, 1e-20);
   EXPECT_FALSE(result.converged);
-  EXPECT_LT(result.iterations, 5000);
+  EXPECT_LT(result.iterations, 5000 * iteration_of(system));
   EXPECT_LT(true_error(exact_solution(system), result.radiosity), 1e-12);
 }
 

@@ -1,0 +1,51 @@
+// Between colours, as scenes have them, and the values a system is solved in; and what a solver says at its end.
+#pragma once
+
+#include "radiosity/solve.h"
+#include "radiosity/solvers/error_bound.h"
+
+namespace meninas {
+
+inline bool is_grey(const Rgb& colour) { return colour.r == colour.g && colour.g == colour.b; }
+
+/// Of a grey system any channel will do.
+template <typename Value>
+Value value_of(const Rgb& colour) {
+  if constexpr (channel_count<Value> == 1)
+    return colour.r;
+  else
+    return colour;
+}
+
+template <typename Value>
+std::vector<Value> values_of(const std::vector<Rgb>& colours) {
+  std::vector<Value> values;
+  values.reserve(colours.size());
+  for (const auto& colour : colours)
+    values.push_back(value_of<Value>(colour));
+  return values;
+}
+
+template <typename Value>
+std::vector<Rgb> colours_of(const std::vector<Value>& values) {
+  std::vector<Rgb> colours;
+  colours.reserve(values.size());
+  for (const auto& value : values)
+    colours.emplace_back(value);
+  return colours;
+}
+
+/// A stopping rule for `shooters` (of sweeps: 1); without a bound of the error there is nothing to iterate for but what light there is.
+template <typename Value>
+Convergence<Value> stopping_rule(const SolverSettings& settings, const Value& amplification,
+                                 std::size_t shooters);
+
+template <typename Value>
+SolverEnd end_of(const Convergence<Value>& convergence);
+
+/// All but the radiosities.
+template <typename Value>
+SolverResult report_of(const SolverSettings& settings, const Convergence<Value>& convergence,
+                       SolverEnd end);
+
+} // namespace meninas

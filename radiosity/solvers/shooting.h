@@ -1,0 +1,124 @@
+// Progressive radiosity (Cohen, Chen, Wallace, Greenberg 1988): what has most to shoot shoots first, Southwell's order.
+//
+// Every unknown j keeps the radiosity U_j that it has not shot yet, S_j to begin with. A shot of U_j brings the irradiance T_ij U_j to every i,
+// that is a column of T, and makes U_j zero:
+//   B_i += rho_i T_ij U_j,   U_i += rho_i T_ij U_j.
+// So B = S + rho T (B - U) at any time: the residual is rho T U, and no row of T is ever needed. Unknowns may shoot together, as a
+// shooter. The solver knows no geometry: a source of columns carries out the shot.
+//
+// Norms are by shooter: `maximum` takes the largest |U|, `power` the sum of m |U| with the measures m (areas) of unknowns. In the first
+// rho T is bounded by its rows, in the second by its columns (m_j T_ij shares out what j shoots).
+#pragma once
+
+#include "radiosity/solvers/error_bound.h"
+
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+namespace meninas {
+
+enum class ShotNorm { maximum, power };
+
+/// Which unknowns shoot together, and how much each counts.
+struct Shooters {
+  std::vector<std::uint32_t> of_unknown; ///< the shooter of each unknown
+  std::vector<std::uint32_t> begin;      ///< by shooter, and one more: its first in `unknowns`
+  std::vector<std::uint32_t> unknowns;
+  std::vector<double> measure; ///< m, by unknown; 0: of no account
+
+  std::size_t size() const { return begin.size() - 1; }
+  std::span<const std::uint32_t> members(std::size_t shooter) const {
+    return std::span(unknowns).subspan(begin[shooter], begin[shooter + 1] - begin[shooter]);
+  }
+};
+
+/// Every unknown for itself, all of measure 1.
+Shooters single_shooters(std::size_t unknowns);
+
+template <typename Value>
+struct ShotState {
+  const Shooters& shooters;
+  const std::vector<Value>& source;      ///< S
+  const std::vector<Value>& reflectance; ///< rho
+  ShotNorm norm;
+  std::vector<Value> arrived; ///< the irradiance of all shots: B = S + rho times that
+  std::vector<Value> unshot;  ///< U
+  std::vector<Value> left;      ///< by shooter: the sum of m U of its members
+  Value size{0.0};              ///< ||B||
+  int shots = 0;
+
+  Value radiosity(std::size_t unknown) const {
+    return source[unknown] + reflectance[unknown] * arrived[unknown];
+  }
+  /// Irradiance has arrived at an unknown.
+  void arrive(std::uint32_t unknown, const Value& irradiance) {
+    const Value reflected = reflectance[unknown] * irradiance;
+    arrived[unknown] += irradiance;
+    unshot[unknown] += reflected;
+    count(unknown, reflected);
+  }
+  /// An unknown has so much more.
+  void count(std::uint32_t unknown, const Value& more) {
+    const Value power = shooters.measure[unknown] * more;
+    left[shooters.of_unknown[unknown]] += power;
+    size = norm == ShotNorm::power ? size + power : glm::max(size, radiosity(unknown));
+  }
+};
+
+template <typename Value>
+std::vector<Value> radiosities(const ShotState<Value>& state);
+
+/// Nothing is shot yet. The state refers to all of these.
+template <typename Value>
+ShotState<Value> unshot_state(const Shooters& shooters, const std::vector<Value>& source,
+                              const std::vector<Value>& reflectance, ShotNorm norm);
+
+/// Shoots all that the members of a shooter have: makes their U zero (and what the shooter has left), then tells the state what arrives where.
+template <typename Source, typename Value>
+concept ColumnSource = requires(Source& source, ShotState<Value>& state, std::size_t shooter) {
+  { source.shoot(shooter, state) } -> std::same_as<void>;
+};
+
+/// What there is left to shoot: who has most, relative to the channels' ||B||, and ||U||.
+template <typename Value>
+struct LeftToShoot {
+  std::size_t shooter = 0;
+  Value norm{0.0};
+};
+template <typename Value>
+LeftToShoot<Value> left_to_shoot(const ShotState<Value>& state);
+
+/// Adds the present state to the history. Of long histories every second, fourth, ... record is kept, and the last.
+template <typename Value>
+class ShotHistory {
+public:
+  void add(Convergence<Value>& convergence, const Value& residual_norm, const Value& size);
+
+private:
+  int stride_ = 1, since_kept_ = 0;
+};
+
+/// Told of the state after each shot.
+template <typename Value>
+using AfterShot = std::function<void(const ShotState<Value>&, const Convergence<Value>&)>;
+
+/// Shoots until the convergence has finished; its iterations are shots. `kept` is ||rho T||, by channel.
+template <typename Value, ColumnSource<Value> Source>
+void shoot(Source& source, const Value& kept, ShotState<Value>& state,
+           Convergence<Value>& convergence, const AfterShot<Value>& after = {}) {
+  ShotHistory<Value> history;
+  LeftToShoot<Value> left = left_to_shoot(state);
+  history.add(convergence, kept * left.norm, state.size);
+  while (!finished(convergence) && worst(left.norm) > 0.0) {
+    source.shoot(left.shooter, state);
+    convergence.iterations = ++state.shots;
+    left = left_to_shoot(state);
+    history.add(convergence, kept * left.norm, state.size);
+    if (after)
+      after(state, convergence);
+  }
+}
+
+} // namespace meninas

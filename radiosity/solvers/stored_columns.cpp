@@ -1,0 +1,81 @@
+#include "radiosity/solvers/shooting.h"
+#include "radiosity/solvers/solvers.h"
+
+namespace meninas {
+
+namespace {
+
+/// T by columns.
+struct Columns {
+  std::vector<std::uint64_t> begin; ///< unknowns + 1
+  std::vector<std::uint32_t> rows;
+  std::vector<float> weights;
+};
+
+Columns columns_of(const Transport& transport) {
+  const auto bands = static_cast<std::size_t>(transport.bands);
+  Columns columns;
+  columns.begin.assign(transport.size + 1, 0);
+  for (const auto column : transport.columns)
+    ++columns.begin[column + 1];
+  for (std::size_t j = 0; j < transport.size; ++j)
+    columns.begin[j + 1] += columns.begin[j];
+  columns.rows.resize(transport.columns.size());
+  columns.weights.resize(transport.weights.size());
+  auto place = columns.begin;
+  for (std::size_t i = 0; i < transport.size; ++i)
+    for (auto k = transport.row_begin[i]; k < transport.row_begin[i + 1]; ++k) {
+      const std::uint64_t at = place[transport.columns[k]]++;
+      columns.rows[at] = static_cast<std::uint32_t>(i);
+      for (std::size_t band = 0; band < bands; ++band)
+        columns.weights[at * bands + band] = transport.weights[k * bands + band];
+    }
+  return columns;
+}
+
+template <typename Value>
+class StoredColumns {
+public:
+  explicit StoredColumns(const Transport& transport)
+      : columns_(columns_of(transport)), bands_(transport.bands) {}
+
+  void shoot(std::size_t shooter, ShotState<Value>& state) {
+    const Value unshot = state.unshot[shooter];
+    state.unshot[shooter] = state.left[shooter] = Value(0.0);
+    for (auto k = columns_.begin[shooter]; k < columns_.begin[shooter + 1]; ++k)
+      state.arrive(columns_.rows[k], weighted(k, unshot));
+  }
+
+private:
+  Value weighted(std::uint64_t entry, const Value& value) const {
+    if constexpr (channel_count<Value> == 3) {
+      if (bands_ == 3) {
+        const float* weight = &columns_.weights[3 * entry];
+        return Rgb(weight[0], weight[1], weight[2]) * value;
+      }
+    }
+    return double{columns_.weights[entry]} * value;
+  }
+
+  Columns columns_;
+  int bands_;
+};
+
+} // namespace
+
+template <typename Value>
+void shoot_stored(const LinearSystem<Value>& system, std::vector<Value>& x,
+                  Convergence<Value>& convergence) {
+  const Shooters shooters = single_shooters(x.size());
+  ShotState<Value> state =
+      unshot_state(shooters, system.source, system.reflectance, ShotNorm::maximum);
+  StoredColumns<Value> columns(system.transport);
+  shoot(columns, contraction(system), state, convergence);
+  x = radiosities(state);
+  record_again(convergence, maximum_norm(residual_of(system, x)), maximum_norm(x));
+}
+
+template void shoot_stored(const LinearSystem<Rgb>&, std::vector<Rgb>&, Convergence<Rgb>&);
+template void shoot_stored(const LinearSystem<double>&, std::vector<double>&, Convergence<double>&);
+
+} // namespace meninas
