@@ -116,6 +116,13 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
         settings.tolerance = parse_number("--tolerance", text, Sign::positive);
       })
       ->group(pass_one_group);
+  add_text(command, "--steps", "N",
+           "shots of --solver progressive, each of a block of elements [as many as the tolerance "
+           "takes]",
+           [&](const std::string& text) {
+             settings.steps = static_cast<int>(parse_integer("--steps", text, 1, 1'000'000'000));
+           })
+      ->group(pass_one_group);
   add_choice(command, "--interpolation", interpolations, standard.interpolation.method,
              "irradiance at the vertices: averaged from elements or gathered",
              [&](Interpolation method) { settings.interpolation = method; })
@@ -136,9 +143,9 @@ void add_run_options(CLI::App& command, CommonOptions& options) {
       "no progress and no notes, only warnings and errors");
 }
 
-void add_file(CLI::App& command, const std::string& option,
-              std::optional<std::filesystem::path>& file, const std::string& description) {
-  add_text(command, option, "FILE", description, [&](const std::string& text) { file = text; });
+CLI::Option* add_file(CLI::App& command, const std::string& option,
+                      std::optional<std::filesystem::path>& file, const std::string& description) {
+  return add_text(command, option, "FILE", description, [&](const std::string& text) { file = text; });
 }
 
 void check_pass_one_options(const CLI::App& command, const RunSettings& settings) {
@@ -150,12 +157,15 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
   if (!by_cubes && command.count("--hemicube-resolution") > 0) {
     throw UsageError("--hemicube-resolution", "has no effect without --form-factors hemicube");
   }
+  if (settings.steps && settings.solver != SolverMethod::progressive) {
+    throw UsageError("--steps", "has no effect without --solver progressive");
+  }
 }
 
 void refuse_pass_one_options(const CLI::App& command, const std::string& reason) {
   constexpr std::array options{"--element-size",        "--form-factors", "--rays",
                                "--hemicube-resolution", "--solver",       "--tolerance",
-                               "--interpolation"};
+                               "--steps",               "--interpolation"};
   for (const char* option : options) {
     if (command.count(option) > 0) {
       throw UsageError(option, reason);

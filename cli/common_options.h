@@ -37,8 +37,8 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
 /// Threads, seed, quiet.
 void add_run_options(CLI::App& command, CommonOptions& options);
 
-void add_file(CLI::App& command, const std::string& option,
-              std::optional<std::filesystem::path>& file, const std::string& description);
+CLI::Option* add_file(CLI::App& command, const std::string& option,
+                      std::optional<std::filesystem::path>& file, const std::string& description);
 
 /// Throws UsageError when an option was given that only a run of pass one obeys.
 void refuse_pass_one_options(const CLI::App& command, const std::string& reason);

@@ -24,6 +24,8 @@ const Choices<DiffuseTerm> diffuse_terms{{"interpolated", DiffuseTerm::interpola
 struct RenderOptions {
   CommonOptions common;
   RenderRequest request;
+  std::optional<std::filesystem::path> snapshots;
+  std::optional<int> every;
 };
 
 void add_outputs(CLI::App& command, RenderOptions& options) {
@@ -37,6 +39,18 @@ void add_outputs(CLI::App& command, RenderOptions& options) {
   add_file(command, "--solution", request.solution,
            "a solution written by 'meninas solve'; pass one is skipped");
   add_file(command, "--stats", request.stats, "write the run's figures as JSON");
+  add_file(command, "--snapshots", options.snapshots,
+           "a folder for pictures along the way of --solver progressive, without and with the "
+           "ambient light of what is still to be shot")
+      ->type_name("DIR");
+  command
+      .add_option_function<std::string>(
+          "--every",
+          [&](const std::string& text) {
+            options.every = static_cast<int>(parse_integer("--every", text, 1, 1'000'000'000));
+          },
+          fmt::format("shots from one of the --snapshots to the next [{}]", SnapshotRequest{}.every))
+      ->type_name("N");
 }
 
 void add_picture_options(CLI::App& command, RenderOptions& options) {
@@ -170,12 +184,33 @@ void check_mode(const CLI::App& command, const RenderOptions& options) {
   }
 }
 
+void take_snapshots(RenderOptions& options) {
+  if (options.every && !options.snapshots) {
+    throw UsageError("--every", "has no effect without --snapshots");
+  }
+  if (!options.snapshots) {
+    return;
+  }
+  const RunSettings& settings = options.common.settings;
+  if (settings.solver != SolverMethod::progressive || options.request.solution ||
+      settings.mode == PictureMode::reference) {
+    throw UsageError("--snapshots", "has no effect without --solver progressive");
+  }
+  if (settings.form_factors != FormFactorMethod::rays) {
+    throw UsageError("--snapshots", "needs --form-factors rays: others are not shot on the way");
+  }
+  SnapshotRequest& request = options.request.snapshots.emplace();
+  request.folder = *options.snapshots;
+  request.every = options.every.value_or(request.every);
+}
+
 /// The request, after a check that all options given have an effect together.
 RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
   check_mode(command, options);
   check_layers(options);
   check_diffuse(options.common.settings);
   check_pass_one_options(command, options.common.settings);
+  take_snapshots(options);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
   if (options.common.settings.layers == WithLayers::yes) {

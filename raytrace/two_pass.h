@@ -37,6 +37,7 @@ struct TwoPassResult {
   Rendering rendering;
 };
 TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera,
-                       const TwoPassSettings& settings, const Progress& progress = {});
+                       const TwoPassSettings& settings, const Progress& progress = {},
+                       const PassOneWatch& watch = {});
 
 } // namespace meninas

@@ -4,6 +4,7 @@
 #include "image/image_file.h"
 #include "image/whole_file.h"
 #include "runs/compare_report.h"
+#include "runs/outputs.h"
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
 #include "runs/resources.h"
@@ -17,17 +18,6 @@ namespace meninas {
 namespace {
 
 namespace fs = std::filesystem;
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
-    throw OutputError(
-        folder.string(), "",
-        fmt::format("cannot be made a folder{}", error ? ": " + error.message() : std::string()));
-  }
-  check_writable_file(folder / "index.html");
-}
 
 /// Both modes of the two passes, from one solve.
 void compare_passes(const PreparedScene& prepared, const Camera& camera, TwoPassSettings settings,
@@ -86,6 +76,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const TwoPassSettin
 
 void compare_run(const CompareRequest& request, const RunEvents& events) {
   make_folder(request.folder);
+  check_writable_file(request.folder / "index.html");
   const ThreadLimit limit(request.settings.threads);
   RunFigures figures;
   figures.threads = limit.threads();

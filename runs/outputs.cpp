@@ -54,6 +54,16 @@ void check_outputs(const OutputFiles& outputs, const std::vector<fs::path>& inpu
   }
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!folder.empty() && !fs::is_directory(folder)) {
+    throw OutputError(
+        folder.string(), "",
+        fmt::format("cannot be made a folder{}", error ? ": " + error.message() : std::string()));
+  }
+}
+
 void write_pictures(const std::vector<fs::path>& files, const Image& picture,
                     std::span<const Layer> layers, const PictureSettings& settings,
                     const Attributes& attributes, const RunEvents& events) {

@@ -20,6 +20,9 @@ struct OutputFiles {
 /// Throws OutputError for a place that cannot be written, UsageError for one that holds an input or is named twice.
 void check_outputs(const OutputFiles& outputs, const std::vector<std::filesystem::path>& inputs);
 
+/// The folder, with those above it, unless it is there; throws OutputError when it cannot be.
+void make_folder(const std::filesystem::path& folder);
+
 struct PictureSettings {
   PixelType exr_type = PixelType::half;
   std::optional<double> exposure; ///< stops, of a PNG; chosen for the picture otherwise

@@ -24,9 +24,11 @@ void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
          "pass one has no solution: light enters a closed part of the scene that absorbs nothing; "
          "only light that has not been reflected is shown");
   } else if (!solver.converged) {
-    warn(events, fmt::format("pass one has not converged: residual {:.2g} after {} iterations, "
-                             "error bound {:.2g}",
-                             solver.residual, solver.iterations, solver.error_bound));
+    warn(events,
+         fmt::format("pass one has not converged: residual {:.2g} after {} {}, error bound {:.2g}",
+                     solver.residual, solver.iterations,
+                     solver.method == SolverMethod::progressive ? "shots" : "iterations",
+                     solver.error_bound));
   }
   // A thousandth of the light is where a cut begins to show in a picture.
   constexpr double visible = 1e-3;

@@ -4,6 +4,7 @@
 #include "image/heat_map.h"
 #include "image/whole_file.h"
 #include "image/z_test.h"
+#include "runs/outputs.h"
 #include "runs/reference_manifest.h"
 #include "scenes/errors.h"
 #include "scenes/stopwatch.h"
@@ -45,14 +46,6 @@ private:
 
 bool same_rendering(const CaseRendering& a, const CaseRendering& b) {
   return a.request.scene == b.request.scene && a.settings == b.settings;
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!folder.empty() && !fs::is_directory(folder)) {
-    throw OutputError(folder.string(), "", "cannot make this folder");
-  }
 }
 
 void copy_into(const fs::path& from, const fs::path& to) {

@@ -20,14 +20,22 @@ void check_files(const RenderRequest& request) {
     inputs.push_back(*request.solution);
   }
   check_outputs(outputs, inputs);
+  if (request.snapshots) {
+    prepare_snapshots(*request.snapshots);
+  }
 }
 
 /// Both passes, timed.
 Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
-                       const TwoPassSettings& settings, const RunEvents& events,
-                       RunFigures& figures) {
+                       const TwoPassSettings& settings, const RenderRequest& request,
+                       const RunEvents& events, RunFigures& figures) {
   Stopwatch watch;
-  TwoPassResult result = two_pass(prepared, camera, settings, events.progress);
+  PassOneWatch along_the_way;
+  if (request.snapshots) {
+    along_the_way = snapshot_watch(*request.snapshots, prepared, camera, settings.render,
+                                   request.pictures, request.picture);
+  }
+  TwoPassResult result = two_pass(prepared, camera, settings, events.progress, along_the_way);
   add_solution(figures, result.solution);
   add_rendering(figures, result.rendering);
   const PassOneSeconds& pass_one = result.solution.seconds;
@@ -57,7 +65,7 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   settings.render.height = size.height;
   if (!request.solution) {
     const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
-    Rendering rendering = run_two_pass(*prepared, camera, settings, events, figures);
+    Rendering rendering = run_two_pass(*prepared, camera, settings, request, events, figures);
     warn_of_solution(figures.solver, figures.closure, events);
     return picture_of(prepared->scene, camera, request.settings, std::move(rendering));
   }

@@ -3,6 +3,7 @@
 
 #include "runs/outputs.h"
 #include "runs/run_settings.h"
+#include "runs/snapshots.h"
 #include "runs/stats.h"
 
 #include <filesystem>
@@ -17,6 +18,7 @@ struct RenderRequest {
   std::vector<std::filesystem::path> pictures;
   std::optional<std::filesystem::path> solution; ///< of an earlier solve: pass one is skipped
   std::optional<std::filesystem::path> stats;
+  std::optional<SnapshotRequest> snapshots; ///< of the progressive solver
   std::optional<std::string> camera;
   std::optional<PictureSize> size;
   PictureSettings picture;

@@ -71,6 +71,7 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   pass_one.direct.penumbra_rays = preset.penumbra_rays;
   pass_one.solver.method = settings.solver;
   pass_one.solver.tolerance = settings.tolerance.value_or(pass_one.solver.tolerance);
+  pass_one.solver.max_shots = settings.steps;
   pass_one.interpolation.method = settings.interpolation.value_or(pass_one.interpolation.method);
   pass_one.interpolation.rays = pass_one.form_factors.rays;
 

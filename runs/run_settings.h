@@ -43,6 +43,7 @@ struct RunSettings {
   std::optional<int> hemicube_resolution; ///< even
   SolverMethod solver = SolverSettings{}.method;
   std::optional<double> tolerance;
+  std::optional<int> steps; ///< of the progressive solver: shots
   std::optional<int> mirror_depth; ///< no path meets more mirrors
   std::optional<Interpolation> interpolation;
   std::optional<int> samples;

@@ -2,6 +2,7 @@
 
 #include "image/whole_file.h"
 #include "runs/json_place.h"
+#include "runs/outputs.h"
 #include "runs/stats.h"
 #include "scenes/content_hash.h"
 #include "scenes/errors.h"
@@ -32,15 +33,6 @@ std::string id_of(const BatchPicture& picture) {
 
 fs::path record_file(const fs::path& state, const BatchPicture& picture) {
   return state / "done" / (id_of(picture) + ".json");
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
-    throw OutputError(folder.string(), "",
-                      "cannot be made a folder" + (error ? ": " + error.message() : ""));
-  }
 }
 
 std::string text_of(const fs::path& file) {
