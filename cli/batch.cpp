@@ -40,6 +40,8 @@ std::string schema_with_settings() {
     nlohmann::ordered_json property{{"description", setting.description}};
     if (setting.takes.empty()) {
       property["type"] = {"boolean", "null"};
+    } else if (setting.takes.starts_with('[')) {
+      property["type"] = {"boolean", "string", "number", "null"};
     } else if (setting.takes.find('|') != std::string::npos) {
       property["enum"] = nlohmann::ordered_json::array();
       std::string_view names = setting.takes;

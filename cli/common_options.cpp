@@ -53,6 +53,30 @@ std::string by_preset(Field QualityPreset::*field) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// `--adaptive [X]`: without X the preset's.
+void add_adaptive(CLI::App& command, RunSettings& settings) {
+  CLI::Option* adaptive =
+      add_text(command, "--adaptive", "[X]",
+               fmt::format("divides elements where the light asks for it, until radiosity is within "
+                           "X of itself, in the mean square [{}]",
+                           by_preset(&QualityPreset::adaptive_error)),
+               [&](const std::string& text) {
+                 settings.adaptive = WithAdaptivity::yes;
+                 if (text != preset_value) {
+                   settings.adaptive_error = parse_number("--adaptive", text, Sign::positive);
+                 }
+               })
+          ->expected(0, 1)
+          ->default_str(preset_value)
+          ->group(pass_one_group);
+  command
+      .add_flag_callback(
+          "--no-adaptive", [&] { settings.adaptive = WithAdaptivity::no; },
+          "elements of one size [so it is]")
+      ->excludes(adaptive)
+      ->group(pass_one_group);
+}
+
 } // namespace
 
 void add_scene(CLI::App& command, CommonOptions& options) {
@@ -123,6 +147,7 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
              settings.steps = static_cast<int>(parse_integer("--steps", text, 1, 1'000'000'000));
            })
       ->group(pass_one_group);
+  add_adaptive(command, settings);
   add_choice(command, "--interpolation", interpolations, standard.interpolation.method,
              "irradiance at the vertices: averaged from elements or gathered",
              [&](Interpolation method) { settings.interpolation = method; })
@@ -160,12 +185,18 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
   if (settings.steps && settings.solver != SolverMethod::progressive) {
     throw UsageError("--steps", "has no effect without --solver progressive");
   }
+  if (settings.adaptive == WithAdaptivity::yes &&
+      settings.interpolation == Interpolation::average) {
+    throw UsageError("--adaptive", "compares what is gathered: it does not go with "
+                                   "--interpolation average");
+  }
 }
 
 void refuse_pass_one_options(const CLI::App& command, const std::string& reason) {
   constexpr std::array options{"--element-size",        "--form-factors", "--rays",
                                "--hemicube-resolution", "--solver",       "--tolerance",
-                               "--steps",               "--interpolation"};
+                               "--steps",               "--interpolation", "--adaptive",
+                               "--no-adaptive"};
   for (const char* option : options) {
     if (command.count(option) > 0) {
       throw UsageError(option, reason);

@@ -13,6 +13,9 @@
 
 namespace meninas {
 
+/// Stands for the preset's number where an option may leave its value out.
+inline constexpr const char* preset_value = "preset";
+
 enum class Verbosity { normal, quiet };
 
 /// What every command has.

@@ -71,11 +71,28 @@ const Command* chosen_command(const CLI::App& program, const std::vector<Command
   throw UsageError("", "a command is needed, see meninas -h");
 }
 
+/// What CLI11 is to parse, last one first. An option with a value that may be left out takes what follows only if that is a number:
+/// otherwise it would take the scene.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  const auto is_number = [](const std::string& text) {
+    return text.find_first_of("0123456789") != std::string::npos &&
+           text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+  };
+  std::vector<std::string> arguments;
+  for (int k = argc - 1; k > 0; --k) {
+    const std::string argument = argv[k];
+    const bool bare =
+        argument == "--adaptive" && (arguments.empty() || !is_number(arguments.back()));
+    arguments.push_back(bare ? argument + '=' + preset_value : argument);
+  }
+  return arguments;
+}
+
 /// Parses, then runs; help and version are answered on standard output.
 int run(CLI::App& program, const std::vector<Command>& commands, int argc, char** argv) {
   std::optional<std::string> problem;
   try {
-    program.parse(argc, argv);
+    program.parse(arguments_of(argc, argv));
   } catch (const CLI::Success& answer) {
     return program.exit(answer);
   } catch (const CLI::ParseError& error) {
@@ -104,10 +121,10 @@ int guarded_main(int argc, char** argv) {
                  "failed write or exhausted resource.");
   program.require_subcommand(0, 1);
   program.allow_extras();
-  const std::vector<Command> commands{add_render_command(program),     add_solve_command(program),
-                                      add_plan_command(program),       add_compare_command(program),
-                                      add_batch_command(program),      add_diff_command(program),
-                                      add_regress_command(program),    add_formfactors_command(program)};
+  const std::vector<Command> commands{
+      add_render_command(program),  add_solve_command(program),      add_plan_command(program),
+      add_compare_command(program), add_batch_command(program),      add_diff_command(program),
+      add_regress_command(program), add_formfactors_command(program)};
   for (const Command& command : commands) {
     command.options->allow_extras();
   }

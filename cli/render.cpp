@@ -260,12 +260,15 @@ RenderRequest parse_render_settings(const std::filesystem::path& scene,
     if (std::ranges::find(known, setting.name) == known.end()) {
       throw UsageError(setting.name, "unknown setting" + hint_for(setting.name, known));
     }
-    const bool flag = command.get_option("--" + setting.name)->get_expected_max() == 0;
-    if (flag == setting.value.has_value()) {
+    const CLI::Option* option = command.get_option("--" + setting.name);
+    const bool flag = option->get_expected_max() == 0;
+    const bool bare = option->get_expected_min() == 0 && !flag && !setting.value;
+    if (!bare && flag == setting.value.has_value()) {
       throw UsageError(setting.name, flag ? "takes true or false" : "takes a value");
     }
+    const std::string value = bare ? preset_value : setting.value.value_or("");
     arguments.insert(arguments.begin(),
-                     "--" + setting.name + (setting.value ? '=' + *setting.value : ""));
+                     "--" + setting.name + (value.empty() ? "" : '=' + value));
   }
   options.common.scene = scene;
   try {

@@ -10,15 +10,23 @@
 #include "radiosity/direct_irradiance.h"
 #include "radiosity/solve.h"
 
+#include <optional>
+
 namespace meninas {
 
 enum class Interpolation { average, gather };
+
+struct AdaptiveSettings {
+  double error = 0.02; ///< wanted of the interpolated radiosity, relative, in the mean square (field_refinement.h)
+  std::size_t max_elements = 1'000'000;
+};
 
 struct InterpolationSettings {
   Interpolation method = Interpolation::gather;
   int rays = 512; ///< per vertex, for `gather`
   int cluster_shadow_rays =
       8; ///< per bright cluster (bright_clusters.h) and vertex, where it matters most
+  std::optional<AdaptiveSettings> adaptive = {}; ///< `gather` on a mesh of its own (adaptive_field.h)
 };
 
 /// By ElementVertexId. The mesh it belongs to must outlive it.
@@ -35,6 +43,8 @@ struct DiffuseField {
 
 struct InterpolatedField {
   DiffuseField field;
+  std::optional<ElementMesh> mesh = {}; ///< of an adaptive field; of others, that of the elements
+  double error = 0.0;              ///< of an adaptive field: estimated, of what its settings bound
   std::uint64_t form_factor_rays = 0;
   std::uint64_t shadow_rays = 0;
 };

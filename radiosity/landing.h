@@ -48,7 +48,8 @@ struct LandingTable {
 
   std::vector<FaceRecord> faces; ///< [2 triangle + (0 front, 1 back)]
   std::vector<SideRecord> sides; ///< by SideId
-  std::vector<std::uint32_t> descent; ///< by CellId: `leaf` and the element, or the first child; empty when nothing is divided
+  std::vector<std::uint32_t>
+      descent; ///< by CellId: `leaf` and the element, or the first child; empty when nothing is divided
 };
 
 LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces,

@@ -70,4 +70,12 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
   return light;
 }
 
+std::unique_ptr<RefinedScene> make_refined_scene(const LightScene& light, ElementMesh mesh) {
+  auto refined = std::make_unique<RefinedScene>();
+  refined->mesh = std::move(mesh);
+  refined->light.emplace(make_light_scene(light.scene, light.surfaces, light.rays, light.mirrors,
+                                          light.worlds, refined->mesh));
+  return refined;
+}
+
 } // namespace meninas

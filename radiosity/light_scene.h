@@ -11,6 +11,9 @@
 #include "radiosity/landing.h"
 #include "scenes/ray_scene.h"
 
+#include <memory>
+#include <optional>
+
 namespace meninas {
 
 /// Refers to objects that outlive it.
@@ -34,5 +37,12 @@ bool grey_mirrors(const Scene& scene);
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
                             const MirrorSet& mirrors, const WorldTree& worlds,
                             const ElementMesh& mesh);
+
+/// The same scene on a finer mesh, kept together. Stays where it was made.
+struct RefinedScene {
+  ElementMesh mesh;
+  std::optional<LightScene> light; ///< refers to the mesh, and to what the first scene refers to
+};
+std::unique_ptr<RefinedScene> make_refined_scene(const LightScene& light, ElementMesh mesh);
 
 } // namespace meninas

@@ -29,10 +29,9 @@ void add_element(ElementMesh& mesh, const SurfaceModel& surfaces, std::uint32_t 
   std::array<Point3, 4> points;
   for (std::size_t c = 0; c < 4; ++c) {
     points[c] = point_in(mesh, surfaces, cell, coordinates[c]);
-    corners[c] =
-        c == 3 && triangle
-            ? corners[2]
-            : welder.vertex_at(surface_side(mesh, surfaces, cell), points[c], mesh.vertices);
+    corners[c] = c == 3 && triangle ? corners[2]
+                                    : welder.vertex_at(surface_side(mesh, surfaces, cell),
+                                                       points[c], mesh.vertices);
   }
   cell.area = area_of(std::span(points).first(triangle ? 3 : 4));
   cell.first_element = static_cast<std::uint32_t>(mesh.area.size());

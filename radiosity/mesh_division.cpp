@@ -215,4 +215,42 @@ ElementMesh overlaid(const ElementMesh& a, const ElementMesh& b, const SurfaceMo
   return divided_mesh(a, surfaces, division_of(both));
 }
 
+std::vector<CellId> same_cells(const ElementMesh& from, const ElementMesh& to) {
+  // Parents come before their children, in either mesh; roots have the same numbers.
+  std::vector<CellId> same(from.cells.size(), none<CellId>);
+  for (std::uint32_t cell = 0; cell < from.cells.size(); ++cell) {
+    if (from.cells[cell].parent == none<CellId>)
+      same[cell] = static_cast<CellId>(cell);
+    if (is_leaf(from.cells[cell]))
+      continue;
+    const std::uint32_t child = index(from.cells[cell].first_child),
+                        other = index(to.cells[index(same[cell])].first_child);
+    for (std::uint32_t k = 0; k < 4; ++k)
+      same[child + k] = static_cast<CellId>(other + k);
+  }
+  return same;
+}
+
+ElementCorners corners_of(const ElementMesh& mesh, CellId id) {
+  const bool triangle = mesh.sides[index(mesh.cells[index(id)].side)].triangle;
+  // The child that keeps a corner, and keeps its number (cell_children.h).
+  constexpr std::array<std::uint32_t, 4> of_quad{0, 1, 3, 2}, of_triangle{0, 1, 2, 2};
+  ElementCorners corners;
+  for (std::size_t c = 0; c < 4; ++c) {
+    CellId cell = id;
+    while (!is_leaf(mesh.cells[index(cell)]))
+      cell = static_cast<CellId>(index(mesh.cells[index(cell)].first_child) +
+                                 (triangle ? of_triangle : of_quad)[c]);
+    corners[c] = mesh.corners[mesh.cells[index(cell)].first_element][c];
+  }
+  return corners;
+}
+
+CellId root_of(const ElementMesh& mesh, ElementId element) {
+  CellId cell = mesh.cell_of_element[index(element)];
+  while (mesh.cells[index(cell)].parent != none<CellId>)
+    cell = mesh.cells[index(cell)].parent;
+  return cell;
+}
+
 } // namespace meninas

@@ -29,6 +29,15 @@ bool is_division_of(const ElementMesh& roots, std::span<const std::uint8_t> divi
 /// Every cell that either mesh has. Both have the same roots.
 ElementMesh overlaid(const ElementMesh& a, const ElementMesh& b, const SurfaceModel& surfaces);
 
+/// By CellId of `from`: the same cell in `to`, a mesh of the same roots that has all cells of `from`.
+std::vector<CellId> same_cells(const ElementMesh& from, const ElementMesh& to);
+
+/// The vertices at the corners of any cell.
+ElementCorners corners_of(const ElementMesh& mesh, CellId cell);
+
+/// The root of the tree an element is in.
+CellId root_of(const ElementMesh& mesh, ElementId element);
+
 /// The mean of the ends for all hanging vertices. `values` by ElementVertexId.
 template <typename Value>
 void settle_hanging(const ElementMesh& mesh, std::vector<Value>& values) {

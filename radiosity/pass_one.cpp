@@ -103,6 +103,9 @@ void complete(const LightScene& light, const PassOneSettings& settings, const Fi
   auto interpolated = interpolate(light, elements, settings.form_factors, settings.direct,
                                   settings.interpolation);
   solution.field = std::move(interpolated.field);
+  solution.interpolation_error = interpolated.error;
+  if (interpolated.mesh)
+    solution.refined = make_refined_scene(light, std::move(*interpolated.mesh));
   solution.seconds.interpolate = watch.lap();
   solution.exposed = rays.exposed;
 

@@ -36,7 +36,9 @@ struct RadiositySolution {
   std::vector<Rgb> radiosity; ///< B by ElementId, emission included: the mean over the exposed part
   std::vector<Rgb> irradiance; ///< H by ElementId, likewise
   std::vector<float> exposed;  ///< by ElementId: the share of the area on which nothing stands
-  DiffuseField field;
+  DiffuseField field;          ///< on field_scene()
+  std::unique_ptr<RefinedScene> refined; ///< adaptive: the scene on the field's mesh
+  double interpolation_error = 0.0; ///< adaptive: estimated, of what its settings bound
   SolverResult solver; ///< its radiosity is moved out
   EnergyBalance energy;
   ClosureError closure;
@@ -44,6 +46,11 @@ struct RadiositySolution {
   std::uint64_t form_factor_rays = 0;
   std::uint64_t shadow_rays = 0;
 };
+
+/// The scene on the mesh that the field belongs to; `light` is the one that was solved.
+inline const LightScene& field_scene(const LightScene& light, const RadiositySolution& solution) {
+  return solution.refined ? *solution.refined->light : light;
+}
 
 /// Area means of one node over all of its sides; what is covered by things that stand on it receives nothing.
 struct NodeLight {

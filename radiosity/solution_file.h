@@ -3,7 +3,8 @@
 //
 // One mesh of one primitive holds all element vertices (POSITION, COLOR_0, _IRRADIANCE, and the parts of the field that are known:
 // _IRRADIANCE_MIRRORED, _IRRADIANCE_INDIRECT, _IRRADIANCE_INDIRECT_MIRRORED, see DiffuseField; VEC3 float) and the elements' triangles. COLOR_0 is the radiosity, exposed for display and linear. `extras` of the asset holds {"meninas": {version,
-// scene_hash, data_hash, mesh settings, counts, figures of the solve}}.
+// scene_hash, data_hash, mesh settings, counts, figures of the solve}}, and where the field has a mesh of its own, `division`, the number of the view of
+// bytes that say which cells of the forest are divided.
 #pragma once
 
 #include "radiosity/pass_one.h"
@@ -12,13 +13,16 @@
 
 namespace meninas {
 
-void write_solution(const std::filesystem::path& file, const Scene& scene, const ElementMesh& mesh,
-                    const RadiositySolution& solution, const MeshSettings& settings);
+/// `solved` is the mesh that was solved.
+void write_solution(const std::filesystem::path& file, const Scene& scene,
+                    const ElementMesh& solved, const RadiositySolution& solution,
+                    const MeshSettings& settings);
 
 /// What a solution was made with, and what the solve said about itself.
 struct StoredSolution {
   MeshSettings mesh;
   std::size_t elements = 0;
+  std::vector<std::uint8_t> division; ///< of the mesh made with these settings; empty: none
   DiffuseField field;
   SolverResult solver; ///< without its radiosity
   EnergyBalance energy;
@@ -28,7 +32,13 @@ struct StoredSolution {
 /// Throws InputError when the file is damaged, or belongs to another scene or another version of the program.
 StoredSolution read_solution(const std::filesystem::path& file, const Scene& scene);
 
-/// Throws InputError unless the solution has a value for every vertex of the mesh made with its settings.
+/// The scene on the field's own mesh; null where the field is on that of `light`, which was made with the solution's settings.
+/// Throws InputError when the solution speaks of another mesh.
+std::unique_ptr<RefinedScene> refined_scene_of(const std::filesystem::path& file,
+                                               const StoredSolution& solution,
+                                               const LightScene& light);
+
+/// Throws InputError unless the solution has a value for every vertex of the mesh of its field.
 void check_belongs(const std::filesystem::path& file, const StoredSolution& solution,
                    const ElementMesh& mesh);
 

@@ -32,7 +32,8 @@ TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera,
   auto solution = solve_pass_one(*prepared.light, settings.pass_one, progress, watch);
 
   // Pass two: specular light, followed from the eye until it lands on the diffuse field.
-  auto rendering = render(*prepared.light, solution.field, camera, settings.render, progress);
+  const LightScene& lit = field_scene(*prepared.light, solution);
+  auto rendering = render(lit, solution.field, camera, settings.render, progress);
   return {std::move(solution), std::move(rendering)};
 }
 

@@ -19,21 +19,27 @@ QualityPreset preset_of(Quality quality) {
             .hemicube_resolution = 32,
             .penumbra_rays = 32,
             .samples = 4,
-            .max_error = 0.1};
+            .max_error = 0.1,
+            .root_elements = 600,
+            .adaptive_error = 0.05};
   case Quality::normal:
     return {.target_elements = 16'000,
             .rays = 512,
             .hemicube_resolution = 64,
             .penumbra_rays = 128,
             .samples = 16,
-            .max_error = 0.03};
+            .max_error = 0.03,
+            .root_elements = 1'500,
+            .adaptive_error = 0.02};
   case Quality::fine:
     return {.target_elements = 64'000,
             .rays = 2'048,
             .hemicube_resolution = 128,
             .penumbra_rays = 512,
             .samples = 64,
-            .max_error = 0.01};
+            .max_error = 0.01,
+            .root_elements = 5'000,
+            .adaptive_error = 0.01};
   }
   return {};
 }
@@ -59,9 +65,11 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   pass_one.mesh.element_size = settings.element_size.value_or(0.0);
   // What the analytic method takes grows with the square of the elements.
   constexpr double few_elements = 500.0;
-  pass_one.mesh.target_elements = settings.form_factors == FormFactorMethod::analytic
-                                      ? std::min(preset.target_elements, few_elements)
-                                      : preset.target_elements;
+  const bool adaptive = settings.adaptive == WithAdaptivity::yes;
+  pass_one.mesh.target_elements = adaptive ? preset.root_elements : preset.target_elements;
+  if (settings.form_factors == FormFactorMethod::analytic) {
+    pass_one.mesh.target_elements = std::min(pass_one.mesh.target_elements, few_elements);
+  }
   pass_one.form_factors.method = settings.form_factors;
   pass_one.form_factors.rays = power_of_two(settings.rays.value_or(preset.rays));
   pass_one.form_factors.hemicube_resolution =
@@ -74,6 +82,10 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   pass_one.solver.max_shots = settings.steps;
   pass_one.interpolation.method = settings.interpolation.value_or(pass_one.interpolation.method);
   pass_one.interpolation.rays = pass_one.form_factors.rays;
+  if (adaptive) {
+    pass_one.interpolation.adaptive =
+        AdaptiveSettings{.error = settings.adaptive_error.value_or(preset.adaptive_error)};
+  }
 
   result.render.mode =
       settings.mode == PictureMode::radiosity ? RenderMode::radiosity : RenderMode::hybrid;

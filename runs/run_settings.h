@@ -12,6 +12,9 @@ namespace meninas {
 
 enum class Quality { draft, normal, fine };
 
+/// Whether elements are divided where the light asks for it.
+enum class WithAdaptivity { no, yes };
+
 /// The numbers a preset stands for.
 struct QualityPreset {
   double target_elements = 0.0; ///< about how many elements share the meshed area
@@ -20,6 +23,8 @@ struct QualityPreset {
   int penumbra_rays = 0;       ///< shadow rays from a vertex to an emitter that it sees in part
   int samples = 0;             ///< camera rays per pixel
   double max_error = 0.0;      ///< of a reference: relative standard error of the picture
+  double root_elements = 0.0;  ///< instead of `target_elements` where elements are divided as needed
+  double adaptive_error = 0.0; ///< of radiosity, relative, in the mean square, where they are
 };
 QualityPreset preset_of(Quality quality);
 
@@ -38,6 +43,8 @@ enum class PictureMode {
 struct RunSettings {
   Quality quality = Quality::normal;
   std::optional<double> element_size; ///< metres
+  WithAdaptivity adaptive = WithAdaptivity::no;
+  std::optional<double> adaptive_error;
   FormFactorMethod form_factors = FormFactorMethod::rays;
   std::optional<int> rays;
   std::optional<int> hemicube_resolution; ///< even

@@ -42,6 +42,8 @@ Json solve_json(const SolverResult& solver) {
           {"channel_error_bounds", std::move(channel_error_bounds)}};
 }
 
+Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
 WorldFigures world_figures(const TransportPlan& plan) {
   const WorldTree& worlds = plan.worlds;
   return {worlds.considered,        worlds.worlds.size() - 1, worlds.pruned_unseen,
@@ -111,7 +113,7 @@ void add_preparation(RunFigures& figures, const PreparedScene& prepared) {
   figures.bands = prepared.plan.bands;
   figures.surfaces = prepared.surfaces.surfaces.size();
   figures.patches = prepared.surfaces.patches.size();
-  figures.elements = element_count(prepared.mesh);
+  figures.elements = figures.solved_elements = element_count(prepared.mesh);
   figures.vertices = prepared.mesh.vertices.size();
   figures.seconds.plan = prepared.seconds.plan;
   figures.seconds.mesh = prepared.seconds.mesh;
@@ -121,6 +123,11 @@ void add_solution(RunFigures& figures, const RadiositySolution& solution) {
   figures.solver = without_radiosity(solution.solver);
   figures.energy = solution.energy;
   figures.closure = solution.closure;
+  if (solution.refined) {
+    figures.elements = element_count(solution.refined->mesh);
+    figures.vertices = solution.refined->mesh.vertices.size();
+    figures.interpolation_error = solution.interpolation_error;
+  }
   figures.rays.form_factor = solution.form_factor_rays;
   figures.rays.shadow = solution.shadow_rays;
   figures.seconds.form_factors = solution.seconds.form_factors;
@@ -156,7 +163,9 @@ std::string stats_json(const RunFigures& figures) {
                    {{"surfaces", figures.surfaces},
                     {"patches", figures.patches},
                     {"elements", figures.elements},
-                    {"vertices", figures.vertices}}},
+                    {"vertices", figures.vertices},
+                    {"solved_elements", figures.solved_elements},
+                    {"interpolation_error", optional_json(figures.interpolation_error)}}},
                   {"solve", solve_json(figures.solver)},
                   {"energy", energy_json(figures.energy)},
                   {"closure",

@@ -41,7 +41,9 @@ struct RunFigures {
   std::size_t mirrors = 0, mirror_worlds = 0, emitters = 0;
   WorldFigures worlds;
   int bands = 1;
-  std::size_t surfaces = 0, patches = 0, elements = 0, vertices = 0;
+  std::size_t surfaces = 0, patches = 0, elements = 0, vertices = 0; ///< of the field
+  std::size_t solved_elements = 0; ///< those pass one was solved for: fewer where the field is adaptive
+  std::optional<double> interpolation_error; ///< of an adaptive field
   SolverResult solver; ///< without its radiosity
   EnergyBalance energy;
   ClosureError closure;

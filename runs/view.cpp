@@ -23,7 +23,9 @@ static Attributes attributes_of(const Scene& scene, const Camera& camera,
 LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
                          const std::optional<fs::path>& kept, const RunEvents& events,
                          RunFigures& figures) {
-  LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures), .field = {}};
+  LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures),
+               .field = {},
+               .refined = {}};
   RadiositySolution solution = solve_pass_one(*lit.prepared->light, settings, events.progress);
   add_solution(figures, solution);
   warn_of_solution(figures.solver, figures.closure, events);
@@ -31,6 +33,7 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
     write_solution(*kept, lit.prepared->scene, lit.prepared->mesh, solution, settings.mesh);
   }
   lit.field = std::move(solution.field);
+  lit.refined = std::move(solution.refined);
   return lit;
 }
 
@@ -40,8 +43,15 @@ LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings setti
   StoredSolution stored = read_solution(file, scene);
   settings.mesh = stored.mesh;
   figures.seconds.load += watch.lap();
-  LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures), .field = {}};
-  check_belongs(file, stored, lit.prepared->mesh);
+  LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures),
+               .field = {},
+               .refined = {}};
+  lit.refined = refined_scene_of(file, stored, *lit.prepared->light);
+  check_belongs(file, stored, lit.light().mesh);
+  if (lit.refined) {
+    figures.elements = element_count(lit.refined->mesh);
+    figures.vertices = lit.refined->mesh.vertices.size();
+  }
   figures.solver = std::move(stored.solver);
   figures.energy = stored.energy;
   figures.closure = stored.closure;
@@ -67,7 +77,7 @@ ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize s
   RenderSettings used = two_pass_settings(settings).render;
   used.width = size.width;
   used.height = size.height;
-  Rendering rendering = render(*lit.prepared->light, lit.field, camera, used, events.progress);
+  Rendering rendering = render(lit.light(), lit.field, camera, used, events.progress);
   add_rendering(figures, rendering);
   figures.seconds.render = watch.lap();
   return picture_of(lit.prepared->scene, camera, settings, std::move(rendering));

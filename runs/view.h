@@ -18,6 +18,10 @@ namespace meninas {
 struct LitScene {
   std::unique_ptr<PreparedScene> prepared;
   DiffuseField field;
+  std::unique_ptr<RefinedScene> refined; ///< where the field has a mesh of its own
+
+  /// On the mesh of the field.
+  const LightScene& light() const { return refined ? *refined->light : *prepared->light; }
 };
 
 /// Pass one, run now; the figures of its stages are filled in, its warnings said. `kept`, if given, is written: a solution file that

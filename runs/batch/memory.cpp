@@ -45,9 +45,12 @@ std::uint64_t resident_memory_bytes() {
 
 std::uint64_t scene_memory(const SceneFacts& facts, const RunSettings& settings) {
   constexpr double per_vertex = 2 * sizeof(Vertex), per_triangle = 1500.0, per_element = 300.0;
+  // How many an adaptive field has is not known beforehand; it is made to have fewer than a mesh of one size.
+  const double field_elements =
+      settings.adaptive == WithAdaptivity::yes ? preset_of(settings.quality).target_elements : 0.0;
   return whole(per_vertex * static_cast<double>(facts.vertices) +
                per_triangle * static_cast<double>(facts.triangles) +
-               per_element * expected_elements(facts, settings)) +
+               per_element * (expected_elements(facts, settings) + field_elements)) +
          3 * facts.texture_bytes;
 }
 

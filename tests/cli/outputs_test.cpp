@@ -348,9 +348,9 @@ TEST_F(Outputs, TheCameraDecidesTheShapeOfThePicture) {
 TEST(Help, ListsEveryOptionOfItsCommand) {
   const TemporaryFolder folder;
   const std::vector<std::string> pass_one{
-      "--element-size", "--form-factors",  "--rays",    "--solver",  "--tolerance",
-      "--mirror-depth", "--interpolation", "--quality", "--threads", "--seed",
-      "--quiet",        "--stats",         "--output"};
+      "--element-size", "--form-factors",  "--rays",    "--solver",   "--tolerance",
+      "--mirror-depth", "--interpolation", "--quality", "--threads",  "--seed",
+      "--quiet",        "--stats",         "--output",  "--adaptive", "--no-adaptive"};
   std::map<std::string, std::vector<std::string>> options{
       {"render", pass_one},
       {"solve", pass_one},

@@ -1,7 +1,6 @@
-#include "radiosity/mesh_division.h"
-
 #include "radiosity/interpolation.h"
 #include "radiosity/landing.h"
+#include "radiosity/mesh_division.h"
 #include "tests/radiosity/meshed.h"
 #include "tests/support/random.h"
 #include "tests/support/rooms.h"
@@ -173,9 +172,9 @@ TEST(MeshDivision, TheFieldIsContinuousAcrossPatches) {
   const auto value_at = [&](const std::string& node, const Point3& x) {
     for (std::uint32_t s = 0; s < mesh.sides.size(); ++s)
       if (m.scene.nodes[index(mesh.sides[s].node)].name == node)
-        return irradiance_at(
-            mesh, field, SideId{s},
-            uv_at(m.surfaces.patches[index(mesh.sides[s].patch)], x)).x;
+        return irradiance_at(mesh, field, SideId{s},
+                             uv_at(m.surfaces.patches[index(mesh.sides[s].patch)], x))
+            .x;
     return std::numeric_limits<float>::quiet_NaN();
   };
   for (int k = 0; k <= 200; ++k) {

@@ -1,4 +1,6 @@
+#include "radiosity/mesh_division.h"
 #include "radiosity/solution_file.h"
+#include "radiosity/solution_format.h"
 #include "scenes/errors.h"
 #include "scenes/glb_file.h"
 #include "scenes/gltf.h"
@@ -31,7 +33,8 @@ protected:
       solution_.field.irradiance.emplace_back(1.0F / static_cast<float>(v + 1), 0.1F, 1e-30F);
       solution_.field.mirrored.emplace_back(0.5F / static_cast<float>(v + 1), 0.0F, 1e-31F);
       solution_.field.indirect.emplace_back(0.25F / static_cast<float>(v + 1), 2.0F, 0.0F);
-      solution_.field.indirect_mirrored.emplace_back(0.125F / static_cast<float>(v + 1), 1.0F, 0.0F);
+      solution_.field.indirect_mirrored.emplace_back(0.125F / static_cast<float>(v + 1), 1.0F,
+                                                     0.0F);
     }
     solution_.solver.iterations = 7;
     solution_.solver.error_bound = std::numeric_limits<double>::infinity();
@@ -88,6 +91,42 @@ TEST_F(SolutionFile, KeepsEveryBitAndFigure) {
   EXPECT_EQ(stored.energy.emitted, solution_.energy.emitted);
   EXPECT_EQ(stored.closure.cut, 0.125);
   EXPECT_EQ(refusal(), "");
+}
+
+// A field on a mesh of its own: the file says which, and shows it to viewers without gaps.
+TEST_F(SolutionFile, KeepsADividedMesh) {
+  std::vector<std::uint8_t> marked(element_count(mesh_), 0);
+  marked[0] = marked[5] = marked.back() = 1;
+  solution_.refined = std::make_unique<RefinedScene>();
+  solution_.refined->mesh = divide_elements(mesh_, surfaces_, marked);
+  const ElementMesh& own = solution_.refined->mesh;
+  for (const FieldPart& part : field_parts)
+    (solution_.field.*part.values).assign(own.vertices.size(), glm::vec3(0.5F));
+  write_solution(file_, scene_, mesh_, solution_, settings_);
+
+  const StoredSolution stored = read_solution(file_, scene_);
+  EXPECT_EQ(stored.division, division_of(own));
+  EXPECT_EQ(stored.elements, element_count(own));
+  EXPECT_NO_THROW(check_belongs(file_, stored, own));
+  EXPECT_THROW(check_belongs(file_, stored, mesh_), InputError);
+
+  // No vertex lies in the middle of an edge on its own side: there would be a gap.
+  const Scene shown = load_gltf(file_);
+  double area = 0.0;
+  for (std::size_t t = 0; t < shown.triangles.size(); ++t) {
+    const auto at = corners(shown, static_cast<TriangleId>(t));
+    area += glm::length(area_vector(at));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point3 middle = 0.5 * (at[k] + at[(k + 1) % 3]);
+      for (std::size_t v = 0; v < own.vertices.size(); ++v) {
+        const SideId side = own.side_of_element[index(own.element_of_vertex[v])];
+        if (glm::dot(own.sides[index(side)].normal, area_vector(at)) > 0.0) {
+          EXPECT_GT(glm::distance(own.vertices[v], middle), 1e-5);
+        }
+      }
+    }
+  }
+  EXPECT_NEAR(area, 2.5, 1e-6);
 }
 
 TEST_F(SolutionFile, IsAPictureForViewers) {

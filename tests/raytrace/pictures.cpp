@@ -14,7 +14,8 @@ Taken lit_up(const Scene& scene, const PassOneSettings& settings) {
 }
 
 Image picture(const Taken& scene, const Camera& camera, const RenderSettings& settings) {
-  return render(*scene.prepared->light, scene.solution.field, camera, settings).image;
+  const LightScene& light = field_scene(*scene.prepared->light, scene.solution);
+  return render(light, scene.solution.field, camera, settings).image;
 }
 
 PictureChange change_inside(const Image& before, const Image& after,

@@ -1,0 +1,22 @@
+// The field on a mesh of its own, fine where it has to be.
+//
+// The irradiance at a point is D + I: from the source, and gathered from the radiosities of the solved elements,
+//
+//   H(x) = D(x) + sum_w tau_w sum_j F^w_xj B_j.
+//
+// So what is fine gathers from what is coarse, and the matrix does not grow with it (Cohen, Greenberg, Immel, Brock 1986). D has shadow edges
+// and spots and takes a few shadow rays a point; I is smooth and takes hundreds of rays. Either is refined for itself (field_refinement.h),
+// D to 4/5 of the error, I to 3/5, which makes all of it; on the mesh that has the cells of both their sum is exact.
+#pragma once
+
+#include "radiosity/interpolation.h"
+
+namespace meninas {
+
+/// `elements` by ElementId of light.mesh.
+InterpolatedField adaptive_field(const LightScene& light, const ElementLight& elements,
+                                 const FormFactorSettings& form_factors,
+                                 const DirectSettings& direct,
+                                 const InterpolationSettings& settings);
+
+} // namespace meninas

@@ -1,0 +1,313 @@
+#include "radiosity/field_refinement.h"
+
+#include "radiosity/mesh_division.h"
+#include "radiosity/vertex_fill.h"
+#include "radiosity/vertex_places.h"
+#include "scenes/sampling.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+
+namespace meninas {
+
+namespace {
+
+/// Integrals over an element, as its points tell; each of (w x)^2.
+struct Found {
+  bool known = false;
+  double off = 0.0;   ///< x = H - H~
+  double light = 0.0; ///< x = H
+  double sigma = 0.0; ///< x = sigma, the standard deviation of a sample
+};
+
+/// A mesh with what is known of the field on it.
+struct Growing {
+  ElementMesh mesh;
+  std::vector<PointSample> samples; ///< by ElementVertexId
+  std::vector<std::uint8_t> known;  ///< by ElementVertexId: 1 where there is a sample
+  std::vector<Found> found;         ///< by ElementId
+};
+
+/// What does not change from round to round.
+struct Refinement {
+  const LightScene& light;
+  const FieldSampler& sampler;
+  std::span<const double> weight;
+  const MirrorOutlines& outlines;
+  const RefinementSettings& settings;
+};
+
+template <typename Body>
+void for_each_in_parallel(std::size_t count, Body&& body) {
+  constexpr std::size_t chunk_size = 32;
+  tbb::parallel_for(std::size_t{0}, (count + chunk_size - 1) / chunk_size, [&](std::size_t c) {
+    for (std::size_t k = c * chunk_size; k < std::min(count, (c + 1) * chunk_size); ++k)
+      body(k);
+  });
+}
+
+/// Depends on the place and not on the numbers of a mesh that is still growing.
+std::uint32_t seed_of(SideId side, Vec2 uv) {
+  return hash(index(side), std::bit_cast<std::uint32_t>(static_cast<float>(uv.x)),
+              std::bit_cast<std::uint32_t>(static_cast<float>(uv.y)));
+}
+
+std::vector<std::uint8_t> hanging_in(const ElementMesh& mesh) {
+  std::vector<std::uint8_t> hanging(mesh.vertices.size(), 0);
+  for (const HangingVertex& h : mesh.hanging)
+    hanging[index(h.vertex)] = 1;
+  return hanging;
+}
+
+/// Samples the vertices that have no sample; those that hang need none.
+void sample_vertices(const Refinement& refinement, Growing& growing) {
+  const ElementMesh& mesh = growing.mesh;
+  const std::vector<std::uint8_t> hanging = hanging_in(mesh);
+  const std::vector<Receiver> receivers = vertex_receivers(mesh);
+  for_each_in_parallel(mesh.vertices.size(), [&](std::size_t v) {
+    if (growing.known[v] != 0 || hanging[v] != 0)
+      return;
+    const ElementId element = mesh.element_of_vertex[v];
+    const SideId side = mesh.side_of_element[index(element)];
+    const Patch& patch = refinement.light.surfaces.patches[index(mesh.sides[index(side)].patch)];
+    growing.samples[v] = refinement.sampler.at_vertices(
+        receivers[v], size_of(mesh, element), seed_of(side, uv_at(patch, mesh.vertices[v])));
+    growing.known[v] = 1;
+  });
+}
+
+/// The samples as a field: covered vertices take their neighbours' values, hanging ones those of their ends.
+SampledField field_of(const Growing& growing) {
+  const ElementMesh& mesh = growing.mesh;
+  SampledField field;
+  std::vector<std::uint8_t> valid(mesh.vertices.size(), 1);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    field.total.emplace_back(growing.samples[v].light.total);
+    field.mirrored.emplace_back(growing.samples[v].light.mirrored);
+    valid[v] = growing.known[v] != 0 && !growing.samples[v].covered ? 1 : 0;
+  }
+  for (auto* values : {&field.total, &field.mirrored}) {
+    fill_vertices(mesh, valid, *values);
+    settle_hanging(mesh, *values);
+  }
+  return field;
+}
+
+/// Number k of the points an element is looked at in; the first is its centre.
+Vec2 point_of(bool triangle, std::uint32_t k, std::uint32_t seed) {
+  if (k == 0)
+    return Vec2(triangle ? 1.0 / 3.0 : 0.5);
+  const auto sample = sobol4(k - 1, seed);
+  const Vec2 st(sample[0], sample[1]);
+  return triangle && st.x + st.y > 1.0 ? 1.0 - st : st;
+}
+
+double largest(const glm::vec3& c) { return double{std::max({c.r, c.g, c.b})}; }
+
+/// What one element hides, in so many points besides its centre, and at those of outlines that pass it.
+Found look_at(const Refinement& refinement, const ElementMesh& mesh,
+              const std::vector<glm::vec3>& values, ElementId element, int points,
+              std::span<const Vec2> on_outline) {
+  const MeshCell& cell = cell_of(mesh, element);
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  const Patch& patch = refinement.light.surfaces.patches[index(side.patch)];
+  const double weight = refinement.weight[index(root_of(mesh, element))];
+  Found sum{.known = true};
+  if (weight <= 0.0)
+    return sum;
+  int open = 0;
+  const auto look = [&](Vec2 uv, Vec2 st) {
+    const PointSample sample = refinement.sampler.between(
+        {point_at(patch, uv), side.normal, side.plane_class, side.tangent}, size_of(mesh, element),
+        seed_of(cell.side, uv));
+    if (sample.covered)
+      return;
+    ++open;
+    const glm::vec3 light(sample.light.total);
+    sum.off +=
+        std::pow(weight * largest(glm::abs(light - value_in(mesh, values, {element, st}))), 2.0);
+    sum.light += std::pow(weight * largest(light), 2.0);
+    sum.sigma += weight * weight * sample.variance;
+  };
+  const std::uint32_t own_seed = seed_of(cell.side, patch_uv_of(mesh, cell, Vec2(0.25)));
+  for (std::uint32_t k = 0; k <= static_cast<std::uint32_t>(points); ++k) {
+    const Vec2 st = point_of(side.triangle, k, own_seed);
+    look(patch_uv_of(mesh, cell, st), st);
+  }
+  for (const Vec2 uv : on_outline)
+    look(uv, locate(mesh, cell.side, uv).st);
+  const double share = open > 0 ? mesh.area[index(element)] / open : 0.0;
+  return {true, share * sum.off, share * sum.light, share * sum.sigma};
+}
+
+/// By ElementId, of elements that are still to be looked at closely: a few of the points at which outlines pass them.
+using OutlinesIn = std::map<std::uint32_t, std::vector<Vec2>>;
+OutlinesIn outlines_in(const Refinement& refinement, const Growing& growing) {
+  constexpr int outline_levels = 3;
+  constexpr std::size_t most = 16;
+  OutlinesIn in;
+  for (const OutlinePoint& point : refinement.outlines) {
+    const ElementId element = locate(growing.mesh, point.side, point.uv).element;
+    if (growing.found[index(element)].known ||
+        cell_of(growing.mesh, element).level >= outline_levels)
+      continue;
+    in[index(element)].push_back(point.uv);
+  }
+  for (auto& [element, points] : in) {
+    // Of many, every so many-th: outlines of all corners of all images take part.
+    const std::size_t step = (points.size() + most - 1) / most;
+    for (std::size_t k = 0; k * step < points.size(); ++k)
+      points[k] = points[k * step];
+    points.resize((points.size() + step - 1) / step);
+  }
+  return in;
+}
+
+/// Looks at the elements that have not been.
+void look_at_elements(const Refinement& refinement, const SampledField& field, Growing& growing) {
+  const ElementMesh& mesh = growing.mesh;
+  const RefinementSettings& settings = refinement.settings;
+  const OutlinesIn outlined = outlines_in(refinement, growing);
+  for_each_in_parallel(element_count(mesh), [&](std::size_t e) {
+    if (growing.found[e].known)
+      return;
+    const auto element = static_cast<ElementId>(e);
+    const auto outlines = outlined.find(static_cast<std::uint32_t>(e));
+    const bool passed = outlines != outlined.end();
+    const bool closely = cell_of(mesh, element).level == 0 || passed;
+    growing.found[e] = look_at(
+        refinement, mesh, field.total, element, closely ? settings.root_points : settings.points,
+        passed ? std::span<const Vec2>(outlines->second) : std::span<const Vec2>{});
+  });
+}
+
+/// The samples' relative variance, over all elements and by CellId of the roots: these lean towards the former by a few elements' weight.
+struct Noise {
+  double all = 0.0;
+  std::vector<double> in_root;
+};
+
+Noise noise_of(const Refinement& refinement, const Growing& growing) {
+  constexpr double leaning = 4.0; // elements
+  double sigma = 0.0, light = 0.0;
+  for (const Found& found : growing.found) {
+    sigma += found.sigma;
+    light += found.light;
+  }
+  Noise noise;
+  noise.all = light > 0.0 ? sigma / light : 0.0;
+  std::vector<double> sum(refinement.weight.size(), leaning * noise.all),
+      count(sum.size(), leaning);
+  for (std::size_t e = 0; e < growing.found.size(); ++e) {
+    if (growing.found[e].light <= 0.0)
+      continue;
+    const std::uint32_t root = index(root_of(growing.mesh, static_cast<ElementId>(e)));
+    sum[root] += growing.found[e].sigma / growing.found[e].light;
+    count[root] += 1.0;
+  }
+  for (std::size_t root = 0; root < sum.size(); ++root)
+    noise.in_root.push_back(sum[root] / count[root]);
+  return noise;
+}
+
+/// What noise alone makes of the integral of (w (H - H~))^2, in the middle of four vertices, by ElementId.
+std::vector<double> made_by_noise(const Refinement& refinement, const Growing& growing) {
+  const Noise noise = noise_of(refinement, growing);
+  std::vector<double> made(growing.found.size());
+  for (std::size_t e = 0; e < made.size(); ++e)
+    made[e] = 1.25 * growing.found[e].light *
+              noise.in_root[index(root_of(growing.mesh, static_cast<ElementId>(e)))];
+  return made;
+}
+
+/// Area of what reflects.
+double area_that_counts(const Refinement& refinement, const ElementMesh& mesh) {
+  double area = 0.0;
+  for (std::size_t e = 0; e < element_count(mesh); ++e)
+    if (refinement.weight[index(root_of(mesh, static_cast<ElementId>(e)))] > 0.0)
+      area += mesh.area[e];
+  return area;
+}
+
+/// Elements with more than their share of the error; none when all together have no more than is allowed. `error2` is what all have.
+std::vector<std::uint8_t> to_divide(const Refinement& refinement, const Growing& growing,
+                                    double allowed, double& error2) {
+  constexpr double stands_out = 4.0; // two standard deviations
+  const ElementMesh& mesh = growing.mesh;
+  const std::vector<double> by_noise = made_by_noise(refinement, growing);
+  std::vector<std::uint8_t> marked(element_count(mesh), 0);
+  error2 = 0.0;
+  for (std::size_t e = 0; e < marked.size(); ++e)
+    error2 += growing.found[e].off - by_noise[e];
+  error2 = std::max(error2, 0.0);
+  if (error2 <= allowed)
+    return marked;
+  const double share = allowed / static_cast<double>(marked.size());
+  for (std::size_t e = 0; e < marked.size(); ++e) {
+    const int level = cell_of(mesh, static_cast<ElementId>(e)).level;
+    marked[e] = growing.found[e].off > share + stands_out * by_noise[e] &&
+                        level < refinement.settings.most_levels
+                    ? 1
+                    : 0;
+  }
+  return marked;
+}
+
+/// The divided mesh, with what was known of the one before.
+Growing divided(const Refinement& refinement, const Growing& before,
+                const std::vector<std::uint8_t>& marked) {
+  Growing after;
+  after.mesh = divide_elements(before.mesh, refinement.light.surfaces, marked);
+  after.samples.resize(after.mesh.vertices.size());
+  after.known.resize(after.mesh.vertices.size(), 0);
+  after.found.resize(element_count(after.mesh));
+  const std::vector<CellId> now = same_cells(before.mesh, after.mesh);
+  for (std::size_t e = 0; e < element_count(before.mesh); ++e) {
+    const CellId cell = now[index(before.mesh.cell_of_element[e])];
+    const ElementCorners corners = corners_of(after.mesh, cell);
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      const std::uint32_t from = index(before.mesh.corners[e][c]), to = index(corners[c]);
+      after.samples[to] = before.samples[from];
+      after.known[to] = before.known[from];
+    }
+    if (is_leaf(after.mesh.cells[index(cell)]))
+      after.found[after.mesh.cells[index(cell)].first_element] = before.found[e];
+  }
+  return after;
+}
+
+} // namespace
+
+SampledField refine_field(const LightScene& light, const FieldSampler& sampler,
+                          std::span<const double> weight, const MirrorOutlines& outlines,
+                          const RefinementSettings& settings) {
+  const Refinement refinement{light, sampler, weight, outlines, settings};
+  Growing growing;
+  growing.mesh = light.mesh;
+  growing.samples.resize(light.mesh.vertices.size());
+  growing.known.resize(light.mesh.vertices.size(), 0);
+  growing.found.resize(element_count(light.mesh));
+  const double area = area_that_counts(refinement, light.mesh);
+  const double allowed = settings.error * settings.error * area;
+  for (;;) {
+    sample_vertices(refinement, growing);
+    SampledField field = field_of(growing);
+    look_at_elements(refinement, field, growing);
+    double error2 = 0.0;
+    const auto marked = to_divide(refinement, growing, allowed, error2);
+    const auto count = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
+    if (count == 0 || element_count(growing.mesh) + 3 * count > settings.max_elements) {
+      field.error = area > 0.0 ? std::sqrt(error2 / area) : 0.0;
+      field.noise = std::sqrt(noise_of(refinement, growing).all);
+      field.mesh = std::move(growing.mesh);
+      return field;
+    }
+    growing = divided(refinement, growing, marked);
+  }
+}
+
+} // namespace meninas

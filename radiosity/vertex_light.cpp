@@ -1,0 +1,55 @@
+#include "radiosity/vertex_light.h"
+
+#include "scenes/sampling.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace meninas {
+
+bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size) {
+  constexpr double reach = 0.35; // of an element
+  constexpr int least = packet_size - 1;
+  const TangentFrame frame = frame_along(receiver.normal, receiver.tangent);
+  const RayFrame& ray_frame = light.rays.frame();
+  const glm::vec3 origin = (receiver.position - ray_frame.centre) * ray_frame.scale;
+  RayPacket packet;
+  packet.count = packet_size;
+  for (std::uint32_t k = 0; k < packet_size; ++k) {
+    const auto sample = sobol4(k, 0xc0fe);
+    const glm::vec3 local = cosine_hemisphere(sample[0], sample[1]);
+    const glm::vec3 direction = double{local.x} * frame.tangent +
+                                double{local.y} * frame.bitangent +
+                                double{local.z} * receiver.normal;
+    packet.origin_x[k] = origin.x;
+    packet.origin_y[k] = origin.y;
+    packet.origin_z[k] = origin.z;
+    packet.direction_x[k] = direction.x;
+    packet.direction_y[k] = direction.y;
+    packet.direction_z[k] = direction.z;
+    packet.max_distance[k] = static_cast<float>(reach * element_size * ray_frame.scale);
+    packet.leaving[k] = index(receiver.plane_class);
+    packet.arriving[k] = index(none<PlaneId>);
+  }
+  return std::popcount(occluded(light.rays, packet, Coherence::coherent)) >= least;
+}
+
+VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                     const Receiver& receiver, double element_size, std::uint32_t seed,
+                     PointWorkspace& work) {
+  constexpr double most_black =
+      0.9; // of the hemisphere: the vertex is inside something that stands on its surface
+  const PointLight arrived = light_at(gathering, receiver, seed, work);
+  const GatheredRays& gathered = work.gather.result;
+  const auto lit = [&](const RayLanding& landing) {
+    return irradiance[landing.element] != Rgb(0.0);
+  };
+  const bool enclosed =
+      gathered.black > most_black * gathered.rays ||
+      (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
+  const bool covered = (enclosed && arrived.from_source.total == Rgb(0.0)) ||
+                       is_under_something(gathering.light, receiver, element_size);
+  return {arrived.all(), arrived.indirect(), covered};
+}
+
+} // namespace meninas

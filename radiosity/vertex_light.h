@@ -1,0 +1,23 @@
+// What a vertex gathers, and whether that counts: where something stands on a surface there is no light to interpolate.
+#pragma once
+
+#include "radiosity/point_gathering.h"
+
+namespace meninas {
+
+struct VertexValue {
+  ArrivingLight irradiance;
+  ArrivingLight indirect; ///< the part of it that does not come from the source
+  bool covered;           ///< something stands on it: no value of its own
+};
+
+/// At a point in elements of a size, metres. `irradiance` by ElementId tells which elements are lit.
+VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                     const Receiver& receiver, double element_size, std::uint32_t seed,
+                     PointWorkspace& work);
+
+/// Whether something lies on the surface here: nearly all of the hemisphere is blocked within a fraction of an element, as under
+/// a box that stands on a floor. What little light there is there must not be interpolated out into the open.
+bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size);
+
+} // namespace meninas

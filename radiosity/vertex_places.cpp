@@ -1,0 +1,58 @@
+#include "radiosity/vertex_places.h"
+
+namespace meninas {
+
+Point3 centre_of(const ElementMesh& mesh, ElementId element) {
+  const auto& corners = mesh.corners[index(element)];
+  const int count = corners[3] == corners[2] ? 3 : 4;
+  Point3 sum(0.0);
+  for (int c = 0; c < count; ++c)
+    sum += mesh.vertices[index(corners[static_cast<std::size_t>(c)])];
+  return sum / double(count);
+}
+
+VertexElements elements_around(const ElementMesh& mesh) {
+  VertexElements around;
+  around.begin.assign(mesh.vertices.size() + 1, 0);
+  const auto for_each_corner = [&mesh](auto&& visit) {
+    for (std::size_t e = 0; e < mesh.corners.size(); ++e) {
+      const auto& corners = mesh.corners[e];
+      for (std::size_t c = 0; c < (corners[3] == corners[2] ? 3U : 4U); ++c)
+        visit(static_cast<ElementId>(e), corners[c]);
+    }
+  };
+  for_each_corner([&](ElementId, ElementVertexId vertex) { ++around.begin[index(vertex) + 1]; });
+  for (std::size_t v = 1; v < around.begin.size(); ++v)
+    around.begin[v] += around.begin[v - 1];
+  around.elements.resize(around.begin.back());
+  auto place = around.begin;
+  for_each_corner([&](ElementId element, ElementVertexId vertex) {
+    around.elements[place[index(vertex)]++] = element;
+  });
+  return around;
+}
+
+static Point3 gathering_point(const ElementMesh& mesh, const VertexElements& all,
+                              std::size_t vertex) {
+  constexpr double inset = 0.02;
+  const auto elements = around(all, vertex);
+  Point3 centre(0.0);
+  for (const ElementId element : elements)
+    centre += centre_of(mesh, element) / double(elements.size());
+  return glm::mix(mesh.vertices[vertex], centre, inset);
+}
+
+std::vector<Receiver> vertex_receivers(const ElementMesh& mesh) {
+  const VertexElements all = elements_around(mesh);
+  std::vector<Receiver> receivers;
+  receivers.reserve(mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const MeshSide& side =
+        mesh.sides[index(mesh.side_of_element[index(mesh.element_of_vertex[v])])];
+    receivers.push_back(
+        {gathering_point(mesh, all, v), side.normal, side.plane_class, side.tangent});
+  }
+  return receivers;
+}
+
+} // namespace meninas
