@@ -124,12 +124,13 @@ void write_exr(const fs::path& file, const Image& picture, std::span<const Layer
   write_whole_file(file, take_bytes(image_io::module_table().encode_exr(&request), file.string()));
 }
 
-std::vector<std::byte> encode_png(const Image& picture, double exposure) {
+std::vector<std::byte> encode_png(const Image& picture, double exposure, Compression compression) {
   expect_picture(picture);
   const auto code_values = display_codes(picture, exposure);
   const image_io::PngRequest request{.width = picture.width,
                                      .height = picture.height,
                                      .rgb = code_values.data(),
+                                     .effort = compression == Compression::small ? 6 : 1,
                                      .software = software};
   return take_bytes(image_io::module_table().encode_png(&request), "PNG");
 }

@@ -40,7 +40,10 @@ void write_exr(const std::filesystem::path& file, const Image& picture, std::spa
 /// sRGB-encoded 8-bit PNG of the picture times 2^exposure, clipped at white and rounded to the nearest code value.
 /// No value may be NaN.
 void write_png(const std::filesystem::path& file, const Image& picture, double exposure);
-std::vector<std::byte> encode_png(const Image& picture, double exposure);
+/// How hard compression tries; the pixels are the same.
+enum class Compression { small, quick };
+std::vector<std::byte> encode_png(const Image& picture, double exposure,
+                                  Compression compression = Compression::small);
 
 enum class Encoding { srgb, linear };
 

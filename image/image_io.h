@@ -14,7 +14,7 @@
 namespace meninas::image_io {
 
 /// Raised with every change of this file: a module from another build is refused, not misread.
-inline constexpr int seam_version = 1;
+inline constexpr int seam_version = 2;
 
 struct TextPair {
   const char* key;
@@ -42,6 +42,7 @@ struct ExrRequest {
 struct PngRequest {
   int width, height;
   const std::uint8_t* rgb; ///< sRGB code values
+  int effort;              ///< of the compression, 1 to 9
   const char* software;
 };
 
@@ -72,6 +73,7 @@ struct Limits {
 
 struct Table {
   int seam_version;
+  void (*use_threads)(int count); ///< as many may be at work, the caller's among them
   Encoded (*encode_exr)(const ExrRequest*);
   Encoded (*encode_png)(const PngRequest*);
   void (*release_encoded)(Encoded*);

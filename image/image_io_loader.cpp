@@ -4,6 +4,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <filesystem>
 #include <future>
@@ -64,6 +65,12 @@ static const std::shared_future<const Table*>& opening() {
 
 void preload() { opening(); }
 
-const Table& module_table() { return *opening().get(); }
+const Table& module_table() {
+  const Table& table = *opening().get();
+  const auto limit =
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  table.use_threads(static_cast<int>(limit));
+  return table;
+}
 
 } // namespace meninas::image_io

@@ -7,6 +7,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <exception>
 #include <limits>
@@ -257,11 +258,19 @@ void encode_png_into(Encoded& result, const PngRequest& request) {
   OIIO::ImageSpec spec(request.width, request.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("Software", request.software);
+  spec.attribute("png:compressionLevel", request.effort);
   output->set_ioproxy(&writer);
   if (!output->open(file_name, spec) || !output->write_image(OIIO::TypeDesc::UINT8, request.rgb) ||
       !output->close())
     fail(output->geterror(), "cannot encode PNG");
   hand_over(result, std::move(bytes));
+}
+
+/// OpenEXR compresses by threads of its own, as many as the machine has unless told otherwise; -1 is none.
+void use_threads(int count) {
+  static std::atomic<int> used{0};
+  if (used.exchange(count) != count)
+    OIIO::attribute("exr_threads", count > 1 ? count : -1);
 }
 
 Encoded encode_exr(const ExrRequest* request) {
@@ -282,8 +291,8 @@ Decoded decode(const void* bytes, std::size_t size, Limits limits) {
 
 void release_decoded(Decoded* decoded) { delete static_cast<DecodedStorage*>(decoded->owner); }
 
-constexpr Table table{seam_version,    encode_exr, encode_png,
-                      release_encoded, decode,     release_decoded};
+constexpr Table table{seam_version,    use_threads, encode_exr,     encode_png,
+                      release_encoded, decode,      release_decoded};
 
 } // namespace
 } // namespace meninas::image_io

@@ -42,8 +42,8 @@ std::string base64(std::span<const std::byte> bytes) {
   return text;
 }
 
-std::string png_address(const Image& picture, double exposure) {
-  return "data:image/png;base64," + base64(encode_png(picture, exposure));
+std::string png_address(const Image& picture, double exposure, Compression compression) {
+  return "data:image/png;base64," + base64(encode_png(picture, exposure, compression));
 }
 
 } // namespace meninas

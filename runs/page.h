@@ -1,7 +1,7 @@
 // Self-contained HTML pages: a template with one place for data, and pictures inside it, so that a page is one file that needs nothing else.
 #pragma once
 
-#include "image/image.h"
+#include "image/image_file.h"
 
 #include <cstddef>
 #include <span>
@@ -18,6 +18,7 @@ std::string fill_page(std::string_view page, std::string_view json);
 std::string base64(std::span<const std::byte> bytes);
 
 /// The picture as it is shown, times 2^exposure: a PNG as a `data:` address.
-std::string png_address(const Image& picture, double exposure);
+std::string png_address(const Image& picture, double exposure,
+                        Compression compression = Compression::small);
 
 } // namespace meninas

@@ -4,8 +4,11 @@
 #include "tests/image/picture_files.h"
 
 #include <gmock/gmock.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 #include <regex>
 
@@ -37,6 +40,20 @@ TEST_F(Exr, FloatIsExact) {
   const auto picture = random_picture(37, 21);
   write_exr(folder / "a.exr", picture, {}, PixelType::float32);
   EXPECT_EQ(read_image(folder / "a.exr").picture.pixels, picture.pixels);
+}
+
+/// How many threads the process has once a picture is written by at most so many.
+std::ptrdiff_t threads_after_writing(const std::filesystem::path& file, std::size_t limit) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
+  write_exr(file, Image(64, 64));
+  const std::filesystem::directory_iterator threads("/proc/self/task");
+  return std::distance(begin(threads), end(threads));
+}
+
+TEST_F(Exr, IsCompressedByAsManyThreadsAsMayWork) {
+  const auto alone = threads_after_writing(folder / "a.exr", 1);
+  EXPECT_EQ(threads_after_writing(folder / "b.exr", 3), alone + 3);
+  EXPECT_EQ(threads_after_writing(folder / "c.exr", 1), alone);
 }
 
 TEST_F(Exr, HalfIsRoundedToNearest) {
