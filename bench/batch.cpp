@@ -11,6 +11,7 @@
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -43,8 +44,29 @@ std::vector<BatchPicture> planned(const Settings& settings) {
                                        .outputs = {"{frame}.exr"}}});
 }
 
-double one_after_the_other(const std::vector<BatchPicture>& pictures, const fs::path& folder) {
+/// Seconds by the clock, and of the processors: what others do on the machine changes the first but hardly the second.
+struct Cost {
+  double wall = 0.0, processors = 0.0;
+};
+
+double processor_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return double(time.tv_sec) + 1e-6 * double(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+template <typename Work>
+Cost cost_of(Work work) {
+  const double before = processor_seconds();
   Stopwatch watch;
+  work();
+  return {watch.lap(), processor_seconds() - before};
+}
+
+void one_after_the_other(const std::vector<BatchPicture>& pictures, const fs::path& folder) {
   fs::create_directories(folder);
   RunFigures figures;
   const RunSettings& settings = pictures.front().request.settings;
@@ -56,17 +78,14 @@ double one_after_the_other(const std::vector<BatchPicture>& pictures, const fs::
     write_pictures({folder / picture.outputs.front()}, view.image, view.layers, {}, view.attributes,
                    {});
   }
-  return watch.lap();
 }
 
-double as_a_batch(const Settings& settings, const fs::path& folder, int threads) {
-  Stopwatch watch;
+void as_a_batch(const Settings& settings, const fs::path& folder, int threads) {
   BatchRequest request;
   request.jobs_file = "bench";
   request.folder = folder;
   request.threads = threads;
   batch_run(request, planned(settings));
-  return watch.lap();
 }
 
 double median(std::vector<double> values) {
@@ -78,17 +97,23 @@ void measure(const Settings& settings, const fs::path& folder) {
   const auto pictures = planned(settings);
   one_after_the_other({pictures.front()},
                       folder / "first"); // opens the module that writes pictures
-  std::vector<double> to_serial, to_one_thread;
+  std::vector<double> to_serial, work_to_serial, to_one_thread;
   for (int round = 0; round < 5; ++round) {
-    const double serial = one_after_the_other(pictures, folder / "serial");
-    const double batch = as_a_batch(settings, folder / fmt::format("all{}", round), 0);
-    const double alone = as_a_batch(settings, folder / fmt::format("one{}", round), 1);
-    fmt::print("one solve and {} renders {:.2f} s, batch {:.2f} s, batch by one thread {:.2f} s\n",
-               settings.views, serial, batch, alone);
-    to_serial.push_back(batch / serial);
-    to_one_thread.push_back(alone / batch);
+    const Cost serial = cost_of([&] { one_after_the_other(pictures, folder / "serial"); });
+    const Cost batch =
+        cost_of([&] { as_a_batch(settings, folder / fmt::format("all{}", round), 0); });
+    const Cost alone =
+        cost_of([&] { as_a_batch(settings, folder / fmt::format("one{}", round), 1); });
+    fmt::print("one solve and {} renders {:.2f} s, batch {:.2f} s, batch by one thread {:.2f} s; "
+               "processors {:.2f} s, {:.2f} s, {:.2f} s\n",
+               settings.views, serial.wall, batch.wall, alone.wall, serial.processors,
+               batch.processors, alone.processors);
+    to_serial.push_back(batch.wall / serial.wall);
+    work_to_serial.push_back(batch.processors / serial.processors);
+    to_one_thread.push_back(alone.wall / batch.wall);
   }
-  fmt::print("batch / (one solve + {} renders): {:.2f}\n", settings.views, median(to_serial));
+  fmt::print("batch / (one solve + {} renders): {:.2f}, of the processors' time {:.2f}\n",
+             settings.views, median(to_serial), median(work_to_serial));
   fmt::print("throughput by {} threads / by one: {:.2f}\n", ThreadLimit(0).threads(),
              median(to_one_thread));
   fmt::print("peak memory: {:.0f} MiB\n", double(peak_memory_bytes()) / 1048576.0);

@@ -2,6 +2,7 @@
 #include "cli/common_options.h"
 #include "cli/settings.h"
 #include "cli/values.h"
+#include "image/image_file.h"
 #include "runs/batch/batch_run.h"
 #include "runs/progress_line.h"
 
@@ -49,6 +50,7 @@ std::string schema_with_settings() {
         property["enum"].push_back(std::string(names.substr(0, bar)));
         names.remove_prefix(bar == std::string_view::npos ? names.size() : bar + 1);
       }
+      property["enum"].push_back(nullptr);
     } else {
       property["type"] = {"string", "number", "null"};
     }
@@ -123,6 +125,9 @@ void run(BatchOptions& options) {
   const BatchRequest& request = options.request;
   const auto jobs = read_batch(request.jobs_file, parse_render_settings);
   Console console(options.verbosity);
+  if (options.task == BatchTask::run) {
+    preload_image_io();
+  }
   auto pictures = plan_batch(request.jobs_file, jobs);
   if (options.task == BatchTask::outlook) {
     print(batch_outlook(request, pictures));

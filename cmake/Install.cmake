@@ -10,7 +10,7 @@ foreach(folder IN ITEMS scenes image mirror radiosity raytrace reference runs)
     FILES_MATCHING PATTERN "*.h" PATTERN "gallery" EXCLUDE)
 endforeach()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES docs/batch.schema.json docs/regress.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/meninas)
+install(FILES docs/regress.schema.json ${CMAKE_BINARY_DIR}/batch.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/meninas)
 
 # A stranger's program finds the image module by the search path it gets with the library that opens it.
 target_link_options(meninas_image INTERFACE

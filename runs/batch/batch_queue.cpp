@@ -12,11 +12,13 @@ namespace meninas {
 BatchQueue::BatchQueue(std::span<const BatchPicture> pictures, std::span<const std::size_t> to_make,
                        std::uint64_t memory_before, std::uint64_t memory_limit)
     : pictures_(pictures), before_(memory_before), limit_(memory_limit) {
-  std::map<std::string, std::size_t> by_key;
+  // Copies of a scene share their solution by way of the cache: one that vanishes does not take the others with it.
+  std::map<std::pair<std::string, std::filesystem::path>, std::size_t> by_key;
   for (const std::size_t picture : to_make) {
     const bool reference = pictures[picture].solution_key.empty();
     const auto& key = reference ? pictures[picture].key : pictures[picture].solution_key;
-    const auto [entry, is_new] = by_key.emplace(key, groups_.size());
+    const auto [entry, is_new] =
+        by_key.emplace(std::pair(key, pictures[picture].scene), groups_.size());
     if (is_new) {
       groups_.emplace_back();
     }

@@ -1,8 +1,9 @@
 // Which task of a batch comes next, and whether there is memory for it. Knows no threads: whoever uses it sees to that.
 //
-// Pictures that share a solution form a group; a reference is a group of its own. Opening a group finds its light; while it is open its
-// pictures are tasks. Pictures of open groups come first, then the next group. A group is admitted with the memory that its scene needs as
-// long as it is open, and that its solve or the largest of its pictures needs beyond that, so that the group opened last can always go on.
+// Pictures of one scene file that share a solution form a group; a reference is a group of its own. Opening a group finds its light; while
+// it is open its pictures are tasks. Pictures of open groups come first, then the next group. A group is admitted with the memory that its
+// scene needs as long as it is open, and that its solve or the largest of its pictures needs beyond that, so that the group opened last can
+// always go on.
 #pragma once
 
 #include "runs/batch/scene_work.h"

@@ -121,7 +121,7 @@ void stop(Batch& batch, int signal) {
 }
 
 /// The error a batch ends with, if it does.
-void conclude(const Batch& batch, const BatchReport& report) {
+void conclude(const Batch& batch) {
   if (batch.signal != 0) {
     const auto code = static_cast<ExitCode>(128 + batch.signal);
     throw UserError(code, "", "", stop_line(batch));
@@ -139,7 +139,7 @@ void conclude(const Batch& batch, const BatchReport& report) {
     const std::size_t shown = 5, more = failed.size() > shown ? failed.size() - shown : 0;
     const std::string names =
         fmt::format("{}", fmt::join(std::span(failed).first(failed.size() - more), ", "));
-    throw UserError(static_cast<ExitCode>(code), report.jobs_file.string(), "",
+    throw UserError(static_cast<ExitCode>(code), batch.request.jobs_file.string(), "",
                     fmt::format("{} of {} pictures failed: {}{}", failed.size(), own.size(), names,
                                 more > 0 ? fmt::format(" and {} more", more) : ""));
   }
@@ -157,8 +157,16 @@ BatchReport batch_run(const BatchRequest& request, std::vector<BatchPicture> pic
     const Interruption interruption([&](int signal) { stop(batch, signal); });
     batch.work.run();
   }
-  const BatchReport report = write_reports(batch);
-  conclude(batch, report);
+  BatchReport report;
+  try {
+    report = write_reports(batch);
+  } catch (const UserError& error) {
+    // What has failed before says more.
+    warn(events.run, error.what());
+    conclude(batch);
+    throw;
+  }
+  conclude(batch);
   return report;
 }
 

@@ -6,12 +6,15 @@
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <atomic>
 #include <condition_variable>
 #include <new>
+#include <numeric>
+#include <set>
 #include <thread>
 
 namespace meninas {
@@ -22,12 +25,15 @@ using Clock = BatchQueue::Clock;
 /// Before what another process is at is looked at again.
 constexpr auto pause = std::chrono::milliseconds(50);
 
-double camera_rays(const BatchPicture& picture) {
-  if (picture.problem) {
-    return 0.0;
+/// By picture; of those that cannot be made, none.
+std::vector<double> camera_rays(std::span<const BatchPicture> pictures) {
+  std::vector<double> rays;
+  for (const BatchPicture& picture : pictures) {
+    const int samples =
+        picture.problem ? 0 : two_pass_settings(picture.request.settings).render.samples;
+    rays.push_back(double(picture.size.width) * picture.size.height * samples);
   }
-  const int samples = two_pass_settings(picture.request.settings).render.samples;
-  return double(picture.size.width) * picture.size.height * samples;
+  return rays;
 }
 
 /// The result of a task that ends with an exception.
@@ -60,7 +66,7 @@ struct BatchWork::Impl {
   Impl(const BatchFolder& at, std::span<const BatchPicture> all, int thread_count,
        std::uint64_t memory_limit, BatchWorkEvents told)
       : folder(at), pictures(all), threads(thread_count), events(std::move(told)),
-        results(all.size()), under_way(all.size()),
+        results(all.size()), to_trace(camera_rays(all)), under_way(all.size()),
         queue(all, begin_results(), resident_memory_bytes(), memory_limit) {}
 
   const BatchFolder& folder;
@@ -70,7 +76,11 @@ struct BatchWork::Impl {
 
   mutable std::mutex mutex; ///< of everything below
   std::vector<PictureResult> results;
+  std::vector<double> to_trace;              ///< by picture: camera rays
   std::vector<std::atomic<float>> under_way; ///< by picture: the share of it that is rendered
+  std::set<std::size_t> being_made;          ///< pictures
+  std::size_t done_count = 0, failed_count = 0;
+  double camera_rays_in_all = 0.0, camera_rays_done = 0.0; ///< of the pictures made by this run
   BatchQueue queue;
   std::vector<SolveResult> solves;
   std::size_t running = 0, opening = 0;
@@ -95,12 +105,19 @@ struct BatchWork::Impl {
 
 /// What is known of every picture before the work; returns those that have to be made.
 std::vector<std::size_t> BatchWork::Impl::begin_results() {
+  camera_rays_in_all = std::accumulate(to_trace.begin(), to_trace.end(), 0.0);
+  std::vector<std::optional<PictureRecord>> records(pictures.size());
+  tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t k) {
+    if (!pictures[k].problem) {
+      records[k] = folder.done(pictures[k]);
+    }
+  });
   std::vector<std::size_t> to_make;
   for (std::size_t k = 0; k < pictures.size(); ++k) {
     if (const auto& problem = pictures[k].problem) {
       finish(k, failure(problem->what, problem->exit_code));
-    } else if (auto record = folder.done(pictures[k])) {
-      finish(k, {PictureStatus::found, std::move(*record)});
+    } else if (records[k]) {
+      finish(k, {PictureStatus::found, std::move(*records[k])});
     } else {
       to_make.push_back(k);
     }
@@ -168,6 +185,7 @@ void BatchWork::Impl::make(const BatchTask& task) {
   {
     const std::lock_guard lock(mutex);
     light = queue.light(task);
+    being_made.insert(task.picture);
   }
   PictureResult result;
   if (auto problem = guarded([&] {
@@ -177,6 +195,7 @@ void BatchWork::Impl::make(const BatchTask& task) {
     result = std::move(*problem);
   }
   const std::lock_guard lock(mutex);
+  being_made.erase(task.picture);
   if (result.status == PictureStatus::held) {
     queue.held(task, Clock::now() + pause);
     return;
@@ -188,7 +207,14 @@ void BatchWork::Impl::make(const BatchTask& task) {
 
 void BatchWork::Impl::finish(std::size_t k, PictureResult result) {
   results[k] = std::move(result);
-  if (results[k].status == PictureStatus::failed && !pictures[k].problem) {
+  const bool is_failure = results[k].status == PictureStatus::failed;
+  (is_failure ? failed_count : done_count) += 1;
+  if (results[k].status == PictureStatus::made) {
+    camera_rays_done += to_trace[k];
+  } else {
+    camera_rays_in_all -= to_trace[k];
+  }
+  if (is_failure && !pictures[k].problem) {
     // For the summaries of other processes; where nothing can be written there will be none.
     guarded([&] { folder.keep(pictures[k], results[k].record); });
   }
@@ -207,21 +233,17 @@ void BatchWork::Impl::tell() {
 }
 
 BatchProgress BatchWork::Impl::progress() const {
-  BatchProgress now{
-      .pictures = pictures.size(), .running = running - opening, .solving = opening, .rays = rays};
-  double all = 0.0, done = 0.0;
-  for (std::size_t k = 0; k < pictures.size(); ++k) {
-    const PictureStatus status = results[k].status;
-    now.failed += status == PictureStatus::failed ? 1 : 0;
-    now.done += status == PictureStatus::made || status == PictureStatus::found ? 1 : 0;
-    if (status != PictureStatus::failed && status != PictureStatus::found) {
-      const double rays_of_it = camera_rays(pictures[k]);
-      all += rays_of_it;
-      done += rays_of_it * (status == PictureStatus::made ? 1.0 : double(under_way[k]));
-    }
+  double traced = camera_rays_done;
+  for (const std::size_t picture : being_made) {
+    traced += to_trace[picture] * double(under_way[picture]);
   }
-  now.share = all > 0.0 ? done / all : 1.0;
-  return now;
+  return {.pictures = pictures.size(),
+          .done = done_count,
+          .failed = failed_count,
+          .running = running - opening,
+          .solving = opening,
+          .share = camera_rays_in_all > 0.0 ? traced / camera_rays_in_all : 1.0,
+          .rays = rays};
 }
 
 RunEvents BatchWork::Impl::events_of(std::size_t picture) {

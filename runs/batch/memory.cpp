@@ -54,19 +54,28 @@ std::uint64_t scene_memory(const SceneFacts& facts, const RunSettings& settings)
          3 * facts.texture_bytes;
 }
 
-std::uint64_t solve_memory(const SceneFacts& facts, const RunSettings& settings) {
+/// Entries of a row of the transport, at most.
+static double row_entries(const RunSettings& settings, double elements) {
   const FormFactorSettings factors = two_pass_settings(settings).pass_one.form_factors;
-  const double elements = expected_elements(facts, settings);
   const double resolution = factors.hemicube_resolution;
-  double row = factors.rays;
-  if (factors.method == FormFactorMethod::hemicube) {
-    row = 3.0 * resolution * resolution; // cells of the top and the four half sides
-  } else if (factors.method == FormFactorMethod::analytic) {
-    row = elements;
+  switch (factors.method) {
+  case FormFactorMethod::rays:
+    // Shots are traced when they are needed, and forgotten.
+    return settings.solver == SolverMethod::progressive ? 0.0
+                                                        : std::min<double>(factors.rays, elements);
+  case FormFactorMethod::hemicube: // cells of the top and the four half sides
+    return std::min(3.0 * resolution * resolution, elements);
+  case FormFactorMethod::analytic:
+    break;
   }
-  // Column and up to three bands, once in the pieces the rows are found in and once put together.
-  constexpr double per_entry = 2 * 16.0, per_element = 600.0;
-  double bytes = per_entry * elements * std::min(row, elements) + per_element * elements;
+  return elements;
+}
+
+std::uint64_t solve_memory(const SceneFacts& facts, const RunSettings& settings) {
+  const double elements = expected_elements(facts, settings);
+  // Column and up to three bands, and room to grow.
+  constexpr double per_entry = 20.0, per_element = 600.0;
+  double bytes = elements * (per_entry * row_entries(settings, elements) + per_element);
   if (settings.solver == SolverMethod::direct) {
     bytes += 2.0 * sizeof(double) * elements * elements;
   }

@@ -19,7 +19,7 @@ std::uint64_t resident_memory_bytes();
 /// A scene with its light, ready for views: geometry, textures, ray structures, mesh and field.
 std::uint64_t scene_memory(const SceneFacts& facts, const RunSettings& settings);
 
-/// What solving needs beyond that: the transport and what finds it. More than is needed by solvers that keep no transport.
+/// What solving needs beyond that: the transport, unless the solver keeps none, and what finds it.
 std::uint64_t solve_memory(const SceneFacts& facts, const RunSettings& settings);
 
 /// A picture under way and its encoding; a reference needs its own scene too.

@@ -75,10 +75,10 @@ void write_outputs(const BatchFolder& folder, const BatchPicture& picture,
 }
 
 std::string thumbnail_of(const BatchPicture& picture, const Image& image) {
-  constexpr int longest_side = 240;
+  constexpr int longest_side = 192;
   const auto& exposure = picture.request.picture.exposure;
   return png_address(thumbnail(image, longest_side),
-                     exposure ? *exposure : automatic_exposure(image));
+                     exposure ? *exposure : automatic_exposure(image), Compression::quick);
 }
 
 } // namespace

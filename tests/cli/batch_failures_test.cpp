@@ -73,6 +73,55 @@ TEST_F(BatchTest, AFullDiskLosesOnlyWhatDoesNotFit) {
   EXPECT_THAT(pictures(), ElementsAre(Key("large.exr"), Key("small.exr")));
 }
 
+/// Mounts file systems in a name space of its own, which only root may do.
+class BatchOnOtherFileSystems : public BatchTest {
+protected:
+  void SetUp() override {
+    if (run_other_program("/usr/bin/unshare", folder_.path(), {"-m", "true"}).code != 0) {
+      GTEST_SKIP() << "mounting is not allowed here";
+    }
+    fs::create_directory(folder_ / "out");
+    write_jobs({{{"scenes", "room.glb"},
+                 {"cameras", orbit(8)},
+                 {"settings", {{"size", "256x256"}, {"float", true}}}}});
+  }
+  Outcome batch_after(const std::string& mounting) {
+    return run_other_program("/usr/bin/unshare", folder_.path(),
+                             {"-m", "/bin/sh", "-c",
+                              mounting + " && " MENINAS_PROGRAM
+                                         " batch jobs.json -o out --cache kept; "
+                                         "code=$?; cp -r out left; exit $code"});
+  }
+};
+
+TEST_F(BatchOnOtherFileSystems, AFullDiskLosesOnlyWhatDoesNotFit) {
+  const Outcome outcome = batch_after("mount -t tmpfs -o size=400k tmpfs out");
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr(".exr failed: out/room-orbit"));
+  EXPECT_THAT(outcome.err, HasSubstr("cannot write: the disk is full\n"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("meninas: warning: out/summary.json: cannot write: the disk is full\n"
+                        "meninas: jobs.json: "))
+      << "the reason is what comes last";
+  const auto left = pictures("left");
+  EXPECT_GT(left.size(), 0U);
+  EXPECT_LT(left.size(), 8U);
+  // What is there is whole: what a disk with room for everything gets.
+  ASSERT_EQ(batch().code, 0);
+  const auto whole = pictures();
+  for (const auto& [name, bytes] : left) {
+    EXPECT_EQ(bytes, whole.at(name)) << name;
+  }
+}
+
+TEST_F(BatchOnOtherFileSystems, AReadOnlyFolderEndsItAtOnce) {
+  const Outcome outcome = batch_after("mount --bind out out && mount -o remount,bind,ro out");
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_EQ(outcome.err,
+            "meninas: out/.meninas/done: cannot be made a folder: Read-only file system\n");
+  EXPECT_THAT(files_in(folder_ / "out"), IsEmpty());
+}
+
 TEST_F(BatchTest, AFolderThatCannotBeWrittenEndsItAtOnce) {
   write_jobs({{{"scenes", "room.glb"}}});
   std::ofstream(folder_ / "file") << "x";
@@ -87,6 +136,32 @@ TEST_F(BatchTest, AFolderThatCannotBeWrittenEndsItAtOnce) {
     fs::permissions(folder_ / "closed", fs::perms::owner_read | fs::perms::owner_exec);
     EXPECT_EQ(batch({"-o", "closed"}).code, 4);
   }
+}
+
+TEST_F(BatchTest, ASceneThatVanishesOrChangesMeanwhileFailsAlone) {
+  for (const char* name : {"vanishing.glb", "changing.glb"}) {
+    fs::copy(folder_ / "room.glb", folder_ / name);
+  }
+  // Only one picture at a time is under way, and the first takes a while.
+  write_jobs({{{"scenes", "room.glb"}, {"settings", {{"size", "256x256"}, {"samples", 128}}}},
+              {{"scenes", {"vanishing.glb", "changing.glb"}}, {"settings", {{"rays", 32}}}}});
+  RunningProgram process = begin_batch({"--threads", "1"});
+  wait_for_a_picture();
+  fs::remove(folder_ / "vanishing.glb");
+  brighten_lamp();
+  fs::copy(folder_ / "room.glb", folder_ / "changing.glb", fs::copy_options::overwrite_existing);
+  const Outcome outcome = process.outcome();
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("vanishing-camera-hybrid-0000.exr failed: vanishing.glb: no such file\n"));
+  EXPECT_THAT(
+      outcome.err,
+      HasSubstr("changing-camera-hybrid-0000.exr failed: changing.glb: has changed since the "
+                "batch began: run it again with --resume\n"));
+  EXPECT_EQ(summary()["counts"]["made"], 1);
+  // One is still missing, the other is made as it is now.
+  EXPECT_EQ(batch({"--resume"}).code, 3);
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "changing-camera-hybrid-0000.exr"));
 }
 
 /// A jobs file is refused with this line, and nothing is made.

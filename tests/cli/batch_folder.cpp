@@ -1,7 +1,9 @@
 #include "tests/cli/batch_folder.h"
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 namespace meninas::test {
 
@@ -45,6 +47,13 @@ Outcome BatchTest::batch(std::vector<std::string> arguments) {
 
 RunningProgram BatchTest::begin_batch(std::vector<std::string> arguments) {
   return RunningProgram(folder_.path(), whole_command(std::move(arguments)));
+}
+
+void BatchTest::wait_for_a_picture() {
+  const fs::path locks = folder_ / "out" / ".meninas" / "locks";
+  while (!fs::exists(locks) || files_in(locks).empty()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 Json BatchTest::summary(const std::string& output) {

@@ -28,6 +28,8 @@ protected:
   /// `batch jobs.json -o out ARGUMENTS`
   Outcome batch(std::vector<std::string> arguments = {});
   RunningProgram begin_batch(std::vector<std::string> arguments = {});
+  /// Until one is being made in `out`.
+  void wait_for_a_picture();
   Json summary(const std::string& output = "out");
   /// The pictures in a folder, by name.
   std::map<std::string, std::string> pictures(const std::string& output = "out");

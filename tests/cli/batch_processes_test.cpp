@@ -150,10 +150,7 @@ TEST_F(BatchTest, CtrlCStopsItAndSaysHowToGoOn) {
   for (const int signal : {SIGINT, SIGTERM}) {
     fs::remove_all(folder_ / "out");
     RunningProgram process = begin_batch({"--threads", "1"});
-    const fs::path locks = folder_ / "out" / ".meninas" / "locks";
-    while (!fs::exists(locks) || files_in(locks).empty()) { // until a picture is being made
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
+    wait_for_a_picture();
     const auto asked = std::chrono::steady_clock::now();
     process.send(signal);
     const Outcome outcome = process.outcome();

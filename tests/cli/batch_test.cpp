@@ -166,7 +166,7 @@ TEST_F(BatchTest, TheSchemaKnowsEverySetting) {
   EXPECT_EQ(outcome.code, 0);
   Json schema = Json::parse(outcome.out);
   const Json settings = schema["$defs"]["settings"]["properties"];
-  EXPECT_EQ(settings["quality"]["enum"], Json({"draft", "normal", "fine"}));
+  EXPECT_EQ(settings["quality"]["enum"], Json({"draft", "normal", "fine", nullptr}));
   EXPECT_EQ(settings["float"]["type"], Json({"boolean", "null"}));
   EXPECT_TRUE(settings.contains("samples"));
   EXPECT_FALSE(settings.contains("camera"));

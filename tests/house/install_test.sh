@@ -12,7 +12,7 @@ mv "$scratch/first" "$scratch/moved here"
 prefix=$scratch/moved\ here
 
 "$prefix/bin/meninas" --version
-test -s "$prefix/share/meninas/batch.schema.json"
+grep -q '"samples"' "$prefix/share/meninas/batch.schema.json"
 if find "$prefix" -name '*.cmake' -exec grep -l "$scratch/first" {} + ; then
   echo "the installed package remembers where it was installed" >&2
   exit 1
