@@ -77,7 +77,8 @@ std::uint64_t solve_memory(const SceneFacts& facts, const RunSettings& settings)
   constexpr double per_entry = 20.0, per_element = 600.0;
   double bytes = elements * (per_entry * row_entries(settings, elements) + per_element);
   if (settings.solver == SolverMethod::direct) {
-    bytes += 2.0 * sizeof(double) * elements * elements;
+    bytes +=
+        4.0 * sizeof(double) * elements * elements; // the factors of three channels and a matrix
   }
   return whole(bytes);
 }
