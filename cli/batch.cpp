@@ -79,10 +79,8 @@ std::string status_line(const BatchProgress& progress, double seconds) {
   if (progress.failed > 0) {
     line += fmt::format(", {} failed", progress.failed);
   }
-  // Too little done says nothing about the rest.
-  if (progress.share > 0.02 && progress.share < 1.0) {
-    line += fmt::format(", {} left",
-                        readable_duration(seconds * (1.0 - progress.share) / progress.share));
+  if (progress.seconds_left) {
+    line += fmt::format(", {} left", readable_duration(*progress.seconds_left));
   }
   return line + fmt::format(", {:.1f} million rays/s", 1e-6 * double(progress.rays) / seconds);
 }

@@ -178,6 +178,11 @@ const LitScene* BatchQueue::light(const BatchTask& task) const {
   return light ? &light->lit : nullptr;
 }
 
+std::size_t BatchQueue::closed_groups() const {
+  const auto closed = std::ranges::count(groups_, State::closed, &Group::state);
+  return static_cast<std::size_t>(closed);
+}
+
 bool BatchQueue::is_over() const {
   return std::ranges::all_of(groups_,
                              [](const Group& group) { return group.state == State::over; });

@@ -49,6 +49,8 @@ public:
 
   /// Null for a reference. Stays where it is as long as the group has unfinished pictures.
   const LitScene* light(const BatchTask& task) const;
+  /// Groups whose light is still to be found.
+  std::size_t closed_groups() const;
   bool is_over() const;
 
 private:

@@ -1,9 +1,9 @@
 #include "runs/batch/batch_work.h"
 
+#include "runs/batch/batch_forecast.h"
 #include "runs/batch/batch_queue.h"
 #include "runs/batch/memory.h"
 #include "scenes/errors.h"
-#include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -12,9 +12,8 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <map>
 #include <new>
-#include <numeric>
-#include <set>
 #include <thread>
 
 namespace meninas {
@@ -25,15 +24,8 @@ using Clock = BatchQueue::Clock;
 /// Before what another process is at is looked at again.
 constexpr auto pause = std::chrono::milliseconds(50);
 
-/// By picture; of those that cannot be made, none.
-std::vector<double> camera_rays(std::span<const BatchPicture> pictures) {
-  std::vector<double> rays;
-  for (const BatchPicture& picture : pictures) {
-    const int samples =
-        picture.problem ? 0 : two_pass_settings(picture.request.settings).render.samples;
-    rays.push_back(double(picture.size.width) * picture.size.height * samples);
-  }
-  return rays;
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 /// The result of a task that ends with an exception.
@@ -66,7 +58,7 @@ struct BatchWork::Impl {
   Impl(const BatchFolder& at, std::span<const BatchPicture> all, int thread_count,
        std::uint64_t memory_limit, BatchWorkEvents told)
       : folder(at), pictures(all), threads(thread_count), events(std::move(told)),
-        results(all.size()), to_trace(camera_rays(all)), under_way(all.size()),
+        results(all.size()), under_way(all.size()), forecast(all),
         queue(all, begin_results(), resident_memory_bytes(), memory_limit) {}
 
   const BatchFolder& folder;
@@ -76,11 +68,11 @@ struct BatchWork::Impl {
 
   mutable std::mutex mutex; ///< of everything below
   std::vector<PictureResult> results;
-  std::vector<double> to_trace;              ///< by picture: camera rays
   std::vector<std::atomic<float>> under_way; ///< by picture: the share of it that is rendered
-  std::set<std::size_t> being_made;          ///< pictures
+  std::map<std::size_t, Clock::time_point> being_made, being_lit; ///< since when, by picture
   std::size_t done_count = 0, failed_count = 0;
-  double camera_rays_in_all = 0.0, camera_rays_done = 0.0; ///< of the pictures made by this run
+  BatchForecast forecast;
+  Clock::time_point begin = Clock::now();
   BatchQueue queue;
   std::vector<SolveResult> solves;
   std::size_t running = 0, opening = 0;
@@ -105,7 +97,6 @@ struct BatchWork::Impl {
 
 /// What is known of every picture before the work; returns those that have to be made.
 std::vector<std::size_t> BatchWork::Impl::begin_results() {
-  camera_rays_in_all = std::accumulate(to_trace.begin(), to_trace.end(), 0.0);
   std::vector<std::optional<PictureRecord>> records(pictures.size());
   tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t k) {
     if (!pictures[k].problem) {
@@ -120,6 +111,7 @@ std::vector<std::size_t> BatchWork::Impl::begin_results() {
       finish(k, {PictureStatus::found, std::move(*records[k])});
     } else {
       to_make.push_back(k);
+      forecast.waits(k);
     }
   }
   return to_make;
@@ -160,12 +152,18 @@ void BatchWork::Impl::run_task(const BatchTask& task) {
 
 void BatchWork::Impl::open(const BatchTask& task) {
   const BatchPicture& picture = pictures[task.picture];
-  Stopwatch watch;
+  const auto begun = Clock::now();
+  {
+    const std::lock_guard lock(mutex);
+    being_lit.emplace(task.picture, begun);
+  }
   std::optional<SceneLight> light;
   const auto problem =
       guarded([&] { light = find_light(folder, picture, events_of(task.picture)); });
 
+  const double seconds = seconds_since(begun);
   const std::lock_guard lock(mutex);
+  being_lit.erase(task.picture);
   if (problem) {
     for (const std::size_t failed : queue.failed_to_open(task)) {
       finish(failed, *problem);
@@ -175,7 +173,8 @@ void BatchWork::Impl::open(const BatchTask& task) {
   } else {
     rays += light->figures.rays.form_factor + light->figures.rays.shadow;
     solves.push_back(
-        {picture.scene.string(), picture.solution_key, light->solved, watch.lap(), light->figures});
+        {picture.scene.string(), picture.solution_key, light->solved, seconds, light->figures});
+    forecast.solved(seconds);
     queue.opened(task, std::move(*light));
   }
 }
@@ -185,7 +184,8 @@ void BatchWork::Impl::make(const BatchTask& task) {
   {
     const std::lock_guard lock(mutex);
     light = queue.light(task);
-    being_made.insert(task.picture);
+    being_made.emplace(task.picture, Clock::now());
+    forecast.waits_no_more(task.picture);
   }
   PictureResult result;
   if (auto problem = guarded([&] {
@@ -198,9 +198,13 @@ void BatchWork::Impl::make(const BatchTask& task) {
   being_made.erase(task.picture);
   if (result.status == PictureStatus::held) {
     queue.held(task, Clock::now() + pause);
+    forecast.waits(task.picture);
     return;
   }
-  rays += result.record.rays;
+  if (result.status == PictureStatus::made) {
+    rays += result.record.rays;
+    forecast.made(task.picture, result.record.seconds);
+  }
   queue.made(task);
   finish(task.picture, std::move(result));
 }
@@ -209,11 +213,7 @@ void BatchWork::Impl::finish(std::size_t k, PictureResult result) {
   results[k] = std::move(result);
   const bool is_failure = results[k].status == PictureStatus::failed;
   (is_failure ? failed_count : done_count) += 1;
-  if (results[k].status == PictureStatus::made) {
-    camera_rays_done += to_trace[k];
-  } else {
-    camera_rays_in_all -= to_trace[k];
-  }
+  forecast.waits_no_more(k);
   if (is_failure && !pictures[k].problem) {
     // For the summaries of other processes; where nothing can be written there will be none.
     guarded([&] { folder.keep(pictures[k], results[k].record); });
@@ -233,17 +233,24 @@ void BatchWork::Impl::tell() {
 }
 
 BatchProgress BatchWork::Impl::progress() const {
-  double traced = camera_rays_done;
-  for (const std::size_t picture : being_made) {
-    traced += to_trace[picture] * double(under_way[picture]);
+  BatchProgress now{.pictures = pictures.size(),
+                    .done = done_count,
+                    .failed = failed_count,
+                    .running = running - opening,
+                    .solving = opening,
+                    .seconds_left = {},
+                    .rays = rays};
+  TasksUnderWay tasks_now{.pictures = {}, .solves = {}, .waiting_solves = queue.closed_groups()};
+  for (const auto& [picture, since] : being_made) {
+    const double share = under_way[picture];
+    tasks_now.pictures.push_back({picture, seconds_since(since), share});
+    now.rays += static_cast<std::uint64_t>(share * forecast.camera_rays(picture));
   }
-  return {.pictures = pictures.size(),
-          .done = done_count,
-          .failed = failed_count,
-          .running = running - opening,
-          .solving = opening,
-          .share = camera_rays_in_all > 0.0 ? traced / camera_rays_in_all : 1.0,
-          .rays = rays};
+  for (const auto& [picture, since] : being_lit) {
+    tasks_now.solves.push_back(seconds_since(since));
+  }
+  now.seconds_left = forecast.seconds_left(tasks_now, seconds_since(begin));
+  return now;
 }
 
 RunEvents BatchWork::Impl::events_of(std::size_t picture) {

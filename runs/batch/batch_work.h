@@ -18,8 +18,8 @@ namespace meninas {
 struct BatchProgress {
   std::size_t pictures = 0, done = 0, failed = 0;
   std::size_t running = 0, solving = 0; ///< tasks
-  double share = 0.0;                   ///< of the camera rays that this run has to trace
-  std::uint64_t rays = 0;               ///< traced so far, by finished tasks
+  std::optional<double> seconds_left;   ///< as soon as something can be said (batch_forecast.h)
+  std::uint64_t rays = 0;               ///< traced so far; of pictures under way their camera rays
 };
 
 /// Every function may be empty, and is called from any thread.

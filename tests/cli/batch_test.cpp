@@ -45,6 +45,27 @@ TEST_F(BatchTest, PicturesAreThoseOfRender) {
   EXPECT_NE(pictures()["orbit-hybrid-0000.exr"], pictures()["orbit-hybrid-0001.exr"]);
 }
 
+TEST_F(BatchTest, EveryOptionOfRenderIsASetting) {
+  write_jobs({{{"scenes", "room.glb"},
+               {"settings", {{"diffuse", "direct"}, {"layers", true}}},
+               {"outputs", "layers.exr"}},
+              {{"scenes", "room.glb"},
+               {"settings", {{"adaptive", 0.3}, {"element-size", nullptr}}},
+               {"outputs", "adaptive.exr"}}});
+  ASSERT_EQ(batch().code, 0);
+  const auto made = pictures();
+  const auto render = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> command{"render",    "room.glb", "-o",     "a.exr", "--rays", "16",
+                                     "--samples", "1",        "--size", "24x16", "--quiet"};
+    command.insert(command.end(), options.begin(), options.end());
+    EXPECT_EQ(run_program(folder_.path(), command).code, 0);
+    return read_file(folder_ / "a.exr");
+  };
+  EXPECT_EQ(made.at("layers.exr"),
+            render({"--diffuse", "direct", "--layers", "--element-size", "0.25"}));
+  EXPECT_EQ(made.at("adaptive.exr"), render({"--adaptive", "0.3"}));
+}
+
 TEST_F(BatchTest, TheSummarySaysWhatWasDone) {
   write_jobs({all_kinds()});
   ASSERT_EQ(batch({"--junit", "results.xml", "--threads", "2"}).code, 0);
