@@ -47,9 +47,9 @@ void BatchQueue::add(std::size_t picture, Group& group) {
 }
 
 bool BatchQueue::fits(std::uint64_t bytes, std::uint64_t resident_memory) const {
-  // With nothing under way, memory that was freed but not given back is there to be used again.
+  // With nothing under way, what is resident beyond what is expected was freed but not given back, and is there to be used again.
   const std::uint64_t expected = before_ + reserved_;
-  const std::uint64_t used = reserved_ == 0 ? expected : std::max(expected, resident_memory);
+  const std::uint64_t used = under_way_ == 0 ? expected : std::max(expected, resident_memory);
   return used + bytes <= limit_;
 }
 
@@ -87,8 +87,7 @@ std::optional<BatchTask> BatchQueue::next_picture(Clock::time_point now,
         break;
       }
       group.waiting.pop_back();
-      reserved_ += memory;
-      return BatchTask{g, picture, false, memory};
+      return begun({g, picture, false, memory});
     }
   }
   return std::nullopt;
@@ -113,31 +112,42 @@ std::optional<BatchTask> BatchQueue::next_opening(Clock::time_point now,
       return std::nullopt;
     }
     group.state = State::opening;
-    reserved_ += group.scene_memory + group.task_memory;
-    return BatchTask{g, group.waiting.back(), true, group.task_memory};
+    reserved_ += group.scene_memory;
+    return begun({g, group.waiting.back(), true, group.task_memory});
   }
   return std::nullopt;
 }
 
 std::vector<RefusedPicture> BatchQueue::take_refused() { return std::exchange(refused_, {}); }
 
-void BatchQueue::opened(const BatchTask& task, SceneLight light) {
-  Group& group = groups_[task.group];
+BatchTask BatchQueue::begun(BatchTask task) {
+  reserved_ += task.memory;
+  ++under_way_;
+  return task;
+}
+
+BatchQueue::Group& BatchQueue::ended(const BatchTask& task) {
   reserved_ -= task.memory;
+  --under_way_;
+  return groups_[task.group];
+}
+
+void BatchQueue::opened(const BatchTask& task, SceneLight light) {
+  Group& group = ended(task);
   group.light = std::make_unique<SceneLight>(std::move(light));
   group.state = State::open;
 }
 
 void BatchQueue::not_opened(const BatchTask& task, Clock::time_point again) {
-  Group& group = groups_[task.group];
-  reserved_ -= task.memory + group.scene_memory;
+  Group& group = ended(task);
+  reserved_ -= group.scene_memory;
   group.state = State::closed;
   group.not_before = again;
 }
 
 std::vector<std::size_t> BatchQueue::failed_to_open(const BatchTask& task) {
-  Group& group = groups_[task.group];
-  reserved_ -= task.memory + group.scene_memory;
+  Group& group = ended(task);
+  reserved_ -= group.scene_memory;
   group.state = State::over;
   const std::vector<std::size_t> failed(group.waiting.rbegin(), group.waiting.rend());
   group.waiting.clear();
@@ -146,14 +156,13 @@ std::vector<std::size_t> BatchQueue::failed_to_open(const BatchTask& task) {
 }
 
 void BatchQueue::made(const BatchTask& task) {
-  reserved_ -= task.memory;
-  groups_[task.group].held_in_a_row = 0;
-  picture_over(groups_[task.group]);
+  Group& group = ended(task);
+  group.held_in_a_row = 0;
+  picture_over(group);
 }
 
 void BatchQueue::held(const BatchTask& task, Clock::time_point again) {
-  Group& group = groups_[task.group];
-  reserved_ -= task.memory;
+  Group& group = ended(task);
   group.waiting.insert(group.waiting.begin(), task.picture);
   // The others of the group come first; when all have been tried in vain it is time to wait.
   if (++group.held_in_a_row >= group.waiting.size()) {

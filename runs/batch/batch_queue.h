@@ -71,11 +71,14 @@ private:
   bool fits(std::uint64_t bytes, std::uint64_t resident_memory) const;
   bool is_too_big(const Group& group, std::uint64_t task_memory, std::size_t picture);
   void picture_over(Group& group);
+  BatchTask begun(BatchTask task);
+  Group& ended(const BatchTask& task);
 
   std::span<const BatchPicture> pictures_;
   std::vector<Group> groups_;
   std::vector<RefusedPicture> refused_;
   std::uint64_t before_, limit_, reserved_ = 0;
+  std::size_t under_way_ = 0; ///< tasks
 };
 
 } // namespace meninas
