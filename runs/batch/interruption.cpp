@@ -14,7 +14,8 @@ Interruption::Interruption(std::function<void(int)> handle) {
   arrived = 0;
   for (std::size_t k = 0; k < signals.size(); ++k) {
     sigaction(signals[k], nullptr, &before_[k]);
-    if (before_[k].sa_handler != SIG_IGN) {
+    const bool nohup = signals[k] == SIGHUP && before_[k].sa_handler == SIG_IGN;
+    if (!nohup) {
       struct sigaction noted {};
       noted.sa_handler = note_arrival;
       noted.sa_flags = SA_RESTART;

@@ -9,8 +9,8 @@
 
 namespace meninas {
 
-/// While it lives, these signals end up here instead of ending the process. What the process ignored before stays ignored.
-/// One at a time.
+/// While it lives, these signals end up here instead of ending the process. A SIGHUP that is ignored stays so (nohup); jobs that a script has
+/// put into the background ignore SIGINT, but whoever sends it means it. One at a time.
 class Interruption {
 public:
   /// `handle` is called on a thread of its own, where it may do anything, once for each signal.

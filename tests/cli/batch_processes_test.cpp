@@ -166,5 +166,18 @@ TEST_F(BatchTest, CtrlCStopsItAndSaysHowToGoOn) {
   }
 }
 
+TEST_F(BatchTest, AScriptStopsItsBackgroundJobAndNohupHolds) {
+  Json job = view_job();
+  job["settings"] = {{"size", "256x256"}, {"samples", 1024}};
+  write_jobs({job});
+  const Outcome outcome = run_other_program(
+      "/bin/sh", folder_.path(),
+      {"-c", "trap '' HUP; " MENINAS_PROGRAM " batch jobs.json -o out --threads 1 & job=$!; "
+             "until ls out/.meninas/locks/*.lock >/dev/null 2>&1; do sleep 0.05; done; "
+             "kill -HUP $job; sleep 0.2; kill -INT $job; wait $job"});
+  EXPECT_EQ(outcome.code, 128 + SIGINT) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("stopped by Ctrl-C"));
+}
+
 } // namespace
 } // namespace meninas::test
