@@ -1,0 +1,10 @@
+// What every page begins with: its data, and making elements of it.
+"use strict";
+const data = JSON.parse(document.getElementById("data").textContent);
+const element = id => document.getElementById(id);
+const make = (tag, text, className) => {
+  const node = document.createElement(tag);
+  if (text !== undefined) node.textContent = text;
+  if (className) node.className = className;
+  return node;
+};
