@@ -49,7 +49,9 @@ void add_outputs(CLI::App& command, RenderOptions& options) {
           [&](const std::string& text) {
             options.every = static_cast<int>(parse_integer("--every", text, 1, 1'000'000'000));
           },
-          fmt::format("shots from one of the --snapshots to the next [{}]", SnapshotRequest{}.every))
+          fmt::format(
+              "shots from one of the --snapshots to the next; the last state is always there [{}]",
+              SnapshotRequest{}.every))
       ->type_name("N");
 }
 
@@ -195,9 +197,6 @@ void take_snapshots(RenderOptions& options) {
   if (settings.solver != SolverMethod::progressive || options.request.solution ||
       settings.mode == PictureMode::reference) {
     throw UsageError("--snapshots", "has no effect without --solver progressive");
-  }
-  if (settings.form_factors != FormFactorMethod::rays) {
-    throw UsageError("--snapshots", "needs --form-factors rays: others are not shot on the way");
   }
   SnapshotRequest& request = options.request.snapshots.emplace();
   request.folder = *options.snapshots;

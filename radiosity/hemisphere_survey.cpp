@@ -54,13 +54,22 @@ bool gathers_emission(const LightScene& light) {
          std::ranges::any_of(light.landing.faces, [](const FaceRecord& f) { return f.mirrors; });
 }
 
+void gather_own_rays(const LightScene& light, const DirectionNet& net, std::size_t element,
+                     const FormFactorSettings& settings, GatherWorkspace& work) {
+  gather_rays(light, net, receiver_of(light, static_cast<ElementId>(element)),
+              hash(static_cast<std::uint32_t>(element), settings.seed, 0x9a7e), settings, work);
+}
+
+DirectionNet own_rays(const LightScene& light, const FormFactorSettings& settings) {
+  DirectionNet few = make_coverage_net();
+  return gathers_emission(light) || static_cast<std::size_t>(settings.rays) < few.points.size()
+             ? make_direction_net(settings.rays)
+             : few;
+}
+
 void survey_element(const LightScene& light, const DirectionNet& net, std::size_t element,
-                    const FormFactorSettings& settings, Workspace& work,
-                    HemisphereSurvey& survey) {
-  const auto id = static_cast<ElementId>(element);
-  gather_rays(light, net, receiver_of(light, id),
-              hash(static_cast<std::uint32_t>(element), settings.seed, 0x9a7e), settings,
-              work.gather);
+                    const FormFactorSettings& settings, Workspace& work, HemisphereSurvey& survey) {
+  gather_own_rays(light, net, element, settings, work.gather);
   const GatheredRays& rays = work.gather.result;
   survey.closure[element] = closure_of(rays);
   survey.covered[element] = rays.covered;
@@ -78,17 +87,27 @@ void survey_element(const LightScene& light, const DirectionNet& net, std::size_
   work.rays += rays.traced;
 }
 
+constexpr std::size_t chunk_size = 64;
+
+/// For every element, by chunks that a thread takes whole.
+template <typename Visit>
+void for_each_element(std::size_t size, const Visit& visit, const Progress& progress) {
+  const std::size_t chunks = (size + chunk_size - 1) / chunk_size;
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    for (std::size_t e = c * chunk_size; e < std::min(size, (c + 1) * chunk_size); ++e)
+      visit(e);
+    if (progress)
+      progress("hemispheres", static_cast<double>(++done) / static_cast<double>(chunks));
+  });
+}
+
 } // namespace
 
 HemisphereSurvey survey_hemispheres(const LightScene& light, const FormFactorSettings& settings,
                                     const Progress& progress) {
-  constexpr std::size_t chunk_size = 64;
   const std::size_t size = element_count(light.mesh);
-  const DirectionNet few = make_coverage_net();
-  const DirectionNet net =
-      gathers_emission(light) || static_cast<std::size_t>(settings.rays) < few.points.size()
-          ? make_direction_net(settings.rays)
-          : few;
+  const DirectionNet net = own_rays(light, settings);
   HemisphereSurvey survey;
   survey.closure.resize(size);
   survey.covered.resize(size);
@@ -96,16 +115,12 @@ HemisphereSurvey survey_hemispheres(const LightScene& light, const FormFactorSet
   survey.gathered.resize(size);
   survey.returned.resize(size);
 
-  const std::size_t sides = light.mesh.sides.size(), chunks = (size + chunk_size - 1) / chunk_size;
+  const std::size_t sides = light.mesh.sides.size();
   tbb::enumerable_thread_specific<Workspace> workspaces(sides);
-  std::atomic<std::size_t> done{0};
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    Workspace& work = workspaces.local();
-    for (std::size_t e = c * chunk_size; e < std::min(size, (c + 1) * chunk_size); ++e)
-      survey_element(light, net, e, settings, work, survey);
-    if (progress)
-      progress("hemispheres", static_cast<double>(++done) / static_cast<double>(chunks));
-  });
+  for_each_element(
+      size,
+      [&](std::size_t e) { survey_element(light, net, e, settings, workspaces.local(), survey); },
+      progress);
 
   SideParts parts(sides);
   for (Workspace& work : workspaces) {
@@ -118,22 +133,33 @@ HemisphereSurvey survey_hemispheres(const LightScene& light, const FormFactorSet
   return survey;
 }
 
-bool has_lit_trap(const ElementMesh& mesh, const HemisphereSurvey& survey,
-                  const std::vector<Rgb>& source) {
-  constexpr double rounding = 1.2e-7; // of the rays' weights, which are floats
-  std::vector<Rgb> lost(mesh.sides.size(), Rgb(0.0)), lit = lost;
-  for (std::size_t e = 0; e < source.size(); ++e) {
-    const std::uint32_t part = survey.part[index(mesh.side_of_element[e])];
-    if (survey.exposed[e] == 0.0F)
-      continue;
-    lost[part] = glm::max(lost[part], 1.0 - survey.returned[e]);
-    lit[part] = glm::max(lit[part], source[e]);
-  }
-  for (std::size_t part = 0; part < lost.size(); ++part)
-    for (int band = 0; band < 3; ++band)
-      if (lit[part][band] > 0.0 && lost[part][band] <= rounding)
-        return true;
-  return false;
+Returned returned_share(const LightScene& light, const FormFactorSettings& settings,
+                        const std::vector<Rgb>& worth) {
+  struct Counted {
+    GatherWorkspace gather;
+    std::uint64_t rays = 0;
+  };
+  Returned result{std::vector<Rgb>(worth.size()), 0};
+  const DirectionNet net = own_rays(light, settings);
+  tbb::enumerable_thread_specific<Counted> workspaces;
+  for_each_element(worth.size(),
+                   [&](std::size_t e) {
+                     Counted& work = workspaces.local();
+                     gather_own_rays(light, net, e, settings, work.gather);
+                     const GatheredRays& rays = work.gather.result;
+                     Rgb returned(0.0);
+                     for (const RayLanding& landing : rays.landings) {
+                       const SideId side = light.mesh.side_of_element[landing.element];
+                       returned += Rgb(landing.light) * light.mesh.sides[index(side)].reflectance *
+                                   worth[landing.element];
+                     }
+                     result.share[e] = returned / kept_light(rays);
+                     work.rays += rays.traced;
+                   },
+                   {});
+  for (const Counted& work : workspaces)
+    result.rays_traced += work.rays;
+  return result;
 }
 
 } // namespace meninas

@@ -9,21 +9,27 @@
 namespace meninas {
 
 struct HemisphereSurvey {
-  std::vector<RowClosure> closure;    ///< by ElementId
-  std::vector<std::uint64_t> covered; ///< by ElementId: the cells on which something stands (gather_rays.h)
-  std::vector<float> exposed;         ///< by ElementId: the share of its area on which nothing stands
-  std::vector<Rgb> gathered;          ///< G by ElementId, W/m^2
-  std::vector<Rgb> returned;          ///< by ElementId: sum_i F_ji rho_i, the share of what it shoots that is reflected where it lands
-  std::vector<std::uint32_t> part;    ///< by SideId: sides that see one another, directly or by way of others, have the same
+  std::vector<RowClosure> closure; ///< by ElementId
+  std::vector<std::uint64_t>
+      covered;                ///< by ElementId: the cells on which something stands (gather_rays.h)
+  std::vector<float> exposed; ///< by ElementId: the share of its area on which nothing stands
+  std::vector<Rgb> gathered;  ///< G by ElementId, W/m^2
+  std::vector<Rgb>
+      returned; ///< by ElementId: sum_i F_ji rho_i, the share of what it shoots that is reflected where it lands
+  std::vector<std::uint32_t>
+      part; ///< by SideId: sides that see one another, directly or by way of others, have the same
   std::uint64_t rays_traced = 0;
 };
 
 HemisphereSurvey survey_hemispheres(const LightScene& light, const FormFactorSettings& settings,
                                     const Progress& progress = {});
 
-/// Whether there is light in a part of the scene that loses none, by channel where it matters: all that elements there shoot returns. `source`
-/// is by ElementId.
-bool has_lit_trap(const ElementMesh& mesh, const HemisphereSurvey& survey,
-                  const std::vector<Rgb>& source);
+/// By ElementId: sum_i F_ji rho_i x_i by the same rays, for a worth x of the light reflected at every element.
+struct Returned {
+  std::vector<Rgb> share;
+  std::uint64_t rays_traced = 0;
+};
+Returned returned_share(const LightScene& light, const FormFactorSettings& settings,
+                        const std::vector<Rgb>& worth);
 
 } // namespace meninas

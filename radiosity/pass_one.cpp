@@ -1,6 +1,7 @@
 #include "radiosity/pass_one.h"
 
 #include "radiosity/gathered_emission.h"
+#include "radiosity/shooting_blocks.h"
 #include "scenes/stopwatch.h"
 
 #include <cmath>
@@ -69,8 +70,7 @@ FirstLight first_light(const LightScene& light, const std::vector<Rgb>& gathered
       first.irradiance[i] += first.from_source[i];
   }
   for (std::size_t i = 0; i < gathered.size(); ++i) {
-    first.reflectance.push_back(
-        light.mesh.sides[index(light.mesh.side_of_element[i])].reflectance);
+    first.reflectance.push_back(light.mesh.sides[index(light.mesh.side_of_element[i])].reflectance);
     first.source.push_back(first.reflectance[i] * first.irradiance[i]);
   }
   return first;
@@ -100,8 +100,8 @@ void complete(const LightScene& light, const PassOneSettings& settings, const Fi
   }
 
   const ElementLight elements{std::move(reflected), solution.irradiance, first.from_source};
-  auto interpolated = interpolate(light, elements, settings.form_factors, settings.direct,
-                                  settings.interpolation);
+  auto interpolated =
+      interpolate(light, elements, settings.form_factors, settings.direct, settings.interpolation);
   solution.field = std::move(interpolated.field);
   solution.interpolation_error = interpolated.error;
   if (interpolated.mesh)
@@ -116,9 +116,12 @@ void complete(const LightScene& light, const PassOneSettings& settings, const Fi
 }
 
 /// The watch of shots, shown the field there is so far; adds up the time that takes.
-ShotWatch watched(const LightScene& light, const PassOneSettings& settings,
-                  const FirstLight& first, const PassOneWatch& watch, double& seconds) {
-  const auto look = [&](const ShotsSoFar& shots) {
+ShotWatch watched(const LightScene& light, const PassOneSettings& settings, const FirstLight& first,
+                  const ElementRays& rays, const PassOneWatch& watch, double& seconds) {
+  std::vector<double> area = light.mesh.area;
+  for (std::size_t i = 0; i < area.size(); ++i)
+    area[i] *= double{rays.exposed[i]};
+  const auto look = [&, area = std::move(area)](const ShotsSoFar& shots) {
     Stopwatch stopwatch;
     std::vector<Rgb> irradiance = shots.arrived;
     for (std::size_t i = 0; i < irradiance.size(); ++i)
@@ -126,25 +129,28 @@ ShotWatch watched(const LightScene& light, const PassOneSettings& settings,
     const auto interpolated =
         interpolate(light, {{}, std::move(irradiance), first.from_source}, settings.form_factors,
                     settings.direct, {Interpolation::average});
-    watch.look({shots.shots, interpolated.field, shots.ambient});
+    watch.look({shots.shots, interpolated.field,
+                ambient_irradiance(area, rays.closure, shots.unshot, first.reflectance)});
     seconds += stopwatch.lap();
   };
   return {watch.every, look};
 }
+
+} // namespace
 
 RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings& settings,
                                  const Progress& progress, const PassOneWatch& watch) {
   RadiositySolution solution;
   Stopwatch stopwatch;
   const HemisphereSurvey survey = survey_hemispheres(light, settings.form_factors, progress);
-  const FirstLight first =
-      first_light(light, survey.gathered, survey.covered, settings, progress);
+  const FirstLight first = first_light(light, survey.gathered, survey.covered, settings, progress);
   solution.seconds.form_factors = stopwatch.lap();
 
+  const ElementRays own{survey.closure, survey.exposed};
   double watching = 0.0;
   ShotSolution shots = solve_by_shots(light, survey, first.source, first.reflectance,
                                       settings.form_factors, settings.solver, progress,
-                                      watched(light, settings, first, watch, watching));
+                                      watched(light, settings, first, own, watch, watching));
   solution.solver = std::move(shots.solver);
   solution.seconds.solve = stopwatch.lap() - watching;
   complete(light, settings, first, shots.arrived,
@@ -152,42 +158,46 @@ RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings&
   return solution;
 }
 
-} // namespace
-
-bool shoots_rays(const PassOneSettings& settings) {
+bool shoots_rays(const PassOneSettings& settings, std::size_t elements) {
   return settings.solver.method == SolverMethod::progressive &&
-         settings.form_factors.method == FormFactorMethod::rays;
+         settings.form_factors.method == FormFactorMethod::rays && elements > most_direct_unknowns;
 }
 
 RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
                                  const Progress& progress, const PassOneWatch& watch) {
   check_size(settings.solver.method, element_count(light.mesh));
-  if (shoots_rays(settings))
+  if (shoots_rays(settings, element_count(light.mesh)))
     return shoot_pass_one(light, settings, progress, watch);
   Stopwatch stopwatch;
   const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
   const double seconds = stopwatch.lap();
-  RadiositySolution solution = solve_pass_one(light, factors, settings, progress);
+  RadiositySolution solution = solve_pass_one(light, factors, settings, progress, watch);
   solution.seconds.form_factors += seconds;
   return solution;
 }
 
 RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& factors,
-                                 const PassOneSettings& settings, const Progress& progress) {
+                                 const PassOneSettings& settings, const Progress& progress,
+                                 const PassOneWatch& watch) {
   RadiositySolution solution;
   Stopwatch stopwatch;
+  const ElementRays own{factors.closure, factors.exposed, factors.rays_traced};
 
   // Eq. 1, split by who owns the path: direct light from the source, gathered emission, and reflected light by the transport.
-  const FirstLight first = first_light(light, gathered_emission(light, factors), factors.covered,
-                                       settings, progress);
+  const FirstLight first =
+      first_light(light, gathered_emission(light, factors), factors.covered, settings, progress);
   solution.seconds.form_factors = stopwatch.lap();
 
+  double watching = 0.0;
+  ShotPlan plan;
+  if (settings.solver.method == SolverMethod::progressive)
+    plan = {make_shooting_blocks(light.mesh, factors.exposed),
+            watched(light, settings, first, own, watch, watching)};
   solution.solver =
-      solve(factors.transport, first.source, first.reflectance, settings.solver);
+      solve(factors.transport, first.source, first.reflectance, settings.solver, plan);
   const std::vector<Rgb> arrived = apply_transport(factors.transport, solution.solver.radiosity);
-  solution.seconds.solve = stopwatch.lap();
-  complete(light, settings, first, arrived,
-           {factors.closure, factors.exposed, factors.rays_traced}, solution);
+  solution.seconds.solve = stopwatch.lap() - watching;
+  complete(light, settings, first, arrived, own, solution);
   return solution;
 }
 

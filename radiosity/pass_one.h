@@ -61,26 +61,34 @@ struct NodeLight {
 std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh,
                                      const RadiositySolution& solution);
 
-/// What shots have brought so far, as a field that averages over elements (interpolation.h), and what the light yet to be shot may add to it.
+/// What shots have brought so far, as a field that averages over elements (interpolation.h), and what the light yet to be shot
+/// may add to it.
 struct PassOneSoFar {
   int shots = 0;
   DiffuseField field;
   Rgb ambient{0.0}; ///< irradiance, everywhere
 };
 struct PassOneWatch {
-  int every = 0; ///< shots; 0: never
+  int every = 0; ///< shots, and after the last; 0: never
   std::function<void(const PassOneSoFar&)> look;
 };
 
-/// `progressive` over rays shoots, with no transport in memory (progressive.h), and can be watched.
+/// `progressive` can be watched. In scenes of more than `most_direct_unknowns` elements it shoots rays, with no transport in memory
+/// (progressive.h), unless the form factors are not by rays; in smaller ones, where they take a few megabytes, blocks shoot by the columns of
+/// the transport that the other solvers have, so that all agree.
 RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
                                  const Progress& progress = {}, const PassOneWatch& watch = {});
 
 /// Whether these settings shoot rays instead of assembling a transport.
-bool shoots_rays(const PassOneSettings& settings);
+bool shoots_rays(const PassOneSettings& settings, std::size_t elements);
+
+/// Pass one by rays that are shot, whatever the number of elements.
+RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings& settings,
+                                 const Progress& progress = {}, const PassOneWatch& watch = {});
 
 /// The same with form factors that are there already (of an earlier run, under other light): only light is found.
 RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& factors,
-                                 const PassOneSettings& settings, const Progress& progress = {});
+                                 const PassOneSettings& settings, const Progress& progress = {},
+                                 const PassOneWatch& watch = {});
 
 } // namespace meninas

@@ -2,11 +2,11 @@
 
 #include "radiosity/ray_shots.h"
 #include "radiosity/shooting_blocks.h"
+#include "radiosity/shot_bound.h"
 #include "radiosity/solvers/report.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meninas {
 
@@ -26,46 +26,6 @@ Rgb landed_share(const RowClosure& row) {
   return glm::clamp(1.0 - lost / glm::max(Rgb(1e-9), 1.0 - Rgb(row.cut_light)), 0.0, 1.0);
 }
 
-template <typename Value>
-Rgb ambient_irradiance(const ShotScene& scene, const ShotState<Value>& state) {
-  double area = 0.0;
-  Rgb landing(0.0), returned(0.0);
-  for (std::size_t j = 0; j < state.unshot.size(); ++j) {
-    const double own = scene.blocks.measure[j];
-    const Rgb landed = own * landed_share(scene.survey.closure[j]);
-    area += own;
-    landing += landed * Rgb(state.unshot[j]);
-    returned += landed * Rgb(state.reflectance[j]);
-  }
-  Rgb ambient(0.0);
-  for (int band = 0; band < 3; ++band)
-    if (area > returned[band]) // nothing else would ever end
-      ambient[band] = landing[band] / (area - returned[band]);
-  return ambient;
-}
-
-/// kappa, of the elements that ever have something to shoot: black ones only receive.
-template <typename Value>
-Value largest_return(const HemisphereSurvey& survey, const std::vector<Value>& reflectance) {
-  Value largest(0.0);
-  for (std::size_t j = 0; j < reflectance.size(); ++j)
-    for (int band = 0; band < channel_count<Value>; ++band)
-      if (channel(reflectance[j], band) > 0.0)
-        channel(largest, band) = std::max(channel(largest, band),
-                                          channel(value_of<Value>(survey.returned[j]), band));
-  return largest;
-}
-
-/// G = 1 / (1 - kappa)
-template <typename Value>
-Value amplification(const Value& kappa) {
-  Value bound(std::numeric_limits<double>::infinity());
-  for (int band = 0; band < channel_count<Value>; ++band)
-    if (channel(kappa, band) < 1.0)
-      channel(bound, band) = 1.0 / (1.0 - channel(kappa, band));
-  return bound;
-}
-
 /// How far a run is: residuals fall geometrically.
 template <typename Value>
 double fraction_done(const Convergence<Value>& convergence) {
@@ -80,34 +40,48 @@ double fraction_done(const Convergence<Value>& convergence) {
 
 template <typename Value>
 ShotSolution run(const ShotScene& scene, const std::vector<Value>& source,
-                 const std::vector<Value>& reflectance, const SolverSettings& settings,
-                 const Progress& progress, const ShotWatch& watch) {
+                 const std::vector<Value>& reflectance, const ShotBound& bound,
+                 const SolverSettings& settings, const Progress& progress, const ShotWatch& watch) {
   ShotState<Value> state = unshot_state(scene.blocks, source, reflectance, ShotNorm::power);
-  const Value kappa = largest_return(scene.survey, reflectance);
-  auto convergence = stopping_rule(settings, amplification(kappa),
+  auto convergence = stopping_rule(settings, value_of<Value>(bound.amplification),
                                    std::max<std::size_t>(1, scene.blocks.size()));
-  const bool trapped = has_lit_trap(scene.light.mesh, scene.survey, colours_of(source));
-  if (trapped)
+  if (bound.trapped)
     convergence.max_iterations = 0;
   RayShots<Value> shots(scene.light, scene.survey, scene.rays);
-  shoot<Value>(shots, kappa, state, convergence,
+  const auto tell = told<Value>(watch);
+  shoot<Value>(shots, value_of<Value>(bound.kept), state, convergence,
                [&](const ShotState<Value>& now, const Convergence<Value>& reached) {
-                 if (watch.every > 0 && now.shots % watch.every == 0)
-                   watch.look(
-                       {now.shots, colours_of(now.arrived), ambient_irradiance(scene, now)});
+                 tell(now, reached);
                  if (progress)
                    progress("shots", fraction_done(reached));
                });
   ShotSolution solution;
   solution.solver =
-      report_of(settings, convergence, trapped ? SolverEnd::unsolvable : end_of(convergence));
+      report_of(settings, convergence, bound.trapped ? SolverEnd::unsolvable : end_of(convergence));
   solution.solver.radiosity = colours_of(radiosities(state));
   solution.arrived = colours_of(state.arrived);
-  solution.rays_traced = shots.rays_traced();
+  solution.rays_traced = bound.rays_traced + shots.rays_traced();
   return solution;
 }
 
 } // namespace
+
+Rgb ambient_irradiance(const std::vector<double>& area, const std::vector<RowClosure>& closure,
+                       const std::vector<Rgb>& unshot, const std::vector<Rgb>& reflectance) {
+  double whole = 0.0;
+  Rgb landing(0.0), returned(0.0);
+  for (std::size_t j = 0; j < area.size(); ++j) {
+    const Rgb landed = area[j] * landed_share(closure[j]);
+    whole += area[j];
+    landing += landed * unshot[j];
+    returned += landed * reflectance[j];
+  }
+  Rgb ambient(0.0);
+  for (int band = 0; band < 3; ++band)
+    if (whole > returned[band]) // nothing else would ever end
+      ambient[band] = landing[band] / (whole - returned[band]);
+  return ambient;
+}
 
 ShotSolution solve_by_shots(const LightScene& light, const HemisphereSurvey& survey,
                             const std::vector<Rgb>& source, const std::vector<Rgb>& reflectance,
@@ -116,10 +90,11 @@ ShotSolution solve_by_shots(const LightScene& light, const HemisphereSurvey& sur
   const ShotScene scene{light, survey, rays, make_shooting_blocks(light.mesh, survey.exposed)};
   const bool grey = grey_mirrors(light.scene) && std::ranges::all_of(source, is_grey) &&
                     std::ranges::all_of(reflectance, is_grey);
+  const ShotBound bound = bound_of_shots(light, survey, rays, source, reflectance);
   if (grey)
-    return run<double>(scene, values_of<double>(source), values_of<double>(reflectance), settings,
-                       progress, watch);
-  return run<Rgb>(scene, source, reflectance, settings, progress, watch);
+    return run<double>(scene, values_of<double>(source), values_of<double>(reflectance), bound,
+                       settings, progress, watch);
+  return run<Rgb>(scene, source, reflectance, bound, settings, progress, watch);
 }
 
 } // namespace meninas

@@ -3,10 +3,8 @@
 // Direct light D and gathered emission G are where light begins to be shot, S = rho (D + G) (ARCHITECTURE.md, path table); blocks of elements
 // (shooting_blocks.h) shoot rays (ray_shots.h) in Southwell's order (solvers/shooting.h). Memory is linear in elements.
 //
-// The norm is the power, ||x|| = sum of A |x| over the exposed areas: shots close exactly, so that whatever their rays,
-//   ||B - B_k|| <= kappa / (1 - kappa) ||U_k||
-// with kappa the largest share of what any reflecting element shoots that is reflected where it lands, by its own rays (hemisphere_survey.h). It
-// bounds what further shots would bring; the noise of the rays is not part of it, as it is not with rows.
+// The norm is the power, ||x|| = sum of A |x| over the exposed areas: shots close exactly, so that ||B - B_k|| <= kappa G ||U_k|| whatever
+// their rays (shot_bound.h). It bounds what further shots would bring; the noise of the rays is not part of it, as it is not with rows.
 //
 // For display, light that is unshot may be shown as an ambient term: spread evenly over all elements, and reflected on and on,
 //   H_ambient = sum_j A_j U_j f_j / sum_j A_j / (1 - sum_j A_j rho_j f_j / sum_j A_j),
@@ -17,22 +15,11 @@
 #include "radiosity/hemisphere_survey.h"
 #include "radiosity/solve.h"
 
-#include <functional>
-
 namespace meninas {
 
-/// After some shots: irradiances by ElementId, W/m^2.
-struct ShotsSoFar {
-  int shots = 0;
-  std::vector<Rgb> arrived; ///< by way of other elements; D and G are not in it
-  Rgb ambient{0.0};         ///< what the unshot light may add, everywhere
-};
-
-/// Told of the state after every so many shots.
-struct ShotWatch {
-  int every = 0; ///< 0: never
-  std::function<void(const ShotsSoFar&)> look;
-};
+/// H_ambient. Exposed areas, closure, U and rho by ElementId.
+Rgb ambient_irradiance(const std::vector<double>& area, const std::vector<RowClosure>& closure,
+                       const std::vector<Rgb>& unshot, const std::vector<Rgb>& reflectance);
 
 struct ShotSolution {
   SolverResult solver; ///< its radiosities are the reflected ones

@@ -57,8 +57,8 @@ struct RayShots<Value>::Shot {
 };
 
 template <typename Value>
-typename RayShots<Value>::ChunkResult
-RayShots<Value>::follow(const Shot& shot, std::uint32_t first, std::uint32_t end) {
+typename RayShots<Value>::ChunkResult RayShots<Value>::follow(const Shot& shot, std::uint32_t first,
+                                                              std::uint32_t end) {
   std::array<LitPacket, chunk_rays / packet_size> packets;
   std::size_t used = 0, member = 0;
   std::size_t shown = shot.elements.size();
@@ -108,7 +108,7 @@ void RayShots<Value>::shoot(std::size_t block, ShotState<Value>& state) {
   double weight = 0.0;
   for (const auto element : shot.elements) {
     const Value own = state.shooters.measure[element] * state.unshot[element];
-    const Value share = share_of(own, state.size);
+    const Value share = share_of(own, state.power);
     const double size = worst(share);
     weight += size;
     shot.until.push_back(weight);
@@ -120,8 +120,8 @@ void RayShots<Value>::shoot(std::size_t block, ShotState<Value>& state) {
   if (!(weight > 0.0))
     return;
   const double wanted = weight * static_cast<double>(state.reflectance.size()) * settings_.rays;
-  shot.rays = std::bit_ceil(static_cast<std::uint32_t>(
-      std::clamp(wanted, double{least_rays}, double{most_rays})));
+  shot.rays = least_rays * static_cast<std::uint32_t>(std::clamp(wanted / least_rays, 1.0,
+                                                                 double{most_rays} / least_rays));
 
   const std::uint32_t chunks = (shot.rays + chunk_rays - 1) / chunk_rays;
   std::vector<ChunkResult> results(chunks);

@@ -14,8 +14,8 @@ namespace meninas {
 namespace {
 
 template <typename Value>
-void run(SolverMethod method, const LinearSystem<Value>& system, std::vector<Value>& x,
-         Convergence<Value>& convergence) {
+void run(SolverMethod method, const LinearSystem<Value>& system, const ShotPlan& plan,
+         std::vector<Value>& x, Convergence<Value>& convergence) {
   switch (method) {
   case SolverMethod::direct:
     return factorise_and_solve(system, x, convergence);
@@ -26,7 +26,7 @@ void run(SolverMethod method, const LinearSystem<Value>& system, std::vector<Val
   case SolverMethod::bicgstab:
     return bicgstab(system, x, convergence);
   case SolverMethod::progressive:
-    return shoot_stored(system, x, convergence);
+    return shoot_stored(system, plan, x, convergence);
   }
 }
 
@@ -38,19 +38,21 @@ void raise_to_source(const std::vector<Value>& source, std::vector<Value>& x) {
 }
 
 template <typename Value>
-SolverResult solve_system(const LinearSystem<Value>& system, const SolverSettings& settings) {
+SolverResult solve_system(const LinearSystem<Value>& system, const SolverSettings& settings,
+                          const ShotPlan& plan) {
   const bool trapped = has_lit_trap(system);
   const Value unbounded(std::numeric_limits<double>::infinity());
   const bool by_shots = settings.method == SolverMethod::progressive;
+  const std::size_t shooters =
+      plan.shooters.begin.empty() ? system.transport.size : plan.shooters.size();
   std::vector<Value> x = system.source;
-  auto convergence =
-      stopping_rule(settings, trapped ? unbounded : amplification_bound(system),
-                    by_shots ? std::max<std::size_t>(1, system.transport.size) : 1);
+  auto convergence = stopping_rule(settings, trapped ? unbounded : amplification_bound(system),
+                                   by_shots ? std::max<std::size_t>(1, shooters) : 1);
   SolverEnd end = SolverEnd::unsolvable;
   if (trapped) {
     record(convergence, maximum_norm(residual_of(system, x)), maximum_norm(x));
   } else {
-    run(settings.method, system, x, convergence);
+    run(settings.method, system, plan, x, convergence);
     raise_to_source(system.source, x);
     end = end_of(convergence);
   }
@@ -89,7 +91,8 @@ std::vector<Rgb> apply_transport(const Transport& transport, const std::vector<R
 }
 
 SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
-                   const std::vector<Rgb>& reflectance, const SolverSettings& settings) {
+                   const std::vector<Rgb>& reflectance, const SolverSettings& settings,
+                   const ShotPlan& plan) {
   expects(source.size() == transport.size && reflectance.size() == transport.size,
           "source and reflectance have one value per element");
   check_size(settings.method, transport.size);
@@ -97,8 +100,8 @@ SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
                     std::ranges::all_of(reflectance, is_grey);
   if (grey)
     return solve_system<double>(
-        {transport, values_of<double>(source), values_of<double>(reflectance)}, settings);
-  return solve_system<Rgb>({transport, source, reflectance}, settings);
+        {transport, values_of<double>(source), values_of<double>(reflectance)}, settings, plan);
+  return solve_system<Rgb>({transport, source, reflectance}, settings, plan);
 }
 
 } // namespace meninas

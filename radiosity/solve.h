@@ -6,8 +6,8 @@
 //   gauss-seidel  the same, in 32 steps that use what the steps before have found
 //   cg            a Krylov method that needs neither areas nor symmetry, which sampled form factors lack: BiCGStab (van der
 //                 Vorst 1992). Conjugate gradients on the symmetrised system are no faster (ARCHITECTURE.md).
-//   progressive   shooting by columns, the largest unshot radiosity first (solvers/shooting.h). Pass one shoots rays instead, and
-//                 stores no transport (progressive.h), unless form factors are there.
+//   progressive   shooting by columns, the largest unshot power first (solvers/shooting.h). In large scenes pass one shoots rays instead,
+//                 and stores no transport (progressive.h).
 // All stop on one bound of the error (solvers/error_bound.h): with the residual r_k = S + rho T B_k - B_k,
 //   ||B - B_k|| <= G ||r_k|| <= tolerance ||B_k||    in the maximum norm, for every channel.
 // None returns less than S, and so nothing negative: light only adds to what is there without bounces.
@@ -16,6 +16,7 @@
 #pragma once
 
 #include "radiosity/form_factors.h"
+#include "radiosity/solvers/shooters.h"
 
 #include <array>
 #include <optional>
@@ -32,11 +33,17 @@ const char* name_of(SolverMethod method);
 
 struct SolverSettings {
   SolverMethod method = SolverMethod::bicgstab;
-  double tolerance = 1e-4;     ///< on ||B - B_k|| / ||B_k||, maximum norm, every channel
-  int max_iterations = 10'000; ///< a safety net; reaching it is reported. Of `progressive`: by shooter
+  double tolerance = 1e-4; ///< on ||B - B_k|| / ||B_k||, maximum norm, every channel
+  int max_iterations =
+      10'000; ///< a safety net; reaching it is reported. Of `progressive`: by shooter
   std::optional<int> max_shots = {}; ///< of `progressive`, whose iterations are shots
 };
 
+/// Of `progressive`.
+struct ShotPlan {
+  Shooters shooters; ///< none: every unknown for itself
+  ShotWatch watch;
+};
 
 /// Why a solver stopped.
 enum class SolverEnd {
@@ -55,7 +62,8 @@ struct SolverResult {
   double error_bound = 0.0; ///< G ||r|| / ||B||, worst channel; infinite when there is no bound
   bool converged = false;
   SolverEnd end = SolverEnd::converged;
-  std::vector<double> residuals; ///< of every iterate, first one first, worst channel; of many shots every second, fourth, ...
+  std::vector<double>
+      residuals; ///< of every iterate, first one first, worst channel; of many shots every second, fourth, ...
   std::vector<Rgb> channel_residuals, channel_error_bounds; ///< the same for every channel
 };
 
@@ -66,7 +74,8 @@ inline constexpr std::size_t most_direct_unknowns = 4096;
 void check_size(SolverMethod method, std::size_t unknowns);
 
 SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
-                   const std::vector<Rgb>& reflectance, const SolverSettings& settings = {});
+                   const std::vector<Rgb>& reflectance, const SolverSettings& settings = {},
+                   const ShotPlan& plan = {});
 
 /// T x for every row, by band.
 std::vector<Rgb> apply_transport(const Transport& transport, const std::vector<Rgb>& x);

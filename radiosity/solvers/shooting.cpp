@@ -1,5 +1,7 @@
 #include "radiosity/solvers/shooting.h"
 
+#include "radiosity/solvers/report.h"
+
 #include <numeric>
 
 namespace meninas {
@@ -34,27 +36,45 @@ std::vector<Value> radiosities(const ShotState<Value>& state) {
   return values;
 }
 
+namespace {
+
+/// The values with the largest channel, each in units of `size`; the first of equals.
 template <typename Value>
-LeftToShoot<Value> left_to_shoot(const ShotState<Value>& state) {
-  Value share(0.0); // of a channel without any light there is nothing left either
+std::size_t place_of_most(const std::vector<Value>& values, const Value& size) {
+  Value per_size(0.0); // of a channel without any light there is no most
   for (int band = 0; band < channel_count<Value>; ++band)
-    if (channel(state.size, band) > 0.0)
-      channel(share, band) = 1.0 / channel(state.size, band);
-  LeftToShoot<Value> left;
-  Value largest(0.0), sum(0.0);
+    if (channel(size, band) > 0.0)
+      channel(per_size, band) = 1.0 / channel(size, band);
+  std::size_t place = 0;
   double most = 0.0;
-  for (std::size_t s = 0; s < state.left.size(); ++s) {
-    const Value& value = state.left[s];
-    largest = glm::max(largest, value);
-    sum += value;
-    const double relative = worst(value * share);
-    if (relative > most) {
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (const double relative = worst(values[k] * per_size); relative > most) {
       most = relative;
-      left.shooter = s;
+      place = k;
     }
-  }
-  left.norm = state.norm == ShotNorm::power ? sum : largest;
-  return left;
+  return place;
+}
+
+} // namespace
+
+template <typename Value>
+LeftToShoot<Value> left_to_shoot(const ShotState<Value>& state, double little) {
+  const Value power = std::accumulate(state.left.begin(), state.left.end(), Value(0.0));
+  if (state.norm == ShotNorm::power)
+    return {place_of_most(state.left, state.power), power};
+  const Value brightest = maximum_norm(state.unshot);
+  if (worst(share_of(power, state.power)) > little)
+    return {place_of_most(state.left, state.power), brightest};
+  return {state.shooters.of_unknown[place_of_most(state.unshot, state.largest)], brightest};
+}
+
+template <typename Value>
+AfterShot<Value> told(const ShotWatch& watch) {
+  return [watch](const ShotState<Value>& state, const Convergence<Value>& reached) {
+    const bool due = watch.every > 0 && state.shots > 0 && state.shots % watch.every == 0;
+    if (due || (watch.every > 0 && finished(reached)))
+      watch.look({state.shots, colours_of(state.arrived), colours_of(state.unshot)});
+  };
 }
 
 template <typename Value>
@@ -90,8 +110,10 @@ template ShotState<double> unshot_state(const Shooters&, const std::vector<doubl
                                         const std::vector<double>&, ShotNorm);
 template std::vector<Rgb> radiosities(const ShotState<Rgb>&);
 template std::vector<double> radiosities(const ShotState<double>&);
-template LeftToShoot<Rgb> left_to_shoot(const ShotState<Rgb>&);
-template LeftToShoot<double> left_to_shoot(const ShotState<double>&);
+template LeftToShoot<Rgb> left_to_shoot(const ShotState<Rgb>&, double);
+template LeftToShoot<double> left_to_shoot(const ShotState<double>&, double);
+template AfterShot<Rgb> told(const ShotWatch&);
+template AfterShot<double> told(const ShotWatch&);
 template class ShotHistory<Rgb>;
 template class ShotHistory<double>;
 

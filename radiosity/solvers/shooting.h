@@ -6,36 +6,21 @@
 // So B = S + rho T (B - U) at any time: the residual is rho T U, and no row of T is ever needed. Unknowns may shoot together, as a
 // shooter. The solver knows no geometry: a source of columns carries out the shot.
 //
-// Norms are by shooter: `maximum` takes the largest |U|, `power` the sum of m |U| with the measures m (areas) of unknowns. In the first
-// rho T is bounded by its rows, in the second by its columns (m_j T_ij shares out what j shoots).
+// The shooter of the largest power, the sum of m |U| with the measures m (areas) of its members, is next. Convergence is in one of two norms:
+//   power    the sum of all m |U|, in which rho T is bounded by its columns: m_j T_ij shares out what j shoots
+//   maximum  the largest |U|, in which rho T is bounded by its rows. When hardly any power is left, small and bright unknowns may still
+//            have some: then the brightest is next.
 #pragma once
 
 #include "radiosity/solvers/error_bound.h"
+#include "radiosity/solvers/shooters.h"
 
 #include <concepts>
-#include <cstdint>
 #include <functional>
-#include <span>
 
 namespace meninas {
 
 enum class ShotNorm { maximum, power };
-
-/// Which unknowns shoot together, and how much each counts.
-struct Shooters {
-  std::vector<std::uint32_t> of_unknown; ///< the shooter of each unknown
-  std::vector<std::uint32_t> begin;      ///< by shooter, and one more: its first in `unknowns`
-  std::vector<std::uint32_t> unknowns;
-  std::vector<double> measure; ///< m, by unknown; 0: of no account
-
-  std::size_t size() const { return begin.size() - 1; }
-  std::span<const std::uint32_t> members(std::size_t shooter) const {
-    return std::span(unknowns).subspan(begin[shooter], begin[shooter + 1] - begin[shooter]);
-  }
-};
-
-/// Every unknown for itself, all of measure 1.
-Shooters single_shooters(std::size_t unknowns);
 
 template <typename Value>
 struct ShotState {
@@ -45,9 +30,13 @@ struct ShotState {
   ShotNorm norm;
   std::vector<Value> arrived; ///< the irradiance of all shots: B = S + rho times that
   std::vector<Value> unshot;  ///< U
-  std::vector<Value> left;      ///< by shooter: the sum of m U of its members
-  Value size{0.0};              ///< ||B||
+  std::vector<Value> left;    ///< by shooter: the sum of m U of its members
+  Value power{0.0};           ///< the sum of m B
+  Value largest{0.0};         ///< the largest B, kept in the maximum norm
   int shots = 0;
+
+  /// ||B||
+  const Value& size() const { return norm == ShotNorm::power ? power : largest; }
 
   Value radiosity(std::size_t unknown) const {
     return source[unknown] + reflectance[unknown] * arrived[unknown];
@@ -61,9 +50,11 @@ struct ShotState {
   }
   /// An unknown has so much more.
   void count(std::uint32_t unknown, const Value& more) {
-    const Value power = shooters.measure[unknown] * more;
-    left[shooters.of_unknown[unknown]] += power;
-    size = norm == ShotNorm::power ? size + power : glm::max(size, radiosity(unknown));
+    const Value own = shooters.measure[unknown] * more;
+    left[shooters.of_unknown[unknown]] += own;
+    power += own;
+    if (norm == ShotNorm::maximum)
+      largest = glm::max(largest, radiosity(unknown));
   }
 };
 
@@ -81,14 +72,15 @@ concept ColumnSource = requires(Source& source, ShotState<Value>& state, std::si
   { source.shoot(shooter, state) } -> std::same_as<void>;
 };
 
-/// What there is left to shoot: who has most, relative to the channels' ||B||, and ||U||.
+/// What there is left to shoot: who is next, and ||U||.
 template <typename Value>
 struct LeftToShoot {
   std::size_t shooter = 0;
   Value norm{0.0};
 };
+/// `little`: the share of the power in all there is that is hardly any.
 template <typename Value>
-LeftToShoot<Value> left_to_shoot(const ShotState<Value>& state);
+LeftToShoot<Value> left_to_shoot(const ShotState<Value>& state, double little);
 
 /// Adds the present state to the history. Of long histories every second, fourth, ... record is kept, and the last.
 template <typename Value>
@@ -100,24 +92,27 @@ private:
   int stride_ = 1, since_kept_ = 0;
 };
 
-/// Told of the state after each shot.
+/// Told of the state before the first shot and after each.
 template <typename Value>
 using AfterShot = std::function<void(const ShotState<Value>&, const Convergence<Value>&)>;
+
+/// What tells a watch.
+template <typename Value>
+AfterShot<Value> told(const ShotWatch& watch);
 
 /// Shoots until the convergence has finished; its iterations are shots. `kept` is ||rho T||, by channel.
 template <typename Value, ColumnSource<Value> Source>
 void shoot(Source& source, const Value& kept, ShotState<Value>& state,
-           Convergence<Value>& convergence, const AfterShot<Value>& after = {}) {
+           Convergence<Value>& convergence, const AfterShot<Value>& after) {
   ShotHistory<Value> history;
-  LeftToShoot<Value> left = left_to_shoot(state);
-  history.add(convergence, kept * left.norm, state.size);
-  while (!finished(convergence) && worst(left.norm) > 0.0) {
+  for (;;) {
+    const auto left = left_to_shoot(state, convergence.tolerance);
+    history.add(convergence, kept * left.norm, state.size());
+    after(state, convergence);
+    if (finished(convergence))
+      return;
     source.shoot(left.shooter, state);
     convergence.iterations = ++state.shots;
-    left = left_to_shoot(state);
-    history.add(convergence, kept * left.norm, state.size);
-    if (after)
-      after(state, convergence);
   }
 }
 

@@ -1,6 +1,7 @@
 // The solvers proper. Each improves x until the convergence has finished, and records every iterate there, the first one included.
 #pragma once
 
+#include "radiosity/solve.h"
 #include "radiosity/solvers/error_bound.h"
 
 #include <functional>
@@ -31,10 +32,10 @@ template <typename Value>
 void bicgstab(const LinearSystem<Value>& system, std::vector<Value>& x,
               Convergence<Value>& convergence);
 
-/// Progressive radiosity over the columns of T, transposed in storage (shooting.h), in the maximum norm: every unknown is a shooter.
-/// An iteration is a shot. Begins with all light unshot, whatever x is.
+/// Progressive radiosity over the columns of T, transposed in storage (shooting.h), in the maximum norm. An iteration is a shot. Begins
+/// with all light unshot, whatever x is.
 template <typename Value>
-void shoot_stored(const LinearSystem<Value>& system, std::vector<Value>& x,
+void shoot_stored(const LinearSystem<Value>& system, const ShotPlan& plan, std::vector<Value>& x,
                   Convergence<Value>& convergence);
 
 /// LU with partial pivoting and iterative refinement, in dense storage.

@@ -1,6 +1,8 @@
 #include "radiosity/solvers/shooting.h"
 #include "radiosity/solvers/solvers.h"
 
+#include <utility>
+
 namespace meninas {
 
 namespace {
@@ -40,10 +42,14 @@ public:
       : columns_(columns_of(transport)), bands_(transport.bands) {}
 
   void shoot(std::size_t shooter, ShotState<Value>& state) {
-    const Value unshot = state.unshot[shooter];
-    state.unshot[shooter] = state.left[shooter] = Value(0.0);
-    for (auto k = columns_.begin[shooter]; k < columns_.begin[shooter + 1]; ++k)
-      state.arrive(columns_.rows[k], weighted(k, unshot));
+    const auto members = state.shooters.members(shooter);
+    std::vector<Value> shot;
+    for (const auto member : members)
+      shot.push_back(std::exchange(state.unshot[member], Value(0.0)));
+    state.left[shooter] = Value(0.0);
+    for (std::size_t m = 0; m < members.size(); ++m)
+      for (auto k = columns_.begin[members[m]]; k < columns_.begin[members[m] + 1]; ++k)
+        state.arrive(columns_.rows[k], weighted(k, shot[m]));
   }
 
 private:
@@ -64,18 +70,20 @@ private:
 } // namespace
 
 template <typename Value>
-void shoot_stored(const LinearSystem<Value>& system, std::vector<Value>& x,
+void shoot_stored(const LinearSystem<Value>& system, const ShotPlan& plan, std::vector<Value>& x,
                   Convergence<Value>& convergence) {
-  const Shooters shooters = single_shooters(x.size());
+  const Shooters shooters = plan.shooters.begin.empty() ? single_shooters(x.size()) : plan.shooters;
   ShotState<Value> state =
       unshot_state(shooters, system.source, system.reflectance, ShotNorm::maximum);
   StoredColumns<Value> columns(system.transport);
-  shoot(columns, contraction(system), state, convergence);
+  shoot(columns, contraction(system), state, convergence, told<Value>(plan.watch));
   x = radiosities(state);
   record_again(convergence, maximum_norm(residual_of(system, x)), maximum_norm(x));
 }
 
-template void shoot_stored(const LinearSystem<Rgb>&, std::vector<Rgb>&, Convergence<Rgb>&);
-template void shoot_stored(const LinearSystem<double>&, std::vector<double>&, Convergence<double>&);
+template void shoot_stored(const LinearSystem<Rgb>&, const ShotPlan&, std::vector<Rgb>&,
+                           Convergence<Rgb>&);
+template void shoot_stored(const LinearSystem<double>&, const ShotPlan&, std::vector<double>&,
+                           Convergence<double>&);
 
 } // namespace meninas

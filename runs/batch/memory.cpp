@@ -56,13 +56,15 @@ std::uint64_t scene_memory(const SceneFacts& facts, const RunSettings& settings)
 
 /// Entries of a row of the transport, at most.
 static double row_entries(const RunSettings& settings, double elements) {
-  const FormFactorSettings factors = two_pass_settings(settings).pass_one.form_factors;
+  const PassOneSettings pass_one = two_pass_settings(settings).pass_one;
+  const FormFactorSettings& factors = pass_one.form_factors;
   const double resolution = factors.hemicube_resolution;
   switch (factors.method) {
   case FormFactorMethod::rays:
     // Shots are traced when they are needed, and forgotten.
-    return settings.solver == SolverMethod::progressive ? 0.0
-                                                        : std::min<double>(factors.rays, elements);
+    return shoots_rays(pass_one, static_cast<std::size_t>(elements))
+               ? 0.0
+               : std::min<double>(factors.rays, elements);
   case FormFactorMethod::hemicube: // cells of the top and the four half sides
     return std::min(3.0 * resolution * resolution, elements);
   case FormFactorMethod::analytic:

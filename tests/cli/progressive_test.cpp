@@ -22,7 +22,8 @@ protected:
 
   Outcome run(const std::string& command, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {command, "room.glb"});
-    arguments.insert(arguments.end(), {"--quality", "draft", "--element-size", "0.08", "--stats", "stats.json"});
+    arguments.insert(arguments.end(),
+                     {"--quality", "draft", "--element-size", "0.08", "--stats", "stats.json"});
     if (command == "render")
       arguments.insert(arguments.end(), {"--size", "24x18"});
     return run_program(folder_.path(), arguments);
@@ -69,13 +70,13 @@ TEST_F(ProgressiveRuns, StepsStopShortAndTheUserIsTold) {
 }
 
 TEST_F(ProgressiveRuns, PicturesAlongTheWay) {
-  const Outcome outcome =
-      run("render", {"-o", "out.exr", "--solver", "progressive", "--steps", "7", "--snapshots",
-                     "way/there", "--every", "3", "--float"});
+  const Outcome outcome = run("render", {"-o", "out.exr", "--solver", "progressive", "--steps", "7",
+                                         "--snapshots", "way/there", "--every", "3", "--float"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(files_in(folder_ / "way/there"),
               ElementsAre("shots-000003-ambient.exr", "shots-000003.exr",
-                          "shots-000006-ambient.exr", "shots-000006.exr"));
+                          "shots-000006-ambient.exr", "shots-000006.exr",
+                          "shots-000007-ambient.exr", "shots-000007.exr"));
 
   // Light only arrives; what is expected of the rest shrinks, and was not far from what there is with twice the shots.
   const double at3 = mean_of("way/there/shots-000003.exr"),
@@ -88,9 +89,8 @@ TEST_F(ProgressiveRuns, PicturesAlongTheWay) {
 }
 
 TEST_F(ProgressiveRuns, PngsHaveOneExposure) {
-  const Outcome outcome =
-      run("render", {"-o", "out.png", "--solver", "progressive", "--steps", "4", "--snapshots",
-                     "way", "--every", "2"});
+  const Outcome outcome = run("render", {"-o", "out.png", "--solver", "progressive", "--steps", "4",
+                                         "--snapshots", "way", "--every", "2"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(files_in(folder_ / "way"),
               ElementsAre("shots-000002-ambient.png", "shots-000002.png",
@@ -105,10 +105,27 @@ TEST_F(ProgressiveRuns, StoredFormFactorsServeItToo) {
   const Outcome reused = run("solve", {"-o", "b.glb", "--reuse", "room.factors", "--per-node",
                                        "b.json", "--solver", "progressive", "--tolerance", "1e-7"});
   EXPECT_EQ(reused.code, 0) << reused.err;
-  const json a = json::parse(read_file(folder_ / "a.json")), b = json::parse(read_file(folder_ / "b.json"));
+  const json a = json::parse(read_file(folder_ / "a.json")),
+             b = json::parse(read_file(folder_ / "b.json"));
   for (std::size_t k = 0; k < a["nodes"].size(); ++k) {
     const double light = a["nodes"][k]["irradiance"][1];
     EXPECT_NEAR(b["nodes"][k]["irradiance"][1].get<double>(), light, 1e-6 * light);
+  }
+}
+
+// Whatever the form factors are: all that is shot is in the last of the pictures, and nothing is left for the ambient term.
+TEST_F(ProgressiveRuns, TheLastPictureHasAllLight) {
+  for (const char* method : {"rays", "hemicube"}) {
+    const Outcome outcome =
+        run("render", {"-o", "out.exr", "--float", "--interpolation", "average", "--form-factors",
+                       method, "--solver", "progressive", "--tolerance", "1e-6", "--snapshots",
+                       method, "--every", "1000000000"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const auto pictures = files_in(folder_ / method);
+    ASSERT_EQ(pictures.size(), 2U);
+    const double all = mean_of("out.exr");
+    for (const std::string& picture : pictures)
+      EXPECT_NEAR(mean_of(method + ("/" + picture)), all, 1e-5 * all) << picture;
   }
 }
 
@@ -119,10 +136,10 @@ TEST_F(ProgressiveRuns, WhatHasNoEffectIsRefused) {
       {{"--every", "3"}, "--every"},
       {{"--solver", "progressive", "--every", "3"}, "--every"},
       {{"--snapshots", "way"}, "--snapshots"},
-      {{"--solver", "progressive", "--form-factors", "hemicube", "--snapshots", "way"}, "--snapshots"},
       {{"--mode", "reference", "--steps", "3"}, "--steps"},
       {{"--solver", "progressive", "--steps", "0"}, "--steps"},
-      {{"--solver", "progressive", "--steps", "3", "--snapshots", "way", "--every", "x"}, "--every"}};
+      {{"--solver", "progressive", "--steps", "3", "--snapshots", "way", "--every", "x"},
+       "--every"}};
   for (auto [arguments, name] : refused) {
     arguments.insert(arguments.begin(), {"render", "room.glb", "-o", "out.png"});
     const Outcome outcome = run_program(folder_.path(), arguments);

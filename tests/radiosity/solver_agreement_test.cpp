@@ -1,5 +1,4 @@
 // Solvers against one another and against closed forms, on whole scenes.
-#include "radiosity/gathered_emission.h"
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/radiosity/radiosity_systems.h"
@@ -12,18 +11,7 @@
 namespace meninas::test {
 namespace {
 
-System system_of(const LitScene& lit, int rays) {
-  const FormFactors factors = assemble_transport(*lit.light, {.rays = rays});
-  const DirectIrradiance direct =
-      direct_irradiance(*lit.light, factors.covered, {.points = 4, .most_points = 4});
-  const std::vector<Rgb> gathered = gathered_emission(*lit.light, factors);
-  System system{factors.transport, {}, {}};
-  for (std::size_t i = 0; i < element_count(lit.mesh); ++i) {
-    system.reflectance.push_back(lit.mesh.sides[index(lit.mesh.side_of_element[i])].reflectance);
-    system.source.push_back(system.reflectance[i] * (direct.irradiance[i] + gathered[i]));
-  }
-  return system;
-}
+constexpr DirectSettings few_points{.points = 4, .most_points = 4};
 
 TEST(SolverAgreement, EveryGallerySceneWithinTenTolerancesOfTheDirectSolution) {
   constexpr double tolerance = 1e-6;
@@ -36,7 +24,7 @@ TEST(SolverAgreement, EveryGallerySceneWithinTenTolerancesOfTheDirectSolution) {
     if (element_count(l->mesh) > 1000)
       continue; // of many small patches: elimination would take its time
     ++scenes;
-    const System system = system_of(*l, 64);
+    const System system = system_of(*l, {.rays = 64}, few_points);
     const SolverResult direct = solve(system.transport, system.source, system.reflectance,
                                       {SolverMethod::direct, tolerance});
     EXPECT_TRUE(direct.converged);
@@ -64,7 +52,7 @@ TEST(SolverAgreement, InfinitePlatesBetweenMirrors) {
     add_room(scene, Point3(0.0), Point3(1.0),
              {glass, glass, diffuse(rho, 1.0), diffuse(rho), glass, glass});
     const auto l = lit(std::move(scene), {.element_size = 0.25});
-    const System system = system_of(*l, 1024);
+    const System system = system_of(*l, {.rays = 1024}, few_points);
     for (const SolverMethod method : solver_methods) {
       const SolverResult result =
           solve(system.transport, system.source, system.reflectance, {method, 1e-5});
@@ -83,7 +71,7 @@ TEST(SolverAgreement, FurnaceOfAMillionBounces) {
   const double rho = 1.0 - 1e-6;
   for (const bool with_mirrors : {false, true}) {
     const auto l = lit(furnace(rho, {with_mirrors}), {.element_size = 0.25});
-    const System system = system_of(*l, 256);
+    const System system = system_of(*l, {.rays = 256}, few_points);
     for (const SolverMethod method : {SolverMethod::direct, SolverMethod::bicgstab}) {
       const SolverResult result =
           solve(system.transport, system.source, system.reflectance, {method, 1e-3});
@@ -99,7 +87,7 @@ TEST(SolverAgreement, FurnaceOfAMillionBounces) {
 
 TEST(SolverAgreement, FurnaceWithoutAbsorption) {
   const auto l = lit(furnace(1.0, {true}), {.element_size = 0.25});
-  const System system = system_of(*l, 256);
+  const System system = system_of(*l, {.rays = 256}, few_points);
   EXPECT_EQ(solve(system.transport, system.source, system.reflectance).end, SolverEnd::unsolvable);
 }
 
