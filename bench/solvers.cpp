@@ -1,8 +1,9 @@
 // What solving costs: a sweep beside the memory's bandwidth, one band beside three, the solvers beside one another, and how time and memory
 // grow with the number of elements.
 //
-//   solvers [SCENE.gltf]             all of them, while form factors fit
-//   solvers SCENE.gltf progressive   shots by rays alone, to a million elements
+//   solvers [SCENE.gltf]          a sweep, bands, and the solvers beside one another
+//   solvers SCENE.gltf growth     time and memory from a thousand elements to a million, with the rays of --quality draft: first of shots by
+//                                 rays, which keep no form factors, then of rows and the solvers that read them
 //
 // A sweep reads every form factor once: its bytes over its time is the rate that counts, beside that of a plain sum over an array of
 // the same size, read by all threads in the same process. The two take turns; rates are medians.
@@ -20,6 +21,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string_view>
@@ -65,8 +67,8 @@ struct System {
   double seconds_of_factors = 0.0;
 };
 
-System system_of(const char* file, double target_elements) {
-  TwoPassSettings settings = two_pass_settings(RunSettings{});
+System system_of(const char* file, double target_elements, const RunSettings& run = {}) {
+  TwoPassSettings settings = two_pass_settings(run);
   settings.pass_one.mesh.target_elements = target_elements;
   const auto prepared = prepare_scene(load_gltf(file), settings.pass_one);
   System system;
@@ -150,63 +152,87 @@ void compare_solvers(const System& system) {
     }
 }
 
-/// log-log slope between two measurements
-double slope(double before, double after, double steps) {
-  return std::log(after / before) / std::log(steps);
+struct Figure {
+  const char* name;
+  double value;
+};
+
+/// Measurements at one size.
+struct Measured {
+  double elements = 0.0;
+  std::vector<Figure> figures;
+};
+
+/// Prints the last of them, and its log-log slopes from the one before.
+void print_growth(const std::vector<Measured>& sizes) {
+  const Measured& now = sizes.back();
+  fmt::print("{:>8.0f} elements:", now.elements);
+  for (const Figure& figure : now.figures)
+    fmt::print(" {} {:.4g};", figure.name, figure.value);
+  fmt::print("\n");
+  if (sizes.size() < 2)
+    return;
+  const Measured& before = sizes[sizes.size() - 2];
+  fmt::print("  log-log slopes:");
+  for (std::size_t k = 0; k < now.figures.size(); ++k)
+    fmt::print(" {} {:.2f};", now.figures[k].name,
+               std::log(now.figures[k].value / before.figures[k].value) /
+                   std::log(now.elements / before.elements));
+  fmt::print("\n");
 }
 
-/// Pass one by shots, up to the radiosities; memory is the most the process has had.
-void run_progressive(const char* file) {
-  struct Measured {
-    double elements = 0.0, solve = 0.0, all = 0.0, rays = 0.0, bytes = 0.0;
-  } last;
-  RunSettings draft;
-  draft.quality = Quality::draft;
-  for (const double target : {1e3, 1e4, 1e5, 1e6}) {
-    PassOneSettings settings = two_pass_settings(draft).pass_one;
+constexpr std::array growing{1e3, 1e4, 1e5, 1e6};
+
+RunSettings draft() {
+  RunSettings settings;
+  settings.quality = Quality::draft;
+  return settings;
+}
+
+/// Pass one by shots; memory is the most that the process has had.
+void grow_shots(const char* file) {
+  std::vector<Measured> sizes;
+  for (const double target : growing) {
+    PassOneSettings settings = two_pass_settings(draft()).pass_one;
     settings.mesh.target_elements = target;
     settings.solver.method = SolverMethod::progressive;
     settings.interpolation.method = Interpolation::average;
     const auto prepared = prepare_scene(load_gltf(file), settings);
     Stopwatch watch;
-    const RadiositySolution solution = solve_pass_one(*prepared->light, settings);
-    const Measured now{static_cast<double>(element_count(prepared->mesh)), solution.seconds.solve,
-                       watch.lap(), static_cast<double>(solution.form_factor_rays),
-                       static_cast<double>(peak_memory_bytes())};
-    fmt::print("{:>8.0f} elements: {:>6} shots {:>9.3f} s, pass one {:>9.3f} s, {:.3g} rays, peak "
-               "memory {:.1f} MB, bound {:.1e}\n",
-               now.elements, solution.solver.iterations, now.solve, now.all, now.rays,
-               1e-6 * now.bytes, solution.solver.error_bound);
-    if (last.elements > 0.0) {
-      const double steps = now.elements / last.elements;
-      fmt::print("log-log slopes: shots {:.2f}, pass one {:.2f}, rays {:.2f}, memory {:.2f}\n",
-                 slope(last.solve, now.solve, steps), slope(last.all, now.all, steps),
-                 slope(last.rays, now.rays, steps), slope(last.bytes, now.bytes, steps));
-    }
-    last = now;
+    const RadiositySolution solution = shoot_pass_one(*prepared->light, settings);
+    sizes.push_back({static_cast<double>(element_count(prepared->mesh)),
+                     {{"shots", static_cast<double>(solution.solver.iterations)},
+                      {"s of shots", solution.seconds.solve},
+                      {"s of pass one", watch.lap()},
+                      {"rays", static_cast<double>(solution.form_factor_rays)},
+                      {"peak MB", 1e-6 * static_cast<double>(peak_memory_bytes())}}});
+    print_growth(sizes);
+  }
+}
+
+/// Rows and the solvers that read them; memory is that of the rows.
+void grow_rows(const char* file) {
+  std::vector<Measured> sizes;
+  for (const double target : growing) {
+    const System system = system_of(file, target, draft());
+    Measured now{static_cast<double>(system.transport.size),
+                 {{"s of form factors", system.seconds_of_factors},
+                  {"MB of rows", 1e-6 * static_cast<double>(bytes_of(system.transport))}}};
+    for (const SolverMethod method :
+         {SolverMethod::bicgstab, SolverMethod::gauss_seidel, SolverMethod::jacobi})
+      now.figures.push_back({name_of(method), seconds_of([&] {
+                               (void)solve(system.transport, system.source, system.reflectance,
+                                           {method});
+                             })});
+    sizes.push_back(std::move(now));
+    print_growth(sizes);
   }
 }
 
 void run(const char* file) {
-  double last_elements = 0.0, last_factors = 0.0, last_solve = 0.0, last_bytes = 0.0;
   for (const double target : {1e3, 4e3, 16e3, 64e3}) {
     const System system = system_of(file, target);
-    const double elements = static_cast<double>(system.transport.size);
-    const double bytes = static_cast<double>(bytes_of(system.transport));
-    const double solving =
-        seconds_of([&] { (void)solve(system.transport, system.source, system.reflectance); });
-    fmt::print("--- {} elements: form factors {:.2f} s, solve {:.4f} s, {:.0f} bytes an element\n",
-               elements, system.seconds_of_factors, solving, bytes / elements);
-    if (last_elements > 0.0) {
-      const double steps = elements / last_elements;
-      fmt::print("log-log slopes: form factors {:.2f}, solve {:.2f}, memory {:.2f}\n",
-                 slope(last_factors, system.seconds_of_factors, steps),
-                 slope(last_solve, solving, steps), slope(last_bytes, bytes, steps));
-    }
-    last_elements = elements;
-    last_factors = system.seconds_of_factors;
-    last_solve = solving;
-    last_bytes = bytes;
+    fmt::print("--- {} elements\n", system.transport.size);
     compare_with_memory(system);
     compare_solvers(system);
     compare_bands(system);
@@ -217,10 +243,12 @@ void run(const char* file) {
 
 int main(int argc, char** argv) {
   try {
-    if (argc > 2 && std::string_view(argv[2]) == "progressive")
-      run_progressive(argv[1]);
-    else
+    if (argc > 2 && std::string_view(argv[2]) == "growth") {
+      grow_shots(argv[1]);
+      grow_rows(argv[1]);
+    } else {
       run(argc > 1 ? argv[1] : MENINAS_BENCH_SCENE);
+    }
   } catch (const UserError& error) {
     fmt::print(stderr, "solvers: {}\n", error.what());
     return static_cast<int>(error.code());

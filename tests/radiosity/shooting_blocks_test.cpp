@@ -2,6 +2,7 @@
 #include "radiosity/shooting_blocks.h"
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
+#include "tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>
 

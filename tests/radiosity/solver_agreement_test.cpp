@@ -1,7 +1,6 @@
 // Solvers against one another and against closed forms, on whole scenes.
 #include "scenes/gltf.h"
-#include "tests/radiosity/lit_scene.h"
-#include "tests/radiosity/radiosity_systems.h"
+#include "tests/radiosity/lit_system.h"
 #include "tests/support/rooms.h"
 
 #include <gtest/gtest.h>
