@@ -182,6 +182,15 @@ TEST_F(BatchTest, ADryRunTouchesNothing) {
   EXPECT_THAT(files_in(folder_.path()), ElementsAre("jobs.json", "room.glb", "rooms"));
 }
 
+TEST_F(BatchTest, TheExampleOfTheManualWorks) {
+  const Outcome outcome =
+      run_program(folder_.path(), {"batch", MENINAS_SOURCE_DIR "/docs/batch.example.json", "-o",
+                                   "out", "--dry-run"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("render  walk/0023.png\n"));
+  EXPECT_THAT(outcome.out, HasSubstr(" 0 done already, 0 that cannot be;"));
+}
+
 TEST_F(BatchTest, TheSchemaKnowsEverySetting) {
   const Outcome outcome = run_program(folder_.path(), {"batch", "--schema"});
   EXPECT_EQ(outcome.code, 0);
