@@ -171,7 +171,9 @@ void BatchWork::Impl::open(const BatchTask& task) {
   } else if (!light) {
     queue.not_opened(task, Clock::now() + pause);
   } else {
-    rays += light->figures.rays.form_factor + light->figures.rays.shadow;
+    if (light->solved) { // otherwise the figures tell of an earlier run
+      rays += light->figures.rays.form_factor + light->figures.rays.shadow;
+    }
     solves.push_back(
         {picture.scene.string(), picture.solution_key, light->solved, seconds, light->figures});
     forecast.solved(seconds);
