@@ -62,59 +62,44 @@ RefinementSettings refinement_of(const AdaptiveSettings& adaptive, double share)
   return refinement;
 }
 
-/// Light from the source.
-SampledField direct_field(const LightScene& light, std::span<const double> weight,
-                          const DirectSettings& direct, const RefinementSettings& refinement,
-                          std::uint64_t& shadow_rays) {
-  constexpr double outline_step = 0.125; // of a root cell
-  tbb::enumerable_thread_specific<DirectWorkspace> workspaces;
-  const SamplePoint sample = [&](const Receiver& receiver, double element_size,
-                                 std::uint32_t seed) -> PointSample {
-    return {
-        direct_irradiance(light, receiver, direct, hash(seed, direct.seed, 1), workspaces.local()),
-        is_under_something(light, receiver, element_size)};
-  };
-  const auto outlines = mirror_outlines(light, outline_step * light.mesh.element_size);
-  SampledField field = refine_field(light, {sample, sample}, weight, outlines, refinement);
-  for (const auto& work : workspaces)
-    shadow_rays += work.shadow_rays;
-  return field;
+/// The mean of two samples, whose difference tells its variance.
+SamplePoint mean_of_two(const SamplePoint& sample) {
+  return
+      [sample](const Receiver& receiver, double element_size, std::uint32_t seed) -> PointSample {
+        const PointSample a = sample(receiver, element_size, seed),
+                          b = sample(receiver, element_size, ~seed);
+        const ArrivingLight sum = a.light + b.light;
+        const double apart = 0.5 * largest(glm::abs(a.light.total - b.light.total));
+        return {{0.5 * sum.total, 0.5 * sum.mirrored}, a.covered && b.covered, apart * apart};
+      };
 }
 
-/// Light from the elements. Between vertices it is the mean of two halves, whose difference tells its variance.
-SampledField gathered_field(const LightScene& light, const ElementLight& elements,
-                            const FormFactorSettings& form_factors, const DirectSettings& direct,
-                            std::span<const double> weight, const InterpolationSettings& settings,
-                            RefinementSettings refinement, InterpolatedField& result) {
-  refinement.root_points = refinement.points = 0; // smooth: its centre tells what an element hides
-  const auto gathering_with = [&](int rays) {
-    return PointGathering(light, elements.reflected, form_factors, direct,
-                          {.rays = rays, .cluster_shadow_rays = settings.cluster_shadow_rays});
-  };
-  const PointGathering whole = gathering_with(settings.rays),
-                       half = gathering_with(std::max(1, settings.rays / 2));
+/// Light from the source. A dark point may be inside something that stands on its surface, which a few rays tell.
+SampledField direct_field(const LightScene& light, std::span<const double> weight,
+                          const FormFactorSettings& form_factors, DirectSettings direct,
+                          const RefinementSettings& refinement, InterpolatedField& result) {
+  constexpr double outline_step = 0.125; // of a root cell
+  // At the rim of a penumbra, where the first rays may all agree by chance, points must not say now dark, now bright.
+  direct.shadow_rays = std::max(direct.shadow_rays, direct.penumbra_rays / 2);
+  constexpr int black_rays = 32;
+  const DirectionNet net = make_direction_net(black_rays);
   tbb::enumerable_thread_specific<PointWorkspace> workspaces;
-  const auto gathered = [&](const PointGathering& gathering, const Receiver& receiver,
-                            double element_size, std::uint32_t seed) {
-    return value_at(gathering, elements.irradiance, receiver, element_size,
-                    hash(seed, form_factors.seed, 0x7e27), workspaces.local());
+  const SamplePoint sample = [&](const Receiver& receiver, double element_size,
+                                 std::uint32_t seed) -> PointSample {
+    PointWorkspace& work = workspaces.local();
+    const ArrivingLight arrived =
+        direct_irradiance(light, receiver, direct, hash(seed, direct.seed, 1), work.direct);
+    bool covered = is_under_something(light, receiver, element_size);
+    if (!covered && arrived.total == Rgb(0.0)) {
+      gather_rays(light, net, area_of(receiver), seed, form_factors, work.gather);
+      work.rays += work.gather.result.traced;
+      covered = sees_black(work.gather.result);
+    }
+    return {arrived, covered};
   };
-  const SamplePoint at_vertices = [&](const Receiver& receiver, double size,
-                                      std::uint32_t seed) -> PointSample {
-    const VertexValue value = gathered(whole, receiver, size, seed);
-    return {value.indirect, value.covered};
-  };
-  const SamplePoint between = [&](const Receiver& receiver, double size,
-                                  std::uint32_t seed) -> PointSample {
-    const VertexValue a = gathered(half, receiver, size, seed),
-                      b = gathered(half, receiver, size, ~seed);
-    const ArrivingLight sum = a.indirect + b.indirect;
-    const Rgb apart = 0.5 * glm::abs(a.indirect.total - b.indirect.total);
-    return {{0.5 * sum.total, 0.5 * sum.mirrored},
-            a.covered && b.covered,
-            largest(apart) * largest(apart)};
-  };
-  SampledField field = refine_field(light, {at_vertices, between}, weight, {}, refinement);
+  const auto outlines = mirror_outlines(light, outline_step * light.mesh.element_size);
+  SampledField field =
+      refine_field(light, {sample, mean_of_two(sample)}, weight, outlines, refinement);
   for (const auto& work : workspaces) {
     result.form_factor_rays += work.rays;
     result.shadow_rays += work.direct.shadow_rays;
@@ -127,6 +112,82 @@ std::vector<glm::vec3> sum_of(std::vector<glm::vec3> a, const std::vector<glm::v
   return a;
 }
 
+/// What light is gathered from: a mesh with the irradiance and the reflected radiosity of its elements.
+struct Surroundings {
+  std::unique_ptr<RefinedScene> scene;
+  std::vector<Rgb> irradiance, reflected;
+};
+
+/// D and I on a mesh that has the cells of both, and all roots divided so often.
+Surroundings surroundings(const LightScene& light, const SampledField& direct,
+                          const SampledField& indirect, int levels) {
+  ElementMesh even = light.mesh;
+  for (int level = 0; level < levels; ++level)
+    even = divide_elements(even, light.surfaces, std::vector<std::uint8_t>(element_count(even), 1));
+  Surroundings around;
+  even = overlaid(even, indirect.mesh, light.surfaces);
+  around.scene = make_refined_scene(light, overlaid(even, direct.mesh, light.surfaces));
+  const ElementMesh& mesh = around.scene->mesh;
+  around.irradiance =
+      corner_means(mesh, sum_of(carried(direct.mesh, direct.total, mesh, light.surfaces),
+                                carried(indirect.mesh, indirect.total, mesh, light.surfaces)));
+  for (std::size_t e = 0; e < element_count(mesh); ++e)
+    around.reflected.push_back(mesh.sides[index(mesh.side_of_element[e])].reflectance *
+                               around.irradiance[e]);
+  return around;
+}
+
+/// How light is gathered.
+struct Gathering {
+  const FormFactorSettings& form_factors;
+  const DirectSettings& direct;
+  const InterpolationSettings& interpolation;
+};
+
+/// Samples of light gathered from `elements` of the mesh of `lit`, with so many rays. The result refers to `gathering` and `workspaces`.
+SamplePoint gathered_samples(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                             tbb::enumerable_thread_specific<PointWorkspace>& workspaces) {
+  return [&](const Receiver& receiver, double element_size, std::uint32_t seed) -> PointSample {
+    const VertexValue value =
+        indirect_value_at(gathering, irradiance, receiver, element_size,
+                          hash(seed, gathering.form_factors.seed, 0x7e27), workspaces.local());
+    return {value.indirect, value.covered};
+  };
+}
+
+/// Light from the elements, twice: with few rays from the elements as they were solved, then from what that makes of them. Where two walls
+/// meet, light changes within an element as much as from one to the next, and comes from near by.
+SampledField gathered_field(const LightScene& light, const ElementLight& elements,
+                            const SampledField& from_source, const Gathering& how,
+                            std::span<const double> weight, RefinementSettings refinement,
+                            InterpolatedField& result) {
+  constexpr int levels = 2;
+  refinement.root_points = refinement.points = 0; // smooth: its centre tells what an element hides
+  tbb::enumerable_thread_specific<PointWorkspace> workspaces;
+  const auto refined = [&](const LightScene& lit, const std::vector<Rgb>& irradiance,
+                           const std::vector<Rgb>& reflected, int rays) {
+    const auto gathering = [&](int share) {
+      return PointGathering(lit, reflected, how.form_factors, how.direct,
+                            {.rays = std::max(1, rays / share),
+                             .cluster_shadow_rays = how.interpolation.cluster_shadow_rays});
+    };
+    const PointGathering whole = gathering(1), quarter = gathering(4);
+    const FieldSampler sampler{gathered_samples(whole, irradiance, workspaces),
+                               mean_of_two(gathered_samples(quarter, irradiance, workspaces))};
+    return refine_field(light, sampler, weight, {}, refinement);
+  };
+  const SampledField first = refined(light, elements.irradiance, elements.reflected,
+                                     std::max(1, how.interpolation.rays / 4));
+  const Surroundings around = surroundings(light, from_source, first, levels);
+  SampledField field =
+      refined(*around.scene->light, around.irradiance, around.reflected, how.interpolation.rays);
+  for (const auto& work : workspaces) {
+    result.form_factor_rays += work.rays;
+    result.shadow_rays += work.direct.shadow_rays;
+  }
+  return field;
+}
+
 } // namespace
 
 InterpolatedField adaptive_field(const LightScene& light, const ElementLight& elements,
@@ -137,9 +198,9 @@ InterpolatedField adaptive_field(const LightScene& light, const ElementLight& el
   const std::vector<double> weight = weights(light.mesh, elements.irradiance);
   InterpolatedField result;
   const SampledField from_source = direct_field(
-      light, weight, direct, refinement_of(*settings.adaptive, direct_share), result.shadow_rays);
+      light, weight, form_factors, direct, refinement_of(*settings.adaptive, direct_share), result);
   const SampledField gathered =
-      gathered_field(light, elements, form_factors, direct, weight, settings,
+      gathered_field(light, elements, from_source, {form_factors, direct, settings}, weight,
                      refinement_of(*settings.adaptive, gathered_share), result);
 
   result.mesh = overlaid(from_source.mesh, gathered.mesh, light.surfaces);

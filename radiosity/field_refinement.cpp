@@ -19,6 +19,7 @@ namespace {
 /// Integrals over an element, as its points tell; each of (w x)^2.
 struct Found {
   bool known = false;
+  int points = 0;     ///< that count
   double off = 0.0;   ///< x = H - H~
   double light = 0.0; ///< x = H
   double sigma = 0.0; ///< x = sigma, the standard deviation of a sample
@@ -141,7 +142,7 @@ Found look_at(const Refinement& refinement, const ElementMesh& mesh,
   for (const Vec2 uv : on_outline)
     look(uv, locate(mesh, cell.side, uv).st);
   const double share = open > 0 ? mesh.area[index(element)] / open : 0.0;
-  return {true, share * sum.off, share * sum.light, share * sum.sigma};
+  return {true, open, share * sum.off, share * sum.light, share * sum.sigma};
 }
 
 /// By ElementId, of elements that are still to be looked at closely: a few of the points at which outlines pass them.
@@ -185,42 +186,46 @@ void look_at_elements(const Refinement& refinement, const SampledField& field, G
   });
 }
 
-/// The samples' relative variance, over all elements and by CellId of the roots: these lean towards the former by a few elements' weight.
-struct Noise {
-  double all = 0.0;
-  std::vector<double> in_root;
-};
-
-Noise noise_of(const Refinement& refinement, const Growing& growing) {
-  constexpr double leaning = 4.0; // elements
+/// The samples' relative variance over all elements.
+double variance_of_all(const Growing& growing) {
   double sigma = 0.0, light = 0.0;
   for (const Found& found : growing.found) {
     sigma += found.sigma;
     light += found.light;
   }
-  Noise noise;
-  noise.all = light > 0.0 ? sigma / light : 0.0;
-  std::vector<double> sum(refinement.weight.size(), leaning * noise.all),
-      count(sum.size(), leaning);
+  return light > 0.0 ? sigma / light : 0.0;
+}
+
+/// The same by ElementId. The variance of one point says little: that of an element leans on that of its root cell, the more the fewer points it
+/// has, and this on that of all.
+std::vector<double> variance_of_each(const Refinement& refinement, const Growing& growing) {
+  constexpr double leaning = 4.0;
+  const ElementMesh& mesh = growing.mesh;
+  std::vector<double> sum(refinement.weight.size(), leaning * variance_of_all(growing)),
+      points(sum.size(), leaning);
+  const auto own = [](const Found& found) {
+    return found.light > 0.0 ? found.points * found.sigma / found.light : 0.0;
+  };
   for (std::size_t e = 0; e < growing.found.size(); ++e) {
-    if (growing.found[e].light <= 0.0)
-      continue;
-    const std::uint32_t root = index(root_of(growing.mesh, static_cast<ElementId>(e)));
-    sum[root] += growing.found[e].sigma / growing.found[e].light;
-    count[root] += 1.0;
+    const std::uint32_t root = index(root_of(mesh, static_cast<ElementId>(e)));
+    sum[root] += own(growing.found[e]);
+    points[root] += growing.found[e].points;
   }
-  for (std::size_t root = 0; root < sum.size(); ++root)
-    noise.in_root.push_back(sum[root] / count[root]);
-  return noise;
+  std::vector<double> variance;
+  for (std::size_t e = 0; e < growing.found.size(); ++e) {
+    const Found& found = growing.found[e];
+    const std::uint32_t root = index(root_of(mesh, static_cast<ElementId>(e)));
+    const double lean = leaning / std::max(found.points, 1);
+    variance.push_back((own(found) + lean * sum[root] / points[root]) / (found.points + lean));
+  }
+  return variance;
 }
 
 /// What noise alone makes of the integral of (w (H - H~))^2, in the middle of four vertices, by ElementId.
 std::vector<double> made_by_noise(const Refinement& refinement, const Growing& growing) {
-  const Noise noise = noise_of(refinement, growing);
-  std::vector<double> made(growing.found.size());
+  std::vector<double> made = variance_of_each(refinement, growing);
   for (std::size_t e = 0; e < made.size(); ++e)
-    made[e] = 1.25 * growing.found[e].light *
-              noise.in_root[index(root_of(growing.mesh, static_cast<ElementId>(e)))];
+    made[e] *= 1.25 * growing.found[e].light;
   return made;
 }
 
@@ -236,7 +241,7 @@ double area_that_counts(const Refinement& refinement, const ElementMesh& mesh) {
 /// Elements with more than their share of the error; none when all together have no more than is allowed. `error2` is what all have.
 std::vector<std::uint8_t> to_divide(const Refinement& refinement, const Growing& growing,
                                     double allowed, double& error2) {
-  constexpr double stands_out = 4.0; // two standard deviations
+  constexpr double stands_out = 2.0; // standard deviations
   const ElementMesh& mesh = growing.mesh;
   const std::vector<double> by_noise = made_by_noise(refinement, growing);
   std::vector<std::uint8_t> marked(element_count(mesh), 0);
@@ -248,11 +253,12 @@ std::vector<std::uint8_t> to_divide(const Refinement& refinement, const Growing&
     return marked;
   const double share = allowed / static_cast<double>(marked.size());
   for (std::size_t e = 0; e < marked.size(); ++e) {
+    // A mean of k squares of noise is 1 +- sqrt(2 / k) of what it is on average.
+    const Found& found = growing.found[e];
+    const double noise =
+        by_noise[e] * (1.0 + stands_out * std::sqrt(2.0 / std::max(1, found.points)));
     const int level = cell_of(mesh, static_cast<ElementId>(e)).level;
-    marked[e] = growing.found[e].off > share + stands_out * by_noise[e] &&
-                        level < refinement.settings.most_levels
-                    ? 1
-                    : 0;
+    marked[e] = found.off > share + noise && level < refinement.settings.most_levels ? 1 : 0;
   }
   return marked;
 }
@@ -282,15 +288,20 @@ Growing divided(const Refinement& refinement, const Growing& before,
 
 } // namespace
 
+static Growing undivided(const ElementMesh& mesh) {
+  Growing growing;
+  growing.mesh = mesh;
+  growing.samples.resize(mesh.vertices.size());
+  growing.known.resize(mesh.vertices.size(), 0);
+  growing.found.resize(element_count(mesh));
+  return growing;
+}
+
 SampledField refine_field(const LightScene& light, const FieldSampler& sampler,
                           std::span<const double> weight, const MirrorOutlines& outlines,
                           const RefinementSettings& settings) {
   const Refinement refinement{light, sampler, weight, outlines, settings};
-  Growing growing;
-  growing.mesh = light.mesh;
-  growing.samples.resize(light.mesh.vertices.size());
-  growing.known.resize(light.mesh.vertices.size(), 0);
-  growing.found.resize(element_count(light.mesh));
+  Growing growing = undivided(light.mesh);
   const double area = area_that_counts(refinement, light.mesh);
   const double allowed = settings.error * settings.error * area;
   for (;;) {
@@ -302,7 +313,7 @@ SampledField refine_field(const LightScene& light, const FieldSampler& sampler,
     const auto count = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
     if (count == 0 || element_count(growing.mesh) + 3 * count > settings.max_elements) {
       field.error = area > 0.0 ? std::sqrt(error2 / area) : 0.0;
-      field.noise = std::sqrt(noise_of(refinement, growing).all);
+      field.noise = std::sqrt(variance_of_all(growing));
       field.mesh = std::move(growing.mesh);
       return field;
     }

@@ -12,7 +12,7 @@
 // makes up for it: what an element costs brings the same everywhere.
 //
 // Noise: samples with variance sigma^2 are off by H - H~ of variance (1 + 1/4) sigma^2 in the middle of four vertices, however small the
-// element. sigma is estimated relative to H, over all points together, and taken off; elements are divided only for what stands out of it.
+// element. sigma is estimated relative to H, from points around, and taken off; elements are divided only for what stands out of it.
 // So the bound is one for what elements hide. The noise of the vertices themselves is a matter of how many rays they take.
 //
 // Limit: what is smaller than the distance of the points in a root cell may be overlooked. Edges of light that mirrors throw are not: they

@@ -41,41 +41,51 @@ PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosi
                                const PointGatheringSettings& settings)
     : light(scene), reflected(std::move(radiosity)), form_factors(factors), direct(direct_light),
       secondary(cluster_settings(direct_light, settings.cluster_shadow_rays)),
-      clusters(find_bright_clusters(scene, reflected)),
-      clustered{scene.scene,
-                scene.surfaces,
-                scene.rays,
-                scene.mirrors,
-                clusters.worlds,
-                scene.mesh,
-                {},
-                clusters.emitters,
-                {},
-                make_emitter_tree(clusters.emitters)},
+      clusters(find_bright_clusters(scene, reflected)), clustered{scene.scene,
+                                                                  scene.surfaces,
+                                                                  scene.rays,
+                                                                  scene.mirrors,
+                                                                  clusters.worlds,
+                                                                  scene.mesh,
+                                                                  {},
+                                                                  clusters.emitters,
+                                                                  {},
+                                                                  make_emitter_tree(
+                                                                      clusters.emitters)},
       net(make_direction_net(settings.rays)),
-      cube(factors.method == FormFactorMethod::hemicube
-               ? make_hemicube(factors.hemicube_resolution)
-               : Hemicube{}) {}
+      cube(factors.method == FormFactorMethod::hemicube ? make_hemicube(factors.hemicube_resolution)
+                                                        : Hemicube{}) {}
 
-PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
-                    PointWorkspace& work) {
-  ReceiverArea point;
-  point.corner = receiver.position;
-  point.normal = receiver.normal;
-  point.plane_class = receiver.plane_class;
-  point.tangent = receiver.tangent;
+ReceiverArea area_of(const Receiver& point) {
+  ReceiverArea area;
+  area.corner = point.position;
+  area.normal = point.normal;
+  area.plane_class = point.plane_class;
+  area.tangent = point.tangent;
+  return area;
+}
+
+PointLight indirect_light_at(const PointGathering& gathering, const Receiver& receiver,
+                             std::uint32_t seed, PointWorkspace& work) {
+  const ReceiverArea point = area_of(receiver);
   if (gathering.form_factors.method == FormFactorMethod::hemicube)
     gather_rays(gathering.light, gathering.cube, point, gathering.form_factors, work.gather);
   else
     gather_rays(gathering.light, gathering.net, point, seed, gathering.form_factors, work.gather);
   work.rays += work.gather.result.traced;
 
-  const ArrivingLight from_rays = landed_light(gathering, work.gather.result);
-  const ArrivingLight from_source =
+  return {landed_light(gathering, work.gather.result),
+          {},
+          direct_irradiance(gathering.clustered, receiver, gathering.secondary, hash(seed, 2),
+                            work.direct)};
+}
+
+PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
+                    PointWorkspace& work) {
+  PointLight light = indirect_light_at(gathering, receiver, seed, work);
+  light.from_source =
       direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);
-  const ArrivingLight from_clusters = direct_irradiance(
-      gathering.clustered, receiver, gathering.secondary, hash(seed, 2), work.direct);
-  return {from_rays, from_source, from_clusters};
+  return light;
 }
 
 } // namespace meninas

@@ -50,7 +50,14 @@ struct PointLight {
   ArrivingLight indirect() const { return from_rays + from_clusters; }
 };
 
+/// The point as an area, for its rays.
+ReceiverArea area_of(const Receiver& point);
+
 PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
                     PointWorkspace& work);
+
+/// The same without light from the source.
+PointLight indirect_light_at(const PointGathering& gathering, const Receiver& receiver,
+                             std::uint32_t seed, PointWorkspace& work);
 
 } // namespace meninas

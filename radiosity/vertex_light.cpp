@@ -34,22 +34,39 @@ bool is_under_something(const LightScene& light, const Receiver& receiver, doubl
   return std::popcount(occluded(light.rays, packet, Coherence::coherent)) >= least;
 }
 
-VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
-                     const Receiver& receiver, double element_size, std::uint32_t seed,
-                     PointWorkspace& work) {
-  constexpr double most_black =
-      0.9; // of the hemisphere: the vertex is inside something that stands on its surface
-  const PointLight arrived = light_at(gathering, receiver, seed, work);
-  const GatheredRays& gathered = work.gather.result;
+bool sees_black(const GatheredRays& gathered) {
+  constexpr double most_black = 0.9;
+  return gathered.black > most_black * gathered.rays;
+}
+
+/// Whether what was gathered is that of a point inside something, or behind it, where no light comes.
+static bool is_enclosed(const GatheredRays& gathered, const std::vector<Rgb>& irradiance) {
   const auto lit = [&](const RayLanding& landing) {
     return irradiance[landing.element] != Rgb(0.0);
   };
-  const bool enclosed =
-      gathered.black > most_black * gathered.rays ||
-      (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
-  const bool covered = (enclosed && arrived.from_source.total == Rgb(0.0)) ||
-                       is_under_something(gathering.light, receiver, element_size);
+  return sees_black(gathered) ||
+         (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
+}
+
+VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                     const Receiver& receiver, double element_size, std::uint32_t seed,
+                     PointWorkspace& work) {
+  const PointLight arrived = light_at(gathering, receiver, seed, work);
+  const bool covered =
+      (is_enclosed(work.gather.result, irradiance) && arrived.from_source.total == Rgb(0.0)) ||
+      is_under_something(gathering.light, receiver, element_size);
   return {arrived.all(), arrived.indirect(), covered};
+}
+
+VertexValue indirect_value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                              const Receiver& receiver, double element_size, std::uint32_t seed,
+                              PointWorkspace& work) {
+  const ArrivingLight indirect = indirect_light_at(gathering, receiver, seed, work).indirect();
+  const bool dark =
+      is_enclosed(work.gather.result, irradiance) &&
+      direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct)
+              .total == Rgb(0.0);
+  return {indirect, indirect, dark || is_under_something(gathering.light, receiver, element_size)};
 }
 
 } // namespace meninas

@@ -16,6 +16,14 @@ VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& ir
                      const Receiver& receiver, double element_size, std::uint32_t seed,
                      PointWorkspace& work);
 
+/// The indirect part alone; `irradiance` of the result is the same.
+VertexValue indirect_value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                              const Receiver& receiver, double element_size, std::uint32_t seed,
+                              PointWorkspace& work);
+
+/// Whether nearly all that a point sees is black: it is inside something that stands on its surface.
+bool sees_black(const GatheredRays& gathered);
+
 /// Whether something lies on the surface here: nearly all of the hemisphere is blocked within a fraction of an element, as under
 /// a box that stands on a floor. What little light there is there must not be interpolated out into the open.
 bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size);

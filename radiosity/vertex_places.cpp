@@ -11,6 +11,19 @@ Point3 centre_of(const ElementMesh& mesh, ElementId element) {
   return sum / double(count);
 }
 
+std::vector<Rgb> corner_means(const ElementMesh& mesh, std::span<const glm::vec3> values) {
+  std::vector<Rgb> means(element_count(mesh));
+  for (std::size_t e = 0; e < means.size(); ++e) {
+    const ElementCorners& corners = mesh.corners[e];
+    const std::size_t count = corners[3] == corners[2] ? 3 : 4;
+    Rgb sum(0.0);
+    for (std::size_t c = 0; c < count; ++c)
+      sum += Rgb(values[index(corners[c])]);
+    means[e] = sum / double(count);
+  }
+  return means;
+}
+
 VertexElements elements_around(const ElementMesh& mesh) {
   VertexElements around;
   around.begin.assign(mesh.vertices.size() + 1, 0);

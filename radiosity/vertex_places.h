@@ -27,6 +27,9 @@ Point3 centre_of(const ElementMesh& mesh, ElementId element);
 /// and not in the wall that stands on its edge.
 std::vector<Receiver> vertex_receivers(const ElementMesh& mesh);
 
+/// The mean of the values at its corners, by ElementId.
+std::vector<Rgb> corner_means(const ElementMesh& mesh, std::span<const glm::vec3> values);
+
 /// Between the corners of an element: bilinear in quads, linear in triangles. `values` by ElementVertexId.
 inline glm::vec3 value_in(const ElementMesh& mesh, std::span<const glm::vec3> values,
                           const ElementPoint& at) {

@@ -1,5 +1,7 @@
 #include "raytrace/diffuse_term.h"
 
+#include "radiosity/vertex_places.h"
+
 namespace meninas {
 
 FieldContent field_content(const DiffuseField& field, const DiffuseSettings& settings) {
@@ -10,15 +12,9 @@ FieldContent field_content(const DiffuseField& field, const DiffuseSettings& set
 }
 
 std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const DiffuseField& field) {
-  std::vector<Rgb> reflected(element_count(mesh));
-  for (std::size_t e = 0; e < reflected.size(); ++e) {
-    const ElementCorners& corners = mesh.corners[e];
-    const std::size_t count = corners[3] == corners[2] ? 3 : 4;
-    Rgb sum(0.0);
-    for (std::size_t c = 0; c < count; ++c)
-      sum += Rgb(field.irradiance[index(corners[c])]);
-    reflected[e] = mesh.sides[index(mesh.side_of_element[e])].reflectance * sum / double(count);
-  }
+  std::vector<Rgb> reflected = corner_means(mesh, field.irradiance);
+  for (std::size_t e = 0; e < reflected.size(); ++e)
+    reflected[e] *= mesh.sides[index(mesh.side_of_element[e])].reflectance;
   return reflected;
 }
 

@@ -21,7 +21,7 @@ QualityPreset preset_of(Quality quality) {
             .samples = 4,
             .max_error = 0.1,
             .root_elements = 600,
-            .adaptive_error = 0.05};
+            .adaptive_error = 0.03};
   case Quality::normal:
     return {.target_elements = 16'000,
             .rays = 512,
@@ -30,7 +30,7 @@ QualityPreset preset_of(Quality quality) {
             .samples = 16,
             .max_error = 0.03,
             .root_elements = 1'500,
-            .adaptive_error = 0.02};
+            .adaptive_error = 0.01};
   case Quality::fine:
     return {.target_elements = 64'000,
             .rays = 2'048,
@@ -39,7 +39,7 @@ QualityPreset preset_of(Quality quality) {
             .samples = 64,
             .max_error = 0.01,
             .root_elements = 5'000,
-            .adaptive_error = 0.01};
+            .adaptive_error = 0.005};
   }
   return {};
 }

@@ -71,8 +71,8 @@ TEST_F(Adaptive, TheBoundMayBeLeftToThePreset) {
   const auto draft = [&](const std::vector<std::string>& arguments) {
     return bytes("solve", "s.glb", with({"--quality", "draft"}, arguments));
   };
-  EXPECT_EQ(draft({"--adaptive"}), draft({"--adaptive", "0.05"}));
-  EXPECT_EQ(draft({"--adaptive=0.05"}), draft({"--adaptive", "5e-2"}));
+  EXPECT_EQ(draft({"--adaptive"}), draft({"--adaptive", "0.03"}));
+  EXPECT_EQ(draft({"--adaptive=0.03"}), draft({"--adaptive", "3e-2"}));
   // What follows and is no number belongs to others.
   const Outcome outcome =
       run({"solve", "--quality", "draft", "--quiet", "--adaptive", "room.glb", "-o", "t.glb"});
@@ -123,7 +123,7 @@ TEST_F(Adaptive, FilesOfCasesAskForItToo) {
     EXPECT_EQ(update(adaptive).code, 0);
     return read_file(folder_ / "room.exr");
   };
-  EXPECT_TRUE(picture_of(true) == picture_of(0.05));
+  EXPECT_TRUE(picture_of(true) == picture_of(0.03));
   EXPECT_FALSE(picture_of(true) == picture_of(false));
   EXPECT_THAT(update("fine").err, HasSubstr("adaptive: 'fine' is not a number"));
 }

@@ -1,6 +1,7 @@
 #include "radiosity/field_refinement.h"
 #include "radiosity/mesh_division.h"
 #include "radiosity/vertex_places.h"
+#include "scenes/sampling.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace meninas::test {
 namespace {
@@ -102,6 +104,34 @@ TEST(FieldRefinement, WhatDoesNotShowIsLeftAlone) {
   const std::vector<double> black(element_count(l->mesh), 0.0);
   const SampledField field = refine_field(*l->light, sampled(step), black, {}, {.error = 1e-3});
   EXPECT_EQ(element_count(field.mesh), element_count(l->mesh));
+}
+
+/// 1 + x, off by up to `spread`, in every place by something else.
+SamplePoint noisy(double spread) {
+  return [spread](const Receiver& receiver, double, std::uint32_t seed) -> PointSample {
+    const double off = spread * (0x1p-31 * hash(seed, 5, 6) - 1.0);
+    return {{Rgb(1.0 + receiver.position.x + off), Rgb(0.0)}, false};
+  };
+}
+
+// Noise grows no smaller by division. Samples that tell their variance are divided for nothing, those that keep it to themselves for ever.
+TEST(FieldRefinement, NoiseIsKnownAndNoReasonToDivide) {
+  const auto l = square_wall();
+  constexpr double spread = 0.1;
+  const SamplePoint whole = noisy(spread), half = noisy(spread * std::numbers::sqrt2);
+  const SamplePoint told = [half](const Receiver& receiver, double size, std::uint32_t seed) {
+    const double a = half(receiver, size, seed).light.total.g,
+                 b = half(receiver, size, ~seed).light.total.g;
+    return PointSample{{Rgb(0.5 * (a + b)), Rgb(0.0)}, false, 0.25 * (a - b) * (a - b)};
+  };
+  const std::vector<double> weight(element_count(l->mesh), 1.0);
+  const RefinementSettings settings{.error = 0.01, .most_levels = 4};
+  const SampledField field = refine_field(*l->light, {whole, told}, weight, {}, settings),
+                     blind = refine_field(*l->light, {whole, whole}, weight, {}, settings);
+  EXPECT_LT(element_count(field.mesh), 2 * element_count(l->mesh));
+  EXPECT_GT(element_count(blind.mesh), 100 * element_count(l->mesh));
+  // Even over [-s, s]: the mean square is s^2 / 3; light is 1.5 on average, its root mean square 1.53.
+  EXPECT_NEAR(field.noise, spread / std::sqrt(3.0) / 1.53, 0.005);
 }
 
 TEST(FieldRefinement, LimitsHold) {
