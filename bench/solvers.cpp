@@ -77,10 +77,9 @@ System system_of(const char* file, double target_elements, const RunSettings& ru
         assemble_transport(*prepared->light, settings.pass_one.form_factors).transport;
   });
   // Solvers only care for the pattern: a little light everywhere, walls as they are.
-  for (const SideId side : prepared->mesh.side_of_element) {
-    system.reflectance.push_back(prepared->mesh.sides[index(side)].reflectance);
-    system.source.push_back(Rgb(1.0) + prepared->mesh.sides[index(side)].emission);
-  }
+  system.reflectance = prepared->mesh.reflectance;
+  for (const Rgb& emission : prepared->mesh.emission)
+    system.source.push_back(Rgb(1.0) + emission);
   return system;
 }
 

@@ -154,6 +154,13 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
       ->group(pass_one_group);
 }
 
+void add_light_options(CLI::App& command, CommonOptions& options) {
+  add_text(command, "--background", "L|R,G,B",
+           "radiance of everything beyond the scene, W/m^2/sr [0]", [&](const std::string& text) {
+             options.settings.background = parse_colour("--background", text);
+           });
+}
+
 void add_run_options(CLI::App& command, CommonOptions& options) {
   add_text(command, "--threads", "N", "threads at work [all]", [&](const std::string& text) {
     options.settings.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));

@@ -34,6 +34,9 @@ void add_mesh_options(CLI::App& command, CommonOptions& options);
 /// The rest of pass one.
 void add_pass_one_options(CLI::App& command, CommonOptions& options);
 
+/// What a scene is lit by beyond its own lights.
+void add_light_options(CLI::App& command, CommonOptions& options);
+
 /// Throws UsageError when an option was given that the chosen methods do not obey.
 void check_pass_one_options(const CLI::App& command, const RunSettings& settings);
 

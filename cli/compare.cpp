@@ -90,6 +90,7 @@ Command add_compare_command(CLI::App& program) {
       ->required();
   add_reference_options(*command, *options);
   add_quality(*command, options->common);
+  add_light_options(*command, options->common);
   add_view_options(*command, *options);
   add_mesh_options(*command, options->common);
   add_pass_one_options(*command, options->common);

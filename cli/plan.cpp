@@ -32,6 +32,7 @@ Command add_plan_command(CLI::App& program) {
   command->add_flag_callback(
       "--json", [=] { options->request.format = PlanFormat::json; }, "as JSON instead of text");
   add_quality(*command, options->common);
+  add_light_options(*command, options->common);
   add_mesh_options(*command, options->common);
   return {command, [=] { run(*options); }};
 }

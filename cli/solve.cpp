@@ -38,6 +38,7 @@ Command add_solve_command(CLI::App& program) {
       *command, "--reuse", options->request.reuse,
       "form factors of an earlier run: only emission and diffuse reflectances may have changed");
   add_quality(*command, options->common);
+  add_light_options(*command, options->common);
   add_mesh_options(*command, options->common);
   add_pass_one_options(*command, options->common);
   add_run_options(*command, options->common);

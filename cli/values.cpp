@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -73,6 +74,26 @@ std::uint64_t parse_bytes(const std::string& option, const std::string& text) {
     throw UsageError(option, fmt::format("'{}' is no size such as 800M or 1.5G", text));
   }
   return static_cast<std::uint64_t>(*number * factor);
+}
+
+Rgb parse_colour(const std::string& option, const std::string& text) {
+  const auto refuse = [&] {
+    throw UsageError(option, fmt::format("'{}' is not a number, nor three as 0.2,0.3,0.5", text));
+  };
+  std::vector<double> values;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const auto value = whole_number_in<double>(std::string_view(text).substr(begin, end - begin));
+    if (!value || !std::isfinite(*value) || *value < 0.0) {
+      refuse();
+    }
+    values.push_back(*value);
+    begin = end + 1;
+  }
+  if (values.size() != 1 && values.size() != 3) {
+    refuse();
+  }
+  return values.size() == 1 ? Rgb(values[0]) : Rgb(values[0], values[1], values[2]);
 }
 
 PictureSize parse_size(const std::string& option, const std::string& text) {

@@ -27,6 +27,9 @@ enum class Sign { any, positive };
 /// A finite decimal number.
 double parse_number(const std::string& option, const std::string& text, Sign sign);
 
+/// One number for a grey, or three: linear red, green and blue; none negative.
+Rgb parse_colour(const std::string& option, const std::string& text);
+
 /// WIDTHxHEIGHT
 PictureSize parse_size(const std::string& option, const std::string& text);
 

@@ -132,8 +132,7 @@ Surroundings surroundings(const LightScene& light, const SampledField& direct,
       corner_means(mesh, sum_of(carried(direct.mesh, direct.total, mesh, light.surfaces),
                                 carried(indirect.mesh, indirect.total, mesh, light.surfaces)));
   for (std::size_t e = 0; e < element_count(mesh); ++e)
-    around.reflected.push_back(mesh.sides[index(mesh.side_of_element[e])].reflectance *
-                               around.irradiance[e]);
+    around.reflected.push_back(mesh.reflectance[e] * around.irradiance[e]);
   return around;
 }
 

@@ -218,8 +218,7 @@ Assembly make_assembly(const LightScene& light, const Surroundings& around,
   assembly.cell = cell_of(around, tolerance);
   assembly.extended.importance.assign(around.group_count, 0.0);
   for (std::uint32_t e = 0; e < around.black; ++e)
-    assembly.extended.importance[e] =
-        mean_of(light.mesh.sides[index(light.mesh.side_of_element[e])].emission);
+    assembly.extended.importance[e] = mean_of(light.mesh.emission[e]);
   return assembly;
 }
 
@@ -237,6 +236,9 @@ int bands_of(const MirrorSet& mirrors) {
 FormFactors analytic_transport(const LightScene& light, const FormFactorSettings& settings,
                                const Progress& progress) {
   const std::size_t size = element_count(light.mesh);
+  if (std::ranges::any_of(light.mesh.solid, [](float share) { return share < 1.0F; }))
+    throw UsageError(light.scene.file, "--form-factors analytic takes cut-outs for opaque: rays or "
+                                       "hemicubes see through their holes");
   if (size > most_elements)
     throw UsageError(
         light.scene.file,

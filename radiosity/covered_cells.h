@@ -4,6 +4,7 @@
 #include "radiosity/light_scene.h"
 #include "radiosity/receiver_rays.h"
 
+#include <bit>
 #include <span>
 
 namespace meninas {
@@ -16,6 +17,11 @@ inline std::uint32_t cell_of(double s, double t) {
 }
 inline bool is_covered(CoveredCells covered, double s, double t) {
   return ((covered >> cell_of(s, t)) & 1U) != 0;
+}
+
+/// The share of an element's area that is there, and on which nothing stands.
+inline float exposed_share(const ElementMesh& mesh, std::size_t element, CoveredCells covered) {
+  return mesh.solid[element] * (1.0F - static_cast<float>(std::popcount(covered)) / 64.0F);
 }
 
 struct Covered {

@@ -120,6 +120,39 @@ double visible_fraction(const LightScene& light, const VirtualLight& image,
   return share.all > 0.0 ? share.seen / share.all : 0.0;
 }
 
+/// Adds what punctual lights and their images send.
+void add_punctual(const LightScene& light, const Receiver& receiver, DirectWorkspace& work,
+                  ArrivingLight& sum) {
+  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  constexpr double beyond = 8.0; // in the frame the scene is 2 wide
+  seen_worlds(light.worlds, observer, work.seen);
+  punctual_images(light.worlds, light.punctual, work.seen, observer,
+                  beyond / light.rays.frame().scale, work.images);
+  for (std::size_t first = 0; first < work.images.size();) {
+    // Images of one world have as many legs each.
+    const WorldId world = work.images[first].world;
+    std::uint32_t count = 0;
+    while (count < 16 && first + count < work.images.size() &&
+           work.images[first + count].world == world) {
+      fold_legs(light.worlds, light.mirrors, world, receiver.position, receiver.plane_class,
+                work.images[first + count].position, none<PlaneId>, work.folded[count]);
+      ++count;
+    }
+    const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      if (((dark >> k) & 1U) != 0)
+        continue;
+      const Rgb arrived =
+          light.worlds.worlds[index(world)].throughput * work.images[first + k].irradiance;
+      sum.total += arrived;
+      sum.punctual += arrived;
+      if (world != real_world)
+        sum.mirrored += arrived;
+    }
+    first += count;
+  }
+}
+
 } // namespace
 
 ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
@@ -165,6 +198,8 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
     if (image.world != real_world)
       sum.mirrored += arrived;
   }
+  if (!light.punctual.empty())
+    add_punctual(light, receiver, work, sum);
   return sum;
 }
 
@@ -173,17 +208,18 @@ namespace {
 constexpr double unsure = 0.01; ///< relative change of the mean by the last doubling
 
 /// The mean over the exposed part of an element: points are doubled until their mean settles.
-Rgb mean_over_element(const LightScene& light, ElementId element, CoveredCells covered,
-                      const DirectSettings& settings, DirectWorkspace& work) {
+ArrivingLight mean_over_element(const LightScene& light, ElementId element, CoveredCells covered,
+                                const DirectSettings& settings, DirectWorkspace& work) {
   constexpr int whole = 64;
   if (std::popcount(covered) == whole)
-    return Rgb(0.0);
+    return {};
   const ReceiverArea area = receiver_of(light, element);
   const auto seed = hash(index(element), settings.seed, 0xd17ec7);
   DirectSettings at_point = settings;
   at_point.penumbra_rays = settings.shadow_rays;
   at_point.images = settings.images_in_element;
-  Rgb sum(0.0), before(0.0);
+  ArrivingLight sum;
+  Rgb before(0.0);
   int taken = 0, wanted = settings.points;
   for (std::uint32_t p = 0;; ++p) {
     const auto sample = sobol4(p, seed);
@@ -191,17 +227,17 @@ Rgb mean_over_element(const LightScene& light, ElementId element, CoveredCells c
       continue;
     const Receiver receiver{point_in(area, Vec2(sample[0], sample[1])), area.normal,
                             area.plane_class};
-    sum += direct_irradiance(light, receiver, at_point, hash(seed, p, 1), work).total;
+    sum = sum + direct_irradiance(light, receiver, at_point, hash(seed, p, 1), work);
     if (++taken < wanted)
       continue;
 
     // Between the first half of the points and all of them the mean has moved by about its own error.
-    const Rgb mean = sum / double(taken);
+    const Rgb mean = sum.total / double(taken);
     const bool settled =
         taken > settings.points && largest(glm::abs(mean - before)) <= unsure * largest(mean);
     const bool dark = taken >= 2 * settings.points && largest(mean) == 0.0;
     if (settled || dark || 2 * taken > settings.most_points)
-      return mean;
+      return {mean, sum.mirrored / double(taken), sum.punctual / double(taken)};
     before = mean;
     wanted = 2 * taken;
   }
@@ -215,8 +251,9 @@ DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std:
   const std::size_t size = element_count(light.mesh);
   DirectIrradiance result;
   result.irradiance.assign(size, Rgb(0.0));
-  if (light.emitters.empty())
+  if (light.emitters.empty() && light.punctual.empty())
     return result;
+  result.punctual.resize(light.punctual.empty() ? 0 : size);
 
   const std::size_t chunks = (size + chunk_size - 1) / chunk_size;
   tbb::enumerable_thread_specific<DirectWorkspace> workspaces;
@@ -224,9 +261,13 @@ DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std:
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
     DirectWorkspace& work = workspaces.local();
     const std::size_t end = std::min(size, (c + 1) * chunk_size);
-    for (std::size_t i = c * chunk_size; i < end; ++i)
-      result.irradiance[i] = mean_over_element(light, static_cast<ElementId>(i),
-                                               covered.empty() ? 0 : covered[i], settings, work);
+    for (std::size_t i = c * chunk_size; i < end; ++i) {
+      const ArrivingLight mean = mean_over_element(
+          light, static_cast<ElementId>(i), covered.empty() ? 0 : covered[i], settings, work);
+      result.irradiance[i] = mean.total;
+      if (!result.punctual.empty())
+        result.punctual[i] = mean.punctual;
+    }
     if (progress)
       progress("direct light", static_cast<double>(++done) / static_cast<double>(chunks));
   });

@@ -4,10 +4,11 @@
 //
 // F is Lambert's closed form for a point and a polygon, V the visible fraction: low-discrepancy points on the clipped image, weighted by
 // the cosines and distance of the form factor they stand for, each tested along every leg of the folded path. Few points where all
-// agree, more in penumbrae.
+// agree, more in penumbrae. Punctual lights, and their images, add I f cos / d^2 where the one segment to them is free.
 #pragma once
 
 #include "mirror/light_choice.h"
+#include "mirror/punctual_images.h"
 #include "radiosity/form_factors.h"
 
 namespace meninas {
@@ -41,16 +42,18 @@ struct DirectWorkspace {
   std::vector<double> form_factors; ///< unoccluded, by light
   std::vector<double> brought;      ///< brightest channel of what each light brings unoccluded
   std::vector<std::uint32_t> order; ///< lights, those that bring most first
+  SeenWorlds seen;                  ///< for punctual lights
+  std::vector<PunctualImage> images;
   std::array<std::vector<Leg>, 16> folded; ///< the legs of sixteen segments at a time
   std::uint64_t shadow_rays = 0;
 };
 
-/// Irradiance, and the part of it whose last leg came by way of mirrors.
+/// Irradiance, and the parts of it whose last leg came by way of mirrors, and that punctual lights sent.
 struct ArrivingLight {
-  Rgb total{0.0}, mirrored{0.0};
+  Rgb total{0.0}, mirrored{0.0}, punctual{0.0};
 
   friend ArrivingLight operator+(const ArrivingLight& a, const ArrivingLight& b) {
-    return {a.total + b.total, a.mirrored + b.mirrored};
+    return {a.total + b.total, a.mirrored + b.mirrored, a.punctual + b.punctual};
   }
 };
 
@@ -60,6 +63,8 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
 
 struct DirectIrradiance {
   std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element
+  std::vector<Rgb>
+      punctual; ///< the part of it that punctual lights sent; empty where there are none
   std::uint64_t shadow_rays = 0;
 };
 /// `covered` by ElementId (gather_rays.h): the mean is over the exposed part. Empty: all is exposed.

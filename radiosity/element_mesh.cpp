@@ -4,6 +4,7 @@
 #include "radiosity/edge_divisions.h"
 #include "radiosity/mesh_cells.h"
 #include "scenes/errors.h"
+#include "scenes/texture_lookup.h"
 
 #include <fmt/format.h>
 
@@ -44,6 +45,7 @@ MeshSide make_side(const Scene& scene, const SurfaceModel& model, PatchId id, Fa
   side.nv = divisions.v;
   side.triangle = patch.corner_count == 3;
   side.root_count = elements_of(side.nu, side.nv, side.triangle);
+  side.textured = is_textured(material) || material.alpha_mode == AlphaMode::mask;
   side.reflectance = diffuse_reflectance(material);
   side.emission = std::numbers::pi * material.emission;
   return side;

@@ -45,8 +45,9 @@ struct MeshSide {
   std::uint32_t element_count = 0;
   std::uint32_t first_cell = 0; ///< of its root cells, which stand in a row
   std::uint32_t root_count = 0;
-  Rgb reflectance{0.0}; ///< rho, diffuse
-  Rgb emission{0.0};    ///< E = pi L, W/m^2
+  bool textured = false; ///< its colours vary from point to point, or it has holes (surface_colour.h)
+  Rgb reflectance{0.0};  ///< rho, diffuse, before textures
+  Rgb emission{0.0};     ///< E = pi L, W/m^2, before textures
 };
 
 /// A node of the forest: a leaf is an element, others have four children in a row. At level l it covers, for (s, t) in its own
@@ -85,6 +86,8 @@ struct ElementMesh {
   std::vector<SideId> side_of_element;
   std::vector<ElementCorners> corners;      ///< by ElementId
   std::vector<double> area;                 ///< by ElementId, m^2
+  std::vector<Rgb> reflectance, emission;   ///< rho and E by ElementId, means over what is not cut out
+  std::vector<float> solid;                 ///< the share of an element that is not cut out
   std::vector<Point3> vertices;             ///< by ElementVertexId
   std::vector<ElementId> element_of_vertex; ///< one of the elements that share it
   std::vector<HangingVertex> hanging; ///< those whose ends hang themselves after these

@@ -9,7 +9,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <bit>
 #include <span>
 
 namespace meninas {
@@ -68,9 +67,9 @@ struct Workspace {
 /// By ElementId: 1 where what lies beyond the enumerated worlds may matter.
 std::vector<std::uint8_t> kept_beyond(const ElementMesh& mesh, const FormFactorSettings& settings) {
   std::vector<std::uint8_t> kept;
-  kept.reserve(mesh.side_of_element.size());
-  for (const SideId side : mesh.side_of_element)
-    kept.push_back(settings.relightable || mesh.sides[index(side)].emission != Rgb(0.0) ? 1 : 0);
+  kept.reserve(mesh.emission.size());
+  for (const Rgb& emission : mesh.emission)
+    kept.push_back(settings.relightable || emission != Rgb(0.0) ? 1 : 0);
   return kept;
 }
 
@@ -166,7 +165,7 @@ void assemble_row(const Assembly& assembly, std::size_t row, Workspace& work, Ro
   const GatheredRays& gathered = work.gather.result;
   const Rgb kept = kept_light(gathered);
   result.covered[row] = gathered.covered;
-  result.exposed[row] = 1.0F - static_cast<float>(std::popcount(gathered.covered)) / 64.0F;
+  result.exposed[row] = exposed_share(assembly.light.mesh, row, gathered.covered);
   result.closure[row] = closure_of(gathered);
   work.row.make_room(gathered.landings.size());
   work.beyond.make_room(gathered.landings.size());

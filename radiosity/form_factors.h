@@ -55,7 +55,7 @@ struct FormFactors {
   Transport beyond; ///< the part in which no closed form owns emission: beyond the enumerated worlds (deep chains, facets); all of `analytic`
   std::vector<RowClosure> closure;      ///< by ElementId
   std::vector<std::uint64_t> covered;   ///< by ElementId: the cells on which something stands (gather_rays.h)
-  std::vector<float> exposed;           ///< by ElementId: the share of its area on which nothing stands
+  std::vector<float> exposed;           ///< by ElementId: exposed_share()
   std::uint64_t rays_traced = 0;        ///< legs, reflected ones included
 };
 

@@ -181,6 +181,7 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
     const FirstLegs legs{packet, weights_of(rays.packets[n])};
     work.black_lanes.push_back(sort_hits(light, settings, legs, packet.count, hits, work));
   }
+  work.result.escaped_straight = work.result.escaped;
   work.result.traced += ray_count(rays);
 }
 

@@ -27,6 +27,7 @@ struct GatheredRays {
   double rays = 0.0; ///< how many there are
   double landed = 0.0, escaped = 0.0, black = 0.0,
          cut = 0.0;                ///< sums of w over those that ended so
+  double escaped_straight = 0.0;   ///< of `escaped`, the rays that met no mirror
   glm::vec3 mirror_absorbed{0.0F}; ///< sum of w (1 - tau) over all rays
   glm::vec3 escaped_light{0.0F}, black_light{0.0F},
       cut_light{0.0F}; ///< sums of w tau over the rays that ended so
@@ -98,7 +99,7 @@ ReceiverArea receiver_of(const LightScene& light, ElementId element);
 inline Rgb gathered_emission(const LightScene& light, const RayLanding& landing) {
   const SideId side = light.mesh.side_of_element[landing.element];
   const bool owned = light.from_source[index(side)] != 0 && landing.world != none<WorldId>;
-  return owned ? Rgb(0.0) : light.mesh.sides[index(side)].emission * Rgb(landing.light);
+  return owned ? Rgb(0.0) : light.mesh.emission[landing.element] * Rgb(landing.light);
 }
 
 } // namespace meninas

@@ -11,7 +11,7 @@ std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& f
   std::vector<Rgb> whole(mesh.area.size(), Rgb(0.0)), deep = whole;
   for (std::size_t e = 0; e < mesh.area.size(); ++e) {
     const SideId side = mesh.side_of_element[e];
-    (light.from_source[index(side)] != 0 ? deep : whole)[e] = mesh.sides[index(side)].emission;
+    (light.from_source[index(side)] != 0 ? deep : whole)[e] = mesh.emission[e];
   }
 
   std::vector<Rgb> gathered(mesh.area.size(), Rgb(0.0));

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <numeric>
 
 namespace meninas {
@@ -73,13 +72,13 @@ void survey_element(const LightScene& light, const DirectionNet& net, std::size_
   const GatheredRays& rays = work.gather.result;
   survey.closure[element] = closure_of(rays);
   survey.covered[element] = rays.covered;
-  survey.exposed[element] = 1.0F - static_cast<float>(std::popcount(rays.covered)) / 64.0F;
+  survey.exposed[element] = exposed_share(light.mesh, element, rays.covered);
   const std::uint32_t own = index(light.mesh.side_of_element[element]);
   Rgb gathered(0.0), returned(0.0);
   for (const RayLanding& landing : rays.landings) {
     const SideId side = light.mesh.side_of_element[landing.element];
     gathered += gathered_emission(light, landing);
-    returned += Rgb(landing.light) * light.mesh.sides[index(side)].reflectance;
+    returned += Rgb(landing.light) * light.mesh.reflectance[landing.element];
     work.parts.unite(own, index(side));
   }
   survey.gathered[element] = gathered / kept_light(rays);
@@ -149,8 +148,7 @@ Returned returned_share(const LightScene& light, const FormFactorSettings& setti
                      const GatheredRays& rays = work.gather.result;
                      Rgb returned(0.0);
                      for (const RayLanding& landing : rays.landings) {
-                       const SideId side = light.mesh.side_of_element[landing.element];
-                       returned += Rgb(landing.light) * light.mesh.sides[index(side)].reflectance *
+                       returned += Rgb(landing.light) * light.mesh.reflectance[landing.element] *
                                    worth[landing.element];
                      }
                      result.share[e] = returned / kept_light(rays);

@@ -1,6 +1,9 @@
 #include "radiosity/light_scene.h"
 
+#include "radiosity/surface_colour.h"
+
 #include <algorithm>
+#include <numbers>
 
 namespace meninas {
 
@@ -10,19 +13,38 @@ constexpr double large_emitter_share = 0.5;
 
 bool emits(const MeshSide& side) { return glm::any(glm::greaterThan(side.emission, Rgb(0.0))); }
 
-Emitter make_emitter(const SurfaceModel& surfaces, const MeshSide& side) {
-  const Patch& patch = surfaces.patches[index(side.patch)];
+Emitter make_emitter(const MeshSide& side, std::span<const Point3> polygon, const Rgb& radiosity,
+                     double area) {
   Emitter emitter;
-  emitter.polygon = ConvexPolygon(polygon_of(patch));
+  emitter.polygon = ConvexPolygon(polygon);
   if (side.facing == Facing::back)
     std::reverse(emitter.polygon.vertices.begin(),
                  emitter.polygon.vertices.begin() +
                      static_cast<std::ptrdiff_t>(emitter.polygon.size));
   emitter.plane = side.plane;
   emitter.plane_class = side.plane_class;
-  emitter.radiosity = side.emission;
-  emitter.area = patch.area;
+  emitter.radiosity = radiosity;
+  emitter.area = area;
   return emitter;
+}
+
+/// A side that glows evenly is one emitter; of a textured one every element is.
+void add_emitters(const SurfaceModel& surfaces, const ElementMesh& mesh, const MeshSide& side,
+                  std::vector<Emitter>& emitters) {
+  if (!side.textured) {
+    const Patch& patch = surfaces.patches[index(side.patch)];
+    emitters.push_back(make_emitter(side, polygon_of(patch), side.emission, patch.area));
+    return;
+  }
+  for (std::uint32_t e = side.first_element; e < side.first_element + side.element_count; ++e) {
+    if (mesh.emission[e] == Rgb(0.0) || mesh.solid[e] == 0.0F)
+      continue;
+    std::vector<Point3> corners;
+    for (std::size_t c = 0; c < (side.triangle ? 3U : 4U); ++c)
+      corners.push_back(mesh.vertices[index(mesh.corners[e][c])]);
+    emitters.push_back(
+        make_emitter(side, corners, double{mesh.solid[e]} * mesh.emission[e], mesh.area[e]));
+  }
 }
 
 } // namespace
@@ -36,7 +58,7 @@ bool grey_mirrors(const Scene& scene) {
 
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
                             const MirrorSet& mirrors, const WorldTree& worlds,
-                            const ElementMesh& mesh) {
+                            const ElementMesh& mesh, const DecodedTextures& textures) {
   const RayFrame& frame = rays.frame();
   LightScene light{scene,
                    surfaces,
@@ -44,10 +66,13 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    mirrors,
                    worlds,
                    mesh,
+                   textures,
                    make_landing_table(scene, surfaces, mirrors, mesh, frame.centre, frame.scale),
                    {},
                    {},
-                   {}};
+                   {},
+                   scene.lights,
+                   std::numbers::pi * scene.background};
   light.from_source.assign(mesh.sides.size(), 0);
 
   double area = 0.0, emitting_area = 0.0;
@@ -64,7 +89,7 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
     if (!emits(mesh.sides[s]))
       continue;
     light.from_source[s] = 1;
-    light.emitters.push_back(make_emitter(surfaces, mesh.sides[s]));
+    add_emitters(surfaces, mesh, mesh.sides[s], light.emitters);
   }
   light.emitter_tree = make_emitter_tree(light.emitters);
   return light;
@@ -73,8 +98,9 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
 std::unique_ptr<RefinedScene> make_refined_scene(const LightScene& light, ElementMesh mesh) {
   auto refined = std::make_unique<RefinedScene>();
   refined->mesh = std::move(mesh);
+  average_textures(light.scene, light.surfaces, light.textures, refined->mesh);
   refined->light.emplace(make_light_scene(light.scene, light.surfaces, light.rays, light.mirrors,
-                                          light.worlds, refined->mesh));
+                                          light.worlds, refined->mesh, light.textures));
   return refined;
 }
 

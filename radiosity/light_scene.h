@@ -10,6 +10,7 @@
 #include "radiosity/element_mesh.h"
 #include "radiosity/landing.h"
 #include "scenes/ray_scene.h"
+#include "scenes/texture_lookup.h"
 
 #include <memory>
 #include <optional>
@@ -24,11 +25,14 @@ struct LightScene {
   const MirrorSet& mirrors;
   const WorldTree& worlds;
   const ElementMesh& mesh;
+  const DecodedTextures& textures;
   LandingTable landing;
   std::vector<Emitter> emitters; ///< those whose light is computed from the source
   std::vector<std::uint8_t>
       from_source; ///< by SideId: 1 where the closed form owns its emission in the enumerated worlds
-  EmitterTree emitter_tree; ///< over the emitters
+  EmitterTree emitter_tree;            ///< over the emitters
+  std::vector<PunctualLight> punctual; ///< always from the source
+  Rgb background{0.0}; ///< irradiance pi L of the whole sky, gathered by rays that escape
 };
 
 /// Whether mirrors treat all channels alike: transport needs but one band.
@@ -36,7 +40,8 @@ bool grey_mirrors(const Scene& scene);
 
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
                             const MirrorSet& mirrors, const WorldTree& worlds,
-                            const ElementMesh& mesh);
+                            const ElementMesh& mesh,
+                            const DecodedTextures& textures = no_textures());
 
 /// The same scene on a finer mesh, kept together. Stays where it was made.
 struct RefinedScene {

@@ -23,7 +23,8 @@ std::array<Vec2, 4> corner_coordinates(bool triangle) {
 void add_element(ElementMesh& mesh, const SurfaceModel& surfaces, std::uint32_t number,
                  VertexWelder& welder) {
   MeshCell& cell = mesh.cells[number];
-  const bool triangle = mesh.sides[index(cell.side)].triangle;
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  const bool triangle = side.triangle;
   const auto coordinates = corner_coordinates(triangle);
   ElementCorners corners;
   std::array<Point3, 4> points;
@@ -40,6 +41,9 @@ void add_element(ElementMesh& mesh, const SurfaceModel& surfaces, std::uint32_t 
   mesh.side_of_element.push_back(cell.side);
   mesh.corners.push_back(corners);
   mesh.area.push_back(cell.area);
+  mesh.reflectance.push_back(side.reflectance);
+  mesh.emission.push_back(side.emission);
+  mesh.solid.push_back(1.0F);
 }
 
 /// The leaves below a cell, depth first.

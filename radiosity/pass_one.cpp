@@ -1,5 +1,6 @@
 #include "radiosity/pass_one.h"
 
+#include "radiosity/first_light.h"
 #include "radiosity/gathered_emission.h"
 #include "radiosity/shooting_blocks.h"
 #include "scenes/stopwatch.h"
@@ -24,15 +25,18 @@ ClosureError closure_error(const std::vector<RowClosure>& rows) {
 
 /// What leaves an element follows the fractions of its own rays; what is absorbed follows what the elements receive. The two agree as
 /// far as the sampled form factors are reciprocal: the imbalance measures that.
+/// Light that enters from outside the surfaces (of punctual lights, of the background) counts as emitted where it first arrives.
 EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& solution,
-                             const std::vector<RowClosure>& rows) {
+                             const std::vector<RowClosure>& rows,
+                             const std::vector<Rgb>& entering) {
   EnergyBalance energy;
   for (std::size_t i = 0; i < mesh.area.size(); ++i) {
-    const MeshSide& side = mesh.sides[index(mesh.side_of_element[i])];
     const double area = mesh.area[i] * solution.exposed[i];
     const Rgb leaving = area * solution.radiosity[i];
-    energy.emitted += area * side.emission;
-    energy.absorbed += area * (1.0 - side.reflectance) * solution.irradiance[i];
+    energy.emitted += area * mesh.emission[i];
+    if (!entering.empty())
+      energy.emitted += area * entering[i];
+    energy.absorbed += area * (1.0 - mesh.reflectance[i]) * solution.irradiance[i];
     const Rgb followed = leaving / glm::max(Rgb(1e-9), 1.0 - Rgb(rows[i].cut_light));
     energy.absorbed += Rgb(rows[i].black_light) * followed;
     energy.escaped += Rgb(rows[i].escaped_light) * followed;
@@ -47,33 +51,6 @@ EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& s
       energy.imbalance = share;
   }
   return energy;
-}
-
-/// Light that no element has reflected yet, and what it makes of the walls.
-struct FirstLight {
-  std::vector<Rgb> irradiance, source, reflectance; ///< D + G, S = rho (D + G), rho by ElementId
-  std::vector<Rgb> from_source;                     ///< D; empty where it is not set apart
-  std::uint64_t shadow_rays = 0;
-};
-
-FirstLight first_light(const LightScene& light, const std::vector<Rgb>& gathered,
-                       const std::vector<std::uint64_t>& covered, const PassOneSettings& settings,
-                       const Progress& progress) {
-  FirstLight first;
-  first.irradiance = gathered;
-  // The analytic method leaves nothing to the closed form of points.
-  if (settings.form_factors.method != FormFactorMethod::analytic) {
-    DirectIrradiance direct = direct_irradiance(light, covered, settings.direct, progress);
-    first.shadow_rays = direct.shadow_rays;
-    first.from_source = std::move(direct.irradiance);
-    for (std::size_t i = 0; i < gathered.size(); ++i)
-      first.irradiance[i] += first.from_source[i];
-  }
-  for (std::size_t i = 0; i < gathered.size(); ++i) {
-    first.reflectance.push_back(light.mesh.sides[index(light.mesh.side_of_element[i])].reflectance);
-    first.source.push_back(first.reflectance[i] * first.irradiance[i]);
-  }
-  return first;
 }
 
 /// The elements' own rays, as far as figures depend on them.
@@ -96,7 +73,7 @@ void complete(const LightScene& light, const PassOneSettings& settings, const Fi
   solution.radiosity = reflected;
   for (std::size_t i = 0; i < arrived.size(); ++i) {
     solution.irradiance[i] += first.irradiance[i];
-    solution.radiosity[i] += mesh.sides[index(mesh.side_of_element[i])].emission;
+    solution.radiosity[i] += mesh.emission[i];
   }
 
   const ElementLight elements{std::move(reflected), solution.irradiance, first.from_source};
@@ -110,7 +87,7 @@ void complete(const LightScene& light, const PassOneSettings& settings, const Fi
   solution.exposed = rays.exposed;
 
   solution.closure = closure_error(rays.closure);
-  solution.energy = energy_balance(mesh, solution, rays.closure);
+  solution.energy = energy_balance(mesh, solution, rays.closure, first.entering);
   solution.form_factor_rays = rays.traced + interpolated.form_factor_rays;
   solution.shadow_rays = first.shadow_rays + interpolated.shadow_rays;
 }
@@ -143,7 +120,8 @@ RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings&
   RadiositySolution solution;
   Stopwatch stopwatch;
   const HemisphereSurvey survey = survey_hemispheres(light, settings.form_factors, progress);
-  const FirstLight first = first_light(light, survey.gathered, survey.covered, settings, progress);
+  const FirstLight first = first_light(light, survey.gathered, survey.closure, survey.covered,
+                                       settings.form_factors.method, settings.direct, progress);
   solution.seconds.form_factors = stopwatch.lap();
 
   const ElementRays own{survey.closure, survey.exposed};
@@ -185,7 +163,8 @@ RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& fac
 
   // Eq. 1, split by who owns the path: direct light from the source, gathered emission, and reflected light by the transport.
   const FirstLight first =
-      first_light(light, gathered_emission(light, factors), factors.covered, settings, progress);
+      first_light(light, gathered_emission(light, factors), factors.closure, factors.covered,
+                  settings.form_factors.method, settings.direct, progress);
   solution.seconds.form_factors = stopwatch.lap();
 
   double watching = 0.0;
@@ -210,7 +189,7 @@ std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh
     const MeshSide& side = mesh.sides[index(mesh.side_of_element[i])];
     NodeLight& node = nodes[index(side.node)];
     node.area += mesh.area[i];
-    node.emitted += mesh.area[i] * side.emission;
+    node.emitted += mesh.area[i] * mesh.emission[i];
     node.radiosity += mesh.area[i] * solution.exposed[i] * solution.radiosity[i];
     node.irradiance += mesh.area[i] * solution.exposed[i] * solution.irradiance[i];
   }

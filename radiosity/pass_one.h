@@ -35,7 +35,7 @@ struct PassOneSeconds {
 struct RadiositySolution {
   std::vector<Rgb> radiosity; ///< B by ElementId, emission included: the mean over the exposed part
   std::vector<Rgb> irradiance; ///< H by ElementId, likewise
-  std::vector<float> exposed;  ///< by ElementId: the share of the area on which nothing stands
+  std::vector<float> exposed;  ///< by ElementId: the share of the area that is there and on which nothing stands
   DiffuseField field;          ///< on field_scene()
   std::unique_ptr<RefinedScene> refined; ///< adaptive: the scene on the field's mesh
   double interpolation_error = 0.0; ///< adaptive: estimated, of what its settings bound

@@ -1,8 +1,8 @@
 #include "radiosity/plan.h"
 
 #include "radiosity/closedness.h"
-#include "scenes/texture_lookup.h"
 #include "radiosity/world_tail.h"
+#include "scenes/texture_lookup.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -133,16 +133,13 @@ void warn_of_facets(const Scene& scene, const SurfaceModel& surfaces, TransportP
 }
 
 void warn_of_lights(const Scene& scene, TransportPlan& plan) {
-  if (plan.emitters == 0) {
+  if (plan.emitters == 0 && scene.lights.empty() && scene.background == Rgb(0.0)) {
     plan.warnings.push_back("nothing emits light: the picture will be black");
   }
-  std::vector<std::string> names;
-  for (const PunctualLight& light : scene.lights) {
-    names.push_back(light.name.empty() ? "unnamed" : light.name);
-  }
-  if (!names.empty()) {
-    plan.warnings.push_back("point, spot and directional lights are not modelled yet: " +
-                            quoted(names));
+  if (!scene.lights.empty() && (plan.mirrors.facets > 0 || !plan.worlds.cut.empty())) {
+    plan.warnings.push_back("light of point, spot and directional lights is followed over the "
+                            "mirror worlds alone: what "
+                            "small mirrors or longer chains of mirrors would throw is left out");
   }
 }
 
@@ -158,12 +155,9 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
     plan.warnings.push_back("transmission is not rendered yet, materials are opaque: " +
                             quoted(names));
   }
-  const auto is_cut = [](const Material& m) { return m.alpha_mode == AlphaMode::mask; };
-  if (const auto names = names_where(materials, is_cut); !names.empty()) {
-    plan.warnings.push_back("cut-outs are not applied yet, materials are opaque: " + quoted(names));
-  }
-  if (const auto names = names_where(materials, is_textured); !names.empty()) {
-    plan.warnings.push_back("textures are not applied yet, the factors are used alone: " +
+  const auto is_textured_mirror = [](const Material& m) { return is_mirror(m) && is_textured(m); };
+  if (const auto names = names_where(materials, is_textured_mirror); !names.empty()) {
+    plan.warnings.push_back("textures of mirrors are not applied to what they reflect: " +
                             quoted(names));
   }
 }
@@ -183,8 +177,20 @@ std::vector<std::string> describe_stages(const SurfaceModel& surfaces, const Tra
   const bool mirrors = worlds > 0 || plan.mirrors.facets > 0;
   stages.push_back(mirrors ? "form factors: by rays, continued through mirrors"
                            : "form factors: by rays, no mirror to follow");
+  if (plan.textured > 0) {
+    stages.push_back(fmt::format(
+        "textures: of {}, as means over elements in pass one, at every hit in the picture",
+        plural(plan.textured, "material")));
+  }
+  std::vector<std::string> sources;
   if (plan.emitters > 0) {
-    stages.push_back(fmt::format("direct light: {}{}", plural(plan.emitters, "emitter"),
+    sources.push_back(plural(plan.emitters, "emitter"));
+  }
+  if (plan.punctual_lights > 0) {
+    sources.push_back(plural(plan.punctual_lights, "point, spot or directional light"));
+  }
+  if (!sources.empty()) {
+    stages.push_back(fmt::format("direct light: {}{}", fmt::join(sources, " and "),
                                  worlds > 0 ? ", also seen in mirrors" : ""));
   }
   stages.push_back(
@@ -216,9 +222,14 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
   plan.transmissive = count([](const Material& m) { return m.transmission > 0.0; });
   plan.textured = count(is_textured);
   const std::size_t grey = count([](const Material& m) {
-    return is_grey(diffuse_reflectance(m)) && is_grey(mirror_reflectance(m)) && is_grey(m.emission);
+    return is_grey(diffuse_reflectance(m)) && is_grey(mirror_reflectance(m)) &&
+           is_grey(m.emission) && !is_textured(m);
   });
-  plan.bands = grey == materials.size() ? 1 : 3;
+  const bool grey_light = is_grey(scene.background) &&
+                          std::ranges::all_of(scene.lights, [](const PunctualLight& light) {
+                            return is_grey(light.intensity);
+                          });
+  plan.bands = grey == materials.size() && grey_light ? 1 : 3;
   plan.closed = is_closed(scene, 0.5 * surfaces.tolerance);
 
   plan.ignored = scene.ignored;

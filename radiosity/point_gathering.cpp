@@ -29,6 +29,10 @@ ArrivingLight landed_light(const PointGathering& gathering, const GatheredRays& 
     if (landing.world != real_world)
       sum.mirrored += arrived;
   }
+  const Rgb straight = gathering.light.background * gathered.escaped_straight;
+  const Rgb by_mirrors = gathering.light.background * Rgb(gathered.escaped_light) - straight;
+  sum.total += straight + by_mirrors;
+  sum.mirrored += by_mirrors;
   const Rgb kept = kept_light(gathered);
   return {sum.total / kept, sum.mirrored / kept};
 }
@@ -47,11 +51,14 @@ PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosi
                                                                   scene.mirrors,
                                                                   clusters.worlds,
                                                                   scene.mesh,
+                                                                  scene.textures,
                                                                   {},
                                                                   clusters.emitters,
                                                                   {},
                                                                   make_emitter_tree(
-                                                                      clusters.emitters)},
+                                                                      clusters.emitters),
+                                                                  {},
+                                                                  Rgb(0.0)},
       net(make_direction_net(settings.rays)),
       cube(factors.method == FormFactorMethod::hemicube ? make_hemicube(factors.hemicube_resolution)
                                                         : Hemicube{}) {}

@@ -38,9 +38,9 @@ Point3 centre_of(const ElementMesh& mesh) {
 std::vector<glm::vec3> display_colours(const ElementMesh& mesh, const DiffuseField& field) {
   Image radiosity;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const ElementId element = mesh.element_of_vertex[v];
-    const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(element)])];
-    radiosity.pixels.emplace_back(side.emission + side.reflectance * Rgb(field.irradiance[v]));
+    const std::uint32_t element = index(mesh.element_of_vertex[v]);
+    radiosity.pixels.emplace_back(mesh.emission[element] +
+                                  mesh.reflectance[element] * Rgb(field.irradiance[v]));
   }
   radiosity.width = static_cast<int>(radiosity.pixels.size());
   radiosity.height = 1;

@@ -14,7 +14,7 @@ FieldContent field_content(const DiffuseField& field, const DiffuseSettings& set
 std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const DiffuseField& field) {
   std::vector<Rgb> reflected = corner_means(mesh, field.irradiance);
   for (std::size_t e = 0; e < reflected.size(); ++e)
-    reflected[e] *= mesh.sides[index(mesh.side_of_element[e])].reflectance;
+    reflected[e] *= mesh.reflectance[e];
   return reflected;
 }
 

@@ -9,19 +9,20 @@ std::vector<SideShading> make_side_shading(const ElementMesh& mesh) {
   shading.reserve(mesh.sides.size());
   for (const auto& side : mesh.sides)
     shading.push_back({glm::vec3(side.emission / std::numbers::pi),
-                       glm::vec3(side.reflectance / std::numbers::pi)});
+                       glm::vec3(side.reflectance / std::numbers::pi), side.textured});
   return shading;
 }
 
-VisibleLight visible_light(const ElementMesh& mesh, const DiffuseField& field,
+VisibleLight visible_light(const LightScene& light, const DiffuseField& field,
                            FieldContent content) {
-  return {make_side_shading(mesh),
-          content == FieldContent::all ? field.irradiance : field.indirect, ReflectedPart::all};
+  return {make_side_shading(light.mesh),
+          content == FieldContent::all ? field.irradiance : field.indirect, ReflectedPart::all,
+          glm::vec3(light.scene.background)};
 }
 
-std::vector<LightPart> light_parts(const ElementMesh& mesh, const DiffuseField& field,
+std::vector<LightPart> light_parts(const LightScene& light, const DiffuseField& field,
                                    FieldContent content) {
-  const VisibleLight all = visible_light(mesh, field, content);
+  const VisibleLight all = visible_light(light, field, content);
   const auto& mirrored = content == FieldContent::all ? field.mirrored : field.indirect_mirrored;
   auto glowing = all.shading, reflecting = all.shading;
   for (auto& side : glowing)
@@ -32,9 +33,9 @@ std::vector<LightPart> light_parts(const ElementMesh& mesh, const DiffuseField& 
   std::vector<glm::vec3> straight = all.irradiance;
   for (std::size_t v = 0; v < straight.size(); ++v)
     straight[v] = glm::max(straight[v] - mirrored[v], glm::vec3(0.0F));
-  return {{"emission", {glowing, all.irradiance, ReflectedPart::none}},
-          {"diffuse.direct", {reflecting, std::move(straight), ReflectedPart::straight}},
-          {"diffuse.mirrored", {reflecting, mirrored, ReflectedPart::mirrored}}};
+  return {{"emission", {glowing, all.irradiance, ReflectedPart::none, all.background}},
+          {"diffuse.direct", {reflecting, std::move(straight), ReflectedPart::straight, {}}},
+          {"diffuse.mirrored", {reflecting, mirrored, ReflectedPart::mirrored, {}}}};
 }
 
 } // namespace meninas

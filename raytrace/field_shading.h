@@ -4,6 +4,7 @@
 #pragma once
 
 #include "radiosity/interpolation.h"
+#include "radiosity/light_scene.h"
 
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@ namespace meninas {
 struct SideShading {
   glm::vec3 emitted{0.0F};        ///< L_e
   glm::vec3 albedo_over_pi{0.0F}; ///< rho_d / pi
+  bool textured = false; ///< these are factors: each point has its own (shading_at)
 };
 
 /// By SideId.
@@ -27,6 +29,7 @@ struct VisibleLight {
   std::vector<SideShading> shading;  ///< by SideId
   std::vector<glm::vec3> irradiance; ///< by ElementVertexId: of the part, all of it or the indirect
   ReflectedPart part = ReflectedPart::all;
+  glm::vec3 background{0.0F}; ///< radiance where nothing is met
 };
 
 /// How much of the light a field's values are.
@@ -35,7 +38,7 @@ enum class FieldContent {
   indirect ///< without what is computed from the source
 };
 
-VisibleLight visible_light(const ElementMesh& mesh, const DiffuseField& field,
+VisibleLight visible_light(const LightScene& light, const DiffuseField& field,
                            FieldContent content);
 
 /// What a field shows, in the parts that add up to it: `emission`, and reflected light by its last leg to the surface, straight
@@ -44,7 +47,8 @@ struct LightPart {
   std::string name;
   VisibleLight light;
 };
-std::vector<LightPart> light_parts(const ElementMesh& mesh, const DiffuseField& field,
+/// Where nothing is met the background is seen, as `emission`.
+std::vector<LightPart> light_parts(const LightScene& light, const DiffuseField& field,
                                    FieldContent content);
 
 /// Sums over points (s, t) of one element: of 1, s, t and s t. The field is linear in them.

@@ -10,7 +10,7 @@ Rendering render_layers(const LightScene& light, const DiffuseField& field, cons
   result.image = Image(settings.width, settings.height);
   const auto gathering = make_gathering(light, field, settings.diffuse);
   const FieldContent content = field_content(field, settings.diffuse);
-  for (const LightPart& part : light_parts(light.mesh, field, content)) {
+  for (const LightPart& part : light_parts(light, field, content)) {
     const std::size_t first = result.layers.size();
     for (const char* way : {"", ".mirror", ".mirrors"})
       result.layers.push_back({part.name + way, Image(settings.width, settings.height)});

@@ -9,7 +9,7 @@ Rendering render(const LightScene& light, const DiffuseField& field, const Camer
     return render_layers(light, field, camera, settings, progress);
   Rendering result;
   result.image = Image(settings.width, settings.height);
-  const VisibleLight all = visible_light(light.mesh, field, field_content(field, settings.diffuse));
+  const VisibleLight all = visible_light(light, field, field_content(field, settings.diffuse));
   const auto gathering = make_gathering(light, field, settings.diffuse);
   const RayTotals rays = trace_picture(light, all, gathering.get(), camera, settings, progress,
                                        [&](int x, int y, const SeenRadiance& seen) {

@@ -1,9 +1,11 @@
 #include "raytrace/shading.h"
 
+#include "radiosity/surface_colour.h"
 #include "raytrace/quad_lanes.h"
 #include "raytrace/specular_paths.h"
 
 #include <limits>
+#include <numbers>
 
 namespace meninas {
 
@@ -17,13 +19,31 @@ Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitP
           static_cast<PlaneId>(face.plane_class), light.mesh.sides[face.side].tangent};
 }
 
+/// What the surface is like where lane k has landed on it: of a textured one the point itself, in the part that is shown.
+SideShading shading_at(const RenderContext& context, const FaceRecord& face, const HitPacket& hits,
+                       std::uint32_t k) {
+  const SideShading& side = context.visible.shading[face.side];
+  if (!side.textured)
+    return side;
+  const LightScene& light = context.light;
+  const SurfaceColour colour = surface_colour(
+      light.scene, light.textures, TriangleId{hits.triangle[k]}, {hits.b1[k], hits.b2[k]});
+  const ReflectedPart part = context.visible.part;
+  const bool emits = part == ReflectedPart::all || part == ReflectedPart::none;
+  SideShading shading;
+  if (emits)
+    shading.emitted = colour.emission / std::numbers::pi;
+  if (part != ReflectedPart::none)
+    shading.albedo_over_pi = colour.reflectance / std::numbers::pi;
+  return shading;
+}
+
 /// H where lane k has landed on a side.
 glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& state,
                              const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
                              TileWorkspace& work) {
   const LightScene& light = context.light;
-  const FieldPoint at =
-      field_point(light.landing, face.side, uv_of(light, face, hits, k));
+  const FieldPoint at = field_point(light.landing, face.side, uv_of(light, face, hits, k));
   const glm::vec3 field =
       field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
   return irradiance_at_point(light, context.settings.diffuse, context.gathering,
@@ -34,19 +54,17 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
 glm::vec3 radiance_of_lane(const RenderContext& context, const LaneState& state,
                            const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
                            TileWorkspace& work) {
-  const SideShading& shading = context.visible.shading[face.side];
+  const SideShading shading = shading_at(context, face, hits, k);
   if (context.settings.diffuse.term != DiffuseTerm::interpolated)
-    return shading.emitted + shading.albedo_over_pi *
-                                 irradiance_of_lane(context, state, face, hits, k, work);
+    return shading.emitted +
+           shading.albedo_over_pi * irradiance_of_lane(context, state, face, hits, k, work);
   return field_radiance(context.light.mesh, context.visible.irradiance, shading,
-                        context.light.landing, face.side,
-                        uv_of(context.light, face, hits, k));
+                        context.light.landing, face.side, uv_of(context.light, face, hits, k));
 }
 
 /// The sum of H over sixteen samples of one pixel on one side: of the first four, which are spread over the pixel, where they agree.
 glm::vec3 irradiance_of_packet(const RenderContext& context, const LaneState& state,
-                               const FaceRecord& face, const HitPacket& hits,
-                               TileWorkspace& work) {
+                               const FaceRecord& face, const HitPacket& hits, TileWorkspace& work) {
   constexpr std::uint32_t few = 4;
   constexpr float alike = 0.005F; // relative: too little to be seen
   glm::vec3 sum(0.0F), low(std::numeric_limits<float>::infinity()), high(0.0F);
@@ -76,6 +94,9 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
       }
       if (face.mirrors && mirrors)
         reflect(context, face, packet, state, k, hits.distance[k], work);
+    } else {
+      sum += state.specular ? state.specular[k].throughput * context.visible.background
+                            : context.visible.background;
     }
     if (k + 1 < packet.count && state.pixel[k + 1] == state.pixel[k])
       continue;
@@ -97,10 +118,11 @@ bool shade_as_one(const RenderContext& context, const LaneState& state, const Hi
   if (differ != 0)
     return false;
   if (hits.triangle[0] == index(none<TriangleId>))
-    return true;
+    return context.visible.background == glm::vec3(0.0F);
   const LightScene& light = context.light;
   const FaceRecord& face = face_of(light.landing, hits, 0);
-  if (face.mirrors || face.side == FaceRecord::nothing || light.landing.sides[face.side].triangle)
+  if (face.mirrors || face.side == FaceRecord::nothing || light.landing.sides[face.side].triangle ||
+      context.visible.shading[face.side].textured)
     return false;
   glm::vec3 throughput(1.0F);
   if (state.specular) {
@@ -114,7 +136,8 @@ bool shade_as_one(const RenderContext& context, const LaneState& state, const Hi
     const SideShading& shading = context.visible.shading[face.side];
     const glm::vec3 h = irradiance_of_packet(context, state, face, hits, work);
     work.sums[work.way][state.pixel[0]] +=
-        throughput * (static_cast<float>(packet_size) * shading.emitted + shading.albedo_over_pi * h);
+        throughput *
+        (static_cast<float>(packet_size) * shading.emitted + shading.albedo_over_pi * h);
     return true;
   }
   const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits);

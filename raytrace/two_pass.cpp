@@ -1,8 +1,16 @@
 #include "raytrace/two_pass.h"
 
+#include "image/image_file.h"
+#include "radiosity/surface_colour.h"
 #include "scenes/stopwatch.h"
 
 namespace meninas {
+
+static TexturePixels decoded(const Texture& texture, TextureContent content) {
+  const Encoding encoding = content == TextureContent::colour ? Encoding::srgb : Encoding::linear;
+  Bitmap image = decode_image(texture.encoded, encoding, texture.name);
+  return {image.width, image.height, std::move(image.pixels)};
+}
 
 std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings) {
   auto prepared = std::make_unique<PreparedScene>();
@@ -15,12 +23,15 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
   prepared->seconds.plan = watch.lap();
 
   // Elements to light, and rays over the input geometry, not over the elements.
-  prepared->rays.emplace(make_ray_scene(prepared->scene, prepared->surfaces));
+  prepared->textures = decode_textures(prepared->scene, decoded);
+  prepared->rays.emplace(make_ray_scene(prepared->scene, prepared->surfaces,
+                                        holes_of(prepared->scene, prepared->textures)));
   const DarkSides dark = find_dark_sides(prepared->scene, prepared->surfaces, *prepared->rays);
   prepared->mesh = make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh, dark);
+  average_textures(prepared->scene, prepared->surfaces, prepared->textures, prepared->mesh);
   prepared->light.emplace(make_light_scene(prepared->scene, prepared->surfaces, *prepared->rays,
                                            prepared->plan.mirrors, prepared->plan.worlds,
-                                           prepared->mesh));
+                                           prepared->mesh, prepared->textures));
   prepared->seconds.mesh = watch.lap();
   return prepared;
 }

@@ -24,12 +24,14 @@ struct PreparedScene {
   Scene scene;
   SurfaceModel surfaces;
   TransportPlan plan;
+  DecodedTextures textures;
   ElementMesh mesh;
   std::optional<RayScene> rays;
   std::optional<LightScene>
       light; ///< refers to the members above: a PreparedScene stays where it was made
   PreparationSeconds seconds;
 };
+/// Throws InputError for a texture that cannot be decoded.
 std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings);
 
 struct TwoPassResult {

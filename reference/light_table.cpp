@@ -41,13 +41,6 @@ double punctual_power(const PunctualLight& light, const Bounds& bounds) {
   return 0.0;
 }
 
-/// KHR_lights_punctual: a smooth fall from the inner to the outer cone.
-double spot_falloff(const PunctualLight& light, double cosine) {
-  const double inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
-  const double t = std::clamp((cosine - outer) / std::max(1e-3, inner - outer), 0.0, 1.0);
-  return t * t;
-}
-
 } // namespace
 
 LightTable make_light_table(const Scene& scene, const DecodedTextures& textures) {
@@ -93,18 +86,6 @@ const Light& choose_light(const LightTable& table, double u) {
   const auto k = std::min<std::size_t>(static_cast<std::size_t>(found - table.cumulative.begin()),
                                        table.lights.size() - 1);
   return table.lights[k];
-}
-
-PunctualSample punctual_sample(const PunctualLight& light, const Point3& x, double reach) {
-  if (light.kind == PunctualKind::directional)
-    return {x - reach * light.direction, light.intensity};
-  const Vec3 from_light = x - light.position;
-  const double distance2 = glm::dot(from_light, from_light);
-  if (distance2 == 0.0)
-    return {light.position, Rgb(0.0)};
-  const double cosine = glm::dot(from_light, light.direction) / std::sqrt(distance2);
-  const double falloff = light.kind == PunctualKind::spot ? spot_falloff(light, cosine) : 1.0;
-  return {light.position, light.intensity * (falloff / distance2)};
 }
 
 Vec2 even_barycentric(double u, double v) {

@@ -5,6 +5,7 @@
 // the same number whether the light was chosen or met by chance: both are needed for multiple importance sampling.
 #pragma once
 
+#include "scenes/punctual_light.h"
 #include "scenes/ray_scene.h"
 #include "scenes/texture_lookup.h"
 
@@ -31,14 +32,6 @@ LightTable make_light_table(const Scene& scene, const DecodedTextures& textures)
 
 /// The light a number in [0, 1) stands for; precondition: there is one.
 const Light& choose_light(const LightTable& table, double u);
-
-/// Irradiance at normal incidence from a punctual light, in W/m^2, and where its shadow rays end.
-struct PunctualSample {
-  Point3 position;
-  Rgb irradiance{0.0};
-};
-/// `reach` is farther than anything in the scene.
-PunctualSample punctual_sample(const PunctualLight& light, const Point3& x, double reach);
 
 /// Evenly over the triangle: weights of its second and third corner from two numbers in [0, 1).
 Vec2 even_barycentric(double u, double v);

@@ -97,8 +97,10 @@ void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts&
     Path& path = paths[lanes[lane]];
     const TriangleId triangle{hits.triangle[lane]};
     path.alive = triangle != none<TriangleId>;
-    if (!path.alive)
+    if (!path.alive) {
+      path.radiance[layer_of(path.route)] += path.throughput * traced.scene.background;
       continue;
+    }
     path.at =
         surface_point(traced, triangle, {hits.b1[lane], hits.b2[lane]}, hits.front[lane] != 0);
     path.alive = path.at.hole || !path.at.black;

@@ -9,7 +9,6 @@
 #include "runs/reference_run.h"
 #include "runs/resources.h"
 #include "scenes/errors.h"
-#include "scenes/gltf.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
@@ -82,7 +81,7 @@ void compare_run(const CompareRequest& request, const RunEvents& events) {
   figures.threads = limit.threads();
   preload_image_io();
 
-  Scene scene = load_gltf(request.scene);
+  Scene scene = load_scene(request.scene, request.settings);
   const Camera camera = choose_camera(scene, request.camera, events);
   const PictureSize size = choose_size(request.size, camera);
   Comparison comparison;

@@ -1,8 +1,8 @@
 #include "runs/plan_run.h"
 
+#include "runs/preparation.h"
 #include "runs/resources.h"
 #include "runs/stats.h"
-#include "scenes/gltf.h"
 
 #include <fmt/format.h>
 
@@ -74,7 +74,7 @@ std::string plan_text(const std::string& file, const TransportPlan& plan, std::s
 std::string plan_run(const PlanRequest& request) {
   const ThreadLimit limit(request.settings.threads);
   const PassOneSettings settings = two_pass_settings(request.settings).pass_one;
-  const Scene scene = load_gltf(request.scene);
+  const Scene scene = load_scene(request.scene, request.settings);
   const SurfaceModel surfaces = find_surfaces(scene);
   const TransportPlan plan = plan_transport(scene, surfaces, settings.plan);
   const std::size_t elements = element_count(make_element_mesh(scene, surfaces, settings.mesh));

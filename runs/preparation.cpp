@@ -1,11 +1,22 @@
 #include "runs/preparation.h"
 
+#include "scenes/gltf.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace meninas {
+
+Scene under_background(Scene scene, const RunSettings& settings) {
+  scene.background = settings.background.value_or(scene.background);
+  return scene;
+}
+
+Scene load_scene(const std::filesystem::path& file, const RunSettings& settings) {
+  return under_background(load_gltf(file), settings);
+}
 
 std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,
                                            const RunEvents& events, RunFigures& figures) {

@@ -10,6 +10,12 @@
 
 namespace meninas {
 
+/// The scene with the background that was asked for.
+Scene under_background(Scene scene, const RunSettings& settings);
+
+/// The same, of a file.
+Scene load_scene(const std::filesystem::path& file, const RunSettings& settings);
+
 /// Says the plan's warnings and fills in the figures of these stages.
 std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,
                                            const RunEvents& events, RunFigures& figures);

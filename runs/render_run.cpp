@@ -4,7 +4,6 @@
 #include "runs/resources.h"
 #include "runs/view.h"
 #include "scenes/errors.h"
-#include "scenes/gltf.h"
 #include "scenes/stopwatch.h"
 
 namespace meninas {
@@ -85,7 +84,7 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   Stopwatch total;
   Stopwatch watch;
 
-  Scene scene = load_gltf(request.scene);
+  Scene scene = load_scene(request.scene, request.settings);
   const Camera camera = choose_camera(scene, request.camera, events);
   const PictureSize size = choose_size(request.size, camera);
   preload_image_io();

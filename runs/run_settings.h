@@ -56,10 +56,11 @@ struct RunSettings {
   std::optional<int> samples;
   PictureMode mode = PictureMode::hybrid;
   DiffuseTerm diffuse = DiffuseTerm::interpolated; ///< of a hybrid picture
-  WithLayers layers = WithLayers::no; ///< of a hybrid picture or a reference
-  std::optional<double> max_error;    ///< of a reference
-  std::optional<double> max_seconds;  ///< of a reference
-  int threads = 0;                    ///< 0: all the machine has
+  WithLayers layers = WithLayers::no;              ///< of a hybrid picture or a reference
+  std::optional<double> max_error;                 ///< of a reference
+  std::optional<double> max_seconds;               ///< of a reference
+  std::optional<Rgb> background;                   ///< radiance beyond the scene
+  int threads = 0;                                 ///< 0: all the machine has
   std::uint32_t seed = 0;
 };
 

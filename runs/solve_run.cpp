@@ -5,7 +5,6 @@
 #include "runs/outputs.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
-#include "scenes/gltf.h"
 #include "scenes/stopwatch.h"
 
 namespace meninas {
@@ -55,7 +54,7 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   Stopwatch total;
   Stopwatch watch;
 
-  Scene scene = load_gltf(request.scene);
+  Scene scene = load_scene(request.scene, request.settings);
   figures.seconds.load = watch.lap();
   const auto prepared = prepare_run(std::move(scene), settings, events, figures);
   const RadiositySolution solution = solve_or_relight(request, *prepared->light, settings, events);

@@ -1,5 +1,7 @@
 #include "scenes/careful_rays.h"
 
+#include <algorithm>
+
 namespace meninas {
 
 namespace {
@@ -42,6 +44,18 @@ LaneHit facing_side(const RayScene& rays, const LaneRay& ray, const LaneHit& bac
 }
 
 } // namespace
+
+void add_contact(const FrameGeometry& geometry, std::uint32_t triangle, std::uint32_t leaving,
+                 Contacts& contacts) {
+  const auto& facts = geometry.facts[triangle];
+  auto& list = facts.plane == leaving ? contacts.own : contacts.others;
+  const auto known = std::ranges::any_of(
+      list, [&](const ContactTriangle& contact) { return index(contact.triangle) == triangle; });
+  if (!known)
+    list.push_back({TriangleId{triangle}, PlaneId{facts.plane},
+                    facts.single_sided ? Sidedness::single : Sidedness::both,
+                    corners_of(geometry, triangle)});
+}
 
 LaneHit careful_hit(const RayScene& rays, const LaneRay& ray, Backs backs, ContactMemory& memory) {
   RayRule rule{.geometry = &rays.geometry(), .leaving = &ray.leaving};

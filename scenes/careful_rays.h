@@ -14,6 +14,10 @@ Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_
 
 // --- What is made of it
 
+/// Adds a triangle within reach, once, of a point that leaves a plane.
+void add_contact(const FrameGeometry& geometry, std::uint32_t triangle, std::uint32_t leaving,
+                 Contacts& contacts);
+
 /// The contacts of the last origin asked for: the rays of a packet often share theirs.
 struct ContactMemory {
   glm::vec3 origin{std::numeric_limits<float>::quiet_NaN()};

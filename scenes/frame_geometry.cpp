@@ -48,7 +48,7 @@ std::vector<bool> classes_with_sheets(const Scene& scene, const SurfaceModel& su
 
 } // namespace
 
-FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfaces) {
+FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfaces, Holes holes) {
   expects(surfaces.plane_of_triangle.size() == scene.triangles.size(),
           "the surfaces belong to another scene");
   FrameGeometry geometry;
@@ -64,8 +64,9 @@ FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfac
     const auto& v = scene.triangles[t].vertices;
     const auto plane = index(surfaces.plane_of_triangle[t]);
     geometry.triangles.push_back({index(v[0]), index(v[1]), index(v[2])});
-    geometry.facts.push_back(
-        {plane, !material_of(scene, TriangleId{t}).double_sided, sheets[plane]});
+    const Material& material = material_of(scene, TriangleId{t});
+    geometry.facts.push_back({plane, !material.double_sided, sheets[plane],
+                              holes && material.alpha_mode == AlphaMode::mask});
   }
 
   for (const auto& plane : surfaces.planes) {
@@ -74,6 +75,7 @@ FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfac
     geometry.lifts.push_back({normal.x, normal.y, normal.z});
   }
   geometry.lifts.push_back({});
+  geometry.holes = std::move(holes);
   return geometry;
 }
 

@@ -10,6 +10,7 @@ struct TriangleFacts {
   bool single_sided = false;
   bool in_sheet =
       false; ///< its plane class has a face the other way: it may be one side of a sheet
+  bool cut_out = false; ///< it may have holes
 };
 
 struct FrameNormal {
@@ -25,9 +26,16 @@ struct FrameGeometry {
   std::vector<FrameNormal>
       lifts;          ///< the same in floats, and one of length zero for rays that leave no plane
   double noise = 0.0; ///< heights below it are rounding, in frame units
+  Holes holes;
 };
 
-FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfaces);
+FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfaces,
+                                  Holes holes = {});
+
+/// Whether nothing is there at the point of a triangle with these weights of its second and third vertex.
+inline bool is_hole(const FrameGeometry& geometry, std::uint32_t triangle, Vec2 barycentric) {
+  return geometry.facts[triangle].cut_out && geometry.holes(TriangleId{triangle}, barycentric);
+}
 
 std::array<Point3, 3> corners_of(const FrameGeometry& geometry, std::uint32_t triangle);
 

@@ -19,23 +19,19 @@ namespace {
 // Surfaces nearer to an origin than `reach` touch it.
 constexpr double reach = 2e-6;
 
-struct ReleaseDevice {
+struct Release {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-struct ReleaseGeometry {
   void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
 };
-template <typename Handle, typename Release>
+template <typename Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
 } // namespace
 
 struct RayScene::Impl {
-  Owned<RTCDevice, ReleaseDevice> device;
-  Owned<RTCScene, ReleaseScene> scene;
+  Owned<RTCDevice> device;
+  Owned<RTCScene> scene;
   FrameGeometry geometry;
   NearPlanes near_planes;
   float noise = 0.0F; ///< of the geometry, and the lift
@@ -100,6 +96,17 @@ void filter_legs(const RTCFilterFunctionNArguments* args) {
   }
 }
 
+/// Of every query, before its own filter: nothing is met in a hole.
+void filter_holes(const RTCFilterFunctionNArguments* args) {
+  const auto& [valid, geometry, context, ray, hit, n] = *args;
+  for (auto rest = hit_lanes(*args); rest != 0; rest &= rest - 1) {
+    const auto lane = static_cast<unsigned>(std::countr_zero(rest));
+    if (is_hole(*static_cast<const FrameGeometry*>(geometry), RTCHitN_primID(hit, n, lane),
+                {RTCHitN_u(hit, n, lane), RTCHitN_v(hit, n, lane)}))
+      valid[lane] = 0;
+  }
+}
+
 RTCIntersectContextFlags flags_for(Coherence coherence) {
   return coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
                                           : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
@@ -125,18 +132,8 @@ struct ContactQuery {
 
 bool collect_contact(RTCPointQueryFunctionArguments* args) {
   auto& query = *static_cast<ContactQuery*>(args->userPtr);
-  const auto corners = corners_of(*query.geometry, args->primID);
-  if (distance_to(corners, query.origin) > reach)
-    return false;
-
-  const auto& facts = query.geometry->facts[args->primID];
-  auto& list = facts.plane == query.leaving ? query.found.own : query.found.others;
-  const auto known = std::ranges::any_of(list, [&](const ContactTriangle& contact) {
-    return index(contact.triangle) == args->primID;
-  });
-  if (!known)
-    list.push_back({TriangleId{args->primID}, PlaneId{facts.plane},
-                    facts.single_sided ? Sidedness::single : Sidedness::both, corners});
+  if (distance_to(corners_of(*query.geometry, args->primID), query.origin) <= reach)
+    add_contact(*query.geometry, args->primID, query.leaving, query.found);
   return false;
 }
 
@@ -240,15 +237,12 @@ void read_hits(const RTCRayHit16& traced, float noise, HitPacket& hits, LaneFlag
     hits.front[k] = slope[k] < 0.0F;
 }
 
-void clear_hits(RTCHit16& hit) {
-  std::fill_n(hit.Ng_x, packet_size, 0.0F);
-  std::fill_n(hit.Ng_y, packet_size, 0.0F);
-  std::fill_n(hit.Ng_z, packet_size, 0.0F);
-  std::fill_n(hit.u, packet_size, 0.0F);
-  std::fill_n(hit.v, packet_size, 0.0F);
+RTCHit16 no_hits() {
+  RTCHit16 hit{};
   std::fill_n(hit.primID, packet_size, no_index);
   std::fill_n(hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
   std::fill_n(hit.instID[0], packet_size, RTC_INVALID_GEOMETRY_ID);
+  return hit;
 }
 
 /// Goes on behind the backs that the lanes of `through` met.
@@ -278,7 +272,7 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
   RTCRayHit16 traced;
   alignas(64) const auto valid = traceable_lanes(packet);
   load_rays(impl.geometry, packet, valid, traced.ray);
-  clear_hits(traced.hit);
+  traced.hit = no_hits();
 
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -345,8 +339,8 @@ void check(RTCDevice device) {
                         : "Embree cannot be used on this machine");
 }
 
-Owned<RTCGeometry, ReleaseGeometry> make_mesh(RTCDevice device, const FrameGeometry& geometry) {
-  Owned<RTCGeometry, ReleaseGeometry> mesh(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+Owned<RTCGeometry> make_mesh(RTCDevice device, const FrameGeometry& geometry) {
+  Owned<RTCGeometry> mesh(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
   check(device);
   auto* positions = static_cast<glm::vec3*>(
       rtcSetNewGeometryBuffer(mesh.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -360,6 +354,12 @@ Owned<RTCGeometry, ReleaseGeometry> make_mesh(RTCDevice device, const FrameGeome
   check(device);
   std::ranges::copy(geometry.triangles, triangles);
   rtcSetGeometryBuildQuality(mesh.get(), RTC_BUILD_QUALITY_HIGH);
+  // Filters cost time at every hit: none where nothing is cut out.
+  if (std::ranges::any_of(geometry.facts, &TriangleFacts::cut_out)) {
+    rtcSetGeometryUserData(mesh.get(), const_cast<FrameGeometry*>(&geometry));
+    rtcSetGeometryIntersectFilterFunction(mesh.get(), filter_holes);
+    rtcSetGeometryOccludedFilterFunction(mesh.get(), filter_holes);
+  }
   rtcCommitGeometry(mesh.get());
   check(device);
   return mesh;
@@ -367,9 +367,9 @@ Owned<RTCGeometry, ReleaseGeometry> make_mesh(RTCDevice device, const FrameGeome
 
 } // namespace
 
-RayScene::RayScene(const Scene& scene, const SurfaceModel& surfaces)
+RayScene::RayScene(const Scene& scene, const SurfaceModel& surfaces, Holes holes)
     : impl_(std::make_unique<Impl>()) {
-  impl_->geometry = make_frame_geometry(scene, surfaces);
+  impl_->geometry = make_frame_geometry(scene, surfaces, std::move(holes));
   impl_->near_planes = find_near_planes(impl_->geometry, reach);
   impl_->noise = static_cast<float>(impl_->geometry.noise) + lift;
   impl_->device.reset(rtcNewDevice(nullptr));

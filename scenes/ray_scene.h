@@ -16,6 +16,7 @@
 #include "scenes/surfaces.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -74,9 +75,14 @@ struct RayFrame {
 
 struct FrameGeometry;
 
+/// Whether a cut-out material leaves nothing at the point of a triangle with these weights of its second and third vertex. Rays pass
+/// holes; safe from any number of threads.
+using Holes = std::function<bool(TriangleId, Vec2)>;
+
 class RayScene {
 public:
-  RayScene(const Scene& scene, const SurfaceModel& surfaces);
+  /// Without `holes` all is opaque.
+  RayScene(const Scene& scene, const SurfaceModel& surfaces, Holes holes = {});
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
@@ -91,8 +97,9 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-inline RayScene make_ray_scene(const Scene& scene, const SurfaceModel& surfaces) {
-  return {scene, surfaces};
+inline RayScene make_ray_scene(const Scene& scene, const SurfaceModel& surfaces,
+                               Holes holes = {}) {
+  return {scene, surfaces, std::move(holes)};
 }
 
 std::optional<Hit> closest_hit(const RayScene& rays, const Ray& ray, Backs backs = Backs::absorb);

@@ -134,6 +134,7 @@ std::uint64_t content_hash(const Scene& scene) {
   for (const PunctualLight& light : scene.lights) {
     add_light(hash, light);
   }
+  hash.add(scene.background);
   return hash.value();
 }
 

@@ -61,8 +61,10 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<PunctualLight> lights;
   std::vector<Texture> textures;
-  std::vector<std::string> warnings; ///< what was read in a way the user may not expect, one line each
-  std::vector<std::string> ignored;  ///< names of extensions and features that were left out
+  Rgb background{0.0}; ///< radiance of everything beyond the scene, from all directions
+  std::vector<std::string>
+      warnings; ///< what was read in a way the user may not expect, one line each
+  std::vector<std::string> ignored; ///< names of extensions and features that were left out
   std::size_t degenerate_triangles = 0;
 
   /// Bound on the rounding error of the positions, in metres: floats in the file, moved by the node matrices.

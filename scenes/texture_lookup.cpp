@@ -38,6 +38,11 @@ Vec2 texcoord_at(const Scene& scene, TriangleId triangle, int set, Vec2 barycent
 
 } // namespace
 
+const DecodedTextures& no_textures() {
+  static const DecodedTextures none;
+  return none;
+}
+
 DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode) {
   DecodedTextures decoded;
   decoded.colours.resize(scene.textures.size());

@@ -29,6 +29,9 @@ struct DecodedTextures {
   std::vector<TexturePixels> colours, numbers;
 };
 
+/// Of a scene in which nothing is textured.
+const DecodedTextures& no_textures();
+
 DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode);
 
 /// Where on the image a texture coordinate falls.

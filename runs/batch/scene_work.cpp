@@ -3,6 +3,7 @@
 #include "image/display.h"
 #include "runs/outputs.h"
 #include "runs/page.h"
+#include "runs/preparation.h"
 #include "runs/thumbnail.h"
 #include "scenes/errors.h"
 #include "scenes/gltf.h"
@@ -21,7 +22,7 @@ Scene load_planned(const BatchPicture& picture) {
     throw InputError(picture.scene.string(), "",
                      "has changed since the batch began: run it again with --resume");
   }
-  return scene;
+  return under_background(std::move(scene), picture.request.settings);
 }
 
 /// The cached solution, if there is one that can be used.

@@ -210,7 +210,8 @@ const json one_world{{"considered", 1},        {"kept", 1},         {"pruned_uns
 TEST_F(Outputs, StatsHaveTheDocumentedKeys) {
   const std::map<std::string, std::set<std::string>> documented{
       {"plan", {"mirrors", "mirror_worlds", "worlds", "emitters", "bands"}},
-      {"mesh", {"surfaces", "patches", "elements", "vertices"}},
+      {"mesh",
+       {"surfaces", "patches", "elements", "vertices", "solved_elements", "interpolation_error"}},
       {"solve",
        {"solver", "iterations", "residual", "error_bound", "converged", "residuals", "bands",
         "channel_residuals", "channel_error_bounds"}},

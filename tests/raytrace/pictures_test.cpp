@@ -38,13 +38,15 @@ TEST(Pictures, SameBitsForAnyThreadCountAndRun) {
 // edges, by the rule of edges(): mirror edges are among them, where the sample grid decides which pixels are mirror.
 class PictureOfImages : public testing::TestWithParam<bool> {
 protected:
+  Scene half = GetParam() ? half_room_with_small_mirror() : half_room();
+
   /// How the picture of the half room differs from that of the doubled one, edges aside.
-  PictureChange difference(const PassOneSettings& settings) const {
-    const Scene half = GetParam() ? half_room_with_small_mirror() : half_room();
+  PictureChange difference(const PassOneSettings& settings,
+                           const RenderSettings& size = picture_size()) const {
     const Camera camera = half.cameras[0];
-    const Image with_mirror = picture(lit_up(half, settings), camera, picture_size());
-    const Image without = picture(lit_up(doubled(half), settings), camera, picture_size());
-    return change_inside(without, with_mirror, edges(half, camera, picture_size()));
+    const Image with_mirror = picture(lit_up(half, settings), camera, size);
+    const Image without = picture(lit_up(doubled(half), settings), camera, size);
+    return change_inside(without, with_mirror, edges(half, camera, size));
   }
 };
 
@@ -58,6 +60,31 @@ TEST_P(PictureOfImages, PixelByPixel) {
   EXPECT_GT(c.pixels, 160U * 120U * 8U / 10U);
   EXPECT_EQ(c.beyond_a_hundredth, 0U);
   EXPECT_LT(c.rms, 0.002);
+}
+
+// Lamps without extent under a sky: the image of a lamp is another lamp, behind an opening where the mirror is. What is computed at the
+// hit is exact; the field beneath is sampled.
+TEST_P(PictureOfImages, LampsAndSky) {
+  half.lights = {{.name = "bulb", .intensity = Rgb(3.0, 2.0, 1.0), .position = {1.7, 2.0, 2.6}},
+                 {.name = "spot",
+                  .kind = PunctualKind::spot,
+                  .intensity = Rgb(9.0),
+                  .position = {1.8, 2.2, 0.4},
+                  .direction = glm::normalize(Vec3(-1.8, -1.0, 0.7)),
+                  .inner_cone = 0.2,
+                  .outer_cone = 0.5}};
+  half.background = Rgb(0.2, 0.4, 0.8);
+  for (Material& material : half.materials)
+    material.emission = Rgb(0.0);
+  std::erase_if(half.triangles, [&](const Triangle& triangle) {
+    return half.nodes[index(triangle.node)].name == "z1"; // lets the sky in
+  });
+  RenderSettings size = picture_size();
+  size.diffuse.term = DiffuseTerm::direct;
+  const PictureChange c = difference(pass_one(0.25, 4096), size);
+  EXPECT_GT(c.pixels, 160U * 120U * 8U / 10U);
+  EXPECT_LT(double(c.beyond_a_hundredth), 0.002 * double(c.pixels)); // at the edges of shadows
+  EXPECT_LT(c.rms, 0.004);
 }
 
 // With the settings as they come, noise of the gather rays and penumbrae leave some pixels apart.

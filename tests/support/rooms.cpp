@@ -74,6 +74,12 @@ Scene doubled(const Scene& half) {
     const Point3 x = whole.vertices[k].position;
     whole.vertices.push_back({.position = x - 2.0 * (glm::dot(normal, x) - offset) * normal});
   }
+  for (std::size_t k = 0, count = whole.lights.size(); k < count; ++k) {
+    PunctualLight image = whole.lights[k];
+    image.position -= 2.0 * (glm::dot(normal, image.position) - offset) * normal;
+    image.direction = glm::reflect(image.direction, normal);
+    whole.lights.push_back(image);
+  }
   // A reflection turns the order of the corners round.
   for (std::size_t k = 0, count = whole.triangles.size(); k < count; ++k) {
     Triangle image = whole.triangles[k];

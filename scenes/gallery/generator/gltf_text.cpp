@@ -57,6 +57,7 @@ struct Document {
   Json nodes = Json::array();
   Json meshes = Json::array();
   Json cameras = Json::array();
+  Json lights = Json::array();
   Json materials = Json::array();
   Json accessors = Json::array();
   Json views = Json::array();
@@ -130,18 +131,23 @@ static void add_part(Document& document, const Part& part) {
   document.meshes.push_back(mesh_json(document, part));
 }
 
-static void add_view(Document& document, const View& view) {
-  // A glTF camera looks along -z of its node, with +y up.
-  const auto back = glm::normalize(view.eye - view.target);
+/// What looks or shines along -z of its node, with +y up.
+static Json pose_json(const Point3& eye, const Point3& target) {
+  const auto back = glm::normalize(eye - target);
   const auto right = glm::normalize(glm::cross(Vec3(0.0, 1.0, 0.0), back));
   const auto up = glm::cross(back, right);
   Json matrix = Json::array();
-  for (const auto& column : {glm::dvec4(right, 0.0), glm::dvec4(up, 0.0), glm::dvec4(back, 0.0),
-                             glm::dvec4(view.eye, 1.0)})
+  for (const auto& column :
+       {glm::dvec4(right, 0.0), glm::dvec4(up, 0.0), glm::dvec4(back, 0.0), glm::dvec4(eye, 1.0)})
     for (int k = 0; k < 4; ++k)
       matrix.push_back(column[k] + 0.0);
-  document.nodes.push_back(
-      {{"name", view.name}, {"camera", document.cameras.size()}, {"matrix", matrix}});
+  return matrix;
+}
+
+static void add_view(Document& document, const View& view) {
+  document.nodes.push_back({{"name", view.name},
+                            {"camera", document.cameras.size()},
+                            {"matrix", pose_json(view.eye, view.target)}});
   document.cameras.push_back({{"name", view.name},
                               {"type", "perspective"},
                               {"perspective",
@@ -149,6 +155,22 @@ static void add_view(Document& document, const View& view) {
                                 {"yfov", glm::radians(view.vertical_fov)},
                                 {"znear", 0.01},
                                 {"zfar", 1000.0}}}});
+}
+
+static void add_lamp(Document& document, const Lamp& lamp) {
+  document.nodes.push_back(
+      {{"name", lamp.name},
+       {"matrix", pose_json(lamp.eye, lamp.target)},
+       {"extensions", {{"KHR_lights_punctual", {{"light", document.lights.size()}}}}}});
+  const auto brightest = std::max({lamp.intensity.x, lamp.intensity.y, lamp.intensity.z});
+  Json light{{"name", lamp.name},
+             {"type", lamp.type},
+             {"color", json(lamp.intensity / brightest)},
+             {"intensity", brightest}};
+  if (lamp.type == "spot")
+    light["spot"] = {{"innerConeAngle", glm::radians(lamp.inner_cone)},
+                     {"outerConeAngle", glm::radians(lamp.outer_cone)}};
+  document.lights.push_back(light);
 }
 
 static std::string list_text(const char* key, const Json& list) {
@@ -162,6 +184,8 @@ std::string gltf_text(const Stage& stage) {
   Document document;
   for (const auto& view : stage.views)
     add_view(document, view);
+  for (const auto& lamp : stage.lamps)
+    add_lamp(document, lamp);
   for (const auto& part : stage.parts)
     add_part(document, part);
 
@@ -172,8 +196,16 @@ std::string gltf_text(const Stage& stage) {
   const Json scene{{"name", stage.name}, {"nodes", roots}};
 
   auto text = "{\n  \"asset\": " + asset.dump() + ",\n";
+  Json used = Json::array();
   if (document.has_strength)
-    text += "  \"extensionsUsed\": [\"KHR_materials_emissive_strength\"],\n";
+    used.push_back("KHR_materials_emissive_strength");
+  if (!document.lights.empty())
+    used.push_back("KHR_lights_punctual");
+  if (!used.empty())
+    text += "  \"extensionsUsed\": " + used.dump() + ",\n";
+  if (!document.lights.empty())
+    text += "  \"extensions\": {\"KHR_lights_punctual\": {" +
+            list_text("lights", document.lights).substr(2) + "}},\n";
   text += "  \"scene\": 0,\n" + list_text("scenes", Json::array({scene}));
   text += ",\n" + list_text("nodes", document.nodes);
   text += ",\n" + list_text("cameras", document.cameras);

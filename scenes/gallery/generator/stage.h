@@ -52,10 +52,21 @@ struct View {
   double aspect = 1.0;        ///< width / height
 };
 
+/// A lamp without extent, as of KHR_lights_punctual; of a sun only the direction from `eye` to `target` counts.
+struct Lamp {
+  std::string name;
+  std::string type;   ///< "point", "spot" or "directional"
+  Rgb intensity{0.0}; ///< W/sr, or the sun's irradiance in W/m^2
+  Point3 eye;
+  Point3 target;
+  double inner_cone = 0.0, outer_cone = 45.0; ///< of a spot, in degrees from its axis
+};
+
 struct Stage {
   std::string name;
   std::vector<Part> parts;
   std::vector<View> views;
+  std::vector<Lamp> lamps = {};
 
   void add(std::string part, const Paint& paint, Mesh mesh) {
     parts.push_back({std::move(part), paint, std::move(mesh)});

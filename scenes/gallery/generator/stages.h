@@ -10,6 +10,7 @@ Stage cornell_mirror();
 Stage mirror_spot();
 Stage periscope();
 Stage facing_mirrors();
+Stage sunbeam();
 Stage half_room();
 Stage doubled_room();
 Stage no_mirror();

@@ -1,0 +1,33 @@
+// What a textured surface reflects and emits diffusely: at a point, and as means over the elements of pass one.
+//
+//   rho(x) = c(x) (1 - m(x)),   E(x) = pi L(x)
+//
+// with base colour c, metalness m and emitted radiance L the material's factors times its textures; rough metals count as diffuse, rho = c,
+// which a plan says. Pass one knows the means over its elements, pass two looks up the point: the irradiance is interpolated between
+// the elements, the colours are as sharp as their images.
+#pragma once
+
+#include "radiosity/element_mesh.h"
+#include "scenes/ray_scene.h"
+#include "scenes/texture_lookup.h"
+
+namespace meninas {
+
+struct SurfaceColour {
+  Rgb reflectance{0.0}; ///< rho
+  Rgb emission{0.0};    ///< E, W/m^2
+  bool hole = false;    ///< nothing is there
+};
+
+/// At the point of a triangle with weights b1, b2 of its second and third corner.
+SurfaceColour surface_colour(const Scene& scene, const DecodedTextures& textures,
+                             TriangleId triangle, Vec2 barycentric);
+
+/// The holes of cut-out materials, for the rays of a scene that outlives them.
+Holes holes_of(const Scene& scene, const DecodedTextures& textures);
+
+/// Sets the means of the elements of textured sides, by 64 points per element.
+void average_textures(const Scene& scene, const SurfaceModel& surfaces,
+                      const DecodedTextures& textures, ElementMesh& mesh);
+
+} // namespace meninas
