@@ -2,7 +2,10 @@
 
 #include "image/image_file.h"
 #include "radiosity/surface_colour.h"
+#include "scenes/errors.h"
 #include "scenes/stopwatch.h"
+
+#include <fmt/format.h>
 
 namespace meninas {
 
@@ -10,6 +13,18 @@ static TexturePixels decoded(const Texture& texture, TextureContent content) {
   const Encoding encoding = content == TextureContent::colour ? Encoding::srgb : Encoding::linear;
   Bitmap image = decode_image(texture.encoded, encoding, texture.name);
   return {image.width, image.height, std::move(image.pixels)};
+}
+
+/// What cannot be decoded changes nothing: white times the factor. A warning says so.
+static DecodedTextures decoded_or_white(const Scene& scene, std::vector<std::string>& warnings) {
+  return decode_textures(scene, [&](const Texture& texture, TextureContent content) {
+    try {
+      return decoded(texture, content);
+    } catch (const InputError& problem) {
+      warnings.push_back(fmt::format("{}: the factor is used alone", problem.what()));
+      return TexturePixels{1, 1, {glm::vec4(1.0F)}};
+    }
+  });
 }
 
 std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings) {
@@ -23,7 +38,7 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
   prepared->seconds.plan = watch.lap();
 
   // Elements to light, and rays over the input geometry, not over the elements.
-  prepared->textures = decode_textures(prepared->scene, decoded);
+  prepared->textures = decoded_or_white(prepared->scene, prepared->plan.warnings);
   prepared->rays.emplace(make_ray_scene(prepared->scene, prepared->surfaces,
                                         holes_of(prepared->scene, prepared->textures)));
   const DarkSides dark = find_dark_sides(prepared->scene, prepared->surfaces, *prepared->rays);

@@ -31,7 +31,7 @@ struct PreparedScene {
       light; ///< refers to the members above: a PreparedScene stays where it was made
   PreparationSeconds seconds;
 };
-/// Throws InputError for a texture that cannot be decoded.
+/// Textures that cannot be decoded are left out, with a warning of the plan.
 std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings);
 
 struct TwoPassResult {

@@ -4,6 +4,7 @@
 #include "raytrace/two_pass.h"
 #include "tests/support/scene_builder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -150,7 +151,8 @@ TEST(Textures, WhatGlowsInPatternsLightsInPatterns) {
                   lamp);
     }
     const auto prepared = prepare_scene(scene, quick(0.25).pass_one);
-    EXPECT_EQ(prepared->light->emitters.size(), pattern ? 12U : 1U) << "two columns, and the one that the border reaches";
+    EXPECT_EQ(prepared->light->emitters.size(), pattern ? 12U : 1U)
+        << "two columns, and the one that the border reaches";
     DirectWorkspace work;
     return direct_irradiance(*prepared->light, {{at, 0, 0.1}, {0, 1, 0}, PlaneId{0}, {}}, {}, 0,
                              work)
@@ -159,6 +161,17 @@ TEST(Textures, WhatGlowsInPatternsLightsInPatterns) {
   // The border between the halves is one texel wide, 1/64 of the lamp, and even about its middle.
   for (const double at : {-0.4, 0.0, 0.7})
     EXPECT_NEAR(floor_light(true, at), floor_light(false, at), 0.02 * floor_light(false, at)) << at;
+}
+
+TEST(Textures, WhatCannotBeDecodedIsLeftOutWithAWarning) {
+  Scene scene;
+  scene.textures = {{.name = "scene.gltf: images/0", .encoded = {std::byte{1}, std::byte{2}}}};
+  add_square(scene, "floor", 0.0, true, painted(0.8));
+  const auto prepared = prepare_scene(scene, quick(0.5).pass_one);
+  EXPECT_THAT(prepared->plan.warnings,
+              testing::Contains(testing::AllOf(testing::StartsWith("scene.gltf: images/0"),
+                                               testing::HasSubstr("factor is used alone"))));
+  EXPECT_NEAR(prepared->mesh.reflectance[0].g, 0.8, 1e-12);
 }
 
 TEST(Textures, EnergyIsThatOfTheImages) {
