@@ -21,6 +21,7 @@ void run(const CLI::App& command, CompareOptions& options) {
       }
     }
   }
+  check_pass_one_options(command, options.common.settings);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
   Console console(options.common.verbosity);

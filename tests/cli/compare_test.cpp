@@ -198,5 +198,11 @@ TEST_F(Compare, LimitsOfAReferenceNeedOne) {
   EXPECT_THAT(outcome.err, HasSubstr("--max-error: has no effect without --reference"));
 }
 
+TEST_F(Compare, OptionsOfPassOneNeedTheirMethod) {
+  const Outcome outcome = compare({"-o", "out", "--hemicube-resolution", "32"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--hemicube-resolution: has no effect without"));
+}
+
 } // namespace
 } // namespace meninas::test
