@@ -72,20 +72,9 @@ Scene relief_room() {
 
 // --- Rays
 
-void set_ray(RayPacket& packet, std::size_t k, const Point3& origin, const Vec3& direction) {
-  packet.origin_x[k] = static_cast<float>(origin.x);
-  packet.origin_y[k] = static_cast<float>(origin.y);
-  packet.origin_z[k] = static_cast<float>(origin.z);
-  packet.direction_x[k] = static_cast<float>(direction.x);
-  packet.direction_y[k] = static_cast<float>(direction.y);
-  packet.direction_z[k] = static_cast<float>(direction.z);
-}
-
-RayPacket empty_packet(float max_distance) {
+RayPacket empty_packet() {
   RayPacket packet{};
   packet.count = packet_size;
-  std::fill_n(packet.max_distance, packet_size, max_distance);
-  std::fill_n(packet.leaving, packet_size, index(none<PlaneId>));
   std::fill_n(packet.arriving, packet_size, index(none<PlaneId>));
   return packet;
 }
@@ -95,11 +84,12 @@ Workload camera_rays(const std::string& name, double eye_z) {
   Workload workload{name, Query::closest, Coherence::coherent, Backs::transparent, {}};
   const std::uint32_t tiles = 1U << (std::bit_width(packet_count) / 2);
   for (std::uint32_t tile = 0; tile < packet_count; ++tile) {
-    auto packet = empty_packet(std::numeric_limits<float>::infinity());
+    auto packet = empty_packet();
     for (std::uint32_t k = 0; k < packet_size; ++k) {
       const auto x = (4.0 * (tile % tiles) + k % 4) / (4.0 * tiles) - 0.5;
       const auto y = (4.0 * (tile / tiles) + k / 4) * tiles / (4.0 * packet_count) - 0.5;
-      set_ray(packet, k, {0.0, 0.0, eye_z}, glm::normalize(Vec3(x, y, -0.4 - 0.4 * eye_z)));
+      set_ray(packet, k, {0.0, 0.0, eye_z}, glm::normalize(Vec3(x, y, -0.4 - 0.4 * eye_z)),
+              index(none<PlaneId>));
     }
     workload.packets.push_back(packet);
   }
@@ -137,15 +127,14 @@ Workload gather_rays(const FrameGeometry& geometry, const Scene& scene) {
   const auto triangles = receivers(scene);
   Workload workload{"cosine gather", Query::closest, Coherence::incoherent, Backs::absorb, {}};
   for (std::uint32_t n = 0; n < packet_count; ++n) {
-    auto packet = empty_packet(std::numeric_limits<float>::infinity());
+    auto packet = empty_packet();
     const auto point = surface_point(geometry, triangles, n);
     const auto frame = tangent_frame(point.normal);
     for (std::uint32_t k = 0; k < packet_size; ++k) {
       const auto sample = sobol4(k, n);
       const auto d = Vec3(cosine_hemisphere(sample[0], sample[1]));
       set_ray(packet, k, point.position,
-              d.x * frame.tangent + d.y * frame.bitangent + d.z * point.normal);
-      packet.leaving[k] = index(point.plane);
+              d.x * frame.tangent + d.y * frame.bitangent + d.z * point.normal, index(point.plane));
     }
     workload.packets.push_back(packet);
   }
@@ -162,14 +151,13 @@ Workload shadow_rays(const RayScene& rays, const Scene& scene, const SurfaceMode
   const auto plane =
       surfaces.plane_of_triangle[static_cast<std::size_t>(&lamp - scene.triangles.data())];
   for (std::uint32_t n = 0; n < packet_count; ++n) {
-    auto packet = empty_packet(1.0F);
+    auto packet = empty_packet();
     const auto point = surface_point(rays.geometry(), triangles, n);
     for (std::uint32_t k = 0; k < packet_size; ++k) {
       const auto sample = sobol4(k, n);
       const auto target = to_frame(rays.frame(), {-0.3 + 0.6 * static_cast<double>(sample[0]), 0.97,
                                                   -0.3 + 0.6 * static_cast<double>(sample[1])});
-      set_ray(packet, k, point.position, target - point.position);
-      packet.leaving[k] = index(point.plane);
+      set_ray(packet, k, point.position, target - point.position, index(point.plane), 1.0F);
       packet.arriving[k] = index(plane);
     }
     workload.packets.push_back(packet);

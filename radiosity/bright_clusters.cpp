@@ -69,9 +69,8 @@ void for_each_part(const ElementMesh& mesh, const Block& block, Visit&& visit) {
       visit({block.side, im, block.i1, jm, block.j1});
     return;
   }
-  const CellId cell = block.cell == none<CellId>
-                          ? root_at(mesh.sides[block.side], block.i0, block.j0)
-                          : block.cell;
+  const CellId cell =
+      block.cell == none<CellId> ? root_at(mesh.sides[block.side], block.i0, block.j0) : block.cell;
   const CellId child = mesh.cells[index(cell)].first_child;
   for (std::uint32_t k = 0; child != none<CellId> && k < 4; ++k)
     visit({block.side, 0, 0, 0, 0, static_cast<CellId>(index(child) + k)});

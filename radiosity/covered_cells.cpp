@@ -38,14 +38,7 @@ bool is_enclosed(const LightScene& light, const RaySource& source, std::uint32_t
     const Vec3 from = point_in(source.area, (Vec2(cell / 8, cell % 8) + 0.25 * place) / 8.0);
     const Vec3 along = round[k].x * source.tangents.tangent +
                        round[k].y * source.tangents.bitangent + rise * source.area.normal;
-    packet.origin_x[k] = static_cast<float>(from.x);
-    packet.origin_y[k] = static_cast<float>(from.y);
-    packet.origin_z[k] = static_cast<float>(from.z);
-    packet.direction_x[k] = static_cast<float>(along.x);
-    packet.direction_y[k] = static_cast<float>(along.y);
-    packet.direction_z[k] = static_cast<float>(along.z);
-    packet.max_distance[k] = std::numeric_limits<float>::infinity();
-    packet.leaving[k] = index(source.area.plane_class);
+    set_ray(packet, k, from, along, index(source.area.plane_class));
   }
   HitPacket hits;
   closest_hits(light.rays, packet, hits, Backs::absorb, Coherence::incoherent);

@@ -54,14 +54,7 @@ std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>
       const Leg& leg = folded[k][step];
       const Vec3 from = (leg.from - frame.centre) * frame.scale,
                  along = (leg.to - leg.from) * frame.scale;
-      packet.origin_x[k] = static_cast<float>(from.x);
-      packet.origin_y[k] = static_cast<float>(from.y);
-      packet.origin_z[k] = static_cast<float>(from.z);
-      packet.direction_x[k] = static_cast<float>(along.x);
-      packet.direction_y[k] = static_cast<float>(along.y);
-      packet.direction_z[k] = static_cast<float>(along.z);
-      packet.max_distance[k] = 1.0F;
-      packet.leaving[k] = index(leg.leaving);
+      set_ray(packet, k, from, along, index(leg.leaving), 1.0F);
       packet.arriving[k] = index(leg.arriving);
     }
     result |= occluded(light.rays, packet, Coherence::coherent);

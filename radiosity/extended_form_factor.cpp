@@ -268,8 +268,7 @@ private:
     while (!settled() && points_ < settings_.max_points && visits_ < settings_.max_visits) {
       std::vector<Region> parents;
       const double largest = heap_.top().first;
-      while (parents.size() < most_at_once && !heap_.empty() &&
-             heap_.top().first >= 0.25 * largest)
+      while (parents.size() < most_at_once && !heap_.empty() && heap_.top().first >= 0.25 * largest)
         parents.push_back(pop());
       split(parents);
     }
@@ -346,7 +345,8 @@ private:
   ClearFormFactors clear_;
   std::vector<double> weights_; ///< by group: how much its errors count
   std::vector<Region> regions_;
-  std::priority_queue<std::pair<double, std::size_t>> heap_; ///< the region with the largest error first
+  std::priority_queue<std::pair<double, std::size_t>>
+      heap_; ///< the region with the largest error first
   double value_ = 0.0;
   std::vector<ErrorSum> errors_; ///< by group, of the regions
   std::size_t points_ = 0, visits_ = 0;

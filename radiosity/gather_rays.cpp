@@ -185,17 +185,6 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
   work.result.traced += ray_count(rays);
 }
 
-void set_lane(RayPacket& packet, std::uint32_t k, const MirroredRay& ray) {
-  packet.origin_x[k] = static_cast<float>(ray.origin.x);
-  packet.origin_y[k] = static_cast<float>(ray.origin.y);
-  packet.origin_z[k] = static_cast<float>(ray.origin.z);
-  packet.direction_x[k] = static_cast<float>(ray.direction.x);
-  packet.direction_y[k] = static_cast<float>(ray.direction.y);
-  packet.direction_z[k] = static_cast<float>(ray.direction.z);
-  packet.max_distance[k] = std::numeric_limits<float>::infinity();
-  packet.leaving[k] = ray.leaving;
-}
-
 /// Mirror after mirror, until no ray goes on.
 void follow_mirrors(const LightScene& light, const FormFactorSettings& settings,
                     GatherWorkspace& work) {
@@ -214,7 +203,8 @@ void follow_mirrors(const LightScene& light, const FormFactorSettings& settings,
     for (std::size_t first = 0; first < work.current.size(); first += packet_size) {
       packet.count = static_cast<std::uint32_t>(std::min(packet_size, work.current.size() - first));
       for (std::uint32_t k = 0; k < packet.count; ++k)
-        set_lane(packet, k, work.current[first + k]);
+        set_ray(packet, k, work.current[first + k].origin, work.current[first + k].direction,
+                work.current[first + k].leaving);
       closest_hits(light.rays, packet, hits, Backs::absorb, Coherence::coherent);
       sort_hits(light, settings, MirroredLegs{&work.current[first]}, packet.count, hits, work);
     }

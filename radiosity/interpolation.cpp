@@ -64,10 +64,10 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
 
 } // namespace
 
-static InterpolatedField
-gather_at_vertices(const LightScene& light, const ElementLight& elements,
-                   const FormFactorSettings& form_factors, const DirectSettings& direct,
-                   const InterpolationSettings& settings) {
+static InterpolatedField gather_at_vertices(const LightScene& light, const ElementLight& elements,
+                                            const FormFactorSettings& form_factors,
+                                            const DirectSettings& direct,
+                                            const InterpolationSettings& settings) {
   constexpr std::size_t chunk_size = 64;
   const ElementMesh& mesh = light.mesh;
   const std::vector<Receiver> receivers = vertex_receivers(mesh);

@@ -21,14 +21,8 @@ bool is_under_something(const LightScene& light, const Receiver& receiver, doubl
     const glm::vec3 direction = double{local.x} * frame.tangent +
                                 double{local.y} * frame.bitangent +
                                 double{local.z} * receiver.normal;
-    packet.origin_x[k] = origin.x;
-    packet.origin_y[k] = origin.y;
-    packet.origin_z[k] = origin.z;
-    packet.direction_x[k] = direction.x;
-    packet.direction_y[k] = direction.y;
-    packet.direction_z[k] = direction.z;
-    packet.max_distance[k] = static_cast<float>(reach * element_size * ray_frame.scale);
-    packet.leaving[k] = index(receiver.plane_class);
+    set_ray(packet, k, origin, direction, index(receiver.plane_class),
+            static_cast<float>(reach * element_size * ray_frame.scale));
     packet.arriving[k] = index(none<PlaneId>);
   }
   return std::popcount(occluded(light.rays, packet, Coherence::coherent)) >= least;

@@ -13,19 +13,6 @@ struct CameraFrame {
       direction_y; ///< likewise; x and y run over the picture from 0 to 1, right and down
 };
 
-/// Puts a ray into a lane, as far as it goes.
-inline void set_ray(RayPacket& packet, std::uint32_t lane, const glm::vec3& origin,
-                    const glm::vec3& direction, std::uint32_t leaving) {
-  packet.origin_x[lane] = origin.x;
-  packet.origin_y[lane] = origin.y;
-  packet.origin_z[lane] = origin.z;
-  packet.direction_x[lane] = direction.x;
-  packet.direction_y[lane] = direction.y;
-  packet.direction_z[lane] = direction.z;
-  packet.max_distance[lane] = std::numeric_limits<float>::infinity();
-  packet.leaving[lane] = leaving;
-}
-
 /// Puts the camera rays through sixteen points of the picture into a packet.
 void set_camera_rays(RayPacket& packet, const CameraFrame& camera,
                      const std::array<float, packet_size>& x,

@@ -63,15 +63,6 @@ Direction local_out(const Path& path) {
   return glm::normalize(Vec3(out.x, out.y, std::max(1e-9, out.z)));
 }
 
-void set_lane(RayPacket& packet, std::uint32_t lane, const Point3& origin, const Vec3& direction) {
-  packet.origin_x[lane] = static_cast<float>(origin.x);
-  packet.origin_y[lane] = static_cast<float>(origin.y);
-  packet.origin_z[lane] = static_cast<float>(origin.z);
-  packet.direction_x[lane] = static_cast<float>(direction.x);
-  packet.direction_y[lane] = static_cast<float>(direction.y);
-  packet.direction_z[lane] = static_cast<float>(direction.z);
-}
-
 /// Carries the living paths whose backs are alike to the next surface; those that meet none end.
 void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts& counts) {
   const RayFrame& frame = traced.rays.frame();
@@ -82,10 +73,8 @@ void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts&
       continue;
     const std::uint32_t lane = packet.count++;
     lanes[lane] = k;
-    set_lane(packet, lane, (paths[k].ray.origin - frame.centre) * frame.scale,
-             paths[k].ray.direction);
-    packet.max_distance[lane] = std::numeric_limits<float>::infinity();
-    packet.leaving[lane] = index(paths[k].ray.leaving);
+    set_ray(packet, lane, (paths[k].ray.origin - frame.centre) * frame.scale,
+            paths[k].ray.direction, index(paths[k].ray.leaving));
   }
   if (packet.count == 0)
     return;
@@ -219,10 +208,8 @@ void add_connections(const TracedScene& traced, const std::vector<Connection>& c
     }
     const std::uint32_t lane = packet.count++;
     lanes[lane] = &connection;
-    set_lane(packet, lane, (x.position - frame.centre) * frame.scale,
-             (connection.light - x.position) * frame.scale);
-    packet.max_distance[lane] = 1.0F;
-    packet.leaving[lane] = index(x.plane);
+    set_ray(packet, lane, (x.position - frame.centre) * frame.scale,
+            (connection.light - x.position) * frame.scale, index(x.plane), 1.0F);
     packet.arriving[lane] = index(connection.arriving);
   }
   if (packet.count == 0)

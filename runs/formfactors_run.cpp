@@ -169,6 +169,11 @@ std::string formfactors_run(const FormFactorsRequest& request, const RunEvents& 
   for (const std::string& warning : scene.warnings) {
     warn(events, warning);
   }
+  for (const Material& material : scene.materials) {
+    if (material.alpha_mode == AlphaMode::mask) {
+      warn(events, fmt::format("cut-outs count as opaque, material '{}'", material.name));
+    }
+  }
   const SurfaceModel surfaces = find_surfaces(scene);
   if (request.format == FormFactorsFormat::matrix) {
     return matrix(scene, surfaces, request, events);

@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -58,6 +59,20 @@ struct alignas(64) RayPacket {
   std::uint32_t count = 0;
 };
 
+/// Puts a ray into a lane, as far as it goes unless it is said how far. Occlusion also needs `arriving`.
+inline void set_ray(RayPacket& packet, std::uint32_t lane, const glm::vec3& origin,
+                    const glm::vec3& direction, std::uint32_t leaving,
+                    float max_distance = std::numeric_limits<float>::infinity()) {
+  packet.origin_x[lane] = origin.x;
+  packet.origin_y[lane] = origin.y;
+  packet.origin_z[lane] = origin.z;
+  packet.direction_x[lane] = direction.x;
+  packet.direction_y[lane] = direction.y;
+  packet.direction_z[lane] = direction.z;
+  packet.max_distance[lane] = max_distance;
+  packet.leaving[lane] = leaving;
+}
+
 struct alignas(64) HitPacket {
   std::uint32_t triangle[packet_size]; ///< index of a TriangleId, or of none for a miss
   float distance[packet_size];         ///< in units of the direction's length
@@ -97,8 +112,7 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-inline RayScene make_ray_scene(const Scene& scene, const SurfaceModel& surfaces,
-                               Holes holes = {}) {
+inline RayScene make_ray_scene(const Scene& scene, const SurfaceModel& surfaces, Holes holes = {}) {
   return {scene, surfaces, std::move(holes)};
 }
 

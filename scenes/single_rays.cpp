@@ -41,14 +41,7 @@ std::optional<Span> clipped_span(const Point3& x, const Direction& d, double end
 RayPacket packet_of(const Point3& origin, const Vec3& direction, double end) {
   RayPacket packet{};
   packet.count = 1;
-  packet.origin_x[0] = static_cast<float>(origin.x);
-  packet.origin_y[0] = static_cast<float>(origin.y);
-  packet.origin_z[0] = static_cast<float>(origin.z);
-  packet.direction_x[0] = static_cast<float>(direction.x);
-  packet.direction_y[0] = static_cast<float>(direction.y);
-  packet.direction_z[0] = static_cast<float>(direction.z);
-  packet.max_distance[0] = static_cast<float>(end);
-  packet.leaving[0] = index(none<PlaneId>);
+  set_ray(packet, 0, origin, direction, index(none<PlaneId>), static_cast<float>(end));
   packet.arriving[0] = index(none<PlaneId>);
   return packet;
 }

@@ -55,6 +55,16 @@ TEST_F(FormFactorsCommand, MirrorDepthZeroLeavesTheRealWorld) {
   EXPECT_EQ(json["worlds"].size(), 1U);
 }
 
+TEST_F(FormFactorsCommand, CutOutsCountAsOpaqueAndAreNamed) {
+  TinyRoom room = tiny_room();
+  room.root["materials"][0]["name"] = "fretwork";
+  room.root["materials"][0]["alphaMode"] = "MASK";
+  write_room(folder_ / "room.glb", room);
+  const Outcome outcome = run({"--from", "floor", "--to", "right"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("warning: cut-outs count as opaque, material 'fretwork'\n"));
+}
+
 TEST_F(FormFactorsCommand, TextSaysTheSame) {
   const Outcome outcome = run({"--from", "floor", "--to", "right"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -65,7 +75,8 @@ TEST_F(FormFactorsCommand, TextSaysTheSame) {
 TEST_F(FormFactorsCommand, RaysAgree) {
   const auto exact = nlohmann::json::parse(run({"--from", "floor", "--to", "right", "--json"}).out);
   const auto rays = nlohmann::json::parse(
-      run({"--from", "floor", "--to", "right", "--json", "--method", "rays", "--rays", "65536"}).out);
+      run({"--from", "floor", "--to", "right", "--json", "--method", "rays", "--rays", "65536"})
+          .out);
   const double sigma = rays["error_estimate"];
   EXPECT_GT(sigma, 0.0);
   EXPECT_NEAR(rays["form_factor"].get<double>(), exact["form_factor"].get<double>(),
@@ -74,9 +85,10 @@ TEST_F(FormFactorsCommand, RaysAgree) {
 
 TEST_F(FormFactorsCommand, HemicubesAgree) {
   const auto exact = nlohmann::json::parse(run({"--from", "floor", "--to", "right", "--json"}).out);
-  const auto cubes = nlohmann::json::parse(run({"--from", "floor", "--to", "right", "--json", "--method",
-                                                "hemicube", "--resolution", "64", "--points", "16"})
-                                               .out);
+  const auto cubes =
+      nlohmann::json::parse(run({"--from", "floor", "--to", "right", "--json", "--method",
+                                 "hemicube", "--resolution", "64", "--points", "16"})
+                                .out);
   EXPECT_EQ(cubes["method"], "hemicube");
   EXPECT_EQ(cubes["worlds"].size(), exact["worlds"].size());
   const double estimate = cubes["error_estimate"];
@@ -102,7 +114,8 @@ TEST_F(FormFactorsCommand, TheMatrixHasARowForEveryNodeAndItsSum) {
 }
 
 TEST_F(FormFactorsCommand, WhatCannotBeAskedIsRefusedInOneLine) {
-  expect_refused("room.glb: no node 'flor', did you mean 'floor'?", {"--from", "flor", "--to", "right"});
+  expect_refused("room.glb: no node 'flor', did you mean 'floor'?",
+                 {"--from", "flor", "--to", "right"});
   expect_refused("room.glb: node 'mirror' is a mirror, which has no form factors of its own",
                  {"--from", "mirror", "--to", "right"});
   expect_refused("formfactors: --from is required, or --all", {"--to", "right"});
