@@ -39,6 +39,9 @@ void add_outputs(CLI::App& command, RenderOptions& options) {
   add_file(command, "--solution", request.solution,
            "a solution written by 'meninas solve'; pass one is skipped");
   add_file(command, "--stats", request.stats, "write the run's figures as JSON");
+  command.add_flag_callback(
+      "--error-map", [&] { request.error_map = WithErrorMap::yes; },
+      "EXRs also hold the layer `error`: how far off each pixel is, as far as the run can tell");
   add_file(command, "--snapshots", options.snapshots,
            "a folder for pictures along the way of --solver progressive, without and with the "
            "ambient light of what is still to be shot")
@@ -150,6 +153,26 @@ void check_diffuse(const RunSettings& settings) {
   }
 }
 
+bool has_exr(const RenderOptions& options) {
+  const auto is_exr = [](const std::filesystem::path& file) {
+    return picture_format(file) == PictureFormat::exr;
+  };
+  return std::ranges::any_of(options.request.pictures, is_exr);
+}
+
+void check_error_map(const RenderOptions& options) {
+  if (options.request.error_map == WithErrorMap::no) {
+    return;
+  }
+  if (options.common.settings.mode == PictureMode::reference) {
+    throw UsageError("--error-map", "has no effect with --mode reference, which has the layer "
+                                    "'variance'");
+  }
+  if (!has_exr(options)) {
+    throw UsageError("--error-map", "needs an EXR to write it to");
+  }
+}
+
 void check_layers(const RenderOptions& options) {
   const RunSettings& settings = options.common.settings;
   if (settings.layers == WithLayers::no) {
@@ -161,11 +184,7 @@ void check_layers(const RenderOptions& options) {
   if (settings.interpolation == Interpolation::average) {
     throw UsageError("--layers", "needs --interpolation gather");
   }
-  const auto is_exr = [](const std::filesystem::path& file) {
-    return picture_format(file) == PictureFormat::exr;
-  };
-  const auto& pictures = options.request.pictures;
-  if (!pictures.empty() && std::ranges::none_of(pictures, is_exr)) {
+  if (!options.request.pictures.empty() && !has_exr(options)) {
     throw UsageError("--layers", "needs an EXR to write them to");
   }
 }
@@ -208,6 +227,7 @@ void take_snapshots(RenderOptions& options) {
 RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
   check_mode(command, options);
   check_layers(options);
+  check_error_map(options);
   check_diffuse(options.common.settings);
   check_pass_one_options(command, options.common.settings);
   take_snapshots(options);
@@ -267,8 +287,7 @@ RenderRequest parse_render_settings(const std::filesystem::path& scene,
       throw UsageError(setting.name, flag ? "takes true or false" : "takes a value");
     }
     const std::string value = bare ? preset_value : setting.value.value_or("");
-    arguments.insert(arguments.begin(),
-                     "--" + setting.name + (value.empty() ? "" : '=' + value));
+    arguments.insert(arguments.begin(), "--" + setting.name + (value.empty() ? "" : '=' + value));
   }
   options.common.scene = scene;
   try {

@@ -22,6 +22,7 @@ struct DiffuseSettings {
   DirectSettings direct{.shadow_rays = 16, .penumbra_rays = 64}; ///< at a camera ray's hit
   FormFactorSettings gather;    ///< how the rays of `gather` are followed
   PointGatheringSettings points{.rays = 64, .cluster_shadow_rays = 4}; ///< of `gather`, at a hit
+  std::uint32_t draw = 0; ///< another one: other samples at the hits of the same camera rays
 };
 
 /// Which values of the field the term builds on; `direct` expects a field that knows its indirect part.

@@ -46,9 +46,11 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
   const FieldPoint at = field_point(light.landing, face.side, uv_of(light, face, hits, k));
   const glm::vec3 field =
       field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
-  return irradiance_at_point(light, context.settings.diffuse, context.gathering,
-                             context.visible.part, field, receiver_at(light, face, hits, k),
-                             state.key(k, context.settings.seed), work.point);
+  const DiffuseSettings& diffuse = context.settings.diffuse;
+  const std::uint32_t key = state.key(k, context.settings.seed);
+  return irradiance_at_point(light, diffuse, context.gathering, context.visible.part, field,
+                             receiver_at(light, face, hits, k),
+                             diffuse.draw == 0 ? key : hash(key, diffuse.draw), work.point);
 }
 
 glm::vec3 radiance_of_lane(const RenderContext& context, const LaneState& state,

@@ -35,18 +35,35 @@ void render_tile(const RenderContext& context, const TileArea& tile, TileWorkspa
 
 } // namespace
 
+static RenderContext context_of(const LightScene& light, const VisibleLight& visible,
+                                const PointGathering* gathering, const Camera& camera,
+                                const RenderSettings& settings) {
+  const double aspect = double(settings.width) / settings.height;
+  return {light,
+          visible,
+          gathering,
+          settings,
+          make_camera_frame(camera, aspect, light.rays.frame()),
+          pixel_net(settings.samples, 0),
+          pixel_net(settings.samples, 1)};
+}
+
+static RayTotals totals_of(const tbb::enumerable_thread_specific<TileWorkspace>& workspaces) {
+  RayTotals totals;
+  for (const auto& work : workspaces) {
+    totals.camera += work.camera_rays;
+    totals.specular += work.specular_rays;
+    totals.shadow += work.point.direct.shadow_rays;
+    totals.gather += work.point.rays;
+  }
+  return totals;
+}
+
 RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
                         const PointGathering* gathering, const Camera& camera,
                         const RenderSettings& settings, const Progress& progress,
                         const StorePixel& store) {
-  const double aspect = double(settings.width) / settings.height;
-  const RenderContext context{light,
-                              visible,
-                              gathering,
-                              settings,
-                              make_camera_frame(camera, aspect, light.rays.frame()),
-                              pixel_net(settings.samples, 0),
-                              pixel_net(settings.samples, 1)};
+  const RenderContext context = context_of(light, visible, gathering, camera, settings);
   const int columns = (settings.width + tile_size - 1) / tile_size,
             rows = (settings.height + tile_size - 1) / tile_size;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
@@ -59,14 +76,22 @@ RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
     if (progress)
       progress("render", double(++done) / (columns * rows));
   });
-  RayTotals totals;
-  for (const auto& work : workspaces) {
-    totals.camera += work.camera_rays;
-    totals.specular += work.specular_rays;
-    totals.shadow += work.point.direct.shadow_rays;
-    totals.gather += work.point.rays;
-  }
-  return totals;
+  return totals_of(workspaces);
+}
+
+RayTotals trace_pixels(const LightScene& light, const VisibleLight& visible,
+                       const PointGathering* gathering, const Camera& camera,
+                       const RenderSettings& settings, std::span<const glm::ivec2> pixels,
+                       const StorePixel& store) {
+  const RenderContext context = context_of(light, visible, gathering, camera, settings);
+  tbb::enumerable_thread_specific<TileWorkspace> workspaces;
+  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t k) {
+    const auto keep = [&](int, int, const SeenRadiance& seen) {
+      store(static_cast<int>(k), 0, seen);
+    };
+    render_tile(context, {pixels[k].x, pixels[k].y, 1, 1}, workspaces.local(), keep);
+  });
+  return totals_of(workspaces);
 }
 
 void add(Rendering& rendering, const RayTotals& rays) {

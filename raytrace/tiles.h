@@ -4,6 +4,7 @@
 #include "raytrace/tile.h"
 
 #include <functional>
+#include <span>
 
 namespace meninas {
 
@@ -18,6 +19,12 @@ RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
                         const PointGathering* gathering, const Camera& camera,
                         const RenderSettings& settings, const Progress& progress,
                         const StorePixel& store);
+
+/// The pixels of a list alone, the same values, in its order; `store` is told the place in the list as x.
+RayTotals trace_pixels(const LightScene& light, const VisibleLight& visible,
+                       const PointGathering* gathering, const Camera& camera,
+                       const RenderSettings& settings, std::span<const glm::ivec2> pixels,
+                       const StorePixel& store);
 
 void add(Rendering& rendering, const RayTotals& rays);
 

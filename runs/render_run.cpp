@@ -24,6 +24,13 @@ void check_files(const RenderRequest& request) {
   }
 }
 
+/// What nobody reads is not found out.
+ErrorReport wanted_report(const RenderRequest& request) {
+  if (request.error_map == WithErrorMap::yes)
+    return ErrorReport::map;
+  return request.stats ? ErrorReport::figures : ErrorReport::none;
+}
+
 /// Both passes, timed.
 Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
                        const TwoPassSettings& settings, const RenderRequest& request,
@@ -40,6 +47,10 @@ Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
   const PassOneSeconds& pass_one = result.solution.seconds;
   figures.seconds.render =
       watch.lap() - pass_one.form_factors - pass_one.solve - pass_one.interpolate;
+  report_error({field_scene(*prepared.light, result.solution), result.solution.field, camera,
+                settings, result.solution.solver},
+               wanted_report(request), result.rendering.image, result.rendering.layers, events,
+               figures);
   return std::move(result.rendering);
 }
 
@@ -71,7 +82,10 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   const LitScene lit =
       read_lit_scene(*request.solution, std::move(scene), settings.pass_one, events, figures);
   check_field(*request.solution, lit.field, settings.render);
-  return render_view(lit, camera, size, request.settings, events, figures);
+  ViewPicture picture = render_view(lit, camera, size, request.settings, events, figures);
+  report_error({lit.light(), lit.field, camera, settings, figures.solver}, wanted_report(request),
+               picture.image, picture.layers, events, figures);
+  return picture;
 }
 
 } // namespace

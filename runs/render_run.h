@@ -1,6 +1,7 @@
 // `render`: from a scene file to pictures.
 #pragma once
 
+#include "runs/error_report.h"
 #include "runs/outputs.h"
 #include "runs/run_settings.h"
 #include "runs/snapshots.h"
@@ -19,6 +20,7 @@ struct RenderRequest {
   std::optional<std::filesystem::path> solution; ///< of an earlier solve: pass one is skipped
   std::optional<std::filesystem::path> stats;
   std::optional<SnapshotRequest> snapshots; ///< of the progressive solver
+  WithErrorMap error_map = WithErrorMap::no;
   std::optional<std::string> camera;
   std::optional<PictureSize> size;
   PictureSettings picture;

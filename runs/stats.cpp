@@ -72,6 +72,19 @@ Json seconds_json(const RunSeconds& seconds) {
           {"total", seconds.total}};
 }
 
+Json error_json(const PictureError& error) {
+  return {{"total", error.total},
+          {"mesh", error.mesh},
+          {"mesh_direct", error.mesh_direct},
+          {"form_factors", error.form_factors},
+          {"mirror_tail", error.mirror_tail},
+          {"pixels", error.pixels},
+          {"solver", error.solver},
+          {"mean_radiance", error.mean_radiance},
+          {"rays", error.rays},
+          {"seconds", error.seconds}};
+}
+
 Json reference_json(const RunFigures& figures) {
   return {{"reference",
            {{"samples", figures.reference->samples},
@@ -153,33 +166,35 @@ std::string stats_json(const RunFigures& figures) {
   if (figures.reference) {
     return text_of(reference_json(figures));
   }
-  const Json json{{"plan",
-                   {{"mirrors", figures.mirrors},
-                    {"mirror_worlds", figures.mirror_worlds},
-                    {"worlds", worlds_json(figures.worlds)},
-                    {"emitters", figures.emitters},
-                    {"bands", figures.bands}}},
-                  {"mesh",
-                   {{"surfaces", figures.surfaces},
-                    {"patches", figures.patches},
-                    {"elements", figures.elements},
-                    {"vertices", figures.vertices},
-                    {"solved_elements", figures.solved_elements},
-                    {"interpolation_error", optional_json(figures.interpolation_error)}}},
-                  {"solve", solve_json(figures.solver)},
-                  {"energy", energy_json(figures.energy)},
-                  {"closure",
-                   {{"mean_error", figures.closure.mean_error},
-                    {"max_error", figures.closure.max_error},
-                    {"cut", figures.closure.cut}}},
-                  {"rays",
-                   {{"form_factor", figures.rays.form_factor},
-                    {"shadow", figures.rays.shadow},
-                    {"camera", figures.rays.camera},
-                    {"specular", figures.rays.specular}}},
-                  {"seconds", seconds_json(figures.seconds)},
-                  {"peak_memory_bytes", figures.peak_memory_bytes},
-                  {"threads", figures.threads}};
+  Json json{{"plan",
+             {{"mirrors", figures.mirrors},
+              {"mirror_worlds", figures.mirror_worlds},
+              {"worlds", worlds_json(figures.worlds)},
+              {"emitters", figures.emitters},
+              {"bands", figures.bands}}},
+            {"mesh",
+             {{"surfaces", figures.surfaces},
+              {"patches", figures.patches},
+              {"elements", figures.elements},
+              {"vertices", figures.vertices},
+              {"solved_elements", figures.solved_elements},
+              {"interpolation_error", optional_json(figures.interpolation_error)}}},
+            {"solve", solve_json(figures.solver)},
+            {"energy", energy_json(figures.energy)},
+            {"closure",
+             {{"mean_error", figures.closure.mean_error},
+              {"max_error", figures.closure.max_error},
+              {"cut", figures.closure.cut}}},
+            {"rays",
+             {{"form_factor", figures.rays.form_factor},
+              {"shadow", figures.rays.shadow},
+              {"camera", figures.rays.camera},
+              {"specular", figures.rays.specular}}},
+            {"seconds", seconds_json(figures.seconds)},
+            {"peak_memory_bytes", figures.peak_memory_bytes},
+            {"threads", figures.threads}};
+  if (figures.error_estimate)
+    json["error_estimate"] = error_json(*figures.error_estimate);
   return text_of(json);
 }
 

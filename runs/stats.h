@@ -2,6 +2,7 @@
 // A figure that does not exist, such as an error bound without convergence, is null.
 #pragma once
 
+#include "raytrace/picture_error.h"
 #include "raytrace/two_pass.h"
 #include "reference/reference_picture.h"
 
@@ -15,7 +16,7 @@ namespace meninas {
 
 struct RunSeconds {
   double load = 0.0, plan = 0.0, mesh = 0.0, form_factors = 0.0, solve = 0.0, interpolate = 0.0;
-  double render = 0.0, write = 0.0, total = 0.0;
+  double render = 0.0, estimate = 0.0, write = 0.0, total = 0.0;
 };
 
 struct RayCounts {
@@ -47,6 +48,7 @@ struct RunFigures {
   SolverResult solver; ///< without its radiosity
   EnergyBalance energy;
   ClosureError closure;
+  std::optional<PictureError> error_estimate; ///< of the picture, relative
   RayCounts rays;
   RunSeconds seconds;
   std::uint64_t peak_memory_bytes = 0;

@@ -1,0 +1,28 @@
+// Single pixels of a picture, and what of it shows emitters: what errors are estimated and measured on.
+#pragma once
+
+#include "raytrace/render.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace meninas {
+
+struct ProbedPixels {
+  std::vector<glm::vec3> radiance; ///< in the order of the list
+  std::uint64_t rays = 0;          ///< of every kind
+};
+/// The pixels (x, y) that `render` would make with these settings: bit for bit where light is interpolated, with another draw of the samples at hits
+/// where it is computed there.
+ProbedPixels render_pixels(const LightScene& light, const DiffuseField& field, const Camera& camera,
+                           const RenderSettings& settings, std::span<const glm::ivec2> pixels);
+
+/// By pixel, row by row: 1 where emitted light is more than a twentieth of what `picture` shows, or next to such a pixel. Lamps are far
+/// brighter than what they light: an edge of one, a hundredth of a pixel off, is an error that no light transport made. `samples` per
+/// pixel look for them. Where everything glows nothing is left out: all are 0.
+std::vector<std::uint8_t> emitter_pixels(const LightScene& light, const DiffuseField& field,
+                                         const Camera& camera, RenderSettings settings,
+                                         const Image& picture, int samples);
+
+} // namespace meninas
