@@ -21,5 +21,6 @@ Command add_diff_command(CLI::App& program);
 Command add_regress_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_batch_command(CLI::App& program);
+Command add_trade_command(CLI::App& program);
 
 } // namespace meninas

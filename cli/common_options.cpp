@@ -24,6 +24,9 @@ const Choices<SolverMethod> solvers = [] {
   }
   return choices;
 }();
+const Choices<DiffuseTerm> diffuse_terms{{"interpolated", DiffuseTerm::interpolated},
+                                         {"direct", DiffuseTerm::direct},
+                                         {"gather", DiffuseTerm::gather}};
 const Choices<Interpolation> interpolations{{"average", Interpolation::average},
                                             {"gather", Interpolation::gather}};
 
@@ -78,6 +81,10 @@ void add_adaptive(CLI::App& command, RunSettings& settings) {
 }
 
 } // namespace
+
+DiffuseTerm parse_diffuse(const std::string& text) {
+  return parse_choice("--diffuse", text, diffuse_terms);
+}
 
 void add_scene(CLI::App& command, CommonOptions& options) {
   command.add_option("SCENE", options.scene, "glTF 2.0 scene, .gltf or .glb")

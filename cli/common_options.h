@@ -34,6 +34,9 @@ void add_mesh_options(CLI::App& command, CommonOptions& options);
 /// The rest of pass one.
 void add_pass_one_options(CLI::App& command, CommonOptions& options);
 
+/// "direct", "gather", ... as `--diffuse` takes them.
+DiffuseTerm parse_diffuse(const std::string& text);
+
 /// What a scene is lit by beyond its own lights.
 void add_light_options(CLI::App& command, CommonOptions& options);
 

@@ -122,9 +122,9 @@ int guarded_main(int argc, char** argv) {
   program.require_subcommand(0, 1);
   program.allow_extras();
   const std::vector<Command> commands{
-      add_render_command(program),  add_solve_command(program),      add_plan_command(program),
-      add_compare_command(program), add_batch_command(program),      add_diff_command(program),
-      add_regress_command(program), add_formfactors_command(program)};
+      add_render_command(program),  add_solve_command(program), add_plan_command(program),
+      add_compare_command(program), add_batch_command(program), add_diff_command(program),
+      add_regress_command(program), add_trade_command(program), add_formfactors_command(program)};
   for (const Command& command : commands) {
     command.options->allow_extras();
   }

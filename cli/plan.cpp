@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/values.h"
 #include "runs/plan_run.h"
 #include "scenes/errors.h"
 
@@ -13,13 +14,39 @@ struct PlanOptions {
   PlanRequest request;
 };
 
-void run(PlanOptions& options) {
+void run(const CLI::App& command, PlanOptions& options) {
+  check_pass_one_options(command, options.common.settings);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
   std::cout << plan_run(options.request) << std::flush;
   if (!std::cout) {
     throw OutputError("", "standard output", "cannot write");
   }
+}
+
+/// What else the cost of a picture depends on.
+void add_picture_options(CLI::App& command, const std::shared_ptr<PlanOptions>& options) {
+  RunSettings& settings = options->common.settings;
+  PlanRequest& request = options->request;
+  const auto add = [&](const std::string& option, const std::string& shown,
+                       const std::string& description,
+                       std::function<void(const std::string&)> take) {
+    command.add_option_function<std::string>(option, take, description)
+        ->type_name(shown)
+        ->group("Picture whose cost is foretold");
+  };
+  add("--camera", "NAME", "camera of the scene [its first]",
+      [&request](const std::string& text) { request.camera = text; });
+  add("--size", "WxH", "pixels [as render]",
+      [&request](const std::string& text) { request.size = parse_size("--size", text); });
+  add("--samples", "N", "camera rays per pixel [as render]", [&settings](const std::string& text) {
+    settings.samples = static_cast<int>(parse_integer("--samples", text, 1, 1 << 24));
+  });
+  add("--diffuse", "interpolated|direct|gather", "light on diffuse surfaces [interpolated]",
+      [&settings](const std::string& text) { settings.diffuse = parse_diffuse(text); });
+  add("--threads", "N", "threads at work [all]", [&settings](const std::string& text) {
+    settings.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
+  });
 }
 
 } // namespace
@@ -34,7 +61,9 @@ Command add_plan_command(CLI::App& program) {
   add_quality(*command, options->common);
   add_light_options(*command, options->common);
   add_mesh_options(*command, options->common);
-  return {command, [=] { run(*options); }};
+  add_pass_one_options(*command, options->common);
+  add_picture_options(*command, options);
+  return {command, [=] { run(*command, *options); }};
 }
 
 } // namespace meninas

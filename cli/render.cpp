@@ -17,10 +17,6 @@ const Choices<PictureMode> modes{{"radiosity", PictureMode::radiosity},
                                  {"hybrid", PictureMode::hybrid},
                                  {"reference", PictureMode::reference}};
 
-const Choices<DiffuseTerm> diffuse_terms{{"interpolated", DiffuseTerm::interpolated},
-                                         {"direct", DiffuseTerm::direct},
-                                         {"gather", DiffuseTerm::gather}};
-
 struct RenderOptions {
   CommonOptions common;
   RenderRequest request;
@@ -42,6 +38,25 @@ void add_outputs(CLI::App& command, RenderOptions& options) {
   command.add_flag_callback(
       "--error-map", [&] { request.error_map = WithErrorMap::yes; },
       "EXRs also hold the layer `error`: how far off each pixel is, as far as the run can tell");
+  const auto add_goal = [&](const char* option, const char* shown,
+                            std::optional<double> Goal::*goal, const char* description) {
+    command
+        .add_option_function<std::string>(
+            option,
+            [&request, option, goal](const std::string& text) {
+              if (!request.goal) {
+                request.goal.emplace();
+              }
+              *request.goal.*goal = parse_number(option, text, Sign::positive);
+            },
+            description)
+        ->type_name(shown);
+  };
+  add_goal(
+      "--error", "X", &Goal::error,
+      "relative error wanted of the picture, say 0.02; settings that are not given are chosen");
+  add_goal("--time", "SECONDS", &Goal::seconds,
+           "the best picture that this time allows; settings that are not given are chosen");
   add_file(command, "--snapshots", options.snapshots,
            "a folder for pictures along the way of --solver progressive, without and with the "
            "ambient light of what is still to be shot")
@@ -75,9 +90,7 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
   add("--diffuse", "interpolated|direct|gather",
       "light on diffuse surfaces: as pass one has it at vertices, with that of emitters and their "
       "mirror images computed at every hit, or all of it gathered there [interpolated]",
-      [&](const std::string& text) {
-        options.common.settings.diffuse = parse_choice("--diffuse", text, diffuse_terms);
-      });
+      [&](const std::string& text) { options.common.settings.diffuse = parse_diffuse(text); });
   add("--camera", "NAME", "camera of the scene [its first]",
       [&](const std::string& text) { request.camera = text; });
   const PictureSize standard;
@@ -173,6 +186,20 @@ void check_error_map(const RenderOptions& options) {
   }
 }
 
+/// What a run that chooses its own settings does not go with.
+void check_goal(const CLI::App& command, const RenderOptions& options) {
+  if (!options.request.goal) {
+    return;
+  }
+  const char* const goal = options.request.goal->error ? "--error" : "--time";
+  if (options.common.settings.mode == PictureMode::reference) {
+    throw UsageError(goal, "is of the two passes: choose --max-error or --max-seconds with --mode "
+                           "reference");
+  }
+  refuse(command, {"--quality", "--solution", "--snapshots", "--error-map"},
+         std::string("does not go with ") + goal + ", which chooses for itself");
+}
+
 void check_layers(const RenderOptions& options) {
   const RunSettings& settings = options.common.settings;
   if (settings.layers == WithLayers::no) {
@@ -228,6 +255,7 @@ RenderRequest& completed_request(const CLI::App& command, RenderOptions& options
   check_mode(command, options);
   check_layers(options);
   check_error_map(options);
+  check_goal(command, options);
   check_diffuse(options.common.settings);
   check_pass_one_options(command, options.common.settings);
   take_snapshots(options);

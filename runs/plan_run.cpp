@@ -1,8 +1,11 @@
 #include "runs/plan_run.h"
 
+#include "runs/batch/memory.h"
+#include "runs/expected_cost.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
 #include "runs/stats.h"
+#include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
 
@@ -51,8 +54,14 @@ std::vector<std::string> describe_worlds(const TransportPlan& plan) {
   return lines;
 }
 
+std::string describe_cost(const ExpectedCost& cost, int threads) {
+  return fmt::format(
+      "a picture takes about {:.2g} s with {} threads ({:.2g} s of it pass one) and {}", cost.total,
+      threads, cost.form_factors + cost.solve + cost.interpolate, readable_bytes(cost.bytes));
+}
+
 std::string plan_text(const std::string& file, const TransportPlan& plan, std::size_t patches,
-                      std::size_t elements) {
+                      std::size_t elements, const ExpectedCost& expected, int threads) {
   std::string text = fact("scene", file);
   text += list("mirrors", describe_mirrors(plan));
   text += list("mirror worlds", describe_worlds(plan));
@@ -63,6 +72,7 @@ std::string plan_text(const std::string& file, const TransportPlan& plan, std::s
   text += fact("bands", plan.bands == 1 ? "1, all is grey" : "3");
   text += fact("closed", plan.closed ? "yes, no light can escape" : "no, light can escape");
   text += fact("mesh", fmt::format("{} patches, {} elements", patches, elements));
+  text += fact("expected", describe_cost(expected, threads));
   text += list("stages", plan.stages);
   text += list("ignored", plan.ignored);
   text += list("warnings", plan.warnings);
@@ -74,13 +84,19 @@ std::string plan_text(const std::string& file, const TransportPlan& plan, std::s
 std::string plan_run(const PlanRequest& request) {
   const ThreadLimit limit(request.settings.threads);
   const PassOneSettings settings = two_pass_settings(request.settings).pass_one;
-  const Scene scene = load_scene(request.scene, request.settings);
-  const SurfaceModel surfaces = find_surfaces(scene);
-  const TransportPlan plan = plan_transport(scene, surfaces, settings.plan);
-  const std::size_t elements = element_count(make_element_mesh(scene, surfaces, settings.mesh));
-  const std::size_t patches = surfaces.patches.size();
-  return request.format == PlanFormat::json ? plan_json(plan, patches, elements)
-                                            : plan_text(scene.file, plan, patches, elements);
+  Stopwatch watch;
+  Scene scene = load_scene(request.scene, request.settings);
+  const double loading = watch.lap();
+  const Camera camera = choose_camera(scene, request.camera, {});
+  const auto prepared = prepare_scene(std::move(scene), settings);
+  const ExpectedCost expected = expect_cost(*prepared, camera, choose_size(request.size, camera),
+                                            request.settings, loading, limit.threads());
+  const TransportPlan& plan = prepared->plan;
+  const std::size_t elements = element_count(prepared->mesh);
+  const std::size_t patches = prepared->surfaces.patches.size();
+  return request.format == PlanFormat::json
+             ? plan_json(plan, patches, elements, expected)
+             : plan_text(prepared->scene.file, plan, patches, elements, expected, limit.threads());
 }
 
 } // namespace meninas

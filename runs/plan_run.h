@@ -13,6 +13,8 @@ enum class PlanFormat { text, json };
 struct PlanRequest {
   std::filesystem::path scene;
   PlanFormat format = PlanFormat::text;
+  std::optional<std::string> camera; ///< of the picture whose cost is foretold
+  std::optional<PictureSize> size;
   RunSettings settings;
 };
 

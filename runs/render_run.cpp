@@ -88,6 +88,12 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   return picture;
 }
 
+/// What is left to do once there is a picture.
+double seconds_to_write(PictureSize size) {
+  constexpr double at_least = 0.1, a_pixel = 2e-7; // of EXR and PNG
+  return at_least + a_pixel * size.width * size.height;
+}
+
 } // namespace
 
 RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
@@ -104,10 +110,17 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   preload_image_io();
   figures.seconds.load = watch.lap();
 
-  const ViewPicture picture =
-      request.settings.mode == PictureMode::reference
-          ? render_reference_view(std::move(scene), camera, size, request.settings, events, figures)
-          : render_two_pass(request, std::move(scene), camera, size, events, figures);
+  const auto render_picture = [&] {
+    if (request.settings.mode == PictureMode::reference)
+      return render_reference_view(std::move(scene), camera, size, request.settings, events,
+                                   figures);
+    if (request.goal)
+      return steer({scene, camera, size, request.settings, *request.goal, figures.seconds.load,
+                    seconds_to_write(size)},
+                   events, figures);
+    return render_two_pass(request, std::move(scene), camera, size, events, figures);
+  };
+  const ViewPicture picture = render_picture();
 
   watch.lap();
   write_pictures(request.pictures, picture.image, picture.layers, request.picture,

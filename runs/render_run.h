@@ -6,6 +6,7 @@
 #include "runs/run_settings.h"
 #include "runs/snapshots.h"
 #include "runs/stats.h"
+#include "runs/steering.h"
 
 #include <filesystem>
 #include <optional>
@@ -21,6 +22,7 @@ struct RenderRequest {
   std::optional<std::filesystem::path> stats;
   std::optional<SnapshotRequest> snapshots; ///< of the progressive solver
   WithErrorMap error_map = WithErrorMap::no;
+  std::optional<Goal> goal; ///< the run chooses what the settings leave open
   std::optional<std::string> camera;
   std::optional<PictureSize> size;
   PictureSettings picture;

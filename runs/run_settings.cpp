@@ -18,7 +18,11 @@ QualityPreset preset_of(Quality quality) {
             .rays = 128,
             .hemicube_resolution = 32,
             .penumbra_rays = 32,
-            .samples = 4,
+            .source_points = 4,
+            .most_source_points = 64,
+            .samples = 16,
+            .hit_shadow_rays = 8,
+            .pixel_penumbra_rays = 256,
             .max_error = 0.1,
             .root_elements = 600,
             .adaptive_error = 0.03};
@@ -27,7 +31,11 @@ QualityPreset preset_of(Quality quality) {
             .rays = 512,
             .hemicube_resolution = 64,
             .penumbra_rays = 128,
+            .source_points = 16,
+            .most_source_points = 256,
             .samples = 16,
+            .hit_shadow_rays = 16,
+            .pixel_penumbra_rays = 1024,
             .max_error = 0.03,
             .root_elements = 1'500,
             .adaptive_error = 0.01};
@@ -36,7 +44,11 @@ QualityPreset preset_of(Quality quality) {
             .rays = 2'048,
             .hemicube_resolution = 128,
             .penumbra_rays = 512,
+            .source_points = 16,
+            .most_source_points = 256,
             .samples = 64,
+            .hit_shadow_rays = 16,
+            .pixel_penumbra_rays = 1024,
             .max_error = 0.01,
             .root_elements = 5'000,
             .adaptive_error = 0.005};
@@ -47,11 +59,13 @@ QualityPreset preset_of(Quality quality) {
 /// A pixel's rays are shared out among its samples.
 static DiffuseSettings diffuse_settings(const RunSettings& settings,
                                         const FormFactorSettings& form_factors, int samples) {
-  constexpr int penumbra_rays = 1024, gather_rays = 2048, least = 16; // of a pixel; of a sample
+  constexpr int gather_rays = 2048, least = 16; // of a pixel; of a sample
+  const QualityPreset preset = preset_of(settings.quality);
   DiffuseSettings result;
   result.term = settings.diffuse;
   result.direct.seed = settings.seed;
-  result.direct.penumbra_rays = std::max(least, penumbra_rays / samples);
+  result.direct.shadow_rays = preset.hit_shadow_rays;
+  result.direct.penumbra_rays = std::max(least, preset.pixel_penumbra_rays / samples);
   result.gather = form_factors;
   result.gather.method = FormFactorMethod::rays;
   result.points.rays = std::max(least, gather_rays / samples);
@@ -81,6 +95,11 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   pass_one.solver.tolerance = settings.tolerance.value_or(pass_one.solver.tolerance);
   pass_one.solver.max_shots = settings.steps;
   pass_one.interpolation.method = settings.interpolation.value_or(pass_one.interpolation.method);
+  // Means of elements show nowhere but where they are interpolated; else they light other elements, and many average out.
+  if (pass_one.interpolation.method == Interpolation::gather) {
+    pass_one.direct.points = preset.source_points;
+    pass_one.direct.most_points = preset.most_source_points;
+  }
   pass_one.interpolation.rays = pass_one.form_factors.rays;
   if (adaptive) {
     pass_one.interpolation.adaptive =

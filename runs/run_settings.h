@@ -21,7 +21,11 @@ struct QualityPreset {
   int rays = 0; ///< form-factor rays per element, and per vertex where irradiance is gathered there
   int hemicube_resolution = 0; ///< cells along an edge of the top, where hemicubes are used instead
   int penumbra_rays = 0;       ///< shadow rays from a vertex to an emitter that it sees in part
+  int source_points = 0;       ///< of an element, at which light from emitters is computed for its mean
+  int most_source_points = 0;  ///< likewise, where the first ones disagree
   int samples = 0;             ///< camera rays per pixel
+  int hit_shadow_rays = 0;     ///< from a hit to an emitter, where light is computed there
+  int pixel_penumbra_rays = 0; ///< likewise, where the first ones disagree, shared out among a pixel's samples
   double max_error = 0.0;      ///< of a reference: relative standard error of the picture
   double root_elements = 0.0;  ///< instead of `target_elements` where elements are divided as needed
   double adaptive_error = 0.0; ///< of radiosity, relative, in the mean square, where they are

@@ -1,6 +1,8 @@
 #include "runs/stats.h"
 
 #include "image/whole_file.h"
+#include "runs/expected_cost.h"
+#include "runs/setting_options.h"
 
 #include <nlohmann/json.hpp>
 
@@ -83,6 +85,37 @@ Json error_json(const PictureError& error) {
           {"mean_radiance", error.mean_radiance},
           {"rays", error.rays},
           {"seconds", error.seconds}};
+}
+
+Json choice_json(const SteeredChoice& choice) {
+  Json steps = Json::array();
+  for (const SteeredStep& step : choice.steps)
+    steps.push_back({{"elements", step.elements},
+                     {"rays", step.rays},
+                     {"samples", step.samples},
+                     {"diffuse", name_of(step.term)},
+                     {"seconds", step.seconds},
+                     {"error", step.error},
+                     {"foretold_error", step.foretold > 0.0 ? Json(step.foretold) : Json()},
+                     {"why", step.why}});
+  return {{"wanted_error", optional_json(choice.wanted_error)},
+          {"wanted_seconds", optional_json(choice.wanted_seconds)},
+          {"reached", choice.reached},
+          {"kept", choice.kept},
+          {"options", choice.options},
+          {"steps", std::move(steps)}};
+}
+
+Json expected_json(const ExpectedCost& cost) {
+  return {{"seconds",
+           {{"prepare", cost.prepare},
+            {"form_factors", cost.form_factors},
+            {"solve", cost.solve},
+            {"interpolate", cost.interpolate},
+            {"render", cost.render},
+            {"write", cost.write},
+            {"total", cost.total}}},
+          {"memory_bytes", cost.bytes}};
 }
 
 Json reference_json(const RunFigures& figures) {
@@ -195,6 +228,8 @@ std::string stats_json(const RunFigures& figures) {
             {"threads", figures.threads}};
   if (figures.error_estimate)
     json["error_estimate"] = error_json(*figures.error_estimate);
+  if (figures.choice)
+    json["choice"] = choice_json(*figures.choice);
   return text_of(json);
 }
 
@@ -210,7 +245,8 @@ std::string per_node_json(const std::vector<NodeLight>& nodes) {
   return text_of(Json{{"nodes", std::move(list)}});
 }
 
-std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_t elements) {
+std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_t elements,
+                      const ExpectedCost& expected) {
   Json mirrors = Json::array();
   for (const PlannedMirror& mirror : plan.mirror_list) {
     mirrors.push_back({{"name", mirror.name},
@@ -229,6 +265,7 @@ std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_
                   {"closed", plan.closed},
                   {"patches", patches},
                   {"elements", elements},
+                  {"expected", expected_json(expected)},
                   {"stages", plan.stages},
                   {"ignored", plan.ignored},
                   {"warnings", plan.warnings}};

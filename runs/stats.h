@@ -36,6 +36,25 @@ struct WorldFigures {
   double tail_bound = 0.0; ///< radiosity/world_tail.h
 };
 
+/// Of a run that chose its own settings (steering.h), what it tried.
+struct SteeredStep {
+  double wanted_elements = 0.0;
+  std::size_t elements = 0; ///< there were
+  int rays = 0, samples = 0;
+  DiffuseTerm term = DiffuseTerm::interpolated;
+  double seconds = 0.0;  ///< this step took
+  double error = 0.0;    ///< estimated
+  double foretold = 0.0; ///< before; 0 of the first
+  std::string why;       ///< these settings
+};
+struct SteeredChoice {
+  std::optional<double> wanted_error, wanted_seconds;
+  std::vector<SteeredStep> steps;
+  std::size_t kept = 0;             ///< which of them is the picture
+  bool reached = false;             ///< what was wanted
+  std::vector<std::string> options; ///< with which `render` makes the same picture
+};
+
 struct RunFigures {
   std::optional<ReferenceFigures>
       reference; ///< of a reference, which has no plan, mesh or solution
@@ -49,11 +68,14 @@ struct RunFigures {
   EnergyBalance energy;
   ClosureError closure;
   std::optional<PictureError> error_estimate; ///< of the picture, relative
+  std::optional<SteeredChoice> choice;
   RayCounts rays;
   RunSeconds seconds;
   std::uint64_t peak_memory_bytes = 0;
   int threads = 0;
 };
+
+struct ExpectedCost; // expected_cost.h
 
 /// Fills in what the prepared scene knows.
 void add_preparation(RunFigures& figures, const PreparedScene& prepared);
@@ -67,7 +89,8 @@ const char* stop_name(reference::StoppedBy limit);
 
 std::string stats_json(const RunFigures& figures);
 std::string per_node_json(const std::vector<NodeLight>& nodes);
-std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_t elements);
+std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_t elements,
+                      const ExpectedCost& expected);
 
 /// Writes the text whole or not at all.
 void write_text_file(const std::filesystem::path& file, const std::string& text);

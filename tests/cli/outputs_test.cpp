@@ -245,7 +245,7 @@ TEST_F(Outputs, StatsHaveTheDocumentedKeys) {
   EXPECT_EQ(json_of("render.json")["threads"], 2);
   EXPECT_EQ(json_of("render.json")["solve"], json_of("stored.json")["solve"]);
   // Four camera rays per pixel of a draft of 40 x 30 pixels.
-  EXPECT_EQ(json_of("render.json")["rays"]["camera"], 4 * 40 * 30);
+  EXPECT_EQ(json_of("render.json")["rays"]["camera"], 16 * 40 * 30);
   EXPECT_GT(json_of("render.json")["peak_memory_bytes"], 1 << 20);
 }
 
@@ -306,7 +306,8 @@ TEST_F(Outputs, ThePlanAsJson) {
   EXPECT_EQ(keys_of(plan), (std::set<std::string>{"mirrors", "mirror_worlds", "worlds", "emitters",
                                                   "punctual_lights", "glossy", "transmissive",
                                                   "textured", "bands", "closed", "patches",
-                                                  "elements", "stages", "ignored", "warnings"}));
+                                                  "elements", "expected", "stages", "ignored",
+                                                  "warnings"}));
   ASSERT_EQ(plan["mirrors"].size(), 1U);
   EXPECT_EQ(plan["mirrors"][0]["name"], "mirror");
   EXPECT_NEAR(plan["mirrors"][0]["area"].get<double>(), 0.36, 1e-6); // floats in the file

@@ -1,0 +1,129 @@
+#include "runs/expected_cost.h"
+
+#include "radiosity/point_gathering.h"
+#include "radiosity/vertex_places.h"
+#include "raytrace/probes.h"
+#include "runs/batch/memory.h"
+#include "scenes/sampling.h"
+#include "scenes/stopwatch.h"
+
+#include <algorithm>
+
+namespace meninas {
+
+namespace {
+
+/// So many, spread over all there are.
+template <typename Do>
+double seconds_of_one(std::size_t all, std::size_t some, const Do& work) {
+  const std::size_t count = std::clamp<std::size_t>(all, 1, some);
+  Stopwatch watch;
+  for (std::size_t k = 0; k < count; ++k)
+    work(k * all / count);
+  return watch.lap() / double(count);
+}
+
+/// One gathering and one point of light from the source, at vertices; seconds of one thread.
+struct PointSeconds {
+  double gather = 0.0, source = 0.0;
+};
+PointSeconds point_seconds(const PreparedScene& prepared, const PassOneSettings& settings) {
+  constexpr std::size_t some = 64;
+  const LightScene& light = *prepared.light;
+  const ElementMesh& mesh = prepared.mesh;
+  if (mesh.vertices.empty())
+    return {};
+  const std::vector<Receiver> receivers = vertex_receivers(mesh);
+  const PointGathering gathering(
+      light, std::vector<Rgb>(element_count(mesh), Rgb(1.0)), settings.form_factors,
+      settings.direct,
+      {.rays = settings.interpolation.rays,
+       .cluster_shadow_rays = settings.interpolation.cluster_shadow_rays});
+  PointWorkspace work;
+  PointSeconds seconds;
+  const auto seed = [](std::size_t v) { return hash(static_cast<std::uint32_t>(v), 0xc057); };
+  seconds.gather = seconds_of_one(receivers.size(), some, [&](std::size_t v) {
+    indirect_light_at(gathering, receivers[v], seed(v), work);
+  });
+  seconds.source = seconds_of_one(receivers.size(), 4 * some, [&](std::size_t v) {
+    direct_irradiance(light, receivers[v], settings.direct, seed(v), work.direct);
+  });
+  return seconds;
+}
+
+/// One camera ray with its diffuse term, by all threads.
+double camera_ray_seconds(const PreparedScene& prepared, const Camera& camera,
+                          RenderSettings settings) {
+  constexpr std::uint32_t some = 1024;
+  DiffuseField field;
+  field.irradiance.assign(prepared.mesh.vertices.size(), glm::vec3(1.0F));
+  field.mirrored = field.indirect = field.indirect_mirrored = field.irradiance;
+  settings.samples = std::min(settings.samples, 16);
+  settings.layers = WithLayers::no;
+  std::vector<glm::ivec2> pixels;
+  for (std::uint32_t k = 0; k < some; ++k) {
+    const auto at = sobol4(k, 0xc057);
+    pixels.emplace_back(
+        std::min(static_cast<int>(at[0] * float(settings.width)), settings.width - 1),
+        std::min(static_cast<int>(at[1] * float(settings.height)), settings.height - 1));
+  }
+  Stopwatch watch;
+  render_pixels(*prepared.light, field, camera, settings, pixels);
+  return watch.lap() / (double(some) * settings.samples);
+}
+
+std::uint64_t expected_bytes(const PreparedScene& prepared, const Camera& camera, PictureSize size,
+                             const RunSettings& settings) {
+  // Sizes of batch/memory.h are meant not to be exceeded; what the program needs before any scene is not in them.
+  constexpr double of_bound = 0.65, program = 60e6;
+  const auto facts = std::make_shared<const SceneFacts>(facts_of(prepared.scene));
+  BatchPicture picture;
+  picture.request.settings = settings;
+  picture.facts = facts;
+  picture.camera = camera;
+  picture.size = size;
+  const double bound = static_cast<double>(scene_memory(*facts, settings)) +
+                       static_cast<double>(solve_memory(*facts, settings)) +
+                       static_cast<double>(view_memory(picture));
+  return static_cast<std::uint64_t>(program + of_bound * bound);
+}
+
+} // namespace
+
+ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, PictureSize size,
+                         const RunSettings& settings, double loading, int threads) {
+  constexpr double started = 0.03; // program and its libraries
+  constexpr double points_in_element =
+      48;                      // of light from the source, without penumbra rays of their own
+  constexpr double busy = 0.9; // of the threads, on average
+  constexpr double products = 16.0, entry_seconds = 2e-9; // of the solver
+  constexpr double encoded_pixel = 1.5e-7;
+  TwoPassSettings two_pass = two_pass_settings(settings);
+  two_pass.render.width = size.width;
+  two_pass.render.height = size.height;
+  const PassOneSettings& pass_one = two_pass.pass_one;
+  const double divided = pass_one.interpolation.adaptive ? 2.0 : 1.0;
+  const double elements = double(element_count(prepared.mesh)),
+               vertices = divided * double(prepared.mesh.vertices.size());
+  const double share = 1.0 / (busy * threads);
+
+  const PointSeconds point = point_seconds(prepared, pass_one);
+  const double at_vertex =
+      pass_one.interpolation.method == Interpolation::average ? 0.0 : point.gather + point.source;
+  ExpectedCost cost;
+  cost.prepare = started + loading + prepared.seconds.plan + prepared.seconds.mesh;
+  cost.form_factors = share * elements * (point.gather + points_in_element * point.source);
+  cost.interpolate = share * vertices * at_vertex;
+  cost.solve = products * entry_seconds * prepared.plan.bands * elements *
+               std::min<double>(pass_one.form_factors.rays, elements);
+  const double pixels = double(size.width) * size.height;
+  cost.render =
+      pixels * two_pass.render.samples * camera_ray_seconds(prepared, camera, two_pass.render);
+  cost.write = 0.01 + encoded_pixel * pixels;
+  cost.total =
+      cost.prepare + cost.form_factors + cost.solve + cost.interpolate + cost.render + cost.write;
+  cost.bytes = expected_bytes(prepared, camera, size, settings);
+  return cost;
+}
+
+} // namespace meninas

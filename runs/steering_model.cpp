@@ -1,0 +1,121 @@
+#include "runs/steering_model.h"
+
+#include "runs/setting_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace meninas {
+
+namespace {
+
+constexpr double most_elements = 250'000.0;
+constexpr int most_rays = 4096, most_samples = 1024;
+
+/// Hits that are computed of so many samples of a pixel: of sixteen that agree four tell enough (shading.cpp).
+double hits_of(int samples) { return samples <= 4 ? samples : 4.0 + 0.3 * (samples - 4); }
+
+double pass_two_seconds(const MeasuredRun& run, const Knobs& knobs) {
+  const double share = double(knobs.samples) / run.knobs.samples;
+  if (knobs.term == run.knobs.term)
+    return run.pass_two_seconds * (knobs.term == DiffuseTerm::interpolated
+                                       ? share
+                                       : hits_of(knobs.samples) / hits_of(run.knobs.samples));
+  return share * run.pass_two_seconds +
+         run.pixels * hits_of(knobs.samples) * run.error.direct_seconds;
+}
+
+std::vector<Knobs> turns(const Knobs& now, const FreeKnobs& free, const MeasuredRun& run) {
+  std::vector<Knobs> all;
+  const auto turn = [&](bool can, auto&& change) {
+    if (can) {
+      all.push_back(now);
+      change(all.back());
+    }
+  };
+  turn(free.elements && 2.0 * now.elements <= most_elements, [](Knobs& k) { k.elements *= 2.0; });
+  turn(free.rays && 2 * now.rays <= most_rays, [](Knobs& k) { k.rays *= 2; });
+  turn(free.samples && 4 * now.samples <= most_samples, [](Knobs& k) { k.samples *= 4; });
+  turn(free.term && now.term == DiffuseTerm::interpolated && run.error.direct_seconds > 0.0,
+       [](Knobs& k) { k.term = DiffuseTerm::direct; });
+  return all;
+}
+
+/// "camera rays are 4.6 %: 16 samples a pixel", for every knob that was turned.
+std::string reasons(const MeasuredRun& run, const Knobs& next) {
+  const PictureError& e = run.error;
+  std::vector<std::string> all;
+  const auto because = [&](bool turned, const char* part, double error, std::string remedy) {
+    if (turned)
+      all.push_back(fmt::format("{} {:.2g} %: {}", part, 100.0 * error, remedy));
+  };
+  because(next.term != run.knobs.term, "edges within elements", e.mesh_direct,
+          "light from the source at every hit");
+  because(next.elements != run.knobs.elements, "mesh", e.mesh,
+          fmt::format("about {:.0f} elements", next.elements));
+  because(next.rays != run.knobs.rays, "form factors", e.form_factors,
+          fmt::format("{} rays", next.rays));
+  because(next.samples != run.knobs.samples, "camera rays", e.pixels,
+          fmt::format("{} samples a pixel", next.samples));
+  std::string text;
+  for (const std::string& reason : all)
+    text += (text.empty() ? "" : "; ") + reason;
+  return text;
+}
+
+} // namespace
+
+Forecast forecast(const MeasuredRun& run, const Knobs& knobs) {
+  const PictureError& e = run.error;
+  const double elements = knobs.elements / run.knobs.elements,
+               rays = double(knobs.rays) / run.knobs.rays,
+               samples = double(knobs.samples) / run.knobs.samples;
+  const auto square = [](double x) { return x * x; };
+  const double direct = square(e.mesh_direct), rest = std::max(square(e.mesh) - direct, 0.0);
+  const bool edges = knobs.term == run.knobs.term; // or they have become exact
+  const double squared = (edges ? direct * std::pow(elements, -0.5) : 0.0) + rest / elements +
+                         square(e.form_factors) * std::pow(rays, -1.2) +
+                         square(e.pixels) * std::pow(samples, -1.7) + square(e.mirror_tail) +
+                         square(e.solver);
+  constexpr double source_rays = 128.0; // that cost as much as light from the source
+  const bool again = elements != 1.0 || rays != 1.0;
+  const double pass_one = again ? run.pass_one_seconds * elements * (source_rays + knobs.rays) /
+                                      (source_rays + run.knobs.rays)
+                                : 0.0;
+  const double per_ray = run.estimate_seconds * std::max(1.0, elements * rays);
+  return {std::sqrt(squared),
+          pass_one + pass_two_seconds(run, knobs) + (again ? per_ray : run.estimate_seconds)};
+}
+
+NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds) {
+  NextRun next{run.knobs, forecast(run, run.knobs), {}};
+  while (next.forecast.error > error) {
+    std::optional<NextRun> best;
+    double most = 0.0;
+    for (const Knobs& knobs : turns(next.knobs, free, run)) {
+      const Forecast then = forecast(run, knobs);
+      if (then.seconds > seconds || !(then.error < next.forecast.error))
+        continue;
+      // What lies within what is done anyhow costs next to nothing.
+      const double cost = std::max(then.seconds - next.forecast.seconds, 1e-4);
+      const double gain = std::log(next.forecast.error / then.error) / cost;
+      if (gain > most) {
+        most = gain;
+        best = NextRun{knobs, then, {}};
+      }
+    }
+    if (!best)
+      break;
+    next = *best;
+  }
+  next.why = reasons(run, next.knobs);
+  return next;
+}
+
+} // namespace meninas

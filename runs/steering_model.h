@@ -1,0 +1,57 @@
+// How the error of a picture and the time it takes change with the knobs, from one run to the next.
+//
+// From a measured run with its parts of the error (raytrace/picture_error.h) and seconds:
+//   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide), the rest of mesh^2 r^-1; pass one r
+//   rays x r       form_factors^2 r^-1.2 (low-discrepancy rays); pass one (128 + rays), as light from the source costs about so much
+//   samples x r    pixels^2 r^-1.7 (stratified samples at edges); pass two r
+//   direct         mesh_direct^2 none; pass two as much as the hits that were made to find out
+// The exponents are those of the gallery, roughly; every run is measured again, and only what comes next is foretold.
+#pragma once
+
+#include "raytrace/picture_error.h"
+#include "runs/run_settings.h"
+
+#include <string>
+
+namespace meninas {
+
+struct Knobs {
+  double elements = 600.0; ///< wanted
+  int rays = 64;
+  int samples = 4;
+  DiffuseTerm term = DiffuseTerm::interpolated;
+
+  bool operator==(const Knobs&) const = default;
+};
+
+/// Knobs a user has set are not turned.
+struct FreeKnobs {
+  bool elements = true, rays = true, samples = true, term = true;
+};
+
+struct MeasuredRun {
+  Knobs knobs;
+  PictureError error;
+  double pass_one_seconds = 0.0, pass_two_seconds = 0.0, estimate_seconds = 0.0;
+  double pixels = 0.0;
+};
+
+struct Forecast {
+  double error = 0.0;
+  double seconds =
+      0.0; ///< of what has to be done anew: nothing of pass one where only pass two changes
+};
+Forecast forecast(const MeasuredRun& run, const Knobs& knobs);
+
+/// What is turned next, and why.
+struct NextRun {
+  Knobs knobs;
+  Forecast forecast;
+  std::string why;
+};
+
+/// Turns, one after the other, the knob that takes most of the logarithm of the squared error per second, until the error is foretold to be below `error`
+/// or no turn fits into `seconds`. The same knobs as before where none does.
+NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds);
+
+} // namespace meninas

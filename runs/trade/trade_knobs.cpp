@@ -1,0 +1,156 @@
+#include "runs/trade/trade_knobs.h"
+
+#include "runs/setting_options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+/// Three digits: short to write and as good.
+double rounded(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2.0);
+  return std::stod(fmt::format("{:.10g}", std::round(x / unit) * unit));
+}
+
+RunSettings preset(const RunSettings& base, Quality quality, const TradeScene& scene) {
+  RunSettings settings = base;
+  settings.quality = quality;
+  return spelled_out(settings, scene);
+}
+
+/// Collects turns of one setting.
+struct Turner {
+  const RunSettings& from;
+  std::vector<TurnedSettings> all = {};
+
+  template <typename Change>
+  void turn(const char* knob, std::string was, std::string is, bool finer, Change&& change) {
+    TurnedSettings next{from, {knob, std::move(was), std::move(is), 0}, finer};
+    change(next.settings);
+    all.push_back(std::move(next));
+  }
+  /// One step up and one down, within limits.
+  template <typename Number>
+  void steps(const char* knob, Number value, Number factor, Number least, Number most,
+             std::optional<Number> RunSettings::*field) {
+    const auto to = [&](Number next, bool finer) {
+      if (next >= least && next <= most)
+        turn(knob, fmt::format("{}", value), fmt::format("{}", next), finer,
+             [&](RunSettings& s) { s.*field = next; });
+    };
+    to(static_cast<Number>(value * factor), true);
+    to(static_cast<Number>(value / factor), false);
+  }
+};
+
+void turn_mesh(Turner& turner, const TradeScene& scene) {
+  const RunSettings& s = turner.from;
+  if (s.adaptive == WithAdaptivity::yes) {
+    const double bound = s.adaptive_error.value_or(preset_of(s.quality).adaptive_error);
+    turner.turn("adaptive", fmt::format("{}", bound), fmt::format("{}", bound / 2.0), true,
+                [&](RunSettings& r) { r.adaptive_error = bound / 2.0; });
+    turner.turn("adaptive", fmt::format("{}", bound), fmt::format("{}", bound * 2.0), false,
+                [&](RunSettings& r) { r.adaptive_error = bound * 2.0; });
+    return;
+  }
+  const double size = *s.element_size;
+  const double coarsest = std::sqrt(scene.area / 100.0), finest = std::sqrt(scene.area / 2e5);
+  for (const double factor : {std::sqrt(0.5), std::sqrt(2.0)}) {
+    const double next = rounded(size * factor);
+    if (next < coarsest && next > finest)
+      turner.turn("element-size", fmt::format("{}", size), fmt::format("{}", next), factor < 1.0,
+                  [&](RunSettings& r) { r.element_size = next; });
+  }
+  if (s.interpolation.value_or(Interpolation::gather) == Interpolation::gather)
+    turner.turn("adaptive", "no", "0.03", true, [&](RunSettings& r) {
+      r.adaptive = WithAdaptivity::yes;
+      r.adaptive_error = 0.03;
+      r.element_size = rounded(2.0 * size);
+    });
+}
+
+void turn_transport(Turner& turner, const TradeScene& scene) {
+  const RunSettings& s = turner.from;
+  if (s.form_factors == FormFactorMethod::rays) {
+    turner.steps<int>("rays", *s.rays, 2, 16, 8192, &RunSettings::rays);
+    turner.turn("form-factors", "rays", "hemicube", false, [](RunSettings& r) {
+      r.form_factors = FormFactorMethod::hemicube;
+      r.rays.reset();
+      r.hemicube_resolution = 24;
+    });
+  } else {
+    turner.steps<int>("hemicube-resolution", *s.hemicube_resolution, 2, 12, 192,
+                      &RunSettings::hemicube_resolution);
+  }
+  if (s.solver == SolverMethod::bicgstab) {
+    for (const SolverMethod solver : {SolverMethod::gauss_seidel, SolverMethod::progressive})
+      turner.turn("solver", name_of(s.solver), name_of(solver), false,
+                  [&](RunSettings& r) { r.solver = solver; });
+    const double tolerance = s.tolerance.value_or(SolverSettings{}.tolerance);
+    if (tolerance < 1e-2)
+      turner.turn("tolerance", fmt::format("{}", tolerance), fmt::format("{}", tolerance * 10.0),
+                  false, [&](RunSettings& r) { r.tolerance = tolerance * 10.0; });
+  }
+  if (scene.mirrors) {
+    if (!s.mirror_depth)
+      turner.turn("mirror-depth", "all", "2", false, [](RunSettings& r) { r.mirror_depth = 2; });
+    else if (*s.mirror_depth > 1)
+      turner.turn("mirror-depth", "2", "1", false, [](RunSettings& r) { r.mirror_depth = 1; });
+  }
+}
+
+void turn_picture(Turner& turner) {
+  const RunSettings& s = turner.from;
+  turner.steps<int>("samples", *s.samples, 4, 1, 1024, &RunSettings::samples);
+  const auto term = [&](DiffuseTerm to, bool finer) {
+    turner.turn("diffuse", name_of(s.diffuse), name_of(to), finer,
+                [&](RunSettings& r) { r.diffuse = to; });
+  };
+  if (s.diffuse == DiffuseTerm::interpolated)
+    term(DiffuseTerm::direct, true);
+  else if (s.diffuse == DiffuseTerm::direct) {
+    term(DiffuseTerm::interpolated, false);
+    term(DiffuseTerm::gather, true);
+  }
+  if (s.interpolation.value_or(Interpolation::gather) == Interpolation::gather &&
+      s.adaptive == WithAdaptivity::no)
+    turner.turn("interpolation", "gather", "average", false,
+                [](RunSettings& r) { r.interpolation = Interpolation::average; });
+}
+
+} // namespace
+
+RunSettings spelled_out(const RunSettings& settings, const TradeScene& scene) {
+  RunSettings result = settings;
+  const QualityPreset preset = preset_of(settings.quality);
+  if (!result.element_size)
+    result.element_size = rounded(std::sqrt(scene.area / preset.target_elements));
+  if (!result.rays)
+    result.rays = preset.rays;
+  if (!result.samples)
+    result.samples = preset.samples;
+  return result;
+}
+
+std::vector<RunSettings> first_settings(const RunSettings& base, const TradeScene& scene) {
+  RunSettings look = base;
+  look.quality = Quality::draft;
+  look.element_size = rounded(std::sqrt(scene.area / 600.0));
+  look.rays = 64;
+  look.samples = 4;
+  return {look, preset(base, Quality::draft, scene), preset(base, Quality::normal, scene)};
+}
+
+std::vector<TurnedSettings> turned(const RunSettings& settings, const TradeScene& scene) {
+  Turner turner{settings};
+  turn_mesh(turner, scene);
+  turn_transport(turner, scene);
+  turn_picture(turner);
+  return std::move(turner.all);
+}
+
+} // namespace meninas

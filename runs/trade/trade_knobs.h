@@ -1,0 +1,32 @@
+// The knobs a sweep turns, one step each: element size or adaptive bound, rays, form-factor method, solver and tolerance, mirror depth,
+// diffuse term, interpolation, camera rays.
+#pragma once
+
+#include "runs/trade/trade_point.h"
+
+#include <optional>
+
+namespace meninas {
+
+/// What a sweep is about; what the scene does not have is not turned.
+struct TradeScene {
+  double area = 0.0;    ///< m^2 of all that receives light
+  bool mirrors = false; ///< or their depth does not matter
+};
+
+/// Settings with all numbers of the knobs spelled out: element size, rays, samples.
+RunSettings spelled_out(const RunSettings& settings, const TradeScene& scene);
+
+/// Where a sweep begins: a quick look, and the presets draft and normal.
+std::vector<RunSettings> first_settings(const RunSettings& base, const TradeScene& scene);
+
+struct TurnedSettings {
+  RunSettings settings;
+  KnobTurn turn; ///< its parent is left to the caller
+  bool finer =
+      false; ///< expected to be slower and more accurate; otherwise faster, or one cannot tell
+};
+/// All settings one turn away.
+std::vector<TurnedSettings> turned(const RunSettings& settings, const TradeScene& scene);
+
+} // namespace meninas

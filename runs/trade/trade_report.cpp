@@ -1,0 +1,188 @@
+#include "runs/trade/trade_report.h"
+
+#include "image/display.h"
+#include "runs/page.h"
+#include "runs/pages/trade_page.h"
+#include "runs/setting_options.h"
+#include "runs/thumbnail.h"
+#include "scenes/version.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// In single quotes where a shell would take it apart.
+std::string quoted(const std::string& text) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,/:%@";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos)
+    return text;
+  std::string result = "'";
+  for (const char c : text)
+    result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + '\'';
+}
+
+std::string command_of(const TradeResult& result, const TradePoint& point) {
+  std::string command = "meninas render " + quoted(result.scene.string()) + " -o out.exr";
+  const Image& picture = result.reference.mean;
+  command += fmt::format(" --size {}x{}", picture.width, picture.height);
+  if (result.camera)
+    command += " --camera " + quoted(*result.camera);
+  for (const std::string& option : options_of(point.settings))
+    command += ' ' + quoted(option);
+  return command;
+}
+
+Json stages_json(const RunSeconds& seconds) {
+  return {{"plan", seconds.plan},
+          {"mesh", seconds.mesh},
+          {"form_factors", seconds.form_factors},
+          {"solve", seconds.solve},
+          {"interpolate", seconds.interpolate},
+          {"render", seconds.render}};
+}
+
+Json point_json(const TradeResult& result, std::size_t id, bool on_front) {
+  const TradePoint& point = result.points[id];
+  Json json{{"id", id},
+            {"command", command_of(result, point)},
+            {"options", options_of(point.settings)},
+            {"elements", point.elements},
+            {"seconds", mean_of(point.seconds)},
+            {"seconds_spread", spread_of(point.seconds)},
+            {"processor_seconds", mean_of(point.processor_seconds)},
+            {"error", mean_of(point.errors)},
+            {"error_spread", spread_of(point.errors)},
+            {"runs", point.seconds.size()},
+            {"estimate", point.estimate.total},
+            {"front", on_front},
+            {"stages", stages_json(point.stages)}};
+  for (const KnobTurn& turn : point.turns)
+    json["turn"] = {
+        {"knob", turn.knob}, {"from", turn.from}, {"to", turn.to}, {"parent", turn.parent}};
+  return json;
+}
+
+/// How much accuracy a second buys: the fall of log error less its price, half the rise of log seconds, as samples at random would pay.
+double worth(const KnobWorth& knob) { return -std::log(knob.error) - 0.5 * std::log(knob.seconds); }
+
+std::string conclusion_of(const std::vector<KnobWorth>& knobs) {
+  if (knobs.empty())
+    return "No knob was turned within the budget.";
+  const auto say = [](const KnobWorth& k) {
+    return fmt::format("{} {} to {}: {:.2g} times the seconds, {:.2g} times the error", k.turn.knob,
+                       k.turn.from, k.turn.to, k.seconds, k.error);
+  };
+  if (worth(knobs.front()) <= 0.0)
+    return "From the draft, no single turn brings more than its time is worth; the best is " +
+           say(knobs.front()) + ".";
+  return "From the draft, turn first: " + say(knobs.front()) +
+         (knobs.size() > 1 && worth(knobs[1]) > 0.0 ? "; then " + say(knobs[1]) : "") + ".";
+}
+
+Json json_of(const TradeResult& result) {
+  const auto front = pareto_front(result.points);
+  Json points = Json::array(), knobs = Json::array();
+  for (std::size_t k = 0; k < result.points.size(); ++k)
+    points.push_back(point_json(result, k, std::ranges::find(front, k) != front.end()));
+  const std::vector<KnobWorth> worths = knob_worths(result);
+  for (const KnobWorth& knob : worths)
+    knobs.push_back({{"knob", knob.turn.knob},
+                     {"from", knob.turn.from},
+                     {"to", knob.turn.to},
+                     {"point", knob.point},
+                     {"seconds_ratio", knob.seconds},
+                     {"error_ratio", knob.error}});
+  const TradeReference& reference = result.reference;
+  return {{"scene", result.scene.filename().string()},
+          {"camera", result.camera ? Json(*result.camera) : Json()},
+          {"width", reference.mean.width},
+          {"height", reference.mean.height},
+          {"threads", result.threads},
+          {"budget", result.budget},
+          {"spent", result.spent},
+          {"reference",
+           {{"kind", reference.kind},
+            {"name", reference.name},
+            {"seconds", reference.seconds},
+            {"noise", reference.noise},
+            {"floor", reference.floor}}},
+          {"front", front},
+          {"points", std::move(points)},
+          {"knobs", std::move(knobs)},
+          {"conclusion", conclusion_of(worths)},
+          {"version", program_version()}};
+}
+
+std::string text_of(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A field of a CSV, RFC 4180.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos)
+    return text;
+  std::string result = "\"";
+  for (const char c : text)
+    result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + '"';
+}
+
+} // namespace
+
+std::vector<KnobWorth> knob_worths(const TradeResult& result) {
+  std::vector<KnobWorth> knobs;
+  const std::size_t draft = std::min<std::size_t>(1, result.points.size() - 1);
+  for (std::size_t k = 0; k < result.points.size(); ++k)
+    for (const KnobTurn& turn : result.points[k].turns) {
+      const TradePoint &before = result.points[turn.parent], &after = result.points[k];
+      if (turn.parent != draft || !(mean_of(before.errors) > 0.0) || !(mean_of(after.errors) > 0.0))
+        continue;
+      knobs.push_back({turn, k, mean_of(after.seconds) / mean_of(before.seconds),
+                       mean_of(after.errors) / mean_of(before.errors)});
+    }
+  std::ranges::stable_sort(
+      knobs, [](const KnobWorth& a, const KnobWorth& b) { return worth(a) > worth(b); });
+  return knobs;
+}
+
+std::string trade_json(const TradeResult& result) { return text_of(json_of(result), 2) + '\n'; }
+
+std::string trade_csv(const TradeResult& result) {
+  std::string text = "id,front,seconds,processor_seconds,error,estimate,runs,elements,command\n";
+  const Json json = json_of(result);
+  for (const Json& point : json["points"]) {
+    std::string line;
+    for (const char* key :
+         {"id", "front", "seconds", "processor_seconds", "error", "estimate", "runs", "elements"})
+      line += point[key].dump() + ',';
+    text += line + csv_field(point["command"].get<std::string>()) + '\n';
+  }
+  return text;
+}
+
+std::string trade_page_of(const TradeResult& result) {
+  constexpr int longest_side = 200;
+  Json json = json_of(result);
+  const double exposure = automatic_exposure(result.reference.mean);
+  const auto small = [&](const Image& picture) {
+    return png_address(thumbnail(picture, longest_side), exposure);
+  };
+  Json pictures = Json::array();
+  for (const TradePoint& point : result.points)
+    pictures.push_back(small(point.picture));
+  return fill_page(trade_page, text_of({{"trade", std::move(json)},
+                                        {"thumbnails", std::move(pictures)},
+                                        {"reference_thumbnail", small(result.reference.mean)}},
+                                       -1));
+}
+
+} // namespace meninas

@@ -1,0 +1,81 @@
+// Which knobs are turned next, from a run with made-up figures.
+#include "runs/steering_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace meninas {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double for_ever = std::numeric_limits<double>::infinity();
+
+/// A run that is wrong by these parts.
+MeasuredRun run_with(double mesh, double mesh_direct, double form_factors, double pixels) {
+  MeasuredRun run;
+  run.error.mesh = mesh;
+  run.error.mesh_direct = mesh_direct;
+  run.error.form_factors = form_factors;
+  run.error.pixels = pixels;
+  run.error.total = std::hypot(mesh, form_factors, pixels);
+  run.error.direct_seconds = 1e-6;
+  run.pass_one_seconds = 0.2;
+  run.pass_two_seconds = 0.02;
+  run.estimate_seconds = 0.01;
+  run.pixels = 65'536.0;
+  return run;
+}
+
+TEST(Forecast, OfTheSameKnobsIsTheRunItself) {
+  const MeasuredRun run = run_with(0.03, 0.02, 0.02, 0.04);
+  const Forecast same = forecast(run, run.knobs);
+  EXPECT_NEAR(same.error, run.error.total, 1e-12);
+  EXPECT_NEAR(same.seconds, 0.03, 1e-12) << "pass one is there";
+}
+
+TEST(NextRun, TurnsTheKnobOfTheLargestPart) {
+  const NextRun rays = next_run(run_with(0.001, 0.0, 0.1, 0.001), {}, 0.05, for_ever);
+  EXPECT_GT(rays.knobs.rays, Knobs{}.rays);
+  EXPECT_EQ(rays.knobs.samples, Knobs{}.samples);
+  EXPECT_THAT(rays.why, HasSubstr("form factors 10 %"));
+  const NextRun samples = next_run(run_with(0.001, 0.0, 0.001, 0.1), {}, 0.05, for_ever);
+  EXPECT_GT(samples.knobs.samples, Knobs{}.samples);
+  EXPECT_EQ(samples.knobs.rays, Knobs{}.rays);
+  const NextRun edges = next_run(run_with(0.3, 0.3, 0.001, 0.001), {}, 0.05, for_ever);
+  EXPECT_EQ(edges.knobs.term, DiffuseTerm::direct) << "thousands of elements would do no better";
+  const NextRun smooth = next_run(run_with(0.1, 0.0, 0.001, 0.001), {}, 0.05, for_ever);
+  EXPECT_GT(smooth.knobs.elements, Knobs{}.elements);
+}
+
+TEST(NextRun, ForetellsWhatWasWanted) {
+  for (const double wanted : {0.05, 0.02, 0.01}) {
+    const NextRun next = next_run(run_with(0.08, 0.06, 0.05, 0.06), {}, wanted, for_ever);
+    EXPECT_LE(next.forecast.error, wanted);
+    EXPECT_GT(next.forecast.error, 0.3 * wanted) << "and not far more than that";
+  }
+}
+
+TEST(NextRun, StaysWithinTheTime) {
+  for (const double seconds : {0.1, 0.5, 4.0}) {
+    const NextRun next = next_run(run_with(0.08, 0.06, 0.05, 0.06), {}, 0.0, seconds);
+    EXPECT_LE(next.forecast.seconds, seconds);
+  }
+  const MeasuredRun run = run_with(0.08, 0.06, 0.05, 0.06);
+  EXPECT_EQ(next_run(run, {}, 0.0, 1e-3).knobs, run.knobs) << "nothing fits";
+}
+
+TEST(NextRun, LeavesKnobsThatWereSet) {
+  const NextRun next =
+      next_run(run_with(0.1, 0.05, 0.1, 0.1),
+               {.elements = false, .rays = false, .samples = false, .term = false}, 0.01, for_ever);
+  EXPECT_EQ(next.knobs, Knobs{});
+  EXPECT_THAT(next.why, IsEmpty());
+}
+
+} // namespace
+} // namespace meninas
