@@ -45,7 +45,11 @@ MeshSide make_side(const Scene& scene, const SurfaceModel& model, PatchId id, Fa
   side.nv = divisions.v;
   side.triangle = patch.corner_count == 3;
   side.root_count = elements_of(side.nu, side.nv, side.triangle);
-  side.textured = is_textured(material) || material.alpha_mode == AlphaMode::mask;
+  const auto is_colored = [&](TriangleId t) {
+    return t != none<TriangleId> && has_vertex_colors(scene, t);
+  };
+  side.textured = is_textured(material) || material.alpha_mode == AlphaMode::mask ||
+                  std::ranges::any_of(patch.triangles, is_colored);
   side.reflectance = diffuse_reflectance(material);
   side.emission = std::numbers::pi * material.emission;
   return side;

@@ -182,6 +182,10 @@ std::vector<std::string> describe_stages(const SurfaceModel& surfaces, const Tra
         "textures: of {}, as means over elements in pass one, at every hit in the picture",
         plural(plan.textured, "material")));
   }
+  if (plan.colored_triangles > 0) {
+    stages.push_back(fmt::format("vertex colours: of {}, as means over elements, then at every hit",
+                                 plural(plan.colored_triangles, "triangle")));
+  }
   std::vector<std::string> sources;
   if (plan.emitters > 0) {
     sources.push_back(plural(plan.emitters, "emitter"));
@@ -221,6 +225,9 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
   plan.glossy = count(is_glossy);
   plan.transmissive = count([](const Material& m) { return m.transmission > 0.0; });
   plan.textured = count(is_textured);
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    plan.colored_triangles += has_vertex_colors(scene, TriangleId{t}) ? 1 : 0;
+  }
   const std::size_t grey = count([](const Material& m) {
     return is_grey(diffuse_reflectance(m)) && is_grey(mirror_reflectance(m)) &&
            is_grey(m.emission) && !is_textured(m);
@@ -229,7 +236,9 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
                           std::ranges::all_of(scene.lights, [](const PunctualLight& light) {
                             return is_grey(light.intensity);
                           });
-  plan.bands = grey == materials.size() && grey_light ? 1 : 3;
+  const bool grey_vertices = std::ranges::all_of(
+      scene.vertices, [](const Vertex& vertex) { return is_grey(Rgb(vertex.color)); });
+  plan.bands = grey == materials.size() && grey_light && grey_vertices ? 1 : 3;
   plan.closed = is_closed(scene, 0.5 * surfaces.tolerance);
 
   plan.ignored = scene.ignored;

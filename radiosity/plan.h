@@ -25,6 +25,7 @@ struct TransportPlan {
   std::size_t glossy = 0;       ///< materials that are metals too rough for a mirror
   std::size_t transmissive = 0; ///< materials
   std::size_t textured = 0;     ///< materials
+  std::size_t colored_triangles = 0; ///< by COLOR_0
   int bands = 1;                ///< 1 when everything is grey
   bool closed = false;          ///< faces without a gap enclose everything, so no light can escape
   std::vector<std::string> stages;

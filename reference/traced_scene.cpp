@@ -51,7 +51,7 @@ SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 
   at.position = a + barycentric.x * (b - a) + barycentric.y * (c - a);
   at.plane = traced.surfaces.plane_of_triangle[index(triangle)];
   at.normal = front ? traced.normals[index(triangle)] : -traced.normals[index(triangle)];
-  if (is_textured(material)) {
+  if (is_textured(material) || has_vertex_colors(traced.scene, triangle)) {
     at.material = material_at(traced.scene, traced.textures, triangle, barycentric);
     at.bsdf = make_bsdf(material, at.material);
   } else {

@@ -19,6 +19,7 @@ using Corners = std::array<std::uint32_t, 3>;
 struct Part {
   std::vector<Vec3> positions;
   std::vector<std::array<glm::vec2, 2>> texcoords;
+  std::vector<glm::vec4> colors; ///< empty without COLOR_0
   std::vector<Corners> triangles;
   MaterialId material = none<MaterialId>;
 };
@@ -95,6 +96,27 @@ decode_texcoords(const PrimitivePlace& at, std::size_t count, Findings& findings
   return texcoords;
 }
 
+/// COLOR_0, RGB or RGBA, in [0, 1]: linear factors of the base colour.
+static std::vector<glm::vec4> decode_colors(const PrimitivePlace& at, Findings& findings) {
+  const auto accessor = index_at(at.json["attributes"], "COLOR_0");
+  if (!accessor)
+    return {};
+  const bool with_alpha =
+      text_or(element(at.document.root, "accessors", *accessor), "type", "") == "VEC4";
+  const auto decoded = decode_vectors(at.document, *accessor, with_alpha ? 4 : 3);
+  std::vector<glm::vec4> colors(decoded.size(), glm::vec4(1.0F));
+  for (std::size_t k = 0; k < colors.size(); ++k) {
+    for (std::size_t c = 0; c < decoded.width; ++c) {
+      const double value = decoded.values[decoded.width * k + c];
+      if (!(value >= 0.0 && value <= 1.0))
+        findings.about("vertex colours outside [0, 1] are clamped in nodes", at.node);
+      colors[k][static_cast<glm::length_t>(c)] =
+          static_cast<float>(value > 0.0 ? std::min(value, 1.0) : 0.0);
+    }
+  }
+  return colors;
+}
+
 static void check_attribute_counts(const PrimitivePlace& at, std::size_t position) {
   const auto expected = accessor_count(at.document, position);
   for (const auto& [name, accessor] : at.json["attributes"].items()) {
@@ -145,8 +167,6 @@ static void report_left_out(const PrimitivePlace& at, Scene& scene, Findings& fi
   };
   if (const auto* targets = find(at.json, "targets"); targets && !targets->empty())
     leave_out("morph targets");
-  if (at.json["attributes"].contains("COLOR_0"))
-    leave_out("vertex colours");
 }
 
 static std::optional<Part> decode_primitive(const PrimitivePlace& at, Scene& scene,
@@ -163,6 +183,7 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Scene& sce
   Part part;
   part.positions = decode_positions(at, accessor);
   part.texcoords = decode_texcoords(at, part.positions.size(), findings);
+  part.colors = decode_colors(at, findings);
   const auto corners = decode_corners(at, part.positions.size());
   if (mode == Mode::triangles && corners.size() % 3 != 0)
     findings.about("vertices over after the last whole triangle are left out in nodes", at.node);
@@ -236,6 +257,8 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
       if (id == none<VertexId>) {
         id = static_cast<VertexId>(scene.vertices.size());
         scene.vertices.push_back({placed[corners[c]], part.texcoords[corners[c]]});
+        if (!part.colors.empty())
+          scene.vertices.back().color = part.colors[corners[c]];
       }
       triangle.vertices[c] = id;
     }
@@ -264,8 +287,8 @@ static void each_primitive(const Document& document, const PlacedNode& node, std
 /// Instances multiply, so a small file can ask for any amount of memory; it is counted before anything is decoded.
 static void check_memory(const Document& document, std::span<const PlacedNode> nodes) {
   constexpr double per_vertex = sizeof(Vertex) + 2 * sizeof(Point3) +
-                                sizeof(std::array<glm::vec2, 2>) + 3 * sizeof(double) +
-                                sizeof(VertexId);
+                                sizeof(std::array<glm::vec2, 2>) + sizeof(glm::vec4) +
+                                4 * sizeof(double) + sizeof(VertexId);
   constexpr double per_corner = sizeof(std::uint32_t);
   constexpr double per_triangle = sizeof(Triangle) + sizeof(Corners);
   double bytes = 0.0;

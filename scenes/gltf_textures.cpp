@@ -1,4 +1,4 @@
-// Textures: the encoded bytes of their images, kept once per image and wrapping.
+// Textures: the encoded bytes of their images, kept once per image and sampler.
 #include "scenes/gltf_accessors.h"
 #include "scenes/gltf_stages.h"
 
@@ -7,13 +7,15 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <tuple>
+#include <utility>
 
 namespace meninas::gltf {
 
 static constexpr std::uint64_t clamp_to_edge = 33071;
 static constexpr std::uint64_t mirrored_repeat = 33648;
 static constexpr std::uint64_t repeat = 10497;
+static constexpr std::uint64_t nearest = 9728;
+static constexpr std::uint64_t linear = 9729;
 
 std::optional<TextureUse> read_texture_use(const Document& document, const Json& owner,
                                            std::string_view key, const std::string& material,
@@ -48,19 +50,39 @@ std::optional<TextureUse> read_texture_use(const Document& document, const Json&
   return use;
 }
 
-static bool repeats(const Json& root, std::size_t texture, std::string_view axis,
-                    Findings& findings) {
-  const auto sampler = index_at(element(root, "textures", texture), "sampler");
-  if (!sampler)
-    return true;
-  const auto wrap = size_or(element(root, "samplers", *sampler), axis, repeat);
-  if (wrap == mirrored_repeat)
-    findings.about("mirrored wrapping is read as repeated in textures",
-                   place(root, "textures", texture));
-  else if (wrap != repeat && wrap != clamp_to_edge)
-    findings.about("unknown wrapping is read as repeated in textures",
-                   place(root, "textures", texture));
-  return wrap != clamp_to_edge;
+namespace {
+
+/// glTF 2.0, 5.26. `minFilter` tells a rasteriser how carefully to filter; here the whole footprint of a sample is averaged anyway.
+struct Sampler {
+  Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+  TexelFilter magnified = TexelFilter::linear;
+  auto operator<=>(const Sampler&) const = default;
+};
+
+} // namespace
+
+static Wrap wrap_of(std::uint64_t code, const std::string& texture, Findings& findings) {
+  if (code == clamp_to_edge)
+    return Wrap::clamp;
+  if (code == mirrored_repeat)
+    return Wrap::mirrored;
+  if (code != repeat)
+    findings.about("unknown wrapping is read as repeated in textures", texture);
+  return Wrap::repeat;
+}
+
+static Sampler sampler_of(const Json& root, std::size_t texture, Findings& findings) {
+  const auto index = index_at(element(root, "textures", texture), "sampler");
+  if (!index)
+    return {};
+  const Json& json = element(root, "samplers", *index);
+  const auto name = place(root, "textures", texture);
+  const auto filter = size_or(json, "magFilter", linear);
+  if (filter != linear && filter != nearest)
+    findings.about("unknown filters are read as linear in textures", name);
+  return {wrap_of(size_or(json, "wrapS", repeat), name, findings),
+          wrap_of(size_or(json, "wrapT", repeat), name, findings),
+          filter == nearest ? TexelFilter::nearest : TexelFilter::linear};
 }
 
 static std::string name_of_image(const Json& image, std::size_t index) {
@@ -84,7 +106,7 @@ static Resource read_image(const Document& document, std::size_t index) {
 
 namespace {
 
-/// Textures of the scene by image and wrapping; a missing image is looked for once.
+/// Textures of the scene by image and sampler; a missing image is looked for once.
 class TextureShelf {
 public:
   TextureShelf(const Document& document, Scene& scene, Findings& findings)
@@ -92,16 +114,15 @@ public:
 
   TextureId of(std::size_t texture) {
     const auto image = *index_at(element(document_.root, "textures", texture), "source");
-    const bool u = repeats(document_.root, texture, "wrapS", findings_);
-    const bool v = repeats(document_.root, texture, "wrapT", findings_);
-    const auto [found, is_new] = ids_.try_emplace({image, u, v}, none<TextureId>);
+    const Sampler sampler = sampler_of(document_.root, texture, findings_);
+    const auto [found, is_new] = ids_.try_emplace({image, sampler}, none<TextureId>);
     if (is_new)
-      found->second = add(image, u, v);
+      found->second = add(image, sampler);
     return found->second;
   }
 
 private:
-  TextureId add(std::size_t image, bool u, bool v) {
+  TextureId add(std::size_t image, const Sampler& sampler) {
     const auto where = place(document_.root, "images", image);
     const auto resource = read_image(document_, image);
     if (!resource.problem.empty() || resource.bytes.empty()) {
@@ -115,8 +136,9 @@ private:
       throw InputError(document_.file, where, "the images are over the memory limit");
     Texture texture;
     texture.name = name_of_image(element(document_.root, "images", image), image);
-    texture.repeat_u = u;
-    texture.repeat_v = v;
+    texture.wrap_u = sampler.wrap_u;
+    texture.wrap_v = sampler.wrap_v;
+    texture.magnified = sampler.magnified;
     texture.encoded.resize(resource.bytes.size());
     std::ranges::transform(resource.bytes, texture.encoded.begin(),
                            [](unsigned char c) { return std::byte{c}; });
@@ -127,7 +149,7 @@ private:
   const Document& document_;
   Scene& scene_;
   Findings& findings_;
-  std::map<std::tuple<std::size_t, bool, bool>, TextureId> ids_;
+  std::map<std::pair<std::size_t, Sampler>, TextureId> ids_;
   std::uint64_t bytes_ = 0;
 };
 

@@ -51,8 +51,11 @@ void add_light(ContentHash& hash, const PunctualLight& light) {
 }
 
 void add_texture(ContentHash& hash, const Texture& texture) {
-  hash.add(word(texture.repeat_u));
-  hash.add(word(texture.repeat_v));
+  hash.add(static_cast<std::uint64_t>(texture.wrap_u));
+  hash.add(static_cast<std::uint64_t>(texture.wrap_v));
+  if (texture.magnified != TexelFilter::linear) {
+    hash.add(static_cast<std::uint64_t>(texture.magnified));
+  }
   hash.add(std::span(texture.encoded));
 }
 
@@ -62,6 +65,10 @@ void add_geometry(ContentHash& hash, const Scene& scene) {
     hash.add(vertex.position);
     for (const glm::vec2& texcoord : vertex.texcoord) {
       hash.add(Vec2(texcoord));
+    }
+    if (vertex.color != glm::vec4(1.0F)) {
+      hash.add(Vec3(vertex.color));
+      hash.add(double{vertex.color.a});
     }
   }
   hash.add(std::uint64_t{scene.triangles.size()});

@@ -18,6 +18,7 @@ namespace meninas {
 struct Vertex {
   Point3 position{0.0};
   std::array<glm::vec2, 2> texcoord{}; ///< TEXCOORD_0 and TEXCOORD_1
+  glm::vec4 color{1.0F};               ///< COLOR_0: a factor of base colour and alpha, linear
 };
 
 struct Triangle {
@@ -31,12 +32,19 @@ struct Node {
   std::string name;
 };
 
+/// What an image is beyond its edge: its last texel, itself again, or its mirror image and then itself.
+enum class Wrap { clamp, repeat, mirrored };
+
+/// What is between the texels of an image that is magnified.
+enum class TexelFilter { linear, nearest };
+
 /// An encoded image, kept as the bytes of its file; decoded where it is used.
 struct Texture {
   std::string name; ///< of the image or its file, for messages
   std::vector<std::byte> encoded;
-  bool repeat_u = true;
-  bool repeat_v = true;
+  Wrap wrap_u = Wrap::repeat;
+  Wrap wrap_v = Wrap::repeat;
+  TexelFilter magnified = TexelFilter::linear;
 };
 
 enum class PunctualKind { point, spot, directional };

@@ -8,11 +8,12 @@ namespace meninas {
 namespace {
 
 /// The texel that index k stands for.
-int wrapped(std::int64_t k, int size, bool repeat) {
-  if (!repeat)
+int wrapped(std::int64_t k, int size, Wrap wrap) {
+  if (wrap == Wrap::clamp)
     return static_cast<int>(std::clamp<std::int64_t>(k, 0, size - 1));
-  const std::int64_t rest = k % size;
-  return static_cast<int>(rest < 0 ? rest + size : rest);
+  const std::int64_t period = wrap == Wrap::mirrored ? 2 * std::int64_t{size} : size;
+  const std::int64_t rest = (k % period + period) % period;
+  return static_cast<int>(std::min(rest, period == size ? rest : period - 1 - rest));
 }
 
 /// The texel below a coordinate and how far the coordinate is towards the next one.
@@ -27,13 +28,22 @@ TexelPlace texel_place(double coordinate, int size) {
   return {static_cast<std::int64_t>(below), centred - below};
 }
 
+const Vertex& corner(const Scene& scene, TriangleId triangle, std::size_t k) {
+  return scene.vertices[index(scene.triangles[index(triangle)].vertices[k])];
+}
+
 Vec2 texcoord_at(const Scene& scene, TriangleId triangle, int set, Vec2 barycentric) {
-  const auto corner = [&](std::size_t k) {
-    const VertexId vertex = scene.triangles[index(triangle)].vertices[k];
-    return Vec2(scene.vertices[index(vertex)].texcoord[static_cast<std::size_t>(set)]);
+  const auto at = [&](std::size_t k) {
+    return Vec2(corner(scene, triangle, k).texcoord[static_cast<std::size_t>(set)]);
   };
-  const Vec2 a = corner(0);
-  return a + barycentric.x * (corner(1) - a) + barycentric.y * (corner(2) - a);
+  const Vec2 a = at(0);
+  return a + barycentric.x * (at(1) - a) + barycentric.y * (at(2) - a);
+}
+
+glm::dvec4 color_at(const Scene& scene, TriangleId triangle, Vec2 barycentric) {
+  const auto at = [&](std::size_t k) { return glm::dvec4(corner(scene, triangle, k).color); };
+  const glm::dvec4 a = at(0);
+  return a + barycentric.x * (at(1) - a) + barycentric.y * (at(2) - a);
 }
 
 } // namespace
@@ -67,10 +77,14 @@ Vec2 transformed_texcoord(const TextureUse& use, Vec2 texcoord) {
 }
 
 glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Vec2 uv) {
-  const TexelPlace u = texel_place(uv.x, pixels.width), v = texel_place(uv.y, pixels.height);
+  TexelPlace u = texel_place(uv.x, pixels.width), v = texel_place(uv.y, pixels.height);
+  if (texture.magnified == TexelFilter::nearest) {
+    u.share = std::round(u.share);
+    v.share = std::round(v.share);
+  }
   const auto texel = [&](std::int64_t i, std::int64_t j) {
-    const int x = wrapped(i, pixels.width, texture.repeat_u);
-    const int y = wrapped(j, pixels.height, texture.repeat_v);
+    const int x = wrapped(i, pixels.width, texture.wrap_u);
+    const int y = wrapped(j, pixels.height, texture.wrap_v);
     return glm::dvec4(pixels.texels[static_cast<std::size_t>(y) * pixels.width + x]);
   };
   const glm::dvec4 upper = glm::mix(texel(u.first, v.first), texel(u.first + 1, v.first), u.share);
@@ -82,6 +96,13 @@ glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Ve
 bool is_textured(const Material& material) {
   return material.base_color_texture || material.metallic_roughness_texture ||
          material.emissive_texture;
+}
+
+bool has_vertex_colors(const Scene& scene, TriangleId triangle) {
+  const auto is_colored = [&](std::size_t k) {
+    return corner(scene, triangle, k).color != glm::vec4(1.0F);
+  };
+  return is_colored(0) || is_colored(1) || is_colored(2);
 }
 
 MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
@@ -97,6 +118,11 @@ MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, T
     const glm::dvec4 texel = value(*use, textures.colours);
     point.base_color *= glm::clamp(Rgb(texel), 0.0, 1.0);
     point.alpha *= texel.a;
+  }
+  if (has_vertex_colors(scene, triangle)) {
+    const glm::dvec4 color = glm::clamp(color_at(scene, triangle, barycentric), 0.0, 1.0);
+    point.base_color *= Rgb(color);
+    point.alpha *= color.a;
   }
   if (const auto& use = material.metallic_roughness_texture) {
     const glm::dvec4 texel = value(*use, textures.numbers);

@@ -1,4 +1,5 @@
-// Materials at a point: textures decoded, wrapped as their samplers say, and interpolated bilinearly between texels.
+// Materials at a point: textures decoded, wrapped as their samplers say, and interpolated bilinearly between texels; vertex colours,
+// interpolated linearly over their triangle.
 //
 // KHR_texture_transform takes (u, v) to offset + R (scale (u, v)) with R = (cos, sin; -sin, cos), counter-clockwise as glTF sees it: v runs down
 // the image. Texel (i, j) of a w x h image has its centre at ((i + 1/2) / w, (j + 1/2) / h).
@@ -42,7 +43,10 @@ glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Ve
 
 bool is_textured(const Material& material);
 
-/// Factors times textures at a point of a triangle, given by the weights of its second and third corner.
+/// Whether COLOR_0 changes anything on a triangle.
+bool has_vertex_colors(const Scene& scene, TriangleId triangle);
+
+/// Factors times textures times vertex colours at a point of a triangle, given by the weights of its second and third corner.
 MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
                           Vec2 barycentric);
 

@@ -96,6 +96,35 @@ TEST(Textures, APictureShowsTheImageUnderEvenLight) {
   EXPECT_NEAR(shown({0.0, 0.0, -0.375}), 0.4, 1e-3);
 }
 
+TEST(Textures, VertexColoursAreLinearInThePictureAndMeansInPassOne) {
+  // Red rises from 0 at x = -1/2 to 1 at x = 1/2, under a sky of radiance 1.
+  Scene scene;
+  add_square(scene, "floor", 0.0, true, diffuse(0.8));
+  for (Vertex& vertex : scene.vertices)
+    vertex.color.r = static_cast<float>(vertex.position.x) + 0.5F;
+  scene.background = Rgb(1.0);
+  const auto settings = quick(0.5);
+  const auto prepared = prepare_scene(scene, settings.pass_one);
+  EXPECT_EQ(prepared->plan.bands, 3);
+  const RadiositySolution solution = solve_pass_one(*prepared->light, settings.pass_one);
+  for (std::size_t e = 0; e < element_count(prepared->mesh); ++e) {
+    double middle = 0.0;
+    for (const ElementVertexId corner : prepared->mesh.corners[e])
+      middle += 0.25 * (prepared->mesh.vertices[index(corner)].x + 0.5);
+    // Four standard deviations of 64 stratified points: 0.4 / sqrt(12) / 64^(3/4) each.
+    EXPECT_NEAR(prepared->mesh.reflectance[e].r, 0.8 * middle, 0.025);
+    EXPECT_NEAR(prepared->mesh.reflectance[e].g, 0.8, 1e-6);
+  }
+  for (const double x : {-0.4, -0.1, 0.2, 0.45}) {
+    const Point3 at{x, 0.0, 0.3};
+    const Image seen = render(*prepared->light, solution.field,
+                              look_at(at + Vec3(0.1, 0.5, 0.2), at, 1e-5), settings.render)
+                           .image;
+    EXPECT_NEAR(seen.at(0, 0).r, 0.8 * (x + 0.5), 1e-5);
+    EXPECT_NEAR(seen.at(0, 0).g, 0.8, 1e-5);
+  }
+}
+
 TEST(Textures, AreAsSharpInAMirror) {
   Scene scene;
   scene.textures = {chessboard(4, 16)};
@@ -139,8 +168,8 @@ TEST(Textures, WhatGlowsInPatternsLightsInPatterns) {
       halves.at(x, 0) = glm::vec3(1.0F);
     scene.textures = {{.name = "halves",
                        .encoded = encode_png(halves, 0.0),
-                       .repeat_u = false,
-                       .repeat_v = false}};
+                       .wrap_u = Wrap::clamp,
+                       .wrap_v = Wrap::clamp}};
     add_square(scene, "floor", 0.0, true, diffuse(0.5), 1.5);
     Material lamp = diffuse(0.0, 10.0);
     if (pattern) {
@@ -199,8 +228,8 @@ Scene under_a_screen(bool cut_out) {
   const auto bytes = std::as_bytes(std::span(half_there));
   scene.textures = {{.name = "half there",
                      .encoded = {bytes.begin(), bytes.end()},
-                     .repeat_u = false,
-                     .repeat_v = false}};
+                     .wrap_u = Wrap::clamp,
+                     .wrap_v = Wrap::clamp}};
   add_square(scene, "floor", 0.0, true, diffuse(0.5));
   Material screen = double_sided(diffuse(0.0));
   if (cut_out) {

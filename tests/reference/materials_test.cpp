@@ -27,7 +27,7 @@ Texture white_and_black() {
   std::ifstream in(file, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(in)), {});
   std::filesystem::remove(file);
-  Texture texture{.name = "halves", .encoded = {}, .repeat_u = false, .repeat_v = false};
+  Texture texture{.name = "halves", .encoded = {}, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp};
   for (const char c : bytes)
     texture.encoded.push_back(static_cast<std::byte>(c));
   return texture;
@@ -70,6 +70,15 @@ TEST(ReferenceMaterials, ATexturedEmitter) {
   // Places left and right of the middle add up to white: under it there is half the light of the plain lamp.
   const MeanRadiance full = radiance_seen(plain, {4, 0.15, 1}, Point3(0.0), 1024);
   expect_radiance(radiance_seen(scene, {4, 0.15, 1}, Point3(0.0), 1024), 0.5 * full.mean);
+}
+
+TEST(ReferenceMaterials, VertexColours) {
+  Scene scene;
+  add_floor(scene, diffuse(0.8));
+  scene.background = Rgb(1.0);
+  for (Vertex& vertex : scene.vertices)
+    vertex.color.g = static_cast<float>(vertex.position.x + 9.0) / 18.0F;
+  expect_radiance(radiance_seen(scene, {4.5, 1, 0.1}, {4.5, 0, 0}, 32), Rgb(0.8, 0.6, 0.8));
 }
 
 TEST(ReferenceMaterials, ATexturedFloor) {

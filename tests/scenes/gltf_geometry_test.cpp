@@ -217,9 +217,49 @@ TEST(GltfGeometry, BoundsTheErrorOfPositions) {
   EXPECT_DOUBLE_EQ(load(scaled).position_error, 3.0 * std::ldexp(1.0, -24) + 4e-16 * (3.0 + 1e4));
 }
 
+/// The colour of the second vertex, of four.
+template <typename Number>
+static glm::vec4 second_color(const std::vector<Number>& values, const std::string& type) {
+  auto file = square();
+  const auto accessor = file.add_accessor(values, type);
+  file.json["accessors"][accessor]["normalized"] = !std::is_floating_point_v<Number>;
+  square_primitive(file)["attributes"]["COLOR_0"] = accessor;
+  const Scene scene = load(file);
+  EXPECT_TRUE(scene.ignored.empty());
+  return scene.vertices.at(1).color;
+}
+
+TEST(GltfGeometry, ReadsVertexColoursOfEveryType) {
+  using U8 = std::uint8_t;
+  using U16 = std::uint16_t;
+  const glm::vec4 seen(0.2F, 0.4F, 0.6F, 0.8F);
+  const std::vector<U8> bytes{1, 2, 3, 4, 51, 102, 153, 204, 5, 6, 7, 8, 9, 10, 11, 12};
+  const std::vector<U8> opaque{1, 2, 3, 51, 102, 153, 5, 6, 7, 9, 10, 11};
+  const std::vector<U16> shorts{1, 2, 3, 4, 13107, 26214, 39321, 52428, 5, 6, 7, 8, 9, 10, 11, 12};
+  const std::vector<float> floats{1, 1, 1, 1, 0.2F, 0.4F, 0.6F, 0.8F, 1, 1, 1, 1, 1, 1, 1, 1};
+  const auto expect_near = [](const glm::vec4& a, const glm::vec4& b) {
+    for (int c = 0; c < 4; ++c)
+      EXPECT_FLOAT_EQ(a[c], b[c]) << c;
+  };
+  expect_near(second_color(bytes, "VEC4"), seen);
+  expect_near(second_color(shorts, "VEC4"), seen);
+  expect_near(second_color(floats, "VEC4"), seen);
+  expect_near(second_color(opaque, "VEC3"), glm::vec4(glm::vec3(seen), 1.0F));
+  EXPECT_EQ(load(square()).vertices.at(1).color, glm::vec4(1.0F));
+}
+
+TEST(GltfGeometry, ClampsVertexColours) {
+  auto file = square();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  square_primitive(file)["attributes"]["COLOR_0"] = file.add_accessor(
+      std::vector<float>{1, 1, 1, 1.5F, -1, nan, 1, 1, 1, 1, 1, 1}, "VEC3");
+  const Scene scene = load(file);
+  EXPECT_EQ(scene.vertices.at(1).color, glm::vec4(1.0F, 0.0F, 0.0F, 1.0F));
+  EXPECT_TRUE(warns(scene, {"vertex colours outside [0, 1]", "'Quad'"}));
+}
+
 TEST(GltfGeometry, LeavesOutWhatItDoesNotRead) {
   auto file = square();
-  square_primitive(file)["attributes"]["COLOR_0"] = 0;
   square_primitive(file)["targets"] = Json::array({{{"POSITION", 0}}});
   file.json["skins"] = Json::array({{{"joints", {0}}}});
   file.json["nodes"][0]["skin"] = 0;
@@ -227,14 +267,13 @@ TEST(GltfGeometry, LeavesOutWhatItDoesNotRead) {
   file.json["extensionsUsed"] = {"KHR_materials_clearcoat"};
   file.json["materials"][0]["extensions"]["VENDOR_undeclared"] = Json::object();
   const auto scene = load(file);
-  EXPECT_TRUE(warns(scene, {"vertex colours", "'Quad'"}));
   EXPECT_TRUE(warns(scene, {"morph targets", "'Quad'"}));
   EXPECT_TRUE(warns(scene, {"skins", "'Quad'"}));
   EXPECT_TRUE(warns(scene, {"animations", "'Walk'", "'animation1'"}));
   EXPECT_TRUE(warns(scene, {"extensions", "'KHR_materials_clearcoat'", "'VENDOR_undeclared'"}));
   EXPECT_THAT(scene.ignored, testing::UnorderedElementsAre("KHR_materials_clearcoat",
-                                                           "VENDOR_undeclared", "vertex colours",
-                                                           "morph targets", "skins", "animations"));
+                                                           "VENDOR_undeclared", "morph targets",
+                                                           "skins", "animations"));
 }
 
 TEST(GltfGeometry, LoadsTheSameBitsTwice) {

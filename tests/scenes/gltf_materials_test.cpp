@@ -152,8 +152,8 @@ TEST(GltfTextures, KeepsBytesWrappingAndTransform) {
   EXPECT_EQ(scene.textures[0].name, "bricks");
   EXPECT_THAT(scene.textures[0].encoded,
               testing::ElementsAre(std::byte{1}, std::byte{2}, std::byte{3}, std::byte{4}));
-  EXPECT_FALSE(scene.textures[0].repeat_u);
-  EXPECT_TRUE(scene.textures[0].repeat_v);
+  EXPECT_EQ(scene.textures[0].wrap_u, Wrap::clamp);
+  EXPECT_EQ(scene.textures[0].wrap_v, Wrap::repeat);
   const auto& use = scene.materials.at(0).base_color_texture;
   ASSERT_TRUE(use.has_value());
   EXPECT_EQ(index(use->texture), 0u);
@@ -208,9 +208,28 @@ TEST(GltfTextures, MissingImagesAreWarnings) {
   third_set.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0},
                                                                                 {"texCoord", 2}};
   EXPECT_TRUE(warns(load(third_set), {"texCoord above 1", "'Paint'"}));
-  auto mirrored = textured();
-  mirrored.json["samplers"][0]["wrapS"] = 33648;
-  EXPECT_TRUE(warns(load(mirrored), {"mirrored wrapping", "textures[0]"}));
+  auto unknown = textured();
+  unknown.json["samplers"][0] = {{"wrapS", 5}, {"magFilter", 6}};
+  EXPECT_TRUE(warns(load(unknown), {"unknown wrapping", "textures[0]"}));
+  EXPECT_TRUE(warns(load(unknown), {"unknown filters", "textures[0]"}));
+}
+
+TEST(GltfTextures, ReadsSamplersAndKeepsAnImageOnceForEach) {
+  auto file = textured();
+  file.json["samplers"] =
+      Json::array({{{"wrapS", 33648}, {"wrapT", 33071}, {"magFilter", 9728}, {"minFilter", 9987}},
+                   {{"magFilter", 9729}}});
+  file.json["textures"].push_back({{"source", 0}, {"sampler", 1}});
+  file.json["textures"].push_back({{"source", 0}});
+  file.json["materials"][0]["emissiveTexture"] = {{"index", 1}};
+  file.json["materials"][0]["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 2}};
+  const Scene scene = load(file);
+  ASSERT_EQ(scene.textures.size(), 2u) << "the sampler that says nothing is the same as none";
+  EXPECT_EQ(scene.textures[0].wrap_u, Wrap::mirrored);
+  EXPECT_EQ(scene.textures[0].wrap_v, Wrap::clamp);
+  EXPECT_EQ(scene.textures[0].magnified, TexelFilter::nearest);
+  EXPECT_EQ(scene.textures[1].wrap_u, Wrap::repeat);
+  EXPECT_EQ(scene.textures[1].magnified, TexelFilter::linear);
 }
 
 } // namespace meninas::test

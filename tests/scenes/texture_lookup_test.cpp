@@ -18,7 +18,7 @@ TexturePixels numbered() {
 double value(const Texture& texture, Vec2 uv) { return texture_value(numbered(), texture, uv).r; }
 
 TEST(TextureLookup, TexelsAreAtTheirCentresAndBetweenThemIsTheMean) {
-  const Texture texture{.name = "t", .encoded = {}, .repeat_u = false, .repeat_v = false};
+  const Texture texture{.name = "t", .encoded = {}, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp};
   EXPECT_DOUBLE_EQ(value(texture, {0.25, 0.25}), 0.0);
   EXPECT_DOUBLE_EQ(value(texture, {0.75, 0.25}), 1.0);
   EXPECT_DOUBLE_EQ(value(texture, {0.25, 0.75}), 2.0);
@@ -27,15 +27,34 @@ TEST(TextureLookup, TexelsAreAtTheirCentresAndBetweenThemIsTheMean) {
 }
 
 TEST(TextureLookup, ImagesRepeatOrEndAtTheirEdge) {
-  const Texture ends{.name = "t", .encoded = {}, .repeat_u = false, .repeat_v = false};
+  const Texture ends{.name = "t", .encoded = {}, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp};
   EXPECT_DOUBLE_EQ(value(ends, {-3.0, 0.25}), 0.0);
   EXPECT_DOUBLE_EQ(value(ends, {7.0, 0.25}), 1.0);
   EXPECT_DOUBLE_EQ(value(ends, {0.0, 0.25}), 0.0);
-  const Texture repeats{.name = "t", .encoded = {}, .repeat_u = true, .repeat_v = true};
+  const Texture repeats{.name = "t", .encoded = {}, .wrap_u = Wrap::repeat, .wrap_v = Wrap::repeat};
   EXPECT_DOUBLE_EQ(value(repeats, {0.0, 0.25}), 0.5);
   EXPECT_DOUBLE_EQ(value(repeats, {-2.75, 5.25}), 0.0);
   EXPECT_DOUBLE_EQ(value(repeats, {3.75, -0.25}), 3.0);
   EXPECT_TRUE(std::isfinite(value(repeats, {1e300, -1e300})));
+}
+
+TEST(TextureLookup, ImagesRepeatAsTheirMirrorImage) {
+  const Texture mirrors{
+      .name = "t", .encoded = {}, .wrap_u = Wrap::mirrored, .wrap_v = Wrap::clamp};
+  // 0 1 | 1 0 | 0 1: to both sides of both edges.
+  for (const auto& [u, expected] :
+       {std::pair{0.25, 0.0}, {0.75, 1.0}, {1.25, 1.0}, {1.75, 0.0}, {2.25, 0.0}, {2.75, 1.0},
+        {-0.25, 0.0}, {-0.75, 1.0}, {-1.25, 1.0}, {1.0, 1.0}, {0.0, 0.0}, {1.5, 0.5}})
+    EXPECT_DOUBLE_EQ(value(mirrors, {u, 0.25}), expected) << u;
+  EXPECT_TRUE(std::isfinite(value(mirrors, {-1e300, 0.0})));
+}
+
+TEST(TextureLookup, MagnifiedToSquares) {
+  const Texture squares{.name = "t", .encoded = {}, .magnified = TexelFilter::nearest};
+  EXPECT_DOUBLE_EQ(value(squares, {0.49, 0.01}), 0.0);
+  EXPECT_DOUBLE_EQ(value(squares, {0.51, 0.49}), 1.0);
+  EXPECT_DOUBLE_EQ(value(squares, {0.51, 0.51}), 3.0);
+  EXPECT_DOUBLE_EQ(value(squares, {-0.01, 0.99}), 3.0);
 }
 
 TEST(TextureLookup, TheTransformOfTheSpecificationsExample) {
@@ -92,6 +111,17 @@ TEST(TextureLookup, FactorsTimesTexturesByTheirCoordinates) {
   EXPECT_NEAR(point.emission.b, 1.0, 1e-7);
   scene.materials[0].alpha_mode = AlphaMode::mask;
   EXPECT_TRUE(is_cut_out(scene.materials[0], point));
+
+  // The triangle's corners are the first, third and fourth vertex.
+  EXPECT_FALSE(has_vertex_colors(scene, TriangleId{1}));
+  scene.vertices[2].color = {0.5F, 1.0F, 0.0F, 0.0F};
+  EXPECT_TRUE(has_vertex_colors(scene, TriangleId{1}));
+  const MaterialPoint tinted = material_at(scene, textures, TriangleId{1}, {0.75, 0.0});
+  EXPECT_NEAR(tinted.base_color.r, 0.5 * 0.625, 1e-7);
+  EXPECT_NEAR(tinted.base_color.g, 0.3, 1e-7);
+  EXPECT_NEAR(tinted.base_color.b, 0.7 * 0.25 * 0.25, 1e-7);
+  EXPECT_NEAR(tinted.alpha, 0.45 * 0.25, 1e-7);
+  EXPECT_EQ(tinted.emission, point.emission);
 }
 
 } // namespace
