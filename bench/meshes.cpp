@@ -2,62 +2,29 @@
 //
 //   meshes REFERENCES SCENE.gltf ...
 //
-// REFERENCES is the folder of reference/images. The error of a picture p against the reference r, both of the size of r, is
-//
-//   e^2 = mean over pixels and channels of ((p - r)^2 - v) / (r + mean r)^2
-//
-// with v the variance of r, so that the noise of the reference does not count. Pass two takes many samples a pixel, so that its own does not
+// REFERENCES is the folder of reference/images. Errors are those of bench/truth.h. Pass two takes many samples a pixel, so that its own does not
 // either. Time is processor time of pass one, which other programs on the machine disturb less than that of a clock.
 // For every adaptive mesh stands the number of elements, and the time, that uniform meshes take for its error (log-log between the two nearest,
 // beyond the last by their slope).
-#include "image/image_file.h"
+#include "bench/truth.h"
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"
-#include "scenes/errors.h"
 #include "scenes/gltf.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 using namespace meninas;
+using namespace meninas::bench;
 
 namespace {
 
 constexpr int samples = 256;
-
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-struct Truth {
-  Image mean, variance;
-};
-
-Truth read_truth(const std::filesystem::path& file) {
-  ImageFile picture = read_image(file);
-  const auto variance = std::ranges::find(picture.layers, "variance", &Layer::name);
-  if (variance == picture.layers.end())
-    throw InputError(file.string(), "", "has no layer of variances");
-  return {std::move(picture.picture), std::move(variance->image)};
-}
-
-double error_of(const Image& picture, const Truth& truth) {
-  glm::dvec3 mean(0.0);
-  for (const glm::vec3& pixel : truth.mean.pixels)
-    mean += glm::dvec3(pixel) / double(truth.mean.pixels.size());
-  double sum = 0.0;
-  for (std::size_t p = 0; p < picture.pixels.size(); ++p)
-    for (int band = 0; band < 3; ++band) {
-      const double r = double{truth.mean.pixels[p][band]},
-                   off = double{picture.pixels[p][band]} - r;
-      sum += (off * off - double{truth.variance.pixels[p][band]}) / std::pow(r + mean[band], 2.0);
-    }
-  return std::sqrt(std::max(sum, 0.0) / (3.0 * double(picture.pixels.size())));
-}
 
 struct Measured {
   std::size_t elements = 0;
@@ -90,7 +57,7 @@ double needed(const std::vector<Measured>& uniform, double error, double (*what)
 
 void measure_scene(const std::filesystem::path& references, const std::filesystem::path& file) {
   const Scene scene = load_gltf(file);
-  const Truth truth = read_truth(references / (file.stem().string() + ".reference.exr"));
+  const Truth truth = read_truth(references, file);
   fmt::print("\n{}\n{:>22} {:>9} {:>9} {:>9}   {}\n", file.stem().string(), "mesh", "elements",
              "seconds", "error", "uniform for this error: elements, seconds");
   std::vector<Measured> uniform;

@@ -6,8 +6,7 @@
 // samples a pixel. Bare loops trace rays that go on behind mirrors in the same proportion, but find them ready in packets.
 // Figures are of one thread, in processor time. The loops take turns, and a share is the median of those of all turns, so that a busy machine,
 // which slows them alike, hardly shows.
-#include "bench/bare_embree.h"
-#include "bench/stage_rays.h"
+#include "bench/stage_loops.h"
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"
 #include "scenes/errors.h"
@@ -15,11 +14,9 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <time.h>
 
 #include <algorithm>
 #include <functional>
-#include <memory>
 
 using namespace meninas;
 using namespace meninas::bench;
@@ -28,25 +25,6 @@ namespace {
 
 constexpr std::size_t packet_count = 1 << 12;
 constexpr int turns = 15;
-constexpr int bare_repetitions = 8;
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Million rays a second of a loop that returns how many rays it traced.
-double rate_of(const std::function<std::uint64_t()>& loop) {
-  const double start = processor_seconds();
-  const std::uint64_t rays = loop();
-  return 1e-6 * static_cast<double>(rays) / (processor_seconds() - start);
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
 
 struct StageLoops {
   std::function<std::uint64_t()> plain, robust, ours;
@@ -63,20 +41,6 @@ void report(const std::string& name, const StageLoops& loops) {
   }
   fmt::print("{:<14}{:>10.1f}{:>10.1f}{:>10.1f}{:>14.2f}{:>14.2f}\n", name, median(plain),
              median(robust), median(ours), median(of_plain), median(of_robust));
-}
-
-/// A bare loop over the rays of a stage, told of their coherence as traces them best.
-std::function<std::uint64_t()> bare_loop(const BareScene& bare, const StageRays& rays,
-                                         Coherence first) {
-  return [bare, &rays, first, met = std::make_shared<std::uint64_t>(0)] {
-    for (int repetition = 0; repetition < bare_repetitions; ++repetition) {
-      for (const RayPacket& packet : rays.first)
-        *met += trace_bare(bare, Query::closest, first, packet);
-      for (const RayPacket& packet : rays.reflected)
-        *met += trace_bare(bare, Query::closest, Coherence::incoherent, packet);
-    }
-    return bare_repetitions * packet_size * (rays.first.size() + rays.reflected.size());
-  };
 }
 
 StageLoops stage(const BareScene& plain, const BareScene& robust, const StageRays& rays,

@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/pixel_options.h"
 #include "cli/settings.h"
 #include "cli/values.h"
 #include "runs/render_run.h"
@@ -123,11 +124,7 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       [&](const std::string& text) {
         request.picture.exposure = parse_number("--exposure", text, Sign::any);
       });
-  command
-      .add_flag_callback(
-          "--layers", [&] { options.common.settings.layers = WithLayers::yes; },
-          "EXRs also hold the picture's nine parts, by how surfaces are seen and lit; in 32 bits")
-      ->group(picture_group);
+  add_pixel_options(command, options.common.settings, picture_group);
   command
       .add_flag_callback(
           "--float", [&] { request.picture.exr_type = PixelType::float32; },
@@ -143,17 +140,6 @@ void add_settings(CLI::App& command, RenderOptions& options) {
   add_mesh_options(command, options.common);
   add_pass_one_options(command, options.common);
   add_run_options(command, options.common);
-}
-
-void refuse(const CLI::App& command, std::initializer_list<const char*> options,
-            const std::string& reason) {
-  for (const char* option : options) {
-    // Not every command that takes these settings has every option.
-    const CLI::Option* known = command.get_option_no_throw(option);
-    if (known != nullptr && known->count() > 0) {
-      throw UsageError(option, reason);
-    }
-  }
 }
 
 /// `direct` builds on the light without that of emitters, which means of elements by the analytic method do not tell apart.
@@ -200,28 +186,14 @@ void check_goal(const CLI::App& command, const RenderOptions& options) {
          std::string("does not go with ") + goal + ", which chooses for itself");
 }
 
-void check_layers(const RenderOptions& options) {
-  const RunSettings& settings = options.common.settings;
-  if (settings.layers == WithLayers::no) {
-    return;
-  }
-  if (settings.mode == PictureMode::radiosity) {
-    throw UsageError("--layers", "has no effect with --mode radiosity: its mirrors are black");
-  }
-  if (settings.interpolation == Interpolation::average) {
-    throw UsageError("--layers", "needs --interpolation gather");
-  }
-  if (!options.request.pictures.empty() && !has_exr(options)) {
-    throw UsageError("--layers", "needs an EXR to write them to");
-  }
-}
-
 /// What the mode does not heed is refused, not ignored.
 void check_mode(const CLI::App& command, const RenderOptions& options) {
   if (options.common.settings.mode == PictureMode::reference) {
     const std::string reason = "has no effect with --mode reference: there is no pass one";
     refuse_pass_one_options(command, reason);
-    refuse(command, {"--solution", "--mirror-depth", "--diffuse"}, reason);
+    refuse(command, {"--solution", "--mirror-depth", "--diffuse", "--view"}, reason);
+    refuse(command, {"--filter", "--pixel-error"},
+           "has no effect with --mode reference: its pixels are boxes of as many samples each");
     return;
   }
   if (options.common.settings.mode == PictureMode::radiosity) {
@@ -253,16 +225,21 @@ void take_snapshots(RenderOptions& options) {
 /// The request, after a check that all options given have an effect together.
 RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
   check_mode(command, options);
-  check_layers(options);
   check_error_map(options);
   check_goal(command, options);
+  check_pixel_options(command, options.common.settings, options.request.pictures);
   check_diffuse(options.common.settings);
   check_pass_one_options(command, options.common.settings);
   take_snapshots(options);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
-  if (options.common.settings.layers == WithLayers::yes) {
-    options.request.picture.exr_type = PixelType::float32; // in halves they would not add up
+  const RunSettings& settings = options.common.settings;
+  if (settings.layers == WithLayers::yes || !settings.features.empty() || settings.view) {
+    // In halves parts would not add up, and indices would be rounded.
+    options.request.picture.exr_type = PixelType::float32;
+  }
+  if (settings.view) {
+    options.request.picture.exposure = 0.0; // colours are what they are
   }
   return options.request;
 }

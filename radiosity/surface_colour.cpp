@@ -76,8 +76,8 @@ void average_side(const Scene& scene, const SurfaceModel& surfaces, const Decode
 } // namespace
 
 SurfaceColour surface_colour(const Scene& scene, const DecodedTextures& textures,
-                             TriangleId triangle, Vec2 barycentric) {
-  const MaterialPoint point = material_at(scene, textures, triangle, barycentric);
+                             TriangleId triangle, Vec2 barycentric, const Footprint& footprint) {
+  const MaterialPoint point = material_at(scene, textures, triangle, barycentric, footprint);
   Material material = material_of(scene, triangle);
   const bool hole = is_cut_out(material, point);
   material.base_color = point.base_color;

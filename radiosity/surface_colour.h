@@ -19,9 +19,10 @@ struct SurfaceColour {
   bool hole = false;    ///< nothing is there
 };
 
-/// At the point of a triangle with weights b1, b2 of its second and third corner.
+/// At the point of a triangle with weights b1, b2 of its second and third corner; its footprint is counted in them as well.
 SurfaceColour surface_colour(const Scene& scene, const DecodedTextures& textures,
-                             TriangleId triangle, Vec2 barycentric);
+                             TriangleId triangle, Vec2 barycentric,
+                             const Footprint& footprint = {});
 
 /// The holes of cut-out materials, for the rays of a scene that outlives them.
 Holes holes_of(const Scene& scene, const DecodedTextures& textures);

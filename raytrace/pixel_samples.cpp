@@ -25,9 +25,18 @@ void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileW
   };
   alignas(64) std::array<float, packet_size> x, y;
   for (std::size_t k = 0; k < packet_size; ++k)
-    x[k] = (lanes.left[k] + unit(lanes.bits_x[k])) * pixel_width;
+    x[k] = unit(lanes.bits_x[k]);
   for (std::size_t k = 0; k < packet_size; ++k)
-    y[k] = (lanes.top[k] + unit(lanes.bits_y[k])) * pixel_height;
+    y[k] = unit(lanes.bits_y[k]);
+  if (context.filter)
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      x[k] = place_of(*context.filter, x[k]);
+      y[k] = place_of(*context.filter, y[k]);
+    }
+  for (std::size_t k = 0; k < packet_size; ++k)
+    x[k] = (lanes.left[k] + x[k]) * pixel_width;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    y[k] = (lanes.top[k] + y[k]) * pixel_height;
   RayPacket packet;
   HitPacket hits;
   packet.count = lanes.count;
@@ -38,19 +47,24 @@ void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileW
 
 } // namespace
 
-std::vector<std::uint32_t> pixel_net(int samples, std::size_t d) {
-  std::vector<std::uint32_t> net(static_cast<std::size_t>(std::max(samples, 1)));
-  for (std::uint32_t k = 0; k < net.size(); ++k)
-    net[k] = static_cast<std::uint32_t>(sobol4(k, 0)[d] * 0x1p32F);
+std::vector<std::uint32_t> pixel_net(const SampleRange& range, std::size_t d) {
+  std::vector<std::uint32_t> net;
+  for (int k = range.first; k < range.first + range.count; ++k)
+    net.push_back(static_cast<std::uint32_t>(sobol4(static_cast<std::uint32_t>(k), 0)[d] * 0x1p32F));
   return net;
 }
+
 void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileWorkspace& work) {
   const auto samples = static_cast<std::uint32_t>(context.net_x.size());
   const auto pixels = static_cast<std::uint32_t>(tile.width * tile.height);
+  std::uint64_t traced = 0;
   SampleLanes lanes{};
   for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
     const int px = tile.x0 + static_cast<int>(pixel) % tile.width,
               py = tile.y0 + static_cast<int>(pixel) / tile.width;
+    if (!is_chosen(context, px, py))
+      continue;
+    ++traced;
     const std::uint32_t shift_x =
         hash(static_cast<std::uint32_t>(px), static_cast<std::uint32_t>(py), context.settings.seed);
     const std::uint32_t shift_y = hash(shift_x, 1);
@@ -75,7 +89,7 @@ void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileW
   }
   if (lanes.count > 0)
     trace_samples(context, lanes, work);
-  work.camera_rays += std::uint64_t{pixels} * samples;
+  work.camera_rays += traced * samples;
 }
 
 } // namespace meninas

@@ -5,8 +5,8 @@
 
 namespace meninas {
 
-/// Coordinate d of the stratified points of a pixel.
-std::vector<std::uint32_t> pixel_net(int samples, std::size_t d);
+/// Coordinate d of the stratified points of a pixel that have these numbers.
+std::vector<std::uint32_t> pixel_net(const SampleRange& range, std::size_t d);
 
 /// Traces and shades the camera rays of the tile, pixel by pixel.
 void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileWorkspace& work);

@@ -1,6 +1,6 @@
 #include "raytrace/probes.h"
 
-#include "raytrace/tiles.h"
+#include "raytrace/sample_choice.h"
 
 #include <algorithm>
 
@@ -29,7 +29,7 @@ static Image emission_picture(const LightScene& light, const DiffuseField& field
   for (SideShading& side : glow.shading)
     side.albedo_over_pi = glm::vec3(0.0F);
   Image image(settings.width, settings.height);
-  trace_picture(light, glow, nullptr, camera, settings, {},
+  trace_picture(light, glow, nullptr, camera, settings, {first_samples(settings)}, {},
                 [&](int x, int y, const SeenRadiance& seen) {
                   image.at(x, y) = seen[0] + seen[1] + seen[2];
                 });

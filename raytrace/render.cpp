@@ -1,21 +1,44 @@
-#include "raytrace/tiles.h"
+#include "raytrace/features.h"
+#include "raytrace/sample_choice.h"
+
+#include <algorithm>
+#include <iterator>
 
 namespace meninas {
 
-Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera,
-                 const RenderSettings& settings, const Progress& progress) {
-  expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
-  if (settings.layers == WithLayers::yes)
-    return render_layers(light, field, camera, settings, progress);
+static Rendering render_light(const LightScene& light, const DiffuseField& field,
+                              const Camera& camera, const RenderSettings& settings,
+                              const Progress& progress) {
   Rendering result;
   result.image = Image(settings.width, settings.height);
   const VisibleLight all = visible_light(light, field, field_content(field, settings.diffuse));
   const auto gathering = make_gathering(light, field, settings.diffuse);
-  const RayTotals rays = trace_picture(light, all, gathering.get(), camera, settings, progress,
-                                       [&](int x, int y, const SeenRadiance& seen) {
-                                         result.image.at(x, y) = seen[0] + seen[1] + seen[2];
-                                       });
-  add(result, rays);
+  const auto trace = [&](const SampleShare& share, const StorePixel& store) {
+    add(result,
+        trace_picture(light, all, gathering.get(), camera, settings, share, progress, store));
+  };
+  trace({first_samples(settings)}, [&](int x, int y, const SeenRadiance& seen) {
+    result.image.at(x, y) = seen[0] + seen[1] + seen[2];
+  });
+  if (rest_samples(settings).count == 0)
+    return result;
+  const PixelMask worth = differing_pixels(result.image, settings.pixel_error);
+  trace({rest_samples(settings), &worth}, [&](int x, int y, const SeenRadiance& seen) {
+    glm::vec3& pixel = result.image.at(x, y);
+    pixel = blended(settings, pixel, seen[0] + seen[1] + seen[2]);
+  });
   return result;
 }
+
+Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera,
+                 const RenderSettings& settings, const Progress& progress) {
+  expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
+  Rendering result = settings.layers == WithLayers::yes
+                         ? render_layers(light, field, camera, settings, progress)
+                         : render_light(light, field, camera, settings, progress);
+  std::ranges::move(render_features(light, field, camera, settings),
+                    std::back_inserter(result.layers));
+  return result;
+}
+
 } // namespace meninas

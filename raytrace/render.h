@@ -3,13 +3,18 @@
 //
 //   L(pixel) = mean over samples of  prod_k rho_s(k) (L_e + rho_d H / pi)   at the landing point
 //
-// Samples are stratified in the pixel and seeded by hash(pixel, seed); tiles run in parallel and each writes its own pixels.
+// Samples are stratified in the pixel, or where its filter is (pixel_filter.h), and seeded by hash(pixel, seed); tiles run in parallel and
+// each writes its own pixels.
 #pragma once
 
 #include "image/image.h"
 #include "radiosity/interpolation.h"
 #include "radiosity/pass_one.h"
 #include "raytrace/diffuse_term.h"
+#include "raytrace/pixel_filter.h"
+
+#include <array>
+#include <string_view>
 
 namespace meninas {
 
@@ -17,6 +22,13 @@ enum class RenderMode {
   radiosity, ///< pass one alone, Gouraud-shaded: mirrors are black
   hybrid     ///< mirrors followed
 };
+
+/// What layers beside those of light show (features.h).
+enum class Feature { depth, normal, albedo, element, irradiance };
+inline constexpr std::array all_features{Feature::depth, Feature::normal, Feature::albedo,
+                                     Feature::element, Feature::irradiance};
+/// "depth"
+std::string_view name_of(Feature feature);
 
 struct RenderSettings {
   RenderMode mode = RenderMode::hybrid;
@@ -26,13 +38,17 @@ struct RenderSettings {
   double min_throughput = 1.0 / 1024.0; ///< of a specular path, below which it ends
   int max_bounces = 1000;
   std::uint32_t seed = 0;
+  PixelFilter filter = PixelFilter::box;
+  /// Above 0: all samples only where neighbouring pixels differ by this share of themselves (sample_choice.h).
+  double pixel_error = 0.0;
   WithLayers layers = WithLayers::no; ///< as `render_layers` makes them
+  std::vector<Feature> features;      ///< layers after those
   DiffuseSettings diffuse;
 };
 
 struct Rendering {
   Image image;               ///< radiance
-  std::vector<Layer> layers; ///< of render_layers: they add up to the image, in their order
+  std::vector<Layer> layers; ///< of render_layers: they add up to the image, in their order; then features
   std::uint64_t camera_rays = 0;
   std::uint64_t specular_rays = 0;
   std::uint64_t shadow_rays = 0; ///< of diffuse terms computed at the hit

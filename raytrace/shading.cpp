@@ -1,6 +1,7 @@
 #include "raytrace/shading.h"
 
 #include "radiosity/surface_colour.h"
+#include "raytrace/footprint.h"
 #include "raytrace/quad_lanes.h"
 #include "raytrace/specular_paths.h"
 
@@ -20,14 +21,16 @@ Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitP
 }
 
 /// What the surface is like where lane k has landed on it: of a textured one the point itself, in the part that is shown.
-SideShading shading_at(const RenderContext& context, const FaceRecord& face, const HitPacket& hits,
+SideShading shading_at(const RenderContext& context, const RayPacket& packet,
+                       const LaneState& state, const FaceRecord& face, const HitPacket& hits,
                        std::uint32_t k) {
   const SideShading& side = context.visible.shading[face.side];
   if (!side.textured)
     return side;
   const LightScene& light = context.light;
   const SurfaceColour colour = surface_colour(
-      light.scene, light.textures, TriangleId{hits.triangle[k]}, {hits.b1[k], hits.b2[k]});
+      light.scene, light.textures, TriangleId{hits.triangle[k]}, {hits.b1[k], hits.b2[k]},
+      footprint_of(context, packet, state, face, hits, k));
   const ReflectedPart part = context.visible.part;
   const bool emits = part == ReflectedPart::all || part == ReflectedPart::none;
   SideShading shading;
@@ -53,10 +56,10 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
                              diffuse.draw == 0 ? key : hash(key, diffuse.draw), work.point);
 }
 
-glm::vec3 radiance_of_lane(const RenderContext& context, const LaneState& state,
-                           const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
-                           TileWorkspace& work) {
-  const SideShading shading = shading_at(context, face, hits, k);
+glm::vec3 radiance_of_lane(const RenderContext& context, const RayPacket& packet,
+                           const LaneState& state, const FaceRecord& face, const HitPacket& hits,
+                           std::uint32_t k, TileWorkspace& work) {
+  const SideShading shading = shading_at(context, packet, state, face, hits, k);
   if (context.settings.diffuse.term != DiffuseTerm::interpolated)
     return shading.emitted +
            shading.albedo_over_pi * irradiance_of_lane(context, state, face, hits, k, work);
@@ -91,7 +94,7 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
     if (hits.triangle[k] != index(none<TriangleId>)) {
       const FaceRecord& face = face_of(light.landing, hits, k);
       if (face.side != FaceRecord::nothing) {
-        const glm::vec3 radiance = radiance_of_lane(context, state, face, hits, k, work);
+        const glm::vec3 radiance = radiance_of_lane(context, packet, state, face, hits, k, work);
         sum += state.specular ? state.specular[k].throughput * radiance : radiance;
       }
       if (face.mirrors && mirrors)

@@ -29,6 +29,8 @@ void reflect(const RenderContext& context, const FaceRecord& face, const RayPack
   double t = (face.frame_offset - glm::dot(face.normal, origin)) / approach;
   if (!(t > 0.0) || t > 2.0 * distance + 1e-6)
     t = distance;
+  ray.travelled =
+      static_cast<float>(t) + (state.specular ? state.specular[k].travelled : 0.0F);
   ray.origin = origin + t * d;
   ray.direction = d - 2.0 * approach * face.normal;
   work.next.push_back(ray);

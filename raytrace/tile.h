@@ -22,6 +22,7 @@ struct SpecularRay {
   std::uint32_t pixel;
   std::uint32_t leaving;
   std::uint32_t key; ///< of its samples
+  float travelled;   ///< from the eye, unfolded, in units of the camera direction's length
 };
 
 struct TileWorkspace {
@@ -37,6 +38,14 @@ struct TileArea {
   int x0, y0, width, height;
 };
 
+/// 1 for pixels that are meant, row by row.
+using PixelMask = std::vector<std::uint8_t>;
+
+/// Samples by their number: any first 2^k of a pixel are stratified, and so are the 2^k after 2^k.
+struct SampleRange {
+  int first = 0, count = 1;
+};
+
 /// Everything the tiles share.
 struct RenderContext {
   const LightScene& light;
@@ -45,7 +54,16 @@ struct RenderContext {
   const RenderSettings& settings;
   CameraFrame camera;
   std::vector<std::uint32_t> net_x, net_y; ///< stratified points of the pixel, as integers
+  const PixelMask* chosen = nullptr;       ///< pixels of the picture to be traced; null: all
+  const FilterPlaces* filter = nullptr;    ///< null: the box, whose points are where they are
+  double footprint_samples = 1.0;          ///< that share a pixel in all parts of the picture
 };
+
+inline bool is_chosen(const RenderContext& context, int x, int y) {
+  return !context.chosen || (*context.chosen)[static_cast<std::size_t>(y) *
+                                                  static_cast<std::size_t>(context.settings.width) +
+                                              static_cast<std::size_t>(x)] != 0;
+}
 
 /// What the rays of a packet carry: camera rays nothing but their pixel, specular rays their record.
 struct LaneState {

@@ -1,6 +1,7 @@
 #include "raytrace/tiles.h"
 
 #include "raytrace/pixel_samples.h"
+#include "raytrace/sample_choice.h"
 #include "raytrace/specular_paths.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -26,6 +27,8 @@ void render_tile(const RenderContext& context, const TileArea& tile, TileWorkspa
   const float share = 1.0F / static_cast<float>(context.net_x.size());
   for (int y = 0; y < tile.height; ++y)
     for (int x = 0; x < tile.width; ++x) {
+      if (!is_chosen(context, tile.x0 + x, tile.y0 + y))
+        continue;
       const auto pixel = static_cast<std::size_t>(y * tile.width + x);
       store(
           tile.x0 + x, tile.y0 + y,
@@ -35,17 +38,26 @@ void render_tile(const RenderContext& context, const TileArea& tile, TileWorkspa
 
 } // namespace
 
+static FilterPlaces places_of(const RenderSettings& settings) {
+  return settings.filter == PixelFilter::box ? FilterPlaces{} : filter_places(settings.filter);
+}
+
+/// Refers to all it is given.
 static RenderContext context_of(const LightScene& light, const VisibleLight& visible,
                                 const PointGathering* gathering, const Camera& camera,
-                                const RenderSettings& settings) {
+                                const RenderSettings& settings, const SampleShare& share,
+                                const FilterPlaces& places) {
   const double aspect = double(settings.width) / settings.height;
   return {light,
           visible,
           gathering,
           settings,
           make_camera_frame(camera, aspect, light.rays.frame()),
-          pixel_net(settings.samples, 0),
-          pixel_net(settings.samples, 1)};
+          pixel_net(share.samples, 0),
+          pixel_net(share.samples, 1),
+          share.pixels,
+          settings.filter == PixelFilter::box ? nullptr : &places,
+          static_cast<double>(first_samples(settings).count)};
 }
 
 static RayTotals totals_of(const tbb::enumerable_thread_specific<TileWorkspace>& workspaces) {
@@ -61,9 +73,11 @@ static RayTotals totals_of(const tbb::enumerable_thread_specific<TileWorkspace>&
 
 RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
                         const PointGathering* gathering, const Camera& camera,
-                        const RenderSettings& settings, const Progress& progress,
-                        const StorePixel& store) {
-  const RenderContext context = context_of(light, visible, gathering, camera, settings);
+                        const RenderSettings& settings, const SampleShare& share,
+                        const Progress& progress, const StorePixel& store) {
+  const FilterPlaces places = places_of(settings);
+  const RenderContext context =
+      context_of(light, visible, gathering, camera, settings, share, places);
   const int columns = (settings.width + tile_size - 1) / tile_size,
             rows = (settings.height + tile_size - 1) / tile_size;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
@@ -83,7 +97,9 @@ RayTotals trace_pixels(const LightScene& light, const VisibleLight& visible,
                        const PointGathering* gathering, const Camera& camera,
                        const RenderSettings& settings, std::span<const glm::ivec2> pixels,
                        const StorePixel& store) {
-  const RenderContext context = context_of(light, visible, gathering, camera, settings);
+  const FilterPlaces places = places_of(settings);
+  const RenderContext context = context_of(light, visible, gathering, camera, settings,
+                                           {{0, std::max(settings.samples, 1)}}, places);
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
   tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t k) {
     const auto keep = [&](int, int, const SeenRadiance& seen) {

@@ -14,11 +14,17 @@ struct RayTotals {
   std::uint64_t camera = 0, specular = 0, shadow = 0, gather = 0;
 };
 
-/// Every pixel of what is visible, handed to `store` from any thread.
+/// Some samples of some pixels.
+struct SampleShare {
+  SampleRange samples;
+  const PixelMask* pixels = nullptr; ///< null: all
+};
+
+/// The means over those samples of what is visible, pixel by pixel, handed to `store` from any thread.
 RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
                         const PointGathering* gathering, const Camera& camera,
-                        const RenderSettings& settings, const Progress& progress,
-                        const StorePixel& store);
+                        const RenderSettings& settings, const SampleShare& share,
+                        const Progress& progress, const StorePixel& store);
 
 /// The pixels of a list alone, the same values, in its order; `store` is told the place in the list as x.
 RayTotals trace_pixels(const LightScene& light, const VisibleLight& visible,

@@ -73,6 +73,13 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   TwoPassSettings settings = two_pass_settings(request.settings);
   settings.render.width = size.width;
   settings.render.height = size.height;
+  if (request.settings.view) {
+    const LitScene lit =
+        request.solution
+            ? read_lit_scene(*request.solution, std::move(scene), settings.pass_one, events, figures)
+            : solve_lit_scene(std::move(scene), settings.pass_one, std::nullopt, events, figures);
+    return render_view(lit, camera, size, request.settings, events, figures);
+  }
   if (!request.solution) {
     const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
     Rendering rendering = run_two_pass(*prepared, camera, settings, request, events, figures);

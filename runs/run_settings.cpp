@@ -111,6 +111,9 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   result.render.samples = power_of_two(settings.samples.value_or(preset.samples));
   result.render.seed = settings.seed;
   result.render.layers = settings.layers;
+  result.render.features = settings.features;
+  result.render.filter = settings.filter;
+  result.render.pixel_error = settings.pixel_error.value_or(0.0);
   result.render.diffuse = diffuse_settings(settings, pass_one.form_factors, result.render.samples);
   if (settings.mirror_depth) {
     // A cap holds for every kind of path: in closed form, gathered, and seen by the camera.

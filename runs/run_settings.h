@@ -1,6 +1,7 @@
 // What a user chooses about a run: a preset of quality, and explicit values that override it.
 #pragma once
 
+#include "raytrace/debug_view.h"
 #include "raytrace/two_pass.h"
 #include "reference/reference_picture.h"
 
@@ -60,7 +61,11 @@ struct RunSettings {
   std::optional<int> samples;
   PictureMode mode = PictureMode::hybrid;
   DiffuseTerm diffuse = DiffuseTerm::interpolated; ///< of a hybrid picture
-  WithLayers layers = WithLayers::no;              ///< of a hybrid picture or a reference
+  WithLayers layers = WithLayers::no;              ///< of light, of a hybrid picture or a reference
+  std::vector<Feature> features;                   ///< layers of the scene, not of a reference
+  std::optional<DebugView> view;                   ///< painted instead of light
+  PixelFilter filter = PixelFilter::box;           ///< not of a reference
+  std::optional<double> pixel_error;               ///< of a hybrid picture: adaptive sampling
   std::optional<double> max_error;                 ///< of a reference
   std::optional<double> max_seconds;               ///< of a reference
   std::optional<Rgb> background;                   ///< radiance beyond the scene

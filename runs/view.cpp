@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace meninas {
 
 namespace fs = std::filesystem;
@@ -68,7 +70,34 @@ ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettin
                       .attributes = attributes_of(scene, camera, settings)};
   picture.attributes.emplace_back("mode", used.mode == RenderMode::hybrid ? "hybrid" : "radiosity");
   picture.attributes.emplace_back("samples", std::to_string(used.samples));
+  picture.attributes.emplace_back("filter", std::string(name_of(used.filter)));
   return picture;
+}
+
+/// The colours, and the values they stand for as a layer.
+static Rendering painted(const LitScene& lit, const Camera& camera, const RenderSettings& used,
+                         const RunSettings& settings, const RunEvents& events) {
+  const bool closure = settings.view == DebugView::closure;
+  // Rows belong to the elements that were solved, not to those of a refined field.
+  const LightScene& light = closure ? *lit.prepared->light : lit.light();
+  std::vector<RowClosure> rows;
+  if (closure) {
+    const auto& form_factors = two_pass_settings(settings).pass_one.form_factors;
+    rows = assemble_transport(light, form_factors, events.progress).closure;
+  }
+  PaintedView view = paint_view(*settings.view, light, lit.field, rows, camera, used);
+  const std::string name(name_of(*settings.view));
+  note(events, *settings.view == DebugView::elements
+                   ? fmt::format("view elements: {} of them, each in a colour of its own", view.top)
+                   : fmt::format("view {}: from 0 (black) to {:g}{} (pale yellow)", name, view.top,
+                                 *settings.view == DebugView::irradiance ? " W/m^2" : ""));
+  Rendering rendering;
+  rendering.image = std::move(view.colours);
+  Image values(used.width, used.height);
+  std::ranges::transform(view.values.values, values.pixels.begin(),
+                         [](float value) { return glm::vec3(value); });
+  rendering.layers.push_back({name, std::move(values)});
+  return rendering;
 }
 
 ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize size,
@@ -77,7 +106,9 @@ ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize s
   RenderSettings used = two_pass_settings(settings).render;
   used.width = size.width;
   used.height = size.height;
-  Rendering rendering = render(lit.light(), lit.field, camera, used, events.progress);
+  Rendering rendering = settings.view
+                            ? painted(lit, camera, used, settings, events)
+                            : render(lit.light(), lit.field, camera, used, events.progress);
   add_rendering(figures, rendering);
   figures.seconds.render = watch.lap();
   return picture_of(lit.prepared->scene, camera, settings, std::move(rendering));

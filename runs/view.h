@@ -46,7 +46,8 @@ struct ViewPicture {
 ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettings& settings,
                        Rendering rendering);
 
-/// Pass two. Settings of pass one are not heeded; layers need a field that knows its mirrored part.
+/// Pass two, or the view for those who debug. Settings of pass one are not heeded, but by the view `closure`; layers need a field that
+/// knows its mirrored part.
 ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize size,
                         const RunSettings& settings, const RunEvents& events, RunFigures& figures);
 

@@ -1,5 +1,7 @@
 #include "scenes/texture_lookup.h"
 
+#include "scenes/texture_pyramid.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -59,8 +61,11 @@ DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode)
   decoded.numbers.resize(scene.textures.size());
   const auto need = [&](const std::optional<TextureUse>& use, std::vector<TexturePixels>& list,
                         TextureContent content) {
-    if (use && list[index(use->texture)].texels.empty())
-      list[index(use->texture)] = decode(scene.textures[index(use->texture)], content);
+    if (!use || !list[index(use->texture)].texels.empty())
+      return;
+    TexturePixels& pixels = list[index(use->texture)];
+    pixels = decode(scene.textures[index(use->texture)], content);
+    pixels.coarser = coarser_levels(pixels);
   };
   for (const Material& material : scene.materials) {
     need(material.base_color_texture, decoded.colours, TextureContent::colour);
@@ -76,12 +81,9 @@ Vec2 transformed_texcoord(const TextureUse& use, Vec2 texcoord) {
   return use.offset + Vec2(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x);
 }
 
-glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Vec2 uv) {
-  TexelPlace u = texel_place(uv.x, pixels.width), v = texel_place(uv.y, pixels.height);
-  if (texture.magnified == TexelFilter::nearest) {
-    u.share = std::round(u.share);
-    v.share = std::round(v.share);
-  }
+/// Between the four texels around a point.
+static glm::dvec4 bilinear(const TexturePixels& pixels, const Texture& texture, Vec2 uv) {
+  const TexelPlace u = texel_place(uv.x, pixels.width), v = texel_place(uv.y, pixels.height);
   const auto texel = [&](std::int64_t i, std::int64_t j) {
     const int x = wrapped(i, pixels.width, texture.wrap_u);
     const int y = wrapped(j, pixels.height, texture.wrap_v);
@@ -91,6 +93,50 @@ glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Ve
   const glm::dvec4 lower =
       glm::mix(texel(u.first, v.first + 1), texel(u.first + 1, v.first + 1), u.share);
   return glm::mix(upper, lower, v.share);
+}
+
+static glm::dvec4 nearest(const TexturePixels& pixels, const Texture& texture, Vec2 uv) {
+  const TexelPlace u = texel_place(uv.x, pixels.width), v = texel_place(uv.y, pixels.height);
+  const auto rounded = [](const TexelPlace& place) {
+    return place.first + (place.share < 0.5 ? 0 : 1);
+  };
+  const int x = wrapped(rounded(u), pixels.width, texture.wrap_u);
+  const int y = wrapped(rounded(v), pixels.height, texture.wrap_v);
+  return glm::dvec4(pixels.texels[static_cast<std::size_t>(y) * pixels.width + x]);
+}
+
+/// The mean over about `width` texels, one or more, from the two levels around it.
+static glm::dvec4 trilinear(const TexturePixels& pixels, const Texture& texture, Vec2 uv,
+                            double width) {
+  const double coarsest = static_cast<double>(pixels.coarser.size());
+  const double level = std::clamp(std::log2(width), 0.0, coarsest);
+  const auto below = static_cast<std::size_t>(level);
+  const auto at = [&](std::size_t k) {
+    return bilinear(k == 0 ? pixels : pixels.coarser[k - 1], texture, uv);
+  };
+  const double share = level - static_cast<double>(below);
+  return share == 0.0 ? at(below) : glm::mix(at(below), at(below + 1), share);
+}
+
+glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Vec2 uv,
+                         const Footprint& footprint) {
+  constexpr double most_looks = 16.0;
+  const Vec2 size(pixels.width, pixels.height);
+  Vec2 along = footprint.longer;
+  double length = glm::length(size * along), width = glm::length(size * footprint.shorter);
+  if (length < width) {
+    std::swap(length, width);
+    along = footprint.shorter;
+  }
+  if (!(length > 1.0) || !std::isfinite(length))
+    return texture.magnified == TexelFilter::nearest ? nearest(pixels, texture, uv)
+                                                     : bilinear(pixels, texture, uv);
+  const double looks = std::clamp(std::ceil(length / std::max(width, 1.0)), 1.0, most_looks);
+  const double each = std::max({width, length / looks, 1.0});
+  glm::dvec4 sum(0.0);
+  for (double k = 0.5; k < looks; k += 1.0)
+    sum += trilinear(pixels, texture, uv + (k / looks - 0.5) * along, each);
+  return sum / looks;
 }
 
 bool is_textured(const Material& material) {
@@ -106,13 +152,17 @@ bool has_vertex_colors(const Scene& scene, TriangleId triangle) {
 }
 
 MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
-                          Vec2 barycentric) {
+                          Vec2 barycentric, const Footprint& footprint) {
   const Material& material = material_of(scene, triangle);
   MaterialPoint point = untextured(material);
   const auto value = [&](const TextureUse& use, const std::vector<TexturePixels>& list) {
-    const Vec2 uv = texcoord_at(scene, triangle, use.texcoord_set, barycentric);
+    const auto place = [&](Vec2 weights) {
+      return transformed_texcoord(use, texcoord_at(scene, triangle, use.texcoord_set, weights));
+    };
+    const Vec2 origin = place(Vec2(0.0)); // the map is affine
+    const Footprint covered{place(footprint.longer) - origin, place(footprint.shorter) - origin};
     return texture_value(list[index(use.texture)], scene.textures[index(use.texture)],
-                         transformed_texcoord(use, uv));
+                         place(barycentric), covered);
   };
   if (const auto& use = material.base_color_texture) {
     const glm::dvec4 texel = value(*use, textures.colours);

@@ -91,7 +91,8 @@ std::uint64_t view_memory(const BatchPicture& picture) {
   const bool layers = settings.layers == WithLayers::yes;
   const bool reference = settings.mode == PictureMode::reference;
   // A plane of floats while it is rendered, once more while it is encoded, and the encoded file.
-  const double planes = 1.0 + (layers ? 9.0 : 0.0) + (reference ? 8.0 : 0.0);
+  const double planes = 1.0 + (layers ? 9.0 : 0.0) + (reference ? 8.0 : 0.0) +
+                        static_cast<double>(settings.features.size());
   constexpr double per_plane = 3.0 * sizeof(glm::vec3), per_picture = 4e6;
   const double own_scene =
       reference ? static_cast<double>(scene_memory(*picture.facts, settings)) : 0.0;

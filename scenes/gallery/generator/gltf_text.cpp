@@ -1,5 +1,7 @@
 #include "scenes/gallery/generator/gltf_text.h"
 
+#include "scenes/gallery/generator/picture_file.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -9,6 +11,9 @@
 namespace meninas::gallery {
 
 using Json = nlohmann::ordered_json;
+
+static constexpr int array_buffer = 34962, element_array_buffer = 34963, float_type = 5126,
+                     unsigned_short = 5123;
 
 static std::string base64(const std::vector<std::uint8_t>& bytes) {
   static constexpr std::string_view digits =
@@ -31,6 +36,10 @@ static void append_little_endian(std::vector<std::uint8_t>& bytes, std::uint32_t
 }
 
 static Json json(const Rgb& v) { return Json::array({v.x, v.y, v.z}); }
+
+static bool is_cut_out(const Picture& picture) {
+  return std::ranges::any_of(picture.palette, [](const auto& colour) { return colour[3] == 0; });
+}
 
 static Json material_json(const Paint& paint) {
   const auto is_mirror = paint.finish == Finish::mirror;
@@ -62,17 +71,63 @@ struct Document {
   Json accessors = Json::array();
   Json views = Json::array();
   Json buffers = Json::array();
+  Json images = Json::array();
+  Json samplers = Json::array();
+  Json textures = Json::array();
+  std::vector<Picture> pictures;
   bool has_strength = false;
 };
 
+/// The texture of a picture, which the file holds once.
+static std::size_t texture_index(Document& document, const Picture& picture) {
+  const auto known = std::ranges::find(document.pictures, picture);
+  const auto index = static_cast<std::size_t>(known - document.pictures.begin());
+  if (known != document.pictures.end())
+    return index;
+  document.pictures.push_back(picture);
+  document.images.push_back(
+      {{"name", picture.name}, {"uri", "data:image/png;base64," + base64(png_bytes(picture))}});
+  constexpr int mirrored_repeat = 33648, repeated = 10497;
+  const int wrap = picture.mirrored ? mirrored_repeat : repeated;
+  document.samplers.push_back({{"wrapS", wrap}, {"wrapT", wrap}});
+  document.textures.push_back({{"source", index}, {"sampler", index}});
+  return index;
+}
+
 static std::size_t material_index(Document& document, const Paint& paint) {
-  const auto material = material_json(paint);
+  auto material = material_json(paint);
+  if (!paint.picture.texels.empty())
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {
+        {"index", texture_index(document, paint.picture)}};
+  if (is_cut_out(paint.picture)) {
+    material["alphaMode"] = "MASK";
+    material["doubleSided"] = true;
+  }
   const auto known = std::ranges::find(document.materials, material);
   const auto index = static_cast<std::size_t>(known - document.materials.begin());
   if (known == document.materials.end())
     document.materials.push_back(material);
   document.has_strength |= material.contains("extensions");
   return index;
+}
+
+/// An attribute of floats as a buffer, a view and an accessor of its own.
+template <typename Vectors>
+static std::size_t add_attribute(Document& document, const Vectors& vectors, const char* type) {
+  std::vector<std::uint8_t> bytes;
+  for (const auto& vector : vectors)
+    for (int k = 0; k < vector.length(); ++k)
+      append_little_endian(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(vector[k])), 4);
+  document.views.push_back({{"buffer", document.buffers.size()},
+                            {"byteLength", bytes.size()},
+                            {"target", array_buffer}});
+  document.buffers.push_back({{"byteLength", bytes.size()},
+                              {"uri", "data:application/octet-stream;base64," + base64(bytes)}});
+  document.accessors.push_back({{"bufferView", document.views.size() - 1},
+                                {"componentType", float_type},
+                                {"count", vectors.size()},
+                                {"type", type}});
+  return document.accessors.size() - 1;
 }
 
 static Json mesh_json(Document& document, const Part& part) {
@@ -96,8 +151,6 @@ static Json mesh_json(Document& document, const Part& part) {
   document.buffers.push_back({{"byteLength", bytes.size()},
                               {"uri", "data:application/octet-stream;base64," + base64(bytes)}});
 
-  constexpr int array_buffer = 34962, element_array_buffer = 34963, float_type = 5126,
-                unsigned_short = 5123;
   const auto first_view = document.views.size();
   document.views.push_back({{"buffer", buffer},
                             {"byteOffset", 0},
@@ -120,9 +173,13 @@ static Json mesh_json(Document& document, const Part& part) {
                                 {"count", 3 * part.mesh.triangles.size()},
                                 {"type", "SCALAR"}});
 
-  const Json primitive{{"attributes", {{"POSITION", first_accessor}}},
-                       {"indices", first_accessor + 1},
-                       {"material", material_index(document, part.paint)}};
+  Json primitive{{"attributes", {{"POSITION", first_accessor}}},
+                 {"indices", first_accessor + 1},
+                 {"material", material_index(document, part.paint)}};
+  if (!part.mesh.texcoords.empty())
+    primitive["attributes"]["TEXCOORD_0"] = add_attribute(document, part.mesh.texcoords, "VEC2");
+  if (!part.mesh.colors.empty())
+    primitive["attributes"]["COLOR_0"] = add_attribute(document, part.mesh.colors, "VEC3");
   return {{"name", part.name}, {"primitives", Json::array({primitive})}};
 }
 
@@ -210,6 +267,9 @@ std::string gltf_text(const Stage& stage) {
   text += ",\n" + list_text("nodes", document.nodes);
   text += ",\n" + list_text("cameras", document.cameras);
   text += ",\n" + list_text("materials", document.materials);
+  if (!document.textures.empty())
+    text += ",\n" + list_text("textures", document.textures) + ",\n" +
+            list_text("samplers", document.samplers) + ",\n" + list_text("images", document.images);
   text += ",\n" + list_text("meshes", document.meshes);
   text += ",\n" + list_text("accessors", document.accessors);
   text += ",\n" + list_text("bufferViews", document.views);

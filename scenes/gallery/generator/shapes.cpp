@@ -241,6 +241,16 @@ Mesh scaled(Mesh mesh, const Point3& centre, const Vec3& factors) {
   return mesh;
 }
 
+Mesh papered(Mesh mesh, const Sheet& sheet, double size) {
+  mesh.texcoords.clear();
+  for (const Point3& position : mesh.positions) {
+    const Vec3 from = position - sheet.corner;
+    mesh.texcoords.emplace_back(glm::dot(from, sheet.u) / size,
+                                1.0 - glm::dot(from, sheet.v) / size);
+  }
+  return mesh;
+}
+
 Mesh mirrored_in_x(Mesh mesh) {
   for (auto& position : mesh.positions)
     position.x = -position.x;

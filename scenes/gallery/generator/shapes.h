@@ -76,6 +76,9 @@ Mesh moved(Mesh mesh, const Vec3& by);
 Mesh turned(Mesh mesh, const Point3& centre, const Direction& axis, double degrees);
 Mesh scaled(Mesh mesh, const Point3& centre, const Vec3& factors);
 
+/// With an image laid over it that is `size` metres long and high on the sheet, from its corner, rows running down against v.
+Mesh papered(Mesh mesh, const Sheet& sheet, double size);
+
 /// The image in the mirror plane x = 0; fronts stay fronts.
 Mesh mirrored_in_x(Mesh mesh);
 

@@ -13,12 +13,23 @@ namespace meninas::gallery {
 
 enum class Finish { diffuse, mirror };
 
+/// A small image of a few colours, rows from the top.
+struct Picture {
+  std::string name;
+  int width = 0, height = 0;
+  std::vector<std::array<std::uint8_t, 4>> palette; ///< sRGB and alpha
+  std::vector<std::uint8_t> texels;                 ///< entries of the palette
+  bool mirrored = false;                            ///< beyond its edges, instead of repeated
+  bool operator==(const Picture&) const = default;
+};
+
 /// A material by name: `color` is the diffuse reflectance, or the specular one of a mirror.
 struct Paint {
   std::string name;
   Rgb color{0.0};
   Finish finish = Finish::diffuse;
-  Rgb radiance{0.0}; ///< emitted, W/m^2/sr
+  Rgb radiance{0.0};    ///< emitted, W/m^2/sr
+  Picture picture = {}; ///< a factor of `color`, if it has texels; cut out and seen from both sides if one of its colours is transparent
 };
 
 inline Paint diffuse(std::string name, Rgb reflectance) { return {std::move(name), reflectance}; }
@@ -35,6 +46,8 @@ inline Paint light(std::string name, Rgb radiance) {
 struct Mesh {
   std::vector<Point3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Vec2> texcoords = {}; ///< by position, or none
+  std::vector<Rgb> colors = {};     ///< likewise: linear factors of the paint's
 };
 
 /// Becomes one glTF node, which is what a user asks for by name.

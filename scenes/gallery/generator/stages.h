@@ -11,6 +11,7 @@ Stage mirror_spot();
 Stage periscope();
 Stage facing_mirrors();
 Stage sunbeam();
+Stage lattice();
 Stage half_room();
 Stage doubled_room();
 Stage no_mirror();

@@ -1,0 +1,158 @@
+#include "cli/pixel_options.h"
+
+#include "cli/common_options.h"
+#include "cli/values.h"
+#include "image/image_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace meninas {
+namespace {
+
+/// Names of enumerators in lists that know them by name_of().
+template <typename Value, std::size_t n>
+Choices<Value> choices_of(const std::array<Value, n>& values) {
+  Choices<Value> choices;
+  for (const Value value : values) {
+    choices.emplace_back(std::string(name_of(value)), value);
+  }
+  return choices;
+}
+template <typename Value, std::size_t n>
+std::string join_names(const std::array<Value, n>& values) {
+  return fmt::format("{}", fmt::join(names_of(choices_of(values)), "|"));
+}
+
+/// The parts that light has, which `--layers` alone asks for.
+constexpr const char* light_layers = "light";
+
+/// A list of layers, without doubles, in the order they are written.
+void parse_layers(const std::string& text, RunSettings& settings) {
+  const Choices<Feature> known = choices_of(all_features);
+  std::vector<std::string> names = names_of(known);
+  names.insert(names.begin(), light_layers);
+  std::istringstream list(text);
+  std::set<Feature> asked;
+  settings.layers = WithLayers::no;
+  for (std::string name; std::getline(list, name, ',');) {
+    if (name == light_layers) {
+      settings.layers = WithLayers::yes;
+    } else if (std::ranges::find(names, name) != names.end()) {
+      asked.insert(parse_choice("--layers", name, known));
+    } else {
+      refuse_choice("--layers", name, names);
+    }
+  }
+  if (text.empty() || text.back() == ',') {
+    refuse_choice("--layers", "", names);
+  }
+  settings.features.assign(asked.begin(), asked.end());
+}
+
+/// `--layers [LIST]`: without LIST those of light.
+void add_layers(CLI::App& command, RunSettings& settings, const std::string& group) {
+  command
+      .add_option_function<std::string>(
+          "--layers",
+          [&](const std::string& text) {
+            parse_layers(text == preset_value ? light_layers : text, settings);
+          },
+          fmt::format("what EXRs hold besides the picture, in 32 bits, several joined by commas: "
+                      "light (its nine parts, by how surfaces are seen and lit), {} [light]",
+                      fmt::join(names_of(choices_of(all_features)), ", ")))
+      ->expected(0, 1)
+      ->default_str(preset_value)
+      ->type_name("[LIST]")
+      ->group(group);
+}
+
+void check_layers(const RunSettings& settings, const std::vector<std::filesystem::path>& pictures) {
+  const bool light = settings.layers == WithLayers::yes;
+  if (!light && settings.features.empty()) {
+    return;
+  }
+  if (!settings.features.empty() && settings.mode == PictureMode::reference) {
+    throw UsageError("--layers", "has but those of light with --mode reference");
+  }
+  if (light && settings.mode == PictureMode::radiosity) {
+    throw UsageError("--layers", "has no effect with --mode radiosity: its mirrors are black");
+  }
+  if (light && settings.interpolation == Interpolation::average) {
+    throw UsageError("--layers", "needs --interpolation gather");
+  }
+  const auto is_exr = [](const std::filesystem::path& file) {
+    return picture_format(file) == PictureFormat::exr;
+  };
+  if (!pictures.empty() && std::ranges::none_of(pictures, is_exr)) {
+    throw UsageError("--layers", "needs an EXR to write them to");
+  }
+}
+
+/// A view is no picture of light.
+void check_view(const CLI::App& command, const RunSettings& settings) {
+  if (!settings.view) {
+    return;
+  }
+  refuse(command,
+         {"--layers", "--diffuse", "--samples", "--filter", "--pixel-error", "--exposure",
+          "--snapshots", "--error-map", "--error", "--time"},
+         "has no effect with --view");
+  if (settings.view == DebugView::mirror_depth && settings.mode == PictureMode::radiosity) {
+    throw UsageError("--view", "mirror-depth has no effect with --mode radiosity: its mirrors are "
+                               "black");
+  }
+}
+
+} // namespace
+
+void refuse(const CLI::App& command, std::initializer_list<const char*> options,
+            const std::string& reason) {
+  for (const char* option : options) {
+    // Not every command that takes these settings has every option.
+    const CLI::Option* known = command.get_option_no_throw(option);
+    if (known != nullptr && known->count() > 0) {
+      throw UsageError(option, reason);
+    }
+  }
+}
+
+void add_pixel_options(CLI::App& command, RunSettings& settings, const std::string& group) {
+  const auto add = [&](const std::string& option, const std::string& shown,
+                       const std::string& description,
+                       std::function<void(const std::string&)> take) {
+    command.add_option_function<std::string>(option, take, description)
+        ->type_name(shown)
+        ->group(group);
+  };
+  add_layers(command, settings, group);
+  add("--view", join_names(debug_views),
+      "paint this instead of light, for those who debug a scene: false colours, whose range is "
+      "said; EXRs hold the numbers as well",
+      [&](const std::string& text) {
+        settings.view = parse_choice("--view", text, choices_of(debug_views));
+      });
+  add("--filter", join_names(pixel_filters),
+      fmt::format("how samples count in a pixel [{}]", name_of(RenderSettings{}.filter)),
+      [&](const std::string& text) {
+        settings.filter = parse_choice("--filter", text, choices_of(pixel_filters));
+      });
+  add("--pixel-error", "X",
+      "adaptive sampling: all --samples only where pixels differ by more than X of themselves from "
+      "a neighbour, a quarter of them (at least 4) elsewhere [all of them everywhere]",
+      [&](const std::string& text) {
+        settings.pixel_error = parse_number("--pixel-error", text, Sign::positive);
+      });
+}
+
+void check_pixel_options(const CLI::App& command, const RunSettings& settings,
+                         const std::vector<std::filesystem::path>& pictures) {
+  check_layers(settings, pictures);
+  check_view(command, settings);
+}
+
+} // namespace meninas

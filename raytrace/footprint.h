@@ -1,0 +1,19 @@
+// The footprint of a camera sample where it lands, straight or by way of mirrors: what a texture is averaged over.
+//
+// The samples of a pixel share its solid angle. With A the pixel's area in the picture plane at depth one, a ray of direction d (to that plane,
+// so that its parameter t is depth, unfolded where mirrors are between) and n samples, the beam is at t as wide as a square of
+//   s = t sqrt(A / (n abs(d))).
+// Plane mirrors change neither t nor d's length, so that this holds behind any chain. On a surface met at cosine c the square becomes
+// s by s / c, the longer side along the ray. Of an orthographic camera s does not grow with t.
+#pragma once
+
+#include "raytrace/tile.h"
+
+namespace meninas {
+
+/// In barycentric weights of the triangle that lane k has hit.
+Footprint footprint_of(const RenderContext& context, const RayPacket& packet,
+                       const LaneState& state, const FaceRecord& face, const HitPacket& hits,
+                       std::uint32_t k);
+
+} // namespace meninas

@@ -1,0 +1,47 @@
+#include "raytrace/sight.h"
+
+#include "radiosity/surface_colour.h"
+
+namespace meninas {
+
+Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
+           int max_mirrors) {
+  const CameraRay start = camera_ray(camera, picture_aspect, at.x, at.y);
+  Ray ray{start.origin, start.direction};
+  Sight sight;
+  for (Backs backs = Backs::transparent;; backs = Backs::absorb) {
+    const auto hit = closest_hit(light.rays, ray, backs);
+    if (!hit)
+      return {.mirrors = sight.mirrors};
+    const FaceRecord& face =
+        light.landing.faces[2 * std::size_t{index(hit->triangle)} + (hit->front ? 0 : 1)];
+    sight.triangle = hit->triangle;
+    sight.barycentric = hit->barycentric;
+    sight.position = ray.origin + hit->distance * ray.direction;
+    sight.normal = face.normal;
+    if (face.side != FaceRecord::nothing) {
+      sight.side = face.side;
+      const glm::vec2 b(hit->barycentric);
+      sight.place = field_point(light.landing, face.side,
+                                landing_uv(face, light.surfaces, index(hit->triangle), b.x, b.y));
+    }
+    if (!face.mirrors || sight.mirrors >= max_mirrors)
+      return sight;
+    ++sight.mirrors;
+    sight.side = FaceRecord::nothing;
+    ray.origin = sight.position;
+    ray.direction -= 2.0 * glm::dot(face.normal, ray.direction) * face.normal;
+    ray.leaving = static_cast<PlaneId>(face.plane_class);
+  }
+}
+
+Rgb albedo_at(const LightScene& light, const Sight& sight) {
+  if (sight.side == FaceRecord::nothing)
+    return Rgb(0.0);
+  const MeshSide& side = light.mesh.sides[sight.side];
+  if (!side.textured)
+    return side.reflectance;
+  return surface_colour(light.scene, light.textures, sight.triangle, sight.barycentric).reflectance;
+}
+
+} // namespace meninas

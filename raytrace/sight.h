@@ -1,0 +1,28 @@
+// What the ray through one point of the picture comes to, followed through ideal mirrors where that is wanted: for layers and views that
+// show the scene instead of its light.
+#pragma once
+
+#include "raytrace/field_shading.h"
+
+namespace meninas {
+
+/// Where a line of sight ends.
+struct Sight {
+  TriangleId triangle = none<TriangleId>; ///< none: nothing is met
+  Vec2 barycentric{0.0};
+  Point3 position{0.0};
+  Direction normal{0.0};                    ///< of the face that is met, towards the eye
+  std::uint32_t side = FaceRecord::nothing; ///< index of the SideId, if the face carries radiosity
+  FieldPoint place{};                       ///< on that side
+  int mirrors = 0;                          ///< on the way
+};
+
+/// The sight through a point of the picture (x and y from 0 to 1, right and down). Backs of single-sided surfaces are looked through by
+/// the eye, not by mirrors. A chain of more than `max_mirrors` ends at the mirror it has come to.
+Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
+           int max_mirrors);
+
+/// rho_d at the end of a sight, textures included; 0 where no diffuse surface is met.
+Rgb albedo_at(const LightScene& light, const Sight& sight);
+
+} // namespace meninas
