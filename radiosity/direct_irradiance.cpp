@@ -1,7 +1,9 @@
 #include "radiosity/direct_irradiance.h"
 
 #include "radiosity/gather_rays.h"
+#include "radiosity/light_samples.h"
 #include "radiosity/point_form_factor.h"
+#include "radiosity/shadow_legs.h"
 #include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -18,52 +20,11 @@ namespace {
 
 double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
 
-/// A point of a convex polygon with density one over its area: a fan triangle by area, then a point in it.
-Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample) {
-  const double total = glm::dot(area, area);
-  double before = 0.0;
-  for (std::size_t k = 2; k < polygon.size; ++k) {
-    const Vec3 edge_a = polygon.vertices[k - 1] - polygon.vertices[0],
-               edge_b = polygon.vertices[k] - polygon.vertices[0];
-    const double share = 0.5 * glm::dot(glm::cross(edge_a, edge_b), area) / total;
-    if (sample.x < before + share || k + 1 == polygon.size) {
-      const double u = share > 0.0 ? std::clamp((sample.x - before) / share, 0.0, 1.0) : 0.5;
-      const double root = std::sqrt(u);
-      return polygon.vertices[0] + root * (1.0 - sample.y) * edge_a + root * sample.y * edge_b;
-    }
-    before += share;
-  }
-  return polygon.vertices[0];
-}
-
 /// Sums of the weights of the samples so far, and of those that arrive.
 struct VisibleShare {
   double all = 0.0, seen = 0.0;
   int samples = 0, arrived = 0;
 };
-
-/// Tests up to sixteen folded segments, leg by leg; bit k of the result is set where segment k is blocked.
-std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>, 16>& folded,
-                      std::uint32_t count, std::uint64_t& rays) {
-  const RayFrame& frame = light.rays.frame();
-  std::uint32_t result = 0;
-  RayPacket packet;
-  packet.count = count;
-  for (std::size_t step = 0; step < folded[0].size(); ++step) {
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const Leg& leg = folded[k][step];
-      const Vec3 from = (leg.from - frame.centre) * frame.scale,
-                 along = (leg.to - leg.from) * frame.scale;
-      set_ray(packet, k, from, along, index(leg.leaving), 1.0F);
-      packet.arriving[k] = index(leg.arriving);
-    }
-    result |= occluded(light.rays, packet, Coherence::coherent);
-    rays += count;
-    if (result == (1U << count) - 1U)
-      break;
-  }
-  return result;
-}
 
 /// Adds samples number `begin` to `end` of one image to its visible share.
 void sample_visibility(const LightScene& light, const VirtualLight& image, const Receiver& receiver,
@@ -113,39 +74,6 @@ double visible_fraction(const LightScene& light, const VirtualLight& image,
   return share.all > 0.0 ? share.seen / share.all : 0.0;
 }
 
-/// Adds what punctual lights and their images send.
-void add_punctual(const LightScene& light, const Receiver& receiver, DirectWorkspace& work,
-                  ArrivingLight& sum) {
-  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
-  constexpr double beyond = 8.0; // in the frame the scene is 2 wide
-  seen_worlds(light.worlds, observer, work.seen);
-  punctual_images(light.worlds, light.punctual, work.seen, observer,
-                  beyond / light.rays.frame().scale, work.images);
-  for (std::size_t first = 0; first < work.images.size();) {
-    // Images of one world have as many legs each.
-    const WorldId world = work.images[first].world;
-    std::uint32_t count = 0;
-    while (count < 16 && first + count < work.images.size() &&
-           work.images[first + count].world == world) {
-      fold_legs(light.worlds, light.mirrors, world, receiver.position, receiver.plane_class,
-                work.images[first + count].position, none<PlaneId>, work.folded[count]);
-      ++count;
-    }
-    const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
-    for (std::uint32_t k = 0; k < count; ++k) {
-      if (((dark >> k) & 1U) != 0)
-        continue;
-      const Rgb arrived =
-          light.worlds.worlds[index(world)].throughput * work.images[first + k].irradiance;
-      sum.total += arrived;
-      sum.punctual += arrived;
-      if (world != real_world)
-        sum.mirrored += arrived;
-    }
-    first += count;
-  }
-}
-
 } // namespace
 
 ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
@@ -191,8 +119,16 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
     if (image.world != real_world)
       sum.mirrored += arrived;
   }
-  if (!light.punctual.empty())
-    add_punctual(light, receiver, work, sum);
+  if (light.punctual.empty())
+    return sum;
+  std::vector<PunctualArrival> arrivals;
+  punctual_arrivals(light, receiver, work, arrivals);
+  for (const PunctualArrival& arrival : arrivals) {
+    sum.total += arrival.irradiance;
+    sum.punctual += arrival.irradiance;
+    if (arrival.mirrored)
+      sum.mirrored += arrival.irradiance;
+  }
   return sum;
 }
 

@@ -2,6 +2,7 @@
 
 #include "radiosity/closedness.h"
 #include "radiosity/world_tail.h"
+#include "scenes/lobes.h"
 #include "scenes/texture_lookup.h"
 
 #include <fmt/format.h>
@@ -16,10 +17,13 @@ namespace {
 
 bool is_grey(const Rgb& colour) { return colour.r == colour.g && colour.g == colour.b; }
 
-bool has_visible_coat(const Material& material) {
-  return material.metallic < 1.0 && material.specular > 0.0 && material.transmission == 0.0 &&
-         material.roughness <= visible_coat_roughness;
+/// So smooth that what the metal throws has a shape.
+bool throws_shapes(const Material& material) {
+  constexpr double limit = 0.3;
+  return is_glossy(material) && material.roughness <= limit;
 }
+
+bool is_coated(const Material& material) { return !is_glossy(material) && has_lobes(material); }
 
 /// Materials that are on some triangle, by their place in the scene.
 std::vector<const Material*> used_materials(const Scene& scene) {
@@ -144,11 +148,9 @@ void warn_of_lights(const Scene& scene, TransportPlan& plan) {
 }
 
 void warn_of_materials(const std::vector<const Material*>& materials, TransportPlan& plan) {
-  if (const auto names = names_where(materials, is_glossy); !names.empty()) {
-    plan.warnings.push_back("metals too rough for a mirror reflect diffusely: " + quoted(names));
-  }
-  if (const auto names = names_where(materials, has_visible_coat); !names.empty()) {
-    plan.warnings.push_back("smooth dielectric coats are not traced yet: " + quoted(names));
+  if (const auto names = names_where(materials, throws_shapes); !names.empty()) {
+    plan.warnings.push_back("light that smooth metals throw on other surfaces is spread evenly: " +
+                            quoted(names));
   }
   const auto transmits = [](const Material& m) { return m.transmission > 0.0; };
   if (const auto names = names_where(materials, transmits); !names.empty()) {
@@ -162,8 +164,23 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
   }
 }
 
+/// Lobes are followed in the picture alone.
+void describe_lobes(const std::vector<const Material*>& materials,
+                    std::vector<std::string>& stages) {
+  if (const auto names = names_where(materials, is_glossy); !names.empty()) {
+    stages.push_back("glossy metals: grids of rays over their lobes in the picture, even in pass "
+                     "one: " +
+                     quoted(names));
+  }
+  if (const auto names = names_where(materials, is_coated); !names.empty()) {
+    stages.push_back("coats: rays over their lobes in the picture, even in pass one: " +
+                     quoted(names));
+  }
+}
+
 /// What will run, and why, in the order in which it runs.
-std::vector<std::string> describe_stages(const SurfaceModel& surfaces, const TransportPlan& plan) {
+std::vector<std::string> describe_stages(const SurfaceModel& surfaces, const TransportPlan& plan,
+                                         const std::vector<const Material*>& materials) {
   std::vector<std::string> stages;
   const std::size_t worlds = plan.worlds.worlds.size() - 1;
   stages.push_back(
@@ -202,6 +219,7 @@ std::vector<std::string> describe_stages(const SurfaceModel& surfaces, const Tra
   stages.push_back("interpolation: irradiance between the vertices of the elements");
   stages.push_back(mirrors ? "picture: camera rays, followed through mirrors"
                            : "picture: camera rays, no mirror to follow");
+  describe_lobes(materials, stages);
   return stages;
 }
 
@@ -249,7 +267,7 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
   }
   warn_of_materials(materials, plan);
   warn_of_facets(scene, surfaces, plan);
-  plan.stages = describe_stages(surfaces, plan);
+  plan.stages = describe_stages(surfaces, plan, materials);
   return plan;
 }
 

@@ -1,5 +1,6 @@
 #include "radiosity/surface_colour.h"
 
+#include "scenes/lobes.h"
 #include "scenes/sampling.h"
 
 #include <tbb/parallel_for.h>
@@ -78,11 +79,9 @@ void average_side(const Scene& scene, const SurfaceModel& surfaces, const Decode
 SurfaceColour surface_colour(const Scene& scene, const DecodedTextures& textures,
                              TriangleId triangle, Vec2 barycentric, const Footprint& footprint) {
   const MaterialPoint point = material_at(scene, textures, triangle, barycentric, footprint);
-  Material material = material_of(scene, triangle);
-  const bool hole = is_cut_out(material, point);
-  material.base_color = point.base_color;
-  material.metallic = point.metallic;
-  return {diffuse_reflectance(material), std::numbers::pi * point.emission, hole};
+  const Material& material = material_of(scene, triangle);
+  return {diffuse_reflectance(material, point), std::numbers::pi * point.emission,
+          is_cut_out(material, point)};
 }
 
 Holes holes_of(const Scene& scene, const DecodedTextures& textures) {

@@ -1,9 +1,8 @@
 // What a textured surface reflects and emits diffusely: at a point, and as means over the elements of pass one.
 //
-//   rho(x) = c(x) (1 - m(x)),   E(x) = pi L(x)
+//   rho(x) = what its lobes reflect in the mean (diffuse_reflectance, scenes/bsdf.h),   E(x) = pi L(x)
 //
-// with base colour c, metalness m and emitted radiance L the material's factors times its textures; rough metals count as diffuse, rho = c,
-// which a plan says. Pass one knows the means over its elements, pass two looks up the point: the irradiance is interpolated between
+// with base colour, metalness, roughness and emitted radiance L the material's factors times its textures. Pass one knows the means over its elements, pass two looks up the point: the irradiance is interpolated between
 // the elements, the colours are as sharp as their images.
 #pragma once
 

@@ -1,6 +1,7 @@
 #include "raytrace/pixel_samples.h"
 
 #include "raytrace/shading.h"
+#include "raytrace/specular_paths.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 struct alignas(64) SampleLanes {
   std::array<std::uint32_t, packet_size> bits_x, bits_y; ///< of the place in the pixel
   std::array<float, packet_size> left, top;              ///< of the pixel in the picture, in pixels
-  std::array<std::uint32_t, packet_size> pixel;
+  std::array<std::uint32_t, packet_size> pixel, number;
   std::uint32_t count = 0;
 };
 
@@ -42,7 +43,12 @@ void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileW
   packet.count = lanes.count;
   set_camera_rays(packet, context.camera, x, y);
   closest_hits(context.light.rays, packet, hits, Backs::transparent, Coherence::coherent);
-  shade_packet(context, packet, {lanes.pixel.data(), nullptr, lanes.bits_x.data()}, hits, work);
+  shade_packet(context, packet,
+               {lanes.pixel.data(), nullptr, lanes.bits_x.data(), lanes.number.data()}, hits, work);
+  // Lobes send many rays on: what is under way stays within memory.
+  constexpr std::size_t most_queued = 1 << 17;
+  if (work.next.size() > most_queued)
+    follow_mirrors(context, work);
 }
 
 } // namespace
@@ -77,6 +83,7 @@ void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileW
         lanes.left[k] = static_cast<float>(px);
         lanes.top[k] = static_cast<float>(py);
         lanes.pixel[k] = pixel;
+        lanes.number[k] = context.first_sample + sample + k - first;
       }
       sample += end - first;
       lanes.count = end % packet_size;

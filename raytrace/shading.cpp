@@ -3,6 +3,7 @@
 #include "radiosity/surface_colour.h"
 #include "raytrace/footprint.h"
 #include "raytrace/quad_lanes.h"
+#include "raytrace/scattering.h"
 #include "raytrace/specular_paths.h"
 
 #include <limits>
@@ -10,9 +11,6 @@
 
 namespace meninas {
 
-namespace {
-
-/// Where lane k has landed, as one who receives light there.
 Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                      std::uint32_t k) {
   const auto [a, b, c] = corners(light.scene, TriangleId{hits.triangle[k]});
@@ -20,7 +18,6 @@ Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitP
           static_cast<PlaneId>(face.plane_class), light.mesh.sides[face.side].tangent};
 }
 
-/// What the surface is like where lane k has landed on it: of a textured one the point itself, in the part that is shown.
 SideShading shading_at(const RenderContext& context, const RayPacket& packet,
                        const LaneState& state, const FaceRecord& face, const HitPacket& hits,
                        std::uint32_t k) {
@@ -28,9 +25,9 @@ SideShading shading_at(const RenderContext& context, const RayPacket& packet,
   if (!side.textured)
     return side;
   const LightScene& light = context.light;
-  const SurfaceColour colour = surface_colour(
-      light.scene, light.textures, TriangleId{hits.triangle[k]}, {hits.b1[k], hits.b2[k]},
-      footprint_of(context, packet, state, face, hits, k));
+  const SurfaceColour colour =
+      surface_colour(light.scene, light.textures, TriangleId{hits.triangle[k]},
+                     {hits.b1[k], hits.b2[k]}, footprint_of(context, packet, state, face, hits, k));
   const ReflectedPart part = context.visible.part;
   const bool emits = part == ReflectedPart::all || part == ReflectedPart::none;
   SideShading shading;
@@ -41,7 +38,6 @@ SideShading shading_at(const RenderContext& context, const RayPacket& packet,
   return shading;
 }
 
-/// H where lane k has landed on a side.
 glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& state,
                              const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
                              TileWorkspace& work) {
@@ -56,10 +52,13 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
                              diffuse.draw == 0 ? key : hash(key, diffuse.draw), work.point);
 }
 
+namespace {
+
 glm::vec3 radiance_of_lane(const RenderContext& context, const RayPacket& packet,
                            const LaneState& state, const FaceRecord& face, const HitPacket& hits,
                            std::uint32_t k, TileWorkspace& work) {
-  const SideShading shading = shading_at(context, packet, state, face, hits, k);
+  SideShading shading = shading_at(context, packet, state, face, hits, k);
+  shading.emitted *= share_of_rays(context, state, face, hits, k);
   if (context.settings.diffuse.term != DiffuseTerm::interpolated)
     return shading.emitted +
            shading.albedo_over_pi * irradiance_of_lane(context, state, face, hits, k, work);
@@ -93,11 +92,14 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
   for (std::uint32_t k = 0; k < packet.count; ++k) {
     if (hits.triangle[k] != index(none<TriangleId>)) {
       const FaceRecord& face = face_of(light.landing, hits, k);
+      const bool scatters = scatters_at(context, face, state, hits, k);
       if (face.side != FaceRecord::nothing) {
-        const glm::vec3 radiance = radiance_of_lane(context, packet, state, face, hits, k, work);
+        const glm::vec3 radiance =
+            scatters ? scattered_radiance(context, packet, state, face, hits, k, work)
+                     : radiance_of_lane(context, packet, state, face, hits, k, work);
         sum += state.specular ? state.specular[k].throughput * radiance : radiance;
       }
-      if (face.mirrors && mirrors)
+      if (face.mirrors && mirrors && !scatters)
         reflect(context, face, packet, state, k, hits.distance[k], work);
     } else {
       sum += state.specular ? state.specular[k].throughput * context.visible.background
@@ -126,14 +128,18 @@ bool shade_as_one(const RenderContext& context, const LaneState& state, const Hi
     return context.visible.background == glm::vec3(0.0F);
   const LightScene& light = context.light;
   const FaceRecord& face = face_of(light.landing, hits, 0);
-  if (face.mirrors || face.side == FaceRecord::nothing || light.landing.sides[face.side].triangle ||
-      context.visible.shading[face.side].textured)
+  if (face.mirrors || meets_lobes(context, face, hits, 0) || face.side == FaceRecord::nothing ||
+      light.landing.sides[face.side].triangle || context.visible.shading[face.side].textured)
     return false;
   glm::vec3 throughput(1.0F);
   if (state.specular) {
     throughput = state.specular[0].throughput;
+    const bool glows = context.visible.shading[face.side].emitted != glm::vec3(0.0F);
+    if (glows && state.specular[0].density != 0.0F)
+      return false;
     for (std::uint32_t k = 1; k < packet_size; ++k)
-      if (state.specular[k].throughput != throughput)
+      if (state.specular[k].throughput != throughput ||
+          (glows && state.specular[k].density != 0.0F))
         return false;
   }
 

@@ -8,17 +8,8 @@ namespace meninas {
 
 static float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
 
-void reflect(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
-             const LaneState& state, std::uint32_t k, float distance, TileWorkspace& work) {
-  SpecularRay ray;
-  ray.pixel = state.pixel[k];
-  ray.leaving = face.plane_class;
-  ray.key = state.key(k, context.settings.seed);
-  ray.throughput =
-      face.reflectance * (state.specular ? state.specular[k].throughput : glm::vec3(1.0F));
-  if (largest(ray.throughput) < context.settings.min_throughput)
-    return;
-
+Meeting meeting_of(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
+                   const LaneState& state, std::uint32_t k, float distance) {
   const glm::dvec3 origin =
       state.specular ? state.specular[k].origin
                      : glm::dvec3(packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]);
@@ -29,11 +20,41 @@ void reflect(const RenderContext& context, const FaceRecord& face, const RayPack
   double t = (face.frame_offset - glm::dot(face.normal, origin)) / approach;
   if (!(t > 0.0) || t > 2.0 * distance + 1e-6)
     t = distance;
-  ray.travelled =
-      static_cast<float>(t) + (state.specular ? state.specular[k].travelled : 0.0F);
-  ray.origin = origin + t * d;
-  ray.direction = d - 2.0 * approach * face.normal;
-  work.next.push_back(ray);
+  const float before = state.specular ? state.specular[k].travelled : 0.0F;
+  return {origin + t * d, d, t / context.light.rays.frame().scale, approach,
+          before + static_cast<float>(t)};
+}
+
+void go_on(const RenderContext& context, const SpecularRay& ray, TileWorkspace& work) {
+  if (largest(ray.throughput) >= context.settings.min_throughput * ray.share)
+    work.next.push_back(ray);
+}
+
+SpecularRay ray_from(const LaneState& state, std::uint32_t k, std::uint32_t leaving,
+                     std::uint32_t seed) {
+  SpecularRay ray;
+  if (state.specular)
+    ray = state.specular[k];
+  else
+    ray.throughput = glm::vec3(1.0F);
+  ray.pixel = state.pixel[k];
+  ray.leaving = leaving;
+  ray.key = state.key(k, seed);
+  ray.number = state.number_of(k);
+  return ray;
+}
+
+void reflect(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
+             const LaneState& state, std::uint32_t k, float distance, TileWorkspace& work) {
+  SpecularRay ray = ray_from(state, k, face.plane_class, context.settings.seed);
+  ray.throughput = face.reflectance * ray.throughput;
+  ray.world = child(context.light.worlds, ray.world, face.mirror);
+  const Meeting at = meeting_of(context, face, packet, state, k, distance);
+  ray.origin = at.position;
+  ray.direction = at.direction - 2.0 * at.approach * face.normal;
+  ray.travelled = at.travelled;
+  ray.since_lobe += static_cast<float>(at.distance);
+  go_on(context, ray, work);
 }
 
 void follow_mirrors(const RenderContext& context, TileWorkspace& work) {
@@ -47,7 +68,7 @@ void follow_mirrors(const RenderContext& context, TileWorkspace& work) {
     work.specular_rays += work.current.size();
     for (std::size_t first = 0; first < work.current.size(); first += packet_size) {
       packet.count = static_cast<std::uint32_t>(std::min(packet_size, work.current.size() - first));
-      const LaneState state{pixel.data(), &work.current[first], nullptr};
+      const LaneState state{pixel.data(), &work.current[first], nullptr, nullptr};
       for (std::uint32_t k = 0; k < packet.count; ++k) {
         const SpecularRay& ray = state.specular[k];
         pixel[k] = ray.pixel;

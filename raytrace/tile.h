@@ -1,8 +1,10 @@
 // What a tile of the picture is made with: what all tiles share, and the storage of one.
 #pragma once
 
+#include "radiosity/light_samples.h"
 #include "raytrace/camera_rays.h"
 #include "raytrace/diffuse_term.h"
+#include "raytrace/lobe_grid.h"
 #include "raytrace/render.h"
 #include "scenes/sampling.h"
 
@@ -19,10 +21,21 @@ using SeenRadiance = std::array<glm::vec3, seen_ways>;
 struct SpecularRay {
   glm::dvec3 origin, direction; ///< in the frame of the ray scene
   glm::vec3 throughput;
+  float share = 1.0F; ///< of a camera ray's weight: 1 / n^2 for each of the n x n rays of a lobe
   std::uint32_t pixel;
   std::uint32_t leaving;
-  std::uint32_t key; ///< of its samples
-  float travelled;   ///< from the eye, unfolded, in units of the camera direction's length
+  std::uint32_t key;       ///< of its samples
+  std::uint32_t number;    ///< of its camera ray among those of the pixel
+  std::uint16_t lobes = 0; ///< that it has gone through
+  float travelled = 0.0F;  ///< from the eye, unfolded, in units of the camera direction's length
+  // Since it left a lobe whose emitters are sampled as well (scattering.h):
+  float density = 0.0F; ///< of the directions of that lobe's rays, per steradian; 0: there is none
+  float since_lobe = 0.0F; ///< metres
+  WorldId world = none<WorldId>;
+};
+
+struct TileArea {
+  int x0, y0, width, height;
 };
 
 struct TileWorkspace {
@@ -30,13 +43,20 @@ struct TileWorkspace {
       sums;            ///< by way of seeing, then by pixel of the tile
   std::size_t way = 0; ///< that of the rays under way
   std::vector<SpecularRay> current, next;
+  TileArea area{};
+  std::vector<LobeRay> lobe;
+  std::vector<PunctualArrival> highlights;
+  std::vector<EmissionSample> lamps;
   PointWorkspace point; ///< of diffuse terms computed at the hit
   std::uint64_t camera_rays = 0, specular_rays = 0;
 };
 
-struct TileArea {
-  int x0, y0, width, height;
-};
+/// A seed of the pixel's own, wherever tiles begin.
+inline std::uint32_t pixel_seed(const TileArea& area, std::uint32_t pixel, std::uint32_t seed) {
+  const auto width = static_cast<std::uint32_t>(area.width);
+  return hash(static_cast<std::uint32_t>(area.x0) + pixel % width,
+              static_cast<std::uint32_t>(area.y0) + pixel / width, hash(seed, 0x10be));
+}
 
 /// 1 for pixels that are meant, row by row.
 using PixelMask = std::vector<std::uint8_t>;
@@ -57,6 +77,9 @@ struct RenderContext {
   const PixelMask* chosen = nullptr;       ///< pixels of the picture to be traced; null: all
   const FilterPlaces* filter = nullptr;    ///< null: the box, whose points are where they are
   double footprint_samples = 1.0;          ///< that share a pixel in all parts of the picture
+  std::uint32_t first_sample = 0;          ///< number of the first of these points
+  std::vector<Bsdf>
+      bsdfs; ///< by MaterialId, of those with lobes and without textures; empty where none has lobes
 };
 
 inline bool is_chosen(const RenderContext& context, int x, int y) {
@@ -68,12 +91,17 @@ inline bool is_chosen(const RenderContext& context, int x, int y) {
 /// What the rays of a packet carry: camera rays nothing but their pixel, specular rays their record.
 struct LaneState {
   const std::uint32_t* pixel;
-  const SpecularRay* specular;  ///< of lane 0; null for camera rays
-  const std::uint32_t* sample; ///< numbers that tell the samples of a pixel apart; null for specular rays
-  
+  const SpecularRay* specular; ///< of lane 0; null for camera rays
+  const std::uint32_t*
+      sample; ///< numbers that tell the samples of a pixel apart; null for specular rays
+  const std::uint32_t* number; ///< of the sample in its pixel; null for specular rays
+
   /// Of the samples taken where lane k lands.
   std::uint32_t key(std::uint32_t k, std::uint32_t seed) const {
     return specular ? specular[k].key : hash(sample[k], pixel[k], seed);
+  }
+  std::uint32_t number_of(std::uint32_t k) const {
+    return specular ? specular[k].number : number[k];
   }
 };
 

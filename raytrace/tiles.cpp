@@ -3,6 +3,7 @@
 #include "raytrace/pixel_samples.h"
 #include "raytrace/sample_choice.h"
 #include "raytrace/specular_paths.h"
+#include "scenes/lobes.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -22,6 +23,7 @@ void render_tile(const RenderContext& context, const TileArea& tile, TileWorkspa
     sums.assign(static_cast<std::size_t>(tile.width * tile.height), glm::vec3(0.0F));
   work.next.clear();
   work.way = 0;
+  work.area = tile;
   trace_camera_rays(context, tile, work);
   follow_mirrors(context, work);
   const float share = 1.0F / static_cast<float>(context.net_x.size());
@@ -48,16 +50,22 @@ static RenderContext context_of(const LightScene& light, const VisibleLight& vis
                                 const RenderSettings& settings, const SampleShare& share,
                                 const FilterPlaces& places) {
   const double aspect = double(settings.width) / settings.height;
-  return {light,
-          visible,
-          gathering,
-          settings,
-          make_camera_frame(camera, aspect, light.rays.frame()),
-          pixel_net(share.samples, 0),
-          pixel_net(share.samples, 1),
-          share.pixels,
-          settings.filter == PixelFilter::box ? nullptr : &places,
-          static_cast<double>(first_samples(settings).count)};
+  RenderContext context{light,
+                        visible,
+                        gathering,
+                        settings,
+                        make_camera_frame(camera, aspect, light.rays.frame()),
+                        pixel_net(share.samples, 0),
+                        pixel_net(share.samples, 1),
+                        share.pixels,
+                        settings.filter == PixelFilter::box ? nullptr : &places,
+                        static_cast<double>(first_samples(settings).count),
+                        static_cast<std::uint32_t>(share.samples.first),
+                        {}};
+  if (std::ranges::any_of(light.scene.materials, has_lobes))
+    for (const Material& material : light.scene.materials)
+      context.bsdfs.push_back(make_bsdf(material, untextured(material)));
+  return context;
 }
 
 static RayTotals totals_of(const tbb::enumerable_thread_specific<TileWorkspace>& workspaces) {

@@ -1,6 +1,7 @@
 #include "reference/trace_paths.h"
 
 #include "reference/mirrored_lights.h"
+#include "scenes/lobes.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -46,21 +47,6 @@ VertexNumbers vertex_numbers(std::uint32_t path, std::uint32_t bounce, std::uint
   for (std::uint32_t length = 0; length <= longest_chain; ++length)
     numbers.light[length] = sobol4(path, hash(seed, bounce, 2 + length));
   return numbers;
-}
-
-Direction to_local(const Direction& normal, const Direction& w) {
-  const TangentFrame frame = tangent_frame(normal);
-  return {glm::dot(frame.tangent, w), glm::dot(frame.bitangent, w), glm::dot(normal, w)};
-}
-Direction to_world(const Direction& normal, const Direction& w) {
-  const TangentFrame frame = tangent_frame(normal);
-  return glm::normalize(w.x * frame.tangent + w.y * frame.bitangent + w.z * normal);
-}
-
-/// Towards where the path came from; rounding must not take a grazing ray below the surface.
-Direction local_out(const Path& path) {
-  const Direction out = to_local(path.at.normal, -path.ray.direction);
-  return glm::normalize(Vec3(out.x, out.y, std::max(1e-9, out.z)));
 }
 
 /// Carries the living paths whose backs are alike to the next surface; those that meet none end.
@@ -160,7 +146,7 @@ std::optional<Connection> connect(const TracedScene& traced, const Path& path, c
   if (point.light == Rgb(0.0) || point.density == 0.0 || glm::dot(leg, leg) == 0.0 ||
       (point.can_be_met && search == LightSearch::meeting))
     return std::nullopt;
-  const Direction out = local_out(path);
+  const Direction out = local_out(path.at.normal, path.ray.direction);
   const Direction in = to_local(path.at.normal, glm::normalize(leg));
   const Rgb f = evaluate(path.at.bsdf, out, in);
   if (f == Rgb(0.0))
@@ -228,7 +214,7 @@ void go_straight_on(Path& path) {
 
 /// Draws the path's next direction, or ends it.
 void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& u) {
-  const auto drawn = sample(path.at.bsdf, local_out(path), {u[0], u[1], u[2]});
+  const auto drawn = sample(path.at.bsdf, local_out(path.at.normal, path.ray.direction), {u[0], u[1], u[2]});
   path.alive = drawn.has_value();
   if (!drawn)
     return;

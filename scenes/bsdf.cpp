@@ -1,5 +1,6 @@
 #include "scenes/bsdf.h"
 
+#include "scenes/lobes.h"
 #include "scenes/microfacets.h"
 #include "scenes/sampling.h"
 
@@ -21,10 +22,7 @@ Rgb coat_fresnel(const Bsdf& bsdf, double cosine) {
   return glm::mix(bsdf.coat_f0, Rgb(bsdf.coat_f90), x * x * x * x * x);
 }
 
-/// S of the reflection lobe and what stands in its place in transmission.
-Rgb reflected(const Bsdf& bsdf, double cosine) {
-  return bsdf.metal + bsdf.coat * coat_fresnel(bsdf, cosine);
-}
+/// What stands in the place of S in transmission.
 Rgb transmitted(const Bsdf& bsdf, double cosine) {
   return bsdf.transmission * (1.0 - largest(coat_fresnel(bsdf, cosine)));
 }
@@ -69,13 +67,18 @@ LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
   return chances;
 }
 
+/// 1 - e_avg: the share of even light that gets below the coat.
+double mean_below_coat(const Bsdf& bsdf) {
+  const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
+  return std::max(0.0, 1.0 - mean.f0 * largest(bsdf.coat_f0) - mean.f90 * bsdf.coat_f90);
+}
+
 /// rho_d (1 - e(o)) (1 - e(i)) / (1 - e_avg)
 Rgb diffuse_coupled(const Bsdf& bsdf, double cos_out, double cos_in) {
   if (bsdf.coat == 0.0)
     return bsdf.diffuse;
-  const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
-  const double below = 1.0 - mean.f0 * largest(bsdf.coat_f0) - mean.f90 * bsdf.coat_f90;
-  if (below <= 0.0)
+  const double below = mean_below_coat(bsdf);
+  if (below == 0.0)
     return Rgb(0.0);
   return bsdf.diffuse *
          ((1.0 - coat_albedo(bsdf, cos_out)) * (1.0 - coat_albedo(bsdf, cos_in)) / below);
@@ -147,7 +150,75 @@ Rgb straight_transmission(const Bsdf& bsdf, double cosine) {
 }
 
 Rgb ideal_reflection(const Bsdf& bsdf, double cosine) {
-  return bsdf.alpha == 0.0 ? reflected(bsdf, cosine) : Rgb(0.0);
+  return bsdf.alpha == 0.0 ? facet_reflectance(bsdf, cosine) : Rgb(0.0);
+}
+
+Rgb facet_reflectance(const Bsdf& bsdf, double cosine) {
+  return bsdf.metal + bsdf.coat * coat_fresnel(bsdf, cosine);
+}
+
+Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in) {
+  if (bsdf.alpha == 0.0 || (bsdf.coat == 0.0 && bsdf.metal == Rgb(0.0)))
+    return Rgb(0.0);
+  const FacetLobe lobe = facet_lobe(bsdf.alpha, out, in);
+  return lobe.f * facet_reflectance(bsdf, lobe.cosine);
+}
+
+Rgb even_reflectance(const Bsdf& bsdf, double cosine) {
+  Rgb share = bsdf.diffuse * (1.0 - coat_albedo(bsdf, cosine));
+  if (has_facets_of_metal(bsdf))
+    share += spread_by_facets(bsdf, mean_met_again(bsdf)) * met_again(bsdf, cosine);
+  return share;
+}
+
+Rgb mean_reflectance(const Bsdf& bsdf) {
+  Rgb share = bsdf.diffuse;
+  if (bsdf.coat > 0.0) {
+    const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
+    share = share * mean_below_coat(bsdf) +
+            bsdf.coat * (mean.f0 * bsdf.coat_f0 + Rgb(mean.f90 * bsdf.coat_f90));
+  }
+  if (!has_facets_of_metal(bsdf))
+    return share + bsdf.metal;
+  const double again = mean_met_again(bsdf);
+  return share + bsdf.metal * (1.0 - again) + spread_by_facets(bsdf, again) * again;
+}
+
+bool has_lobes(const Material& material) {
+  return material.transmission == 0.0 && (is_glossy(material) || has_visible_coat(material));
+}
+
+bool has_visible_coat(const Material& material) {
+  if (material.specular == 0.0 || material.transmission > 0.0)
+    return false;
+  return material.metallic_roughness_texture ||
+         (material.metallic < 1.0 && material.roughness <= visible_coat_roughness);
+}
+
+Rgb diffuse_reflectance(const Material& material) {
+  return diffuse_reflectance(material, untextured(material));
+}
+
+Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point) {
+  Bsdf bsdf = make_bsdf(material, point);
+  if (is_mirror(material))
+    bsdf.metal = Rgb(0.0);
+  return mean_reflectance(bsdf) + bsdf.transmission;
+}
+
+Direction to_local(const Direction& normal, const Direction& w) {
+  const TangentFrame frame = tangent_frame(normal);
+  return {glm::dot(frame.tangent, w), glm::dot(frame.bitangent, w), glm::dot(normal, w)};
+}
+
+Direction to_world(const Direction& normal, const Direction& w) {
+  const TangentFrame frame = tangent_frame(normal);
+  return glm::normalize(w.x * frame.tangent + w.y * frame.bitangent + w.z * normal);
+}
+
+Direction local_out(const Direction& normal, const Vec3& ray) {
+  const Direction out = to_local(normal, -ray);
+  return glm::normalize(Vec3(out.x, out.y, std::max(1e-9, out.z)));
 }
 
 Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
@@ -160,12 +231,9 @@ Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
     return lobe.f * transmitted(bsdf, lobe.cosine);
   }
   Rgb f = diffuse_coupled(bsdf, out.z, in.z) * std::numbers::inv_pi;
-  if (bsdf.alpha > 0.0 && (bsdf.coat > 0.0 || bsdf.metal != Rgb(0.0))) {
-    const FacetLobe lobe = facet_lobe(bsdf.alpha, out, in);
-    f += lobe.f * reflected(bsdf, lobe.cosine);
-    if (has_facets_of_metal(bsdf))
-      f += spread_metal(bsdf, out.z, in.z);
-  }
+  f += reflection_lobe(bsdf, out, in);
+  if (has_facets_of_metal(bsdf))
+    f += spread_metal(bsdf, out.z, in.z);
   return f;
 }
 
@@ -194,7 +262,7 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
     if (through)
       return BsdfSample{-out, transmitted(bsdf, out.z) / chances.transmission, 0.0, Lobe::straight};
     return BsdfSample{{-out.x, -out.y, out.z},
-                      reflected(bsdf, out.z) / chances.reflection,
+                      facet_reflectance(bsdf, out.z) / chances.reflection,
                       0.0,
                       Lobe::ideal_reflection};
   }

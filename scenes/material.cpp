@@ -15,11 +15,6 @@ bool is_glossy(const Material& material) {
   return material.metallic > 0.0 && material.roughness > ideal_mirror_roughness;
 }
 
-Rgb diffuse_reflectance(const Material& material) {
-  if (is_glossy(material)) return material.base_color;
-  return material.base_color * (1.0 - material.metallic);
-}
-
 Rgb mirror_reflectance(const Material& material) {
   return is_mirror(material) ? material.base_color * material.metallic : Rgb(0.0);
 }

@@ -4,8 +4,8 @@
 //   specular reflectance  rho_s = base_color metallic
 //
 // A metal whose roughness is at most `ideal_mirror_roughness` is an ideal mirror of constant reflectance rho_s.
-// The lobes of rougher metals, coats and panes are in bsdf.h. The two passes do not model them yet: there rough metals reflect rho_s
-// diffusely, coats and transmission are left out, and `plan` names them.
+// The lobes of rougher metals, coats and panes are in bsdf.h. Pass two shows those of metals and coats (lobes.h); transmission it does not model
+// yet, and `plan` names it.
 #pragma once
 
 #include "scenes/types.h"
@@ -50,7 +50,7 @@ struct Material {
   std::optional<TextureUse> emissive_texture;
 };
 
-/// The part that is scattered evenly, by rho_d above. An ideal mirror keeps only what its dielectric share scatters.
+/// The reflectance of the material in pass one, which scatters evenly: all that it reflects but the ideal reflection of metals (lobes.h).
 Rgb diffuse_reflectance(const Material& material);
 
 /// The reflectance of an ideal mirror; zero for everything that is not one.
@@ -59,7 +59,7 @@ Rgb mirror_reflectance(const Material& material);
 bool is_mirror(const Material& material);
 bool is_emitter(const Material& material);
 
-/// A metal too rough for an ideal mirror: it counts as diffuse, which a plan has to say.
+/// A metal too rough for an ideal mirror.
 bool is_glossy(const Material& material);
 
 } // namespace meninas

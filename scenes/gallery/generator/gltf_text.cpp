@@ -42,12 +42,11 @@ static bool is_cut_out(const Picture& picture) {
 }
 
 static Json material_json(const Paint& paint) {
-  const auto is_mirror = paint.finish == Finish::mirror;
   Json material{{"name", paint.name}};
   material["pbrMetallicRoughness"] = {
       {"baseColorFactor", Json::array({paint.color.x, paint.color.y, paint.color.z, 1.0})},
-      {"metallicFactor", is_mirror ? 1.0 : 0.0},
-      {"roughnessFactor", is_mirror ? 0.0 : 1.0}};
+      {"metallicFactor", paint.finish == Finish::metal ? 1.0 : 0.0},
+      {"roughnessFactor", paint.roughness}};
 
   // emissiveFactor ends at 1; what is brighter is carried by the strength.
   const auto brightest = std::max({paint.radiance.x, paint.radiance.y, paint.radiance.z});

@@ -11,7 +11,11 @@
 
 namespace meninas::gallery {
 
-enum class Finish { diffuse, mirror };
+enum class Finish {
+  diffuse,
+  metal, ///< a mirror when its roughness is 0
+  coated ///< diffuse under a coat of varnish
+};
 
 /// A small image of a few colours, rows from the top.
 struct Picture {
@@ -23,19 +27,27 @@ struct Picture {
   bool operator==(const Picture&) const = default;
 };
 
-/// A material by name: `color` is the diffuse reflectance, or the specular one of a mirror.
+/// A material by name: `color` is the diffuse reflectance, or the specular one of a metal.
 struct Paint {
   std::string name;
   Rgb color{0.0};
   Finish finish = Finish::diffuse;
-  Rgb radiance{0.0};    ///< emitted, W/m^2/sr
-  Picture picture = {}; ///< a factor of `color`, if it has texels; cut out and seen from both sides if one of its colours is transparent
+  Rgb radiance{0.0}; ///< emitted, W/m^2/sr
+  double roughness = 1.0;
+  Picture picture =
+      {}; ///< a factor of `color`, if it has texels; cut out and seen from both sides if one of its colours is transparent
 };
 
 inline Paint diffuse(std::string name, Rgb reflectance) { return {std::move(name), reflectance}; }
 
+inline Paint metal(std::string name, Rgb reflectance, double roughness) {
+  return {std::move(name), reflectance, Finish::metal, Rgb(0.0), roughness};
+}
 inline Paint mirror(std::string name, Rgb reflectance) {
-  return {std::move(name), reflectance, Finish::mirror};
+  return metal(std::move(name), reflectance, 0.0);
+}
+inline Paint coated(std::string name, Rgb reflectance, double roughness) {
+  return {std::move(name), reflectance, Finish::coated, Rgb(0.0), roughness};
 }
 
 /// Reflects nothing, so that all its light is its own.

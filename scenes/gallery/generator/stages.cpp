@@ -4,8 +4,9 @@ namespace meninas::gallery {
 
 std::vector<Stage> all_stages() {
   return {cornell(),        cornell_mirror(), mirror_spot(), periscope(),
-          facing_mirrors(), sunbeam(),        lattice(),     half_room(),
-          doubled_room(),   no_mirror(),      furnace(),     meninas_room()};
+          facing_mirrors(), sunbeam(),        lattice(),     roughness_sweep(),
+          half_room(),      doubled_room(),   no_mirror(),   furnace(),
+          meninas_room()};
 }
 
 } // namespace meninas::gallery

@@ -1,0 +1,85 @@
+#include "raytrace/lobe_grid.h"
+
+#include "scenes/microfacets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
+
+Direction mirrored(const Direction& out) { return {-out.x, -out.y, out.z}; }
+
+/// A cell's direction before the weights are brought to their norm: g, and the reflectance of the coat, by its own.
+struct Cell {
+  Direction in;
+  double visible;
+  Rgb coat;
+};
+
+std::optional<Cell> cell_at(const Bsdf& bsdf, const Direction& out, double u, double v) {
+  const Direction h = visible_facet(bsdf.alpha, out, u, v);
+  const double cosine = glm::dot(out, h);
+  const Direction in = 2.0 * cosine * h - out;
+  if (in.z <= 0.0)
+    return std::nullopt;
+  const double lambda = smith_lambda(bsdf.alpha, out);
+  const double visible = (1.0 + lambda) / (1.0 + lambda + smith_lambda(bsdf.alpha, in));
+  return Cell{in, visible, visible * (facet_reflectance(bsdf, cosine) - bsdf.metal)};
+}
+
+/// What makes a sum the albedo it should be.
+double norm(double albedo, double sum) { return sum > 0.0 ? albedo / sum : 0.0; }
+
+} // namespace
+
+int lobe_divisions(const Bsdf& bsdf, double cosine, double directions) {
+  constexpr double most = 64.0;
+  if (bsdf.alpha == 0.0)
+    return 1;
+  const double energy = largest(bsdf.metal) + bsdf.coat * coat_albedo(bsdf, cosine);
+  const double cells = directions * bsdf.roughness * energy;
+  return static_cast<int>(std::clamp(std::ceil(std::sqrt(cells)), 1.0, most));
+}
+
+double lobe_density(const Bsdf& bsdf, const Direction& out, const Direction& in) {
+  const double lambda = smith_lambda(bsdf.alpha, out);
+  return 0.25 * facet_density(bsdf.alpha, glm::normalize(out + in)) / (out.z * (1.0 + lambda));
+}
+
+void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift,
+               std::vector<LobeRay>& rays) {
+  rays.clear();
+  if (bsdf.alpha == 0.0) {
+    rays.push_back({mirrored(out), ideal_reflection(bsdf, out.z)});
+    return;
+  }
+  // The two parts of S, each with the sum that its norm is made of.
+  std::vector<Cell> cells;
+  double metal_sum = 0.0, coat_sum = 0.0;
+  for (int i = 0; i < divisions; ++i)
+    for (int j = 0; j < divisions; ++j) {
+      const auto cell = cell_at(bsdf, out, (i + shift.x) / divisions, (j + shift.y) / divisions);
+      if (!cell)
+        continue;
+      metal_sum += cell->visible;
+      coat_sum += largest(cell->coat);
+      cells.push_back(*cell);
+    }
+  // A coarse grid at a grazing angle may dip below the surface as a whole: the mirror direction stands for it.
+  if (cells.empty()) {
+    cells.push_back({mirrored(out), 1.0, facet_reflectance(bsdf, out.z) - bsdf.metal});
+    metal_sum = 1.0;
+    coat_sum = largest(cells.front().coat);
+  }
+  const SchlickAlbedo albedo = schlick_albedo(bsdf.roughness, out.z);
+  const double metal_norm = norm(albedo.f0 + albedo.f90, metal_sum);
+  const double coat_norm = norm(bsdf.coat * coat_albedo(bsdf, out.z), coat_sum);
+  for (const Cell& cell : cells)
+    rays.push_back({cell.in, bsdf.metal * (cell.visible * metal_norm) + cell.coat * coat_norm});
+}
+
+} // namespace meninas

@@ -1,0 +1,161 @@
+#include "raytrace/scattering.h"
+
+#include "raytrace/footprint.h"
+#include "raytrace/quad_lanes.h"
+#include "raytrace/shading.h"
+#include "raytrace/specular_paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meninas {
+
+namespace {
+
+constexpr double directions = 16.0; // of a camera ray into the widest lobes
+constexpr int points_per_lamp = 4;  // N
+
+Bsdf bsdf_at(const RenderContext& context, const RayPacket& packet, const LaneState& state,
+             const FaceRecord& face, const HitPacket& hits, std::uint32_t k) {
+  const LightScene& light = context.light;
+  const TriangleId triangle{hits.triangle[k]};
+  const Material& material = material_of(light.scene, triangle);
+  if (!is_textured(material) && !has_vertex_colors(light.scene, triangle))
+    return context.bsdfs[index(light.scene.triangles[index(triangle)].material)];
+  return make_bsdf(material,
+                   material_at(light.scene, light.textures, triangle, {hits.b1[k], hits.b2[k]},
+                               footprint_of(context, packet, state, face, hits, k)));
+}
+
+/// The shift of a grid: spread evenly over the camera rays of a pixel, at random behind another lobe.
+Vec2 shift_of(const SpecularRay& ray, std::uint32_t seed_of_pixel) {
+  const auto u = ray.lobes == 0 ? sobol4(ray.number, seed_of_pixel) : sobol4(0, ray.key);
+  return {u[0], u[1]};
+}
+
+/// The first lobe of a path looks for emitters by their points as well.
+bool samples_lamps(const RenderContext& context, const Bsdf& bsdf, const SpecularRay& ray) {
+  return bsdf.alpha > 0.0 && ray.lobes == 0 && !context.light.emitters.empty() &&
+         (bsdf.coat > 0.0 || bsdf.metal != Rgb(0.0));
+}
+
+/// q
+double density_of_points(int points, double distance, double cosine, double area) {
+  return points * distance * distance / std::max(cosine * area, 1e-300);
+}
+
+void queue_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
+                const FaceRecord& face, const Meeting& at, int n, SpecularRay ray,
+                TileWorkspace& work) {
+  const bool lamps_sampled = samples_lamps(context, bsdf, ray);
+  const RenderSettings& settings = context.settings;
+  const std::uint32_t seed = pixel_seed(work.area, ray.pixel, settings.seed);
+  lobe_grid(bsdf, out, n, shift_of(ray, seed), work.lobe);
+  const glm::vec3 throughput = ray.throughput;
+  const std::uint32_t key = ray.lobes == 0 ? hash(seed, ray.number) : ray.key;
+  ray.world = bsdf.alpha > 0.0 ? real_world : child(context.light.worlds, ray.world, face.mirror);
+  ray.since_lobe = bsdf.alpha > 0.0 ? 0.0F : ray.since_lobe + static_cast<float>(at.distance);
+  // Directions of lobes are of unit length; the beam is as wide as it was.
+  ray.travelled = at.travelled / static_cast<float>(std::sqrt(glm::length(at.direction)));
+  ray.origin = at.position;
+  ray.share /= static_cast<float>(n * n);
+  // A mirror's direction is no lobe: such chains end by their throughput alone.
+  ray.lobes = static_cast<std::uint16_t>(ray.lobes + (bsdf.alpha > 0.0 ? 1 : 0));
+  for (std::uint32_t cell = 0; cell < work.lobe.size(); ++cell) {
+    ray.direction = to_world(face.normal, work.lobe[cell].in);
+    if (bsdf.alpha > 0.0)
+      ray.density = lamps_sampled
+                        ? static_cast<float>(n * n * lobe_density(bsdf, out, work.lobe[cell].in))
+                        : 0.0F;
+    ray.throughput = throughput * glm::vec3(work.lobe[cell].weight);
+    ray.key = hash(key, cell, 1);
+    go_on(context, ray, work);
+  }
+}
+
+/// Light of punctual lights by the lobe.
+glm::vec3 highlights(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
+                     const Receiver& receiver, TileWorkspace& work) {
+  Rgb sum(0.0);
+  punctual_arrivals(context.light, receiver, work.point.direct, work.highlights);
+  for (const PunctualArrival& arrival : work.highlights) {
+    // The irradiance has the cosine already.
+    const Direction in = to_local(receiver.normal, arrival.towards);
+    if (in.z > 0.0)
+      sum += reflection_lobe(bsdf, out, in) * arrival.irradiance;
+  }
+  return sum;
+}
+
+/// Light of emitters by the lobe, in the share of the points.
+glm::vec3 lamps_in_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
+                        const Receiver& receiver, const SpecularRay& ray, int divisions,
+                        TileWorkspace& work) {
+  const EmissionSampling sampling{.per_image = points_per_lamp,
+                                  .first = ray.number * std::uint32_t{points_per_lamp},
+                                  .seed = pixel_seed(work.area, ray.pixel, context.settings.seed)};
+  emission_samples(context.light, receiver, sampling, work.point.direct, work.lamps);
+  Rgb sum(0.0);
+  for (const EmissionSample& lamp : work.lamps) {
+    const double distance = glm::length(lamp.towards);
+    const Direction in = to_local(receiver.normal, lamp.towards / distance);
+    if (lamp.radiance == Rgb(0.0) || !(in.z > 0.0))
+      continue;
+    const double p = divisions * divisions * lobe_density(bsdf, out, in);
+    const double q = density_of_points(points_per_lamp, distance, lamp.cosine, lamp.emitter_area);
+    sum += reflection_lobe(bsdf, out, in) * lamp.radiance *
+           (in.z * lamp.cosine * lamp.area / (distance * distance) * q / (p + q));
+  }
+  return sum;
+}
+
+} // namespace
+
+float share_of_rays(const RenderContext& context, const LaneState& state, const FaceRecord& face,
+                    const HitPacket& hits, std::uint32_t k) {
+  const LightScene& light = context.light;
+  if (!state.specular || state.specular[k].density == 0.0F ||
+      state.specular[k].world == none<WorldId> || light.from_source[face.side] == 0)
+    return 1.0F;
+  const SpecularRay& ray = state.specular[k];
+  const MeshSide& side = light.mesh.sides[face.side];
+  const double area =
+      side.textured
+          ? light.mesh
+                .area[field_point(light.landing, face.side, uv_of(light, face, hits, k)).element]
+          : light.surfaces.patches[index(side.patch)].area;
+  const double distance =
+      double{ray.since_lobe} + double{hits.distance[k]} / light.rays.frame().scale;
+  const double q = density_of_points(points_per_lamp, distance,
+                                     std::abs(glm::dot(face.normal, ray.direction)), area);
+  return static_cast<float>(double{ray.density} / (double{ray.density} + q));
+}
+
+glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& packet,
+                             const LaneState& state, const FaceRecord& face, const HitPacket& hits,
+                             std::uint32_t k, TileWorkspace& work) {
+  const Bsdf bsdf = bsdf_at(context, packet, state, face, hits, k);
+  const SpecularRay ray = ray_from(state, k, face.plane_class, context.settings.seed);
+  const Meeting at = meeting_of(context, face, packet, state, k, hits.distance[k]);
+  const Direction out = local_out(face.normal, glm::normalize(at.direction));
+  const int n = ray.lobes == 0 ? lobe_divisions(bsdf, out.z, directions) : 1;
+  queue_lobe(context, bsdf, out, face, at, n, ray, work);
+
+  const ReflectedPart part = context.visible.part;
+  const bool shows_lights = part == ReflectedPart::all || part == ReflectedPart::none;
+  const Receiver receiver = receiver_at(context.light, face, hits, k);
+  glm::vec3& in_mirror = work.sums[std::min(work.way + 1, seen_ways - 1)][ray.pixel];
+  if (shows_lights && bsdf.alpha > 0.0 && !context.light.punctual.empty())
+    in_mirror += ray.throughput * highlights(context, bsdf, out, receiver, work);
+  if (shows_lights && samples_lamps(context, bsdf, ray))
+    in_mirror += ray.throughput * lamps_in_lobe(context, bsdf, out, receiver, ray, n, work);
+  glm::vec3 radiance = share_of_rays(context, state, face, hits, k) *
+                       shading_at(context, packet, state, face, hits, k).emitted;
+  if (part != ReflectedPart::none)
+    radiance += glm::vec3(even_reflectance(bsdf, out.z) / std::numbers::pi) *
+                irradiance_of_lane(context, state, face, hits, k, work);
+  return radiance;
+}
+
+} // namespace meninas

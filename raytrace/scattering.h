@@ -1,0 +1,49 @@
+// What glossy metals and coated surfaces show:
+//
+//   L(o) = L_e + rho(o) H / pi + sum_k w_k L(i_k) + sum_p f(o, i_p) E_p + sum_e f(o, i_e) cos_e L_e
+//
+// rho(o) is what the lobes without a direction of their own reflect towards o (even_reflectance, scenes/bsdf.h), H the field; the first sum is over
+// the grid of the lobe, each of whose rays is followed as those of a mirror are (lobe_grid.h); the second over punctual lights and
+// their images in the mirror worlds, which no ray can meet; the third over points of emitters and of their images. Few rays of the lobe meet a
+// small lamp, and few of its points lie in a narrow lobe: where both find it, in the enumerated worlds, their shares are
+//
+//   p / (p + q)  and  q / (p + q),   p = n^2 D G1 / (4 cos_o),   q = N r^2 / (cos_e A)
+//
+// (balance heuristic, Veach 1997), p the rays' density, q about that of the N points on an emitter of area A, over any chain of mirrors.
+//
+// The first lobe of a path has a grid of up to 16 rays to each camera ray, shifted evenly among those of the pixel. Lobes behind it have one ray each. After `most_lobes` the field stands for the rest: pass one scatters evenly what
+// lobes reflect.
+#pragma once
+
+#include "raytrace/tile.h"
+#include "scenes/lobes.h"
+
+namespace meninas {
+
+inline constexpr int most_lobes = 4;
+
+/// Whether lane k has met a side of a material with lobes.
+inline bool meets_lobes(const RenderContext& context, const FaceRecord& face, const HitPacket& hits,
+                        std::uint32_t k) {
+  return !context.bsdfs.empty() && face.side != FaceRecord::nothing &&
+         has_lobes(material_of(context.light.scene, TriangleId{hits.triangle[k]}));
+}
+
+/// Whether it shows them still.
+inline bool scatters_at(const RenderContext& context, const FaceRecord& face,
+                        const LaneState& state, const HitPacket& hits, std::uint32_t k) {
+  return context.settings.mode == RenderMode::hybrid && meets_lobes(context, face, hits, k) &&
+         (!state.specular || state.specular[k].lobes < most_lobes);
+}
+
+/// The share p / (p + q) in which lane k shows the emission of a side: 1 where no points are on it.
+float share_of_rays(const RenderContext& context, const LaneState& state, const FaceRecord& face,
+                    const HitPacket& hits, std::uint32_t k);
+
+/// The radiance of L_e and of the field where lane k has landed. The rays of its lobe are queued; light of punctual lights in the lobe goes to
+/// the pixel, as if seen in a mirror.
+glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& packet,
+                             const LaneState& state, const FaceRecord& face, const HitPacket& hits,
+                             std::uint32_t k, TileWorkspace& work);
+
+} // namespace meninas

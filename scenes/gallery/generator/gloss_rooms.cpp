@@ -1,0 +1,47 @@
+// A room with what is between diffuse and mirror: varnish, and metals of every roughness.
+#include "scenes/gallery/generator/furniture.h"
+#include "scenes/gallery/generator/stages.h"
+
+namespace meninas::gallery {
+
+static const Paint plaster = diffuse("plaster", {0.72, 0.7, 0.66});
+static const Paint stone = diffuse("stone", {0.45, 0.43, 0.4});
+
+/// The room's ceiling with a lamp let into it.
+static void add_ceiling(Stage& stage, const Point3& high, const Rect& opening, const Paint& lamp) {
+  const Sheet ceiling{{0.0, high.y, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+  stage.add("ceiling", plaster, wall(ceiling, {{0.0, 0.0}, {high.x, high.z}}, std::array{opening}));
+  stage.add("lamp", lamp, panel(ceiling, opening, 0.0));
+}
+
+Stage roughness_sweep() {
+  Stage stage{
+      "roughness-sweep", {}, {{"main", {2.0, 1.5, 4.4}, {2.0, 0.45, 1.2}, 50.0, 4.0 / 3.0}}};
+  const Point3 low{0.0, 0.0, 0.0};
+  const Point3 high{4.0, 2.6, 4.6};
+  add_room(stage, low, high, plaster, stone, std::array{Face::y1});
+  add_ceiling(stage, high, {{1.4, 1.6}, {2.6, 2.4}}, light("lamp", {9.0, 8.4, 7.5}));
+
+  // Bars on the wall, and strips before them that blur their reflections the more the further away they are.
+  const std::array colours{Rgb(0.65, 0.12, 0.1), Rgb(0.75, 0.6, 0.12), Rgb(0.12, 0.3, 0.6)};
+  const Sheet back{{0.0, 0.0, 0.02}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  for (int k = 0; k < 12; ++k) {
+    const double s = 0.15 + 0.32 * k;
+    const auto paint =
+        diffuse("bar-" + std::to_string(k % 3), colours[static_cast<std::size_t>(k % 3)]);
+    stage.add("bar-" + std::to_string(k), paint,
+              batten(back, {{s, 0.0}, {s + 0.16, 1.1}}, -0.02, 0.0));
+  }
+  const std::array roughness{0.0, 0.1, 0.2, 0.35, 0.6};
+  for (std::size_t k = 0; k < roughness.size(); ++k) {
+    const double x = 0.2 + 0.6 * double(k);
+    const auto name = "metal-" + std::to_string(static_cast<int>(100.0 * roughness[k]));
+    stage.add(name, metal(name, Rgb(0.85, 0.83, 0.8), roughness[k]),
+              standing_box({x, 0.0, 0.3}, {x + 0.55, 0.02, 3.3}));
+  }
+  stage.add("varnish", coated("varnish", {0.3, 0.16, 0.08}, 0.0),
+            standing_box({3.2, 0.0, 0.3}, {3.75, 0.02, 3.3}));
+  return stage;
+}
+
+} // namespace meninas::gallery

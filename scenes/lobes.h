@@ -1,0 +1,39 @@
+// Parts and shares of the bidirectional functions (bsdf.h), as the two passes need them: pass one scatters evenly what a material reflects
+// in the mean, pass two follows the lobe that has a direction and takes the rest from the field.
+#pragma once
+
+#include "scenes/bsdf.h"
+
+namespace meninas {
+
+/// Whether it has a lobe of reflection other than an ideal mirror's.
+bool has_lobes(const Material& material);
+
+/// A dielectric whose coat shows, by its factors or, where there is one, at some texel of its texture of roughness and metalness.
+bool has_visible_coat(const Material& material);
+
+/// S of a facet that is met at this cosine.
+Rgb facet_reflectance(const Bsdf& bsdf, double cosine);
+
+/// The reflection lobe alone, S D G2 / (4 cos_o cos_i), of directions above the surface; 0 where it is ideal.
+Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in);
+
+/// The lobes without a direction of their own, diffuse and what facets of metal spread: the share that they reflect towards this
+/// cosine of light that comes evenly from everywhere.
+Rgb even_reflectance(const Bsdf& bsdf, double cosine);
+
+/// The share of light from everywhere that is reflected to anywhere, by all lobes together; what is transmitted is not in it.
+Rgb mean_reflectance(const Bsdf& bsdf);
+
+/// diffuse_reflectance() (material.h) of a point.
+Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point);
+
+// --- The frame of a surface, +z along its normal
+
+Direction to_local(const Direction& normal, const Direction& w);
+Direction to_world(const Direction& normal, const Direction& w);
+
+/// Towards where a ray of this unit direction has come from; rounding must not take a grazing ray below the surface.
+Direction local_out(const Direction& normal, const Vec3& ray);
+
+} // namespace meninas

@@ -1,0 +1,330 @@
+// Glossy metals and coats: the grid over a lobe against its integral, what it leaves of even light, and both in pictures.
+#include "raytrace/lobe_grid.h"
+#include "tests/raytrace/pictures.h"
+#include "tests/support/scene_builder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace meninas::test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Material metal(Rgb reflectance, double roughness) {
+  Material material;
+  material.base_color = reflectance;
+  material.metallic = 1.0;
+  material.roughness = roughness;
+  return material;
+}
+
+Material plastic(double reflectance, double roughness) {
+  Material material = diffuse(reflectance);
+  material.roughness = roughness;
+  return material;
+}
+
+Bsdf bsdf_of(const Material& material) { return make_bsdf(material, untextured(material)); }
+
+Direction at_angle(double cosine) { return {std::sqrt(1.0 - cosine * cosine), 0.0, cosine}; }
+
+Rgb sum_of(const std::vector<LobeRay>& rays) {
+  Rgb sum(0.0);
+  for (const LobeRay& ray : rays)
+    sum += ray.weight;
+  return sum;
+}
+
+TEST(LobeGrid, WhiteReflectsAllOfEvenLightWhateverTheGrid) {
+  std::vector<LobeRay> rays;
+  for (const Material& material :
+       {metal(Rgb(1.0), 0.05), metal(Rgb(1.0), 0.4), metal(Rgb(1.0), 1.0), plastic(1.0, 0.0),
+        plastic(1.0, 0.1), plastic(1.0, 0.2)})
+    for (const double cosine : {1.0, 0.5, 0.02})
+      for (const int n : {1, 2, 7}) {
+        const Bsdf bsdf = bsdf_of(material);
+        lobe_grid(bsdf, at_angle(cosine), n, {0.3, 0.9}, rays);
+        const Rgb all = sum_of(rays) + even_reflectance(bsdf, cosine);
+        EXPECT_NEAR(all.g, 1.0, 1e-12) << material.roughness << ' ' << cosine << ' ' << n;
+      }
+}
+
+TEST(LobeGrid, ColourLosesAndNeverGains) {
+  std::vector<LobeRay> rays;
+  const Bsdf bsdf = bsdf_of(metal({0.9, 0.5, 0.1}, 0.6));
+  lobe_grid(bsdf, at_angle(0.4), 5, {0.5, 0.5}, rays);
+  const Rgb all = sum_of(rays) + even_reflectance(bsdf, 0.4);
+  EXPECT_THAT(all.r, testing::AllOf(testing::Gt(0.8), testing::Lt(0.9)));
+  EXPECT_THAT(all.b, testing::AllOf(testing::Gt(0.05), testing::Lt(0.1)));
+}
+
+TEST(LobeGrid, WithoutWidthIsTheMirrorDirection) {
+  std::vector<LobeRay> rays;
+  const Bsdf bsdf = bsdf_of(metal({0.9, 0.5, 0.1}, 0.01));
+  EXPECT_EQ(lobe_divisions(bsdf, 0.6, 1e6), 1);
+  lobe_grid(bsdf, at_angle(0.6), 1, {0.2, 0.4}, rays);
+  ASSERT_EQ(rays.size(), 1U);
+  EXPECT_EQ(rays[0].in, Direction(-0.8, 0.0, 0.6));
+  EXPECT_EQ(rays[0].weight, Rgb(0.9, 0.5, 0.1));
+}
+
+TEST(LobeGrid, SmootherAndFainterLobesTakeFewerRays) {
+  const auto n = [](const Material& material, double directions) {
+    return lobe_divisions(bsdf_of(material), 0.8, directions);
+  };
+  EXPECT_EQ(n(metal(Rgb(1.0), 1.0), 64.0), 8);
+  EXPECT_EQ(n(metal(Rgb(1.0), 0.25), 64.0), 4);
+  EXPECT_EQ(n(metal(Rgb(0.25), 0.25), 64.0), 2);
+  EXPECT_EQ(n(plastic(0.5, 0.1), 64.0), 1);
+}
+
+/// Integral of f(o, i) L(i) cos i over directions i, by midpoints in the two angles. Nothing of the grid's map is in it.
+double convolution(const Bsdf& bsdf, const Direction& out,
+                   const std::function<double(const Direction&)>& light) {
+  constexpr int rings = 512, spokes = 1024;
+  double sum = 0.0;
+  for (int r = 0; r < rings; ++r) {
+    const double theta = 0.5 * pi * (r + 0.5) / rings;
+    for (int s = 0; s < spokes; ++s) {
+      const double phi = 2.0 * pi * (s + 0.5) / spokes;
+      const Direction in{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                         std::cos(theta)};
+      const double lit = light(in);
+      if (lit > 0.0)
+        sum += reflection_lobe(bsdf, out, in).g * lit * in.z * std::sin(theta);
+    }
+  }
+  return sum * (0.5 * pi / rings) * (2.0 * pi / spokes);
+}
+
+double by_grid(const Bsdf& bsdf, const Direction& out, int n,
+               const std::function<double(const Direction&)>& light) {
+  std::vector<LobeRay> rays;
+  lobe_grid(bsdf, out, n, {0.5, 0.5}, rays);
+  double sum = 0.0;
+  for (const LobeRay& ray : rays)
+    sum += ray.weight.g * light(ray.in);
+  return sum;
+}
+
+TEST(LobeGrid, ConvergesToTheConvolution) {
+  // A sky brighter towards one side, and one half of it dark.
+  const auto smooth = [](const Direction& w) { return 1.0 + 0.7 * w.x + 0.5 * w.y * w.y; };
+  const auto step = [](const Direction& w) { return w.x + 0.4 * w.y > -0.5 ? 1.0 : 0.0; };
+  for (const double roughness : {0.2, 0.5, 1.0}) {
+    const Bsdf bsdf = bsdf_of(metal(Rgb(1.0), roughness));
+    const Direction out = at_angle(0.7);
+    SCOPED_TRACE(roughness);
+    const double even = convolution(bsdf, out, [](const Direction&) { return 1.0; });
+    const double exact_smooth = convolution(bsdf, out, smooth),
+                 exact_step = convolution(bsdf, out, step);
+    // Midpoints of n^2 cells err by about 1 / n^2, at an edge by 1 / n^(3/2); the norm comes from a table good to 1e-3.
+    for (const int n : {4, 16, 64}) {
+      EXPECT_NEAR(by_grid(bsdf, out, n, smooth), exact_smooth, 1.5e-3 + 1.0 / (n * n)) << n;
+      EXPECT_NEAR(by_grid(bsdf, out, n, step), exact_step, 1.5e-3 + std::pow(n, -1.5)) << n;
+    }
+    // What the test compares with has the lobe's energy itself.
+    EXPECT_NEAR(even,
+                sum_of([&] {
+                  std::vector<LobeRay> rays;
+                  lobe_grid(bsdf, out, 8, {0.5, 0.5}, rays);
+                  return rays;
+                }())
+                    .g,
+                1.5e-3);
+  }
+}
+
+// --- In pictures
+
+/// A plate of the material in the plane y = 0, nothing else.
+Scene plate(const Material& material, double half = 2.0) {
+  Scene scene;
+  add_polygon(scene, "plate",
+              {{-half, 0, half}, {half, 0, half}, {half, 0, -half}, {-half, 0, -half}}, material);
+  return scene;
+}
+
+PassOneSettings coarse() {
+  PassOneSettings settings;
+  settings.mesh.element_size = 0.5;
+  settings.form_factors.rays = settings.interpolation.rays = 64;
+  return settings;
+}
+
+/// Sixteen directions to a sample at the most.
+RenderSettings one_pixel(int samples) {
+  RenderSettings settings;
+  settings.width = settings.height = 1;
+  settings.samples = samples;
+  return settings;
+}
+
+constexpr Point3 eye{0.0, 1.0, 1.5};
+
+/// What leaves the origin towards the eye.
+glm::vec3 seen(const Scene& scene, const RenderSettings& settings) {
+  return picture(lit_up(scene, coarse()), look_at(eye, Point3(0.0), 1e-4), settings).pixels[0];
+}
+
+TEST(Lobes, ALampInALobeIsItsConvolution) {
+  // A lamp of radiance 1 across the plate's horizon. What is reflected twice between them is nothing: it is black.
+  Material plate_metal = metal({0.9, 0.6, 0.3}, 0.5);
+  Scene scene = plate(plate_metal);
+  add_polygon(scene, "lamp", {{-1, 0.4, -2}, {1, 0.4, -2}, {1, 1.8, -2}, {-1, 1.8, -2}},
+              diffuse(0.0, pi));
+  const Bsdf bsdf = bsdf_of(plate_metal);
+  const Direction normal{0, 1, 0};
+  const auto lamp = [&](const Direction& local) {
+    const Direction w = to_world(normal, local);
+    if (w.z >= 0.0)
+      return 0.0;
+    const Point3 at = w * (-2.0 / w.z);
+    return std::abs(at.x) <= 1.0 && at.y >= 0.4 && at.y <= 1.8 ? 1.0 : 0.0;
+  };
+  const Direction out = to_local(normal, glm::normalize(eye));
+  const double lobe = convolution(bsdf, out, lamp) / 0.6; // by green, and no Fresnel
+  const double even = even_reflectance(bsdf, out.z).g;
+  EXPECT_LT(even, 0.05) << "the field's share hardly matters here";
+  // 4,608 directions meet the edges of the lamp: 4608^(-3/4) = 0.002, and the field's share.
+  const glm::vec3 picture = seen(scene, one_pixel(512));
+  EXPECT_NEAR(picture.g, 0.6 * lobe, 0.02 * 0.6 * lobe);
+  EXPECT_NEAR(picture.r / picture.g, 1.5, 0.03);
+}
+
+/// That of the origin to the square of lamp_in_lobe, which is small.
+double lamp_form_factor(const Point3& centre, double half) {
+  const double r2 = glm::dot(centre, centre), cosine = centre.y / std::sqrt(r2);
+  return cosine * cosine / r2 * 4.0 * half * half / pi;
+}
+
+/// The lobe's share of what a lamp of radiance 1, a square of side 2 `half` that faces down at `centre`, sends to the origin towards the eye.
+double lamp_in_lobe(const Bsdf& bsdf, const Point3& centre, double half) {
+  constexpr int cells = 400;
+  const Direction normal{0, 1, 0};
+  const Direction out = to_local(normal, glm::normalize(eye));
+  double sum = 0.0;
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells; ++j) {
+      const Point3 y = centre + Vec3((2.0 * (i + 0.5) / cells - 1.0) * half, 0.0,
+                                     (2.0 * (j + 0.5) / cells - 1.0) * half);
+      const double r2 = glm::dot(y, y), cosine = y.y / std::sqrt(r2);
+      sum +=
+          reflection_lobe(bsdf, out, to_local(normal, glm::normalize(y))).g * cosine * cosine / r2;
+    }
+  return sum * 4.0 * half * half / (cells * cells);
+}
+
+TEST(Lobes, ASmallLampIsFoundByRaysAndByPoints) {
+  // 256 directions and 64 points a pixel. Rays alone would miss the lamp or meet it once or twice, points alone miss the narrow lobes.
+  for (const double roughness : {0.05, 0.15, 0.4})
+    for (const Point3 centre : {Point3(0.0, 1.2, -1.8), Point3(0.6, 1.2, -1.2)}) {
+      Scene scene = plate(metal(Rgb(0.8), roughness));
+      constexpr double half = 0.15;
+      add_polygon(scene, "lamp",
+                  {centre + Vec3(-half, 0, -half), centre + Vec3(half, 0, -half),
+                   centre + Vec3(half, 0, half), centre + Vec3(-half, 0, half)},
+                  diffuse(0.0, pi));
+      const Bsdf bsdf = bsdf_of(scene.materials[0]);
+      const double lobe = lamp_in_lobe(bsdf, centre, half);
+      const glm::vec3 shown = seen(scene, one_pixel(16));
+      // The evenly spread light is the field's, within a tenth of it.
+      const double out_z = glm::normalize(eye).y;
+      const double even = even_reflectance(bsdf, out_z).g * lamp_form_factor(centre, half);
+      EXPECT_NEAR(shown.g, lobe + even, 0.04 * lobe + 0.1 * even) << roughness << ' ' << centre.x;
+    }
+}
+
+TEST(Lobes, ALampInALobeByWayOfAMirror) {
+  // The lamp faces away from the plate, towards a mirror above it, whose image of it is the lamp of the test before.
+  for (const double roughness : {0.15, 0.4}) {
+    Scene scene = plate(metal(Rgb(0.8), roughness));
+    const Point3 image(0.0, 1.2, -1.8);
+    constexpr double height = 1.0, half = 0.15, rho = 0.9;
+    const Point3 centre(image.x, 2.0 * height - image.y, image.z);
+    add_polygon(scene, "lamp",
+                {centre + Vec3(-half, 0, half), centre + Vec3(half, 0, half),
+                 centre + Vec3(half, 0, -half), centre + Vec3(-half, 0, -half)},
+                diffuse(0.0, pi));
+    add_polygon(scene, "mirror",
+                {{-1, height, -2.4}, {1, height, -2.4}, {1, height, -1.2}, {-1, height, -1.2}},
+                mirror(rho));
+    const Bsdf bsdf = bsdf_of(scene.materials[0]);
+    const double lobe = rho * lamp_in_lobe(bsdf, image, half);
+    const double even =
+        rho * even_reflectance(bsdf, glm::normalize(eye).y).g * lamp_form_factor(image, half);
+    EXPECT_NEAR(seen(scene, one_pixel(16)).g, lobe + even, 0.04 * lobe + 0.2 * even) << roughness;
+  }
+}
+
+TEST(Lobes, APointLightShinesInALobe) {
+  Scene scene = plate(metal(Rgb(0.8), 0.4));
+  const Point3 at{0.3, 1.2, -1.4};
+  scene.lights = {
+      {.name = "bulb", .kind = PunctualKind::point, .intensity = Rgb(3.0), .position = at}};
+  const Bsdf bsdf = bsdf_of(scene.materials[0]);
+  const Direction normal{0, 1, 0};
+  const Direction out = to_local(normal, glm::normalize(eye)),
+                  in = to_local(normal, glm::normalize(at));
+  const double irradiance = 3.0 / glm::dot(at, at) * in.z;
+  const double exact =
+      (reflection_lobe(bsdf, out, in).g + even_reflectance(bsdf, out.z).g / pi) * irradiance;
+  RenderSettings settings = one_pixel(16);
+  settings.diffuse.term = DiffuseTerm::direct;
+  EXPECT_NEAR(seen(scene, settings).g, exact, 1e-3 * exact);
+}
+
+TEST(Lobes, ARoomOfWhiteGlossIsAFurnace) {
+  // Every wall reflects 0.5 and glows with E = 1: L = (1 / pi) / (1 - 0.5), by whatever lobe half of the light is reflected.
+  Material wall = metal(Rgb(0.5), 0.3);
+  wall.emission = Rgb(1.0 / pi);
+  const double reflectance = diffuse_reflectance(wall).g;
+  Scene scene;
+  std::array<Material, 6> walls;
+  walls.fill(wall);
+  add_room(scene, Point3(0.0), Point3(1.0), walls);
+  RenderSettings settings = one_pixel(4);
+  settings.width = settings.height = 8;
+  const Image image =
+      picture(lit_up(scene, coarse()), look_at({0.4, 0.5, 0.9}, {0.6, 0.4, 0.0}, 1.0), settings);
+  // Towards some directions it reflects a little more than in the mean.
+  for (const auto& pixel : image.pixels)
+    EXPECT_NEAR(pixel.g, 1.0 / pi / (1.0 - reflectance), 0.01);
+}
+
+TEST(Lobes, ACoatedFloorShowsTheLampByFresnelAndKeepsTheRest) {
+  // The lamp covers all that the smooth coat reflects; below it the floor has (1 - e) rho.
+  Material floor = plastic(0.6, 0.0);
+  Scene scene = plate(floor, 1.0);
+  add_polygon(scene, "lamp", {{-9, 4, -9}, {9, 4, -9}, {9, 4, 9}, {-9, 4, 9}}, diffuse(0.0, pi));
+  const double cosine = glm::normalize(eye).y;
+  const double fresnel = 0.04 + 0.96 * std::pow(1.0 - cosine, 5.0);
+  // From the centre of the floor the lamp fills all but its far edges: F = 0.9 or so, which pass one finds.
+  const Taken lit = lit_up(scene, coarse());
+  RenderSettings without = one_pixel(16);
+  without.mode = RenderMode::radiosity;
+  const Camera camera = look_at(eye, Point3(0.0), 1e-4);
+  const double even = picture(lit, camera, without).pixels[0].g / diffuse_reflectance(floor).g;
+  const double exact = fresnel * 1.0 + 0.6 * (1.0 - fresnel) * even;
+  EXPECT_NEAR(picture(lit, camera, one_pixel(16)).pixels[0].g, exact, 1e-4);
+}
+
+TEST(Lobes, AMetalJustTooRoughIsNearlyTheMirror) {
+  const auto room = [](double roughness) {
+    Scene scene = plate(metal(Rgb(0.9), roughness));
+    add_polygon(scene, "wall", {{-4, 0, -2}, {4, 0, -2}, {4, 4, -2}, {-4, 4, -2}},
+                diffuse(0.0, pi));
+    return scene;
+  };
+  const auto mirrored = seen(room(0.0), one_pixel(16));
+  EXPECT_EQ(mirrored, seen(room(ideal_mirror_roughness), one_pixel(16)));
+  EXPECT_NEAR(seen(room(0.0101), one_pixel(16)).g, mirrored.g, 1e-3);
+}
+
+} // namespace
+} // namespace meninas::test
