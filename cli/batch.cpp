@@ -126,7 +126,7 @@ void run(BatchOptions& options) {
   if (options.task == BatchTask::run) {
     preload_image_io();
   }
-  auto pictures = plan_batch(request.jobs_file, jobs);
+  auto pictures = plan_batch(request.jobs_file, jobs, request.gltf);
   if (options.task == BatchTask::outlook) {
     print(batch_outlook(request, pictures));
     return;
@@ -161,6 +161,7 @@ void add_options(CLI::App& command, BatchOptions& options) {
       [&](const std::string& text) { request.shard = parse_shard("--shard", text); });
   add("--memory-limit", "SIZE", "what the process may need, such as 4G [all the machine has]",
       [&](const std::string& text) { request.memory_limit = parse_bytes("--memory-limit", text); });
+  add_allow_external(command, request.gltf);
   add("--cache", "DIR", "where solutions are kept [.meninas/solutions in the output folder]",
       [&](const std::string& text) { request.cache = text; });
   add_file(command, "--junit", request.junit, "write the results as JUnit XML");

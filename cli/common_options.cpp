@@ -90,6 +90,20 @@ void add_scene(CLI::App& command, CommonOptions& options) {
   command.add_option("SCENE", options.scene, "glTF 2.0 scene, .gltf or .glb")
       ->type_name("")
       ->required();
+  GltfSettings& gltf = options.settings.gltf;
+  add_allow_external(command, gltf);
+  add_text(command, "--memory-limit", "SIZE",
+           fmt::format("what the scene's geometry and textures may take, such as 800M [{}G]",
+                       gltf.memory_limit >> 30),
+           [&](const std::string& text) {
+             gltf.memory_limit = parse_bytes("--memory-limit", text);
+           });
+}
+
+void add_allow_external(CLI::App& command, GltfSettings& settings) {
+  command.add_flag_callback(
+      "--allow-external", [&] { settings.external_files = ExternalFiles::anywhere; },
+      "follow names of buffers and textures out of the scene's folder [refused]");
 }
 
 void add_quality(CLI::App& command, CommonOptions& options) {

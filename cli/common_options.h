@@ -26,6 +26,8 @@ struct CommonOptions {
 };
 
 void add_scene(CLI::App& command, CommonOptions& options);
+/// What add_scene adds, for commands that get their scenes otherwise.
+void add_allow_external(CLI::App& command, GltfSettings& settings);
 void add_quality(CLI::App& command, CommonOptions& options);
 
 /// How finely the scene is divided, and how far mirrors are followed: what a plan depends on too.

@@ -62,6 +62,7 @@ void run(const CLI::App& command, FormFactorsOptions& options) {
   FormFactorsRequest& request = options.request;
   check(command, request);
   request.scene = options.common.scene;
+  request.gltf = options.common.settings.gltf;
   request.threads = options.common.settings.threads;
   request.factors.seed = options.common.settings.seed;
   Console console(options.common.verbosity);

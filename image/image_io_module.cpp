@@ -93,6 +93,8 @@ const char* format_of(std::string_view bytes) {
   for (const auto& [signature, format] : signatures)
     if (bytes.starts_with(signature))
       return format;
+  if (bytes.starts_with("RIFF"sv) && bytes.substr(std::min<std::size_t>(8, bytes.size())).starts_with("WEBP"sv))
+    return "webp";
   return nullptr;
 }
 
@@ -134,7 +136,7 @@ void copy_header(const OIIO::ImageSpec& spec, DecodedStorage& storage) {
 void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) {
   const char* format = format_of(bytes);
   if (format == nullptr)
-    throw std::runtime_error("not a picture: neither EXR, PNG, JPEG nor HDR");
+    throw std::runtime_error("not a picture: neither EXR, PNG, JPEG, WebP nor HDR");
   auto input = OIIO::ImageInput::create(format);
   if (!input || !input->supports("ioproxy"))
     fail(OIIO::geterror(), std::string("cannot decode ") + format);

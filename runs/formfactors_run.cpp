@@ -165,7 +165,7 @@ std::string matrix(const Scene& scene, const SurfaceModel& surfaces,
 
 std::string formfactors_run(const FormFactorsRequest& request, const RunEvents& events) {
   const ThreadLimit limit(request.threads);
-  const Scene scene = load_gltf(request.scene);
+  const Scene scene = load_gltf(request.scene, request.gltf);
   for (const std::string& warning : scene.warnings) {
     warn(events, warning);
   }

@@ -3,6 +3,7 @@
 
 #include "radiosity/node_form_factors.h"
 #include "runs/run_events.h"
+#include "scenes/gltf.h"
 
 #include <filesystem>
 #include <string>
@@ -16,7 +17,8 @@ struct FormFactorsRequest {
   std::string from, to; ///< nodes; a matrix has all of them
   FormFactorsFormat format = FormFactorsFormat::text;
   NodeFactorSettings factors;
-  int threads = 0; ///< 0: all the machine has
+  GltfSettings gltf; ///< how the scene's file is read
+  int threads = 0;   ///< 0: all the machine has
 };
 
 std::string formfactors_run(const FormFactorsRequest& request, const RunEvents& events = {});

@@ -5,9 +5,12 @@
 #include "runs/preparation.h"
 #include "runs/resources.h"
 #include "runs/stats.h"
+#include "scenes/scene_report.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
+
+#include <map>
 
 namespace meninas {
 namespace {
@@ -54,6 +57,24 @@ std::vector<std::string> describe_worlds(const TransportPlan& plan) {
   return lines;
 }
 
+/// A sentence each; of every kind the first few.
+std::vector<std::string> describe_oddities(std::span<const Oddity> odd) {
+  constexpr std::size_t few = 6;
+  std::map<std::string, std::size_t> told;
+  std::vector<std::string> lines;
+  for (const Oddity& one : odd) {
+    if (++told[one.kind] <= few) {
+      lines.push_back(one.text);
+    }
+  }
+  for (const auto& [kind, count] : told) {
+    if (count > few) {
+      lines.push_back(fmt::format("{} more of {}: --json lists all", count - few, kind));
+    }
+  }
+  return lines;
+}
+
 std::string describe_cost(const ExpectedCost& cost, int threads) {
   return fmt::format(
       "a picture takes about {:.2g} s with {} threads ({:.2g} s of it pass one) and {}", cost.total,
@@ -61,7 +82,8 @@ std::string describe_cost(const ExpectedCost& cost, int threads) {
 }
 
 std::string plan_text(const std::string& file, const TransportPlan& plan, std::size_t patches,
-                      std::size_t elements, const ExpectedCost& expected, int threads) {
+                      std::size_t elements, const ExpectedCost& expected, int threads,
+                      std::span<const Oddity> odd) {
   std::string text = fact("scene", file);
   text += list("mirrors", describe_mirrors(plan));
   text += list("mirror worlds", describe_worlds(plan));
@@ -76,6 +98,7 @@ std::string plan_text(const std::string& file, const TransportPlan& plan, std::s
   text += list("stages", plan.stages);
   text += list("ignored", plan.ignored);
   text += list("warnings", plan.warnings);
+  text += list("odd", describe_oddities(odd));
   return text;
 }
 
@@ -94,9 +117,11 @@ std::string plan_run(const PlanRequest& request) {
   const TransportPlan& plan = prepared->plan;
   const std::size_t elements = element_count(prepared->mesh);
   const std::size_t patches = prepared->surfaces.patches.size();
+  const auto odd = report_scene(prepared->scene, prepared->surfaces, *prepared->rays);
   return request.format == PlanFormat::json
-             ? plan_json(plan, patches, elements, expected)
-             : plan_text(prepared->scene.file, plan, patches, elements, expected, limit.threads());
+             ? plan_json(plan, patches, elements, expected, odd)
+             : plan_text(prepared->scene.file, plan, patches, elements, expected, limit.threads(),
+                         odd);
 }
 
 } // namespace meninas

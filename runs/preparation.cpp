@@ -15,7 +15,7 @@ Scene under_background(Scene scene, const RunSettings& settings) {
 }
 
 Scene load_scene(const std::filesystem::path& file, const RunSettings& settings) {
-  return under_background(load_gltf(file), settings);
+  return under_background(load_gltf(file, settings.gltf), settings);
 }
 
 std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,

@@ -6,6 +6,10 @@
 #include "scenes/errors.h"
 #include "scenes/stopwatch.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace meninas {
 namespace {
 
@@ -65,6 +69,15 @@ void check_field(const std::filesystem::path& solution, const DiffuseField& fiel
     throw InputError(solution.string(), "",
                      "does not know its light without that of emitters, which --diffuse direct "
                      "builds on: solve again with --interpolation gather");
+  }
+}
+
+/// Nobody should have to guess why there is nothing to see.
+void warn_of_darkness(const Image& image, const Camera& camera, const RunEvents& events) {
+  if (std::ranges::all_of(image.pixels, [](const glm::vec3& p) { return p == glm::vec3(0.0F); })) {
+    warn(events, fmt::format("the picture is black: no light reaches what camera '{}' sees; `meninas "
+                             "plan` says what is odd about the scene",
+                             camera.name));
   }
 }
 
@@ -129,6 +142,7 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   };
   const ViewPicture picture = render_picture();
 
+  warn_of_darkness(picture.image, camera, events);
   watch.lap();
   write_pictures(request.pictures, picture.image, picture.layers, request.picture,
                  picture.attributes, events);

@@ -4,6 +4,7 @@
 #include "raytrace/debug_view.h"
 #include "raytrace/two_pass.h"
 #include "reference/reference_picture.h"
+#include "scenes/gltf.h"
 
 #include <optional>
 #include <string>
@@ -46,6 +47,7 @@ enum class PictureMode {
 };
 
 struct RunSettings {
+  GltfSettings gltf; ///< how the scene's file is read
   Quality quality = Quality::normal;
   std::optional<double> element_size; ///< metres
   WithAdaptivity adaptive = WithAdaptivity::no;

@@ -246,7 +246,15 @@ std::string per_node_json(const std::vector<NodeLight>& nodes) {
 }
 
 std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_t elements,
-                      const ExpectedCost& expected) {
+                      const ExpectedCost& expected, std::span<const Oddity> odd) {
+  Json oddities = Json::array();
+  for (const Oddity& one : odd) {
+    oddities.push_back({{"kind", one.kind},
+                        {"node", one.node},
+                        {"other", one.other},
+                        {"count", one.count},
+                        {"text", one.text}});
+  }
   Json mirrors = Json::array();
   for (const PlannedMirror& mirror : plan.mirror_list) {
     mirrors.push_back({{"name", mirror.name},
@@ -268,7 +276,8 @@ std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_
                   {"expected", expected_json(expected)},
                   {"stages", plan.stages},
                   {"ignored", plan.ignored},
-                  {"warnings", plan.warnings}};
+                  {"warnings", plan.warnings},
+                  {"odd", std::move(oddities)}};
   return text_of(json);
 }
 

@@ -5,10 +5,12 @@
 #include "raytrace/picture_error.h"
 #include "raytrace/two_pass.h"
 #include "reference/reference_picture.h"
+#include "scenes/scene_report.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -90,7 +92,7 @@ const char* stop_name(reference::StoppedBy limit);
 std::string stats_json(const RunFigures& figures);
 std::string per_node_json(const std::vector<NodeLight>& nodes);
 std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_t elements,
-                      const ExpectedCost& expected);
+                      const ExpectedCost& expected, std::span<const Oddity> odd);
 
 /// Writes the text whole or not at all.
 void write_text_file(const std::filesystem::path& file, const std::string& text);

@@ -11,9 +11,17 @@ namespace meninas {
 using namespace gltf;
 
 static constexpr std::string_view extensions_read[] = {
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_unlit",
-    "KHR_mesh_quantization",  "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
 };
 
 static bool is_read(const std::string& extension) {
@@ -34,15 +42,38 @@ static void collect_extensions(const Json& json, std::set<std::string>& names) {
   }
 }
 
+/// What a file loses without it: the look of its materials, no more. Then a picture is better than none, though the file
+/// calls it required.
+static bool is_of_looks_only(const std::string& extension) {
+  constexpr std::string_view prefixes[] = {"KHR_materials_", "EXT_materials_", "MSFT_materials_",
+                                           "KHR_texture_",   "EXT_texture_",   "MSFT_texture_",
+                                           "KHR_xmp",        "KHR_animation_"};
+  return std::ranges::any_of(prefixes,
+                             [&](std::string_view prefix) { return extension.starts_with(prefix); });
+}
+
+static void check_required(const Document& document, Findings& findings) {
+  const auto* needed = find(document.root, "extensionsRequired");
+  if (!needed)
+    return;
+  for (const auto& json : *needed) {
+    const auto name = one_line(json.get<std::string>());
+    if (is_read(name))
+      continue;
+    if (is_of_looks_only(name)) {
+      findings.about("extensions that the file calls required are left out", name);
+      continue;
+    }
+    const bool is_compression = name.find("compression") != std::string::npos;
+    throw InputError(document.file, "extensionsRequired",
+                     fmt::format("the file needs {}, which is not read{}", name,
+                                 is_compression ? ": save it without mesh compression" : ""));
+  }
+}
+
 static void check_extensions(const Document& document, Scene& scene, Findings& findings) {
   std::set<std::string> names;
-  if (const auto* needed = find(document.root, "extensionsRequired")) {
-    for (const auto& name : *needed)
-      if (!is_read(name.get<std::string>()))
-        throw InputError(
-            document.file, "extensionsRequired",
-            fmt::format("the file needs {}, which is not read", one_line(name.get<std::string>())));
-  }
+  check_required(document, findings);
   if (const auto* used = find(document.root, "extensionsUsed"))
     for (const auto& name : *used)
       names.insert(name.get<std::string>());
@@ -64,12 +95,18 @@ static void report_animations(const Document& document, Scene& scene, Findings& 
   }
   if (count > 0)
     scene.ignored.push_back("animations");
-  if (count_of(document.root, "skins") > 0)
-    scene.ignored.push_back("skins");
 }
 
 Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings) {
-  const auto document = read_document(file, settings);
+  auto content = read_whole_file(file, settings.memory_limit);
+  if (!content.problem.empty())
+    throw InputError(file.string(), "", content.problem);
+  return read_gltf(std::move(content.bytes), file, settings);
+}
+
+Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& file,
+                const GltfSettings& settings) {
+  const auto document = read_document(std::move(bytes), file, settings);
   Scene scene;
   scene.file = document.file;
   Findings findings;

@@ -28,4 +28,8 @@ struct GltfSettings {
 
 Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings = {});
 
+/// The same of bytes in memory, as if they stood in that file: what they name is looked for beside it.
+Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& file,
+                const GltfSettings& settings = {});
+
 } // namespace meninas

@@ -81,6 +81,8 @@ std::size_t width_of(const std::string& type) {
     return 3;
   if (type == "VEC4")
     return 4;
+  if (type == "MAT4")
+    return 16;
   return 0;
 }
 
@@ -196,6 +198,16 @@ private:
 
 } // namespace
 
+/// Buffers that only a decoder of compressed data could fill are empty on purpose.
+static std::string why_empty(const Json& view, std::size_t buffer) {
+  for (const std::string_view extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+    if (find(view, {"extensions", extension}))
+      return fmt::format("its data is only there in {}, which is not decoded: save the file without "
+                         "mesh compression",
+                         extension);
+  return fmt::format("buffers[{}] has no data", buffer);
+}
+
 std::span<const unsigned char> view_bytes(const Document& document, std::size_t view) {
   const auto& json = element(document.root, "bufferViews", view);
   const auto buffer = *index_at(json, "buffer");
@@ -203,7 +215,7 @@ std::span<const unsigned char> view_bytes(const Document& document, std::size_t 
   const auto where = place(document.root, "bufferViews", view);
   const auto announced = size_or(element(document.root, "buffers", buffer), "byteLength", 0);
   if (bytes.empty() && announced > 0)
-    throw InputError(document.file, where, fmt::format("buffers[{}] has no data", buffer));
+    throw InputError(document.file, where, why_empty(json, buffer));
   const auto offset = size_or(json, "byteOffset", 0);
   const auto length = size_or(json, "byteLength", 0);
   if (offset > bytes.size() || length > bytes.size() - offset)
@@ -221,8 +233,9 @@ std::uint64_t accessor_count(const Document& document, std::size_t accessor) {
 Vectors decode_vectors(const Document& document, std::size_t accessor, std::size_t width) {
   const Reader reader(document, accessor);
   if (reader.width() != width)
-    reader.fail(
-        fmt::format("type must be VEC{} for this use, it is '{}'", width, one_line(reader.type())));
+    reader.fail(fmt::format("type must be {} for this use, it is '{}'",
+                            width == 16 ? "MAT4" : fmt::format("VEC{}", width),
+                            one_line(reader.type())));
   const auto component = reader.component();
   if (component == Component::u32)
     reader.fail("componentType 5125 is only for indices");

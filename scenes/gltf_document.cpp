@@ -8,16 +8,14 @@ namespace meninas::gltf {
 
 static constexpr std::size_t names_per_line = 8;
 
-Document read_document(const std::filesystem::path& file, const GltfSettings& settings) {
+Document read_document(Bytes bytes, const std::filesystem::path& file,
+                       const GltfSettings& settings) {
   Document document;
   document.file = file.string();
   document.folder = file.parent_path().empty() ? "." : file.parent_path();
   document.settings = settings;
 
-  auto bytes = read_whole_file(file, settings.memory_limit);
-  if (!bytes.problem.empty())
-    throw InputError(document.file, "", bytes.problem);
-  auto container = parse_container(document.file, std::move(bytes.bytes));
+  auto container = parse_container(document.file, std::move(bytes));
   check_structure(document.file, container.root);
 
   document.root = std::move(container.root);

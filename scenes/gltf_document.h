@@ -43,8 +43,9 @@ Container parse_container(const std::string& file, Bytes bytes);
 /// Throws InputError unless every property the loader reads has its type, and every index points into its array.
 void check_structure(const std::string& file, const Json& root);
 
-/// Reads, splits and checks a file and loads its buffers.
-Document read_document(const std::filesystem::path& file, const GltfSettings& settings);
+/// Splits and checks the bytes of a file and loads its buffers.
+Document read_document(Bytes bytes, const std::filesystem::path& file,
+                       const GltfSettings& settings);
 
 /// Bytes of a file, data URI or buffer view, or why there are none.
 struct Resource {

@@ -1,11 +1,14 @@
 // Triangles of every mesh node, in world space.
 #include "scenes/gltf_accessors.h"
+#include "scenes/gltf_deformation.h"
+#include "scenes/gltf_instances.h"
 #include "scenes/gltf_stages.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace meninas::gltf {
 
@@ -30,6 +33,7 @@ struct PrimitivePlace {
   const Json& json;
   std::string where; ///< meshes[0] 'Wall', primitive 2
   std::string node;
+  std::vector<double> morph_weights;
 
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(document.file, where, what);
@@ -48,13 +52,15 @@ static Mode mode_of(const PrimitivePlace& at) {
   return static_cast<Mode>(mode);
 }
 
-static std::size_t position_accessor(const PrimitivePlace& at) {
+/// None for a primitive that nothing can be seen of: glTF 2.0, 3.7.2.1 lets positions be absent.
+static std::optional<std::size_t> position_accessor(const PrimitivePlace& at) {
   const auto accessor = index_at(at.json["attributes"], "POSITION");
   if (!accessor)
-    at.fail("no POSITION attribute");
+    return std::nullopt;
   const auto& json = element(at.document.root, "accessors", *accessor);
   if (!json.contains("bufferView") && find(at.json, {"extensions", "KHR_draco_mesh_compression"}))
-    at.fail("its data is only there in KHR_draco_mesh_compression, which is not decoded");
+    at.fail("its data is only there in KHR_draco_mesh_compression, which is not decoded: save the "
+            "file without mesh compression");
   return *accessor;
 }
 
@@ -159,29 +165,25 @@ static std::vector<Corners> triangulate(Mode mode, std::span<const std::uint32_t
   return triangles;
 }
 
-static void report_left_out(const PrimitivePlace& at, Scene& scene, Findings& findings) {
-  const auto leave_out = [&](const std::string& feature) {
-    findings.about(feature + " are left out in nodes", at.node);
-    if (std::ranges::find(scene.ignored, feature) == scene.ignored.end())
-      scene.ignored.push_back(feature);
-  };
-  if (const auto* targets = find(at.json, "targets"); targets && !targets->empty())
-    leave_out("morph targets");
-}
-
-static std::optional<Part> decode_primitive(const PrimitivePlace& at, Scene& scene,
-                                            Findings& findings) {
+static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& findings) {
   const auto mode = mode_of(at);
   if (mode < Mode::triangles) {
     findings.about("points and lines are left out in nodes", at.node);
     return std::nullopt;
   }
   const auto accessor = position_accessor(at);
-  check_attribute_counts(at, accessor);
-  report_left_out(at, scene, findings);
+  if (!accessor) {
+    findings.about("primitives without positions are left out in nodes", at.node);
+    return std::nullopt;
+  }
+  check_attribute_counts(at, *accessor);
 
   Part part;
-  part.positions = decode_positions(at, accessor);
+  part.positions = decode_positions(at, *accessor);
+  if (const auto* targets = find(at.json, "targets"); targets && !targets->empty()) {
+    findings.about("morph targets stand still, by their default weights, in nodes", at.node);
+    apply_morph_targets(at.document, at.where, at.json, at.morph_weights, part.positions);
+  }
   part.texcoords = decode_texcoords(at, part.positions.size(), findings);
   part.colors = decode_colors(at, findings);
   const auto corners = decode_corners(at, part.positions.size());
@@ -277,11 +279,22 @@ template <typename Visit>
 static void each_primitive(const Document& document, const PlacedNode& node, std::size_t mesh,
                            Visit visit) {
   const auto& primitives = element(document.root, "meshes", mesh)["primitives"];
-  const auto name = name_of(element(document.root, "nodes", node.index));
+  const auto& json = element(document.root, "nodes", node.index);
+  const auto name = name_of(json);
+  auto weights = numbers_at(json, "weights");
+  if (weights.empty())
+    weights = numbers_at(element(document.root, "meshes", mesh), "weights");
   for (std::size_t k = 0; k < primitives.size(); ++k)
     visit(PrimitivePlace{document, primitives[k],
                          fmt::format("{}, primitive {}", place(document.root, "meshes", mesh), k),
-                         name.empty() ? fmt::format("node{}", node.index) : name});
+                         name.empty() ? fmt::format("node{}", node.index) : name, weights});
+}
+
+/// Bytes a vertex takes while its targets and joints are decoded.
+static double deformation_bytes(const PrimitivePlace& at, bool is_skinned) {
+  const auto* targets = find(at.json, "targets");
+  return sizeof(double) * (3.0 * static_cast<double>(targets ? targets->size() : 0) +
+                           (is_skinned ? 8.0 : 0.0));
 }
 
 /// Instances multiply, so a small file can ask for any amount of memory; it is counted before anything is decoded.
@@ -293,20 +306,31 @@ static void check_memory(const Document& document, std::span<const PlacedNode> n
   constexpr double per_triangle = sizeof(Triangle) + sizeof(Corners);
   double bytes = 0.0;
   double vertices = 0.0;
+  std::set<std::size_t> skins;
   for (const auto& node : nodes) {
-    const auto mesh = index_at(element(document.root, "nodes", node.index), "mesh");
+    const auto& json = element(document.root, "nodes", node.index);
+    const auto mesh = index_at(json, "mesh");
     if (!mesh)
       continue;
+    const auto skin = index_at(json, "skin");
+    if (skin && skins.insert(*skin).second)
+      bytes += sizeof(glm::dmat4) *
+               static_cast<double>(element(document.root, "skins", *skin)["joints"].size());
+    const auto copies = static_cast<double>(instance_count(document, node.index));
+    bytes += sizeof(glm::dmat4) * copies;
     each_primitive(document, node, *mesh, [&](const PrimitivePlace& at) {
       const auto mode = mode_of(at);
-      if (mode < Mode::triangles)
+      const auto accessor = mode < Mode::triangles ? std::nullopt : position_accessor(at);
+      if (!accessor)
         return;
-      const auto count = accessor_count(document, position_accessor(at));
+      const auto count = accessor_count(document, *accessor);
       const auto indices = index_at(at.json, "indices");
       const auto corners = indices ? accessor_count(document, *indices) : count;
-      vertices += static_cast<double>(count);
-      bytes += per_vertex * static_cast<double>(count) + per_corner * static_cast<double>(corners) +
-               per_triangle * static_cast<double>(triangles_in(mode, corners));
+      vertices += copies * static_cast<double>(count);
+      bytes += (copies * per_vertex + deformation_bytes(at, skin.has_value())) *
+                   static_cast<double>(count) +
+               per_corner * static_cast<double>(corners) +
+               copies * per_triangle * static_cast<double>(triangles_in(mode, corners));
     });
   }
   const auto limit = static_cast<double>(document.settings.memory_limit);
@@ -316,9 +340,24 @@ static void check_memory(const Document& document, std::span<const PlacedNode> n
                                  bytes / (1 << 20), limit / (1 << 20)));
 }
 
+/// A primitive where its node puts it: moved by the joints, or by the matrix of each instance.
+static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& node, NodeId id,
+                       Skins& skins, Scene& scene, Findings& findings) {
+  if (const auto skin = index_at(element(at.document.root, "nodes", node.index), "skin")) {
+    if (apply_skin(at.document, at.where, at.json, skins.joints(*skin), part.positions)) {
+      findings.about("skins stand still, as the joints are in the file, in nodes", at.node);
+      return add_part(at, part, glm::dmat4(1.0), id, scene, findings);
+    }
+    findings.about("skins without joints in the scene are left out in nodes", at.node);
+  }
+  for (const auto& world : instance_matrices(at.document, node))
+    add_part(at, part, world, id, scene, findings);
+}
+
 void read_geometry(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
                    Findings& findings) {
   check_memory(document, nodes);
+  Skins skins(document, nodes);
   std::vector<std::string> names;
   for (const auto& node : nodes) {
     const auto& json = element(document.root, "nodes", node.index);
@@ -328,11 +367,9 @@ void read_geometry(const Document& document, std::span<const PlacedNode> nodes, 
     const auto id = static_cast<NodeId>(names.size());
     const auto name = name_of(json);
     names.push_back(name.empty() ? fmt::format("node{}", node.index) : name);
-    if (json.contains("skin"))
-      findings.about("skins are left out, the rest pose is shown, in nodes", names.back());
     each_primitive(document, node, *mesh, [&](const PrimitivePlace& at) {
-      if (const auto part = decode_primitive(at, scene, findings))
-        add_part(at, *part, node.world, id, scene, findings);
+      if (auto part = decode_primitive(at, findings))
+        place_part(at, std::move(*part), node, id, skins, scene, findings);
     });
   }
   for (auto& name : unique_names(names))

@@ -113,7 +113,11 @@ static Material read_material(const Document& document, std::size_t index, Findi
   material.name = name_of_material(document, index);
   material.double_sided = json.value("doubleSided", false);
   read_alpha(json, material, findings);
-  read_metallic_roughness(document, json, material, findings);
+  const auto* glossy = find(json, {"extensions", "KHR_materials_pbrSpecularGlossiness"});
+  if (glossy && !json.contains("pbrMetallicRoughness"))
+    read_specular_glossiness(document, *glossy, material, findings);
+  else
+    read_metallic_roughness(document, json, material, findings);
   read_emission(document, index, json, material, findings);
   read_coat(json, material, findings);
   if (material.alpha_mode == AlphaMode::blend &&

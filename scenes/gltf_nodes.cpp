@@ -123,29 +123,61 @@ static std::optional<std::size_t> chosen_scene(const Document& document) {
                               : fmt::format("the file has {}", name_list(names, count)));
 }
 
+/// The root above every node, by walks upwards that end where an earlier one has been.
+static std::vector<std::size_t> roots_of(std::span<const std::size_t> parents) {
+  const auto none = parents.size();
+  std::vector<std::size_t> roots(none, none);
+  std::vector<std::size_t> walk;
+  for (std::size_t start = 0; start < none; ++start) {
+    auto at = start;
+    for (walk.clear(); roots[at] == none && parents[at] != none; at = parents[at])
+      walk.push_back(at);
+    const auto root = roots[at] == none ? at : roots[at];
+    roots[at] = root;
+    for (const auto node : walk)
+      roots[node] = root;
+  }
+  return roots;
+}
+
+/// Where the walk through the chosen scene begins. A scene lists roots alone; exporters also list nodes below them, which stay
+/// where their parents put them and are shown once.
 static std::vector<std::size_t> root_nodes(const Document& document,
-                                           std::span<const std::size_t> parents) {
+                                           std::span<const std::size_t> parents,
+                                           Findings& findings) {
+  const auto none = parents.size();
   std::vector<std::size_t> roots;
   const auto scene = chosen_scene(document);
   if (!scene) {
-    for (std::size_t node = 0; node < parents.size(); ++node)
-      if (parents[node] == parents.size())
+    for (std::size_t node = 0; node < none; ++node)
+      if (parents[node] == none)
         roots.push_back(node);
     return roots;
   }
-  std::set<std::size_t> seen;
-  if (const auto* list = find(element(document.root, "scenes", *scene), "nodes")) {
-    for (const auto& value : *list) {
-      const auto node = size_value(value);
-      const auto where = place(document.root, "scenes", *scene);
-      if (parents[node] != parents.size())
-        throw InputError(document.file, where,
-                         fmt::format("nodes[{}] is not a root, it is a child of nodes[{}]", node,
-                                     parents[node]));
-      if (!seen.insert(node).second)
-        throw InputError(document.file, where, fmt::format("nodes[{}] is listed twice", node));
+  const auto* list = find(element(document.root, "scenes", *scene), "nodes");
+  if (!list)
+    return roots;
+  std::vector<bool> listed(none, false);
+  for (const auto& value : *list) {
+    const auto node = size_value(value);
+    if (listed[node])
+      findings.about("the scene lists nodes twice, which are shown once",
+                     place(document.root, "nodes", node));
+    else if (parents[node] == none)
       roots.push_back(node);
-    }
+    listed[node] = true;
+  }
+  const auto root_of = roots_of(parents);
+  for (const auto& value : *list) {
+    const auto node = size_value(value);
+    if (parents[node] == none)
+      continue;
+    if (!listed[root_of[node]])
+      throw InputError(document.file, place(document.root, "scenes", *scene),
+                       fmt::format("nodes[{}] is not a root, it is a child of nodes[{}]", node,
+                                   parents[node]));
+    findings.about("the scene lists nodes that are also children of others, which are shown once",
+                   place(document.root, "nodes", node));
   }
   return roots;
 }
@@ -158,7 +190,7 @@ std::vector<PlacedNode> place_nodes(const Document& document, Findings& findings
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
       open.push_back({*node, world});
   };
-  push(root_nodes(document, parents), glm::dmat4(1.0));
+  push(root_nodes(document, parents, findings), glm::dmat4(1.0));
   while (!open.empty()) {
     auto node = open.back();
     open.pop_back();

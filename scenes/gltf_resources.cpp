@@ -112,6 +112,19 @@ static bool is_inside(const fs::path& path, const fs::path& folder) {
   return std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first == root.end();
 }
 
+/// Exporters also write names with bare percent signs, and backslashes; the spelling that is there is meant.
+static fs::path existing_spelling(const fs::path& folder, const std::string& uri,
+                                  const std::string& decoded) {
+  auto slashes = decoded;
+  std::ranges::replace(slashes, '\\', '/');
+  for (const auto& spelling : {decoded, slashes, uri}) {
+    std::error_code error;
+    if (fs::exists(folder / spelling, error))
+      return spelling;
+  }
+  return decoded;
+}
+
 Resource read_uri(const std::string& uri, const fs::path& folder, const GltfSettings& settings) {
   if (uri.starts_with("data:"))
     return decode_data_uri(uri);
@@ -122,7 +135,7 @@ Resource read_uri(const std::string& uri, const fs::path& folder, const GltfSett
   if (!path || path->empty())
     return {{}, fmt::format("'{}' is not a file name", shown)};
 
-  const auto target = folder / fs::path(*path);
+  const auto target = folder / existing_spelling(folder, uri, *path);
   if (settings.external_files == ExternalFiles::inside_folder && !is_inside(target, folder))
     return {{}, fmt::format("'{}' is outside the folder of the glTF file", shown)};
   auto resource = read_whole_file(target, settings.memory_limit);

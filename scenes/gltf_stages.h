@@ -27,6 +27,10 @@ void read_geometry(const Document& document, std::span<const PlacedNode> nodes, 
 /// Replaces the file's material indices by the materials that triangles use, and adds these and their textures.
 void read_materials(const Document& document, Scene& scene, Findings& findings);
 
+/// Base colour, metallic, roughness and alpha from KHR_materials_pbrSpecularGlossiness.
+void read_specular_glossiness(const Document& document, const Json& model, Material& material,
+                              Findings& findings);
+
 /// `use.texture` is the file's texture; null when there is no image to be had, which is then in the findings.
 std::optional<TextureUse> read_texture_use(const Document& document, const Json& owner,
                                            std::string_view key, const std::string& material,

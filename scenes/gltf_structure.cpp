@@ -1,39 +1,12 @@
 // The table of what the loader reads from a glTF file: which properties, of which type, pointing where.
-#include "scenes/gltf_document.h"
-
-#include <fmt/format.h>
-
-#include <cmath>
+#include "scenes/gltf_rules.h"
 
 namespace meninas::gltf {
 
-namespace {
-
-enum class Kind {
-  size,
-  index,
-  indices,
-  attributes,
-  number,
-  numbers,
-  text,
-  texts,
-  boolean,
-  object,
-  objects
-};
-enum class Presence { optional, required };
 using enum Kind;
 using enum Presence;
 
-struct Rule {
-  std::string_view name;
-  Kind kind;
-  Presence presence = optional;
-  std::string_view target = {};      ///< the array that indices point into
-  std::size_t length = 0;            ///< of an array of numbers
-  std::span<const Rule> fields = {}; ///< of an object, or of each object of an array
-};
+namespace {
 
 constexpr Rule name_rule{.name = "name", .kind = text};
 
@@ -65,7 +38,14 @@ constexpr Rule specular[] = {
     {.name = "specularColorFactor", .kind = numbers, .length = 3},
 };
 constexpr Rule transmission[] = {{.name = "transmissionFactor", .kind = number}};
+constexpr Rule specular_glossiness[] = {
+    {.name = "diffuseFactor", .kind = numbers, .length = 4},
+    {.name = "specularFactor", .kind = numbers, .length = 3},
+    {.name = "glossinessFactor", .kind = number},
+    {.name = "diffuseTexture", .kind = object, .fields = texture_use},
+};
 constexpr Rule material_extensions[] = {
+    {.name = "KHR_materials_pbrSpecularGlossiness", .kind = object, .fields = specular_glossiness},
     {.name = "KHR_materials_emissive_strength", .kind = object, .fields = emissive_strength},
     {.name = "KHR_materials_ior", .kind = object, .fields = ior},
     {.name = "KHR_materials_specular", .kind = object, .fields = specular},
@@ -92,6 +72,7 @@ constexpr Rule buffer_view[] = {
     {.name = "byteOffset", .kind = size},
     {.name = "byteLength", .kind = size, .presence = required},
     {.name = "byteStride", .kind = size},
+    {.name = "extensions", .kind = object},
 };
 constexpr Rule sparse_indices[] = {
     {.name = "bufferView", .kind = index, .presence = required, .target = "bufferViews"},
@@ -123,10 +104,14 @@ constexpr Rule image[] = {
     {.name = "bufferView", .kind = index, .target = "bufferViews"},
 };
 constexpr Rule sampler[] = {{.name = "wrapS", .kind = size}, {.name = "wrapT", .kind = size}};
+constexpr Rule texture_source[] = {{.name = "source", .kind = index, .target = "images"}};
+constexpr Rule texture_formats[] = {
+    {.name = "EXT_texture_webp", .kind = object, .fields = texture_source}};
 constexpr Rule texture[] = {
     name_rule,
     {.name = "sampler", .kind = index, .target = "samplers"},
     {.name = "source", .kind = index, .target = "images"},
+    {.name = "extensions", .kind = object, .fields = texture_formats},
 };
 
 constexpr Rule primitive[] = {
@@ -134,18 +119,28 @@ constexpr Rule primitive[] = {
     {.name = "indices", .kind = index, .target = "accessors"},
     {.name = "material", .kind = index, .target = "materials"},
     {.name = "mode", .kind = size},
-    {.name = "targets", .kind = objects},
+    {.name = "targets", .kind = attribute_sets, .target = "accessors"},
     {.name = "extensions", .kind = object},
 };
 constexpr Rule mesh[] = {
     name_rule,
     {.name = "primitives", .kind = objects, .presence = required, .fields = primitive},
+    {.name = "weights", .kind = numbers},
+};
+constexpr Rule skin[] = {
+    name_rule,
+    {.name = "joints", .kind = indices, .presence = required, .target = "nodes"},
+    {.name = "inverseBindMatrices", .kind = index, .target = "accessors"},
 };
 
 constexpr Rule node_light[] = {
     {.name = "light", .kind = index, .presence = required, .target = "lights"}};
+constexpr Rule instancing[] = {
+    {.name = "attributes", .kind = attributes, .presence = required, .target = "accessors"}};
 constexpr Rule node_extensions[] = {
-    {.name = "KHR_lights_punctual", .kind = object, .fields = node_light}};
+    {.name = "KHR_lights_punctual", .kind = object, .fields = node_light},
+    {.name = "EXT_mesh_gpu_instancing", .kind = object, .fields = instancing},
+};
 constexpr Rule node[] = {
     name_rule,
     {.name = "children", .kind = indices, .target = "nodes"},
@@ -156,6 +151,7 @@ constexpr Rule node[] = {
     {.name = "translation", .kind = numbers, .length = 3},
     {.name = "rotation", .kind = numbers, .length = 4},
     {.name = "scale", .kind = numbers, .length = 3},
+    {.name = "weights", .kind = numbers},
     {.name = "extensions", .kind = object, .fields = node_extensions},
 };
 constexpr Rule scene[] = {name_rule, {.name = "nodes", .kind = indices, .target = "nodes"}};
@@ -192,7 +188,7 @@ constexpr Rule root_extensions[] = {
 
 constexpr Rule named[] = {name_rule};
 
-constexpr Rule root_rules[] = {
+constexpr Rule root[] = {
     {.name = "extensionsUsed", .kind = texts},
     {.name = "extensionsRequired", .kind = texts},
     {.name = "extensions", .kind = object, .fields = root_extensions},
@@ -205,146 +201,15 @@ constexpr Rule root_rules[] = {
     {.name = "materials", .kind = objects, .fields = material},
     {.name = "meshes", .kind = objects, .fields = mesh},
     {.name = "cameras", .kind = objects, .fields = camera},
-    {.name = "skins", .kind = objects, .fields = named},
+    {.name = "skins", .kind = objects, .fields = skin},
     {.name = "animations", .kind = objects, .fields = named},
     {.name = "nodes", .kind = objects, .fields = node},
     {.name = "scenes", .kind = objects, .fields = scene},
     {.name = "scene", .kind = index, .target = "scenes"},
 };
 
-/// Where the check stands: a chain from the value back to the root.
-struct Place {
-  const Place* parent = nullptr;
-  std::string_view key;
-  std::optional<std::size_t> element;
-  const Json* value = nullptr;
-};
-
-std::string path_of(const Place& place) {
-  auto path = place.parent ? path_of(*place.parent) : std::string();
-  if (!path.empty() && !place.key.empty())
-    path += ".";
-  path += place.key;
-  return place.element ? fmt::format("{}[{}]", path, *place.element) : path;
-}
-
-std::string where(const Place& place) {
-  // The name that helps is that of the outermost named object: the node, mesh or material.
-  std::string name;
-  for (const auto* at = &place; at; at = at->parent)
-    if (at->value && at->element && !name_of(*at->value).empty())
-      name = name_of(*at->value);
-  const auto path = path_of(place);
-  return name.empty() ? path : fmt::format("{} '{}'", path, name);
-}
-
-std::string what_it_is(const Json& value) {
-  if (value.is_number())
-    return value.dump();
-  return std::string(value.is_array() || value.is_object() ? "an "
-                     : value.is_null()                     ? ""
-                                                           : "a ") +
-         value.type_name();
-}
-
-bool is_size(const Json& value) {
-  if (value.is_number_unsigned())
-    return true;
-  if (!value.is_number_float())
-    return false;
-  const auto number = value.get<double>();
-  return number >= 0.0 && number <= 9007199254740992.0 && number == std::floor(number);
-}
-
-class StructureCheck {
-public:
-  StructureCheck(const std::string& file, const Json& root) : file_(file), root_(root) {}
-
-  void check_object(const Place& place, std::span<const Rule> rules) const {
-    for (const auto& rule : rules) {
-      const auto* value = find(*place.value, rule.name);
-      if (value)
-        check_value(place, rule, *value);
-      else if (rule.presence == required)
-        fail(place, fmt::format("has no '{}'", rule.name));
-    }
-  }
-
-private:
-  [[noreturn]] void fail(const Place& place, const std::string& what) const {
-    throw InputError(file_, where(place), what);
-  }
-
-  void require(bool condition, const Place& place, const Rule& rule, const Json& value,
-               const std::string& expected) const {
-    if (!condition)
-      fail(place, fmt::format("'{}' must be {}, it is {}", rule.name, expected, what_it_is(value)));
-  }
-
-  void check_index(const Place& place, std::string_view name, std::string_view target,
-                   const Json& value) const {
-    if (!is_size(value))
-      fail(place, fmt::format("'{}' must be an index, it is {}", name, what_it_is(value)));
-    const auto count = count_of(root_, target);
-    if (size_value(value) >= count)
-      fail(place,
-           fmt::format("'{}' is index {} of {}, there are {}", name, value.dump(), target, count));
-  }
-
-  void check_value(const Place& place, const Rule& rule, const Json& value) const {
-    switch (rule.kind) {
-    case size:
-      return require(is_size(value), place, rule, value, "a whole number of at least 0");
-    case index:
-      return check_index(place, rule.name, rule.target, value);
-    case number:
-      return require(value.is_number(), place, rule, value, "a number");
-    case text:
-      return require(value.is_string(), place, rule, value, "text");
-    case boolean:
-      return require(value.is_boolean(), place, rule, value, "true or false");
-    case object:
-      require(value.is_object(), place, rule, value, "an object");
-      return check_object({&place, rule.name, std::nullopt, &value}, rule.fields);
-    case attributes:
-      require(value.is_object(), place, rule, value, "an object");
-      for (const auto& [name, accessor_index] : value.items())
-        check_index(place, name, rule.target, accessor_index);
-      return;
-    default:
-      return check_array(place, rule, value);
-    }
-  }
-
-  void check_array(const Place& place, const Rule& rule, const Json& value) const {
-    require(value.is_array(), place, rule, value, "an array");
-    if (rule.kind == numbers && value.size() != rule.length)
-      fail(place, fmt::format("'{}' must have {} numbers, it has {}", rule.name, rule.length,
-                              value.size()));
-    for (std::size_t k = 0; k < value.size(); ++k) {
-      const auto& item = value[k];
-      const Rule item_rule{.name = rule.name, .kind = rule.kind};
-      if (rule.kind == numbers)
-        require(item.is_number(), place, item_rule, item, "an array of numbers");
-      if (rule.kind == texts)
-        require(item.is_string(), place, item_rule, item, "an array of text");
-      if (rule.kind == indices)
-        check_index(place, rule.name, rule.target, item);
-      if (rule.kind != objects)
-        continue;
-      require(item.is_object(), place, item_rule, item, "an array of objects");
-      check_object({&place, rule.name, k, &item}, rule.fields);
-    }
-  }
-
-  const std::string& file_;
-  const Json& root_;
-};
-
 } // namespace
 
-void check_structure(const std::string& file, const Json& root) {
-  StructureCheck(file, root).check_object({nullptr, "", std::nullopt, &root}, root_rules);
-}
+std::span<const Rule> root_rules() { return root; }
 
 } // namespace meninas::gltf

@@ -1,6 +1,7 @@
 // Textures: the encoded bytes of their images, kept once per image and sampler.
 #include "scenes/gltf_accessors.h"
 #include "scenes/gltf_stages.h"
+#include "scenes/image_size.h"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,14 @@ static constexpr std::uint64_t mirrored_repeat = 33648;
 static constexpr std::uint64_t repeat = 10497;
 static constexpr std::uint64_t nearest = 9728;
 static constexpr std::uint64_t linear = 9729;
+
+/// A PNG or JPEG before a WebP: where a file has both, that is what the other is made from.
+static std::optional<std::size_t> image_of(const Json& texture) {
+  if (const auto image = index_at(texture, "source"))
+    return image;
+  const auto* webp = find(texture, {"extensions", "EXT_texture_webp"});
+  return webp ? index_at(*webp, "source") : std::nullopt;
+}
 
 std::optional<TextureUse> read_texture_use(const Document& document, const Json& owner,
                                            std::string_view key, const std::string& material,
@@ -42,9 +51,15 @@ std::optional<TextureUse> read_texture_use(const Document& document, const Json&
     return std::nullopt;
   }
   use.texcoord_set = static_cast<int>(set);
-  if (!index_at(element(document.root, "textures", index), "source")) {
-    findings.about("textures without an image that can be read are left out in materials",
-                   material);
+  const auto& texture = element(document.root, "textures", index);
+  if (!image_of(texture)) {
+    const auto* formats = find(texture, "extensions");
+    const auto only_in = formats && !formats->empty()
+                             ? fmt::format(", there is only {},", one_line(formats->begin().key()))
+                             : "";
+    findings.about(
+        fmt::format("textures without an image that can be read{} are left out in materials", only_in),
+        material);
     return std::nullopt;
   }
   return use;
@@ -113,7 +128,7 @@ public:
       : document_(document), scene_(scene), findings_(findings) {}
 
   TextureId of(std::size_t texture) {
-    const auto image = *index_at(element(document_.root, "textures", texture), "source");
+    const auto image = *image_of(element(document_.root, "textures", texture));
     const Sampler sampler = sampler_of(document_.root, texture, findings_);
     const auto [found, is_new] = ids_.try_emplace({image, sampler}, none<TextureId>);
     if (is_new)
@@ -131,6 +146,12 @@ private:
                       resource.problem.empty() ? "the image is empty" : resource.problem));
       return none<TextureId>;
     }
+    if (const auto size = image_size(resource.bytes); size && !has_room_for(*size)) {
+      findings_.say(fmt::format("{}: {} x {} pixels would take the textures over the memory limit; "
+                                "the factor alone is used",
+                                where, size->width, size->height));
+      return none<TextureId>;
+    }
     bytes_ += resource.bytes.size();
     if (bytes_ > document_.settings.memory_limit)
       throw InputError(document_.file, where, "the images are over the memory limit");
@@ -146,9 +167,19 @@ private:
     return static_cast<TextureId>(scene_.textures.size() - 1);
   }
 
+  /// Decoded, an image is four floats a pixel, and a third as much again in coarser copies.
+  bool has_room_for(const ImageSize& size) {
+    const auto decoded = 16.0 * 4.0 / 3.0 * static_cast<double>(size.width) * size.height;
+    if (decoded_bytes_ + decoded > static_cast<double>(document_.settings.memory_limit))
+      return false;
+    decoded_bytes_ += decoded;
+    return true;
+  }
+
   const Document& document_;
   Scene& scene_;
   Findings& findings_;
+  double decoded_bytes_ = 0.0;
   std::map<std::pair<std::size_t, Sampler>, TextureId> ids_;
   std::uint64_t bytes_ = 0;
 };

@@ -64,7 +64,7 @@ FoundFiles find_files(const std::vector<BatchJob>& jobs) {
   return found;
 }
 
-KnownScenes read_scenes(const FoundFiles& found) {
+KnownScenes read_scenes(const FoundFiles& found, const GltfSettings& gltf) {
   KnownScenes scenes;
   for (const auto& [pattern, files] : found) {
     for (const fs::path& file : files) {
@@ -78,7 +78,7 @@ KnownScenes read_scenes(const FoundFiles& found) {
   tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t k) {
     auto& [file, known] = *list[k];
     try {
-      known.facts = std::make_shared<const SceneFacts>(facts_of(load_gltf(file)));
+      known.facts = std::make_shared<const SceneFacts>(facts_of(load_gltf(file, gltf)));
     } catch (const UserError& error) {
       known.problem = {error.what(), static_cast<int>(error.code())};
     }
@@ -267,9 +267,10 @@ SceneFacts facts_of(const Scene& scene) {
   return facts;
 }
 
-std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<BatchJob>& jobs) {
+std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<BatchJob>& jobs,
+                                     const GltfSettings& gltf) {
   const FoundFiles found = find_files(jobs);
-  const KnownScenes scenes = read_scenes(found);
+  const KnownScenes scenes = read_scenes(found, gltf);
   std::map<fs::path, std::string> owners;
   std::vector<BatchPicture> pictures;
   for (const BatchJob& job : jobs) {
@@ -287,6 +288,9 @@ std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<Bat
           add_pictures({job, scene, scenes.at(scene)}, pictures);
         }
       }
+    }
+    for (BatchPicture& picture : std::span(pictures).subspan(first)) {
+      picture.request.settings.gltf = gltf;
     }
     check_distinct(file, job, std::span(pictures).subspan(first), owners);
   }

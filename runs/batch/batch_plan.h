@@ -43,7 +43,8 @@ struct BatchPicture {
 
 /// Reads every scene once. Throws InputError, at the job's place, when two pictures would be one file.
 std::vector<BatchPicture> plan_batch(const std::filesystem::path& file,
-                                     const std::vector<BatchJob>& jobs);
+                                     const std::vector<BatchJob>& jobs,
+                                     const GltfSettings& gltf = {});
 
 /// Part `number` of `count`: neighbours stay together, so that few parts need the same scene. Numbers may count from 0 or from 1,
 /// `count` being the same as 0.

@@ -10,6 +10,7 @@ struct BatchRequest {
   std::filesystem::path folder;               ///< made if it is not there
   std::optional<std::filesystem::path> cache; ///< of solutions; DIR/.meninas/solutions otherwise
   std::optional<std::filesystem::path> junit;
+  GltfSettings gltf; ///< how scenes are read
   Resume resume = Resume::no;
   Shard shard;
   std::optional<std::uint64_t> memory_limit; ///< bytes; what the machine allows otherwise

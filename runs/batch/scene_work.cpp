@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Scene load_planned(const BatchPicture& picture) {
-  Scene scene = load_gltf(picture.scene);
+  Scene scene = load_gltf(picture.scene, picture.request.settings.gltf);
   if (content_hash(scene) != picture.facts->hash) {
     throw InputError(picture.scene.string(), "",
                      "has changed since the batch began: run it again with --resume");

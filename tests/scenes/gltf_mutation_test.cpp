@@ -1,5 +1,5 @@
 // Broken on purpose in thousands of ways: a file either becomes a scene with finite numbers or ends with a UserError.
-#include "tests/scenes/gltf_file.h"
+#include "tests/scenes/gltf_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -7,48 +7,6 @@
 #include <random>
 
 namespace meninas::test {
-
-/// A file that uses all the loader reads, so that mutations reach all of it.
-static GltfFile everything() {
-  auto file = square();
-  const auto sparse_indices = file.add_view({2, 0});
-  const auto sparse_values = file.add_view(Bytes(24, 0x3f));
-  file.json["accessors"][0]["sparse"] = {
-      {"count", 2},
-      {"indices", {{"bufferView", sparse_indices}, {"componentType", 5121}}},
-      {"values", {{"bufferView", sparse_values}}}};
-  square_primitive(file)["attributes"]["TEXCOORD_0"] =
-      file.add_accessor<std::uint16_t>({0, 0, 9, 9, 99, 99, 999, 999}, "VEC2");
-  const auto strip = file.add_accessor<std::int16_t>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3");
-  file.json["meshes"][0]["primitives"].push_back(
-      {{"attributes", {{"POSITION", strip}}}, {"mode", 5}});
-  file.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
-  file.json["materials"][0]["extensions"] = {
-      {"KHR_materials_emissive_strength", {{"emissiveStrength", 3}}},
-      {"KHR_materials_ior", {{"ior", 1.4}}},
-      {"KHR_materials_specular", {{"specularFactor", 0.5}}},
-      {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}}};
-  file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {
-      {"index", 0},
-      {"extensions", {{"KHR_texture_transform", {{"offset", {0, 1}}, {"scale", {1, 2}}}}}}};
-  file.json["textures"] = Json::array({{{"source", 0}, {"sampler", 0}}});
-  file.json["samplers"] = Json::array({{{"wrapS", 33071}}});
-  file.json["images"] = Json::array({{{"bufferView", sparse_values}}});
-  file.json["cameras"] =
-      Json::array({{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"aspectRatio", 1}}}},
-                   {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}}}}});
-  file.json["extensions"]["KHR_lights_punctual"]["lights"] =
-      Json::array({{{"type", "spot"}, {"intensity", 2}, {"spot", {{"outerConeAngle", 0.5}}}}});
-  file.json["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_ior"};
-  file.add_node({{"camera", 0}, {"rotation", {0, 0, 0, 1}}});
-  file.add_node({{"camera", 1}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}});
-  file.add_node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}},
-                 {"children", {0, 1, 2}},
-                 {"scale", {1, -2, 1}}});
-  file.json["scenes"] = Json::array({{{"nodes", {3}}}});
-  file.json["scene"] = 0;
-  return file;
-}
 
 static bool all_finite(const Scene& scene) {
   const auto finite = [](const Vec3& v) {

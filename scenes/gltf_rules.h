@@ -1,0 +1,38 @@
+// What the loader reads from a glTF file, as rules: which properties, of which type, pointing where.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace meninas::gltf {
+
+enum class Kind {
+  size,
+  index,
+  indices,
+  attributes,     ///< an object of indices
+  attribute_sets, ///< an array of them
+  number,
+  numbers,
+  text,
+  texts,
+  boolean,
+  object,
+  objects
+};
+enum class Presence { optional, required };
+
+struct Rule {
+  std::string_view name;
+  Kind kind;
+  Presence presence = Presence::optional;
+  std::string_view target = {};      ///< the array that indices point into
+  std::size_t length = 0;            ///< of an array of numbers; 0: any
+  std::span<const Rule> fields = {}; ///< of an object, or of each object of an array
+};
+
+/// Of the file's root object.
+std::span<const Rule> root_rules();
+
+} // namespace meninas::gltf

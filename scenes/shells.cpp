@@ -1,0 +1,118 @@
+#include "scenes/shells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace meninas {
+namespace {
+
+/// Sets that grow together, with paths halved on the way to the root.
+class Groups {
+public:
+  explicit Groups(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t root(std::uint32_t k) {
+    while (parent_[k] != k) {
+      k = parent_[k] = parent_[parent_[k]];
+    }
+    return k;
+  }
+  /// The smaller number stays the root, so that groups are in the order of their first faces.
+  void join(std::uint32_t a, std::uint32_t b) {
+    const auto [low, high] = std::minmax(root(a), root(b));
+    parent_[high] = low;
+  }
+
+private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// The bounds, which way the faces look, and the volume if the shell has one.
+void measure(const Scene& scene, Shell& shell) {
+  for (const TriangleId face : shell.faces) {
+    for (const Point3& corner : corners(scene, face)) {
+      shell.bounds.low = glm::min(shell.bounds.low, corner);
+      shell.bounds.high = glm::max(shell.bounds.high, corner);
+    }
+    shell.double_sided = shell.double_sided || material_of(scene, face).double_sided;
+  }
+  const Point3 middle = 0.5 * (shell.bounds.low + shell.bounds.high);
+  double volume = 0.0;
+  double away = 0.0;
+  double most = 0.0;
+  for (const TriangleId face : shell.faces) {
+    const auto p = corners(scene, face);
+    const Vec3 area = area_vector(p);
+    const Vec3 out = (p[0] + p[1] + p[2]) / 3.0 - middle;
+    volume += glm::dot(p[0] - middle, area) / 3.0;
+    away += glm::dot(out, area);
+    most += glm::length(out) * glm::length(area);
+  }
+  shell.outwards = most > 0.0 ? away / most : 0.0;
+  shell.volume = shell.closed && shell.oriented ? volume : 0.0;
+}
+
+} // namespace
+
+std::vector<Shell> find_shells(const Scene& scene, const Topology& topology) {
+  const auto count = static_cast<std::uint32_t>(scene.triangles.size());
+  Groups groups(count);
+  const auto edges = static_cast<std::uint32_t>(topology.first_use.size() - 1);
+  for (std::uint32_t edge = 0; edge < edges; ++edge) {
+    if (const auto uses = uses_of(topology, edge); uses.size() == 2) {
+      groups.join(index(uses[0].triangle), index(uses[1].triangle));
+    }
+  }
+
+  std::vector<Shell> shells;
+  std::vector<std::uint32_t> shell_of(count);
+  for (std::uint32_t face = 0; face < count; ++face) {
+    const std::uint32_t root = groups.root(face);
+    if (root == face) {
+      shell_of[face] = static_cast<std::uint32_t>(shells.size());
+      shells.emplace_back();
+    }
+    shell_of[face] = shell_of[root];
+    shells[shell_of[face]].faces.push_back(TriangleId{face});
+  }
+  for (std::uint32_t edge = 0; edge < edges; ++edge) {
+    const auto uses = uses_of(topology, edge);
+    if (uses.size() == 2) {
+      Shell& shell = shells[shell_of[index(uses[0].triangle)]];
+      const bool clash = uses[0].forward == uses[1].forward;
+      const bool one_node = scene.triangles[index(uses[0].triangle)].node ==
+                            scene.triangles[index(uses[1].triangle)].node;
+      shell.oriented = shell.oriented && !clash;
+      shell.clashes += clash && one_node ? 1 : 0;
+      continue;
+    }
+    for (const EdgeUse& use : uses) {
+      shells[shell_of[index(use.triangle)]].closed = false;
+    }
+  }
+  for (Shell& shell : shells) {
+    measure(scene, shell);
+  }
+  return shells;
+}
+
+double winding_number(const Scene& scene, const Shell& shell, const Point3& x) {
+  double angle = 0.0;
+  for (const TriangleId face : shell.faces) {
+    const auto p = corners(scene, face);
+    const Vec3 a = p[0] - x;
+    const Vec3 b = p[1] - x;
+    const Vec3 c = p[2] - x;
+    const double la = glm::length(a);
+    const double lb = glm::length(b);
+    const double lc = glm::length(c);
+    // tan(Omega / 2) = a . (b x c) / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|)
+    angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                              la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la +
+                                  glm::dot(c, a) * lb);
+  }
+  return angle / (4.0 * std::numbers::pi);
+}
+
+} // namespace meninas

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Fuzzes the glTF loader: builds the target with clang, makes the seeds, and runs it.
+#   tests/fuzz/fuzz.sh FOLDER [--runs N | --seconds S] [FUZZER_OPTIONS]
+# FOLDER keeps the build, the corpus that grew and the findings (crash-*, timeout-*, oom-*). With --runs the same files are tried each
+# time, from the seeds alone; with --seconds it goes on from the corpus of earlier runs. Exit code 77: there is no clang.
+set -euo pipefail
+
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+folder=$(mkdir -p "$1" && cd "$1" && pwd)
+shift
+limit=(-runs=20000 -seed=1)
+keep=false
+while (($#)); do
+  case $1 in
+    --runs) limit=(-runs="$2" -seed=1) && shift 2 ;;
+    --seconds) limit=(-max_total_time="$2") && keep=true && shift 2 ;;
+    *) break ;;
+  esac
+done
+
+command -v clang++ >/dev/null || { echo "fuzz: clang++ is not installed" && exit 77; }
+launcher=()
+command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+cmake -S "$here" -B "$folder/build" -G Ninja -DCMAKE_CXX_COMPILER=clang++ "${launcher[@]}" >/dev/null
+ninja -C "$folder/build" -j2 >"$folder/build.log" || { cat "$folder/build.log" && exit 1; }
+
+"$folder/build/make_seeds" "$folder"
+$keep || rm -rf "$folder/corpus"
+mkdir -p "$folder/corpus"
+cd "$folder"
+exec build/loader_fuzz -dict=words.dict -max_len=8192 -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=512 \
+  -print_final_stats=1 "${limit[@]}" "$@" corpus seeds

@@ -1,0 +1,79 @@
+// What libFuzzer throws at the loader: any bytes end as a scene whose numbers are finite and whose indices are in range, or with one
+// UserError of one line. Then the scene's surfaces are found and reported on, as every command does. Anything else is a finding.
+#include "scenes/errors.h"
+#include "scenes/gltf.h"
+#include "scenes/mesh_oddities.h"
+#include "scenes/shells.h"
+#include "scenes/surfaces.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+namespace {
+
+using namespace meninas;
+
+void require(bool condition, const char* what) {
+  if (!condition) {
+    std::fprintf(stderr, "finding: %s\n", what);
+    std::abort();
+  }
+}
+
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void check(const Scene& scene) {
+  require(!scene.triangles.empty(), "a scene without triangles");
+  for (const Vertex& vertex : scene.vertices) {
+    require(is_finite(vertex.position), "a position that is not finite");
+  }
+  for (const Triangle& triangle : scene.triangles) {
+    require(index(triangle.material) < scene.materials.size(), "a material out of range");
+    require(index(triangle.node) < scene.nodes.size(), "a node out of range");
+    for (const VertexId vertex : triangle.vertices) {
+      require(index(vertex) < scene.vertices.size(), "a vertex out of range");
+    }
+  }
+  for (const Material& material : scene.materials) {
+    const Rgb diffuse = diffuse_reflectance(material);
+    require(is_finite(diffuse) && is_finite(material.emission), "a material that is not finite");
+    require(glm::all(glm::greaterThanEqual(diffuse, Rgb(0.0))) &&
+                glm::all(glm::lessThanEqual(diffuse, Rgb(1.0))),
+            "a reflectance beyond 1");
+  }
+  for (const std::string& warning : scene.warnings) {
+    require(warning.find('\n') == std::string::npos, "a warning of two lines");
+  }
+}
+
+void look_at(const Scene& scene) {
+  constexpr std::size_t few = 300; // larger scenes are the loader's business here
+  if (scene.triangles.size() > few) {
+    return;
+  }
+  const SurfaceModel surfaces = find_surfaces(scene);
+  const Topology topology = find_topology(scene, 0.5 * surfaces.tolerance);
+  duplicate_faces(scene, topology);
+  divided_edges(scene, topology, surfaces.tolerance);
+  find_shells(scene, topology);
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  try {
+    // A folder that is not there: names of files lead nowhere.
+    const Scene scene = read_gltf({data, data + size}, "/nonexistent/fuzz/scene.gltf",
+                                  {.memory_limit = std::uint64_t{1} << 24});
+    check(scene);
+    look_at(scene);
+  } catch (const UserError& error) {
+    require(std::string_view(error.what()).find('\n') == std::string_view::npos,
+            "an error of two lines");
+  }
+  return 0;
+}
