@@ -33,6 +33,11 @@ if(MENINAS_SANITIZE)
   # GCC cannot follow initialisation through the instrumented code and warns about the standard library itself.
   add_compile_options(-Wno-maybe-uninitialized)
 endif()
+if(MENINAS_SANITIZE MATCHES thread)
+  # Every program is linked with it; that it is there by then, the first library sees to (CMakeLists.txt).
+  add_library(meninas_tsan_tasks OBJECT ${CMAKE_CURRENT_LIST_DIR}/tsan_tasks.cpp)
+  add_link_options($<TARGET_OBJECTS:meninas_tsan_tasks>)
+endif()
 
 add_library(meninas_options INTERFACE)
 target_compile_options(meninas_options INTERFACE

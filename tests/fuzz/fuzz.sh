@@ -2,7 +2,7 @@
 # Fuzzes the glTF loader: builds the target with clang, makes the seeds, and runs it.
 #   tests/fuzz/fuzz.sh FOLDER [--runs N | --seconds S] [FUZZER_OPTIONS]
 # FOLDER keeps the build, the corpus that grew and the findings (crash-*, timeout-*, oom-*). With --runs the same files are tried each
-# time, from the seeds alone; with --seconds it goes on from the corpus of earlier runs. Exit code 77: there is no clang.
+# time, from the seeds alone; with --seconds it goes on from the corpus of earlier runs. Exit code 77: there is no clang++-16 (before clang 15 there is no std::source_location).
 set -euo pipefail
 
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -18,10 +18,10 @@ while (($#)); do
   esac
 done
 
-command -v clang++ >/dev/null || { echo "fuzz: clang++ is not installed" && exit 77; }
+command -v clang++-16 >/dev/null || { echo "fuzz: clang++-16 is not installed" && exit 77; }
 launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-cmake -S "$here" -B "$folder/build" -G Ninja -DCMAKE_CXX_COMPILER=clang++ "${launcher[@]}" >/dev/null
+cmake -S "$here" -B "$folder/build" -G Ninja -DCMAKE_CXX_COMPILER=clang++-16 "${launcher[@]}" >/dev/null
 ninja -C "$folder/build" -j2 >"$folder/build.log" || { cat "$folder/build.log" && exit 1; }
 
 "$folder/build/make_seeds" "$folder"
