@@ -10,6 +10,7 @@ namespace {
 
 constexpr double drawn_inwards = 0.01;
 constexpr double least_depth = 1e-3; ///< of the segment's length
+constexpr double least_weight = 5e-3; ///< of the corners at the hit: at an edge things only touch
 
 /// The triangle that the segment passes through, if its first hit is one.
 TriangleId crossed(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
@@ -18,6 +19,10 @@ TriangleId crossed(const Scene& scene, const SurfaceModel& surfaces, const RaySc
   const PlaneId leaving = surfaces.plane_of_triangle[index(from)];
   const auto hit = closest_hit(rays, {a, (b - a) / length, leaving, length});
   if (!hit) {
+    return none<TriangleId>;
+  }
+  const auto [b1, b2] = std::pair(hit->barycentric.x, hit->barycentric.y);
+  if (std::min({b1, b2, 1.0 - b1 - b2}) < least_weight) {
     return none<TriangleId>;
   }
   const auto p = corners(scene, hit->triangle);

@@ -198,7 +198,7 @@ TEST(SceneReport, SuspectsUnits) {
   EXPECT_THAT(kinds(1e-3, Vec3(0.0), 1e-10), Contains("too_small"));
   EXPECT_THAT(kinds(1.0, Vec3(1e5, 0, 0), 0.004), Contains("far_away"));
 
-  add_box(scene, "Chair", {0, 0, 0}, {900, 900, 900}, diffuse(0.5));
+  add_box(scene, "Chair", {0, 0, 0}, {9000, 9000, 9000}, diffuse(0.5));
   const auto unlike = of_kind(report(scene), "unlike_size");
   ASSERT_EQ(unlike.size(), 6u);
   EXPECT_THAT(unlike[0].node, HasSubstr("Chair"));
