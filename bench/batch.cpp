@@ -29,7 +29,9 @@ struct Settings {
 };
 
 std::vector<BatchPicture> planned(const Settings& settings) {
-  JobMode mode{.name = "hybrid", .request = {}, .settings = {{"mode", "hybrid"}}};
+  JobMode mode;
+  mode.name = "hybrid";
+  mode.settings = {{"mode", "hybrid"}};
   mode.request.settings.quality = Quality::draft;
   mode.request.size = PictureSize{settings.width, settings.width * 3 / 4};
   CameraPath path;
