@@ -123,25 +123,27 @@ static std::optional<std::size_t> chosen_scene(const Document& document) {
                               : fmt::format("the file has {}", name_list(names, count)));
 }
 
-/// The root above every node, by walks upwards that end where an earlier one has been.
-static std::vector<std::size_t> roots_of(std::span<const std::size_t> parents) {
-  const auto none = parents.size();
-  std::vector<std::size_t> roots(none, none);
-  std::vector<std::size_t> walk;
-  for (std::size_t start = 0; start < none; ++start) {
-    auto at = start;
-    for (walk.clear(); roots[at] == none && parents[at] != none; at = parents[at])
-      walk.push_back(at);
-    const auto root = roots[at] == none ? at : roots[at];
-    roots[at] = root;
-    for (const auto node : walk)
-      roots[node] = root;
+/// Which nodes are below a listed one. Every node is walked through once.
+static std::vector<bool> below_listed(const Json& root, const std::vector<bool>& listed) {
+  std::vector<bool> below(listed.size(), false);
+  std::vector<std::size_t> open;
+  for (std::size_t node = 0; node < listed.size(); ++node)
+    if (listed[node])
+      open.push_back(node);
+  while (!open.empty()) {
+    const auto node = open.back();
+    open.pop_back();
+    for (const auto child : children_of(root, node)) {
+      if (!below[child])
+        open.push_back(child);
+      below[child] = true;
+    }
   }
-  return roots;
+  return below;
 }
 
 /// Where the walk through the chosen scene begins. A scene lists roots alone; exporters also list nodes below them, which stay
-/// where their parents put them and are shown once.
+/// where their parents put them and are shown once, and nodes of which no ancestor is listed, which become roots.
 static std::vector<std::size_t> root_nodes(const Document& document,
                                            std::span<const std::size_t> parents,
                                            Findings& findings) {
@@ -158,26 +160,23 @@ static std::vector<std::size_t> root_nodes(const Document& document,
   if (!list)
     return roots;
   std::vector<bool> listed(none, false);
+  for (const auto& value : *list)
+    listed[size_value(value)] = true;
+  const auto below = below_listed(document.root, listed);
+  std::vector<bool> told(none, false);
   for (const auto& value : *list) {
     const auto node = size_value(value);
-    if (listed[node])
-      findings.about("the scene lists nodes twice, which are shown once",
-                     place(document.root, "nodes", node));
-    else if (parents[node] == none)
+    const auto where = place(document.root, "nodes", node);
+    if (told[node])
+      findings.about("the scene lists nodes twice, which are shown once", where);
+    else if (below[node])
+      findings.about("the scene lists nodes that are also children of others, which are shown once",
+                     where);
+    else
       roots.push_back(node);
-    listed[node] = true;
-  }
-  const auto root_of = roots_of(parents);
-  for (const auto& value : *list) {
-    const auto node = size_value(value);
-    if (parents[node] == none)
-      continue;
-    if (!listed[root_of[node]])
-      throw InputError(document.file, place(document.root, "scenes", *scene),
-                       fmt::format("nodes[{}] is not a root, it is a child of nodes[{}]", node,
-                                   parents[node]));
-    findings.about("the scene lists nodes that are also children of others, which are shown once",
-                   place(document.root, "nodes", node));
+    if (!below[node] && !told[node] && parents[node] != none)
+      findings.about("the scene begins at nodes whose parents, left out, do not move them", where);
+    told[node] = true;
   }
   return roots;
 }

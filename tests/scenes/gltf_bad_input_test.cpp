@@ -208,11 +208,6 @@ TEST(GltfBadInput, NodesThatAreNoTree) {
   two_parents.add_node({{"children", {0}}});
   EXPECT_THAT(error_of(two_parents),
               HasSubstr("nodes[0] 'Quad': has two parents, nodes[1] and nodes[2]"));
-
-  auto not_root = square();
-  not_root.add_node({{"children", {0}}});
-  not_root.json["scenes"] = Json::array({{{"name", "S"}, {"nodes", {0}}}});
-  EXPECT_THAT(error_of(not_root), HasSubstr("scenes[0] 'S': nodes[0] is not a root"));
 }
 
 TEST(GltfBadInput, NothingToRender) {

@@ -162,6 +162,29 @@ TEST(GltfExporters, ScenesThatListNodesTooOftenShowThemOnce) {
   EXPECT_TRUE(warns(scene, {"lists nodes twice", "'Parent'"}));
 }
 
+TEST(GltfExporters, ScenesMayBeginBelowTheRoot) {
+  auto file = square();
+  file.add_node({{"name", "Left out"}, {"children", {0}}, {"translation", {0, 0, 3}}});
+  file.json["scenes"] = Json::array({{{"nodes", {0}}}});
+  const auto scene = load(file);
+  EXPECT_EQ(corner(scene, 0).z, 0.0) << "what is not in the scene does not move it";
+  EXPECT_TRUE(warns(scene, {"begins at nodes whose parents", "'Quad'"}));
+}
+
+TEST(GltfExporters, ImagesTooLargeForTheMemoryAreLeftOutBeforeTheyAreDecoded) {
+  // The header of a PNG of 60,000 x 60,000 pixels; there is nothing behind it.
+  const Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0,    0,    13,  'I', 'H', 'D', 'R',
+                  0,    0,   0xEA, 0x60, 0,   0,   0xEA, 0x60, 8, 2, 0, 0, 0};
+  auto file = square();
+  file.json["images"] = Json::array({{{"bufferView", file.add_view(png)}}});
+  file.json["textures"] = Json::array({{{"source", 0}}});
+  file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  const auto scene = load(file);
+  EXPECT_TRUE(scene.textures.empty());
+  EXPECT_TRUE(warns(scene, {"images[0]: 60000 x 60000 pixels", "over the memory limit"}));
+  EXPECT_EQ(load(file, {.memory_limit = std::uint64_t{1} << 40}).textures.size(), 1u);
+}
+
 TEST(GltfExporters, PrimitivesWithoutPositionsAreLeftOut) {
   auto file = square();
   file.json["meshes"][0]["primitives"].push_back({{"attributes", Json::object()}});
