@@ -35,7 +35,7 @@ if(MENINAS_SANITIZE)
 endif()
 if(MENINAS_SANITIZE MATCHES thread)
   # Every program is linked with it; that it is there by then, the first library sees to (CMakeLists.txt).
-  add_library(meninas_tsan_tasks OBJECT ${CMAKE_CURRENT_LIST_DIR}/tsan_tasks.cpp)
+  add_library(meninas_tsan_tasks OBJECT ${CMAKE_CURRENT_LIST_DIR}/../tests/support/tsan_tasks.cpp)
   add_link_options($<TARGET_OBJECTS:meninas_tsan_tasks>)
 endif()
 

@@ -72,6 +72,12 @@ void check_field(const std::filesystem::path& solution, const DiffuseField& fiel
   }
 }
 
+/// That nothing emits light is said by the plan.
+bool has_light(const Scene& scene) {
+  return !scene.lights.empty() || scene.background != Rgb(0.0) ||
+         std::ranges::any_of(scene.materials, is_emitter);
+}
+
 /// Nobody should have to guess why there is nothing to see.
 void warn_of_darkness(const Image& image, const Camera& camera, const RunEvents& events) {
   if (std::ranges::all_of(image.pixels, [](const glm::vec3& p) { return p == glm::vec3(0.0F); })) {
@@ -125,6 +131,7 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   Stopwatch watch;
 
   Scene scene = load_scene(request.scene, request.settings);
+  const bool is_lit = has_light(scene);
   const Camera camera = choose_camera(scene, request.camera, events);
   const PictureSize size = choose_size(request.size, camera);
   preload_image_io();
@@ -142,7 +149,9 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   };
   const ViewPicture picture = render_picture();
 
-  warn_of_darkness(picture.image, camera, events);
+  if (is_lit) {
+    warn_of_darkness(picture.image, camera, events);
+  }
   watch.lap();
   write_pictures(request.pictures, picture.image, picture.layers, request.picture,
                  picture.attributes, events);

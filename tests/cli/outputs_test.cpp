@@ -307,7 +307,7 @@ TEST_F(Outputs, ThePlanAsJson) {
                                                   "punctual_lights", "glossy", "transmissive",
                                                   "textured", "bands", "closed", "patches",
                                                   "elements", "expected", "stages", "ignored",
-                                                  "warnings"}));
+                                                  "warnings", "odd"}));
   ASSERT_EQ(plan["mirrors"].size(), 1U);
   EXPECT_EQ(plan["mirrors"][0]["name"], "mirror");
   EXPECT_NEAR(plan["mirrors"][0]["area"].get<double>(), 0.36, 1e-6); // floats in the file
@@ -339,6 +339,14 @@ TEST_F(Outputs, WithoutAnEmitterThePictureIsBlackAndThatIsSaid) {
   for (const glm::vec3& pixel : read_image(folder_ / "a.exr").picture.pixels) {
     ASSERT_EQ(pixel, glm::vec3(0.0F));
   }
+}
+
+TEST_F(Outputs, ABlackPictureOfALitSceneIsSaidToBe) {
+  TinyRoom room = tiny_room();
+  room.root["nodes"][7]["translation"] = {0, 100, 0}; // above the room, looking along it
+  write_room(folder_ / "room.glb", room);
+  const Outcome outcome = render({"-o", "a.exr", "--quiet"});
+  EXPECT_THAT(outcome.err, HasSubstr("the picture is black: no light reaches what camera"));
 }
 
 TEST_F(Outputs, TheCameraDecidesTheShapeOfThePicture) {
