@@ -200,10 +200,13 @@ Rgb diffuse_reflectance(const Material& material) {
 }
 
 Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point) {
+  // What is not let through yet is opaque: matt, of its base colour.
+  if (material.transmission > 0.0)
+    return point.base_color * (is_glossy(material) ? 1.0 : 1.0 - point.metallic);
   Bsdf bsdf = make_bsdf(material, point);
   if (is_mirror(material))
     bsdf.metal = Rgb(0.0);
-  return mean_reflectance(bsdf) + bsdf.transmission;
+  return mean_reflectance(bsdf);
 }
 
 Direction to_local(const Direction& normal, const Direction& w) {

@@ -140,6 +140,14 @@ TEST(LobeGrid, ConvergesToTheConvolution) {
   }
 }
 
+TEST(LobeGrid, NothingReflectsMoreThanItGetsInPassOne) {
+  Material glass = plastic(1.0, 0.0);
+  glass.transmission = 1.0;
+  for (const Material& material :
+       {glass, plastic(1.0, 0.0), plastic(1.0, 0.15), metal(Rgb(1.0), 0.3)})
+    EXPECT_LE(diffuse_reflectance(material).g, 1.0 + 1e-12);
+}
+
 // --- In pictures
 
 /// A plate of the material in the plane y = 0, nothing else.
