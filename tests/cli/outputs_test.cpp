@@ -244,7 +244,7 @@ TEST_F(Outputs, StatsHaveTheDocumentedKeys) {
   }
   EXPECT_EQ(json_of("render.json")["threads"], 2);
   EXPECT_EQ(json_of("render.json")["solve"], json_of("stored.json")["solve"]);
-  // Four camera rays per pixel of a draft of 40 x 30 pixels.
+  // Sixteen camera rays per pixel of a draft of 40 x 30 pixels.
   EXPECT_EQ(json_of("render.json")["rays"]["camera"], 16 * 40 * 30);
   EXPECT_GT(json_of("render.json")["peak_memory_bytes"], 1 << 20);
 }

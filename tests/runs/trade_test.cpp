@@ -33,7 +33,7 @@ TEST(ParetoFront, HoldsWhatNoOtherBeats) {
 }
 
 TEST(ParetoFront, SpreadIsRelativeToTheMean) {
-  EXPECT_DOUBLE_EQ(mean_of({1.0, 3.0}), 2.0);
+  EXPECT_DOUBLE_EQ(mean_of(std::vector{1.0, 3.0}), 2.0);
   EXPECT_DOUBLE_EQ(spread_of({1.0, 3.0}), 1.0);
   EXPECT_DOUBLE_EQ(spread_of({}), 0.0);
 }
