@@ -1,10 +1,11 @@
-// What meshes cost and what they bring: picture error against number of elements and time, uniform and adaptive (ARCHITECTURE.md has the table).
+// What meshes cost and what they bring: picture error against number of elements and time, for uniform and adaptive meshes, and uniform ones solved
+// by `--solver hierarchical` (ARCHITECTURE.md has the table).
 //
 //   meshes REFERENCES SCENE.gltf ...
 //
 // REFERENCES is the folder of reference/images. Errors are those of bench/truth.h. Pass two takes many samples a pixel, so that its own does not
 // either. Time is processor time of pass one, which other programs on the machine disturb less than that of a clock.
-// For every adaptive mesh stands the number of elements, and the time, that uniform meshes take for its error (log-log between the two nearest,
+// For every other mesh stands the number of elements, and the time, that uniform meshes take for its error (log-log between the two nearest,
 // beyond the last by their slope).
 #include "bench/truth.h"
 #include "raytrace/two_pass.h"
@@ -69,18 +70,28 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
     fmt::print("{:>22} {:9} {:9.2f} {:9.4f}\n", "uniform", m.elements, m.seconds, m.error);
     std::fflush(stdout);
   }
+  const auto beside_uniform = [&](const std::string& name, const TwoPassSettings& settings) {
+    const Measured m = measure(scene, truth, settings);
+    const double elements =
+        needed(uniform, m.error, [](const Measured& u) { return double(u.elements); });
+    const double seconds = needed(uniform, m.error, [](const Measured& u) { return u.seconds; });
+    fmt::print("{:>22} {:9} {:9.2f} {:9.4f}   {:.0f} = {:.1f} x, {:.2f} = {:.1f} x\n", name,
+               m.elements, m.seconds, m.error, elements, elements / double(m.elements), seconds,
+               seconds / m.seconds);
+    std::fflush(stdout);
+  };
   for (const double bound : {0.02, 0.01, 0.005, 0.0025}) {
     RunSettings run;
     run.adaptive = WithAdaptivity::yes;
     run.adaptive_error = bound;
-    const Measured m = measure(scene, truth, two_pass_settings(run));
-    const double elements =
-        needed(uniform, m.error, [](const Measured& u) { return double(u.elements); });
-    const double seconds = needed(uniform, m.error, [](const Measured& u) { return u.seconds; });
-    fmt::print("{:>22} {:9} {:9.2f} {:9.4f}   {:.0f} = {:.1f} x, {:.2f} = {:.1f} x\n",
-               fmt::format("adaptive {}", bound), m.elements, m.seconds, m.error, elements,
-               elements / double(m.elements), seconds, seconds / m.seconds);
-    std::fflush(stdout);
+    beside_uniform(fmt::format("adaptive {}", bound), two_pass_settings(run));
+  }
+  for (const double elements : {2000.0, 8000.0, 32000.0, 128000.0}) {
+    RunSettings run;
+    run.solver = SolverMethod::hierarchical;
+    TwoPassSettings settings = two_pass_settings(run);
+    settings.pass_one.mesh.target_elements = elements;
+    beside_uniform("hierarchical", settings);
   }
 }
 

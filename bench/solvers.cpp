@@ -2,7 +2,7 @@
 // grow with the number of elements.
 //
 //   solvers [SCENE.gltf]          a sweep, bands, and the solvers beside one another
-//   solvers SCENE.gltf growth     time and memory from a thousand elements to a million, with the rays of --quality draft: first of shots by
+//   solvers SCENE.gltf growth     time and memory from a thousand elements to a million, with the rays of --quality draft: of nodes, of shots by
 //                                 rays, which keep no form factors, then of rows and the solvers that read them
 //
 // A sweep reads every form factor once: its bytes over its time is the rate that counts, beside that of a plain sum over an array of
@@ -118,7 +118,7 @@ void compare_bands(System system) {
       value = Rgb(value.g);
   System coloured{system.transport, system.source, system.reflectance};
   coloured.source[0].r *= 1.5;
-  for (const SolverMethod method : solver_methods) {
+  for (const SolverMethod method : row_solvers) {
     if (!takes_seconds(method, system))
       continue;
     std::vector<double> ratios;
@@ -137,7 +137,7 @@ void compare_bands(System system) {
 
 void compare_solvers(const System& system) {
   for (const double tolerance : {1e-4, 1e-8})
-    for (const SolverMethod method : solver_methods) {
+    for (const SolverMethod method : row_solvers) {
       if (!takes_seconds(method, system))
         continue;
       SolverResult result;
@@ -209,6 +209,27 @@ void grow_shots(const char* file) {
   }
 }
 
+/// Pass one by nodes, at the same link error for all sizes.
+void grow_nodes(const char* file) {
+  std::vector<Measured> sizes;
+  for (const double target : growing) {
+    PassOneSettings settings = two_pass_settings(draft()).pass_one;
+    settings.mesh.target_elements = target;
+    settings.solver.method = SolverMethod::hierarchical;
+    const auto prepared = prepare_scene(load_gltf(file), settings);
+    Stopwatch watch;
+    const RadiositySolution solution = solve_pass_one(*prepared->light, settings);
+    const auto elements = static_cast<double>(element_count(prepared->mesh));
+    sizes.push_back({elements,
+                     {{"receivers", static_cast<double>(solution.links->receivers)},
+                      {"links", static_cast<double>(solution.links->links)},
+                      {"bytes an element", static_cast<double>(solution.links->bytes) / elements},
+                      {"s of pass one", watch.lap()},
+                      {"rays", static_cast<double>(solution.form_factor_rays)}}});
+    print_growth(sizes);
+  }
+}
+
 /// Rows and the solvers that read them; memory is that of the rows.
 void grow_rows(const char* file) {
   std::vector<Measured> sizes;
@@ -243,6 +264,7 @@ void run(const char* file) {
 int main(int argc, char** argv) {
   try {
     if (argc > 2 && std::string_view(argv[2]) == "growth") {
+      grow_nodes(argv[1]);
       grow_shots(argv[1]);
       grow_rows(argv[1]);
     } else {

@@ -168,6 +168,14 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
              settings.steps = static_cast<int>(parse_integer("--steps", text, 1, 1'000'000'000));
            })
       ->group(pass_one_group);
+  add_text(command, "--link-error", "X",
+           fmt::format("of --solver hierarchical: how much light may vary over a receiver, "
+                       "relative to what is there [{}]",
+                       by_preset(&QualityPreset::link_error)),
+           [&](const std::string& text) {
+             settings.link_error = parse_number("--link-error", text, Sign::positive);
+           })
+      ->group(pass_one_group);
   add_adaptive(command, settings);
   add_choice(command, "--interpolation", interpolations, standard.interpolation.method,
              "irradiance at the vertices: averaged from elements or gathered",
@@ -213,6 +221,13 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
   if (settings.steps && settings.solver != SolverMethod::progressive) {
     throw UsageError("--steps", "has no effect without --solver progressive");
   }
+  if (settings.link_error && settings.solver != SolverMethod::hierarchical) {
+    throw UsageError("--link-error", "has no effect without --solver hierarchical");
+  }
+  if (settings.solver == SolverMethod::hierarchical &&
+      settings.form_factors != FormFactorMethod::rays) {
+    throw UsageError("--form-factors", "only 'rays' goes with --solver hierarchical");
+  }
   if (settings.adaptive == WithAdaptivity::yes &&
       settings.interpolation == Interpolation::average) {
     throw UsageError("--adaptive", "compares what is gathered: it does not go with "
@@ -223,8 +238,8 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
 void refuse_pass_one_options(const CLI::App& command, const std::string& reason) {
   constexpr std::array options{"--element-size",        "--form-factors", "--rays",
                                "--hemicube-resolution", "--solver",       "--tolerance",
-                               "--steps",               "--interpolation", "--adaptive",
-                               "--no-adaptive"};
+                               "--steps",               "--link-error",   "--interpolation",
+                               "--adaptive",            "--no-adaptive"};
   for (const char* option : options) {
     if (command.count(option) > 0) {
       throw UsageError(option, reason);

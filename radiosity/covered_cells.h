@@ -19,9 +19,13 @@ inline bool is_covered(CoveredCells covered, double s, double t) {
   return ((covered >> cell_of(s, t)) & 1U) != 0;
 }
 
+/// The share of a receiver's area on which nothing stands.
+inline float exposed_share(CoveredCells covered) {
+  return 1.0F - static_cast<float>(std::popcount(covered)) / 64.0F;
+}
 /// The share of an element's area that is there, and on which nothing stands.
 inline float exposed_share(const ElementMesh& mesh, std::size_t element, CoveredCells covered) {
-  return mesh.solid[element] * (1.0F - static_cast<float>(std::popcount(covered)) / 64.0F);
+  return mesh.solid[element] * exposed_share(covered);
 }
 
 struct Covered {

@@ -29,22 +29,25 @@ LightScene without_emitters(LightScene light) {
 
 } // namespace
 
+DirectIrradiance found_light(const LightScene& light, std::span<const std::uint64_t> covered,
+                             FormFactorMethod method, const DirectSettings& settings,
+                             const Progress& progress) {
+  if (method != FormFactorMethod::analytic)
+    return direct_irradiance(light, covered, settings, progress);
+  if (!light.punctual.empty())
+    return direct_irradiance(without_emitters(light), covered, settings, progress);
+  return {};
+}
+
 FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
-                       const std::vector<RowClosure>& closure,
-                       std::span<const std::uint64_t> covered, FormFactorMethod method,
-                       const DirectSettings& settings, const Progress& progress) {
+                       const std::vector<RowClosure>& closure, const DirectIrradiance& direct,
+                       FormFactorMethod method) {
   FirstLight first;
   first.entering = sky_irradiance(light, closure);
   first.irradiance = std::move(gathered);
   add(first.irradiance, first.entering);
-
-  DirectIrradiance direct;
-  if (method != FormFactorMethod::analytic) {
-    direct = direct_irradiance(light, covered, settings, progress);
+  if (method != FormFactorMethod::analytic)
     first.from_source = direct.irradiance;
-  } else if (!light.punctual.empty()) {
-    direct = direct_irradiance(without_emitters(light), covered, settings, progress);
-  }
   first.shadow_rays = direct.shadow_rays;
   add(first.irradiance, direct.irradiance);
   add(first.entering, direct.punctual);
@@ -53,6 +56,14 @@ FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
   for (std::size_t i = 0; i < first.irradiance.size(); ++i)
     first.source.push_back(first.reflectance[i] * first.irradiance[i]);
   return first;
+}
+
+FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
+                       const std::vector<RowClosure>& closure,
+                       std::span<const std::uint64_t> covered, FormFactorMethod method,
+                       const DirectSettings& settings, const Progress& progress) {
+  return first_light(light, std::move(gathered), closure,
+                     found_light(light, covered, method, settings, progress), method);
 }
 
 } // namespace meninas

@@ -140,6 +140,7 @@ struct Assembly {
   std::vector<std::uint8_t>
       beyond; ///< by ElementId: 1 where its row beyond the enumerated worlds is kept
   int bands;
+  const RowReceiver& receiver;
 };
 
 void gather(const Assembly& assembly, const ReceiverArea& element, std::uint32_t seed,
@@ -160,12 +161,11 @@ void gather(const Assembly& assembly, const ReceiverArea& element, std::uint32_t
 void assemble_row(const Assembly& assembly, std::size_t row, Workspace& work, RowChunk& chunk,
                   FormFactors& result) {
   const auto seed = hash(static_cast<std::uint32_t>(row), assembly.settings.seed, 0x9a7e);
-  const ReceiverArea receiver = receiver_of(assembly.light, static_cast<ElementId>(row));
-  gather(assembly, receiver, seed, work.gather);
+  gather(assembly, assembly.receiver(row), seed, work.gather);
   const GatheredRays& gathered = work.gather.result;
   const Rgb kept = kept_light(gathered);
   result.covered[row] = gathered.covered;
-  result.exposed[row] = exposed_share(assembly.light.mesh, row, gathered.covered);
+  result.exposed[row] = exposed_share(gathered.covered);
   result.closure[row] = closure_of(gathered);
   work.row.make_room(gathered.landings.size());
   work.beyond.make_room(gathered.landings.size());
@@ -187,14 +187,27 @@ FormFactors assemble_transport(const LightScene& light, const FormFactorSettings
                                const Progress& progress) {
   if (settings.method == FormFactorMethod::analytic)
     return analytic_transport(light, settings, progress);
-  const std::size_t size = element_count(light.mesh);
+  const auto element = [&](std::size_t row) {
+    return receiver_of(light, static_cast<ElementId>(row));
+  };
+  FormFactors factors =
+      assemble_rows(light, element_count(light.mesh), element, settings, progress);
+  for (std::size_t e = 0; e < factors.exposed.size(); ++e)
+    factors.exposed[e] = exposed_share(light.mesh, e, factors.covered[e]);
+  return factors;
+}
+
+FormFactors assemble_rows(const LightScene& light, std::size_t size, const RowReceiver& receiver,
+                          const FormFactorSettings& settings, const Progress& progress) {
+  expects(settings.method != FormFactorMethod::analytic, "rows of parts of surfaces are sampled");
   const bool by_cubes = settings.method == FormFactorMethod::hemicube;
   const Assembly assembly{light,
                           settings,
                           by_cubes ? make_coverage_net() : make_direction_net(settings.rays),
                           by_cubes ? make_hemicube(settings.hemicube_resolution) : Hemicube{},
                           kept_beyond(light.mesh, settings),
-                          grey_mirrors(light.scene) ? 1 : 3};
+                          grey_mirrors(light.scene) ? 1 : 3,
+                          receiver};
   FormFactors result;
   result.closure.resize(size);
   result.covered.resize(size);
@@ -218,8 +231,8 @@ FormFactors assemble_transport(const LightScene& light, const FormFactorSettings
     Workspace& work = workspaces.local();
     RowChunk& chunk = slots[c % slots.size()];
     clear(chunk);
-    work.row.place.resize(size, 0);
-    work.beyond.place.resize(size, 0);
+    work.row.place.resize(element_count(light.mesh), 0);
+    work.beyond.place.resize(element_count(light.mesh), 0);
     for (std::size_t row = c * chunk_size; row < std::min(size, (c + 1) * chunk_size); ++row)
       assemble_row(assembly, row, work, chunk, result);
     return c;

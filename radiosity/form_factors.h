@@ -15,7 +15,10 @@
 #pragma once
 
 #include "radiosity/light_scene.h"
+#include "radiosity/receiver_rays.h"
 #include "scenes/progress.h"
+
+#include <functional>
 
 namespace meninas {
 
@@ -60,5 +63,13 @@ struct FormFactors {
 };
 
 FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings, const Progress& progress = {});
+
+/// What a row may speak of besides an element: a part of a surface (receiver_rays.h), by row. Called from any thread.
+using RowReceiver = std::function<ReceiverArea(std::size_t row)>;
+
+/// The same for other receivers, by rays or hemicubes: what is by ElementId there is by row, columns are elements as ever. The exposed
+/// share is that of the receiver's area, whatever is cut out of it.
+FormFactors assemble_rows(const LightScene& light, std::size_t rows, const RowReceiver& receiver,
+                          const FormFactorSettings& settings, const Progress& progress = {});
 
 } // namespace meninas

@@ -1,6 +1,6 @@
 #include "radiosity/gathered_emission.h"
 
-#include "radiosity/solve.h"
+#include "radiosity/solvers/linear_system.h"
 
 #include <algorithm>
 
@@ -14,11 +14,11 @@ std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& f
     (light.from_source[index(side)] != 0 ? deep : whole)[e] = mesh.emission[e];
   }
 
-  std::vector<Rgb> gathered(mesh.area.size(), Rgb(0.0));
+  std::vector<Rgb> gathered(factors.transport.size, Rgb(0.0));
   const auto add = [&](const Transport& transport, const std::vector<Rgb>& emission) {
     if (transport.columns.empty() || std::ranges::count(emission, Rgb(0.0)) == std::ssize(emission))
       return;
-    const std::vector<Rgb> light_of_rows = apply_transport(transport, emission);
+    const std::vector<Rgb> light_of_rows = transport_product(transport, emission);
     for (std::size_t i = 0; i < gathered.size(); ++i)
       gathered[i] += light_of_rows[i];
   };

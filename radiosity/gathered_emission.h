@@ -9,7 +9,7 @@
 
 namespace meninas {
 
-/// Irradiance by ElementId, W/m^2.
+/// Irradiance by row, W/m^2.
 std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& factors);
 
 } // namespace meninas

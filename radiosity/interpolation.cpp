@@ -64,10 +64,37 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
 
 } // namespace
 
+/// Vertices that do not gather take what the corners of their receiver have gathered, as far as these are not covered.
+static void share_indirect(const VertexShares& shares, std::vector<std::uint8_t>& valid,
+                           DiffuseField& field) {
+  for (std::size_t v = 0; v < valid.size(); ++v) {
+    if (gathers(shares, v))
+      continue;
+    glm::vec3 total(0.0F), mirrored(0.0F);
+    float weights = 0.0F;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::uint32_t from = index(shares.from[v][c]);
+      const float weight = valid[from] != 0 ? shares.weight[v][c] : 0.0F;
+      total += weight * field.indirect[from];
+      mirrored += weight * field.indirect_mirrored[from];
+      weights += weight;
+    }
+    if (!(weights > 0.0F)) {
+      valid[v] = 0;
+      continue;
+    }
+    field.indirect[v] = total / weights;
+    field.indirect_mirrored[v] = mirrored / weights;
+    field.irradiance[v] += field.indirect[v];
+    field.mirrored[v] += field.indirect_mirrored[v];
+  }
+}
+
 static InterpolatedField gather_at_vertices(const LightScene& light, const ElementLight& elements,
                                             const FormFactorSettings& form_factors,
                                             const DirectSettings& direct,
-                                            const InterpolationSettings& settings) {
+                                            const InterpolationSettings& settings,
+                                            const VertexShares* shares) {
   constexpr std::size_t chunk_size = 64;
   const ElementMesh& mesh = light.mesh;
   const std::vector<Receiver> receivers = vertex_receivers(mesh);
@@ -81,26 +108,32 @@ static InterpolatedField gather_at_vertices(const LightScene& light, const Eleme
   field.mirrored = field.indirect = field.indirect_mirrored = field.irradiance;
   std::vector<std::uint8_t> valid(mesh.vertices.size(), 1);
   tbb::enumerable_thread_specific<PointWorkspace> workspaces;
-  tbb::parallel_for(
-      std::size_t{0}, (mesh.vertices.size() + chunk_size - 1) / chunk_size, [&](std::size_t c) {
-        PointWorkspace& work = workspaces.local();
-        for (std::size_t v = c * chunk_size;
-             v < std::min(mesh.vertices.size(), (c + 1) * chunk_size); ++v) {
-          const VertexValue value =
-              value_at(gathering, elements.irradiance, receivers[v],
-                       size_of(mesh, mesh.element_of_vertex[v]),
-                       hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27), work);
-          field.irradiance[v] = glm::vec3(value.irradiance.total);
-          field.mirrored[v] = glm::vec3(value.irradiance.mirrored);
-          field.indirect[v] = glm::vec3(value.indirect.total);
-          field.indirect_mirrored[v] = glm::vec3(value.indirect.mirrored);
-          valid[v] = value.covered ? 0 : 1;
-        }
-      });
+  const auto light_vertex = [&](std::size_t v, PointWorkspace& work) {
+    const double size = size_of(mesh, mesh.element_of_vertex[v]);
+    const std::uint32_t seed = hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27);
+    const VertexValue value =
+        shares == nullptr || gathers(*shares, v)
+            ? value_at(gathering, elements.irradiance, receivers[v], size, seed, work)
+            : value_from_source(gathering, receivers[v], size, seed, work);
+    field.irradiance[v] = glm::vec3(value.irradiance.total);
+    field.mirrored[v] = glm::vec3(value.irradiance.mirrored);
+    field.indirect[v] = glm::vec3(value.indirect.total);
+    field.indirect_mirrored[v] = glm::vec3(value.indirect.mirrored);
+    valid[v] = value.covered ? 0 : 1;
+  };
+  tbb::parallel_for(std::size_t{0}, (mesh.vertices.size() + chunk_size - 1) / chunk_size,
+                    [&](std::size_t c) {
+                      PointWorkspace& work = workspaces.local();
+                      for (std::size_t v = c * chunk_size;
+                           v < std::min(mesh.vertices.size(), (c + 1) * chunk_size); ++v)
+                        light_vertex(v, work);
+                    });
   for (const auto& work : workspaces) {
     result.form_factor_rays += work.rays;
     result.shadow_rays += work.direct.shadow_rays;
   }
+  if (shares != nullptr)
+    share_indirect(*shares, valid, field);
   for (auto* values :
        {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored}) {
     fill_vertices(mesh, valid, *values);
@@ -124,12 +157,12 @@ static DiffuseField averaged_field(const ElementMesh& mesh, const ElementLight& 
 
 InterpolatedField interpolate(const LightScene& light, const ElementLight& elements,
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
-                              const InterpolationSettings& settings) {
+                              const InterpolationSettings& settings, const VertexShares* shares) {
   if (settings.method == Interpolation::average)
     return {.field = averaged_field(light.mesh, elements)};
   if (settings.adaptive)
     return adaptive_field(light, elements, form_factors, direct, settings);
-  return gather_at_vertices(light, elements, form_factors, direct, settings);
+  return gather_at_vertices(light, elements, form_factors, direct, settings, shares);
 }
 
 glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv) {

@@ -2,6 +2,7 @@
 
 #include "radiosity/first_light.h"
 #include "radiosity/gathered_emission.h"
+#include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/shooting_blocks.h"
 #include "scenes/stopwatch.h"
 
@@ -62,8 +63,8 @@ struct ElementRays {
 
 /// From what was reflected, and the irradiance that elements have sent one another, to the solution with its field and figures.
 void complete(const LightScene& light, const PassOneSettings& settings, const FirstLight& first,
-              const std::vector<Rgb>& arrived, const ElementRays& rays,
-              RadiositySolution& solution) {
+              const std::vector<Rgb>& arrived, const ElementRays& rays, RadiositySolution& solution,
+              const VertexShares* shares = nullptr) {
   const ElementMesh& mesh = light.mesh;
   Stopwatch watch;
 
@@ -77,8 +78,8 @@ void complete(const LightScene& light, const PassOneSettings& settings, const Fi
   }
 
   const ElementLight elements{std::move(reflected), solution.irradiance, first.from_source};
-  auto interpolated =
-      interpolate(light, elements, settings.form_factors, settings.direct, settings.interpolation);
+  auto interpolated = interpolate(light, elements, settings.form_factors, settings.direct,
+                                  settings.interpolation, shares);
   solution.field = std::move(interpolated.field);
   solution.interpolation_error = interpolated.error;
   if (interpolated.mesh)
@@ -136,6 +137,21 @@ RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings&
   return solution;
 }
 
+/// Pass one by receivers of many sizes.
+static RadiositySolution link_pass_one(const LightScene& light, const PassOneSettings& settings,
+                                       const Progress& progress) {
+  NodeSolution nodes = solve_by_nodes(light, settings.form_factors, settings.direct,
+                                      settings.hierarchical, settings.solver, progress);
+  RadiositySolution solution;
+  solution.solver = std::move(nodes.solver);
+  solution.links = nodes.figures;
+  solution.seconds.form_factors = nodes.seconds_gathering;
+  solution.seconds.solve = nodes.seconds_solving;
+  complete(light, settings, nodes.first, nodes.arrived,
+           {nodes.closure, nodes.exposed, nodes.rays_traced}, solution, &nodes.vertices);
+  return solution;
+}
+
 bool shoots_rays(const PassOneSettings& settings, std::size_t elements) {
   return settings.solver.method == SolverMethod::progressive &&
          settings.form_factors.method == FormFactorMethod::rays && elements > most_direct_unknowns;
@@ -146,6 +162,8 @@ RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings&
   check_size(settings.solver.method, element_count(light.mesh));
   if (shoots_rays(settings, element_count(light.mesh)))
     return shoot_pass_one(light, settings, progress, watch);
+  if (settings.solver.method == SolverMethod::hierarchical)
+    return link_pass_one(light, settings, progress);
   Stopwatch stopwatch;
   const FormFactors factors = assemble_transport(light, settings.form_factors, progress);
   const double seconds = stopwatch.lap();

@@ -1,6 +1,7 @@
 // Pass one in one call: from the scene to the continuous field of irradiance, with its figures.
 #pragma once
 
+#include "radiosity/hierarchical/link_figures.h"
 #include "radiosity/interpolation.h"
 #include "radiosity/plan.h"
 #include "radiosity/progressive.h"
@@ -13,6 +14,7 @@ struct PassOneSettings {
   FormFactorSettings form_factors;
   DirectSettings direct;
   SolverSettings solver;
+  HierarchicalSettings hierarchical;
   InterpolationSettings interpolation;
 };
 
@@ -40,6 +42,7 @@ struct RadiositySolution {
   std::unique_ptr<RefinedScene> refined; ///< adaptive: the scene on the field's mesh
   double interpolation_error = 0.0; ///< adaptive: estimated, of what its settings bound
   SolverResult solver; ///< its radiosity is moved out
+  std::optional<LinkFigures> links; ///< of `hierarchical`
   EnergyBalance energy;
   ClosureError closure;
   PassOneSeconds seconds;
@@ -76,6 +79,7 @@ struct PassOneWatch {
 /// `progressive` can be watched. In scenes of more than `most_direct_unknowns` elements it shoots rays, with no transport in memory
 /// (progressive.h), unless the form factors are not by rays; in smaller ones, where they take a few megabytes, blocks shoot by the columns of
 /// the transport that the other solvers have, so that all agree.
+/// `hierarchical` solves for nodes (hierarchical/node_solution.h), by rays.
 RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
                                  const Progress& progress = {}, const PassOneWatch& watch = {});
 

@@ -8,6 +8,8 @@
 //                 Vorst 1992). Conjugate gradients on the symmetrised system are no faster (ARCHITECTURE.md).
 //   progressive   shooting by columns, the largest unshot power first (solvers/shooting.h). In large scenes pass one shoots rays instead,
 //                 and stores no transport (progressive.h).
+//   hierarchical  `cg` for nodes that stand for many elements (hierarchical/node_solution.h): it has no rows of elements, and solve() is
+//                 not for it.
 // All stop on one bound of the error (solvers/error_bound.h): with the residual r_k = S + rho T B_k - B_k,
 //   ||B - B_k|| <= G ||r_k|| <= tolerance ||B_k||    in the maximum norm, for every channel.
 // None returns less than S, and so nothing negative: light only adds to what is there without bounces.
@@ -24,10 +26,14 @@
 
 namespace meninas {
 
-enum class SolverMethod { direct, jacobi, gauss_seidel, bicgstab, progressive };
+enum class SolverMethod { direct, jacobi, gauss_seidel, bicgstab, progressive, hierarchical };
 inline constexpr std::array solver_methods{SolverMethod::direct, SolverMethod::jacobi,
                                            SolverMethod::gauss_seidel, SolverMethod::bicgstab,
-                                           SolverMethod::progressive};
+                                           SolverMethod::progressive, SolverMethod::hierarchical};
+/// Those that solve for a transport with a row for every element.
+inline constexpr std::array row_solvers{SolverMethod::direct, SolverMethod::jacobi,
+                                        SolverMethod::gauss_seidel, SolverMethod::bicgstab,
+                                        SolverMethod::progressive};
 /// As users call it.
 const char* name_of(SolverMethod method);
 

@@ -63,4 +63,12 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
   return {indirect, indirect, dark || is_under_something(gathering.light, receiver, element_size)};
 }
 
+VertexValue value_from_source(const PointGathering& gathering, const Receiver& receiver,
+                              double element_size, std::uint32_t seed, PointWorkspace& work) {
+  return {
+      direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct),
+      {},
+      is_under_something(gathering.light, receiver, element_size)};
+}
+
 } // namespace meninas

@@ -21,6 +21,10 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
                               const Receiver& receiver, double element_size, std::uint32_t seed,
                               PointWorkspace& work);
 
+/// The part that comes from the source alone, of points that see no black.
+VertexValue value_from_source(const PointGathering& gathering, const Receiver& receiver,
+                              double element_size, std::uint32_t seed, PointWorkspace& work);
+
 /// Whether nearly all that a point sees is black: it is inside something that stands on its surface.
 bool sees_black(const GatheredRays& gathered);
 

@@ -17,6 +17,7 @@ QualityPreset preset_of(Quality quality) {
     return {.target_elements = 2'250,
             .rays = 128,
             .hemicube_resolution = 32,
+            .link_error = 0.05,
             .penumbra_rays = 32,
             .source_points = 4,
             .most_source_points = 64,
@@ -30,6 +31,7 @@ QualityPreset preset_of(Quality quality) {
     return {.target_elements = 16'000,
             .rays = 512,
             .hemicube_resolution = 64,
+            .link_error = 0.02,
             .penumbra_rays = 128,
             .source_points = 16,
             .most_source_points = 256,
@@ -43,6 +45,7 @@ QualityPreset preset_of(Quality quality) {
     return {.target_elements = 64'000,
             .rays = 2'048,
             .hemicube_resolution = 128,
+            .link_error = 0.01,
             .penumbra_rays = 512,
             .source_points = 16,
             .most_source_points = 256,
@@ -94,6 +97,7 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   pass_one.solver.method = settings.solver;
   pass_one.solver.tolerance = settings.tolerance.value_or(pass_one.solver.tolerance);
   pass_one.solver.max_shots = settings.steps;
+  pass_one.hierarchical.link_error = settings.link_error.value_or(preset.link_error);
   pass_one.interpolation.method = settings.interpolation.value_or(pass_one.interpolation.method);
   // Means of elements show nowhere but where they are interpolated; else they light other elements, and many average out.
   if (pass_one.interpolation.method == Interpolation::gather) {

@@ -22,6 +22,7 @@ struct QualityPreset {
   double target_elements = 0.0; ///< about how many elements share the meshed area
   int rays = 0; ///< form-factor rays per element, and per vertex where irradiance is gathered there
   int hemicube_resolution = 0; ///< cells along an edge of the top, where hemicubes are used instead
+  double link_error = 0.0;     ///< of the hierarchical solver: variation of the light over a receiver
   int penumbra_rays = 0;       ///< shadow rays from a vertex to an emitter that it sees in part
   int source_points = 0;       ///< of an element, at which light from emitters is computed for its mean
   int most_source_points = 0;  ///< likewise, where the first ones disagree
@@ -58,6 +59,7 @@ struct RunSettings {
   SolverMethod solver = SolverSettings{}.method;
   std::optional<double> tolerance;
   std::optional<int> steps; ///< of the progressive solver: shots
+  std::optional<double> link_error; ///< of the hierarchical solver
   std::optional<int> mirror_depth; ///< no path meets more mirrors
   std::optional<Interpolation> interpolation;
   std::optional<int> samples;

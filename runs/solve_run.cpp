@@ -5,6 +5,7 @@
 #include "runs/outputs.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
+#include "scenes/errors.h"
 #include "scenes/stopwatch.h"
 
 namespace meninas {
@@ -28,6 +29,9 @@ static RadiositySolution solve_or_relight(const SolveRequest& request, const Lig
                                           PassOneSettings settings, const RunEvents& events) {
   if (!request.factors && !request.reuse) {
     return solve_pass_one(light, settings, events.progress);
+  }
+  if (settings.solver.method == SolverMethod::hierarchical) {
+    throw UsageError("--solver hierarchical", "has no form factors of elements to keep or reuse");
   }
   check_size(settings.solver.method, element_count(light.mesh));
   settings.form_factors.relightable = true;

@@ -25,7 +25,7 @@ SolverResult without_radiosity(const SolverResult& solver) {
   return figures;
 }
 
-Json solve_json(const SolverResult& solver) {
+Json solve_json(const SolverResult& solver, const std::optional<LinkFigures>& links) {
   Json channel_residuals = Json::array(), channel_error_bounds = Json::array();
   for (const Rgb& residual : solver.channel_residuals) {
     channel_residuals.push_back(as_json(residual));
@@ -33,7 +33,7 @@ Json solve_json(const SolverResult& solver) {
   for (const Rgb& bound : solver.channel_error_bounds) {
     channel_error_bounds.push_back(as_json(bound));
   }
-  return {{"solver", name_of(solver.method)},
+  Json json{{"solver", name_of(solver.method)},
           {"iterations", solver.iterations},
           {"residual", solver.residual},
           {"error_bound", solver.error_bound},
@@ -42,6 +42,12 @@ Json solve_json(const SolverResult& solver) {
           {"bands", solver.bands},
           {"channel_residuals", std::move(channel_residuals)},
           {"channel_error_bounds", std::move(channel_error_bounds)}};
+  if (links) {
+    json["receivers"] = links->receivers;
+    json["links"] = links->links;
+    json["link_bytes"] = links->bytes;
+  }
+  return json;
 }
 
 Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
@@ -167,6 +173,7 @@ void add_preparation(RunFigures& figures, const PreparedScene& prepared) {
 
 void add_solution(RunFigures& figures, const RadiositySolution& solution) {
   figures.solver = without_radiosity(solution.solver);
+  figures.links = solution.links;
   figures.energy = solution.energy;
   figures.closure = solution.closure;
   if (solution.refined) {
@@ -212,7 +219,7 @@ std::string stats_json(const RunFigures& figures) {
               {"vertices", figures.vertices},
               {"solved_elements", figures.solved_elements},
               {"interpolation_error", optional_json(figures.interpolation_error)}}},
-            {"solve", solve_json(figures.solver)},
+            {"solve", solve_json(figures.solver, figures.links)},
             {"energy", energy_json(figures.energy)},
             {"closure",
              {{"mean_error", figures.closure.mean_error},

@@ -39,8 +39,8 @@ Value row_product(const Transport& transport, std::size_t row, const std::vector
 
 template <typename Value>
 std::vector<Value> transport_product(const Transport& transport, const std::vector<Value>& x) {
-  std::vector<Value> product(x.size());
-  tbb::parallel_for(std::size_t{0}, x.size(),
+  std::vector<Value> product(transport.size);
+  tbb::parallel_for(std::size_t{0}, product.size(),
                     [&](std::size_t i) { product[i] = row_product(transport, i, x); });
   return product;
 }

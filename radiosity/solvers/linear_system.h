@@ -16,7 +16,7 @@ struct LinearSystem {
   std::vector<Value> source, reflectance; ///< S and rho, by row
 };
 
-/// T x
+/// T x, for rows of any number; x has a value for every column
 template <typename Value>
 std::vector<Value> transport_product(const Transport& transport, const std::vector<Value>& x);
 

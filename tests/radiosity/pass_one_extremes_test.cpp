@@ -46,7 +46,7 @@ protected:
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, Extremes, testing::ValuesIn(solver_methods), [](const auto& method) {
+INSTANTIATE_TEST_SUITE_P(Each, Extremes, testing::ValuesIn(row_solvers), [](const auto& method) {
   std::string name = name_of(method.param);
   std::erase(name, '-');
   return name;
@@ -119,7 +119,7 @@ TEST(ManyElements, ThousandsOnOnePatchAndOneOnAnother) {
   const auto l = lit(scene, settings.mesh);
   ASSERT_GT(element_count(l->mesh), 3400U);
   const System system = system_of(*l, settings.form_factors, settings.direct);
-  for (const SolverMethod method : solver_methods) {
+  for (const SolverMethod method : row_solvers) {
     if (method == SolverMethod::direct)
       continue; // takes minutes
     const SolverResult result =

@@ -27,7 +27,7 @@ TEST(SolverAgreement, EveryGallerySceneWithinTenTolerancesOfTheDirectSolution) {
     const SolverResult direct = solve(system.transport, system.source, system.reflectance,
                                       {SolverMethod::direct, tolerance});
     EXPECT_TRUE(direct.converged);
-    for (const SolverMethod method : solver_methods) {
+    for (const SolverMethod method : row_solvers) {
       const SolverResult result =
           solve(system.transport, system.source, system.reflectance, {method, tolerance});
       EXPECT_TRUE(result.converged) << entry.path() << name_of(method);
@@ -52,7 +52,7 @@ TEST(SolverAgreement, InfinitePlatesBetweenMirrors) {
              {glass, glass, diffuse(rho, 1.0), diffuse(rho), glass, glass});
     const auto l = lit(std::move(scene), {.element_size = 0.25});
     const System system = system_of(*l, {.rays = 1024}, few_points);
-    for (const SolverMethod method : solver_methods) {
+    for (const SolverMethod method : row_solvers) {
       const SolverResult result =
           solve(system.transport, system.source, system.reflectance, {method, 1e-5});
       EXPECT_TRUE(result.converged);

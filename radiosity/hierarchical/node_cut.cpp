@@ -1,0 +1,192 @@
+#include "radiosity/hierarchical/node_cut.h"
+
+#include "radiosity/gathered_emission.h"
+#include "scenes/sampling.h"
+
+#include <algorithm>
+
+namespace meninas {
+
+namespace {
+
+constexpr CoveredCells whole = ~CoveredCells{0};
+
+/// Nodes of a cut and what they have gathered; without `receiver_of_element`, which is of whole cuts.
+NodeCut gathered_by(const LightScene& light, const NodeTree& tree, std::vector<TreeNodeId> nodes,
+                    FormFactorSettings settings, const Progress& progress) {
+  // Rows are numbered anew from round to round: so that their samples are not the same, each round has its seed.
+  settings.seed = hash(settings.seed, nodes.empty() ? 0 : index(nodes.front()), 0x40de);
+  const auto receiver = [&](std::size_t row) {
+    return area_of(light, tree.nodes[index(nodes[row])]);
+  };
+  FormFactors factors = assemble_rows(light, nodes.size(), receiver, settings, progress);
+  NodeCut part;
+  part.emission = gathered_emission(light, factors);
+  part.receivers = std::move(nodes);
+  part.rows = std::move(factors.transport);
+  part.closure = std::move(factors.closure);
+  part.covered = std::move(factors.covered);
+  part.rays_traced = factors.rays_traced;
+  return part;
+}
+
+void append(const NodeCut& from, std::size_t receiver, NodeCut& to) {
+  const Transport& rows = from.rows;
+  const auto begin = static_cast<std::ptrdiff_t>(rows.row_begin[receiver]),
+             end = static_cast<std::ptrdiff_t>(rows.row_begin[receiver + 1]);
+  to.rows.columns.insert(to.rows.columns.end(), rows.columns.begin() + begin,
+                         rows.columns.begin() + end);
+  to.rows.weights.insert(to.rows.weights.end(), rows.weights.begin() + begin * rows.bands,
+                         rows.weights.begin() + end * rows.bands);
+  to.rows.row_begin.push_back(to.rows.columns.size());
+  to.receivers.push_back(from.receivers[receiver]);
+  to.closure.push_back(from.closure[receiver]);
+  to.emission.push_back(from.emission[receiver]);
+  to.covered.push_back(from.covered[receiver]);
+}
+
+/// What is left of a cut, and what has taken the place of the rest, in the order of the tree.
+NodeCut merged(const NodeTree& tree, const NodeCut& before, const std::vector<std::uint8_t>& gone,
+               const NodeCut& fresh) {
+  NodeCut cut;
+  cut.rows.bands = fresh.rows.bands;
+  cut.rows.row_begin.push_back(0);
+  cut.rays_traced = before.rays_traced + fresh.rays_traced;
+  for (std::size_t a = 0, b = 0; a < before.receivers.size() || b < fresh.receivers.size();) {
+    const bool old = b == fresh.receivers.size() ||
+                     (a < before.receivers.size() && before.receivers[a] < fresh.receivers[b]);
+    if (!old)
+      append(fresh, b++, cut);
+    else if (gone[a++] == 0)
+      append(before, a - 1, cut);
+  }
+  cut.rows.size = cut.receivers.size();
+  cut.receiver_of_element.resize(tree.elements.size());
+  for (std::uint32_t r = 0; r < cut.receivers.size(); ++r)
+    for (const ElementId element : elements_below(tree, cut.receivers[r]))
+      cut.receiver_of_element[index(element)] = r;
+  return cut;
+}
+
+/// Receivers on a part of which something stands, or may stand: of those that meet black backs, elements that are covered are found as far as they
+/// are several of the cells that the receiver is looked at in.
+std::vector<std::uint8_t> covered_in_part(const NodeTree& tree, const NodeCut& cut) {
+  constexpr std::uint32_t most_elements = 16;
+  std::vector<std::uint8_t> marked;
+  for (std::size_t r = 0; r < cut.receivers.size(); ++r) {
+    const TreeNode& node = tree.nodes[index(cut.receivers[r])];
+    const bool meets_black = cut.closure[r].black > 0.0F && node.leaf_count > most_elements;
+    const bool partly = (cut.covered[r] != 0 || meets_black) && cut.covered[r] != whole;
+    marked.push_back(!is_leaf(node) && partly ? 1 : 0);
+  }
+  return marked;
+}
+
+NodeCut divided(const LightScene& light, const NodeTree& tree, const NodeCut& cut,
+                const std::vector<std::uint8_t>& marked, const FormFactorSettings& settings,
+                const Progress& progress) {
+  std::vector<TreeNodeId> children;
+  for (std::size_t r = 0; r < cut.receivers.size(); ++r)
+    if (marked[r] != 0) {
+      const TreeNode& node = tree.nodes[index(cut.receivers[r])];
+      for (std::uint32_t c = 0; c < node.child_count; ++c)
+        children.push_back(static_cast<TreeNodeId>(index(node.first_child) + c));
+    }
+  std::ranges::sort(children);
+  return merged(tree, cut, marked,
+                gathered_by(light, tree, std::move(children), settings, progress));
+}
+
+bool any(const std::vector<std::uint8_t>& marked) {
+  return std::ranges::find(marked, 1) != marked.end();
+}
+
+} // namespace
+
+NodeCut first_cut(const LightScene& light, const NodeTree& tree, const FormFactorSettings& settings,
+                  const Progress& progress) {
+  constexpr std::uint32_t least = 16; // receivers on a side
+  std::vector<TreeNodeId> nodes;
+  std::vector<std::uint32_t> most(light.mesh.sides.size()); // elements of a receiver, by side
+  for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+    const TreeNode& node = tree.nodes[n];
+    std::uint32_t& limit = most[index(node.side)];
+    if (node.parent == none<TreeNodeId>)
+      limit = std::max(1U, node.leaf_count / least);
+    const bool above_is_large =
+        node.parent == none<TreeNodeId> || tree.nodes[index(node.parent)].leaf_count > limit;
+    if (above_is_large && (node.leaf_count <= limit || is_leaf(node)))
+      nodes.push_back(static_cast<TreeNodeId>(n));
+  }
+  const NodeCut found = gathered_by(light, tree, std::move(nodes), settings, progress);
+  NodeCut cut = merged(tree, {}, {}, found);
+  return moved_down(light, tree, std::move(cut),
+                    std::vector<std::uint8_t>(found.receivers.size(), 0), settings, progress);
+}
+
+NodeCut moved_down(const LightScene& light, const NodeTree& tree, NodeCut cut,
+                   const std::vector<std::uint8_t>& marked, const FormFactorSettings& settings,
+                   const Progress& progress) {
+  for (std::vector<std::uint8_t> now = marked;;) {
+    if (any(now))
+      cut = divided(light, tree, cut, now, settings, progress);
+    now = covered_in_part(tree, cut);
+    if (!any(now))
+      return cut;
+  }
+}
+
+std::vector<CoveredCells> covered_elements(const NodeTree& tree, const NodeCut& cut) {
+  std::vector<CoveredCells> covered(tree.elements.size(), 0);
+  for (std::size_t r = 0; r < cut.receivers.size(); ++r)
+    if (is_leaf(tree.nodes[index(cut.receivers[r])]) || cut.covered[r] == whole)
+      for (const ElementId element : elements_below(tree, cut.receivers[r]))
+        covered[index(element)] = cut.covered[r];
+  return covered;
+}
+
+std::vector<Rgb> means_below(const NodeTree& tree, const NodeCut& cut,
+                             const std::vector<double>& areas, const std::vector<Rgb>& values) {
+  std::vector<Rgb> means;
+  means.reserve(cut.receivers.size());
+  for (const TreeNodeId receiver : cut.receivers) {
+    Rgb sum(0.0);
+    double area = 0.0;
+    for (const ElementId element : elements_below(tree, receiver)) {
+      sum += areas[index(element)] * values[index(element)];
+      area += areas[index(element)];
+    }
+    means.push_back(area > 0.0 ? sum / area : Rgb(0.0));
+  }
+  return means;
+}
+
+Transport between_receivers(const NodeCut& cut) {
+  const Transport& rows = cut.rows;
+  const auto bands = static_cast<std::size_t>(rows.bands);
+  Transport result;
+  result.size = rows.size;
+  result.bands = rows.bands;
+  result.row_begin.push_back(0);
+  std::vector<std::uint32_t> place(rows.size, 0); // 1 + its place among the row's columns, or 0
+  for (std::size_t r = 0; r < rows.size; ++r) {
+    const std::size_t first = result.columns.size();
+    for (auto k = rows.row_begin[r]; k < rows.row_begin[r + 1]; ++k) {
+      const std::uint32_t source = cut.receiver_of_element[rows.columns[k]];
+      if (place[source] == 0) {
+        result.columns.push_back(source);
+        result.weights.resize(result.weights.size() + bands, 0.0F);
+        place[source] = static_cast<std::uint32_t>(result.columns.size() - first);
+      }
+      for (std::size_t band = 0; band < bands; ++band)
+        result.weights[(first + place[source] - 1) * bands + band] +=
+            rows.weights[k * bands + band];
+    }
+    for (std::size_t k = first; k < result.columns.size(); ++k)
+      place[result.columns[k]] = 0;
+    result.row_begin.push_back(result.columns.size());
+  }
+  return result;
+}
+
+} // namespace meninas

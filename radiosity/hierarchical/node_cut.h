@@ -1,0 +1,45 @@
+// The cut through the tree of nodes at which light is received, and what the nodes on it gather.
+//
+// A receiver is a node that gathers for all elements below it: one row of form factors (form_factors.h, `rays` from points all over the node) instead of
+// one for each element. Every element has exactly one receiver, itself or a node above it. So rows are as many as the light asks for, however
+// fine the elements are. Rows are kept when the cut moves down: only nodes that are new to it are traced.
+//
+// What stands on a surface is found by the rows too (covered_cells.h): a node of which a part is covered is divided until its parts are free or
+// covered as a whole, or elements; one that meets black backs, which may be those of something small, until it has few elements.
+#pragma once
+
+#include "radiosity/hierarchical/node_tree.h"
+
+namespace meninas {
+
+/// Receivers in the order of their numbers in the tree, and what they have gathered.
+struct NodeCut {
+  std::vector<TreeNodeId> receivers;
+  std::vector<std::uint32_t> receiver_of_element; ///< by ElementId: its place in `receivers`
+  Transport rows;                                 ///< by receiver; columns are elements
+  std::vector<RowClosure> closure;                ///< by receiver
+  std::vector<Rgb> emission;                      ///< by receiver: gathered_emission.h, W/m^2
+  std::vector<CoveredCells> covered;              ///< by receiver, of itself
+  std::uint64_t rays_traced = 0;                  ///< for all nodes that have ever been receivers
+};
+
+/// By ElementId: the cells on which something stands.
+std::vector<CoveredCells> covered_elements(const NodeTree& tree, const NodeCut& cut);
+
+/// Sixteen receivers on every side that has so many elements, and more where something stands on it.
+NodeCut first_cut(const LightScene& light, const NodeTree& tree, const FormFactorSettings& settings,
+                  const Progress& progress);
+
+/// Receivers that are marked, by their place, give way to their children. Elements cannot.
+NodeCut moved_down(const LightScene& light, const NodeTree& tree, NodeCut cut,
+                   const std::vector<std::uint8_t>& marked, const FormFactorSettings& settings,
+                   const Progress& progress);
+
+/// The means over the elements below every receiver. `areas` and values by ElementId.
+std::vector<Rgb> means_below(const NodeTree& tree, const NodeCut& cut,
+                             const std::vector<double>& areas, const std::vector<Rgb>& values);
+
+/// What the receivers gather from one another: F_cd is the sum of F_cj over the elements j below d.
+Transport between_receivers(const NodeCut& cut);
+
+} // namespace meninas

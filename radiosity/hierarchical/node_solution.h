@@ -1,0 +1,46 @@
+// Hierarchical radiosity (`--solver hierarchical`): light is received by nodes as large as it allows, and sent on by the elements below them.
+//
+// What elements have not reflected yet, S = rho (D + G), is found as for every solver (first_light.h), element by element: it has the edges.
+// What they send one another is smooth. So with c the receiver of element j (node_cut.h),
+//
+//   B_j = S_j + rho_j H_c,   H_c = sum_j F_cj B_j = s_c + sum_d F_cd rho_d H_d,   s_c = sum_j F_cj S_j,
+//
+// d over the receivers, F_cd the sum of F_cj over the elements j below d, rho_d their mean: first light is gathered from the elements themselves, and
+// what follows from receivers, over links between nodes (F_cd, c, d). The system of receivers is solved by `cg` (solve.h).
+// Receivers are then divided where
+//
+//   rho |H_c - H_parent| > X (B + B_mean),   X the link error, H with G and what comes from the sky,
+//
+// (what a node differs from its parent by, its own parts differ from it by about half of, and B + B_mean is twice what is there), and the larger system is solved, until none is:
+// links are refined by the power they carry (Hanrahan, Salzman, Aupperle 1991). The factors of links come from the
+// rays of the receivers' rows and not from pairs of nodes: rays follow every mirror to any depth and know what stands between, there
+// is no quadratic beginning, and rows close. Pairs with a closed form and shadow rays, as in the paper, were slower and less accurate (ARCHITECTURE.md).
+//
+// Cost: first light and pushes are linear in elements; rows as many as receivers, whose number depends on the light and on X, and on
+// elements only while these are larger than X asks for.
+#pragma once
+
+#include "radiosity/first_light.h"
+#include "radiosity/hierarchical/link_figures.h"
+#include "radiosity/hierarchical/node_vertices.h"
+#include "radiosity/solve.h"
+
+namespace meninas {
+
+struct NodeSolution {
+  SolverResult solver;      ///< its radiosity is the reflected part, by ElementId
+  std::vector<Rgb> arrived; ///< H of its receiver by ElementId, W/m^2
+  FirstLight first;
+  std::vector<RowClosure> closure; ///< by ElementId: its receiver's
+  std::vector<float> exposed;      ///< by ElementId
+  VertexShares vertices;           ///< which of them have to gather
+  LinkFigures figures;
+  std::uint64_t rays_traced = 0;
+  double seconds_gathering = 0.0, seconds_solving = 0.0;
+};
+
+NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& form_factors,
+                            const DirectSettings& direct, const HierarchicalSettings& settings,
+                            const SolverSettings& solver, const Progress& progress = {});
+
+} // namespace meninas

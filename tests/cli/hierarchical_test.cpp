@@ -1,0 +1,85 @@
+// `--solver hierarchical` on the command line: figures, and what has no effect.
+#include "tests/cli/batch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace meninas::test {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class HierarchicalRuns : public testing::Test {
+protected:
+  HierarchicalRuns() { write_room(folder_ / "room.glb", tiny_room()); }
+
+  json figures() { return json::parse(read_file(folder_ / "stats.json")).at("solve"); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(HierarchicalRuns, FiguresSpeakOfReceiversAndLinks) {
+  std::vector<std::size_t> links;
+  for (const char* error : {"0.5", "0.02"}) {
+    const Outcome outcome =
+        run_program(folder_.path(), {"solve", "room.glb", "-o", "solved.glb", "--quality", "draft",
+                                     "--element-size", "0.05", "--solver", "hierarchical",
+                                     "--link-error", error, "--stats", "stats.json"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const json solve = figures();
+    EXPECT_EQ(solve["solver"], "hierarchical");
+    EXPECT_EQ(solve["converged"], true);
+    EXPECT_LE(solve["error_bound"].get<double>(), 1e-4);
+    EXPECT_GT(solve["receivers"].get<std::size_t>(), 0U);
+    EXPECT_GE(solve["link_bytes"].get<std::size_t>(), 8 * solve["links"].get<std::size_t>());
+    links.push_back(solve["links"]);
+  }
+  EXPECT_GT(links[1], links[0]);
+
+  // The solution file knows the solver.
+  const Outcome view =
+      run_program(folder_.path(), {"render", "room.glb", "--solution", "solved.glb", "-o",
+                                   "view.png", "--size", "8x8"});
+  EXPECT_EQ(view.code, 0) << view.err;
+}
+
+TEST_F(BatchTest, TakesHierarchicalAsTheCommandLineDoes) {
+  write_jobs({{{"scenes", "room.glb"},
+               {"modes", "radiosity"},
+               {"outputs", {"a.exr"}},
+               {"settings", {{"solver", "hierarchical"}, {"link-error", 0.05}}}}});
+  const Outcome outcome = batch();
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  run_program(folder_.path(),
+              {"render", "room.glb", "-o", "a.exr", "--mode", "radiosity", "--element-size", "0.25",
+               "--rays", "16", "--size", "24x16", "--samples", "1", "--solver", "hierarchical",
+               "--link-error", "0.05", "--quiet"});
+  EXPECT_EQ(pictures()["a.exr"], read_file(folder_ / "a.exr"));
+}
+
+TEST_F(HierarchicalRuns, WhatHasNoEffectIsRefused) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
+      {{"--link-error", "0.01"}, "--link-error"},
+      {{"--solver", "cg", "--link-error", "0.01"}, "--link-error"},
+      {{"--solver", "hierarchical", "--link-error", "0"}, "--link-error"},
+      {{"--solver", "hierarchical", "--steps", "3"}, "--steps"},
+      {{"--solver", "hierarchical", "--form-factors", "analytic"}, "--form-factors"},
+      {{"--mode", "reference", "--link-error", "0.1"}, "--link-error"}};
+  for (auto [arguments, name] : refused) {
+    arguments.insert(arguments.begin(), {"render", "room.glb", "-o", "out.png"});
+    const Outcome outcome = run_program(folder_.path(), arguments);
+    EXPECT_EQ(outcome.code, 2) << name;
+    EXPECT_THAT(outcome.err, HasSubstr("meninas: " + name + ": "));
+  }
+  const Outcome kept = run_program(folder_.path(), {"solve", "room.glb", "-o", "a.glb", "--solver",
+                                                    "hierarchical", "--factors", "room.factors"});
+  EXPECT_EQ(kept.code, 2);
+  EXPECT_THAT(kept.err, HasSubstr("meninas: --solver hierarchical: "));
+  EXPECT_THAT(files_in(folder_.path()), ElementsAre("room.glb"));
+}
+
+} // namespace
+} // namespace meninas::test
