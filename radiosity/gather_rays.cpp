@@ -279,21 +279,8 @@ RowClosure closure_of(const GatheredRays& gathered) {
 ReceiverArea receiver_of(const LightScene& light, ElementId element) {
   const MeshCell& cell = cell_of(light.mesh, element);
   const MeshSide& side = light.mesh.sides[index(cell.side)];
-  const Patch& patch = light.surfaces.patches[index(side.patch)];
-  const auto at = [&](double s, double t) {
-    return point_at(patch, patch_uv_of(light.mesh, cell, Vec2(s, t)));
-  };
-  ReceiverArea area;
-  area.corner = at(0.0, 0.0);
-  area.edge_u = at(1.0, 0.0) - area.corner;
-  area.edge_v = at(0.0, 1.0) - area.corner;
-  if (!side.triangle)
-    area.edge_uv = at(1.0, 1.0) - area.corner - area.edge_u - area.edge_v;
-  area.triangle = side.triangle;
-  area.normal = side.normal;
-  area.plane_class = side.plane_class;
-  area.tangent = side.tangent;
-  return area;
+  return part_of_side(light, side, side.triangle,
+                      [&](Vec2 st) { return patch_uv_of(light.mesh, cell, st); });
 }
 
 } // namespace meninas

@@ -94,6 +94,25 @@ Covered covered_part(const LightScene& light, const DirectionNet& net, const Rec
 
 ReceiverArea receiver_of(const LightScene& light, ElementId element);
 
+/// A part of a side as an area, by the (u, v) in its patch of its own (s, t).
+template <typename PatchUv>
+ReceiverArea part_of_side(const LightScene& light, const MeshSide& side, bool triangle,
+                          const PatchUv& patch_uv) {
+  const Patch& patch = light.surfaces.patches[index(side.patch)];
+  const auto at = [&](double s, double t) { return point_at(patch, patch_uv(Vec2(s, t))); };
+  ReceiverArea area;
+  area.corner = at(0.0, 0.0);
+  area.edge_u = at(1.0, 0.0) - area.corner;
+  area.edge_v = at(0.0, 1.0) - area.corner;
+  if (!triangle)
+    area.edge_uv = at(1.0, 1.0) - area.corner - area.edge_u - area.edge_v;
+  area.triangle = triangle;
+  area.normal = side.normal;
+  area.plane_class = side.plane_class;
+  area.tangent = side.tangent;
+  return area;
+}
+
 /// The emission (times weight and throughput) a landed ray brings where no closed form owns it: emitters gathered as a whole,
 /// and the others beyond the enumerated worlds.
 inline Rgb gathered_emission(const LightScene& light, const RayLanding& landing) {

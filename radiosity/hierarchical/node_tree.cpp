@@ -162,22 +162,8 @@ NodeTree make_node_tree(const ElementMesh& mesh, const SurfaceModel& surfaces) {
 ReceiverArea area_of(const LightScene& light, const TreeNode& node) {
   if (is_leaf(node))
     return receiver_of(light, node.element);
-  const MeshSide& side = light.mesh.sides[index(node.side)];
-  const Patch& patch = light.surfaces.patches[index(side.patch)];
-  const auto at = [&](double s, double t) {
-    return point_at(patch, node.uv + Vec2(s, t) * node.extent);
-  };
-  ReceiverArea area;
-  area.corner = at(0.0, 0.0);
-  area.edge_u = at(1.0, 0.0) - area.corner;
-  area.edge_v = at(0.0, 1.0) - area.corner;
-  if (!node.triangle)
-    area.edge_uv = at(1.0, 1.0) - area.corner - area.edge_u - area.edge_v;
-  area.triangle = node.triangle;
-  area.normal = side.normal;
-  area.plane_class = side.plane_class;
-  area.tangent = side.tangent;
-  return area;
+  return part_of_side(light, light.mesh.sides[index(node.side)], node.triangle,
+                      [&](Vec2 st) { return node.uv + st * node.extent; });
 }
 
 } // namespace meninas
