@@ -27,9 +27,9 @@
 namespace meninas {
 
 enum class SolverMethod { direct, jacobi, gauss_seidel, bicgstab, progressive, hierarchical };
-inline constexpr std::array solver_methods{SolverMethod::direct, SolverMethod::jacobi,
+inline constexpr std::array solver_methods{SolverMethod::direct,       SolverMethod::jacobi,
                                            SolverMethod::gauss_seidel, SolverMethod::bicgstab,
-                                           SolverMethod::progressive, SolverMethod::hierarchical};
+                                           SolverMethod::progressive,  SolverMethod::hierarchical};
 /// Those that solve for a transport with a row for every element.
 inline constexpr std::array row_solvers{SolverMethod::direct, SolverMethod::jacobi,
                                         SolverMethod::gauss_seidel, SolverMethod::bicgstab,
@@ -55,7 +55,7 @@ struct ShotPlan {
 enum class SolverEnd {
   converged,
   iteration_limit,
-  rounding, ///< the residual is as small as rounding lets it be, the bound is not
+  rounding, ///< the residual is as small as rounding lets it be (without a bound: as the tolerance), the bound is not
   unsolvable ///< light enters a closed part of the scene that absorbs nothing: it would grow without end
 };
 

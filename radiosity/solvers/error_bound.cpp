@@ -67,12 +67,37 @@ Value contraction(const LinearSystem<Value>& system) {
 }
 
 template <typename Value>
+std::vector<Value> lit_rows(const LinearSystem<Value>& system) {
+  const Transport& transport = system.transport;
+  std::vector<Value> lit(transport.size, Value(0.0));
+  for (std::size_t i = 0; i < transport.size; ++i)
+    for (int band = 0; band < channel_count<Value>; ++band)
+      channel(lit[i], band) = channel(system.source[i], band) > 0.0 ? 1.0 : 0.0;
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (std::size_t i = 0; i < transport.size; ++i) {
+      Value arrives = lit[i];
+      for (auto k = transport.row_begin[i]; k < transport.row_begin[i + 1] && arrives != Value(1.0);
+           ++k)
+        arrives = glm::max(arrives, lit[transport.columns[k]]);
+      changed = changed || arrives != lit[i];
+      lit[i] = arrives;
+    }
+  }
+  return lit;
+}
+
+template <typename Value>
 Value amplification_bound(const LinearSystem<Value>& system) {
   constexpr double sharp = 0.1;   // of ||q||: leaves the bound within a factor (1 + q) / (1 - q)
   constexpr int most_bounces = 4; // of the Neumann series, which suffices for dark rooms
-  constexpr int most_iterations = 200;
-  const LinearSystem<Value> ones{
-      system.transport, std::vector<Value>(system.transport.size, Value(1.0)), system.reflectance};
+  // A bound is worth some seconds, and not more than the solution.
+  constexpr double affordable_entries = 2e9, fewest_iterations = 40.0, most_iterations = 200.0;
+  const double entries = 1.0 + double(system.transport.columns.size());
+  const auto enough_iterations = static_cast<int>(
+      std::clamp(affordable_entries / entries, fewest_iterations, most_iterations));
+  const LinearSystem<Value> ones{system.transport, lit_rows(system), system.reflectance};
 
   // The sum of m bounces of ones leaves q = (rho T)^m 1.
   std::vector<Value> g = ones.source, q = reflected(system, g);
@@ -83,7 +108,7 @@ Value amplification_bound(const LinearSystem<Value>& system) {
   }
   int iterations = 0;
   bicgstab_run<Value>(ones, g, [&](const Value& residual, const Value&) {
-    const bool enough = worst(residual) <= sharp || iterations++ >= most_iterations;
+    const bool enough = worst(residual) <= sharp || iterations++ >= enough_iterations;
     return Value(enough ? 0.0 : 1.0);
   });
 
@@ -134,13 +159,18 @@ bool converged(const Convergence<Value>& convergence) {
 
 template <typename Value>
 bool exhausted(const Convergence<Value>& convergence) {
-  return worst(convergence.residuals.back()) <= 4.0 * std::numeric_limits<double>::epsilon();
+  const bool bounded = worst(convergence.amplification) < std::numeric_limits<double>::infinity();
+  const double least =
+      bounded ? 4.0 * std::numeric_limits<double>::epsilon() : convergence.tolerance;
+  return worst(convergence.residuals.back()) <= least;
 }
 
 template bool has_lit_trap(const LinearSystem<Rgb>&);
 template bool has_lit_trap(const LinearSystem<double>&);
 template Rgb contraction(const LinearSystem<Rgb>&);
 template double contraction(const LinearSystem<double>&);
+template std::vector<Rgb> lit_rows(const LinearSystem<Rgb>&);
+template std::vector<double> lit_rows(const LinearSystem<double>&);
 template Rgb amplification_bound(const LinearSystem<Rgb>&);
 template double amplification_bound(const LinearSystem<double>&);
 template void record(Convergence<Rgb>&, const Rgb&, const Rgb&);

@@ -5,11 +5,18 @@
 // (1 - rho T) g = 1. For any approximation g_k with the residual q = 1 - (1 - rho T) g_k,
 //   G = ||g_k + (1 - rho T)^-1 q|| <= ||g_k|| + G ||q||,   so   G <= ||g_k|| / (1 - ||q||)   where ||q|| < 1.
 // The bound is sharp, and what is left of it is known: G itself is at least ||g_k|| / (1 + ||q||).
+// Only rows that light reaches count, with 1 = 0 elsewhere: in the others B, B_k and r_k are 0, and g with them. (The inside of a closed white
+// shell would make G infinite, and nobody sees it.)
 #pragma once
 
 #include "radiosity/solvers/linear_system.h"
 
 namespace meninas {
+
+/// By row and channel: 1 where light arrives, from the source or from rows where it does; 0 elsewhere, where B, its iterates and their residuals
+/// are 0.
+template <typename Value>
+std::vector<Value> lit_rows(const LinearSystem<Value>& system);
 
 /// G by channel, at most a quarter too large; infinite where no bound was found.
 template <typename Value>
@@ -45,7 +52,7 @@ void record_again(Convergence<Value>& convergence, const Value& residual_norm, c
 template <typename Value>
 bool converged(const Convergence<Value>& convergence);
 
-/// The residual is that of rounding.
+/// The residual is that of rounding; or, where no bound tells what a smaller one would be good for, it is within the tolerance.
 template <typename Value>
 bool exhausted(const Convergence<Value>& convergence);
 
