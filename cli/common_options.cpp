@@ -59,16 +59,17 @@ std::string by_preset(Field QualityPreset::*field) {
 /// `--adaptive [X]`: without X the preset's.
 void add_adaptive(CLI::App& command, RunSettings& settings) {
   CLI::Option* adaptive =
-      add_text(command, "--adaptive", "[X]",
-               fmt::format("divides elements where the light asks for it, until radiosity is within "
-                           "X of itself, in the mean square [{}]",
-                           by_preset(&QualityPreset::adaptive_error)),
-               [&](const std::string& text) {
-                 settings.adaptive = WithAdaptivity::yes;
-                 if (text != preset_value) {
-                   settings.adaptive_error = parse_number("--adaptive", text, Sign::positive);
-                 }
-               })
+      add_text(
+          command, "--adaptive", "[X]",
+          fmt::format("divides elements where the light asks for it, until radiosity is within "
+                      "X of itself, in the mean square [{}]",
+                      by_preset(&QualityPreset::adaptive_error)),
+          [&](const std::string& text) {
+            settings.adaptive = WithAdaptivity::yes;
+            if (text != preset_value) {
+              settings.adaptive_error = parse_number("--adaptive", text, Sign::positive);
+            }
+          })
           ->expected(0, 1)
           ->default_str(preset_value)
           ->group(pass_one_group);
@@ -92,12 +93,15 @@ void add_scene(CLI::App& command, CommonOptions& options) {
       ->required();
   GltfSettings& gltf = options.settings.gltf;
   add_allow_external(command, gltf);
-  add_text(command, "--memory-limit", "SIZE",
-           fmt::format("what the scene's geometry and textures may take, such as 800M [{}G]",
-                       gltf.memory_limit >> 30),
-           [&](const std::string& text) {
-             gltf.memory_limit = parse_bytes("--memory-limit", text);
-           });
+  add_text(
+      command, "--memory-limit", "SIZE",
+      fmt::format("what the run may take, such as 800M; more is refused beforehand [{}G for the "
+                  "scene as it is read, all the machine has for the run]",
+                  gltf.memory_limit >> 30),
+      [&](const std::string& text) {
+        gltf.memory_limit = parse_bytes("--memory-limit", text);
+        options.settings.memory_limit = gltf.memory_limit;
+      });
 }
 
 void add_allow_external(CLI::App& command, GltfSettings& settings) {
@@ -206,7 +210,8 @@ void add_run_options(CLI::App& command, CommonOptions& options) {
 
 CLI::Option* add_file(CLI::App& command, const std::string& option,
                       std::optional<std::filesystem::path>& file, const std::string& description) {
-  return add_text(command, option, "FILE", description, [&](const std::string& text) { file = text; });
+  return add_text(command, option, "FILE", description,
+                  [&](const std::string& text) { file = text; });
 }
 
 void check_pass_one_options(const CLI::App& command, const RunSettings& settings) {
@@ -236,10 +241,10 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
 }
 
 void refuse_pass_one_options(const CLI::App& command, const std::string& reason) {
-  constexpr std::array options{"--element-size",        "--form-factors", "--rays",
-                               "--hemicube-resolution", "--solver",       "--tolerance",
-                               "--steps",               "--link-error",   "--interpolation",
-                               "--adaptive",            "--no-adaptive"};
+  constexpr std::array options{
+      "--element-size",  "--form-factors", "--rays",       "--hemicube-resolution",
+      "--solver",        "--tolerance",    "--steps",      "--link-error",
+      "--interpolation", "--adaptive",     "--no-adaptive"};
   for (const char* option : options) {
     if (command.count(option) > 0) {
       throw UsageError(option, reason);

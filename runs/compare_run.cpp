@@ -4,6 +4,7 @@
 #include "image/image_file.h"
 #include "image/whole_file.h"
 #include "runs/compare_report.h"
+#include "runs/memory.h"
 #include "runs/outputs.h"
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
@@ -84,6 +85,7 @@ void compare_run(const CompareRequest& request, const RunEvents& events) {
   Scene scene = load_scene(request.scene, request.settings);
   const Camera camera = choose_camera(scene, request.camera, events);
   const PictureSize size = choose_size(request.size, camera);
+  check_memory(scene, request.settings, size);
   Comparison comparison;
   comparison.scene = request.scene.filename().string();
   comparison.camera = camera.name;

@@ -3,7 +3,7 @@
 #include "radiosity/point_gathering.h"
 #include "radiosity/vertex_places.h"
 #include "raytrace/probes.h"
-#include "runs/batch/memory.h"
+#include "runs/memory.h"
 #include "scenes/sampling.h"
 #include "scenes/stopwatch.h"
 
@@ -72,22 +72,6 @@ double camera_ray_seconds(const PreparedScene& prepared, const Camera& camera,
   return watch.lap() / (double(some) * settings.samples);
 }
 
-std::uint64_t expected_bytes(const PreparedScene& prepared, const Camera& camera, PictureSize size,
-                             const RunSettings& settings) {
-  // Sizes of batch/memory.h are meant not to be exceeded; what the program needs before any scene is not in them.
-  constexpr double of_bound = 0.65, program = 60e6;
-  const auto facts = std::make_shared<const SceneFacts>(facts_of(prepared.scene));
-  BatchPicture picture;
-  picture.request.settings = settings;
-  picture.facts = facts;
-  picture.camera = camera;
-  picture.size = size;
-  const double bound = static_cast<double>(scene_memory(*facts, settings)) +
-                       static_cast<double>(solve_memory(*facts, settings)) +
-                       static_cast<double>(view_memory(picture));
-  return static_cast<std::uint64_t>(program + of_bound * bound);
-}
-
 } // namespace
 
 ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, PictureSize size,
@@ -122,7 +106,7 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
   cost.write = 0.01 + encoded_pixel * pixels;
   cost.total =
       cost.prepare + cost.form_factors + cost.solve + cost.interpolate + cost.render + cost.write;
-  cost.bytes = expected_bytes(prepared, camera, size, settings);
+  cost.bytes = expected_memory(sizes_of(prepared.scene), settings, size);
   return cost;
 }
 

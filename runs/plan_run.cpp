@@ -1,7 +1,7 @@
 #include "runs/plan_run.h"
 
-#include "runs/batch/memory.h"
 #include "runs/expected_cost.h"
+#include "runs/memory.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
 #include "runs/stats.h"
@@ -114,14 +114,18 @@ std::string plan_run(const PlanRequest& request) {
   const auto prepared = prepare_scene(std::move(scene), settings);
   const ExpectedCost expected = expect_cost(*prepared, camera, choose_size(request.size, camera),
                                             request.settings, loading, limit.threads());
-  const TransportPlan& plan = prepared->plan;
+  TransportPlan plan = prepared->plan;
+  if (expected.bytes > memory_limit(request.settings)) {
+    plan.warnings.push_back(fmt::format(
+        "a run needs about {}, more than the memory limit of {}, and would be refused",
+        readable_bytes(expected.bytes), readable_bytes(memory_limit(request.settings))));
+  }
   const std::size_t elements = element_count(prepared->mesh);
   const std::size_t patches = prepared->surfaces.patches.size();
   const auto odd = report_scene(prepared->scene, prepared->surfaces, *prepared->rays);
-  return request.format == PlanFormat::json
-             ? plan_json(plan, patches, elements, expected, odd)
-             : plan_text(prepared->scene.file, plan, patches, elements, expected, limit.threads(),
-                         odd);
+  return request.format == PlanFormat::json ? plan_json(plan, patches, elements, expected, odd)
+                                            : plan_text(prepared->scene.file, plan, patches,
+                                                        elements, expected, limit.threads(), odd);
 }
 
 } // namespace meninas

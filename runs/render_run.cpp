@@ -1,5 +1,6 @@
 #include "runs/render_run.h"
 
+#include "runs/memory.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
 #include "runs/view.h"
@@ -81,9 +82,10 @@ bool has_light(const Scene& scene) {
 /// Nobody should have to guess why there is nothing to see.
 void warn_of_darkness(const Image& image, const Camera& camera, const RunEvents& events) {
   if (std::ranges::all_of(image.pixels, [](const glm::vec3& p) { return p == glm::vec3(0.0F); })) {
-    warn(events, fmt::format("the picture is black: no light reaches what camera '{}' sees; `meninas "
-                             "plan` says what is odd about the scene",
-                             camera.name));
+    warn(events,
+         fmt::format("the picture is black: no light reaches what camera '{}' sees; `meninas "
+                     "plan` says what is odd about the scene",
+                     camera.name));
   }
 }
 
@@ -93,10 +95,10 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   settings.render.width = size.width;
   settings.render.height = size.height;
   if (request.settings.view) {
-    const LitScene lit =
-        request.solution
-            ? read_lit_scene(*request.solution, std::move(scene), settings.pass_one, events, figures)
-            : solve_lit_scene(std::move(scene), settings.pass_one, std::nullopt, events, figures);
+    const LitScene lit = request.solution ? read_lit_scene(*request.solution, std::move(scene),
+                                                           settings.pass_one, events, figures)
+                                          : solve_lit_scene(std::move(scene), settings.pass_one,
+                                                            std::nullopt, events, figures);
     return render_view(lit, camera, size, request.settings, events, figures);
   }
   if (!request.solution) {
@@ -134,6 +136,7 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   const bool is_lit = has_light(scene);
   const Camera camera = choose_camera(scene, request.camera, events);
   const PictureSize size = choose_size(request.size, camera);
+  check_memory(scene, request.settings, size);
   preload_image_io();
   figures.seconds.load = watch.lap();
 

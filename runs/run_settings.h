@@ -22,15 +22,16 @@ struct QualityPreset {
   double target_elements = 0.0; ///< about how many elements share the meshed area
   int rays = 0; ///< form-factor rays per element, and per vertex where irradiance is gathered there
   int hemicube_resolution = 0; ///< cells along an edge of the top, where hemicubes are used instead
-  double link_error = 0.0;     ///< of the hierarchical solver: variation of the light over a receiver
-  int penumbra_rays = 0;       ///< shadow rays from a vertex to an emitter that it sees in part
-  int source_points = 0;       ///< of an element, at which light from emitters is computed for its mean
-  int most_source_points = 0;  ///< likewise, where the first ones disagree
-  int samples = 0;             ///< camera rays per pixel
-  int hit_shadow_rays = 0;     ///< from a hit to an emitter, where light is computed there
-  int pixel_penumbra_rays = 0; ///< likewise, where the first ones disagree, shared out among a pixel's samples
-  double max_error = 0.0;      ///< of a reference: relative standard error of the picture
-  double root_elements = 0.0;  ///< instead of `target_elements` where elements are divided as needed
+  double link_error = 0.0; ///< of the hierarchical solver: variation of the light over a receiver
+  int penumbra_rays = 0;   ///< shadow rays from a vertex to an emitter that it sees in part
+  int source_points = 0;   ///< of an element, at which light from emitters is computed for its mean
+  int most_source_points = 0; ///< likewise, where the first ones disagree
+  int samples = 0;            ///< camera rays per pixel
+  int hit_shadow_rays = 0;    ///< from a hit to an emitter, where light is computed there
+  int pixel_penumbra_rays =
+      0; ///< likewise, where the first ones disagree, shared out among a pixel's samples
+  double max_error = 0.0;     ///< of a reference: relative standard error of the picture
+  double root_elements = 0.0; ///< instead of `target_elements` where elements are divided as needed
   double adaptive_error = 0.0; ///< of radiosity, relative, in the mean square, where they are
 };
 QualityPreset preset_of(Quality quality);
@@ -58,9 +59,9 @@ struct RunSettings {
   std::optional<int> hemicube_resolution; ///< even
   SolverMethod solver = SolverSettings{}.method;
   std::optional<double> tolerance;
-  std::optional<int> steps; ///< of the progressive solver: shots
+  std::optional<int> steps;         ///< of the progressive solver: shots
   std::optional<double> link_error; ///< of the hierarchical solver
-  std::optional<int> mirror_depth; ///< no path meets more mirrors
+  std::optional<int> mirror_depth;  ///< no path meets more mirrors
   std::optional<Interpolation> interpolation;
   std::optional<int> samples;
   PictureMode mode = PictureMode::hybrid;
@@ -73,7 +74,9 @@ struct RunSettings {
   std::optional<double> max_error;                 ///< of a reference
   std::optional<double> max_seconds;               ///< of a reference
   std::optional<Rgb> background;                   ///< radiance beyond the scene
-  int threads = 0;                                 ///< 0: all the machine has
+  std::optional<std::uint64_t>
+      memory_limit; ///< bytes of the whole run; all the machine has otherwise
+  int threads = 0;  ///< 0: all the machine has
   std::uint32_t seed = 0;
 };
 

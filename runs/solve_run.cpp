@@ -2,6 +2,7 @@
 
 #include "radiosity/factor_file.h"
 #include "radiosity/solution_file.h"
+#include "runs/memory.h"
 #include "runs/outputs.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
@@ -59,6 +60,7 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   Stopwatch watch;
 
   Scene scene = load_scene(request.scene, request.settings);
+  check_memory(scene, request.settings, std::nullopt);
   figures.seconds.load = watch.lap();
   const auto prepared = prepare_run(std::move(scene), settings, events, figures);
   const RadiositySolution solution = solve_or_relight(request, *prepared->light, settings, events);

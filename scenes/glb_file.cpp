@@ -54,7 +54,7 @@ std::vector<std::byte> glb_bytes(const nlohmann::json& root, std::span<const std
 GlbContent read_glb(const std::filesystem::path& file, std::uint64_t size_limit) {
   gltf::Resource resource = gltf::read_whole_file(file, size_limit);
   if (!resource.problem.empty()) {
-    throw InputError(file.string(), "", resource.problem);
+    throw UserError(resource.kind, file.string(), "", resource.problem);
   }
   const bool is_glb =
       resource.bytes.size() >= 4 && std::memcmp(resource.bytes.data(), "glTF", 4) == 0;

@@ -11,16 +11,11 @@ namespace meninas {
 using namespace gltf;
 
 static constexpr std::string_view extensions_read[] = {
-    "EXT_mesh_gpu_instancing",
-    "EXT_texture_webp",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_mesh_quantization",
+    "EXT_mesh_gpu_instancing", "EXT_texture_webp",
+    "KHR_lights_punctual",     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",  "KHR_materials_transmission",
+    "KHR_materials_unlit",     "KHR_mesh_quantization",
     "KHR_texture_transform",
 };
 
@@ -48,8 +43,8 @@ static bool is_of_looks_only(const std::string& extension) {
   constexpr std::string_view prefixes[] = {"KHR_materials_", "EXT_materials_", "MSFT_materials_",
                                            "KHR_texture_",   "EXT_texture_",   "MSFT_texture_",
                                            "KHR_xmp",        "KHR_animation_"};
-  return std::ranges::any_of(prefixes,
-                             [&](std::string_view prefix) { return extension.starts_with(prefix); });
+  return std::ranges::any_of(
+      prefixes, [&](std::string_view prefix) { return extension.starts_with(prefix); });
 }
 
 static void check_required(const Document& document, Findings& findings) {
@@ -100,7 +95,7 @@ static void report_animations(const Document& document, Scene& scene, Findings& 
 Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings) {
   auto content = read_whole_file(file, settings.memory_limit);
   if (!content.problem.empty())
-    throw InputError(file.string(), "", content.problem);
+    throw UserError(content.kind, file.string(), "", content.problem);
   return read_gltf(std::move(content.bytes), file, settings);
 }
 
@@ -126,8 +121,8 @@ Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& f
 
   report_animations(document, scene, findings);
   if (scene.degenerate_triangles > 0)
-    findings.say(fmt::format("triangles without area that are left out: {}",
-                             scene.degenerate_triangles));
+    findings.say(
+        fmt::format("triangles without area that are left out: {}", scene.degenerate_triangles));
   scene.warnings = findings.lines();
   return scene;
 }

@@ -5,7 +5,8 @@
 // KHR_materials_emissive_strength, _ior, _specular, _transmission, KHR_texture_transform, KHR_lights_punctual,
 // perspective and orthographic cameras. Negative determinants keep the front in front.
 // What is left out is named in Scene::warnings or Scene::ignored.
-// Throws InputError (FILE: WHERE: WHAT) for anything that is not a well-formed file with finite geometry.
+// Throws InputError (FILE: WHERE: WHAT) for anything that is not a well-formed file with finite geometry, OutputError for what is over the limit of
+// memory.
 #pragma once
 
 #include "scenes/scene.h"

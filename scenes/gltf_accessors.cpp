@@ -124,7 +124,8 @@ public:
   std::size_t count() const {
     if (count_ >
         document_.settings.memory_limit / (sizeof(double) * std::max<std::size_t>(width_, 1)))
-      fail(fmt::format("{} elements are over the memory limit", count_));
+      throw OutputError(document_.file, where_,
+                        fmt::format("{} elements are over the memory limit", count_));
     return count_;
   }
 
@@ -202,9 +203,10 @@ private:
 static std::string why_empty(const Json& view, std::size_t buffer) {
   for (const std::string_view extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
     if (find(view, {"extensions", extension}))
-      return fmt::format("its data is only there in {}, which is not decoded: save the file without "
-                         "mesh compression",
-                         extension);
+      return fmt::format(
+          "its data is only there in {}, which is not decoded: save the file without "
+          "mesh compression",
+          extension);
   return fmt::format("buffers[{}] has no data", buffer);
 }
 

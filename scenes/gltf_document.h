@@ -51,6 +51,8 @@ Document read_document(Bytes bytes, const std::filesystem::path& file,
 struct Resource {
   Bytes bytes;
   std::string problem;
+  ExitCode kind =
+      ExitCode::bad_input; ///< of the problem: more than memory may hold is failed_output
 };
 Resource read_whole_file(const std::filesystem::path& file, std::uint64_t size_limit);
 Resource read_uri(const std::string& uri, const std::filesystem::path& folder,

@@ -293,8 +293,8 @@ static void each_primitive(const Document& document, const PlacedNode& node, std
 /// Bytes a vertex takes while its targets and joints are decoded.
 static double deformation_bytes(const PrimitivePlace& at, bool is_skinned) {
   const auto* targets = find(at.json, "targets");
-  return sizeof(double) * (3.0 * static_cast<double>(targets ? targets->size() : 0) +
-                           (is_skinned ? 8.0 : 0.0));
+  return sizeof(double) *
+         (3.0 * static_cast<double>(targets ? targets->size() : 0) + (is_skinned ? 8.0 : 0.0));
 }
 
 /// Instances multiply, so a small file can ask for any amount of memory; it is counted before anything is decoded.
@@ -335,9 +335,9 @@ static void check_memory(const Document& document, std::span<const PlacedNode> n
   }
   const auto limit = static_cast<double>(document.settings.memory_limit);
   if (bytes > limit || vertices >= static_cast<double>(index(none<VertexId>)))
-    throw InputError(document.file, "geometry",
-                     fmt::format("needs about {:.0f} MiB, the memory limit is {:.0f} MiB",
-                                 bytes / (1 << 20), limit / (1 << 20)));
+    throw OutputError(document.file, "geometry",
+                      fmt::format("needs about {:.0f} MiB, the memory limit is {:.0f} MiB",
+                                  bytes / (1 << 20), limit / (1 << 20)));
 }
 
 /// A primitive where its node puts it: moved by the joints, or by the matrix of each instance.

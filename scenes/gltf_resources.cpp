@@ -32,7 +32,8 @@ Resource read_whole_file(const fs::path& file, std::uint64_t size_limit) {
   if (size > size_limit)
     return {
         {},
-        fmt::format("has {}, over the memory limit of {}", megabytes(size), megabytes(size_limit))};
+        fmt::format("has {}, over the memory limit of {}", megabytes(size), megabytes(size_limit)),
+        ExitCode::failed_output};
   if (size == 0)
     return {};
 
@@ -157,7 +158,7 @@ std::vector<Bytes> load_buffers(const Document& document, std::optional<Bytes> b
     else if (k == 0 && binary)
       resource.bytes = std::move(*binary);
     if (!resource.problem.empty())
-      throw InputError(document.file, where, resource.problem);
+      throw UserError(resource.kind, document.file, where, resource.problem);
 
     const auto announced = size_or(buffer, "byteLength", 0);
     const bool has_data = uri || !resource.bytes.empty();
@@ -167,7 +168,7 @@ std::vector<Bytes> load_buffers(const Document& document, std::optional<Bytes> b
                                    resource.bytes.size()));
     total += resource.bytes.size();
     if (total > document.settings.memory_limit)
-      throw InputError(
+      throw OutputError(
           document.file, where,
           fmt::format("the buffers need more than {}", megabytes(document.settings.memory_limit)));
     buffers.push_back(std::move(resource.bytes));

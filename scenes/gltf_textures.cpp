@@ -58,7 +58,8 @@ std::optional<TextureUse> read_texture_use(const Document& document, const Json&
                              ? fmt::format(", there is only {},", one_line(formats->begin().key()))
                              : "";
     findings.about(
-        fmt::format("textures without an image that can be read{} are left out in materials", only_in),
+        fmt::format("textures without an image that can be read{} are left out in materials",
+                    only_in),
         material);
     return std::nullopt;
   }
@@ -154,7 +155,7 @@ private:
     }
     bytes_ += resource.bytes.size();
     if (bytes_ > document_.settings.memory_limit)
-      throw InputError(document_.file, where, "the images are over the memory limit");
+      throw OutputError(document_.file, where, "the images are over the memory limit");
     Texture texture;
     texture.name = name_of_image(element(document_.root, "images", image), image);
     texture.wrap_u = sampler.wrap_u;

@@ -134,9 +134,9 @@ void add_settings(ContentHash& hash, std::vector<Setting> settings) {
 
 /// Settings of the picture alone. What is not listed counts for pass one: at worst it is solved once too often.
 bool is_of_pass_two(const Setting& setting) {
-  constexpr std::array names{"mode", "diffuse", "camera", "size",   "samples", "max-error",
-                             "max-seconds", "exposure", "layers", "float",
-                             "view",        "filter",   "pixel-error"};
+  constexpr std::array names{"mode",      "diffuse",     "camera",     "size",   "samples",
+                             "max-error", "max-seconds", "exposure",   "layers", "float",
+                             "view",      "filter",      "pixel-error"};
   return std::ranges::find(names, setting.name) != names.end();
 }
 
@@ -251,20 +251,7 @@ void check_distinct(const fs::path& file, const BatchJob& job,
 } // namespace
 
 SceneFacts facts_of(const Scene& scene) {
-  SceneFacts facts{.hash = content_hash(scene),
-                   .cameras = scene.cameras,
-                   .bounds = bounds_of(scene),
-                   .vertices = scene.vertices.size(),
-                   .triangles = scene.triangles.size()};
-  for (const Texture& texture : scene.textures) {
-    facts.texture_bytes += texture.encoded.size();
-  }
-  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-    const auto triangle = static_cast<TriangleId>(t);
-    const double sides = material_of(scene, triangle).double_sided ? 2.0 : 1.0;
-    facts.area += sides * glm::length(area_vector(corners(scene, triangle)));
-  }
-  return facts;
+  return {content_hash(scene), scene.cameras, bounds_of(scene), sizes_of(scene)};
 }
 
 std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<BatchJob>& jobs,

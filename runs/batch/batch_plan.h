@@ -4,6 +4,7 @@
 #pragma once
 
 #include "runs/batch/batch_file.h"
+#include "runs/memory.h"
 
 #include <cstdint>
 
@@ -14,8 +15,7 @@ struct SceneFacts {
   std::uint64_t hash = 0; ///< of everything light depends on, content_hash
   std::vector<Camera> cameras;
   Bounds bounds;
-  std::size_t vertices = 0, triangles = 0, texture_bytes = 0;
-  double area = 0.0; ///< m^2, both sides of what is double-sided
+  SceneSizes sizes;
 };
 SceneFacts facts_of(const Scene& scene);
 

@@ -1,6 +1,6 @@
 #include "runs/batch/batch_queue.h"
 
-#include "runs/batch/memory.h"
+#include "runs/memory.h"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,10 @@
 #include <map>
 
 namespace meninas {
+
+static std::uint64_t memory_of_view(const BatchPicture& picture) {
+  return view_memory(picture.facts->sizes, picture.request.settings, picture.size);
+}
 
 BatchQueue::BatchQueue(std::span<const BatchPicture> pictures, std::span<const std::size_t> to_make,
                        std::uint64_t memory_before, std::uint64_t memory_limit)
@@ -34,11 +38,11 @@ void BatchQueue::add(std::size_t picture, Group& group) {
   if (added.solution_key.empty()) {
     group.state = State::open;
   } else if (group.waiting.empty()) {
-    group.scene_memory = scene_memory(*added.facts, added.request.settings);
-    group.task_memory = solve_memory(*added.facts, added.request.settings);
+    group.scene_memory = scene_memory(added.facts->sizes, added.request.settings);
+    group.task_memory = solve_memory(added.facts->sizes, added.request.settings);
   }
   // A picture that is too big even alone does not keep the others from being made.
-  const std::uint64_t view = view_memory(added);
+  const std::uint64_t view = memory_of_view(added);
   if (before_ + group.scene_memory + view <= limit_) {
     group.task_memory = std::max(group.task_memory, view);
   }
@@ -77,7 +81,7 @@ std::optional<BatchTask> BatchQueue::next_picture(Clock::time_point now,
     Group& group = groups_[g];
     while (group.state == State::open && !group.waiting.empty() && now >= group.not_before) {
       const std::size_t picture = group.waiting.back();
-      const std::uint64_t memory = view_memory(pictures_[picture]);
+      const std::uint64_t memory = memory_of_view(pictures_[picture]);
       if (is_too_big(group, memory, picture)) {
         group.waiting.pop_back();
         picture_over(group);

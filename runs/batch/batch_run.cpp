@@ -1,7 +1,7 @@
 #include "runs/batch/batch_run.h"
 
 #include "runs/batch/interruption.h"
-#include "runs/batch/memory.h"
+#include "runs/memory.h"
 #include "runs/resources.h"
 #include "scenes/errors.h"
 #include "scenes/stopwatch.h"

@@ -1,6 +1,6 @@
 // The order of tasks, and the memory they may have, without threads and scenes: light is a value like any other here.
 #include "runs/batch/batch_queue.h"
-#include "runs/batch/memory.h"
+#include "runs/memory.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,12 +21,18 @@ BatchPicture picture(const std::string& key, int width = 100) {
   BatchPicture result;
   result.scene = key + ".glb";
   result.facts = std::make_shared<const SceneFacts>(
-      SceneFacts{.cameras = {}, .bounds = {}, .vertices = 100, .triangles = 50, .area = 10.0});
+      SceneFacts{.cameras = {},
+                 .bounds = {},
+                 .sizes = {.vertices = 100, .triangles = 50, .sides = 50, .area = 10.0}});
   result.size = {width, 100};
   result.request.settings.quality = Quality::draft;
   result.key = key + "-picture";
   result.solution_key = key;
   return result;
+}
+
+std::uint64_t memory_of_view(const BatchPicture& picture) {
+  return view_memory(picture.facts->sizes, picture.request.settings, picture.size);
 }
 
 struct Queued {
@@ -87,9 +93,9 @@ TEST(BatchQueue, WhatOthersAreAtIsLeftForLater) {
 
 TEST(BatchQueue, WhatIsTooBigIsRefusedAndTheRestIsMade) {
   const BatchPicture large = picture("a", 100'000);
-  const std::uint64_t scene = scene_memory(*large.facts, large.request.settings),
-                      solve = solve_memory(*large.facts, large.request.settings);
-  Queued batch({picture("a"), large}, scene + std::max(solve, view_memory(large) - 1));
+  const std::uint64_t scene = scene_memory(large.facts->sizes, large.request.settings),
+                      solve = solve_memory(large.facts->sizes, large.request.settings);
+  Queued batch({picture("a"), large}, scene + std::max(solve, memory_of_view(large) - 1));
   const auto opening = batch.next();
   ASSERT_TRUE(opening);
   batch.queue->opened(*opening, {});
@@ -122,11 +128,11 @@ TEST(BatchQueue, TheLimitHoldsAndNothingStarves) {
                                  100 + static_cast<int>(random() % 20'000)));
     }
     const BatchPicture& any = pictures.front();
-    const std::uint64_t scene = scene_memory(*any.facts, any.request.settings),
-                        solve = solve_memory(*any.facts, any.request.settings);
+    const std::uint64_t scene = scene_memory(any.facts->sizes, any.request.settings),
+                        solve = solve_memory(any.facts->sizes, any.request.settings);
     std::uint64_t largest = 0;
     for (const BatchPicture& one : pictures) {
-      largest = std::max({largest, view_memory(one), solve});
+      largest = std::max({largest, memory_of_view(one), solve});
     }
     const std::uint64_t limit = scene + largest + random() % (2 * largest);
     Queued batch(pictures, limit);

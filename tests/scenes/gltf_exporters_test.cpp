@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 namespace meninas::test {
 
@@ -84,6 +85,50 @@ TEST(GltfExporters, InstancesAreCopies) {
   EXPECT_THAT(error_of(file), HasSubstr("nodes[0] 'Quad', EXT_mesh_gpu_instancing"));
 }
 
+// A file as an exporter of buildings writes it: thousands of nodes and materials, some without names, many with the same.
+TEST(GltfExporters, ThousandsOfNodesAndMaterials) {
+  constexpr int nodes = 5000, materials = 2000;
+  auto file = square();
+  const auto mesh_of = [&](int k) {
+    auto primitive = square_primitive(file);
+    primitive["material"] = k;
+    return primitive;
+  };
+  file.json["materials"] = Json::array();
+  file.json["nodes"] = Json::array();
+  file.json["scenes"][0]["nodes"] = Json::array();
+  std::vector<Json> primitives;
+  for (int k = 0; k < materials; ++k) {
+    file.add_material(
+        {{"name", "Paint"},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {k / double(materials), 0.5, 0.5, 1}}, {"metallicFactor", 0}}}});
+    primitives.push_back(mesh_of(k));
+  }
+  file.json["meshes"] = Json::array();
+  for (Json& primitive : primitives)
+    file.add_mesh(Json::array({std::move(primitive)}));
+  for (int k = 0; k < nodes; ++k) {
+    Json node{{"mesh", k % materials}, {"translation", {0, 0, k}}};
+    if (k % 2 == 0)
+      node["name"] = "Chair";
+    file.json["scenes"][0]["nodes"].push_back(file.add_node(std::move(node)));
+  }
+  const auto scene = load(file);
+  ASSERT_EQ(scene.nodes.size(), std::size_t{nodes});
+  ASSERT_EQ(scene.triangles.size(), 2u * nodes);
+  std::set<std::string> names;
+  for (const Node& node : scene.nodes)
+    names.insert(node.name);
+  EXPECT_EQ(names.size(), std::size_t{nodes}) << "every node can be named";
+  for (const std::size_t k : {0, 1, 1999, 2000, 4999}) {
+    const Triangle& triangle = scene.triangles[2 * k];
+    EXPECT_EQ(index(triangle.node), k);
+    EXPECT_NEAR(material_of(scene, static_cast<TriangleId>(2 * k)).base_color.r,
+                double(k % materials) / materials, 1e-12);
+  }
+}
+
 TEST(GltfExporters, InstancesAndTargetsCountAgainstTheMemoryLimit) {
   auto file = square();
   const auto moves = file.add_accessor<float>({0, 0, 0}, "VEC3");
@@ -140,9 +185,8 @@ TEST(GltfExporters, RequiredLooksAreLeftOutAndRequiredGeometryIsNot) {
 
 TEST(GltfExporters, CompressedDataWithoutAFallbackNamesItsExtension) {
   auto file = square();
-  file.json["buffers"] =
-      Json::array({{{"uri", data_uri(file.data)}, {"byteLength", file.data.size()}},
-                   {{"byteLength", 48}}});
+  file.json["buffers"] = Json::array(
+      {{{"uri", data_uri(file.data)}, {"byteLength", file.data.size()}}, {{"byteLength", 48}}});
   file.json["bufferViews"][0]["buffer"] = 1;
   file.json["bufferViews"][0]["byteOffset"] = 0;
   file.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = Json::object();
@@ -173,8 +217,8 @@ TEST(GltfExporters, ScenesMayBeginBelowTheRoot) {
 
 TEST(GltfExporters, ImagesTooLargeForTheMemoryAreLeftOutBeforeTheyAreDecoded) {
   // The header of a PNG of 60,000 x 60,000 pixels; there is nothing behind it.
-  const Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0,    0,    13,  'I', 'H', 'D', 'R',
-                  0,    0,   0xEA, 0x60, 0,   0,   0xEA, 0x60, 8, 2, 0, 0, 0};
+  const Bytes png{0x89, 'P', 'N', 'G',  '\r', '\n', 0x1a, '\n', 0,    0, 0, 13, 'I', 'H', 'D',
+                  'R',  0,   0,   0xEA, 0x60, 0,    0,    0xEA, 0x60, 8, 2, 0,  0,   0};
   auto file = square();
   file.json["images"] = Json::array({{{"bufferView", file.add_view(png)}}});
   file.json["textures"] = Json::array({{{"source", 0}}});
@@ -196,11 +240,11 @@ TEST(GltfExporters, PrimitivesWithoutPositionsAreLeftOut) {
 TEST(GltfExporters, FileNamesAreFoundAsTheyAreMeant) {
   const TemporaryFolder folder;
   auto file = square();
-  const auto& spellings = std::array<std::pair<const char*, const char*>, 4>{
-      {{"my%20data.bin", "my data.bin"},
-       {"sub\\data.bin", "sub/data.bin"},
-       {"50%25.bin", "50%.bin"},
-       {"raw%41.bin", "raw%41.bin"}}};
+  const auto& spellings =
+      std::array<std::pair<const char*, const char*>, 4>{{{"my%20data.bin", "my data.bin"},
+                                                          {"sub\\data.bin", "sub/data.bin"},
+                                                          {"50%25.bin", "50%.bin"},
+                                                          {"raw%41.bin", "raw%41.bin"}}};
   for (const auto& [uri, name] : spellings) {
     folder.write(name, file.data);
     file.json["buffers"] = Json::array({{{"uri", uri}, {"byteLength", file.data.size()}}});
@@ -210,8 +254,8 @@ TEST(GltfExporters, FileNamesAreFoundAsTheyAreMeant) {
 
 TEST(GltfExporters, WebpTexturesAreTakenWhereThereIsNoOther) {
   auto file = square();
-  file.json["images"] = Json::array({{{"bufferView", 0}, {"name", "first"}},
-                                     {{"bufferView", 0}, {"name", "second"}}});
+  file.json["images"] = Json::array(
+      {{{"bufferView", 0}, {"name", "first"}}, {{"bufferView", 0}, {"name", "second"}}});
   file.json["textures"] =
       Json::array({{{"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}},
                    {{"extensions", {{"KHR_texture_basisu", {{"source", 1}}}}}}});

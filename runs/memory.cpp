@@ -1,4 +1,7 @@
-#include "runs/batch/memory.h"
+#include "runs/memory.h"
+
+#include "scenes/errors.h"
+#include "scenes/image_size.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,15 +14,15 @@
 namespace meninas {
 namespace {
 
-/// Never fewer than a scene of few polygons has: every patch has an element at least.
-double expected_elements(const SceneFacts& facts, const RunSettings& settings) {
+/// Never fewer than a scene of few polygons has: every side of a patch has an element at least.
+double expected_elements(const SceneSizes& scene, const RunSettings& settings) {
   const MeshSettings mesh = two_pass_settings(settings).pass_one.mesh;
   const double by_size = mesh.element_size > 0.0
-                             ? facts.area / (mesh.element_size * mesh.element_size)
+                             ? scene.area / (mesh.element_size * mesh.element_size)
                              : mesh.target_elements;
   // Cells of a side are never larger than asked for, which rounds their number up: by half where sides are a few elements wide.
   return std::min(1.5 * by_size, static_cast<double>(mesh.max_elements)) +
-         static_cast<double>(facts.triangles);
+         static_cast<double>(scene.sides);
 }
 
 std::uint64_t whole(double bytes) { return static_cast<std::uint64_t>(bytes); }
@@ -43,15 +46,34 @@ std::uint64_t resident_memory_bytes() {
   return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-std::uint64_t scene_memory(const SceneFacts& facts, const RunSettings& settings) {
+SceneSizes sizes_of(const Scene& scene) {
+  // Decoded, an image is four floats a pixel, and a third as much again in coarser copies.
+  constexpr double texel = 16.0 * 4.0 / 3.0;
+  SceneSizes sizes{.vertices = scene.vertices.size(), .triangles = scene.triangles.size()};
+  for (const Texture& texture : scene.textures) {
+    const auto size = image_size(
+        {reinterpret_cast<const unsigned char*>(texture.encoded.data()), texture.encoded.size()});
+    const double pixels = size ? double(size->width) * size->height : 0.0;
+    sizes.texture_bytes += texture.encoded.size() + whole(texel * pixels);
+  }
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    const auto triangle = static_cast<TriangleId>(t);
+    const std::size_t sides = material_of(scene, triangle).double_sided ? 2 : 1;
+    sizes.sides += sides;
+    sizes.area += double(sides) * glm::length(area_vector(corners(scene, triangle)));
+  }
+  return sizes;
+}
+
+std::uint64_t scene_memory(const SceneSizes& scene, const RunSettings& settings) {
   constexpr double per_vertex = 2 * sizeof(Vertex), per_triangle = 1500.0, per_element = 300.0;
   // How many an adaptive field has is not known beforehand; it is made to have fewer than a mesh of one size.
   const double field_elements =
       settings.adaptive == WithAdaptivity::yes ? preset_of(settings.quality).target_elements : 0.0;
-  return whole(per_vertex * static_cast<double>(facts.vertices) +
-               per_triangle * static_cast<double>(facts.triangles) +
-               per_element * (expected_elements(facts, settings) + field_elements)) +
-         3 * facts.texture_bytes;
+  return whole(per_vertex * static_cast<double>(scene.vertices) +
+               per_triangle * static_cast<double>(scene.triangles) +
+               per_element * (expected_elements(scene, settings) + field_elements)) +
+         scene.texture_bytes;
 }
 
 /// Entries of a row of the transport, at most.
@@ -73,8 +95,8 @@ static double row_entries(const RunSettings& settings, double elements) {
   return elements;
 }
 
-std::uint64_t solve_memory(const SceneFacts& facts, const RunSettings& settings) {
-  const double elements = expected_elements(facts, settings);
+std::uint64_t solve_memory(const SceneSizes& scene, const RunSettings& settings) {
+  const double elements = expected_elements(scene, settings);
   // Column and up to three bands, and room to grow.
   constexpr double per_entry = 20.0, per_element = 600.0;
   double bytes = elements * (per_entry * row_entries(settings, elements) + per_element);
@@ -85,18 +107,44 @@ std::uint64_t solve_memory(const SceneFacts& facts, const RunSettings& settings)
   return whole(bytes);
 }
 
-std::uint64_t view_memory(const BatchPicture& picture) {
-  const RunSettings& settings = picture.request.settings;
-  const double pixels = double(picture.size.width) * picture.size.height;
+std::uint64_t view_memory(const SceneSizes& scene, const RunSettings& settings, PictureSize size) {
+  const double pixels = double(size.width) * size.height;
   const bool layers = settings.layers == WithLayers::yes;
   const bool reference = settings.mode == PictureMode::reference;
   // A plane of floats while it is rendered, once more while it is encoded, and the encoded file.
   const double planes = 1.0 + (layers ? 9.0 : 0.0) + (reference ? 8.0 : 0.0) +
                         static_cast<double>(settings.features.size());
   constexpr double per_plane = 3.0 * sizeof(glm::vec3), per_picture = 4e6;
-  const double own_scene =
-      reference ? static_cast<double>(scene_memory(*picture.facts, settings)) : 0.0;
+  const double own_scene = reference ? static_cast<double>(scene_memory(scene, settings)) : 0.0;
   return whole(per_picture + per_plane * planes * pixels + own_scene);
+}
+
+std::uint64_t expected_memory(const SceneSizes& scene, const RunSettings& settings,
+                              const std::optional<PictureSize>& size) {
+  // The parts are meant not to be exceeded; what the program needs before any scene is not in them.
+  constexpr double of_bound = 0.65, program = 60e6;
+  // A reference does not solve.
+  const bool solves = settings.mode != PictureMode::reference;
+  const std::uint64_t bound = (solves ? scene_memory(scene, settings) : 0) +
+                              (solves ? solve_memory(scene, settings) : 0) +
+                              (size ? view_memory(scene, settings, *size) : 0);
+  return whole(program + of_bound * static_cast<double>(bound));
+}
+
+std::uint64_t memory_limit(const RunSettings& settings) {
+  return settings.memory_limit.value_or(available_memory_bytes());
+}
+
+void check_memory(const Scene& scene, const RunSettings& settings,
+                  const std::optional<PictureSize>& size) {
+  const std::uint64_t needed = expected_memory(sizes_of(scene), settings, size);
+  const std::uint64_t limit = memory_limit(settings);
+  if (needed > limit) {
+    throw OutputError(scene.file, "memory",
+                      fmt::format("needs about {}, more than the limit of {}: larger elements, "
+                                  "fewer --rays or a smaller picture need less",
+                                  readable_bytes(needed), readable_bytes(limit)));
+  }
 }
 
 std::string readable_bytes(std::uint64_t bytes) {
