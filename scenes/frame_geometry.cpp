@@ -1,5 +1,7 @@
 #include "scenes/frame_geometry.h"
 
+#include "scenes/hidden_copies.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -60,13 +62,14 @@ FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfac
     geometry.positions.push_back(to_frame(geometry.frame, vertex.position));
 
   const auto sheets = classes_with_sheets(scene, surfaces);
+  const auto hidden = hidden_copies(scene);
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const auto& v = scene.triangles[t].vertices;
     const auto plane = index(surfaces.plane_of_triangle[t]);
     geometry.triangles.push_back({index(v[0]), index(v[1]), index(v[2])});
     const Material& material = material_of(scene, TriangleId{t});
     geometry.facts.push_back({plane, !material.double_sided, sheets[plane],
-                              holes && material.alpha_mode == AlphaMode::mask});
+                              holes && material.alpha_mode == AlphaMode::mask, hidden[t]});
   }
 
   for (const auto& plane : surfaces.planes) {

@@ -9,8 +9,9 @@ struct TriangleFacts {
   std::uint32_t plane = index(none<PlaneId>);
   bool single_sided = false;
   bool in_sheet =
-      false; ///< its plane class has a face the other way: it may be one side of a sheet
+      false;            ///< its plane class has a face the other way: it may be one side of a sheet
   bool cut_out = false; ///< it may have holes
+  bool hidden = false;  ///< rays meet another one in its place (hidden_copies.h)
 };
 
 struct FrameNormal {
@@ -35,6 +36,12 @@ FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfac
 /// Whether nothing is there at the point of a triangle with these weights of its second and third vertex.
 inline bool is_hole(const FrameGeometry& geometry, std::uint32_t triangle, Vec2 barycentric) {
   return geometry.facts[triangle].cut_out && geometry.holes(TriangleId{triangle}, barycentric);
+}
+
+/// The triangle itself, or where it is hidden one without area, which is never met.
+inline std::array<std::uint32_t, 3> met_by_rays(const std::array<std::uint32_t, 3>& triangle,
+                                                const TriangleFacts& facts) {
+  return facts.hidden ? std::array<std::uint32_t, 3>{} : triangle;
 }
 
 std::array<Point3, 3> corners_of(const FrameGeometry& geometry, std::uint32_t triangle);

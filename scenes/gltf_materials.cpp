@@ -46,7 +46,8 @@ static void read_metallic_roughness(const Document& document, const Json& json, 
 
   // glTF's default is a rough metal, which nobody means who leaves the whole model out. Exporters that leave out defaults
   // say a metal by its roughness alone.
-  const bool says_metallic = model.contains("metallicFactor") || model.contains("roughnessFactor") ||
+  const bool says_metallic = model.contains("metallicFactor") ||
+                             model.contains("roughnessFactor") ||
                              model.contains("metallicRoughnessTexture");
   if (!says_metallic)
     findings.about("materials without metallicFactor are read as not metallic", name);
@@ -125,6 +126,8 @@ static Material read_material(const Document& document, std::size_t index, Findi
     findings.about("blending by alpha is not modelled, materials are opaque", material.name);
   if (find(json, {"extensions", "KHR_materials_unlit"}))
     findings.about("unlit materials are lit: their colour is read as reflectance", material.name);
+  if (const auto* coat = find(json, {"extensions", "KHR_materials_clearcoat"}))
+    read_clear_coat(*coat, material, findings);
   if (json.contains("normalTexture"))
     findings.about("normal textures are left out in materials", material.name);
   if (json.contains("occlusionTexture"))

@@ -31,6 +31,9 @@ void read_materials(const Document& document, Scene& scene, Findings& findings);
 void read_specular_glossiness(const Document& document, const Json& model, Material& material,
                               Findings& findings);
 
+/// The coat of KHR_materials_clearcoat in place of the material's own, where that is rougher.
+void read_clear_coat(const Json& extension, Material& material, Findings& findings);
+
 /// `use.texture` is the file's texture; null when there is no image to be had, which is then in the findings.
 std::optional<TextureUse> read_texture_use(const Document& document, const Json& owner,
                                            std::string_view key, const std::string& material,

@@ -31,6 +31,10 @@ constexpr Rule metallic_roughness[] = {
     {.name = "baseColorTexture", .kind = object, .fields = texture_use},
     {.name = "metallicRoughnessTexture", .kind = object, .fields = texture_use},
 };
+constexpr Rule clear_coat[] = {
+    {.name = "clearcoatFactor", .kind = number},
+    {.name = "clearcoatRoughnessFactor", .kind = number},
+};
 constexpr Rule emissive_strength[] = {{.name = "emissiveStrength", .kind = number}};
 constexpr Rule ior[] = {{.name = "ior", .kind = number}};
 constexpr Rule specular[] = {
@@ -45,6 +49,7 @@ constexpr Rule specular_glossiness[] = {
     {.name = "diffuseTexture", .kind = object, .fields = texture_use},
 };
 constexpr Rule material_extensions[] = {
+    {.name = "KHR_materials_clearcoat", .kind = object, .fields = clear_coat},
     {.name = "KHR_materials_pbrSpecularGlossiness", .kind = object, .fields = specular_glossiness},
     {.name = "KHR_materials_emissive_strength", .kind = object, .fields = emissive_strength},
     {.name = "KHR_materials_ior", .kind = object, .fields = ior},

@@ -352,7 +352,7 @@ Owned<RTCGeometry> make_mesh(RTCDevice device, const FrameGeometry& geometry) {
       rtcSetNewGeometryBuffer(mesh.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                               3 * sizeof(std::uint32_t), geometry.triangles.size()));
   check(device);
-  std::ranges::copy(geometry.triangles, triangles);
+  std::ranges::transform(geometry.triangles, geometry.facts, triangles, met_by_rays);
   rtcSetGeometryBuildQuality(mesh.get(), RTC_BUILD_QUALITY_HIGH);
   // Filters cost time at every hit: none where nothing is cut out.
   if (std::ranges::any_of(geometry.facts, &TriangleFacts::cut_out)) {

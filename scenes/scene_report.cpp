@@ -2,6 +2,7 @@
 
 #include "scenes/crossings.h"
 #include "scenes/mesh_oddities.h"
+#include "scenes/overlaps.h"
 #include "scenes/point_tree.h"
 #include "scenes/shells.h"
 #include "scenes/topology.h"
@@ -17,7 +18,8 @@ namespace {
 // Rooms are metres wide. Beyond these a scene is more likely in another unit than meant.
 constexpr double largest_scene = 200.0;
 constexpr double smallest_scene = 0.02;
-constexpr double unlike = 500.0; ///< how often the usual extent of nodes one of them has before it is named
+constexpr double unlike =
+    500.0; ///< how often the usual extent of nodes one of them has before it is named
 
 constexpr double inwards = -0.6; ///< Shell::outwards of an open shape that shows its fronts inside
 constexpr std::ptrdiff_t most_neighbours = 16; ///< cameras, lamps or shapes that are tried
@@ -37,24 +39,27 @@ public:
     const double extent = glm::distance(bounds.low, bounds.high);
     if (extent > largest_scene) {
       say("too_large", 1,
-          fmt::format("the scene is {:.4g} m across, and glTF counts in metres: if it was modelled in "
-                      "{}, scale it by {}",
-                      extent, extent > 20.0 * largest_scene ? "millimetres" : "centimetres",
-                      extent > 20.0 * largest_scene ? "0.001" : "0.01"));
+          fmt::format(
+              "the scene is {:.4g} m across, and glTF counts in metres: if it was modelled in "
+              "{}, scale it by {}",
+              extent, extent > 20.0 * largest_scene ? "millimetres" : "centimetres",
+              extent > 20.0 * largest_scene ? "0.001" : "0.01"));
     }
     if (extent < smallest_scene) {
       say("too_small", 1,
-          fmt::format("the scene is {:.4g} mm across, and glTF counts in metres: if it was modelled "
-                      "in metres, an export has scaled it down",
-                      1000.0 * extent));
+          fmt::format(
+              "the scene is {:.4g} mm across, and glTF counts in metres: if it was modelled "
+              "in metres, an export has scaled it down",
+              1000.0 * extent));
     }
     // Floats this coarse show as steps in smooth shapes.
     if (scene_.position_error > 1e-5 * extent) {
       const double away = std::max(glm::length(bounds.low), glm::length(bounds.high));
       say("far_away", 1,
-          fmt::format("corners are only known to {:.2g} m, {:.2g} of the scene's size, as they are "
-                      "up to {:.4g} m from an origin: move the scene to the origin before exporting",
-                      scene_.position_error, scene_.position_error / extent, away));
+          fmt::format(
+              "corners are only known to {:.2g} m, {:.2g} of the scene's size, as they are "
+              "up to {:.4g} m from an origin: move the scene to the origin before exporting",
+              scene_.position_error, scene_.position_error / extent, away));
     }
   }
 
@@ -81,9 +86,10 @@ public:
     for (std::uint32_t node = 0; node < extents.size(); ++node) {
       if (extents[node] > unlike * usual) {
         say("unlike_size", 1,
-            fmt::format("'{}' is {:.4g} m across, {:.0f} times as much as most nodes: is it in another "
-                        "unit?",
-                        name(NodeId{node}), extents[node], extents[node] / usual),
+            fmt::format(
+                "'{}' is {:.4g} m across, {:.0f} times as much as most nodes: is it in another "
+                "unit?",
+                name(NodeId{node}), extents[node], extents[node] / usual),
             NodeId{node});
       }
     }
@@ -131,9 +137,10 @@ public:
       const auto [node, other] = nodes;
       say("duplicate_faces", count,
           node == other
-              ? fmt::format("'{}' has {} twice in one place: only one of the two is seen; delete the "
-                            "other",
-                            name(node), counted(count, "face"))
+              ? fmt::format(
+                    "'{}' has {} twice in one place: only one of the two is seen; delete the "
+                    "other",
+                    name(node), counted(count, "face"))
               : fmt::format("'{}' has {} exactly where '{}' has one: only one of the two is seen; "
                             "delete the other, or move them apart",
                             name(node), counted(count, "face"), name(other)),
@@ -141,10 +148,25 @@ public:
     }
     for (const auto& [node, count] : slivers(scene_)) {
       say("slivers", count,
-          fmt::format("'{}' has {} over a thousand times as long as high: light is right, in elements "
-                      "as thin; remesh it where that shows",
-                      name(node), counted(count, "triangle")),
+          fmt::format(
+              "'{}' has {} over a thousand times as long as high: light is right, in elements "
+              "as thin; remesh it where that shows",
+              name(node), counted(count, "triangle")),
           node);
+    }
+  }
+
+  void report_overlaps(const CountByNodes& counts) {
+    for (const auto& [nodes, count] : counts) {
+      const auto [node, other] = nodes;
+      say("overlapping_faces", count,
+          fmt::format(
+              "'{}' has {} in one plane with, and overlapping, faces of {}, of another material: "
+              "which of the two is seen changes from pixel to pixel; move one a little, or cut "
+              "the hidden part away",
+              name(node), counted(count, "face"),
+              node == other ? "its own" : fmt::format("'{}'", name(other))),
+          node, other);
     }
   }
 
@@ -158,9 +180,10 @@ public:
     }
     for (const auto& [node, count] : divided_edges(scene_, topology_, tolerance_)) {
       say("t_junctions", count,
-          fmt::format("'{}' has {} with corners of other faces along them: hairline cracks may show; "
-                      "insert the missing corners",
-                      name(node), counted(count, "edge")),
+          fmt::format(
+              "'{}' has {} with corners of other faces along them: hairline cracks may show; "
+              "insert the missing corners",
+              name(node), counted(count, "edge")),
           node);
     }
   }
@@ -169,10 +192,11 @@ public:
     for (const auto& [nodes, count] : counts) {
       const auto [node, other] = nodes;
       say("crossing", count,
-          fmt::format("'{}' passes through {} ({} at least): light is right but for elements that are "
-                      "partly inside; cut the hidden part away where that shows",
-                      name(node), node == other ? "itself" : fmt::format("'{}'", name(other)),
-                      counted(count, "edge")),
+          fmt::format(
+              "'{}' passes through {} ({} at least): light is right but for elements that are "
+              "partly inside; cut the hidden part away where that shows",
+              name(node), node == other ? "itself" : fmt::format("'{}'", name(other)),
+              counted(count, "edge")),
           node, other);
     }
   }
@@ -186,8 +210,8 @@ private:
   void say(const std::string& kind, std::size_t count, const std::string& text,
            NodeId node = none<NodeId>, NodeId other = none<NodeId>) {
     const bool is_pair = other != none<NodeId> && other != node;
-    oddities_.push_back({kind, node == none<NodeId> ? "" : name(node), is_pair ? name(other) : "",
-                         count, text});
+    oddities_.push_back(
+        {kind, node == none<NodeId> ? "" : name(node), is_pair ? name(other) : "", count, text});
   }
 
   static bool faces_inwards(const Shell& shell) {
@@ -227,10 +251,11 @@ private:
           continue;
         }
         const std::string& node = name(node_of(shell.faces.front()));
-        oddities_.push_back({"camera_inside", camera.name, node, shell.faces.size(),
-                             fmt::format("camera '{}' is inside '{}', whose faces all look outwards, and "
-                                         "sees through it: if it is a room, flip its normals",
-                                         camera.name, node)});
+        oddities_.push_back(
+            {"camera_inside", camera.name, node, shell.faces.size(),
+             fmt::format("camera '{}' is inside '{}', whose faces all look outwards, and "
+                         "sees through it: if it is a room, flip its normals",
+                         camera.name, node)});
       }
     }
   }
@@ -250,6 +275,7 @@ std::vector<Oddity> report_scene(const Scene& scene, const SurfaceModel& surface
   reporter.report_unlike_nodes();
   reporter.report_shells();
   reporter.report_faces();
+  reporter.report_overlaps(overlapping_faces(scene, surfaces));
   reporter.report_edges();
   reporter.report_crossings(crossings(scene, surfaces, rays));
   return std::move(reporter).oddities();

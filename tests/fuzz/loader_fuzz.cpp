@@ -2,7 +2,9 @@
 // UserError of one line. Then the scene's surfaces are found and reported on, as every command does. Anything else is a finding.
 #include "scenes/errors.h"
 #include "scenes/gltf.h"
+#include "scenes/hidden_copies.h"
 #include "scenes/mesh_oddities.h"
+#include "scenes/overlaps.h"
 #include "scenes/shells.h"
 #include "scenes/surfaces.h"
 
@@ -58,6 +60,8 @@ void look_at(const Scene& scene) {
   const SurfaceModel surfaces = find_surfaces(scene);
   const Topology topology = find_topology(scene, 0.5 * surfaces.tolerance);
   duplicate_faces(scene, topology);
+  hidden_copies(scene);
+  overlapping_faces(scene, surfaces);
   divided_edges(scene, topology, surfaces.tolerance);
   find_shells(scene, topology);
 }

@@ -251,8 +251,8 @@ TEST(GltfGeometry, ReadsVertexColoursOfEveryType) {
 TEST(GltfGeometry, ClampsVertexColours) {
   auto file = square();
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  square_primitive(file)["attributes"]["COLOR_0"] = file.add_accessor(
-      std::vector<float>{1, 1, 1, 1.5F, -1, nan, 1, 1, 1, 1, 1, 1}, "VEC3");
+  square_primitive(file)["attributes"]["COLOR_0"] =
+      file.add_accessor(std::vector<float>{1, 1, 1, 1.5F, -1, nan, 1, 1, 1, 1, 1, 1}, "VEC3");
   const Scene scene = load(file);
   EXPECT_EQ(scene.vertices.at(1).color, glm::vec4(1.0F, 0.0F, 0.0F, 1.0F));
   EXPECT_TRUE(warns(scene, {"vertex colours outside [0, 1]", "'Quad'"}));
@@ -261,12 +261,12 @@ TEST(GltfGeometry, ClampsVertexColours) {
 TEST(GltfGeometry, LeavesOutWhatItDoesNotRead) {
   auto file = square();
   file.json["animations"] = Json::array({{{"name", "Walk"}}, Json::object()});
-  file.json["extensionsUsed"] = {"KHR_materials_clearcoat"};
+  file.json["extensionsUsed"] = {"KHR_materials_sheen"};
   file.json["materials"][0]["extensions"]["VENDOR_undeclared"] = Json::object();
   const auto scene = load(file);
   EXPECT_TRUE(warns(scene, {"animations", "'Walk'", "'animation1'"}));
-  EXPECT_TRUE(warns(scene, {"extensions", "'KHR_materials_clearcoat'", "'VENDOR_undeclared'"}));
-  EXPECT_THAT(scene.ignored, testing::UnorderedElementsAre("KHR_materials_clearcoat",
+  EXPECT_TRUE(warns(scene, {"extensions", "'KHR_materials_sheen'", "'VENDOR_undeclared'"}));
+  EXPECT_THAT(scene.ignored, testing::UnorderedElementsAre("KHR_materials_sheen",
                                                            "VENDOR_undeclared", "animations"));
 }
 

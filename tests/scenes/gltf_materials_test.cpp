@@ -1,4 +1,5 @@
 // Materials and textures: defaults, extensions, and what is made physical with a warning.
+#include "scenes/lobes.h"
 #include "tests/scenes/gltf_file.h"
 
 #include <fmt/format.h>
@@ -113,6 +114,31 @@ TEST(GltfMaterials, WarnsOfUnlitAlphaAndMaps) {
   for (const auto* part : {"unlit", "alpha", "normal textures", "occlusion"})
     EXPECT_TRUE(warns(scene, {part, "'Leaf'"})) << part;
   EXPECT_TRUE(warns(load(with_material({{"alphaMode", "GLOW"}})), {"alphaMode"}));
+}
+
+TEST(GltfMaterials, ClearCoatsTakeThePlaceOfDullerGloss) {
+  auto file = square();
+  const auto read = [&](double metallic, double roughness, Json coat) {
+    file.json["materials"][0] = {
+        {"name", "Car"},
+        {"pbrMetallicRoughness", {{"metallicFactor", metallic}, {"roughnessFactor", roughness}}},
+        {"extensions", {{"KHR_materials_clearcoat", std::move(coat)}}}};
+    return load(file);
+  };
+  const Json lacquer{{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.125}};
+  const auto paint = read(0.0, 0.5, lacquer);
+  EXPECT_EQ(paint.materials.at(0).roughness, 0.125);
+  EXPECT_EQ(paint.materials.at(0).specular, 0.75);
+  EXPECT_TRUE(has_visible_coat(paint.materials.at(0)));
+  EXPECT_TRUE(warns(paint, {"clear coats are shown", "'Car'"}));
+  EXPECT_THAT(paint.ignored, testing::IsEmpty());
+  for (const auto& [metallic, roughness] : {std::pair(1.0, 0.5), std::pair(0.0, 0.0625)}) {
+    const auto kept = read(metallic, roughness, lacquer);
+    EXPECT_EQ(kept.materials.at(0).roughness, roughness);
+    EXPECT_EQ(kept.materials.at(0).specular, 1.0);
+    EXPECT_TRUE(warns(kept, {"clear coats", "left out", "'Car'"}));
+  }
+  EXPECT_FALSE(warns(read(0.0, 0.5, Json::object()), {"clear coat"})) << "there is none by default";
 }
 
 TEST(GltfMaterials, AThousandSloppyMaterialsMakeOneLine) {

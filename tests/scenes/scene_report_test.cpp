@@ -143,6 +143,21 @@ TEST(SceneReport, CountsFacesThatAreThereTwice) {
   EXPECT_EQ(count_of(report(sheet), "duplicate_faces"), 1u);
 }
 
+TEST(SceneReport, NamesFacesThatLieOnOneAnother) {
+  Scene scene;
+  add_polygon(scene, "Floor", {{-5, 0, 5}, {5, 0, 5}, {5, 0, -5}, {-5, 0, -5}}, diffuse(0.5));
+  add_polygon(scene, "Rug", {{-1, 0, 1}, {1, 0, 1.5}, {1, 0, -1}, {-1, 0, -1}}, diffuse(0.2));
+  // Beside one another, one above the other, and back to back: as it should be.
+  add_polygon(scene, "Next", {{5, 0, 5}, {6, 0, 5}, {6, 0, -5}, {5, 0, -5}}, diffuse(0.2));
+  add_polygon(scene, "Mat", {{2, 0.01, 4}, {4, 0.01, 4}, {4, 0.01, 2}, {2, 0.01, 2}}, diffuse(0.2));
+  add_polygon(scene, "Below", {{-2, 0, 2}, {-2, 0, -2}, {2, 0, -2}, {2, 0, 2}}, diffuse(0.2));
+  const auto found = of_kind(report(scene), "overlapping_faces");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].node, "Floor");
+  EXPECT_EQ(found[0].other, "Rug");
+  EXPECT_EQ(found[0].count, 2u) << "both triangles of the floor";
+}
+
 TEST(SceneReport, CountsCrowdedEdgesAndTJunctions) {
   Scene fins;
   add_polygon(fins, "Fins", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, diffuse(0.5));
