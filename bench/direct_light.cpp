@@ -2,7 +2,10 @@
 //
 // Worlds: a room whose side walls face each other as mirrors, the tree cut at so many worlds; one receiver at a time.
 // Emitters: small lamps all over a ceiling, the same power in all; with the choice of images the time per receiver must not grow in proportion.
+// Elements: the means over the elements of a gallery scene as `--quality normal` finds them: seconds of one thread, and how far off they are (root
+// mean square over the mean, and the worst element) from means over many times as many points.
 // Pass one: the Cornell box with its mirror, and with the mirror painted grey; the ratio of their times is the counter `ratio`.
+#include "radiosity/element_light.h"
 #include "radiosity/pass_one.h"
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"
@@ -124,6 +127,50 @@ void PassOneThroughMirrors(benchmark::State& state) {
   state.counters["ratio"] = ratios[ratios.size() / 2];
 }
 BENCHMARK(PassOneThroughMirrors)->Unit(benchmark::kSecond)->Iterations(3);
+
+/// How far means are from true ones, relative to the scene's mean, in the brightest channel.
+struct MeanErrors {
+  double rms = 0.0, worst = 0.0;
+};
+MeanErrors errors_of(const std::vector<Rgb>& means, const std::vector<Rgb>& truth) {
+  double mean = 0.0;
+  MeanErrors errors;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Rgb off = glm::abs(means[i] - truth[i]);
+    const double most = std::max({off.r, off.g, off.b});
+    errors.rms += most * most;
+    errors.worst = std::max(errors.worst, most);
+    mean += std::max({truth[i].r, truth[i].g, truth[i].b});
+  }
+  const auto count = static_cast<double>(truth.size());
+  mean /= count;
+  return {std::sqrt(errors.rms / count) / mean, errors.worst / mean};
+}
+
+void DirectOnElements(benchmark::State& state, const std::string& name) {
+  PassOneSettings settings = two_pass_settings(RunSettings{}).pass_one;
+  settings.mesh.target_elements = 2000;
+  const auto prepared =
+      prepare_scene(load_gltf(std::string(MENINAS_BENCH_GALLERY) + name + ".gltf"), settings);
+  DirectSettings fine = settings.direct;
+  fine.points = fine.most_points = 2048;
+  fine.rays_in_element = 4;
+  fine.seed = 1;
+  const DirectIrradiance truth = direct_irradiance(*prepared->light, {}, fine);
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  DirectIrradiance means;
+  for (auto _ : state)
+    means = direct_irradiance(*prepared->light, {}, settings.direct);
+  const MeanErrors errors = errors_of(means.irradiance, truth.irradiance);
+  state.counters["rms"] = errors.rms;
+  state.counters["worst"] = errors.worst;
+  state.counters["shadow_rays"] = static_cast<double>(means.shadow_rays);
+}
+BENCHMARK_CAPTURE(DirectOnElements, cornell, "cornell")->Unit(benchmark::kSecond);
+BENCHMARK_CAPTURE(DirectOnElements, cornell_mirror, "cornell-mirror")->Unit(benchmark::kSecond);
+BENCHMARK_CAPTURE(DirectOnElements, mirror_spot, "mirror-spot")->Unit(benchmark::kSecond);
+BENCHMARK_CAPTURE(DirectOnElements, half_room, "half-room")->Unit(benchmark::kSecond);
+BENCHMARK_CAPTURE(DirectOnElements, meninas, "meninas")->Unit(benchmark::kSecond);
 
 } // namespace
 

@@ -1,16 +1,11 @@
 #include "radiosity/direct_irradiance.h"
 
-#include "radiosity/gather_rays.h"
 #include "radiosity/light_samples.h"
 #include "radiosity/point_form_factor.h"
 #include "radiosity/shadow_legs.h"
 #include "scenes/sampling.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
 
@@ -130,79 +125,6 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
       sum.mirrored += arrival.irradiance;
   }
   return sum;
-}
-
-namespace {
-
-constexpr double unsure = 0.01; ///< relative change of the mean by the last doubling
-
-/// The mean over the exposed part of an element: points are doubled until their mean settles.
-ArrivingLight mean_over_element(const LightScene& light, ElementId element, CoveredCells covered,
-                                const DirectSettings& settings, DirectWorkspace& work) {
-  constexpr int whole = 64;
-  if (std::popcount(covered) == whole)
-    return {};
-  const ReceiverArea area = receiver_of(light, element);
-  const auto seed = hash(index(element), settings.seed, 0xd17ec7);
-  DirectSettings at_point = settings;
-  at_point.penumbra_rays = settings.shadow_rays;
-  at_point.images = settings.images_in_element;
-  ArrivingLight sum;
-  Rgb before(0.0);
-  int taken = 0, wanted = settings.points;
-  for (std::uint32_t p = 0;; ++p) {
-    const auto sample = sobol4(p, seed);
-    if (is_covered(covered, sample[0], sample[1]))
-      continue;
-    const Receiver receiver{point_in(area, Vec2(sample[0], sample[1])), area.normal,
-                            area.plane_class};
-    sum = sum + direct_irradiance(light, receiver, at_point, hash(seed, p, 1), work);
-    if (++taken < wanted)
-      continue;
-
-    // Between the first half of the points and all of them the mean has moved by about its own error.
-    const Rgb mean = sum.total / double(taken);
-    const bool settled =
-        taken > settings.points && largest(glm::abs(mean - before)) <= unsure * largest(mean);
-    const bool dark = taken >= 2 * settings.points && largest(mean) == 0.0;
-    if (settled || dark || 2 * taken > settings.most_points)
-      return {mean, sum.mirrored / double(taken), sum.punctual / double(taken)};
-    before = mean;
-    wanted = 2 * taken;
-  }
-}
-
-} // namespace
-
-DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
-                                   const DirectSettings& settings, const Progress& progress) {
-  constexpr std::size_t chunk_size = 64;
-  const std::size_t size = element_count(light.mesh);
-  DirectIrradiance result;
-  result.irradiance.assign(size, Rgb(0.0));
-  if (light.emitters.empty() && light.punctual.empty())
-    return result;
-  result.punctual.resize(light.punctual.empty() ? 0 : size);
-
-  const std::size_t chunks = (size + chunk_size - 1) / chunk_size;
-  tbb::enumerable_thread_specific<DirectWorkspace> workspaces;
-  std::atomic<std::size_t> done{0};
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    DirectWorkspace& work = workspaces.local();
-    const std::size_t end = std::min(size, (c + 1) * chunk_size);
-    for (std::size_t i = c * chunk_size; i < end; ++i) {
-      const ArrivingLight mean = mean_over_element(
-          light, static_cast<ElementId>(i), covered.empty() ? 0 : covered[i], settings, work);
-      result.irradiance[i] = mean.total;
-      if (!result.punctual.empty())
-        result.punctual[i] = mean.punctual;
-    }
-    if (progress)
-      progress("direct light", static_cast<double>(++done) / static_cast<double>(chunks));
-  });
-  for (const auto& work : workspaces)
-    result.shadow_rays += work.shadow_rays;
-  return result;
 }
 
 } // namespace meninas

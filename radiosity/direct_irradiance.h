@@ -19,8 +19,8 @@ struct DirectSettings {
       256; ///< doubled up to this while the mean over the element is unsure (near a lamp, at a shadow's edge)
   int shadow_rays =
       16; ///< per emitter image and point where it matters most; images that bring less get fewer
-  int penumbra_rays =
-      128; ///< when the first ones disagree; an element's many points need no more than the first
+  int penumbra_rays = 128; ///< when the first ones disagree
+  int rays_in_element = 2; ///< per emitter image and each of an element's points (element_light.h)
   int images =
       256; ///< emitter images computed at a point; of more, a choice (mirror/light_choice.h)
   int images_in_element = 32; ///< likewise, at each of an element's many points
@@ -60,15 +60,5 @@ struct ArrivingLight {
 ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& workspace);
-
-struct DirectIrradiance {
-  std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element
-  std::vector<Rgb>
-      punctual; ///< the part of it that punctual lights sent; empty where there are none
-  std::uint64_t shadow_rays = 0;
-};
-/// `covered` by ElementId (gather_rays.h): the mean is over the exposed part. Empty: all is exposed.
-DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
-                                   const DirectSettings& settings, const Progress& progress = {});
 
 } // namespace meninas

@@ -1,12 +1,12 @@
 // Light that no element has reflected yet: the source of eq. 1, S = rho (D + G).
 //
-//   D   from emitters and punctual lights, also by way of enumerated mirror worlds, in closed form (direct_irradiance.h)
+//   D   from emitters and punctual lights, also by way of enumerated mirror worlds, in closed form (element_light.h)
 //   G   emission that the transport's rays have gathered, and the background: pi L for the share of an element's rays that escape
 //
 // The analytic method gathers all emission itself; only punctual lights, which are no surfaces, are left to D then.
 #pragma once
 
-#include "radiosity/direct_irradiance.h"
+#include "radiosity/element_light.h"
 
 namespace meninas {
 

@@ -33,7 +33,8 @@ PassOneSettings by_rows(PassOneSettings settings, int rays) {
 /// Direct light as exact as it gets, so that receivers are what differs.
 PassOneSettings with_fine_direct_light(PassOneSettings settings) {
   settings.direct.points = settings.direct.most_points = 32;
-  settings.direct.shadow_rays = settings.direct.penumbra_rays = 64;
+  settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element =
+      64;
   return settings;
 }
 

@@ -82,7 +82,8 @@ TEST_P(ImageMethod, EveryElementReceivesTheSame) {
   EnergyBalance energy;
   PassOneSettings settings = settings_of(512, 0.125);
   settings.direct.points = settings.direct.most_points = 32;
-  settings.direct.shadow_rays = settings.direct.penumbra_rays = 64;
+  settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element =
+      64;
   const Field with_mirror = irradiance_field(half(), settings, energy);
   const Difference d = difference(with_mirror, irradiance_field(doubled(half()), settings, energy));
   EXPECT_EQ(d.compared, with_mirror.size());
@@ -109,7 +110,8 @@ TEST_P(ImageMethod, TheDifferenceIsSamplingErrorThatFallsWithTheRays) {
     EnergyBalance energy;
     PassOneSettings settings = settings_of(rays, 0.25);
     settings.direct.points = settings.direct.most_points = rays / 16;
-    settings.direct.shadow_rays = settings.direct.penumbra_rays = 64;
+    settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element =
+        64;
     const Difference d = difference(irradiance_field(half(), settings, energy),
                                     irradiance_field(doubled(half()), settings, energy));
     rms.push_back(d.rms);
@@ -127,7 +129,8 @@ TEST_P(ImageMethod, ByHemicubes) {
   settings.form_factors.method = FormFactorMethod::hemicube;
   settings.form_factors.hemicube_resolution = 34;
   settings.direct.points = settings.direct.most_points = 32;
-  settings.direct.shadow_rays = settings.direct.penumbra_rays = 64;
+  settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element =
+      64;
   const Difference d = difference(irradiance_field(half(), settings, energy),
                                   irradiance_field(doubled(half()), settings, energy));
   EXPECT_LT(d.worst, 0.01);

@@ -1,5 +1,6 @@
 #include "tests/radiosity/lit_system.h"
 
+#include "radiosity/element_light.h"
 #include "radiosity/gathered_emission.h"
 
 namespace meninas::test {

@@ -1,4 +1,5 @@
 // Progressive radiosity by shots: against closed forms, against solutions by rows, and by what holds after any shot.
+#include "radiosity/element_light.h"
 #include "radiosity/progressive.h"
 #include "radiosity/ray_shots.h"
 #include "radiosity/shooting_blocks.h"
@@ -92,7 +93,7 @@ TEST(Progressive, CubeOfSixPatches) {
   add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, diffuse(0.5, 1.0), wall, wall, wall});
   PassOneSettings settings = shooting(1e6, 1 << 15, 1e-6);
   settings.direct.points = settings.direct.most_points = 1024;
-  settings.direct.shadow_rays = settings.direct.penumbra_rays = 1;
+  settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element = 1;
   const auto l = lit(std::move(scene), settings.mesh);
   const RadiositySolution solution = shoot_pass_one(*l->light, settings);
   EXPECT_NEAR(mean_over(*l, solution.radiosity, "y0").r, 1.09090909810769547, 1e-3);
