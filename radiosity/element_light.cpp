@@ -1,7 +1,5 @@
 #include "radiosity/element_light.h"
 
-#include "radiosity/gather_rays.h"
-#include "radiosity/light_samples.h"
 #include "radiosity/point_form_factor.h"
 #include "radiosity/shadow_legs.h"
 #include "scenes/sampling.h"
@@ -13,7 +11,6 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <unordered_map>
 
 namespace meninas {
 
@@ -21,35 +18,9 @@ namespace {
 
 double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
 
-/// One emitter in one world, over all points of the element so far.
-struct ImageSum {
-  Rgb source;                   ///< tau E
-  double form_factor = 0.0;     ///< sum over points, blockers aside
-  double all = 0.0, seen = 0.0; ///< weights of its shadow rays, and of those that arrive
-  std::uint32_t rays = 0;       ///< shadow rays so far
-  std::uint32_t from_a_point;   ///< from each of the next points
-};
-
-/// A shadow ray that waits for others through the same mirrors.
-struct WaitingRay {
-  WorldId world = real_world;
-  std::uint32_t image = 0; ///< index of its ImageSum
-  PlaneId arriving = none<PlaneId>;
-  double weight = 0.0;
-  Point3 from, to;
-};
-
-struct ElementWorkspace {
-  DirectWorkspace point;
-  std::vector<ImageSum> images;
-  std::unordered_map<std::uint64_t, std::uint32_t> image_of; ///< by world and emitter
-  std::vector<WaitingRay> waiting;
-  std::vector<PunctualArrival> arrivals;
-};
-
-/// Light of an element under way: sums over `points`.
+/// Light of an element under way, of punctual lights: sums over `points`.
 struct ElementSum {
-  Rgb punctual{0.0};
+  ArrivingLight punctual;
   int points = 0;
 };
 
@@ -61,7 +32,7 @@ std::uint32_t sum_of(ElementWorkspace& work, const LightScene& light, const Virt
   if (is_new)
     work.images.push_back({light.worlds.worlds[index(image.world)].throughput *
                                light.emitters[image.emitter].radiosity,
-                           0.0, 0.0, 0.0, 0, std::uint32_t(rays)});
+                           image.world, 0.0, 0.0, 0.0, 0, static_cast<std::uint32_t>(rays)});
   return found->second;
 }
 
@@ -131,12 +102,15 @@ void trace_waiting(const LightScene& light, PlaneId leaving, ElementWorkspace& w
 
 /// The mean so far.
 ArrivingLight mean_of(const ElementWorkspace& work, const ElementSum& sum) {
-  ArrivingLight mean;
-  mean.punctual = sum.punctual / double(sum.points);
-  mean.total = mean.punctual;
+  const double points = sum.points;
+  ArrivingLight mean{sum.punctual.total / points, sum.punctual.mirrored / points,
+                     sum.punctual.punctual / points};
   for (const ImageSum& image : work.images) {
     const double visible = image.all > 0.0 ? image.seen / image.all : 0.0;
-    mean.total += visible * image.form_factor / sum.points * image.source;
+    const Rgb arrived = visible * image.form_factor / points * image.source;
+    mean.total += arrived;
+    if (image.world != real_world)
+      mean.mirrored += arrived;
   }
   return mean;
 }
@@ -156,8 +130,9 @@ constexpr double unsure = 0.01;            ///< relative change of the mean by t
 constexpr double unsure_shadow = 0.005;    ///< error of the mean by shadow rays, relative
 constexpr std::uint32_t penumbra_rays = 4; ///< from each point to an image that is seen in part
 
-/// The mean over the exposed part of an element: points are doubled until their mean settles.
-ArrivingLight mean_over_element(const LightScene& light, ElementId element, CoveredCells covered,
+} // namespace
+
+ArrivingLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
                                 const DirectSettings& settings, ElementWorkspace& work) {
   constexpr int whole = 64;
   if (std::popcount(covered) == whole)
@@ -179,7 +154,10 @@ ArrivingLight mean_over_element(const LightScene& light, ElementId element, Cove
     if (!light.punctual.empty()) {
       punctual_arrivals(light, receiver, work.point, work.arrivals);
       for (const PunctualArrival& arrival : work.arrivals)
-        sum.punctual += arrival.irradiance;
+        sum.punctual =
+            sum.punctual + ArrivingLight{arrival.irradiance,
+                                         arrival.mirrored ? arrival.irradiance : Rgb(0.0),
+                                         arrival.irradiance};
     }
     if (++sum.points < wanted)
       continue;
@@ -200,8 +178,6 @@ ArrivingLight mean_over_element(const LightScene& light, ElementId element, Cove
   }
 }
 
-} // namespace
-
 DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
                                    const DirectSettings& settings, const Progress& progress) {
   constexpr std::size_t chunk_size = 64;
@@ -219,7 +195,7 @@ DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std:
     ElementWorkspace& work = workspaces.local();
     const std::size_t end = std::min(size, (c + 1) * chunk_size);
     for (std::size_t i = c * chunk_size; i < end; ++i) {
-      const ArrivingLight mean = mean_over_element(
+      const ArrivingLight mean = direct_irradiance(
           light, static_cast<ElementId>(i), covered.empty() ? 0 : covered[i], settings, work);
       result.irradiance[i] = mean.total;
       if (!result.punctual.empty())

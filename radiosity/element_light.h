@@ -7,9 +7,44 @@
 // a fully visible image comes out as the closed form's mean, without noise. Points are doubled until the mean settles.
 #pragma once
 
-#include "radiosity/direct_irradiance.h"
+#include "radiosity/gather_rays.h"
+#include "radiosity/light_samples.h"
+
+#include <unordered_map>
 
 namespace meninas {
+
+/// One emitter in one world, over all points of the element so far.
+struct ImageSum {
+  Rgb source; ///< tau E
+  WorldId world = real_world;
+  double form_factor = 0.0;     ///< sum over points, blockers aside
+  double all = 0.0, seen = 0.0; ///< weights of its shadow rays, and of those that arrive
+  std::uint32_t rays = 0;       ///< shadow rays so far
+  std::uint32_t from_a_point;   ///< from each of the next points
+};
+
+/// A shadow ray that waits for others through the same mirrors.
+struct WaitingRay {
+  WorldId world = real_world;
+  std::uint32_t image = 0; ///< index of its ImageSum
+  PlaneId arriving = none<PlaneId>;
+  double weight = 0.0;
+  Point3 from, to;
+};
+
+/// Storage reused from element to element; one for each thread.
+struct ElementWorkspace {
+  DirectWorkspace point;
+  std::vector<ImageSum> images;
+  std::unordered_map<std::uint64_t, std::uint32_t> image_of; ///< by world and emitter
+  std::vector<WaitingRay> waiting;
+  std::vector<PunctualArrival> arrivals;
+};
+
+/// The mean over the exposed part of an element: points are doubled until it settles.
+ArrivingLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
+                                const DirectSettings& settings, ElementWorkspace& workspace);
 
 struct DirectIrradiance {
   std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element

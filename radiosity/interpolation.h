@@ -3,6 +3,7 @@
 // `average`: a vertex takes the mean of the elements around it, in its own surface; on the boundary of a surface the mean is extrapolated
 // from the elements behind, never below 0. `gather`: the irradiance is gathered at the vertex itself, direct light by closed form, the
 // rest by rays over the element radiosities (the cells of a hemicube, where form factors are found so): the field is right at its vertices.
+// Vertices of curved surfaces, whose facets are no larger than an element, take the mean of the facets around instead (facets.h).
 // Vertices that see nothing but the black insides of things that stand on them hold no value; the field is interpolated from the others.
 // Between vertices the field is bilinear in quads, linear in triangles. It is irradiance, W/m^2: reflectance is applied at the hit.
 #pragma once
@@ -18,7 +19,8 @@ namespace meninas {
 enum class Interpolation { average, gather };
 
 struct AdaptiveSettings {
-  double error = 0.02; ///< wanted of the interpolated radiosity, relative, in the mean square (field_refinement.h)
+  double error =
+      0.02; ///< wanted of the interpolated radiosity, relative, in the mean square (field_refinement.h)
   std::size_t max_elements = 1'000'000;
 };
 
@@ -27,7 +29,8 @@ struct InterpolationSettings {
   int rays = 512; ///< per vertex, for `gather`
   int cluster_shadow_rays =
       8; ///< per bright cluster (bright_clusters.h) and vertex, where it matters most
-  std::optional<AdaptiveSettings> adaptive = {}; ///< `gather` on a mesh of its own (adaptive_field.h)
+  std::optional<AdaptiveSettings> adaptive =
+      {}; ///< `gather` on a mesh of its own (adaptive_field.h)
 };
 
 /// By ElementVertexId. The mesh it belongs to must outlive it.
@@ -45,7 +48,7 @@ struct DiffuseField {
 struct InterpolatedField {
   DiffuseField field;
   std::optional<ElementMesh> mesh = {}; ///< of an adaptive field; of others, that of the elements
-  double error = 0.0;              ///< of an adaptive field: estimated, of what its settings bound
+  double error = 0.0; ///< of an adaptive field: estimated, of what its settings bound
   std::uint64_t form_factor_rays = 0;
   std::uint64_t shadow_rays = 0;
 };

@@ -1,5 +1,7 @@
 #include "runs/expected_cost.h"
 
+#include "radiosity/element_light.h"
+#include "radiosity/facets.h"
 #include "radiosity/point_gathering.h"
 #include "radiosity/vertex_places.h"
 #include "raytrace/probes.h"
@@ -23,9 +25,9 @@ double seconds_of_one(std::size_t all, std::size_t some, const Do& work) {
   return watch.lap() / double(count);
 }
 
-/// One gathering and one point of light from the source, at vertices; seconds of one thread.
+/// One gathering, and light from the source at one vertex and on one element; seconds of one thread.
 struct PointSeconds {
-  double gather = 0.0, source = 0.0;
+  double gather = 0.0, source = 0.0, on_element = 0.0;
 };
 PointSeconds point_seconds(const PreparedScene& prepared, const PassOneSettings& settings) {
   constexpr std::size_t some = 64;
@@ -48,7 +50,20 @@ PointSeconds point_seconds(const PreparedScene& prepared, const PassOneSettings&
   seconds.source = seconds_of_one(receivers.size(), 4 * some, [&](std::size_t v) {
     direct_irradiance(light, receivers[v], settings.direct, seed(v), work.direct);
   });
+  ElementWorkspace element_work;
+  seconds.on_element = seconds_of_one(element_count(mesh), some, [&](std::size_t e) {
+    direct_irradiance(light, static_cast<ElementId>(e), 0, settings.direct, element_work);
+  });
   return seconds;
+}
+
+/// Vertices with a value of their own.
+std::size_t gathering_vertices(const LightScene& light) {
+  const VertexElements facets = facets_around(light);
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < light.mesh.vertices.size(); ++v)
+    count += around(facets, v).empty() ? 1 : 0;
+  return count;
 }
 
 /// One camera ray with its diffuse term, by all threads.
@@ -76,10 +91,8 @@ double camera_ray_seconds(const PreparedScene& prepared, const Camera& camera,
 
 ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, PictureSize size,
                          const RunSettings& settings, double loading, int threads) {
-  constexpr double started = 0.03; // program and its libraries
-  constexpr double points_in_element =
-      48;                      // of light from the source, without penumbra rays of their own
-  constexpr double busy = 0.9; // of the threads, on average
+  constexpr double started = 0.03;                        // program and its libraries
+  constexpr double busy = 0.9;                            // of the threads, on average
   constexpr double products = 16.0, entry_seconds = 2e-9; // of the solver
   constexpr double encoded_pixel = 1.5e-7;
   TwoPassSettings two_pass = two_pass_settings(settings);
@@ -88,7 +101,7 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
   const PassOneSettings& pass_one = two_pass.pass_one;
   const double divided = pass_one.interpolation.adaptive ? 2.0 : 1.0;
   const double elements = double(element_count(prepared.mesh)),
-               vertices = divided * double(prepared.mesh.vertices.size());
+               vertices = divided * double(gathering_vertices(*prepared.light));
   const double share = 1.0 / (busy * threads);
 
   const PointSeconds point = point_seconds(prepared, pass_one);
@@ -96,7 +109,7 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
       pass_one.interpolation.method == Interpolation::average ? 0.0 : point.gather + point.source;
   ExpectedCost cost;
   cost.prepare = started + loading + prepared.seconds.plan + prepared.seconds.mesh;
-  cost.form_factors = share * elements * (point.gather + points_in_element * point.source);
+  cost.form_factors = share * elements * (point.gather + point.on_element);
   cost.interpolate = share * vertices * at_vertex;
   cost.solve = products * entry_seconds * prepared.plan.bands * elements *
                std::min<double>(pass_one.form_factors.rays, elements);

@@ -1,0 +1,91 @@
+#include "radiosity/facets.h"
+
+#include "radiosity/mesh_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meninas {
+
+namespace {
+
+bool is_facet(const MeshSide& side) { return side.element_count == 1; }
+
+const MeshSide& side_of(const ElementMesh& mesh, ElementId element) {
+  return mesh.sides[index(mesh.side_of_element[index(element)])];
+}
+
+/// Corners of facets by the place they are at, as lists of vertices.
+std::vector<std::vector<ElementVertexId>> facet_places(const ElementMesh& mesh, double grain) {
+  VertexWelder welder(grain);
+  std::vector<Point3> places;
+  std::vector<std::vector<ElementVertexId>> at_place;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!is_facet(side_of(mesh, mesh.element_of_vertex[v])))
+      continue;
+    const std::size_t place = index(welder.vertex_at(0, mesh.vertices[v], places));
+    at_place.resize(places.size());
+    at_place[place].push_back(static_cast<ElementVertexId>(v));
+  }
+  return at_place;
+}
+
+} // namespace
+
+VertexElements facets_around(const LightScene& light) {
+  const ElementMesh& mesh = light.mesh;
+  const double least_cosine = std::cos(most_facet_turn * std::numbers::pi / 180.0);
+  constexpr std::size_t least_facets = 3;
+  const VertexElements own = elements_around(mesh);
+  const auto normal_at = [&mesh](ElementVertexId v) {
+    return side_of(mesh, mesh.element_of_vertex[index(v)]).normal;
+  };
+  std::vector<std::vector<ElementId>> taken(mesh.vertices.size());
+  for (const auto& vertices : facet_places(mesh, vertex_grain(mesh, light.surfaces))) {
+    if (vertices.size() < least_facets)
+      continue;
+    for (const ElementVertexId v : vertices) {
+      std::vector<ElementId>& facets = taken[index(v)];
+      std::size_t surfaces = 0;
+      for (const ElementVertexId other : vertices) {
+        if (glm::dot(normal_at(v), normal_at(other)) < least_cosine)
+          continue;
+        ++surfaces;
+        const auto elements = around(own, index(other));
+        facets.insert(facets.end(), elements.begin(), elements.end());
+      }
+      if (surfaces < least_facets)
+        facets.clear();
+    }
+  }
+  VertexElements result;
+  result.begin.push_back(0);
+  for (const auto& facets : taken) {
+    result.elements.insert(result.elements.end(), facets.begin(), facets.end());
+    result.begin.push_back(static_cast<std::uint32_t>(result.elements.size()));
+  }
+  return result;
+}
+
+std::vector<std::uint8_t> averaged_facets(const ElementMesh& mesh, const VertexElements& facets) {
+  std::vector<std::uint8_t> averaged(element_count(mesh), 0);
+  for (const ElementId facet : facets.elements)
+    averaged[index(facet)] = 1;
+  return averaged;
+}
+
+glm::vec3 facet_mean(const ElementMesh& mesh, std::span<const ElementId> facets,
+                     std::span<const Rgb> irradiance, std::span<const Rgb> values) {
+  Rgb sum(0.0);
+  double area = 0.0;
+  for (const ElementId facet : facets) {
+    if (irradiance[index(facet)] == Rgb(0.0))
+      continue;
+    sum += mesh.area[index(facet)] * values[index(facet)];
+    area += mesh.area[index(facet)];
+  }
+  return area > 0.0 ? glm::vec3(sum / area) : glm::vec3(0.0F);
+}
+
+} // namespace meninas
