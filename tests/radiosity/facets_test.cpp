@@ -1,4 +1,5 @@
 #include "radiosity/facets.h"
+#include "radiosity/point_gathering.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
 
