@@ -10,7 +10,12 @@ namespace meninas {
 
 namespace {
 
-bool is_facet(const MeshSide& side) { return side.element_count == 1; }
+/// Small enough for a mean over its neighbours to be as fine as the mesh is elsewhere.
+bool is_facet(const ElementMesh& mesh, const MeshSide& side) {
+  constexpr double largest = 0.25; // of an element
+  return side.element_count == 1 &&
+         mesh.area[side.first_element] <= largest * mesh.element_size * mesh.element_size;
+}
 
 const MeshSide& side_of(const ElementMesh& mesh, ElementId element) {
   return mesh.sides[index(mesh.side_of_element[index(element)])];
@@ -22,7 +27,7 @@ std::vector<std::vector<ElementVertexId>> facet_places(const ElementMesh& mesh, 
   std::vector<Point3> places;
   std::vector<std::vector<ElementVertexId>> at_place;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (!is_facet(side_of(mesh, mesh.element_of_vertex[v])))
+    if (!is_facet(mesh, side_of(mesh, mesh.element_of_vertex[v])))
       continue;
     const std::size_t place = index(welder.vertex_at(0, mesh.vertices[v], places));
     at_place.resize(places.size());

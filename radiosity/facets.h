@@ -1,4 +1,4 @@
-// Facets: how curved surfaces come, as patches no larger than an element that continue one another at small angles.
+// Facets: how curved surfaces come, as patches smaller than half an element that continue one another at small angles.
 //
 // A vertex where at least three facets meet takes the mean of their elements, weighted by area (Cohen and Greenberg 1985): light is smooth over the
 // curve, noise of single facets averages out, and what would be three gatherings for every facet is none. Vertices of one surface are gathered
