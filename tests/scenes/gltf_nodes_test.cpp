@@ -109,6 +109,20 @@ TEST(GltfNodes, ChoosesTheScene) {
               testing::HasSubstr("scene 'Hal': the file has '0', 'Hall'"));
 }
 
+// Reading takes a time that is linear in their number: were it not, this test would take minutes.
+TEST(GltfNodes, AHundredThousandNodesInOneList) {
+  auto file = square();
+  std::string nodes = file.json["nodes"].dump();
+  nodes.pop_back();
+  for (int k = 1; k < 100'000; ++k)
+    nodes += ",{}";
+  file.json["nodes"] = "@";
+  std::string text = as_text(file);
+  text.replace(text.find("\"@\""), 3, nodes + "]");
+  const TemporaryFolder folder;
+  EXPECT_EQ(load_gltf(folder.write("many.gltf", text)).triangles.size(), 2u);
+}
+
 TEST(GltfNodes, DeepChainsDoNotRecurse) {
   auto file = square();
   constexpr std::size_t depth = 50'000;

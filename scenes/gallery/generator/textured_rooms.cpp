@@ -17,7 +17,7 @@ static Picture tiles() {
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) {
       const bool joint = (x + 1) % 32 < 2 || (y + 1) % 32 < 2;
-      picture.texels.push_back(joint ? 2 : static_cast<std::uint8_t>((x / 32 + y / 32) % 2));
+      picture.texels.push_back(static_cast<std::uint8_t>(joint ? 2 : (x / 32 + y / 32) % 2));
     }
   return picture;
 }
