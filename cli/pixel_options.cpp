@@ -99,8 +99,8 @@ void check_view(const CLI::App& command, const RunSettings& settings) {
     return;
   }
   refuse(command,
-         {"--layers", "--diffuse", "--samples", "--filter", "--pixel-error", "--exposure",
-          "--snapshots", "--error-map", "--error", "--time"},
+         {"--layers", "--diffuse", "--samples", "--filter", "--pixel-error", "--glossy-samples",
+          "--exposure", "--snapshots", "--error-map", "--error", "--time"},
          "has no effect with --view");
   if (settings.view == DebugView::mirror_depth && settings.mode == PictureMode::radiosity) {
     throw UsageError("--view", "mirror-depth has no effect with --mode radiosity: its mirrors are "
@@ -146,6 +146,15 @@ void add_pixel_options(CLI::App& command, RunSettings& settings, const std::stri
       "a neighbour, a quarter of them (at least 4) elsewhere [all of them everywhere]",
       [&](const std::string& text) {
         settings.pixel_error = parse_number("--pixel-error", text, Sign::positive);
+      });
+  add("--glossy-samples", "N",
+      fmt::format(
+          "directions of a camera ray into the widest and brightest lobes of glossy metals, "
+          "coats and frosted glass; narrower and fainter ones get fewer [{}]",
+          RenderSettings{}.glossy_samples),
+      [&](const std::string& text) {
+        settings.glossy_samples =
+            static_cast<int>(parse_integer("--glossy-samples", text, 1, 4096));
       });
 }
 

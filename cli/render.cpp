@@ -194,10 +194,13 @@ void check_mode(const CLI::App& command, const RenderOptions& options) {
     refuse(command, {"--solution", "--mirror-depth", "--diffuse", "--view"}, reason);
     refuse(command, {"--filter", "--pixel-error"},
            "has no effect with --mode reference: its pixels are boxes of as many samples each");
+    refuse(command, {"--glossy-samples"},
+           "has no effect with --mode reference: its paths go one way at a time");
     return;
   }
   if (options.common.settings.mode == PictureMode::radiosity) {
-    refuse(command, {"--diffuse"}, "has no effect with --mode radiosity: it shows pass one");
+    refuse(command, {"--diffuse", "--glossy-samples"},
+           "has no effect with --mode radiosity: it shows pass one");
   }
   refuse(command, {"--max-error", "--max-seconds"}, "has no effect without --mode reference");
   if (options.request.solution) {

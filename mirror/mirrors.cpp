@@ -1,6 +1,7 @@
 #include "mirror/mirrors.h"
 
 #include "mirror/window.h"
+#include "scenes/lobes.h"
 
 #include <algorithm>
 #include <map>
@@ -10,8 +11,14 @@ namespace meninas {
 
 namespace {
 
-/// Surfaces of one plane, one facing and one reflectance are one mirror.
-using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double>;
+/// Surfaces of one plane, one facing and one reflectance are one mirror, of glass those of one material.
+using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double, MaterialId>;
+
+/// What it reflects in the mean.
+Rgb reflectance_of(const Material& material) {
+  return is_glass(material) ? mean_shares(clear_glass(material, untextured(material))).reflected
+                            : mirror_reflectance(material);
+}
 
 struct Candidate {
   Mirror mirror;
@@ -44,21 +51,23 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
   for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
     const Surface& surface = model.surfaces[s];
     const Material& material = scene.materials[index(surface.material)];
-    if (!is_mirror(material))
+    const Rgb reflectance = reflectance_of(material);
+    if (reflectance == Rgb(0.0) || is_solid_glass(material))
       continue;
-    const Rgb reflectance = mirror_reflectance(material);
+    const MaterialId glass = is_glass(material) ? surface.material : none<MaterialId>;
     for (int face = 0; face < (material.double_sided ? 2 : 1); ++face) {
       const Plane plane = face == 0 ? surface.plane : flipped(surface.plane);
       const bool along =
           glm::dot(plane.normal, model.planes[index(surface.plane_class)].normal) > 0.0;
-      const MirrorKey key{index(surface.plane_class), along, reflectance.r, reflectance.g,
-                          reflectance.b};
+      const MirrorKey key{
+          index(surface.plane_class), along, reflectance.r, reflectance.g, reflectance.b, glass};
       const auto [place, is_new] = known.emplace(key, candidates.size());
       if (is_new) {
         candidates.emplace_back();
         candidates.back().mirror.plane = plane;
         candidates.back().mirror.plane_class = surface.plane_class;
         candidates.back().mirror.reflectance = reflectance;
+        candidates.back().mirror.glass = glass;
       }
       add_face(candidates[place->second], model, static_cast<SurfaceId>(s), face);
     }

@@ -3,6 +3,9 @@
 // A mirror's window is the set of convex polygons through which its mirror world is seen. The front of a mirror reflects;
 // a double-sided mirror is two mirrors, back to back. Curved mirrors are many small planes: beyond `max_mirrors` planes
 // only large ones are enumerated, the rest are facets, which rays follow exactly all the same but which get no mirror world.
+//
+// Glass is a mirror on either side whose reflectance depends on the angle (scenes/glass.h): what is said of it here is the mean over all angles, by
+// which its worlds are judged. Solids have none, rays alone follow what they reflect. What light meets on its way, whoever follows it asks of the glass itself.
 #pragma once
 
 #include "mirror/convex_polygon.h"
@@ -25,6 +28,7 @@ struct Mirror {
   Plane plane; ///< normal towards the reflecting side
   PlaneId plane_class = none<PlaneId>;
   Rgb reflectance{1.0};
+  MaterialId glass = none<MaterialId>; ///< none: a mirror of constant reflectance
   double area = 0.0;
   std::vector<ConvexPolygon>
       window; ///< convex, disjoint, counter-clockwise seen from the reflecting side

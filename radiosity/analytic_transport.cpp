@@ -239,6 +239,9 @@ FormFactors analytic_transport(const LightScene& light, const FormFactorSettings
   if (std::ranges::any_of(light.mesh.solid, [](float share) { return share < 1.0F; }))
     throw UsageError(light.scene.file, "--form-factors analytic takes cut-outs for opaque: rays or "
                                        "hemicubes see through their holes");
+  if (!light.glass.empty())
+    throw UsageError(light.scene.file, "--form-factors analytic takes glass for opaque: rays or "
+                                       "hemicubes see through it");
   if (size > most_elements)
     throw UsageError(
         light.scene.file,

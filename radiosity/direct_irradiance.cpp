@@ -17,7 +17,8 @@ double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
 
 /// Sums of the weights of the samples so far, and of those that arrive.
 struct VisibleShare {
-  double all = 0.0, seen = 0.0;
+  double all = 0.0;
+  Rgb seen{0.0};
   int samples = 0, arrived = 0;
 };
 
@@ -49,24 +50,24 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
     for (int k = 0; k < count; ++k) {
       share.all += weight[static_cast<std::size_t>(k)];
       if (((dark >> k) & 1U) == 0U)
-        share.seen += weight[static_cast<std::size_t>(k)];
+        share.seen += weight[static_cast<std::size_t>(k)] *
+                      left_by_glass(light, image.world, work.folded[static_cast<std::size_t>(k)]);
     }
     share.samples += count;
     share.arrived += count - std::popcount(dark);
   }
 }
 
-double visible_fraction(const LightScene& light, const VirtualLight& image,
-                        const Receiver& receiver, int samples, int penumbra_samples,
-                        std::uint32_t seed, DirectWorkspace& work) {
+Rgb visible_fraction(const LightScene& light, const VirtualLight& image, const Receiver& receiver,
+                     int samples, int penumbra_samples, std::uint32_t seed, DirectWorkspace& work) {
   VisibleShare share;
   sample_visibility(light, image, receiver, 0, samples, seed, work, share);
   const bool agree = share.arrived == 0 || share.arrived == share.samples;
   if (!agree && penumbra_samples > samples)
     sample_visibility(light, image, receiver, samples, penumbra_samples, seed, work, share);
-  if (share.arrived == share.samples)
-    return 1.0;
-  return share.all > 0.0 ? share.seen / share.all : 0.0;
+  if (share.arrived == share.samples && light.glass.empty())
+    return Rgb(1.0);
+  return share.all > 0.0 ? share.seen / share.all : Rgb(0.0);
 }
 
 } // namespace
@@ -105,7 +106,7 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
     const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
     const int penumbra = static_cast<int>(std::lround(settings.penumbra_rays * worth));
     const auto image_seed = hash(seed, image.emitter, index(image.world));
-    const double visible =
+    const Rgb visible =
         visible_fraction(light, image, receiver, samples, penumbra, image_seed, work);
     const Rgb arrived = visible * work.form_factors[k] *
                         light.worlds.worlds[index(image.world)].throughput *

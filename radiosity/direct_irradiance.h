@@ -4,7 +4,7 @@
 //
 // F is Lambert's closed form for a point and a polygon, V the visible fraction: low-discrepancy points on the clipped image, weighted by
 // the cosines and distance of the form factor they stand for, each tested along every leg of the folded path. Few points where all
-// agree, more in penumbrae. Punctual lights, and their images, add I f cos / d^2 where the one segment to them is free.
+// agree, more in penumbrae; glass on the legs takes its part of each. Punctual lights, and their images, add I f cos / d^2 where the one segment to them is free.
 #pragma once
 
 #include "mirror/light_choice.h"

@@ -17,7 +17,7 @@ namespace meninas {
 namespace {
 
 bool carries_radiosity(const Material& material) {
-  if (is_emitter(material) || !is_mirror(material))
+  if (is_emitter(material) || !(is_mirror(material) || is_glass(material)))
     return true;
   return glm::any(glm::greaterThan(diffuse_reflectance(material), Rgb(0.0)));
 }

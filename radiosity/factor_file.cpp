@@ -2,6 +2,7 @@
 
 #include "image/whole_file.h"
 #include "scenes/errors.h"
+#include "scenes/lobes.h"
 #include "scenes/version.h"
 
 #include <fmt/format.h>
@@ -58,10 +59,25 @@ std::uint64_t hash_of_geometry(const Scene& scene) {
   return hash.value();
 }
 
+/// What light meets in glass is part of the transport.
+void add_glass(Hash& hash, const Bsdf& glass) {
+  hash.add(glass.metal);
+  hash.add(Rgb(glass.glass, glass.pane.ior, glass.pane.f90));
+  hash.add(glass.pane.f0);
+  hash.add(glass.pane.tint);
+  hash.add(static_cast<std::uint64_t>(glass.pane.faces));
+}
+
 std::uint64_t hash_of_mirrors(const Scene& scene, const WorldTree& worlds) {
   Hash hash;
   for (const Triangle& triangle : scene.triangles) {
-    hash.add(mirror_reflectance(scene.materials[index(triangle.material)]));
+    const Material& material = scene.materials[index(triangle.material)];
+    hash.add(mirror_reflectance(material));
+    if (is_glass(material))
+      add_glass(hash, clear_glass(material, untextured(material)));
+    if (is_glass(material) && material.base_color_texture)
+      hash.add(std::as_bytes(
+          std::span(scene.textures[index(material.base_color_texture->texture)].encoded)));
   }
   for (const MirrorWorld& world : worlds.worlds) {
     hash.add(std::uint64_t{index(world.parent)});

@@ -1,6 +1,12 @@
 #include "radiosity/gather_rays.h"
 
+#include "radiosity/surface_colour.h"
+#include "scenes/lobes.h"
+#include "scenes/sampling.h"
+
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 namespace meninas {
 
@@ -12,6 +18,9 @@ struct Carried {
   float weight;
   glm::vec3 throughput;
   WorldId world;
+  std::uint32_t number;
+  std::uint32_t meetings = 0;
+  int reflections = 0;
 };
 
 /// Rays straight from the receiver are what their packet says, and `Weights` of lane k.
@@ -19,6 +28,7 @@ template <typename Weights>
 struct FirstLegs {
   const RayPacket& packet;
   Weights weights;
+  std::uint32_t first; ///< number of lane 0
 
   constexpr float weight(std::uint32_t k) const { return weights(k); }
   static constexpr glm::vec3 throughput(std::uint32_t) { return glm::vec3(1.0F); }
@@ -28,7 +38,8 @@ struct FirstLegs {
             {packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]},
             weight(k),
             glm::vec3(1.0F),
-            real_world};
+            real_world,
+            first + k};
   }
 };
 
@@ -45,6 +56,7 @@ std::size_t ray_count(const Hemicube& cube) { return cube.cells; }
 /// Rays that left with light of their own.
 struct LitLegs {
   const LitPacket& packet;
+  std::uint32_t first;
 
   static constexpr float weight(std::uint32_t) { return 1.0F; }
   const glm::vec3& throughput(std::uint32_t k) const { return packet.light[k]; }
@@ -55,7 +67,8 @@ struct LitLegs {
             {rays.direction_x[k], rays.direction_y[k], rays.direction_z[k]},
             1.0F,
             packet.light[k],
-            real_world};
+            real_world,
+            first + k};
   }
 };
 
@@ -67,28 +80,67 @@ struct MirroredLegs {
   const glm::vec3& throughput(std::uint32_t k) const { return rays[k].throughput; }
   WorldId world(std::uint32_t k) const { return rays[k].world; }
   Carried carried(std::uint32_t k) const {
-    return {rays[k].origin, rays[k].direction, rays[k].weight, rays[k].throughput, rays[k].world};
+    const MirroredRay& ray = rays[k];
+    return {ray.origin, ray.direction, ray.weight,   ray.throughput,
+            ray.world,  ray.number,    ray.meetings, ray.reflections};
   }
 };
 
-/// The ray behind the mirror: the meeting point comes from the mirror's exact plane, not from the rounded distance.
-MirroredRay reflected(const LightScene& light, const FaceRecord& face, const Carried& from,
-                      float distance) {
+/// What a mirror or glass makes of light that meets it at this cosine.
+struct MirrorShares {
+  glm::vec3 reflected, passed;
+};
+MirrorShares mirror_shares(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
+                           std::uint32_t k, double cosine) {
+  if (!face.glass)
+    return {face.reflectance, glm::vec3(0.0F)};
+  const TriangleId triangle{hits.triangle[k]};
+  const Bsdf glass =
+      is_textured(material_of(light.scene, triangle)) || has_vertex_colors(light.scene, triangle)
+          ? glass_at(light.scene, light.textures, triangle, {hits.b1[k], hits.b2[k]})
+          : light.glass[index(light.scene.triangles[index(triangle)].material)];
+  return {facet_reflectance(glass, cosine), facet_transmittance(glass, cosine)};
+}
+
+/// Where a ray meets a mirror or glass: the point comes from its exact plane, not from the rounded distance.
+struct Meeting {
+  glm::dvec3 position;
+  double approach; ///< the direction along the normal
+  MirrorShares shares;
+};
+Meeting meeting_of(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
+                   std::uint32_t k, const Carried& from) {
+  const double distance = double{hits.distance[k]};
   const double approach = glm::dot(face.normal, from.direction);
   double t = (face.frame_offset - glm::dot(face.normal, from.origin)) / approach;
   if (!(t > 0.0) || t > 2.0 * distance + 1e-6)
     t = distance;
-  MirroredRay ray;
-  ray.origin = from.origin + t * from.direction;
-  ray.direction = from.direction - 2.0 * approach * face.normal;
-  ray.weight = from.weight;
-  ray.throughput = from.throughput * face.reflectance;
-  ray.world = child(light.worlds, from.world, face.mirror);
-  ray.leaving = face.plane_class;
-  return ray;
+  const double cosine = std::min(1.0, std::abs(approach) / glm::length(from.direction));
+  return {from.origin + t * from.direction, approach, mirror_shares(light, face, hits, k, cosine)};
 }
 
 float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
+
+/// The ray that goes on: behind a mirror, or one of the two ways from glass, which stays in its world if it is passed.
+MirroredRay going_on(const LightScene& light, const FaceRecord& face, const Carried& from,
+                     const Meeting& at, std::uint32_t seed) {
+  MirroredRay ray{at.position,      from.direction, from.weight,       from.throughput, from.world,
+                  face.plane_class, from.number,    from.meetings + 1, from.reflections};
+  float chance = 1.0F;
+  if (face.glass) {
+    const float reflected = largest(at.shares.reflected), passed = largest(at.shares.passed);
+    chance = reflected + passed > 0.0F ? reflected / (reflected + passed) : 0.0F;
+    if (sobol4(from.number, hash(seed, from.meetings, 0x91a55))[0] >= chance) {
+      ray.throughput *= at.shares.passed / (1.0F - chance);
+      return ray;
+    }
+  }
+  ray.direction = from.direction - 2.0 * at.approach * face.normal;
+  ray.throughput *= chance == 1.0F ? at.shares.reflected : at.shares.reflected / chance;
+  ray.world = child(light.worlds, from.world, face.mirror);
+  ++ray.reflections;
+  return ray;
+}
 
 /// How rays ended: sums of their weights and of their light.
 struct Ends {
@@ -143,8 +195,14 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
       landing.light = weight * tau;
     }
     if (face.mirrors) {
-      const MirroredRay ray = reflected(light, face, legs.carried(k), hits.distance[k]);
-      if (largest(ray.throughput) >= settings.min_throughput)
+      const Carried from = legs.carried(k);
+      const Meeting at = meeting_of(light, face, hits, k, from);
+      // What the surface keeps or scatters besides is no loss of the mirror's.
+      if (face.side != FaceRecord::nothing)
+        ends.mirror_absorbed -= weight * tau * (1.0F - at.shares.reflected - at.shares.passed);
+      const MirroredRay ray = going_on(light, face, from, at, work.seed);
+      if (largest(ray.throughput) >= settings.min_throughput &&
+          ray.reflections <= settings.max_bounces)
         work.next.push_back(ray);
       else
         ends.stop(weight, ray.throughput);
@@ -178,28 +236,22 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
         static_cast<std::uint32_t>(std::min(packet_size, ray_count(rays) - n * packet_size));
     set_rays(rays.packets[n], source, packet);
     closest_hits(light.rays, packet, hits, Backs::absorb, Coherence::coherent);
-    const FirstLegs legs{packet, weights_of(rays.packets[n])};
+    const FirstLegs legs{packet, weights_of(rays.packets[n]),
+                         static_cast<std::uint32_t>(n * packet_size)};
     work.black_lanes.push_back(sort_hits(light, settings, legs, packet.count, hits, work));
   }
   work.result.escaped_straight = work.result.escaped;
   work.result.traced += ray_count(rays);
 }
 
-/// Mirror after mirror, until no ray goes on.
+/// Mirror after mirror, pane after pane, until no ray goes on.
 void follow_mirrors(const LightScene& light, const FormFactorSettings& settings,
                     GatherWorkspace& work) {
   RayPacket packet;
   HitPacket hits;
-  for (int bounce = 1; !work.next.empty(); ++bounce) {
+  while (!work.next.empty()) {
     work.current.swap(work.next);
     work.next.clear();
-    if (bounce > settings.max_bounces) {
-      Ends ends;
-      for (const auto& ray : work.current)
-        ends.stop(ray.weight, ray.throughput);
-      add(ends, work.result);
-      return;
-    }
     for (std::size_t first = 0; first < work.current.size(); first += packet_size) {
       packet.count = static_cast<std::uint32_t>(std::min(packet_size, work.current.size() - first));
       for (std::uint32_t k = 0; k < packet.count; ++k)
@@ -212,11 +264,19 @@ void follow_mirrors(const LightScene& light, const FormFactorSettings& settings,
   }
 }
 
+/// The point's own.
+std::uint32_t seed_of(const Point3& point) {
+  const glm::vec3 rounded(point);
+  return hash(std::bit_cast<std::uint32_t>(rounded.x), std::bit_cast<std::uint32_t>(rounded.y),
+              std::bit_cast<std::uint32_t>(rounded.z));
+}
+
 } // namespace
 
 void gather_rays(const LightScene& light, const DirectionNet& net, const ReceiverArea& receiver,
                  std::uint32_t seed, const FormFactorSettings& settings, GatherWorkspace& work) {
   const RaySource source = ray_source(receiver, light.rays.frame(), seed);
+  work.seed = seed;
   trace_first_legs(light, net, source, settings, work);
   GatheredRays& result = work.result;
   if (result.black > 0.0 && !receiver.is_point()) {
@@ -230,18 +290,23 @@ void gather_rays(const LightScene& light, const DirectionNet& net, const Receive
 void gather_rays(const LightScene& light, const Hemicube& cube, const ReceiverArea& receiver,
                  const FormFactorSettings& settings, GatherWorkspace& work) {
   expects(receiver.is_point(), "a hemicube stands at a point");
-  trace_first_legs(light, cube, ray_source(receiver, light.rays.frame(), 0), settings, work);
+  const RaySource source = ray_source(receiver, light.rays.frame(), 0);
+  work.seed = seed_of(source.area.corner);
+  trace_first_legs(light, cube, source, settings, work);
   follow_mirrors(light, settings, work);
 }
 
-void follow_light(const LightScene& light, std::span<const LitPacket> packets,
+void follow_light(const LightScene& light, std::span<const LitPacket> packets, std::uint32_t seed,
                   const FormFactorSettings& settings, GatherWorkspace& work) {
   work.result.clear();
   work.next.clear();
+  work.seed = seed;
   HitPacket hits;
-  for (const LitPacket& packet : packets) {
+  for (std::uint32_t n = 0; n < packets.size(); ++n) {
+    const LitPacket& packet = packets[n];
     closest_hits(light.rays, packet.rays, hits, Backs::absorb, Coherence::incoherent);
-    sort_hits(light, settings, LitLegs{packet}, packet.rays.count, hits, work);
+    const LitLegs legs{packet, n * std::uint32_t{packet_size}};
+    sort_hits(light, settings, legs, packet.rays.count, hits, work);
     work.result.traced += packet.rays.count;
   }
   follow_mirrors(light, settings, work);

@@ -2,6 +2,10 @@
 //
 // The rays are those of a net, which all weigh the same, or the cells of a hemicube, which weigh as much as their delta form factors;
 // weights are 1 in the mean, so that `rays` stands for the whole hemisphere in either case.
+//
+// Where glass reflects R and passes T of its light, a ray goes either way: on by reflection with chance p = max R / (max R + max T) and R / p of its
+// light, else straight through with T / (1 - p) of it (max over the channels). So rays remain as many as they were, however many panes there are, and each ends once. The
+// numbers that decide are low-discrepancy over the receiver's rays.
 #pragma once
 
 #include "radiosity/covered_cells.h"
@@ -51,17 +55,21 @@ inline Rgb kept_light(const GatheredRays& gathered) {
 /// Fractions of the rays of the exposed part.
 RowClosure closure_of(const GatheredRays& gathered);
 
-/// A continuing ray between mirrors; kept by the caller so that its storage is reused.
+/// A continuing ray between mirrors and glass; kept by the caller so that its storage is reused.
 struct MirroredRay {
   glm::dvec3 origin, direction; ///< in the frame of the ray scene
   float weight;
   glm::vec3 throughput;
   WorldId world;
   std::uint32_t leaving;
+  std::uint32_t number;   ///< among the rays of its receiver
+  std::uint32_t meetings; ///< with mirrors and glass, so far
+  int reflections;        ///< of them
 };
 
 struct GatherWorkspace {
   GatheredRays result;
+  std::uint32_t seed = 0; ///< of what glass does with its rays
   std::vector<std::uint32_t>
       black_lanes; ///< by packet of the net: the rays that met a black back at once
   std::vector<MirroredRay> current, next;
@@ -84,7 +92,7 @@ struct LitPacket {
 
 /// Traces them on through mirrors to their ends: landings and ends speak of the light the rays left with times tau.
 /// What mirrors absorb is not counted.
-void follow_light(const LightScene& light, std::span<const LitPacket> packets,
+void follow_light(const LightScene& light, std::span<const LitPacket> packets, std::uint32_t seed,
                   const FormFactorSettings& settings, GatherWorkspace& workspace);
 
 /// The part of the receiver on which something stands, by the first legs of the net.

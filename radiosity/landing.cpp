@@ -53,7 +53,8 @@ static FaceRecord make_face(const Scene& scene, const SurfaceModel& model, const
     return face;
 
   face.side = index(mesh.sides_of_patch[index(patch_id)][static_cast<std::size_t>(facing)]);
-  face.mirrors = is_mirror(material);
+  face.glass = is_glass(material);
+  face.mirrors = is_mirror(material) || face.glass;
   face.mirror = mirrors.mirror_of_surface[index(patch.surface)][static_cast<std::size_t>(facing)];
   face.reflectance = mirror_reflectance(material);
   set_uv_map(face, patch, model.corner_uv[triangle]);

@@ -22,16 +22,17 @@ struct FaceRecord {
   static constexpr std::uint32_t nothing = 0xffffffffU;
 
   std::uint32_t side = nothing; ///< index of a SideId where the face carries radiosity
-  bool mirrors = false;         ///< an ideal mirror, enumerated or a facet
+  bool mirrors = false;         ///< an ideal mirror, enumerated or a facet, or glass
   UvMap map = UvMap::affine;
   MirrorId mirror = none<MirrorId>;
   std::uint32_t plane_class = nothing;
   glm::vec2 uv0{0.0F};            ///< (u, v), or (x, y), at b = (0, 0)
   glm::vec2 uv1{0.0F}, uv2{0.0F}; ///< and its changes along b1 and b2
   glm::vec2 widening{0.0F};       ///< of a bilinear map: (x, y) = (u, v) + u v widening
-  glm::vec3 reflectance{1.0F};    ///< of the mirror
-  glm::dvec3 normal{0.0};         ///< towards this face
-  double frame_offset = 0.0;      ///< of its plane in the frame of the ray scene
+  glm::vec3 reflectance{1.0F};    ///< of the mirror, where it is not glass
+  bool glass = false;
+  glm::dvec3 normal{0.0};    ///< towards this face
+  double frame_offset = 0.0; ///< of its plane in the frame of the ray scene
 };
 
 /// What the inner loops need of a side, close together.

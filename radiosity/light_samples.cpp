@@ -33,7 +33,8 @@ void punctual_arrivals(const LightScene& light, const Receiver& receiver, Direct
         continue;
       const PunctualImage& image = work.images[first + k];
       arrivals.push_back({glm::normalize(image.position - receiver.position),
-                          light.worlds.worlds[index(world)].throughput * image.irradiance,
+                          light.worlds.worlds[index(world)].throughput * image.irradiance *
+                              left_by_glass(light, world, work.folded[k]),
                           world != real_world});
     }
     first += count;
@@ -70,7 +71,7 @@ void emission_samples(const LightScene& light, const Receiver& receiver,
         light.worlds.worlds[index(image.world)].throughput * emitter.radiosity / std::numbers::pi;
     for (std::uint32_t k = 0; k < count; ++k)
       if (((dark >> k) & 1U) == 0)
-        samples[begin + k].radiance = radiance;
+        samples[begin + k].radiance = radiance * left_by_glass(light, image.world, work.folded[k]);
   }
 }
 

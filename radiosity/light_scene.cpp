@@ -50,10 +50,24 @@ void add_emitters(const SurfaceModel& surfaces, const ElementMesh& mesh, const M
 } // namespace
 
 bool grey_mirrors(const Scene& scene) {
-  return std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
-    const Rgb r = mirror_reflectance(material);
-    return r.r == r.g && r.g == r.b;
+  const auto is_grey = [](const Rgb& c) { return c.r == c.g && c.g == c.b; };
+  const bool colored = std::ranges::any_of(
+      scene.vertices, [&](const Vertex& vertex) { return !is_grey(Rgb(vertex.color)); });
+  return std::ranges::all_of(scene.materials, [&](const Material& material) {
+    if (!is_glass(material))
+      return is_grey(mirror_reflectance(material));
+    return is_grey(material.base_color) && is_grey(material.specular_color) &&
+           is_grey(material.attenuation_color) && !is_textured(material) && !colored;
   });
+}
+
+/// As `LightScene::glass`.
+static std::vector<Bsdf> glass_of(const Scene& scene) {
+  std::vector<Bsdf> glass;
+  if (std::ranges::any_of(scene.materials, is_glass))
+    for (const Material& material : scene.materials)
+      glass.push_back(clear_glass(material, untextured(material)));
+  return glass;
 }
 
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
@@ -72,7 +86,8 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    {},
                    {},
                    scene.lights,
-                   std::numbers::pi * scene.background};
+                   std::numbers::pi * scene.background,
+                   glass_of(scene)};
   light.from_source.assign(mesh.sides.size(), 0);
 
   double area = 0.0, emitting_area = 0.0;

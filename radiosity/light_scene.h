@@ -9,6 +9,7 @@
 #include "mirror/virtual_lights.h"
 #include "radiosity/element_mesh.h"
 #include "radiosity/landing.h"
+#include "scenes/lobes.h"
 #include "scenes/ray_scene.h"
 #include "scenes/texture_lookup.h"
 
@@ -33,9 +34,11 @@ struct LightScene {
   EmitterTree emitter_tree;            ///< over the emitters
   std::vector<PunctualLight> punctual; ///< always from the source
   Rgb background{0.0}; ///< irradiance pi L of the whole sky, gathered by rays that escape
+  std::vector<Bsdf>
+      glass; ///< by MaterialId, clear (scenes/lobes.h) and without textures; empty where there is none
 };
 
-/// Whether mirrors treat all channels alike: transport needs but one band.
+/// Whether mirrors and glass treat all channels alike: transport needs but one band.
 bool grey_mirrors(const Scene& scene);
 
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,

@@ -77,6 +77,10 @@ NodeFactors node_form_factors(const Scene& scene, const SurfaceModel& surfaces, 
 
   switch (settings.method) {
   case NodeFactorMethod::analytic: {
+    if (std::ranges::any_of(scene.materials, is_glass))
+      throw UsageError(scene.file,
+                       "--method analytic takes glass for opaque: rays or hemicubes see "
+                       "through it");
     ExtendedSettings extended;
     extended.accuracy = settings.accuracy;
     extended.max_depth = settings.max_depth;

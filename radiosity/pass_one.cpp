@@ -4,6 +4,7 @@
 #include "radiosity/gathered_emission.h"
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/shooting_blocks.h"
+#include "scenes/lobes.h"
 #include "scenes/stopwatch.h"
 
 #include <cmath>
@@ -24,12 +25,25 @@ ClosureError closure_error(const std::vector<RowClosure>& rows) {
   return error;
 }
 
+/// Of the light that an element receives, what the mirror or the glass that it is as well passes on: rays carry it.
+Rgb passed_on(const LightScene& light, MaterialId id) {
+  const Material& material = light.scene.materials[index(id)];
+  if (!is_glass(material))
+    return mirror_reflectance(material);
+  const GlassShares mean = mean_shares(light.glass[index(id)]);
+  return mean.reflected + mean.passed;
+}
+
 /// What leaves an element follows the fractions of its own rays; what is absorbed follows what the elements receive. The two agree as
 /// far as the sampled form factors are reciprocal: the imbalance measures that.
 /// Light that enters from outside the surfaces (of punctual lights, of the background) counts as emitted where it first arrives.
-EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& solution,
+EnergyBalance energy_balance(const LightScene& light, const RadiositySolution& solution,
                              const std::vector<RowClosure>& rows,
                              const std::vector<Rgb>& entering) {
+  const ElementMesh& mesh = light.mesh;
+  std::vector<Rgb> carried_on;
+  for (std::size_t m = 0; m < light.scene.materials.size(); ++m)
+    carried_on.push_back(passed_on(light, static_cast<MaterialId>(m)));
   EnergyBalance energy;
   for (std::size_t i = 0; i < mesh.area.size(); ++i) {
     const double area = mesh.area[i] * solution.exposed[i];
@@ -37,7 +51,9 @@ EnergyBalance energy_balance(const ElementMesh& mesh, const RadiositySolution& s
     energy.emitted += area * mesh.emission[i];
     if (!entering.empty())
       energy.emitted += area * entering[i];
-    energy.absorbed += area * (1.0 - mesh.reflectance[i]) * solution.irradiance[i];
+    const MaterialId material = mesh.sides[index(mesh.side_of_element[i])].material;
+    const Rgb kept = 1.0 - mesh.reflectance[i] - carried_on[index(material)];
+    energy.absorbed += area * kept * solution.irradiance[i];
     const Rgb followed = leaving / glm::max(Rgb(1e-9), 1.0 - Rgb(rows[i].cut_light));
     energy.absorbed += Rgb(rows[i].black_light) * followed;
     energy.escaped += Rgb(rows[i].escaped_light) * followed;
@@ -88,7 +104,7 @@ void complete(const LightScene& light, const PassOneSettings& settings, const Fi
   solution.exposed = rays.exposed;
 
   solution.closure = closure_error(rays.closure);
-  solution.energy = energy_balance(mesh, solution, rays.closure, first.entering);
+  solution.energy = energy_balance(light, solution, rays.closure, first.entering);
   solution.form_factor_rays = rays.traced + interpolated.form_factor_rays;
   solution.shadow_rays = first.shadow_rays + interpolated.shadow_rays;
 }

@@ -23,7 +23,20 @@ bool throws_shapes(const Material& material) {
   return is_glossy(material) && material.roughness <= limit;
 }
 
-bool is_coated(const Material& material) { return !is_glossy(material) && has_lobes(material); }
+bool is_coated(const Material& material) {
+  return !is_glossy(material) && has_visible_coat(material);
+}
+
+bool is_pane(const Material& material) { return is_glass(material) && !is_solid_glass(material); }
+
+/// All of its light, reflected and passed, has no colour.
+bool scatters_grey(const Material& material) {
+  return is_grey(diffuse_reflectance(material)) && is_grey(mirror_reflectance(material)) &&
+         is_grey(material.emission) && !is_textured(material) &&
+         (!is_glass(material) ||
+          (is_grey(material.base_color) && is_grey(material.specular_color) &&
+           is_grey(material.attenuation_color)));
+}
 
 /// Materials that are on some triangle, by their place in the scene.
 std::vector<const Material*> used_materials(const Scene& scene) {
@@ -101,7 +114,7 @@ std::map<NodeId, std::set<PlaneId>> faceted_nodes(const Scene& scene, const Surf
     const Material& material = scene.materials[index(surface.material)];
     const auto& faces = mirrors.mirror_of_surface[s];
     const bool is_facet = faces[0] == none<MirrorId> && faces[1] == none<MirrorId>;
-    if (!is_mirror(material) || !is_facet) {
+    if (!(is_mirror(material) || is_glass(material)) || !is_facet) {
       continue;
     }
     for (const PatchId patch : surface.patches) {
@@ -152,10 +165,16 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
     plan.warnings.push_back("light that smooth metals throw on other surfaces is spread evenly: " +
                             quoted(names));
   }
-  const auto transmits = [](const Material& m) { return m.transmission > 0.0; };
-  if (const auto names = names_where(materials, transmits); !names.empty()) {
-    plan.warnings.push_back("transmission is not rendered yet, materials are opaque: " +
+  const auto is_frosted = [](const Material& m) {
+    return is_glass(m) && m.roughness > ideal_mirror_roughness;
+  };
+  if (const auto names = names_where(materials, is_frosted); !names.empty()) {
+    plan.warnings.push_back("frosted glass throws light on surfaces as clear glass does: " +
                             quoted(names));
+  }
+  if (const auto names = names_where(materials, is_solid_glass); !names.empty()) {
+    plan.warnings.push_back(
+        "solid glass does not bend light, each of its faces counts as a sheet: " + quoted(names));
   }
   const auto is_textured_mirror = [](const Material& m) { return is_mirror(m) && is_textured(m); };
   if (const auto names = names_where(materials, is_textured_mirror); !names.empty()) {
@@ -174,6 +193,11 @@ void describe_lobes(const std::vector<const Material*>& materials,
   }
   if (const auto names = names_where(materials, is_coated); !names.empty()) {
     stages.push_back("coats: rays over their lobes in the picture, even in pass one: " +
+                     quoted(names));
+  }
+  if (const auto names = names_where(materials, is_pane); !names.empty()) {
+    stages.push_back("glass panes: passed straight and reflecting as mirrors do, by Fresnel and "
+                     "their tint, in both passes: " +
                      quoted(names));
   }
 }
@@ -241,15 +265,12 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
         materials, holds, [](const Material* m) -> const Material& { return *m; }));
   };
   plan.glossy = count(is_glossy);
-  plan.transmissive = count([](const Material& m) { return m.transmission > 0.0; });
+  plan.transmissive = count(is_glass);
   plan.textured = count(is_textured);
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     plan.colored_triangles += has_vertex_colors(scene, TriangleId{t}) ? 1 : 0;
   }
-  const std::size_t grey = count([](const Material& m) {
-    return is_grey(diffuse_reflectance(m)) && is_grey(mirror_reflectance(m)) &&
-           is_grey(m.emission) && !is_textured(m);
-  });
+  const std::size_t grey = count(scatters_grey);
   const bool grey_light = is_grey(scene.background) &&
                           std::ranges::all_of(scene.lights, [](const PunctualLight& light) {
                             return is_grey(light.intensity);

@@ -58,7 +58,8 @@ PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosi
                                                                   make_emitter_tree(
                                                                       clusters.emitters),
                                                                   {},
-                                                                  Rgb(0.0)},
+                                                                  Rgb(0.0),
+                                                                  scene.glass},
       net(make_direction_net(settings.rays)),
       cube(factors.method == FormFactorMethod::hemicube ? make_hemicube(factors.hemicube_resolution)
                                                         : Hemicube{}) {}

@@ -90,7 +90,7 @@ typename RayShots<Value>::ChunkResult RayShots<Value>::follow(const Shot& shot, 
     set_directions(cosine_hemisphere(u, v), source, packet.rays);
   }
   GatherWorkspace& work = workspaces_.local();
-  follow_light(light_, std::span(packets).first(used), settings_, work);
+  follow_light(light_, std::span(packets).first(used), hash(shot.seed, first), settings_, work);
   result.kept -= Rgb(work.result.cut_light);
   result.landings = work.result.landings;
   result.traced = work.result.traced;

@@ -1,5 +1,8 @@
 #include "radiosity/shadow_legs.h"
 
+#include "radiosity/surface_colour.h"
+#include "scenes/glass_crossings.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,6 +46,52 @@ std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>
       break;
   }
   return result;
+}
+
+namespace {
+
+double cosine_of(const Leg& leg, const Direction& normal) {
+  const Vec3 way = leg.to - leg.from;
+  const double length = glm::length(way);
+  return length > 0.0 ? std::abs(glm::dot(way, normal)) / length : 1.0;
+}
+
+Rgb passed(const LightScene& light, const GlassCrossing& crossing) {
+  const Triangle& triangle = light.scene.triangles[index(crossing.triangle)];
+  const Material& material = light.scene.materials[index(triangle.material)];
+  if (!is_textured(material) && !has_vertex_colors(light.scene, crossing.triangle))
+    return facet_transmittance(light.glass[index(triangle.material)], crossing.cosine);
+  return facet_transmittance(
+      glass_at(light.scene, light.textures, crossing.triangle, crossing.barycentric),
+      crossing.cosine);
+}
+
+} // namespace
+
+Rgb left_by_glass(const LightScene& light, WorldId world, std::span<const Leg> legs) {
+  Rgb left(1.0);
+  if (light.glass.empty())
+    return left;
+  std::vector<GlassCrossing> crossings;
+  for (const Leg& leg : legs) {
+    glass_crossings(light.rays, leg, crossings);
+    for (const GlassCrossing& crossing : crossings)
+      left *= passed(light, crossing);
+  }
+  // The last mirror of the chain is met by the last leg but one, and so on.
+  std::size_t step = legs.size() - 1;
+  for (; world != real_world; world = light.worlds.worlds[index(world)].parent) {
+    const Leg& leg = legs[--step];
+    const Mirror& mirror = light.mirrors.mirrors[index(light.worlds.worlds[index(world)].mirror)];
+    if (mirror.glass == none<MaterialId>)
+      continue;
+    const Rgb reflected =
+        facet_reflectance(light.glass[index(mirror.glass)], cosine_of(leg, mirror.plane.normal));
+    for (int band = 0; band < 3; ++band)
+      left[band] *=
+          mirror.reflectance[band] > 0.0 ? reflected[band] / mirror.reflectance[band] : 0.0;
+  }
+  return left;
 }
 
 } // namespace meninas

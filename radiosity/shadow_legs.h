@@ -4,6 +4,7 @@
 #include "radiosity/light_scene.h"
 
 #include <array>
+#include <span>
 
 namespace meninas {
 
@@ -13,5 +14,10 @@ Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample);
 /// Tests up to sixteen folded segments of as many legs each; bit k of the result is set where segment k is blocked. Adds to `rays`.
 std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>, 16>& folded,
                       std::uint32_t count, std::uint64_t& rays);
+
+/// What glass makes of light on a free segment in a world, beside the throughput of that world: the product of what passes each pane at the
+/// angle at which it is crossed, and of what each pane that is a mirror of the world reflects at its angle over the mean that the world's
+/// throughput has for it. 1 where there is no glass.
+Rgb left_by_glass(const LightScene& light, WorldId world, std::span<const Leg> legs);
 
 } // namespace meninas

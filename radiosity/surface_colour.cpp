@@ -1,6 +1,5 @@
 #include "radiosity/surface_colour.h"
 
-#include "scenes/lobes.h"
 #include "scenes/sampling.h"
 
 #include <tbb/parallel_for.h>
@@ -82,6 +81,12 @@ SurfaceColour surface_colour(const Scene& scene, const DecodedTextures& textures
   const Material& material = material_of(scene, triangle);
   return {diffuse_reflectance(material, point), std::numbers::pi * point.emission,
           is_cut_out(material, point)};
+}
+
+Bsdf glass_at(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
+              Vec2 barycentric) {
+  return clear_glass(material_of(scene, triangle),
+                     material_at(scene, textures, triangle, barycentric));
 }
 
 Holes holes_of(const Scene& scene, const DecodedTextures& textures) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "radiosity/element_mesh.h"
+#include "scenes/lobes.h"
 #include "scenes/ray_scene.h"
 #include "scenes/texture_lookup.h"
 
@@ -22,6 +23,10 @@ struct SurfaceColour {
 SurfaceColour surface_colour(const Scene& scene, const DecodedTextures& textures,
                              TriangleId triangle, Vec2 barycentric,
                              const Footprint& footprint = {});
+
+/// Clear glass there (scenes/lobes.h), of a triangle whose material it is.
+Bsdf glass_at(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
+              Vec2 barycentric);
 
 /// The holes of cut-out materials, for the rays of a scene that outlives them.
 Holes holes_of(const Scene& scene, const DecodedTextures& textures);

@@ -57,7 +57,7 @@ double receiving_area(const Scene& scene, const SurfaceModel& surfaces) {
   double area = 0.0;
   for (const auto& surface : surfaces.surfaces) {
     const Material& material = scene.materials[index(surface.material)];
-    if (!is_mirror(material))
+    if (!is_mirror(material) && !is_glass(material))
       area += (material.double_sided ? 2.0 : 1.0) * surface.area;
   }
   return area;

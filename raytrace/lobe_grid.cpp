@@ -13,12 +13,25 @@ double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
 
 Direction mirrored(const Direction& out) { return {-out.x, -out.y, out.z}; }
 
-/// A cell's direction before the weights are brought to their norm: g, and the reflectance of the coat, by its own.
+/// A cell's direction before the weights are brought to their norm: g, and g times the shares of what is no metal.
 struct Cell {
   Direction in;
   double visible;
-  Rgb coat;
+  Rgb coat;           ///< likewise of it
+  Rgb glass, through; ///< and what glass reflects and passes
 };
+
+Cell weighed(const Bsdf& bsdf, const Direction& in, double cosine, double visible) {
+  Cell cell{in, visible, visible * (facet_reflectance(bsdf, cosine) - bsdf.metal), Rgb(0.0),
+            Rgb(0.0)};
+  if (bsdf.glass > 0.0) {
+    const GlassShares shares = glass_shares(bsdf.pane, cosine);
+    cell.glass = visible * bsdf.glass * shares.reflected;
+    cell.coat -= cell.glass;
+    cell.through = visible * bsdf.glass * shares.passed;
+  }
+  return cell;
+}
 
 std::optional<Cell> cell_at(const Bsdf& bsdf, const Direction& out, double u, double v) {
   const Direction h = visible_facet(bsdf.alpha, out, u, v);
@@ -28,7 +41,7 @@ std::optional<Cell> cell_at(const Bsdf& bsdf, const Direction& out, double u, do
     return std::nullopt;
   const double lambda = smith_lambda(bsdf.alpha, out);
   const double visible = (1.0 + lambda) / (1.0 + lambda + smith_lambda(bsdf.alpha, in));
-  return Cell{in, visible, visible * (facet_reflectance(bsdf, cosine) - bsdf.metal)};
+  return weighed(bsdf, in, cosine, visible);
 }
 
 /// What makes a sum the albedo it should be.
@@ -40,7 +53,8 @@ int lobe_divisions(const Bsdf& bsdf, double cosine, double directions) {
   constexpr double most = 64.0;
   if (bsdf.alpha == 0.0)
     return 1;
-  const double energy = largest(bsdf.metal) + bsdf.coat * coat_albedo(bsdf, cosine);
+  const double energy =
+      std::max(largest(bsdf.metal) + bsdf.coat * coat_albedo(bsdf, cosine), bsdf.glass);
   const double cells = directions * bsdf.roughness * energy;
   return static_cast<int>(std::clamp(std::ceil(std::sqrt(cells)), 1.0, most));
 }
@@ -53,8 +67,11 @@ double lobe_density(const Bsdf& bsdf, const Direction& out, const Direction& in)
 void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift,
                std::vector<LobeRay>& rays) {
   rays.clear();
+  const bool pane = bsdf.glass > 0.0;
   if (bsdf.alpha == 0.0) {
     rays.push_back({mirrored(out), ideal_reflection(bsdf, out.z)});
+    if (pane)
+      rays.push_back({-out, straight_transmission(bsdf, out.z), true});
     return;
   }
   // The two parts of S, each with the sum that its norm is made of.
@@ -71,15 +88,19 @@ void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift
     }
   // A coarse grid at a grazing angle may dip below the surface as a whole: the mirror direction stands for it.
   if (cells.empty()) {
-    cells.push_back({mirrored(out), 1.0, facet_reflectance(bsdf, out.z) - bsdf.metal});
+    cells.push_back(weighed(bsdf, mirrored(out), out.z, 1.0));
     metal_sum = 1.0;
     coat_sum = largest(cells.front().coat);
   }
   const SchlickAlbedo albedo = schlick_albedo(bsdf.roughness, out.z);
   const double metal_norm = norm(albedo.f0 + albedo.f90, metal_sum);
   const double coat_norm = norm(bsdf.coat * coat_albedo(bsdf, out.z), coat_sum);
-  for (const Cell& cell : cells)
-    rays.push_back({cell.in, bsdf.metal * (cell.visible * metal_norm) + cell.coat * coat_norm});
+  for (const Cell& cell : cells) {
+    const Rgb weight = bsdf.metal * (cell.visible * metal_norm) + cell.coat * coat_norm;
+    rays.push_back({cell.in, pane ? weight + cell.glass * metal_norm : weight});
+    if (pane)
+      rays.push_back({{cell.in.x, cell.in.y, -cell.in.z}, cell.through * metal_norm, true});
+  }
 }
 
 } // namespace meninas

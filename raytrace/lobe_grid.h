@@ -7,6 +7,8 @@
 // the weights add up to the lobe's albedo whatever n: under even light a white metal and what its facets spread add up to exactly 1. So
 // the sum converges to the convolution of the light with the lobe, with an error of order 1 / n^2 in the mean (it is a ratio of sums).
 //
+// A pane has the same lobe once more, folded through the surface, with what it passes in place of S.
+//
 // A lobe of no width (roughness at most `ideal_mirror_roughness`) is one direction, the mirror's.
 #pragma once
 
@@ -16,10 +18,11 @@
 
 namespace meninas {
 
-/// A direction of the local frame from which light is reflected, and how much of it.
+/// A direction of the local frame from which light comes, and how much of it goes on towards `out`.
 struct LobeRay {
   Direction in{0.0, 0.0, 1.0};
   Rgb weight{0.0};
+  bool through = false; ///< the pane, whether straight or scattered
 };
 
 /// The density per steradian of the facets' map: n^2 of it is that of the grid's directions.

@@ -26,7 +26,7 @@ enum class RenderMode {
 /// What layers beside those of light show (features.h).
 enum class Feature { depth, normal, albedo, element, irradiance };
 inline constexpr std::array all_features{Feature::depth, Feature::normal, Feature::albedo,
-                                     Feature::element, Feature::irradiance};
+                                         Feature::element, Feature::irradiance};
 /// "depth"
 std::string_view name_of(Feature feature);
 
@@ -37,6 +37,8 @@ struct RenderSettings {
   int samples = 16;                     ///< per pixel, a power of two
   double min_throughput = 1.0 / 1024.0; ///< of a specular path, below which it ends
   int max_bounces = 1000;
+  int glossy_samples =
+      16; ///< directions of a camera ray into the widest and brightest lobes (lobe_grid.h)
   std::uint32_t seed = 0;
   PixelFilter filter = PixelFilter::box;
   /// Above 0: all samples only where neighbouring pixels differ by this share of themselves (sample_choice.h).
@@ -47,8 +49,9 @@ struct RenderSettings {
 };
 
 struct Rendering {
-  Image image;               ///< radiance
-  std::vector<Layer> layers; ///< of render_layers: they add up to the image, in their order; then features
+  Image image; ///< radiance
+  std::vector<Layer>
+      layers; ///< of render_layers: they add up to the image, in their order; then features
   std::uint64_t camera_rays = 0;
   std::uint64_t specular_rays = 0;
   std::uint64_t shadow_rays = 0; ///< of diffuse terms computed at the hit

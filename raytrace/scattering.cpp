@@ -13,9 +13,6 @@ namespace meninas {
 
 namespace {
 
-constexpr double directions = 16.0; // of a camera ray into the widest lobes
-constexpr int points_per_lamp = 4;  // N
-
 Bsdf bsdf_at(const RenderContext& context, const RayPacket& packet, const LaneState& state,
              const FaceRecord& face, const HitPacket& hits, std::uint32_t k) {
   const LightScene& light = context.light;
@@ -37,7 +34,7 @@ Vec2 shift_of(const SpecularRay& ray, std::uint32_t seed_of_pixel) {
 /// The first lobe of a path looks for emitters by their points as well.
 bool samples_lamps(const RenderContext& context, const Bsdf& bsdf, const SpecularRay& ray) {
   return bsdf.alpha > 0.0 && ray.lobes == 0 && !context.light.emitters.empty() &&
-         (bsdf.coat > 0.0 || bsdf.metal != Rgb(0.0));
+         (bsdf.coat > 0.0 || bsdf.glass > 0.0 || bsdf.metal != Rgb(0.0));
 }
 
 /// q
@@ -54,20 +51,35 @@ void queue_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction&
   lobe_grid(bsdf, out, n, shift_of(ray, seed), work.lobe);
   const glm::vec3 throughput = ray.throughput;
   const std::uint32_t key = ray.lobes == 0 ? hash(seed, ray.number) : ray.key;
-  ray.world = bsdf.alpha > 0.0 ? real_world : child(context.light.worlds, ray.world, face.mirror);
+  const std::uint16_t way = ray.way;
+  const std::int32_t bounces = ray.bounces;
+  const WorldId world = ray.world;
   ray.since_lobe = bsdf.alpha > 0.0 ? 0.0F : ray.since_lobe + static_cast<float>(at.distance);
-  // Directions of lobes are of unit length; the beam is as wide as it was.
-  ray.travelled = at.travelled / static_cast<float>(std::sqrt(glm::length(at.direction)));
   ray.origin = at.position;
   ray.share /= static_cast<float>(n * n);
   // A mirror's direction is no lobe: such chains end by their throughput alone.
   ray.lobes = static_cast<std::uint16_t>(ray.lobes + (bsdf.alpha > 0.0 ? 1 : 0));
   for (std::uint32_t cell = 0; cell < work.lobe.size(); ++cell) {
-    ray.direction = to_world(face.normal, work.lobe[cell].in);
-    if (bsdf.alpha > 0.0)
-      ray.density = lamps_sampled
+    const bool through = work.lobe[cell].through;
+    if (!through && settings.mode == RenderMode::radiosity)
+      continue;
+    // What is not bent keeps its bits.
+    const bool straight = through && bsdf.alpha == 0.0;
+    ray.direction = straight ? at.direction : to_world(face.normal, work.lobe[cell].in);
+    // Directions of lobes are of unit length; the beam is as wide as it was.
+    ray.travelled = straight
+                        ? at.travelled
+                        : at.travelled / static_cast<float>(std::sqrt(glm::length(at.direction)));
+    ray.way = through ? way : one_more_mirror(way);
+    ray.bounces = bounces + (through ? 0 : 1);
+    if (bsdf.alpha == 0.0) {
+      ray.world = through ? world : child(context.light.worlds, world, face.mirror);
+    } else {
+      ray.world = real_world;
+      ray.density = lamps_sampled && !through
                         ? static_cast<float>(n * n * lobe_density(bsdf, out, work.lobe[cell].in))
                         : 0.0F;
+    }
     ray.throughput = throughput * glm::vec3(work.lobe[cell].weight);
     ray.key = hash(key, cell, 1);
     go_on(context, ray, work);
@@ -92,8 +104,9 @@ glm::vec3 highlights(const RenderContext& context, const Bsdf& bsdf, const Direc
 glm::vec3 lamps_in_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
                         const Receiver& receiver, const SpecularRay& ray, int divisions,
                         TileWorkspace& work) {
-  const EmissionSampling sampling{.per_image = points_per_lamp,
-                                  .first = ray.number * std::uint32_t{points_per_lamp},
+  const int points = points_per_lamp(context);
+  const EmissionSampling sampling{.per_image = points,
+                                  .first = ray.number * static_cast<std::uint32_t>(points),
                                   .seed = pixel_seed(work.area, ray.pixel, context.settings.seed)};
   emission_samples(context.light, receiver, sampling, work.point.direct, work.lamps);
   Rgb sum(0.0);
@@ -103,7 +116,7 @@ glm::vec3 lamps_in_lobe(const RenderContext& context, const Bsdf& bsdf, const Di
     if (lamp.radiance == Rgb(0.0) || !(in.z > 0.0))
       continue;
     const double p = divisions * divisions * lobe_density(bsdf, out, in);
-    const double q = density_of_points(points_per_lamp, distance, lamp.cosine, lamp.emitter_area);
+    const double q = density_of_points(points, distance, lamp.cosine, lamp.emitter_area);
     sum += reflection_lobe(bsdf, out, in) * lamp.radiance *
            (in.z * lamp.cosine * lamp.area / (distance * distance) * q / (p + q));
   }
@@ -111,6 +124,10 @@ glm::vec3 lamps_in_lobe(const RenderContext& context, const Bsdf& bsdf, const Di
 }
 
 } // namespace
+
+int points_per_lamp(const RenderContext& context) {
+  return std::clamp(context.settings.glossy_samples / 4, 1, 16);
+}
 
 float share_of_rays(const RenderContext& context, const LaneState& state, const FaceRecord& face,
                     const HitPacket& hits, std::uint32_t k) {
@@ -127,7 +144,7 @@ float share_of_rays(const RenderContext& context, const LaneState& state, const 
           : light.surfaces.patches[index(side.patch)].area;
   const double distance =
       double{ray.since_lobe} + double{hits.distance[k]} / light.rays.frame().scale;
-  const double q = density_of_points(points_per_lamp, distance,
+  const double q = density_of_points(points_per_lamp(context), distance,
                                      std::abs(glm::dot(face.normal, ray.direction)), area);
   return static_cast<float>(double{ray.density} / (double{ray.density} + q));
 }
@@ -135,21 +152,33 @@ float share_of_rays(const RenderContext& context, const LaneState& state, const 
 glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& packet,
                              const LaneState& state, const FaceRecord& face, const HitPacket& hits,
                              std::uint32_t k, TileWorkspace& work) {
-  const Bsdf bsdf = bsdf_at(context, packet, state, face, hits, k);
+  const bool radiosity = context.settings.mode == RenderMode::radiosity;
+  const bool has_field = face.side != FaceRecord::nothing;
+  Bsdf bsdf = bsdf_at(context, packet, state, face, hits, k);
   const SpecularRay ray = ray_from(state, k, face.plane_class, context.settings.seed);
+  const bool spent = bsdf.alpha > 0.0 && ray.lobes >= most_lobes;
   const Meeting at = meeting_of(context, face, packet, state, k, hits.distance[k]);
   const Direction out = local_out(face.normal, glm::normalize(at.direction));
-  const int n = ray.lobes == 0 ? lobe_divisions(bsdf, out.z, directions) : 1;
-  queue_lobe(context, bsdf, out, face, at, n, ray, work);
+  // The field stands for what is left out, but glass has none: it is clear from there on.
+  if (spent && bsdf.glass > 0.0)
+    bsdf.roughness = bsdf.alpha = 0.0;
+  const int n = ray.lobes == 0 ? lobe_divisions(bsdf, out.z, context.settings.glossy_samples) : 1;
+  if (bsdf.glass > 0.0 || !(spent || radiosity))
+    queue_lobe(context, bsdf, out, face, at, n, ray, work);
+  if (spent || radiosity)
+    return has_field ? radiance_of_lane(context, packet, state, face, hits, k, work)
+                     : glm::vec3(0.0F);
 
   const ReflectedPart part = context.visible.part;
   const bool shows_lights = part == ReflectedPart::all || part == ReflectedPart::none;
   const Receiver receiver = receiver_at(context.light, face, hits, k);
-  glm::vec3& in_mirror = work.sums[std::min(work.way + 1, seen_ways - 1)][ray.pixel];
+  glm::vec3& in_mirror = work.sums[one_more_mirror(ray.way)][ray.pixel];
   if (shows_lights && bsdf.alpha > 0.0 && !context.light.punctual.empty())
     in_mirror += ray.throughput * highlights(context, bsdf, out, receiver, work);
   if (shows_lights && samples_lamps(context, bsdf, ray))
     in_mirror += ray.throughput * lamps_in_lobe(context, bsdf, out, receiver, ray, n, work);
+  if (!has_field)
+    return glm::vec3(0.0F);
   glm::vec3 radiance = share_of_rays(context, state, face, hits, k) *
                        shading_at(context, packet, state, face, hits, k).emitted;
   if (part != ReflectedPart::none)

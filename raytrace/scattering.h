@@ -1,4 +1,4 @@
-// What glossy metals and coated surfaces show:
+// What glossy metals, coated surfaces and panes show:
 //
 //   L(o) = L_e + rho(o) H / pi + sum_k w_k L(i_k) + sum_p f(o, i_p) E_p + sum_e f(o, i_e) cos_e L_e
 //
@@ -11,8 +11,11 @@
 //
 // (balance heuristic, Veach 1997), p the rays' density, q about that of the N points on an emitter of area A, over any chain of mirrors.
 //
-// The first lobe of a path has a grid of up to 16 rays to each camera ray, shifted evenly among those of the pixel. Lobes behind it have one ray each. After `most_lobes` the field stands for the rest: pass one scatters evenly what
+// The first lobe of a path has a grid of up to `RenderSettings::glossy_samples` rays to each camera ray, shifted evenly among those of the pixel. Lobes behind it have one ray each. After `most_lobes` the field stands for the rest: pass one scatters evenly what
 // lobes reflect.
+//
+// What comes through a pane is seen as if the pane were not there: it is no mirror on the way. Without mirrors (`RenderMode::radiosity`) surfaces show
+// the field, and panes what is straight behind them.
 #pragma once
 
 #include "raytrace/tile.h"
@@ -22,19 +25,15 @@ namespace meninas {
 
 inline constexpr int most_lobes = 4;
 
-/// Whether lane k has met a side of a material with lobes.
+/// Whether lane k has met a material with lobes, on a side where they show.
 inline bool meets_lobes(const RenderContext& context, const FaceRecord& face, const HitPacket& hits,
                         std::uint32_t k) {
-  return !context.bsdfs.empty() && face.side != FaceRecord::nothing &&
+  return !context.bsdfs.empty() && (face.side != FaceRecord::nothing || face.mirrors) &&
          has_lobes(material_of(context.light.scene, TriangleId{hits.triangle[k]}));
 }
 
-/// Whether it shows them still.
-inline bool scatters_at(const RenderContext& context, const FaceRecord& face,
-                        const LaneState& state, const HitPacket& hits, std::uint32_t k) {
-  return context.settings.mode == RenderMode::hybrid && meets_lobes(context, face, hits, k) &&
-         (!state.specular || state.specular[k].lobes < most_lobes);
-}
+/// N for each emitter's image.
+int points_per_lamp(const RenderContext& context);
 
 /// The share p / (p + q) in which lane k shows the emission of a side: 1 where no points are on it.
 float share_of_rays(const RenderContext& context, const LaneState& state, const FaceRecord& face,

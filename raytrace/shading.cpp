@@ -15,7 +15,8 @@ Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitP
                      std::uint32_t k) {
   const auto [a, b, c] = corners(light.scene, TriangleId{hits.triangle[k]});
   return {a + double{hits.b1[k]} * (b - a) + double{hits.b2[k]} * (c - a), face.normal,
-          static_cast<PlaneId>(face.plane_class), light.mesh.sides[face.side].tangent};
+          static_cast<PlaneId>(face.plane_class),
+          face.side == FaceRecord::nothing ? Vec3(0.0) : light.mesh.sides[face.side].tangent};
 }
 
 SideShading shading_at(const RenderContext& context, const RayPacket& packet,
@@ -52,8 +53,6 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
                              diffuse.draw == 0 ? key : hash(key, diffuse.draw), work.point);
 }
 
-namespace {
-
 glm::vec3 radiance_of_lane(const RenderContext& context, const RayPacket& packet,
                            const LaneState& state, const FaceRecord& face, const HitPacket& hits,
                            std::uint32_t k, TileWorkspace& work) {
@@ -65,6 +64,8 @@ glm::vec3 radiance_of_lane(const RenderContext& context, const RayPacket& packet
   return field_radiance(context.light.mesh, context.visible.irradiance, shading,
                         context.light.landing, face.side, uv_of(context.light, face, hits, k));
 }
+
+namespace {
 
 /// The sum of H over sixteen samples of one pixel on one side: of the first four, which are spread over the pixel, where they agree.
 glm::vec3 irradiance_of_packet(const RenderContext& context, const LaneState& state,
@@ -92,22 +93,23 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
   for (std::uint32_t k = 0; k < packet.count; ++k) {
     if (hits.triangle[k] != index(none<TriangleId>)) {
       const FaceRecord& face = face_of(light.landing, hits, k);
-      const bool scatters = scatters_at(context, face, state, hits, k);
-      if (face.side != FaceRecord::nothing) {
-        const glm::vec3 radiance =
-            scatters ? scattered_radiance(context, packet, state, face, hits, k, work)
-                     : radiance_of_lane(context, packet, state, face, hits, k, work);
-        sum += state.specular ? state.specular[k].throughput * radiance : radiance;
-      }
-      if (face.mirrors && mirrors && !scatters)
+      const bool has_lobe = meets_lobes(context, face, hits, k);
+      glm::vec3 radiance(0.0F);
+      if (has_lobe)
+        radiance = scattered_radiance(context, packet, state, face, hits, k, work);
+      else if (face.side != FaceRecord::nothing)
+        radiance = radiance_of_lane(context, packet, state, face, hits, k, work);
+      sum += state.specular ? state.specular[k].throughput * radiance : radiance;
+      if (face.mirrors && mirrors && !has_lobe)
         reflect(context, face, packet, state, k, hits.distance[k], work);
     } else {
       sum += state.specular ? state.specular[k].throughput * context.visible.background
                             : context.visible.background;
     }
-    if (k + 1 < packet.count && state.pixel[k + 1] == state.pixel[k])
+    if (k + 1 < packet.count && state.pixel[k + 1] == state.pixel[k] &&
+        state.way(k + 1) == state.way(k))
       continue;
-    work.sums[work.way][state.pixel[k]] += sum;
+    work.sums[state.way(k)][state.pixel[k]] += sum;
     sum = glm::vec3(0.0F);
   }
 }
@@ -139,20 +141,20 @@ bool shade_as_one(const RenderContext& context, const LaneState& state, const Hi
       return false;
     for (std::uint32_t k = 1; k < packet_size; ++k)
       if (state.specular[k].throughput != throughput ||
-          (glows && state.specular[k].density != 0.0F))
+          (glows && state.specular[k].density != 0.0F) || state.way(k) != state.way(0))
         return false;
   }
 
   if (context.settings.diffuse.term != DiffuseTerm::interpolated) {
     const SideShading& shading = context.visible.shading[face.side];
     const glm::vec3 h = irradiance_of_packet(context, state, face, hits, work);
-    work.sums[work.way][state.pixel[0]] +=
+    work.sums[state.way(0)][state.pixel[0]] +=
         throughput *
         (static_cast<float>(packet_size) * shading.emitted + shading.albedo_over_pi * h);
     return true;
   }
   const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits);
-  work.sums[work.way][state.pixel[0]] +=
+  work.sums[state.way(0)][state.pixel[0]] +=
       throughput * quad_radiance(light.mesh, context.visible, face.side, at);
   return true;
 }

@@ -19,6 +19,11 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
                              const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
                              TileWorkspace& work);
 
+/// L_e + rho H / pi where lane k has landed on a side, rho as in pass one.
+glm::vec3 radiance_of_lane(const RenderContext& context, const RayPacket& packet,
+                           const LaneState& state, const FaceRecord& face, const HitPacket& hits,
+                           std::uint32_t k, TileWorkspace& work);
+
 void shade_packet(const RenderContext& context, const RayPacket& packet, const LaneState& state,
                   const HitPacket& hits, TileWorkspace& work);
 

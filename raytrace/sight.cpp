@@ -2,6 +2,8 @@
 
 #include "radiosity/surface_colour.h"
 
+#include <utility>
+
 namespace meninas {
 
 Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
@@ -9,7 +11,8 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
   const CameraRay start = camera_ray(camera, picture_aspect, at.x, at.y);
   Ray ray{start.origin, start.direction};
   Sight sight;
-  for (Backs backs = Backs::transparent;; backs = Backs::absorb) {
+  for (Backs backs = Backs::transparent, next = Backs::absorb;;
+       backs = std::exchange(next, Backs::absorb)) {
     const auto hit = closest_hit(light.rays, ray, backs);
     if (!hit)
       return {.mirrors = sight.mirrors};
@@ -25,13 +28,18 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
       sight.place = field_point(light.landing, face.side,
                                 landing_uv(face, light.surfaces, index(hit->triangle), b.x, b.y));
     }
-    if (!face.mirrors || sight.mirrors >= max_mirrors)
+    const bool clear = face.glass && material_of(light.scene, hit->triangle).transmission >= 0.5;
+    if (!clear && (!face.mirrors || face.glass || sight.mirrors >= max_mirrors))
       return sight;
-    ++sight.mirrors;
-    sight.side = FaceRecord::nothing;
     ray.origin = sight.position;
-    ray.direction -= 2.0 * glm::dot(face.normal, ray.direction) * face.normal;
     ray.leaving = static_cast<PlaneId>(face.plane_class);
+    if (clear)
+      next = backs;
+    else {
+      ++sight.mirrors;
+      ray.direction -= 2.0 * glm::dot(face.normal, ray.direction) * face.normal;
+    }
+    sight.side = FaceRecord::nothing;
   }
 }
 

@@ -17,7 +17,7 @@ struct Sight {
   int mirrors = 0;                          ///< on the way
 };
 
-/// The sight through a point of the picture (x and y from 0 to 1, right and down). Backs of single-sided surfaces are looked through by
+/// What is mostly clear glass is looked straight through. The sight through a point of the picture (x and y from 0 to 1, right and down). Backs of single-sided surfaces are looked through by
 /// the eye, not by mirrors. A chain of more than `max_mirrors` ends at the mirror it has come to.
 Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
            int max_mirrors);

@@ -26,7 +26,8 @@ Meeting meeting_of(const RenderContext& context, const FaceRecord& face, const R
 }
 
 void go_on(const RenderContext& context, const SpecularRay& ray, TileWorkspace& work) {
-  if (largest(ray.throughput) >= context.settings.min_throughput * ray.share)
+  if (ray.bounces <= context.settings.max_bounces &&
+      largest(ray.throughput) >= context.settings.min_throughput * ray.share)
     work.next.push_back(ray);
 }
 
@@ -48,6 +49,8 @@ void reflect(const RenderContext& context, const FaceRecord& face, const RayPack
              const LaneState& state, std::uint32_t k, float distance, TileWorkspace& work) {
   SpecularRay ray = ray_from(state, k, face.plane_class, context.settings.seed);
   ray.throughput = face.reflectance * ray.throughput;
+  ray.way = one_more_mirror(ray.way);
+  ++ray.bounces;
   ray.world = child(context.light.worlds, ray.world, face.mirror);
   const Meeting at = meeting_of(context, face, packet, state, k, distance);
   ray.origin = at.position;
@@ -57,28 +60,39 @@ void reflect(const RenderContext& context, const FaceRecord& face, const RayPack
   go_on(context, ray, work);
 }
 
-void follow_mirrors(const RenderContext& context, TileWorkspace& work) {
+/// Traces the queued rays from `first` to `last`.
+static void trace_queued(const RenderContext& context, std::size_t first, std::size_t last,
+                         Backs backs, TileWorkspace& work) {
   RayPacket packet;
   HitPacket hits;
   std::array<std::uint32_t, packet_size> pixel;
-  for (int bounce = 0; !work.next.empty() && bounce < context.settings.max_bounces; ++bounce) {
+  for (; first < last; first += packet_size) {
+    packet.count = static_cast<std::uint32_t>(std::min(packet_size, last - first));
+    const LaneState state{pixel.data(), &work.current[first], nullptr, nullptr};
+    for (std::uint32_t k = 0; k < packet.count; ++k) {
+      const SpecularRay& ray = state.specular[k];
+      pixel[k] = ray.pixel;
+      set_ray(packet, k, glm::vec3(ray.origin), glm::vec3(ray.direction), ray.leaving);
+    }
+    closest_hits(context.light.rays, packet, hits, backs, Coherence::coherent);
+    shade_packet(context, packet, state, hits, work);
+  }
+}
+
+void follow_mirrors(const RenderContext& context, TileWorkspace& work) {
+  while (!work.next.empty()) {
     work.current.swap(work.next);
     work.next.clear();
-    work.way = std::min(work.way + 1, seen_ways - 1);
     work.specular_rays += work.current.size();
-    for (std::size_t first = 0; first < work.current.size(); first += packet_size) {
-      packet.count = static_cast<std::uint32_t>(std::min(packet_size, work.current.size() - first));
-      const LaneState state{pixel.data(), &work.current[first], nullptr, nullptr};
-      for (std::uint32_t k = 0; k < packet.count; ++k) {
-        const SpecularRay& ray = state.specular[k];
-        pixel[k] = ray.pixel;
-        set_ray(packet, k, glm::vec3(ray.origin), glm::vec3(ray.direction), ray.leaving);
-      }
-      closest_hits(context.light.rays, packet, hits, Backs::absorb, Coherence::coherent);
-      shade_packet(context, packet, state, hits, work);
-    }
+    // Rays of the eye that have but passed panes still look through backs.
+    const auto turned =
+        std::stable_partition(work.current.begin(), work.current.end(), [](const SpecularRay& ray) {
+          return ray.way == 0 && ray.lobes == 0;
+        });
+    const auto straight = static_cast<std::size_t>(turned - work.current.begin());
+    trace_queued(context, 0, straight, Backs::transparent, work);
+    trace_queued(context, straight, work.current.size(), Backs::absorb, work);
   }
-  work.next.clear();
 }
 
 } // namespace meninas

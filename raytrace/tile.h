@@ -8,6 +8,7 @@
 #include "raytrace/render.h"
 #include "scenes/sampling.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -24,10 +25,12 @@ struct SpecularRay {
   float share = 1.0F; ///< of a camera ray's weight: 1 / n^2 for each of the n x n rays of a lobe
   std::uint32_t pixel;
   std::uint32_t leaving;
-  std::uint32_t key;       ///< of its samples
-  std::uint32_t number;    ///< of its camera ray among those of the pixel
-  std::uint16_t lobes = 0; ///< that it has gone through
-  float travelled = 0.0F;  ///< from the eye, unfolded, in units of the camera direction's length
+  std::uint32_t key;        ///< of its samples
+  std::uint32_t number;     ///< of its camera ray among those of the pixel
+  std::uint16_t lobes = 0;  ///< that it has gone through
+  float travelled = 0.0F;   ///< from the eye, unfolded, in units of the camera direction's length
+  std::uint16_t way = 0;    ///< how its pixel sees what it meets: index into SeenRadiance
+  std::int32_t bounces = 0; ///< off mirrors and in lobes; what goes through glass is none
   // Since it left a lobe whose emitters are sampled as well (scattering.h):
   float density = 0.0F; ///< of the directions of that lobe's rays, per steradian; 0: there is none
   float since_lobe = 0.0F; ///< metres
@@ -38,10 +41,14 @@ struct TileArea {
   int x0, y0, width, height;
 };
 
+/// The way of seeing behind a mirror.
+inline std::uint16_t one_more_mirror(std::uint16_t way) {
+  return static_cast<std::uint16_t>(std::min<std::size_t>(way + 1U, seen_ways - 1));
+}
+
 struct TileWorkspace {
   std::array<std::vector<glm::vec3>, seen_ways>
-      sums;            ///< by way of seeing, then by pixel of the tile
-  std::size_t way = 0; ///< that of the rays under way
+      sums; ///< by way of seeing, then by pixel of the tile
   std::vector<SpecularRay> current, next;
   TileArea area{};
   std::vector<LobeRay> lobe;
@@ -100,6 +107,7 @@ struct LaneState {
   std::uint32_t key(std::uint32_t k, std::uint32_t seed) const {
     return specular ? specular[k].key : hash(sample[k], pixel[k], seed);
   }
+  std::size_t way(std::uint32_t k) const { return specular ? specular[k].way : 0; }
   std::uint32_t number_of(std::uint32_t k) const {
     return specular ? specular[k].number : number[k];
   }

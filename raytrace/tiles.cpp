@@ -22,7 +22,6 @@ void render_tile(const RenderContext& context, const TileArea& tile, TileWorkspa
   for (auto& sums : work.sums)
     sums.assign(static_cast<std::size_t>(tile.width * tile.height), glm::vec3(0.0F));
   work.next.clear();
-  work.way = 0;
   work.area = tile;
   trace_camera_rays(context, tile, work);
   follow_mirrors(context, work);

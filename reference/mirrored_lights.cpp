@@ -7,17 +7,27 @@ namespace meninas::reference {
 
 std::vector<PlaneId> find_mirror_planes(const Scene& scene, const SurfaceModel& surfaces,
                                         const std::vector<Bsdf>& bsdfs) {
-  std::vector<PlaneId> planes;
-  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-    const Bsdf& bsdf = bsdfs[index(scene.triangles[t].material)];
-    if (bsdf.alpha == 0.0 && bsdf.metal != Rgb(0.0))
-      planes.push_back(surfaces.plane_of_triangle[t]);
-  }
-  std::ranges::sort(planes);
-  planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
-  if (planes.size() > most_mirror_planes)
-    planes.clear();
-  return planes;
+  const auto planes_where = [&](auto&& mirrors) {
+    std::vector<PlaneId> planes;
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+      const MaterialId material = scene.triangles[t].material;
+      if (bsdfs[index(material)].alpha == 0.0 &&
+          mirrors(scene.materials[index(material)], bsdfs[index(material)]))
+        planes.push_back(surfaces.plane_of_triangle[t]);
+    }
+    std::ranges::sort(planes);
+    planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+    if (planes.size() > most_mirror_planes)
+      planes.clear();
+    return planes;
+  };
+  const auto is_metal = [](const Material&, const Bsdf& bsdf) { return bsdf.metal != Rgb(0.0); };
+  const auto is_pane = [](const Material& material, const Bsdf& bsdf) {
+    return bsdf.glass > 0.0 && !is_solid_glass(material);
+  };
+  const auto all = planes_where(
+      [&](const Material& m, const Bsdf& b) { return is_metal(m, b) || is_pane(m, b); });
+  return all.empty() ? planes_where(is_metal) : all;
 }
 
 Point3 reflected_in(const Plane& plane, const Point3& x) {

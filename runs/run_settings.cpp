@@ -118,6 +118,7 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   result.render.features = settings.features;
   result.render.filter = settings.filter;
   result.render.pixel_error = settings.pixel_error.value_or(0.0);
+  result.render.glossy_samples = settings.glossy_samples.value_or(result.render.glossy_samples);
   result.render.diffuse = diffuse_settings(settings, pass_one.form_factors, result.render.samples);
   if (settings.mirror_depth) {
     // A cap holds for every kind of path: in closed form, gathered, and seen by the camera.

@@ -71,6 +71,7 @@ struct RunSettings {
   std::optional<DebugView> view;                   ///< painted instead of light
   PixelFilter filter = PixelFilter::box;           ///< not of a reference
   std::optional<double> pixel_error;               ///< of a hybrid picture: adaptive sampling
+  std::optional<int> glossy_samples;               ///< of a hybrid picture: directions into a lobe
   std::optional<double> max_error;                 ///< of a reference
   std::optional<double> max_seconds;               ///< of a reference
   std::optional<Rgb> background;                   ///< radiance beyond the scene

@@ -81,6 +81,7 @@ std::vector<std::string> options_of(const RunSettings& settings) {
   if (settings.diffuse != standard.diffuse)
     add("--diffuse", name_of(settings.diffuse));
   add_given("--samples", settings.samples);
+  add_given("--glossy-samples", settings.glossy_samples);
   if (settings.seed != standard.seed)
     add("--seed", fmt::format("{}", settings.seed));
   return options;

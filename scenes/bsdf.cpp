@@ -22,11 +22,6 @@ Rgb coat_fresnel(const Bsdf& bsdf, double cosine) {
   return glm::mix(bsdf.coat_f0, Rgb(bsdf.coat_f90), x * x * x * x * x);
 }
 
-/// What stands in the place of S in transmission.
-Rgb transmitted(const Bsdf& bsdf, double cosine) {
-  return bsdf.transmission * (1.0 - largest(coat_fresnel(bsdf, cosine)));
-}
-
 /// 1 - E of the facets: the share of light from a direction that meets them more than once.
 double met_again(const Bsdf& bsdf, double cosine) {
   const SchlickAlbedo e = schlick_albedo(bsdf.roughness, cosine);
@@ -51,8 +46,12 @@ struct LobeChances {
 };
 LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
   const double e = coat_albedo(bsdf, out.z);
-  LobeChances chances{largest(bsdf.diffuse) * (1.0 - e), largest(bsdf.metal) + bsdf.coat * e,
-                      largest(bsdf.transmission) * (1.0 - e)};
+  LobeChances chances{largest(bsdf.diffuse) * (1.0 - e), largest(bsdf.metal) + bsdf.coat * e};
+  if (bsdf.glass > 0.0) {
+    const GlassShares glass = glass_shares(bsdf.pane, out.z);
+    chances.reflection += bsdf.glass * largest(glass.reflected);
+    chances.transmission = bsdf.glass * largest(glass.passed);
+  }
   if (has_facets_of_metal(bsdf)) {
     const double again = met_again(bsdf, out.z);
     chances.diffuse += again * largest(spread_by_facets(bsdf, mean_met_again(bsdf)));
@@ -115,6 +114,11 @@ BsdfSample spread_sample(const Bsdf& bsdf, const Direction& out, const Direction
 
 } // namespace
 
+/// Of a solid that is taken for two sheets, each of them takes half of what its thickness does.
+static Rgb left_by_half(const Material& material) {
+  return is_solid_glass(material) ? attenuation(material, 0.5 * material.thickness) : Rgb(1.0);
+}
+
 MaterialPoint untextured(const Material& material) {
   return {material.base_color, material.alpha, material.metallic, material.roughness,
           material.emission};
@@ -125,16 +129,20 @@ Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
   const double dielectric = 1.0 - point.metallic;
   bsdf.metal = point.base_color * point.metallic;
   bsdf.diffuse = point.base_color * (dielectric * (1.0 - material.transmission));
-  bsdf.transmission = point.base_color * (dielectric * material.transmission);
   bsdf.roughness = point.roughness;
   bsdf.alpha = point.roughness <= ideal_mirror_roughness ? 0.0 : point.roughness * point.roughness;
+  // KHR_materials_ior and KHR_materials_specular; ior 0 stands for F0 = 1.
+  const double ratio = (material.ior - 1.0) / (material.ior + 1.0);
+  const Rgb f0 = glm::min(ratio * ratio * material.specular_color, Rgb(1.0)) * material.specular;
   if (point.roughness <= visible_coat_roughness) {
-    // KHR_materials_ior and KHR_materials_specular; ior 0 stands for F0 = 1.
-    const double ratio = (material.ior - 1.0) / (material.ior + 1.0);
-    bsdf.coat_f0 = glm::min(ratio * ratio * material.specular_color, Rgb(1.0)) * material.specular;
+    bsdf.coat_f0 = f0;
     bsdf.coat_f90 = material.specular;
-    bsdf.coat = material.specular > 0.0 ? dielectric : 0.0;
+    bsdf.coat = material.specular > 0.0 ? dielectric * (1.0 - material.transmission) : 0.0;
   }
+  bsdf.glass = dielectric * material.transmission;
+  if (bsdf.glass > 0.0)
+    bsdf.pane = {material.ior, f0, material.specular, point.base_color * left_by_half(material),
+                 is_solid_glass(material) ? GlassFaces::one : GlassFaces::both};
   return bsdf;
 }
 
@@ -146,7 +154,7 @@ double coat_albedo(const Bsdf& bsdf, double cosine) {
 }
 
 Rgb straight_transmission(const Bsdf& bsdf, double cosine) {
-  return bsdf.alpha == 0.0 ? transmitted(bsdf, cosine) : Rgb(0.0);
+  return bsdf.alpha == 0.0 ? facet_transmittance(bsdf, cosine) : Rgb(0.0);
 }
 
 Rgb ideal_reflection(const Bsdf& bsdf, double cosine) {
@@ -154,11 +162,18 @@ Rgb ideal_reflection(const Bsdf& bsdf, double cosine) {
 }
 
 Rgb facet_reflectance(const Bsdf& bsdf, double cosine) {
-  return bsdf.metal + bsdf.coat * coat_fresnel(bsdf, cosine);
+  Rgb reflected = bsdf.metal + bsdf.coat * coat_fresnel(bsdf, cosine);
+  if (bsdf.glass > 0.0)
+    reflected += bsdf.glass * glass_shares(bsdf.pane, cosine).reflected;
+  return reflected;
+}
+
+Rgb facet_transmittance(const Bsdf& bsdf, double cosine) {
+  return bsdf.glass > 0.0 ? bsdf.glass * glass_shares(bsdf.pane, cosine).passed : Rgb(0.0);
 }
 
 Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in) {
-  if (bsdf.alpha == 0.0 || (bsdf.coat == 0.0 && bsdf.metal == Rgb(0.0)))
+  if (bsdf.alpha == 0.0 || (bsdf.coat == 0.0 && bsdf.glass == 0.0 && bsdf.metal == Rgb(0.0)))
     return Rgb(0.0);
   const FacetLobe lobe = facet_lobe(bsdf.alpha, out, in);
   return lobe.f * facet_reflectance(bsdf, lobe.cosine);
@@ -185,11 +200,11 @@ Rgb mean_reflectance(const Bsdf& bsdf) {
 }
 
 bool has_lobes(const Material& material) {
-  return material.transmission == 0.0 && (is_glossy(material) || has_visible_coat(material));
+  return is_glass(material) || is_glossy(material) || has_visible_coat(material);
 }
 
 bool has_visible_coat(const Material& material) {
-  if (material.specular == 0.0 || material.transmission > 0.0)
+  if (material.specular == 0.0 || material.transmission == 1.0)
     return false;
   return material.metallic_roughness_texture ||
          (material.metallic < 1.0 && material.roughness <= visible_coat_roughness);
@@ -200,13 +215,25 @@ Rgb diffuse_reflectance(const Material& material) {
 }
 
 Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point) {
-  // What is not let through yet is opaque: matt, of its base colour.
-  if (material.transmission > 0.0)
-    return point.base_color * (is_glossy(material) ? 1.0 : 1.0 - point.metallic);
   Bsdf bsdf = make_bsdf(material, point);
   if (is_mirror(material))
     bsdf.metal = Rgb(0.0);
   return mean_reflectance(bsdf);
+}
+
+Bsdf clear_glass(const Material& material, const MaterialPoint& point) {
+  Bsdf clear = make_bsdf(material, point);
+  if (!is_mirror(material))
+    clear.metal = Rgb(0.0);
+  clear.diffuse = Rgb(0.0);
+  clear.coat = 0.0;
+  clear.roughness = clear.alpha = 0.0;
+  return clear;
+}
+
+GlassShares mean_shares(const Bsdf& clear) {
+  const GlassShares mean = mean_glass_shares(clear.pane);
+  return {clear.metal + clear.glass * mean.reflected, clear.glass * mean.passed};
 }
 
 Direction to_local(const Direction& normal, const Direction& w) {
@@ -228,10 +255,10 @@ Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
   if (out.z <= 0.0 || in.z == 0.0)
     return Rgb(0.0);
   if (in.z < 0.0) {
-    if (bsdf.alpha == 0.0 || bsdf.transmission == Rgb(0.0))
+    if (bsdf.alpha == 0.0 || bsdf.glass == 0.0)
       return Rgb(0.0);
     const FacetLobe lobe = facet_lobe(bsdf.alpha, out, {in.x, in.y, -in.z});
-    return lobe.f * transmitted(bsdf, lobe.cosine);
+    return lobe.f * facet_transmittance(bsdf, lobe.cosine);
   }
   Rgb f = diffuse_coupled(bsdf, out.z, in.z) * std::numbers::inv_pi;
   f += reflection_lobe(bsdf, out, in);
@@ -263,7 +290,8 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
   const bool through = u[0] >= chances.diffuse + chances.reflection && chances.transmission > 0.0;
   if (bsdf.alpha == 0.0) {
     if (through)
-      return BsdfSample{-out, transmitted(bsdf, out.z) / chances.transmission, 0.0, Lobe::straight};
+      return BsdfSample{-out, facet_transmittance(bsdf, out.z) / chances.transmission, 0.0,
+                        Lobe::straight};
     return BsdfSample{{-out.x, -out.y, out.z},
                       facet_reflectance(bsdf, out.z) / chances.reflection,
                       0.0,

@@ -3,19 +3,24 @@
 // Three lobes, all about the normal +z of a local frame:
 //   diffuse       f = rho_d (1 - e(o)) (1 - e(i)) / (pi (1 - e_avg))
 //   reflection    f = S(o.h) D(h) G2(o, i) / (4 cos_o cos_i),  S = rho_s + coat Fresnel(o.h),  h the half vector
-//   transmission  the reflection lobe folded through the surface, with tau (1 - Fresnel(o.h)) in place of S: a thin pane does not bend light
+//   transmission  the reflection lobe folded through the surface, with what glass passes in place of S: a thin pane does not bend light
+// The surface is a mixture by area: metal, dielectric below its coat, and glass, metallic to (1 - metallic) (1 - transmission) to
+// (1 - metallic) transmission.
 // D is GGX of width alpha = roughness^2, G2 Smith's height-correlated masking and shadowing (Walter et al. 2007, Heitz 2014). What
 // facets of metal send to each other, which single scattering loses, comes out spread (Kulla and Conty 2017): a white metal reflects all light,
 // however rough. At roughness `ideal_mirror_roughness` and below reflection and transmission are ideal:
-// one direction each, of weight S and tau (1 - Fresnel), which only sampling can find.
+// one direction each, of weight S and T, which only sampling can find.
 //
 // rho_s, the reflectance of metals, is constant (material.h). The Schlick coat F0 + (F90 - F0)(1 - o.h)^5 of dielectrics is there up to
 // `visible_coat_roughness`; rougher ones count as diffuse. What it reflects, e(w) = integral of its lobe, is missing below: the diffuse
 // lobe is coupled as by Kelemen and Szirmay-Kalos 2001, reciprocal, and for rho_d = 1 reflection and diffuse add up to exactly 1.
 //
+// Glass reflects R and passes T at every roughness (glass.h).
+//
 // Directions point away from the surface. f is per steradian, without the cosine.
 #pragma once
 
+#include "scenes/glass.h"
 #include "scenes/material.h"
 
 #include <array>
@@ -36,14 +41,15 @@ struct MaterialPoint {
 MaterialPoint untextured(const Material& material);
 
 struct Bsdf {
-  Rgb diffuse{0.0};      ///< rho_d
-  Rgb metal{0.0};        ///< rho_s
-  Rgb transmission{0.0}; ///< tau
-  double coat = 0.0;     ///< share of the surface under the coat: 0 without, 1 - metallic with one
+  Rgb diffuse{0.0};  ///< rho_d
+  Rgb metal{0.0};    ///< rho_s
+  double coat = 0.0; ///< share of the surface under the coat
   Rgb coat_f0{0.0};
   double coat_f90 = 0.0;
   double roughness = 1.0;
   double alpha = 1.0; ///< 0 stands for ideal reflection and transmission
+  double glass = 0.0; ///< share of the surface that is glass
+  Glass pane;         ///< what it is there
 };
 
 Bsdf make_bsdf(const Material& material, const MaterialPoint& point);

@@ -48,6 +48,9 @@ LaneHit facing_side(const RayScene& rays, const LaneRay& ray, const LaneHit& bac
 void add_contact(const FrameGeometry& geometry, std::uint32_t triangle, std::uint32_t leaving,
                  Contacts& contacts) {
   const auto& facts = geometry.facts[triangle];
+  // What touches glass is not blocked by it.
+  if (facts.glass && facts.plane != leaving)
+    return;
   auto& list = facts.plane == leaving ? contacts.own : contacts.others;
   const auto known = std::ranges::any_of(
       list, [&](const ContactTriangle& contact) { return index(contact.triangle) == triangle; });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace meninas {
 
@@ -63,15 +64,21 @@ FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfac
 
   const auto sheets = classes_with_sheets(scene, surfaces);
   const auto hidden = hidden_copies(scene);
+  std::set<std::uint32_t> glass;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const auto& v = scene.triangles[t].vertices;
     const auto plane = index(surfaces.plane_of_triangle[t]);
     geometry.triangles.push_back({index(v[0]), index(v[1]), index(v[2])});
     const Material& material = material_of(scene, TriangleId{t});
     geometry.facts.push_back({plane, !material.double_sided, sheets[plane],
-                              holes && material.alpha_mode == AlphaMode::mask, hidden[t]});
+                              holes && material.alpha_mode == AlphaMode::mask, hidden[t],
+                              is_glass(material)});
+    if (is_glass(material))
+      glass.insert(plane);
   }
 
+  for (const std::uint32_t plane : glass)
+    geometry.glass.push_back(surfaces.planes[plane]);
   for (const auto& plane : surfaces.planes) {
     const glm::vec3 normal(plane.normal);
     geometry.plane_normals.push_back(plane.normal);

@@ -12,6 +12,7 @@ struct TriangleFacts {
       false;            ///< its plane class has a face the other way: it may be one side of a sheet
   bool cut_out = false; ///< it may have holes
   bool hidden = false;  ///< rays meet another one in its place (hidden_copies.h)
+  bool glass = false;   ///< it does not occlude
 };
 
 struct FrameNormal {
@@ -28,6 +29,7 @@ struct FrameGeometry {
       lifts;          ///< the same in floats, and one of length zero for rays that leave no plane
   double noise = 0.0; ///< heights below it are rounding, in frame units
   Holes holes;
+  std::vector<Plane> glass; ///< the planes that hold some, in metres
 };
 
 FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfaces,

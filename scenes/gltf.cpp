@@ -21,6 +21,7 @@ static constexpr std::string_view extensions_read[] = {
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
 };

@@ -91,10 +91,34 @@ static void read_coat(const Json& json, Material& material, Findings& findings) 
     if (material.specular_color != color)
       findings.about("specular colours out of range were clamped in materials", material.name);
   }
+}
+
+/// Glass is there from both sides. What a solid is full of matters where it is one.
+static void read_glass(const Json& json, Material& material, Findings& findings) {
   if (const auto* extension = find(json, {"extensions", "KHR_materials_transmission"})) {
     material.transmission =
         fraction(number_or(*extension, "transmissionFactor", 0.0), material.name, findings);
+    if (find(*extension, "transmissionTexture"))
+      findings.about("textures of transmission are left out in materials", material.name);
   }
+  if (!is_glass(material))
+    return;
+  material.double_sided = true;
+  const auto* extension = find(json, {"extensions", "KHR_materials_volume"});
+  if (!extension)
+    return;
+  const auto thickness = number_or(*extension, "thicknessFactor", 0.0);
+  const auto distance = number_or(*extension, "attenuationDistance", material.attenuation_distance);
+  const auto color = vec3_or(*extension, "attenuationColor", Rgb(1.0));
+  material.thickness = std::max(thickness, 0.0);
+  material.attenuation_color = glm::clamp(color, 0.0, 1.0);
+  if (distance > 0.0)
+    material.attenuation_distance = distance;
+  if (thickness < 0.0 || !(distance > 0.0) || material.attenuation_color != color)
+    findings.about("volumes with factors out of range were clamped in materials", material.name);
+  if (find(*extension, "thicknessTexture"))
+    findings.about("textures of thickness are left out, the surfaces bound the glass, in materials",
+                   material.name);
 }
 
 static void read_alpha(const Json& json, Material& material, Findings& findings) {
@@ -121,6 +145,7 @@ static Material read_material(const Document& document, std::size_t index, Findi
     read_metallic_roughness(document, json, material, findings);
   read_emission(document, index, json, material, findings);
   read_coat(json, material, findings);
+  read_glass(json, material, findings);
   if (material.alpha_mode == AlphaMode::blend &&
       (material.alpha < 1.0 || material.base_color_texture))
     findings.about("blending by alpha is not modelled, materials are opaque", material.name);

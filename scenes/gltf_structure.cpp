@@ -42,6 +42,11 @@ constexpr Rule specular[] = {
     {.name = "specularColorFactor", .kind = numbers, .length = 3},
 };
 constexpr Rule transmission[] = {{.name = "transmissionFactor", .kind = number}};
+constexpr Rule volume[] = {
+    {.name = "thicknessFactor", .kind = number},
+    {.name = "attenuationDistance", .kind = number},
+    {.name = "attenuationColor", .kind = numbers, .length = 3},
+};
 constexpr Rule specular_glossiness[] = {
     {.name = "diffuseFactor", .kind = numbers, .length = 4},
     {.name = "specularFactor", .kind = numbers, .length = 3},
@@ -56,6 +61,7 @@ constexpr Rule material_extensions[] = {
     {.name = "KHR_materials_specular", .kind = object, .fields = specular},
     {.name = "KHR_materials_transmission", .kind = object, .fields = transmission},
     {.name = "KHR_materials_unlit", .kind = object},
+    {.name = "KHR_materials_volume", .kind = object, .fields = volume},
 };
 constexpr Rule material[] = {
     name_rule,

@@ -20,13 +20,14 @@ struct Candidate {
 enum class BackRule { hit, ignore };
 
 /// A ray hits nothing in the plane it leaves nor in the planes of the triangles that touch its origin, and no backs where they
-/// are ignored. Where only one plane is looked for, it hits nothing else.
+/// are ignored. Where only one plane, or only glass, is looked for, it hits nothing else.
 struct RayRule {
   const FrameGeometry* geometry = nullptr;
   const std::uint32_t* leaving = nullptr; ///< by lane
   const Contacts* contacts = nullptr;
   BackRule backs = BackRule::hit;
   std::uint32_t only_plane = no_index;
+  bool only_glass = false;
 };
 
 inline bool is_contact(const Contacts* contacts, std::uint32_t plane) {
@@ -41,11 +42,13 @@ inline bool is_hit(const RayRule& rule, const Candidate& candidate) {
     return false;
   if (rule.only_plane != no_index && facts.plane != rule.only_plane)
     return false;
+  if (rule.only_glass && !facts.glass)
+    return false;
   const auto back = glm::dot(candidate.normal, candidate.direction) >= 0.0F;
   return rule.backs == BackRule::hit || !facts.single_sided || !back;
 }
 
-/// A leg is not blocked in the planes it leaves and arrives at; triangles in whose plane an end lies are left to its contacts.
+/// A leg is not blocked by glass, nor in the planes it leaves and arrives at; triangles in whose plane an end lies are left to its contacts.
 struct LegRule {
   const FrameGeometry* geometry = nullptr;
   const RayPacket* packet = nullptr;
@@ -55,10 +58,11 @@ struct LegRule {
 enum class LegHit { blocking, own, touching };
 
 inline LegHit leg_hit(const LegRule& rule, const Candidate& candidate) {
-  const auto plane = rule.geometry->facts[candidate.triangle].plane;
+  const auto& facts = rule.geometry->facts[candidate.triangle];
+  const auto plane = facts.plane;
   const auto leaving = rule.packet->leaving[candidate.lane];
   const auto arriving = rule.packet->arriving[candidate.lane];
-  if (plane == leaving || plane == arriving)
+  if (plane == leaving || plane == arriving || facts.glass)
     return LegHit::own;
 
   // How far the leg climbs from its start to the hit, and from there to its end, over the plane of the triangle

@@ -6,7 +6,7 @@
 
 namespace meninas {
 
-/// Whether it has a lobe of reflection other than an ideal mirror's.
+/// Whether light leaves it otherwise than evenly or by a mirror of constant reflectance: by a lobe, or through it.
 bool has_lobes(const Material& material);
 
 /// A dielectric whose coat shows, by its factors or, where there is one, at some texel of its texture of roughness and metalness.
@@ -15,6 +15,9 @@ bool has_visible_coat(const Material& material);
 /// S of a facet that is met at this cosine.
 Rgb facet_reflectance(const Bsdf& bsdf, double cosine);
 
+/// What stands in the place of S in transmission: of glass alone.
+Rgb facet_transmittance(const Bsdf& bsdf, double cosine);
+
 /// The reflection lobe alone, S D G2 / (4 cos_o cos_i), of directions above the surface; 0 where it is ideal.
 Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in);
 
@@ -22,11 +25,18 @@ Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in)
 /// cosine of light that comes evenly from everywhere.
 Rgb even_reflectance(const Bsdf& bsdf, double cosine);
 
-/// The share of light from everywhere that is reflected to anywhere, by all lobes together; what is transmitted is not in it.
+/// The share of light from everywhere that is reflected to anywhere, by all lobes together but those of glass.
 Rgb mean_reflectance(const Bsdf& bsdf);
 
 /// diffuse_reflectance() (material.h) of a point.
 Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point);
+
+/// Glass as pass one takes it: it does not scatter what it reflects and passes, however rough. What the surface is besides is left out, but for
+/// ideal reflection of metal.
+Bsdf clear_glass(const Material& material, const MaterialPoint& point);
+
+/// What clear glass reflects and passes of light from everywhere.
+GlassShares mean_shares(const Bsdf& clear);
 
 // --- The frame of a surface, +z along its normal
 

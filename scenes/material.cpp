@@ -15,6 +15,15 @@ bool is_glossy(const Material& material) {
   return material.metallic > 0.0 && material.roughness > ideal_mirror_roughness;
 }
 
+bool is_glass(const Material& material) {
+  return material.transmission > 0.0 &&
+         (material.metallic < 1.0 || material.metallic_roughness_texture);
+}
+
+bool is_solid_glass(const Material& material) {
+  return is_glass(material) && material.thickness > 0.0;
+}
+
 Rgb mirror_reflectance(const Material& material) {
   return is_mirror(material) ? material.base_color * material.metallic : Rgb(0.0);
 }

@@ -4,12 +4,16 @@
 //   specular reflectance  rho_s = base_color metallic
 //
 // A metal whose roughness is at most `ideal_mirror_roughness` is an ideal mirror of constant reflectance rho_s.
-// The lobes of rougher metals, coats and panes are in bsdf.h. Pass two shows those of metals and coats (lobes.h); transmission it does not model
-// yet, and `plan` names it.
+// The lobes of rougher metals, coats and glass are in bsdf.h. Pass two shows them; pass one spreads those of metals and coats evenly, and takes
+// glass for clear (lobes.h).
+//
+// Glass (transmission > 0) is there from both sides: the loader makes it double-sided. Without thickness a sheet of it is a whole pane, with
+// both of its faces; with one it is the surface of a solid (KHR_materials_volume).
 #pragma once
 
 #include "scenes/types.h"
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -37,12 +41,17 @@ struct Material {
   double alpha = 1.0;    ///< in [0, 1]: matters where alpha_mode is not opaque
   double metallic = 0.0; ///< in [0, 1]
   double roughness = 1.0;
-  Rgb emission{0.0};         ///< emitted radiance L, W/m^2/sr; emitted radiosity is E = pi L
-  bool double_sided = false; ///< false: the front reflects, emits and mirrors, the back is opaque and black
+  Rgb emission{0.0}; ///< emitted radiance L, W/m^2/sr; emitted radiosity is E = pi L
+  bool double_sided =
+      false; ///< false: the front reflects, emits and mirrors, the back is opaque and black
   double ior = 1.5;
   double specular = 1.0; ///< KHR_materials_specular
   Rgb specular_color{1.0};
   double transmission = 0.0;
+  double thickness =
+      0.0; ///< KHR_materials_volume, metres: above 0 what is behind the surface is full of the glass
+  Rgb attenuation_color{1.0}; ///< what is left of light after `attenuation_distance` in there
+  double attenuation_distance = std::numeric_limits<double>::infinity(); ///< metres
   AlphaMode alpha_mode = AlphaMode::opaque;
   double alpha_cutoff = 0.5;
   std::optional<TextureUse> base_color_texture;
@@ -61,5 +70,11 @@ bool is_emitter(const Material& material);
 
 /// A metal too rough for an ideal mirror.
 bool is_glossy(const Material& material);
+
+/// It lets light through: a pane, or the surface of a solid.
+bool is_glass(const Material& material);
+
+/// The surface of a solid.
+bool is_solid_glass(const Material& material);
 
 } // namespace meninas

@@ -39,7 +39,7 @@ struct Hit {
   bool front = true;     ///< false: the back of a surface, black if single-sided
 };
 
-/// The straight leg between two points, each on a plane of the scene or free (none). Blocked by either side of anything between.
+/// The straight leg between two points, each on a plane of the scene or free (none). Blocked by either side of what is between, but for glass.
 struct Leg {
   Point3 from;
   Point3 to;
@@ -122,7 +122,7 @@ bool occluded(const RayScene& rays, const Leg& leg);
 void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits, Backs backs,
                   Coherence coherence);
 
-/// Bit k of the result is set where ray k meets something before max_distance.
+/// Bit k of the result is set where ray k meets something but glass before max_distance.
 std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence coherence);
 
 } // namespace meninas

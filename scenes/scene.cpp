@@ -34,6 +34,11 @@ void add_material(ContentHash& hash, const Material& material) {
   hash.add(material.specular);
   hash.add(material.specular_color);
   hash.add(material.transmission);
+  if (material.thickness > 0.0) {
+    hash.add(material.thickness);
+    hash.add(material.attenuation_color);
+    hash.add(material.attenuation_distance);
+  }
   hash.add(static_cast<std::uint64_t>(material.alpha_mode));
   hash.add(material.alpha_cutoff);
   add_texture_use(hash, material.base_color_texture);

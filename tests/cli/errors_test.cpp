@@ -65,6 +65,7 @@ TEST_F(Errors, ValuesAreChecked) {
       {"--hemicube-resolution", "63", "'63' is not an even number from 2 to 1024"},
       {"--hemicube-resolution", "64x64", "'64x64' is not an even number from 2 to 1024"},
       {"--hemicube-resolution", "64", "has no effect without --form-factors hemicube"},
+      {"--glossy-samples", "0", "'0' is not a whole number from 1 to 4096"},
       {"--rays", "0", "'0' is not a whole number from 1 to 1048576"},
       {"--rays", "1e3", "'1e3' is not a whole number from 1 to 1048576"},
       {"--seed", "-1", "'-1' is not a whole number from 0 to 4294967295"},

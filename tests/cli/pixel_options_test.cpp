@@ -86,7 +86,8 @@ TEST_F(PixelOptions, ViewsSayTheirRangeAndKeepTheirNumbers) {
         EXPECT_NEAR(exr.picture.pixels[p][band], png.picture.pixels[p][band], 0.005F);
   }
   float deepest = 0.0F;
-  for (const glm::vec3& depth : picture({"--view", "mirror-depth"}).layers[0].image.pixels)
+  const ImageFile depths = picture({"--view", "mirror-depth"});
+  for (const glm::vec3& depth : depths.layers[0].image.pixels)
     deepest = std::max(deepest, depth.r);
   EXPECT_EQ(deepest, 1.0F) << "the room has one mirror";
 }
@@ -111,6 +112,11 @@ TEST_F(PixelOptions, WhatHasNoEffectIsRefused) {
       ": has no effect with --mode reference: its pixels are boxes of as many samples each";
   expect_error("--filter" + boxes, {"--filter", "tent", "--mode", "reference"});
   expect_error("--pixel-error" + boxes, {"--pixel-error", "0.1", "--mode", "reference"});
+  expect_error(
+      "--glossy-samples: has no effect with --mode reference: its paths go one way at a time",
+      {"--glossy-samples", "4", "--mode", "reference"});
+  expect_error("--glossy-samples: has no effect with --mode radiosity: it shows pass one",
+               {"--glossy-samples", "4", "--mode", "radiosity"});
   expect_error("--filter: no value 'gausian', did you mean 'gaussian'?", {"--filter", "gausian"});
 }
 

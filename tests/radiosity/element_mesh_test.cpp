@@ -47,8 +47,7 @@ TEST(ElementMesh, LocateInvertsPatchUv) {
   for (const double size : {0.05, 0.31, 10.0}) {
     const Meshed m = meshed(all_shapes(), {.element_size = size});
     Random random(1);
-    const LandingTable table =
-        make_landing_table(
+    const LandingTable table = make_landing_table(
         m.scene, m.surfaces, find_mirrors(m.scene, m.surfaces), m.mesh, Point3(0.0), 1.0);
     for (std::uint32_t s = 0; s < m.mesh.sides.size(); ++s) {
       const MeshSide& side = m.mesh.sides[s];

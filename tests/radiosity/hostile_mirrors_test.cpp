@@ -56,8 +56,7 @@ void expect_source_and_rays_agree(const Scene& scene, double element_size = 0.25
   const DirectIrradiance direct = direct_irradiance(*l->light, factors.covered, {});
   for (const char* node : {"x0", "x1", "y0", "z0", "z1"}) {
     const double expected = mean_over(*l, by_rays, node).g;
-    const double found =
-        mean_over(*l, direct.irradiance, node).g + mean_over(*l, gathered, node).g;
+    const double found = mean_over(*l, direct.irradiance, node).g + mean_over(*l, gathered, node).g;
     const double hits = double(elements_of(*l, node).size()) * settings.rays * expected / 10.0;
     EXPECT_GT(hits, 100.0) << node;
     EXPECT_NEAR(found, expected, (4.0 / std::sqrt(hits) + 0.002) * expected) << node;

@@ -66,8 +66,8 @@ TEST(Interpolation, AverageIsExactForLinearLight) {
   for (const auto& corners : {square, triangle}) {
     const Wall wall = wall_with(corners, linear);
     const ElementMesh& mesh = wall.lit->mesh;
-    const InterpolatedField f = interpolate(*wall.lit->light, {wall.values, wall.values, {}}, {}, {},
-                                            {.method = Interpolation::average});
+    const InterpolatedField f = interpolate(*wall.lit->light, {wall.values, wall.values, {}}, {},
+                                            {}, {.method = Interpolation::average});
     int inside = 0;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       const Point3& x = mesh.vertices[v];

@@ -64,7 +64,9 @@ TEST(Plan, WhatTheTwoPassesLeaveOutIsNamed) {
   EXPECT_EQ(plan.transmissive, 1U);
   EXPECT_EQ(plan.textured, 1U);
   EXPECT_THAT(plan.warnings, testing::ElementsAre(
-                                 testing::AllOf(HasSubstr("transmission"), HasSubstr("'first'"))));
+                                 testing::AllOf(HasSubstr("frosted glass"), HasSubstr("'first'"))));
+  EXPECT_THAT(plan.stages,
+              Contains(testing::AllOf(HasSubstr("glass panes"), HasSubstr("'first'"))));
   EXPECT_THAT(plan.stages, Contains(HasSubstr("textures: of 1 material")));
 }
 

@@ -2,6 +2,7 @@
 #include "radiosity/factor_file.h"
 #include "scenes/errors.h"
 #include "tests/radiosity/lit_scene.h"
+#include "tests/support/glass_rooms.h"
 #include "tests/support/rooms.h"
 
 #include <gmock/gmock.h>
@@ -104,6 +105,18 @@ TEST_F(Relighting, WhatMustNotChangeIsNamed) {
   settings_.form_factors.rays = 64;
   settings_.plan.worlds.max_depth = 0;
   EXPECT_THAT(refusal(scene), HasSubstr("how far they are followed"));
+}
+
+TEST_F(Relighting, GlassIsPartOfTheTransport) {
+  Scene room = glazed_room();
+  keep_factors(room);
+  emitter_of(room).emission *= Rgb(3.0, 0.1, 7.0);
+  expect_the_same_light(room);
+  Scene tinted = room, denser = room;
+  tinted.materials.back().base_color.r = 0.5;
+  denser.materials.back().ior = 1.7;
+  EXPECT_THAT(refusal(tinted), HasSubstr("mirrors"));
+  EXPECT_THAT(refusal(denser), HasSubstr("mirrors"));
 }
 
 TEST_F(Relighting, DamagedFilesAreRefused) {

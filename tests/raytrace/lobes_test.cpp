@@ -205,6 +205,40 @@ TEST(Lobes, ALampInALobeIsItsConvolution) {
   EXPECT_NEAR(picture.r / picture.g, 1.5, 0.03);
 }
 
+TEST(Lobes, MoreGlossySamplesConvergeToTheConvolution) {
+  // A wall of radiance 1 that glows on more than half of all that is there: rays alone find it. One camera ray.
+  constexpr double roughness = 0.5, rho = 0.9;
+  Scene scene = plate(metal(Rgb(rho), roughness), 0.5);
+  add_polygon(scene, "wall", {{-1, 0.4, -2}, {1, 0.4, -2}, {1, 1.8, -2}, {-1, 1.8, -2}},
+              diffuse(0.0, pi));
+  const Bsdf bsdf = bsdf_of(scene.materials[0]);
+  const Direction normal{0, 1, 0};
+  const auto wall = [&](const Direction& local) {
+    const Direction w = to_world(normal, local);
+    const Point3 at = w * (-2.0 / std::min(-1e-9, w.z));
+    return w.z < 0.0 && std::abs(at.x) <= 1.0 && at.y >= 0.4 && at.y <= 1.8 ? 1.0 : 0.0;
+  };
+  const Direction out = to_local(normal, glm::normalize(eye));
+  const double lobe = convolution(bsdf, out, wall);
+  const double even = even_reflectance(bsdf, out.z).g;
+  for (const int samples : {1, 16, 256, 4096}) {
+    RenderSettings settings = one_pixel(1);
+    settings.glossy_samples = samples;
+    const Rendering made = [&] {
+      const Taken taken = lit_up(scene, coarse());
+      return render(*taken.prepared->light, taken.solution.field, look_at(eye, Point3(0.0), 1e-4),
+                    settings);
+    }();
+    const double cells = std::pow(std::ceil(std::sqrt(samples * roughness * rho)), 2.0);
+    // Some of them lie below the plate.
+    EXPECT_LE(double(made.specular_rays), cells) << samples;
+    EXPECT_GE(double(made.specular_rays), 0.85 * cells) << samples;
+    // n^2 cells at an edge err by n^(-3/2) of the lobe; the wall sends at most as much as fills the hemisphere to what is spread evenly.
+    EXPECT_NEAR(made.image.pixels[0].g, lobe, rho * std::pow(cells, -0.75) + even + 2e-3)
+        << samples;
+  }
+}
+
 /// That of the origin to the square of lamp_in_lobe, which is small.
 double lamp_form_factor(const Point3& centre, double half) {
   const double r2 = glm::dot(centre, centre), cosine = centre.y / std::sqrt(r2);

@@ -46,6 +46,30 @@ TEST(GltfMaterials, ReadsFactorsAndExtensions) {
   EXPECT_EQ(material.transmission, 0.9);
 }
 
+TEST(GltfMaterials, GlassIsThereFromBothSidesAndMayBeSolid) {
+  const auto with_volume = [](const Json& volume) {
+    return load(with_material({{"name", "Jar"},
+                               {"pbrMetallicRoughness", {{"metallicFactor", 0.0}}},
+                               {"extensions",
+                                {{"KHR_materials_transmission", {{"transmissionFactor", 1.0}}},
+                                 {"KHR_materials_volume", volume}}}}));
+  };
+  const auto jar = with_volume({{"thicknessFactor", 0.5},
+                                {"attenuationDistance", 2.0},
+                                {"attenuationColor", {0.25, 1.0, 0.5}}});
+  EXPECT_TRUE(jar.materials.at(0).double_sided);
+  EXPECT_TRUE(is_solid_glass(jar.materials.at(0)));
+  EXPECT_EQ(jar.materials.at(0).attenuation_distance, 2.0);
+  EXPECT_EQ(jar.materials.at(0).attenuation_color, Rgb(0.25, 1.0, 0.5));
+  EXPECT_TRUE(jar.ignored.empty());
+  const auto thin = with_volume(Json::object());
+  EXPECT_TRUE(is_glass(thin.materials.at(0)));
+  EXPECT_FALSE(is_solid_glass(thin.materials.at(0)));
+  const auto odd = with_volume({{"thicknessFactor", -1.0}, {"attenuationColor", {2.0, 1.0, 0.5}}});
+  EXPECT_FALSE(is_solid_glass(odd.materials.at(0)));
+  EXPECT_TRUE(warns(odd, {"volumes", "'Jar'"}));
+}
+
 TEST(GltfMaterials, WithoutAMaterialItIsGrey) {
   auto file = square();
   file.json["meshes"][0]["primitives"][0].erase("material");

@@ -1,4 +1,4 @@
-// A room with what is between diffuse and mirror: varnish, and metals of every roughness.
+// Rooms with what is between diffuse and mirror: glass, varnish, and metals of every roughness.
 #include "scenes/gallery/generator/furniture.h"
 #include "scenes/gallery/generator/stages.h"
 
@@ -12,6 +12,37 @@ static void add_ceiling(Stage& stage, const Point3& high, const Rect& opening, c
   const Sheet ceiling{{0.0, high.y, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
   stage.add("ceiling", plaster, wall(ceiling, {{0.0, 0.0}, {high.x, high.z}}, std::array{opening}));
   stage.add("lamp", lamp, panel(ceiling, opening, 0.0));
+}
+
+Stage glass_screen() {
+  Stage stage{"glass-screen",
+              {},
+              {{"main", {2.4, 1.35, 3.85}, {1.2, 0.75, 1.3}, 55.0, 4.0 / 3.0},
+               {"behind", {0.5, 1.4, 0.4}, {2.6, 0.8, 3.2}, 55.0, 1.0}}};
+  const Point3 low{0.0, 0.0, 0.0};
+  const Point3 high{3.6, 2.5, 4.0};
+  add_room(stage, low, high, plaster, coated("varnished-floor", {0.4, 0.24, 0.13}, 0.0),
+           std::array{Face::y1});
+  add_ceiling(stage, high, {{0.6, 0.7}, {1.2, 1.3}}, light("lamp", {15.0, 13.0, 10.0}));
+
+  // The lamp is behind the screen: what is in front of it is lit through coloured glass.
+  const Sheet screen{{0.0, 0.0, 1.9}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  stage.add("clear-pane", glass("clear-glass", Rgb(1.0)),
+            panel(screen, {{0.2, 0.05}, {1.2, 2.1}}, 0.0));
+  stage.add("green-pane", glass("green-glass", {0.35, 0.9, 0.5}),
+            panel(screen, {{1.25, 0.05}, {2.25, 2.1}}, 0.0));
+  const auto oak = diffuse("oak", {0.35, 0.24, 0.15});
+  stage.add("posts", oak,
+            merged(std::array{box({0.15, 0.0, 1.875}, {0.2, 2.15, 1.925}),
+                              box({1.2, 0.0, 1.875}, {1.25, 2.15, 1.925}),
+                              box({2.25, 0.0, 1.875}, {2.3, 2.15, 1.925})}));
+  stage.add("red-block", diffuse("red", {0.6, 0.12, 0.08}),
+            standing_box({0.5, 0.0, 0.9}, {1.0, 0.9, 1.4}));
+  stage.add("blue-block", diffuse("blue", {0.12, 0.2, 0.55}),
+            standing_box({0.4, 0.0, 2.5}, {0.8, 0.5, 2.9}));
+  stage.add("candle", light("candle", {24.0, 15.0, 7.0}),
+            standing_box({0.55, 0.5, 2.65}, {0.65, 0.7, 2.75}));
+  return stage;
 }
 
 Stage roughness_sweep() {

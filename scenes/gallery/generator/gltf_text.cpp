@@ -47,6 +47,10 @@ static Json material_json(const Paint& paint) {
       {"baseColorFactor", Json::array({paint.color.x, paint.color.y, paint.color.z, 1.0})},
       {"metallicFactor", paint.finish == Finish::metal ? 1.0 : 0.0},
       {"roughnessFactor", paint.roughness}};
+  if (paint.finish == Finish::glass) {
+    material["extensions"] = {{"KHR_materials_transmission", {{"transmissionFactor", 1.0}}}};
+    material["doubleSided"] = true;
+  }
 
   // emissiveFactor ends at 1; what is brighter is carried by the strength.
   const auto brightest = std::max({paint.radiance.x, paint.radiance.y, paint.radiance.z});
@@ -74,7 +78,7 @@ struct Document {
   Json samplers = Json::array();
   Json textures = Json::array();
   std::vector<Picture> pictures;
-  bool has_strength = false;
+  bool has_strength = false, has_glass = false;
 };
 
 /// The texture of a picture, which the file holds once.
@@ -106,7 +110,8 @@ static std::size_t material_index(Document& document, const Paint& paint) {
   const auto index = static_cast<std::size_t>(known - document.materials.begin());
   if (known == document.materials.end())
     document.materials.push_back(material);
-  document.has_strength |= material.contains("extensions");
+  document.has_glass |= paint.finish == Finish::glass;
+  document.has_strength |= material.contains("extensions") && paint.finish != Finish::glass;
   return index;
 }
 
@@ -255,6 +260,8 @@ std::string gltf_text(const Stage& stage) {
   Json used = Json::array();
   if (document.has_strength)
     used.push_back("KHR_materials_emissive_strength");
+  if (document.has_glass)
+    used.push_back("KHR_materials_transmission");
   if (!document.lights.empty())
     used.push_back("KHR_lights_punctual");
   if (!used.empty())

@@ -13,8 +13,9 @@ namespace meninas::gallery {
 
 enum class Finish {
   diffuse,
-  metal, ///< a mirror when its roughness is 0
-  coated ///< diffuse under a coat of varnish
+  metal,  ///< a mirror when its roughness is 0
+  coated, ///< diffuse under a coat of varnish
+  glass   ///< a thin pane
 };
 
 /// A small image of a few colours, rows from the top.
@@ -27,7 +28,7 @@ struct Picture {
   bool operator==(const Picture&) const = default;
 };
 
-/// A material by name: `color` is the diffuse reflectance, or the specular one of a metal.
+/// A material by name: `color` is the diffuse reflectance, the specular one of a metal, or the tint of glass.
 struct Paint {
   std::string name;
   Rgb color{0.0};
@@ -48,6 +49,9 @@ inline Paint mirror(std::string name, Rgb reflectance) {
 }
 inline Paint coated(std::string name, Rgb reflectance, double roughness) {
   return {std::move(name), reflectance, Finish::coated, Rgb(0.0), roughness};
+}
+inline Paint glass(std::string name, Rgb tint) {
+  return {std::move(name), tint, Finish::glass, Rgb(0.0), 0.0};
 }
 
 /// Reflects nothing, so that all its light is its own.

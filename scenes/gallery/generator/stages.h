@@ -12,6 +12,7 @@ Stage periscope();
 Stage facing_mirrors();
 Stage sunbeam();
 Stage lattice();
+Stage glass_screen();
 Stage roughness_sweep();
 Stage half_room();
 Stage doubled_room();

@@ -1,0 +1,43 @@
+#include "scenes/glass_crossings.h"
+
+#include "scenes/careful_rays.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas {
+
+/// Whether the ends are on different sides.
+static bool parts(const Plane& plane, const Leg& leg) {
+  return signed_distance(plane, leg.from) * signed_distance(plane, leg.to) <= 0.0;
+}
+
+void glass_crossings(const RayScene& rays, const Leg& leg, std::vector<GlassCrossing>& crossings) {
+  crossings.clear();
+  const FrameGeometry& geometry = rays.geometry();
+  if (!std::ranges::any_of(geometry.glass, [&](const Plane& plane) { return parts(plane, leg); }))
+    return;
+  LaneRay ray;
+  ray.origin = glm::vec3(to_frame(geometry.frame, leg.from));
+  ray.direction = glm::vec3((leg.to - leg.from) * geometry.frame.scale);
+  ray.far = 1.0F;
+  ray.leaving = index(leg.leaving);
+  const RayRule rule{.geometry = &geometry, .leaving = &ray.leaving, .only_glass = true};
+  // A pane that is passed is left as a surface is: nothing in its plane is met again.
+  for (;;) {
+    const LaneHit hit = trace_one(rays, ray, rule);
+    if (hit.triangle == no_index)
+      return;
+    ray.leaving = geometry.facts[hit.triangle].plane;
+    ray.near = hit.distance;
+    if (ray.leaving == index(leg.arriving))
+      continue;
+    const Direction& normal = geometry.plane_normals[ray.leaving];
+    const Vec3 direction(ray.direction);
+    crossings.push_back({TriangleId{hit.triangle},
+                         {hit.b1, hit.b2},
+                         std::abs(glm::dot(normal, direction)) / glm::length(direction)});
+  }
+}
+
+} // namespace meninas

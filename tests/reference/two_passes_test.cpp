@@ -1,0 +1,72 @@
+// The two passes against paths, where light goes by glass and gloss: two programs that share the materials and nothing else.
+#include "raytrace/two_pass.h"
+#include "tests/reference/tracing.h"
+#include "tests/support/glass_rooms.h"
+
+#include <gtest/gtest.h>
+
+namespace meninas::test {
+namespace {
+
+Rgb seen_by_two_passes(const PreparedScene& prepared, const RadiositySolution& solution, Point3 eye,
+                       Point3 target) {
+  RenderSettings settings;
+  settings.width = settings.height = 1;
+  settings.samples = 64;
+  settings.glossy_samples = 64;
+  settings.diffuse.term = DiffuseTerm::direct;
+  return render(field_scene(*prepared.light, solution), solution.field, look_at(eye, target, 1e-4),
+                settings)
+      .image.pixels[0];
+}
+
+struct Sight {
+  const char* what;
+  Point3 eye, target;
+};
+
+/// Radiances agree within four standard errors of the paths and the error of the field, which is that of 10 cm elements.
+void expect_agreement(const Scene& scene, std::initializer_list<Sight> sights) {
+  PassOneSettings settings;
+  settings.mesh.element_size = 0.1;
+  settings.form_factors.rays = settings.interpolation.rays = 256;
+  const auto prepared = prepare_scene(scene, settings);
+  const RadiositySolution solution = solve_pass_one(*prepared->light, settings);
+  for (const Sight& sight : sights) {
+    SCOPED_TRACE(sight.what);
+    constexpr double field_error = 0.01;
+    const Rgb found = seen_by_two_passes(*prepared, solution, sight.eye, sight.target);
+    const MeanRadiance truth = radiance_seen(scene, sight.eye, sight.target, 512);
+    for (int band = 0; band < 3; ++band) {
+      EXPECT_LT(truth.error[band], 0.03 * truth.mean[band]);
+      EXPECT_NEAR(found[band], truth.mean[band],
+                  4.0 * truth.error[band] + field_error * truth.mean[band]);
+    }
+  }
+}
+
+TEST(TwoPasses, AgreeWithPathsInAGlazedRoom) {
+  expect_agreement(glazed_room(),
+                   {{"lit through the pane", {1.5, 1.0, 0.4}, {1.0, 0.6, 0.0}},
+                    {"seen through the pane", {1.2, 1.0, 1.8}, {0.9, 0.5, 0.0}},
+                    {"by reflection in the pane as well", {1.9, 0.9, 1.5}, {1.0, 0.9, 0.8}}});
+}
+
+TEST(TwoPasses, AgreeWithPathsOnGlossUnderALamp) {
+  // Black but for the plate, so that what it throws on the walls does not come back.
+  Scene scene = glazed_room();
+  scene.materials.pop_back();
+  scene.triangles.resize(scene.triangles.size() - 2);
+  for (std::size_t k = 0; k < 6; ++k)
+    scene.materials[k].base_color = Rgb(k == 2 ? 0.8 : 0.0);
+  for (const double roughness : {0.15, 0.4}) {
+    SCOPED_TRACE(roughness);
+    scene.materials[2].metallic = 1.0;
+    scene.materials[2].roughness = roughness;
+    expect_agreement(scene, {{"at the lamp's image", {0.8, 0.9, 0.2}, {0.8, 0.0, 0.6}},
+                             {"beside it", {1.8, 0.9, 0.6}, {1.2, 0.0, 0.9}}});
+  }
+}
+
+} // namespace
+} // namespace meninas::test

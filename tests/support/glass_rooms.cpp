@@ -1,0 +1,41 @@
+#include "tests/support/glass_rooms.h"
+
+#include <cmath>
+
+namespace meninas::test {
+
+Material glass(Rgb tint, double ior) {
+  Material material = double_sided(diffuse(tint));
+  material.roughness = 0.0;
+  material.transmission = 1.0;
+  material.ior = ior;
+  return material;
+}
+
+double face_reflectance(double ior, double cosine) {
+  const double in = std::acos(cosine), behind = std::asin(std::sin(in) / ior);
+  if (in < 1e-6)
+    return std::pow((ior - 1.0) / (ior + 1.0), 2.0);
+  const double s = std::sin(in - behind) / std::sin(in + behind);
+  const double p = std::tan(in - behind) / std::tan(in + behind);
+  return 0.5 * (s * s + p * p);
+}
+
+double pane_transmittance(double ior, double cosine) {
+  const double f = face_reflectance(ior, cosine);
+  return (1.0 - f) / (1.0 + f);
+}
+
+Scene glazed_room() {
+  Scene scene;
+  std::array<Material, 6> walls;
+  walls.fill(diffuse(Rgb(0.6, 0.5, 0.4)));
+  add_room(scene, Point3(0.0), Point3(2.0), walls);
+  add_polygon(scene, "lamp", {{0.6, 1.9, 1.4}, {1.0, 1.9, 1.4}, {1.0, 1.9, 1.0}, {0.6, 1.9, 1.0}},
+              double_sided(diffuse(0.0, 10.0)));
+  add_polygon(scene, "pane", {{0.2, 0.0, 0.8}, {1.8, 0.0, 0.8}, {1.8, 1.7, 0.8}, {0.2, 1.7, 0.8}},
+              glass({0.4, 0.9, 0.6}));
+  return scene;
+}
+
+} // namespace meninas::test
