@@ -51,8 +51,10 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
   for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
     const Surface& surface = model.surfaces[s];
     const Material& material = scene.materials[index(surface.material)];
+    if (!is_mirror(material) && (!is_glass(material) || is_solid_glass(material)))
+      continue;
     const Rgb reflectance = reflectance_of(material);
-    if (reflectance == Rgb(0.0) || is_solid_glass(material))
+    if (reflectance == Rgb(0.0))
       continue;
     const MaterialId glass = is_glass(material) ? surface.material : none<MaterialId>;
     for (int face = 0; face < (material.double_sided ? 2 : 1); ++face) {

@@ -30,9 +30,10 @@ std::uint32_t sum_of(ElementWorkspace& work, const LightScene& light, const Virt
   const auto [found, is_new] =
       work.image_of.try_emplace(key, static_cast<std::uint32_t>(work.images.size()));
   if (is_new)
-    work.images.push_back({light.worlds.worlds[index(image.world)].throughput *
-                               light.emitters[image.emitter].radiosity,
-                           image.world, 0.0, 0.0, 0.0, 0, static_cast<std::uint32_t>(rays)});
+    work.images.push_back({.source = light.worlds.worlds[index(image.world)].throughput *
+                                     light.emitters[image.emitter].radiosity,
+                           .world = image.world,
+                           .from_a_point = static_cast<std::uint32_t>(rays)});
   return found->second;
 }
 
@@ -92,8 +93,10 @@ void trace_waiting(const LightScene& light, PlaneId leaving, ElementWorkspace& w
       const WaitingRay& ray = work.waiting[first + k];
       ImageSum& image = work.images[ray.image];
       image.all += ray.weight;
-      if (((dark >> k) & 1U) == 0U)
-        image.seen += ray.weight;
+      if (((dark >> k) & 1U) != 0U)
+        continue;
+      image.seen += ray.weight;
+      image.left += ray.weight * left_by_glass(light, world, work.point.folded[k]);
     }
     first += count;
   }
@@ -106,7 +109,7 @@ ArrivingLight mean_of(const ElementWorkspace& work, const ElementSum& sum) {
   ArrivingLight mean{sum.punctual.total / points, sum.punctual.mirrored / points,
                      sum.punctual.punctual / points};
   for (const ImageSum& image : work.images) {
-    const double visible = image.all > 0.0 ? image.seen / image.all : 0.0;
+    const Rgb visible = image.all > 0.0 ? image.left / image.all : Rgb(0.0);
     const Rgb arrived = visible * image.form_factor / points * image.source;
     mean.total += arrived;
     if (image.world != real_world)

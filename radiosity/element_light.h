@@ -16,12 +16,13 @@ namespace meninas {
 
 /// One emitter in one world, over all points of the element so far.
 struct ImageSum {
-  Rgb source; ///< tau E
+  Rgb source{0.0}; ///< tau E
   WorldId world = real_world;
-  double form_factor = 0.0;     ///< sum over points, blockers aside
-  double all = 0.0, seen = 0.0; ///< weights of its shadow rays, and of those that arrive
-  std::uint32_t rays = 0;       ///< shadow rays so far
-  std::uint32_t from_a_point;   ///< from each of the next points
+  double form_factor = 0.0;       ///< sum over points, blockers aside
+  double all = 0.0, seen = 0.0;   ///< weights of its shadow rays, and of those that arrive
+  Rgb left{0.0};                  ///< of the latter, what glass on their way leaves
+  std::uint32_t rays = 0;         ///< shadow rays so far
+  std::uint32_t from_a_point = 1; ///< from each of the next points
 };
 
 /// A shadow ray that waits for others through the same mirrors.

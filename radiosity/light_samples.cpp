@@ -71,7 +71,8 @@ void emission_samples(const LightScene& light, const Receiver& receiver,
         light.worlds.worlds[index(image.world)].throughput * emitter.radiosity / std::numbers::pi;
     for (std::uint32_t k = 0; k < count; ++k)
       if (((dark >> k) & 1U) == 0)
-        samples[begin + k].radiance = radiance * left_by_glass(light, image.world, work.folded[k]);
+        samples[begin + k].radiance =
+            radiance * left_by_glass(light, image.world, work.folded[k], Solids::opaque);
   }
 }
 

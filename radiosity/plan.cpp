@@ -166,15 +166,23 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
                             quoted(names));
   }
   const auto is_frosted = [](const Material& m) {
-    return is_glass(m) && m.roughness > ideal_mirror_roughness;
+    return is_pane(m) && m.roughness > ideal_mirror_roughness;
   };
   if (const auto names = names_where(materials, is_frosted); !names.empty()) {
     plan.warnings.push_back("frosted glass throws light on surfaces as clear glass does: " +
                             quoted(names));
   }
+  const auto is_rough_solid = [](const Material& m) {
+    return is_solid_glass(m) && m.roughness > ideal_mirror_roughness;
+  };
+  if (const auto names = names_where(materials, is_rough_solid); !names.empty()) {
+    plan.warnings.push_back("solid glass is polished, however rough it is said to be: " +
+                            quoted(names));
+  }
   if (const auto names = names_where(materials, is_solid_glass); !names.empty()) {
-    plan.warnings.push_back(
-        "solid glass does not bend light, each of its faces counts as a sheet: " + quoted(names));
+    plan.warnings.push_back("solid glass bends what is seen through it, but not the light that "
+                            "surfaces receive: for that its faces are sheets, passed straight: " +
+                            quoted(names));
   }
   const auto is_textured_mirror = [](const Material& m) { return is_mirror(m) && is_textured(m); };
   if (const auto names = names_where(materials, is_textured_mirror); !names.empty()) {
@@ -198,6 +206,11 @@ void describe_lobes(const std::vector<const Material*>& materials,
   if (const auto names = names_where(materials, is_pane); !names.empty()) {
     stages.push_back("glass panes: passed straight and reflecting as mirrors do, by Fresnel and "
                      "their tint, in both passes: " +
+                     quoted(names));
+  }
+  if (const auto names = names_where(materials, is_solid_glass); !names.empty()) {
+    stages.push_back("solid glass: refracted in the picture, straight through its faces in pass "
+                     "one: " +
                      quoted(names));
   }
 }

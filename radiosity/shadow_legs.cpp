@@ -56,9 +56,11 @@ double cosine_of(const Leg& leg, const Direction& normal) {
   return length > 0.0 ? std::abs(glm::dot(way, normal)) / length : 1.0;
 }
 
-Rgb passed(const LightScene& light, const GlassCrossing& crossing) {
+Rgb passed(const LightScene& light, const GlassCrossing& crossing, Solids solids) {
   const Triangle& triangle = light.scene.triangles[index(crossing.triangle)];
   const Material& material = light.scene.materials[index(triangle.material)];
+  if (solids == Solids::opaque && is_solid_glass(material))
+    return Rgb(0.0);
   if (!is_textured(material) && !has_vertex_colors(light.scene, crossing.triangle))
     return facet_transmittance(light.glass[index(triangle.material)], crossing.cosine);
   return facet_transmittance(
@@ -68,7 +70,8 @@ Rgb passed(const LightScene& light, const GlassCrossing& crossing) {
 
 } // namespace
 
-Rgb left_by_glass(const LightScene& light, WorldId world, std::span<const Leg> legs) {
+Rgb left_by_glass(const LightScene& light, WorldId world, std::span<const Leg> legs,
+                  Solids solids) {
   Rgb left(1.0);
   if (light.glass.empty())
     return left;
@@ -76,7 +79,7 @@ Rgb left_by_glass(const LightScene& light, WorldId world, std::span<const Leg> l
   for (const Leg& leg : legs) {
     glass_crossings(light.rays, leg, crossings);
     for (const GlassCrossing& crossing : crossings)
-      left *= passed(light, crossing);
+      left *= passed(light, crossing, solids);
   }
   // The last mirror of the chain is met by the last leg but one, and so on.
   std::size_t step = legs.size() - 1;

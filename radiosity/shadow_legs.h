@@ -17,7 +17,9 @@ std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>
 
 /// What glass makes of light on a free segment in a world, beside the throughput of that world: the product of what passes each pane at the
 /// angle at which it is crossed, and of what each pane that is a mirror of the world reflects at its angle over the mean that the world's
-/// throughput has for it. 1 where there is no glass.
-Rgb left_by_glass(const LightScene& light, WorldId world, std::span<const Leg> legs);
+/// throughput has for it. 1 where there is no glass. Solids count as the sheets that their faces are, or, for those whose rays find what is refracted, pass nothing.
+enum class Solids { sheets, opaque };
+Rgb left_by_glass(const LightScene& light, WorldId world, std::span<const Leg> legs,
+                  Solids solids = Solids::sheets);
 
 } // namespace meninas

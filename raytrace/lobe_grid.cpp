@@ -1,6 +1,7 @@
 #include "raytrace/lobe_grid.h"
 
 #include "scenes/microfacets.h"
+#include "scenes/refraction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,8 +71,8 @@ void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift
   const bool pane = bsdf.glass > 0.0;
   if (bsdf.alpha == 0.0) {
     rays.push_back({mirrored(out), ideal_reflection(bsdf, out.z)});
-    if (pane)
-      rays.push_back({-out, straight_transmission(bsdf, out.z), true});
+    if (const auto behind = direction_behind(bsdf.pane, out); pane && behind)
+      rays.push_back({*behind, facet_transmittance(bsdf, out.z), true});
     return;
   }
   // The two parts of S, each with the sum that its norm is made of.

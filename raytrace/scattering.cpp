@@ -4,6 +4,7 @@
 #include "raytrace/quad_lanes.h"
 #include "raytrace/shading.h"
 #include "raytrace/specular_paths.h"
+#include "scenes/refraction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +19,25 @@ Bsdf bsdf_at(const RenderContext& context, const RayPacket& packet, const LaneSt
   const LightScene& light = context.light;
   const TriangleId triangle{hits.triangle[k]};
   const Material& material = material_of(light.scene, triangle);
-  if (!is_textured(material) && !has_vertex_colors(light.scene, triangle))
-    return context.bsdfs[index(light.scene.triangles[index(triangle)].material)];
-  return make_bsdf(material,
-                   material_at(light.scene, light.textures, triangle, {hits.b1[k], hits.b2[k]},
-                               footprint_of(context, packet, state, face, hits, k)));
+  const bool plain = !is_textured(material) && !has_vertex_colors(light.scene, triangle);
+  const Bsdf bsdf =
+      plain ? context.bsdfs[index(light.scene.triangles[index(triangle)].material)]
+            : make_bsdf(material,
+                        material_at(light.scene, light.textures, triangle, {hits.b1[k], hits.b2[k]},
+                                    footprint_of(context, packet, state, face, hits, k)));
+  return hits.front[k] != 0 ? bsdf : from_behind(bsdf);
+}
+
+/// The solids on both sides of a surface.
+struct Media {
+  MaterialId before = none<MaterialId>, behind = none<MaterialId>;
+};
+Media media_at(const RenderContext& context, const HitPacket& hits, std::uint32_t k,
+               MaterialId before) {
+  const MaterialId met = context.light.scene.triangles[hits.triangle[k]].material;
+  if (!is_solid_glass(context.light.scene.materials[index(met)]))
+    return {before, before};
+  return hits.front[k] != 0 ? Media{before, met} : Media{met, none<MaterialId>};
 }
 
 /// The shift of a grid: spread evenly over the camera rays of a pixel, at random behind another lobe.
@@ -43,8 +58,8 @@ double density_of_points(int points, double distance, double cosine, double area
 }
 
 void queue_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
-                const FaceRecord& face, const Meeting& at, int n, SpecularRay ray,
-                TileWorkspace& work) {
+                const FaceRecord& face, const Meeting& at, const Media& media, int n,
+                SpecularRay ray, TileWorkspace& work) {
   const bool lamps_sampled = samples_lamps(context, bsdf, ray);
   const RenderSettings& settings = context.settings;
   const std::uint32_t seed = pixel_seed(work.area, ray.pixel, settings.seed);
@@ -64,7 +79,9 @@ void queue_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction&
     if (!through && settings.mode == RenderMode::radiosity)
       continue;
     // What is not bent keeps its bits.
-    const bool straight = through && bsdf.alpha == 0.0;
+    const bool bent = bsdf.pane.faces == GlassFaces::one;
+    const bool straight = through && bsdf.alpha == 0.0 && !bent;
+    ray.medium = through ? media.behind : media.before;
     ray.direction = straight ? at.direction : to_world(face.normal, work.lobe[cell].in);
     // Directions of lobes are of unit length; the beam is as wide as it was.
     ray.travelled = straight
@@ -72,7 +89,11 @@ void queue_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction&
                         : at.travelled / static_cast<float>(std::sqrt(glm::length(at.direction)));
     ray.way = through ? way : one_more_mirror(way);
     ray.bounces = bounces + (through ? 0 : 1);
-    if (bsdf.alpha == 0.0) {
+    if (through && bent) {
+      // No points on lamps are looked for through solids: rays alone find them.
+      ray.world = none<WorldId>;
+      ray.density = 0.0F;
+    } else if (bsdf.alpha == 0.0) {
       ray.world = through ? world : child(context.light.worlds, world, face.mirror);
     } else {
       ray.world = real_world;
@@ -164,7 +185,7 @@ glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& pack
     bsdf.roughness = bsdf.alpha = 0.0;
   const int n = ray.lobes == 0 ? lobe_divisions(bsdf, out.z, context.settings.glossy_samples) : 1;
   if (bsdf.glass > 0.0 || !(spent || radiosity))
-    queue_lobe(context, bsdf, out, face, at, n, ray, work);
+    queue_lobe(context, bsdf, out, face, at, media_at(context, hits, k, ray.medium), n, ray, work);
   if (spent || radiosity)
     return has_field ? radiance_of_lane(context, packet, state, face, hits, k, work)
                      : glm::vec3(0.0F);

@@ -14,7 +14,8 @@
 // The first lobe of a path has a grid of up to `RenderSettings::glossy_samples` rays to each camera ray, shifted evenly among those of the pixel. Lobes behind it have one ray each. After `most_lobes` the field stands for the rest: pass one scatters evenly what
 // lobes reflect.
 //
-// What comes through a pane is seen as if the pane were not there: it is no mirror on the way. Without mirrors (`RenderMode::radiosity`) surfaces show
+// What comes through a pane is seen as if the pane were not there: it is no mirror on the way. Solids bend what goes into them, and
+// take their part of it by the metres (glass.h). Without mirrors (`RenderMode::radiosity`) surfaces show
 // the field, and panes what is straight behind them.
 #pragma once
 

@@ -60,6 +60,25 @@ void reflect(const RenderContext& context, const FaceRecord& face, const RayPack
   go_on(context, ray, work);
 }
 
+/// Takes from the rays what the solids keep that they have crossed to where they are: those whose surfaces they meet from inside, or else the ones
+/// they were refracted into.
+static void attenuate(const RenderContext& context, const RayPacket& packet, const HitPacket& hits,
+                      SpecularRay* rays) {
+  const Scene& scene = context.light.scene;
+  for (std::uint32_t k = 0; k < packet.count; ++k) {
+    if (hits.triangle[k] == index(none<TriangleId>))
+      continue;
+    const MaterialId met = scene.triangles[hits.triangle[k]].material;
+    const bool inside = hits.front[k] == 0 && is_solid_glass(scene.materials[index(met)]);
+    const MaterialId solid = inside ? met : rays[k].medium;
+    if (solid == none<MaterialId>)
+      continue;
+    const double metres = double{hits.distance[k]} * glm::length(rays[k].direction) /
+                          context.light.rays.frame().scale;
+    rays[k].throughput *= glm::vec3(attenuation(scene.materials[index(solid)], metres));
+  }
+}
+
 /// Traces the queued rays from `first` to `last`.
 static void trace_queued(const RenderContext& context, std::size_t first, std::size_t last,
                          Backs backs, TileWorkspace& work) {
@@ -75,6 +94,8 @@ static void trace_queued(const RenderContext& context, std::size_t first, std::s
       set_ray(packet, k, glm::vec3(ray.origin), glm::vec3(ray.direction), ray.leaving);
     }
     closest_hits(context.light.rays, packet, hits, backs, Coherence::coherent);
+    if (!context.light.glass.empty())
+      attenuate(context, packet, hits, &work.current[first]);
     shade_packet(context, packet, state, hits, work);
   }
 }

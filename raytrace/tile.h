@@ -33,7 +33,8 @@ struct SpecularRay {
   std::int32_t bounces = 0; ///< off mirrors and in lobes; what goes through glass is none
   // Since it left a lobe whose emitters are sampled as well (scattering.h):
   float density = 0.0F; ///< of the directions of that lobe's rays, per steradian; 0: there is none
-  float since_lobe = 0.0F; ///< metres
+  float since_lobe = 0.0F;              ///< metres
+  MaterialId medium = none<MaterialId>; ///< the solid it has been refracted into
   WorldId world = none<WorldId>;
 };
 

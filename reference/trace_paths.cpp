@@ -22,7 +22,8 @@ struct Path {
   std::size_t chain_length = 0;     ///< mirrors since
   Backs backs = Backs::transparent; ///< to the eye, up to the first scattering
   bool alive = true;
-  SurfacePoint at; ///< where it is
+  MaterialId medium = none<MaterialId>; ///< the solid it has been refracted into
+  SurfacePoint at;                      ///< where it is
 };
 using Paths = std::array<Path, packet_size>;
 
@@ -47,6 +48,13 @@ VertexNumbers vertex_numbers(std::uint32_t path, std::uint32_t bounce, std::uint
   for (std::uint32_t length = 0; length <= longest_chain; ++length)
     numbers.light[length] = sobol4(path, hash(seed, bounce, 2 + length));
   return numbers;
+}
+
+/// The solid that a path has crossed to where it is: that whose surface it meets from inside, or else the one it was refracted into.
+MaterialId solid_before(const TracedScene& traced, const Path& path) {
+  const MaterialId met = traced.scene.triangles[index(path.at.triangle)].material;
+  const bool inside = !path.at.front && is_solid_glass(traced.scene.materials[index(met)]);
+  return inside ? met : path.medium;
 }
 
 /// Carries the living paths whose backs are alike to the next surface; those that meet none end.
@@ -79,6 +87,9 @@ void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts&
     path.at =
         surface_point(traced, triangle, {hits.b1[lane], hits.b2[lane]}, hits.front[lane] != 0);
     path.alive = path.at.hole || !path.at.black;
+    if (const MaterialId solid = solid_before(traced, path); solid != none<MaterialId>)
+      path.throughput *= attenuation(traced.scene.materials[index(solid)],
+                                     glm::distance(path.at.position, path.ray.origin));
   }
 }
 
@@ -214,15 +225,24 @@ void go_straight_on(Path& path) {
 
 /// Draws the path's next direction, or ends it.
 void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& u) {
-  const auto drawn = sample(path.at.bsdf, local_out(path.at.normal, path.ray.direction), {u[0], u[1], u[2]});
+  const auto drawn =
+      sample(path.at.bsdf, local_out(path.at.normal, path.ray.direction), {u[0], u[1], u[2]});
   path.alive = drawn.has_value();
   if (!drawn)
     return;
   path.throughput *= drawn->weight;
   go_straight_on(path);
-  if (drawn->lobe == Lobe::straight)
+  const MaterialId met = traced.scene.triangles[index(path.at.triangle)].material;
+  const bool into_solid = is_solid_glass(traced.scene.materials[index(met)]);
+  if (drawn->lobe == Lobe::straight && !into_solid)
     return;
   path.ray.direction = to_world(path.at.normal, drawn->in);
+  if (drawn->lobe == Lobe::straight) {
+    path.medium = path.at.front ? met : none<MaterialId>;
+    // No light is looked for through solids: it is met, and then counts whole.
+    path.density = 0.0;
+    return;
+  }
   if (drawn->lobe == Lobe::ideal_reflection) {
     const bool looked_for = path.chain_length < longest_chain &&
                             std::ranges::binary_search(traced.mirror_planes, path.at.plane);

@@ -2,6 +2,7 @@
 
 #include "image/image_file.h"
 #include "reference/mirrored_lights.h"
+#include "scenes/refraction.h"
 
 #include <algorithm>
 
@@ -48,6 +49,7 @@ SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 
   const auto [a, b, c] = corners(traced.scene, triangle);
   SurfacePoint at;
   at.triangle = triangle;
+  at.front = front;
   at.position = a + barycentric.x * (b - a) + barycentric.y * (c - a);
   at.plane = traced.surfaces.plane_of_triangle[index(triangle)];
   at.normal = front ? traced.normals[index(triangle)] : -traced.normals[index(triangle)];
@@ -58,6 +60,8 @@ SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 
     at.material = untextured(material);
     at.bsdf = traced.bsdfs[index(traced.scene.triangles[index(triangle)].material)];
   }
+  if (!front)
+    at.bsdf = from_behind(at.bsdf);
   at.hole = is_cut_out(material, at.material);
   if (!front && !material.double_sided) {
     at.material.emission = Rgb(0.0);

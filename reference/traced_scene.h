@@ -36,7 +36,8 @@ struct SurfacePoint {
   Direction normal{0.0, 0.0, 1.0}; ///< of the side that was met
   MaterialPoint material;
   Bsdf bsdf;
-  bool hole = false;  ///< cut out: nothing is there
+  bool hole = false; ///< cut out: nothing is there
+  bool front = true;
   bool black = false; ///< the back of a single-sided surface: neither reflects nor emits
 };
 

@@ -2,6 +2,7 @@
 
 #include "scenes/lobes.h"
 #include "scenes/microfacets.h"
+#include "scenes/refraction.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -114,7 +115,7 @@ BsdfSample spread_sample(const Bsdf& bsdf, const Direction& out, const Direction
 
 } // namespace
 
-/// Of a solid that is taken for two sheets, each of them takes half of what its thickness does.
+/// In pass one a solid is taken for two sheets, each of them takes half of what its thickness does.
 static Rgb left_by_half(const Material& material) {
   return is_solid_glass(material) ? attenuation(material, 0.5 * material.thickness) : Rgb(1.0);
 }
@@ -129,19 +130,19 @@ Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
   const double dielectric = 1.0 - point.metallic;
   bsdf.metal = point.base_color * point.metallic;
   bsdf.diffuse = point.base_color * (dielectric * (1.0 - material.transmission));
-  bsdf.roughness = point.roughness;
-  bsdf.alpha = point.roughness <= ideal_mirror_roughness ? 0.0 : point.roughness * point.roughness;
+  bsdf.roughness = is_solid_glass(material) ? 0.0 : point.roughness;
+  bsdf.alpha = bsdf.roughness <= ideal_mirror_roughness ? 0.0 : bsdf.roughness * bsdf.roughness;
   // KHR_materials_ior and KHR_materials_specular; ior 0 stands for F0 = 1.
   const double ratio = (material.ior - 1.0) / (material.ior + 1.0);
   const Rgb f0 = glm::min(ratio * ratio * material.specular_color, Rgb(1.0)) * material.specular;
-  if (point.roughness <= visible_coat_roughness) {
+  if (bsdf.roughness <= visible_coat_roughness) {
     bsdf.coat_f0 = f0;
     bsdf.coat_f90 = material.specular;
     bsdf.coat = material.specular > 0.0 ? dielectric * (1.0 - material.transmission) : 0.0;
   }
   bsdf.glass = dielectric * material.transmission;
   if (bsdf.glass > 0.0)
-    bsdf.pane = {material.ior, f0, material.specular, point.base_color * left_by_half(material),
+    bsdf.pane = {material.ior, f0, material.specular, point.base_color,
                  is_solid_glass(material) ? GlassFaces::one : GlassFaces::both};
   return bsdf;
 }
@@ -154,7 +155,9 @@ double coat_albedo(const Bsdf& bsdf, double cosine) {
 }
 
 Rgb straight_transmission(const Bsdf& bsdf, double cosine) {
-  return bsdf.alpha == 0.0 ? facet_transmittance(bsdf, cosine) : Rgb(0.0);
+  return bsdf.alpha == 0.0 && bsdf.pane.faces == GlassFaces::both
+             ? facet_transmittance(bsdf, cosine)
+             : Rgb(0.0);
 }
 
 Rgb ideal_reflection(const Bsdf& bsdf, double cosine) {
@@ -228,6 +231,7 @@ Bsdf clear_glass(const Material& material, const MaterialPoint& point) {
   clear.diffuse = Rgb(0.0);
   clear.coat = 0.0;
   clear.roughness = clear.alpha = 0.0;
+  clear.pane.tint *= left_by_half(material);
   return clear;
 }
 
@@ -289,9 +293,13 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
   }
   const bool through = u[0] >= chances.diffuse + chances.reflection && chances.transmission > 0.0;
   if (bsdf.alpha == 0.0) {
-    if (through)
-      return BsdfSample{-out, facet_transmittance(bsdf, out.z) / chances.transmission, 0.0,
+    if (through) {
+      const auto behind = direction_behind(bsdf.pane, out);
+      if (!behind)
+        return std::nullopt;
+      return BsdfSample{*behind, facet_transmittance(bsdf, out.z) / chances.transmission, 0.0,
                         Lobe::straight};
+    }
     return BsdfSample{{-out.x, -out.y, out.z},
                       facet_reflectance(bsdf, out.z) / chances.reflection,
                       0.0,

@@ -36,7 +36,8 @@ double fresnel(double ratio, double cosine) {
 GlassShares glass_shares(const Glass& glass, double cosine) {
   const Rgb f = face_reflectance(glass, cosine);
   if (glass.faces == GlassFaces::one)
-    return {f, glass.tint * (1.0 - f)};
+    return fresnel(glass.ior, cosine) < 1.0 ? GlassShares{f, glass.tint * (1.0 - f)}
+                                            : GlassShares{Rgb(1.0), Rgb(0.0)};
   GlassShares shares;
   for (int band = 0; band < 3; ++band) {
     const double t = glass.tint[band], loop = f[band] * t;

@@ -15,7 +15,10 @@ static bool parts(const Plane& plane, const Leg& leg) {
 void glass_crossings(const RayScene& rays, const Leg& leg, std::vector<GlassCrossing>& crossings) {
   crossings.clear();
   const FrameGeometry& geometry = rays.geometry();
-  if (!std::ranges::any_of(geometry.glass, [&](const Plane& plane) { return parts(plane, leg); }))
+  // Few planes are asked first: most legs cross none of them.
+  constexpr std::size_t few = 32;
+  if (geometry.glass.size() <= few &&
+      std::ranges::none_of(geometry.glass, [&](const Plane& plane) { return parts(plane, leg); }))
     return;
   LaneRay ray;
   ray.origin = glm::vec3(to_frame(geometry.frame, leg.from));

@@ -52,6 +52,23 @@ TEST(TwoPasses, AgreeWithPathsInAGlazedRoom) {
                     {"by reflection in the pane as well", {1.9, 0.9, 1.5}, {1.0, 0.9, 0.8}}});
 }
 
+TEST(TwoPasses, AgreeWithPathsThroughSolids) {
+  // Walls that glow and are black: what is seen through an amber block is all there is to it.
+  Scene scene;
+  std::array<Material, 6> walls;
+  for (std::size_t k = 0; k < 6; ++k)
+    walls[k] = diffuse(Rgb(0.0), Rgb(1.0 + double(k), 2.0, 3.0 - 0.4 * double(k)));
+  add_room(scene, Point3(0.0), Point3(2.0), walls);
+  Material amber = solid_glass({1.0, 0.9, 0.8});
+  amber.attenuation_color = {0.8, 0.5, 0.2};
+  amber.attenuation_distance = 0.5;
+  add_box(scene, "block", {0.6, 0.2, 0.6}, {1.4, 1.1, 1.2}, amber);
+  expect_agreement(
+      scene, {{"through two opposite faces", {0.7, 0.8, 1.9}, {1.1, 0.6, 1.2}},
+              {"through two that meet, by total reflection", {0.2, 0.9, 1.9}, {1.2, 0.5, 1.2}},
+              {"from above", {0.9, 1.9, 1.3}, {1.0, 1.1, 0.9}}});
+}
+
 TEST(TwoPasses, AgreeWithPathsOnGlossUnderALamp) {
   // Black but for the plate, so that what it throws on the walls does not come back.
   Scene scene = glazed_room();

@@ -1,6 +1,8 @@
 // Glass by closed forms: Fresnel's law, the sum of what goes to and fro in a pane, and what crosses a leg.
 #include "scenes/glass.h"
 #include "scenes/glass_crossings.h"
+#include "scenes/lobes.h"
+#include "scenes/refraction.h"
 #include "tests/support/glass_rooms.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +15,8 @@ namespace {
 TEST(Glass, FresnelIsThatOfTheAngles) {
   for (const double ior : {1.1, 1.5, 2.4})
     for (const double cosine : {1.0, 0.8, 0.5, 0.1})
-      EXPECT_NEAR(fresnel(ior, cosine), face_reflectance(ior, cosine), 1e-12) << ior << ' ' << cosine;
+      EXPECT_NEAR(fresnel(ior, cosine), face_reflectance(ior, cosine), 1e-12)
+          << ior << ' ' << cosine;
   EXPECT_EQ(fresnel(1.5, 0.0), 1.0);
 }
 
@@ -69,6 +72,73 @@ TEST(Glass, TheMeanOverAllAngles) {
   Glass face;
   face.faces = GlassFaces::one;
   EXPECT_NEAR(mean_glass_shares(face).reflected.g, 0.0918, 1e-4);
+}
+
+/// A solid's face: light that leaves it towards `out`, a unit vector above the normal, has come along this direction (which points back).
+std::optional<Direction> refracted(const Direction& out, const Direction& normal, double ior) {
+  Glass face{.ior = ior};
+  face.faces = GlassFaces::one;
+  const auto behind = direction_behind(face, to_local(normal, out));
+  return behind ? std::optional(to_world(normal, *behind)) : std::nullopt;
+}
+
+TEST(Glass, LightThroughASlabIsShiftedButNotTurned) {
+  // d = t sin a (1 - cos a / (n cos b)),  sin a = n sin b
+  constexpr double ior = 1.5, thickness = 0.3;
+  const Direction up(0, 0, 1);
+  for (const double a : {0.1, 0.7, 1.4}) {
+    const Direction out(std::sin(a), 0.0, std::cos(a));
+    const auto inside = refracted(out, up, ior);
+    ASSERT_TRUE(inside);
+    const auto beyond = refracted(-*inside, up, 1.0 / ior);
+    ASSERT_TRUE(beyond);
+    EXPECT_LT(glm::distance(*beyond, -out), 1e-12);
+    const double b = std::asin(std::sin(a) / ior);
+    const Point3 leaves = *inside * (-thickness / inside->z);
+    const Vec3 shift = leaves - glm::dot(leaves, out) * out;
+    EXPECT_NEAR(glm::length(shift),
+                thickness * std::sin(a) * (1.0 - std::cos(a) / (ior * std::cos(b))), 1e-12);
+  }
+}
+
+TEST(Glass, ABallGathersParallelLightAtItsFocus) {
+  // n R / (2 (n - 1)) from its centre, of rays near the axis.
+  for (const double ior : {1.33, 1.5, 1.9}) {
+    constexpr double height = 1e-4;
+    const Direction in(0, 0, -1);
+    const Point3 enters(height, 0.0, std::sqrt(1.0 - height * height));
+    const auto inside = refracted(-in, enters, ior);
+    ASSERT_TRUE(inside);
+    const Point3 leaves = enters - 2.0 * glm::dot(*inside, enters) * *inside;
+    const auto beyond = refracted(-*inside, -leaves, 1.0 / ior);
+    ASSERT_TRUE(beyond);
+    const Point3 axis = leaves - leaves.x / beyond->x * *beyond;
+    EXPECT_NEAR(-axis.z, ior / (2.0 * (ior - 1.0)), 1e-6) << ior;
+  }
+}
+
+TEST(Glass, BeyondTheAngleOfTotalReflectionNothingPasses) {
+  Bsdf face;
+  face.pane.faces = GlassFaces::one;
+  const Glass inside = from_behind(face).pane;
+  const double limit = std::asin(1.0 / 1.5);
+  for (const double angle : {limit + 1e-6, 0.9, 1.5}) {
+    const Direction out(std::sin(angle), 0.0, std::cos(angle));
+    EXPECT_FALSE(direction_behind(inside, out));
+    EXPECT_EQ(glass_shares(inside, out.z).reflected, Rgb(1.0));
+    EXPECT_EQ(glass_shares(inside, out.z).passed, Rgb(0.0));
+  }
+  EXPECT_TRUE(direction_behind(inside, {std::sin(limit - 1e-6), 0.0, std::cos(limit - 1e-6)}));
+}
+
+TEST(Glass, WhatIsLeftAfterSomeMetres) {
+  Material material;
+  material.attenuation_color = {0.25, 0.5, 1.0};
+  material.attenuation_distance = 2.0;
+  EXPECT_NEAR(attenuation(material, 1.0).r, 0.5, 1e-15);
+  EXPECT_NEAR(attenuation(material, 4.0).g, 0.25, 1e-15);
+  EXPECT_EQ(attenuation(material, 4.0).b, 1.0);
+  EXPECT_EQ(attenuation(Material{}, 1e6), Rgb(1.0));
 }
 
 TEST(Glass, ALegCrossesEveryPaneOnceAndIsNotBlocked) {

@@ -12,6 +12,12 @@ Material glass(Rgb tint, double ior) {
   return material;
 }
 
+Material solid_glass(Rgb tint, double ior) {
+  Material material = glass(tint, ior);
+  material.thickness = 1.0;
+  return material;
+}
+
 double face_reflectance(double ior, double cosine) {
   const double in = std::acos(cosine), behind = std::asin(std::sin(in) / ior);
   if (in < 1e-6)

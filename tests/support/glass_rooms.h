@@ -8,6 +8,9 @@ namespace meninas::test {
 /// A pane, clear but for its tint.
 Material glass(Rgb tint, double ior = 1.5);
 
+/// The surface of a solid.
+Material solid_glass(Rgb tint, double ior = 1.5);
+
 /// Fresnel's reflectance of one face for unpolarised light from outside, written after Snell's law: by the angles of incidence and refraction.
 double face_reflectance(double ior, double cosine);
 

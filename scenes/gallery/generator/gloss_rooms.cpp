@@ -45,6 +45,41 @@ Stage glass_screen() {
   return stage;
 }
 
+/// Coloured bars on the wall behind, `height` metres high.
+static void add_bars(Stage& stage, double height) {
+  const std::array colours{Rgb(0.65, 0.12, 0.1), Rgb(0.75, 0.6, 0.12), Rgb(0.12, 0.3, 0.6)};
+  const Sheet back{{0.0, 0.0, 0.02}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  for (int k = 0; k < 12; ++k) {
+    const double s = 0.15 + 0.32 * k;
+    const auto paint =
+        diffuse("bar-" + std::to_string(k % 3), colours[static_cast<std::size_t>(k % 3)]);
+    stage.add("bar-" + std::to_string(k), paint,
+              batten(back, {{s, 0.0}, {s + 0.16, height}}, -0.02, 0.0));
+  }
+}
+
+Stage glass_solids() {
+  Stage stage{"glass-solids", {}, {{"main", {2.0, 1.35, 3.9}, {2.0, 0.85, 1.2}, 45.0, 4.0 / 3.0}}};
+  const Point3 low{0.0, 0.0, 0.0};
+  const Point3 high{4.0, 2.6, 4.2};
+  add_room(stage, low, high, plaster, stone, std::array{Face::y1});
+  add_ceiling(stage, high, {{1.4, 1.6}, {2.6, 2.4}}, light("lamp", {9.0, 8.4, 7.5}));
+  add_bars(stage, 1.9);
+
+  // On a table, a hair above it: nothing is pressed into the wood.
+  constexpr double top = 0.55, gap = 0.004;
+  stage.add("table", diffuse("oak", {0.35, 0.24, 0.15}),
+            standing_box({0.6, 0.0, 1.0}, {3.4, top, 1.9}));
+  stage.add("ball", solid_glass("clear", Rgb(0.98), 0.6),
+            ball({1.1, top + gap + 0.3, 1.45}, 0.3, 48));
+  stage.add("block", solid_glass("amber", {0.9, 0.55, 0.15}, 0.4),
+            box({1.75, top + gap, 1.25}, {2.15, top + gap + 0.6, 1.65}));
+  stage.add("slab", solid_glass("bottle", {0.45, 0.85, 0.5}, 0.12),
+            turned(box({2.5, top + gap, 1.4}, {3.1, top + gap + 0.7, 1.52}), {2.8, 0.0, 1.46},
+                   {0.0, 1.0, 0.0}, 35.0));
+  return stage;
+}
+
 Stage roughness_sweep() {
   Stage stage{
       "roughness-sweep", {}, {{"main", {2.0, 1.5, 4.4}, {2.0, 0.45, 1.2}, 50.0, 4.0 / 3.0}}};
@@ -54,15 +89,7 @@ Stage roughness_sweep() {
   add_ceiling(stage, high, {{1.4, 1.6}, {2.6, 2.4}}, light("lamp", {9.0, 8.4, 7.5}));
 
   // Bars on the wall, and strips before them that blur their reflections the more the further away they are.
-  const std::array colours{Rgb(0.65, 0.12, 0.1), Rgb(0.75, 0.6, 0.12), Rgb(0.12, 0.3, 0.6)};
-  const Sheet back{{0.0, 0.0, 0.02}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
-  for (int k = 0; k < 12; ++k) {
-    const double s = 0.15 + 0.32 * k;
-    const auto paint =
-        diffuse("bar-" + std::to_string(k % 3), colours[static_cast<std::size_t>(k % 3)]);
-    stage.add("bar-" + std::to_string(k), paint,
-              batten(back, {{s, 0.0}, {s + 0.16, 1.1}}, -0.02, 0.0));
-  }
+  add_bars(stage, 1.1);
   const std::array roughness{0.0, 0.1, 0.2, 0.35, 0.6};
   for (std::size_t k = 0; k < roughness.size(); ++k) {
     const double x = 0.2 + 0.6 * double(k);

@@ -52,6 +52,16 @@ static Json material_json(const Paint& paint) {
     material["doubleSided"] = true;
   }
 
+  if (paint.finish == Finish::solid) {
+    material["pbrMetallicRoughness"]["baseColorFactor"] = Json::array({1.0, 1.0, 1.0, 1.0});
+    material["extensions"] = {{"KHR_materials_transmission", {{"transmissionFactor", 1.0}}},
+                              {"KHR_materials_volume",
+                               {{"thicknessFactor", paint.thickness},
+                                {"attenuationDistance", paint.thickness},
+                                {"attenuationColor", json(paint.color)}}}};
+    material["doubleSided"] = true;
+  }
+
   // emissiveFactor ends at 1; what is brighter is carried by the strength.
   const auto brightest = std::max({paint.radiance.x, paint.radiance.y, paint.radiance.z});
   if (brightest > 1.0) {
@@ -78,7 +88,7 @@ struct Document {
   Json samplers = Json::array();
   Json textures = Json::array();
   std::vector<Picture> pictures;
-  bool has_strength = false, has_glass = false;
+  bool has_strength = false, has_glass = false, has_solids = false;
 };
 
 /// The texture of a picture, which the file holds once.
@@ -110,8 +120,11 @@ static std::size_t material_index(Document& document, const Paint& paint) {
   const auto index = static_cast<std::size_t>(known - document.materials.begin());
   if (known == document.materials.end())
     document.materials.push_back(material);
-  document.has_glass |= paint.finish == Finish::glass;
-  document.has_strength |= material.contains("extensions") && paint.finish != Finish::glass;
+  const bool solid = paint.finish == Finish::solid;
+  document.has_solids |= solid;
+  document.has_glass |= solid || paint.finish == Finish::glass;
+  document.has_strength |=
+      material.contains("extensions") && !solid && paint.finish != Finish::glass;
   return index;
 }
 
@@ -262,6 +275,8 @@ std::string gltf_text(const Stage& stage) {
     used.push_back("KHR_materials_emissive_strength");
   if (document.has_glass)
     used.push_back("KHR_materials_transmission");
+  if (document.has_solids)
+    used.push_back("KHR_materials_volume");
   if (!document.lights.empty())
     used.push_back("KHR_lights_punctual");
   if (!used.empty())

@@ -15,7 +15,8 @@ enum class Finish {
   diffuse,
   metal,  ///< a mirror when its roughness is 0
   coated, ///< diffuse under a coat of varnish
-  glass   ///< a thin pane
+  glass,  ///< a thin pane
+  solid   ///< glass through and through
 };
 
 /// A small image of a few colours, rows from the top.
@@ -37,6 +38,7 @@ struct Paint {
   double roughness = 1.0;
   Picture picture =
       {}; ///< a factor of `color`, if it has texels; cut out and seen from both sides if one of its colours is transparent
+  double thickness = 0.0; ///< of a solid, about, metres
 };
 
 inline Paint diffuse(std::string name, Rgb reflectance) { return {std::move(name), reflectance}; }
@@ -52,6 +54,11 @@ inline Paint coated(std::string name, Rgb reflectance, double roughness) {
 }
 inline Paint glass(std::string name, Rgb tint) {
   return {std::move(name), tint, Finish::glass, Rgb(0.0), 0.0};
+}
+
+/// Of light, `left` is what remains after its thickness.
+inline Paint solid_glass(std::string name, Rgb left, double thickness) {
+  return {std::move(name), left, Finish::solid, Rgb(0.0), 0.0, {}, thickness};
 }
 
 /// Reflects nothing, so that all its light is its own.

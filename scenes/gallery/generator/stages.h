@@ -13,6 +13,7 @@ Stage facing_mirrors();
 Stage sunbeam();
 Stage lattice();
 Stage glass_screen();
+Stage glass_solids();
 Stage roughness_sweep();
 Stage half_room();
 Stage doubled_room();
