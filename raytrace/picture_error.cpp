@@ -80,7 +80,8 @@ RenderSettings gathering_settings(const TwoPassSettings& settings) {
   render.samples = 1;
   render.max_bounces = RenderSettings{}.max_bounces;
   render.diffuse.term = DiffuseTerm::gather;
-  render.diffuse.direct = pass_one.direct;
+  if (settings.render.diffuse.term == DiffuseTerm::interpolated)
+    render.diffuse.direct = pass_one.direct;
   render.diffuse.gather = pass_one.form_factors;
   render.diffuse.gather.method = FormFactorMethod::rays;
   render.diffuse.gather.max_bounces = FormFactorSettings{}.max_bounces;
@@ -113,14 +114,18 @@ void probe_field(Probing& probe, std::span<const glm::ivec2> pixels, std::size_t
   const auto first = pixels.first(std::min(gathered, pixels.size()));
   if (shown.diffuse.term == DiffuseTerm::gather)
     return; // as good as what it would be compared with
-  const Radiances l1 = probe(drawn_again(shown, 1), pixels);
-  const Radiances l2 = interpolated ? l1 : probe(drawn_again(shown, 2), pixels);
+  // What is computed at the hit is drawn alike in L_k, and is not in the difference: its noise is the pixels'.
+  const Radiances l1 = probe(drawn_again(shown, 3), interpolated ? pixels : first);
+  const Radiances l2 = interpolated ? l1 : probe(drawn_again(shown, 4), first);
   probe.watch.lap();
   const Radiances g1 = probe(drawn_again(gathering, 3), first),
                   g2 = probe(drawn_again(gathering, 4), first);
   error.gather_seconds = probe.seconds_each(2 * first.size());
   const auto off = [&](std::size_t k) { return (g1[k] - l1[k]) * (g2[k] - l2[k]); };
-  const auto apart = [&](std::size_t k) { return (g1[k] - g2[k]) * (g1[k] - g2[k]); };
+  const auto apart = [&](std::size_t k) {
+    const glm::vec3 change = (g1[k] - l1[k]) - (g2[k] - l2[k]);
+    return change * change;
+  };
   errors.field = mean_of(first.size(), off);
   errors.vertices = 0.5 * mean_of(first.size(), apart);
 

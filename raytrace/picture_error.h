@@ -9,6 +9,7 @@
 //   mean (L_1 - L)(L_2 - L)  =  (error of L)^2              whatever the noise of either,
 //   mean (L_1 - L_2)^2 / 2   =  sigma^2                     the noise of a vertex that gathers N rays.
 //
+// where light that is computed at the hit in both is drawn alike, and drops out: its noise is that of the pixels.
 // The first is mesh^2 + form_factors^2 + mirror_tail^2. Of it form_factors^2 = 4/9 sigma^2 is noise of vertices (4/9 is the mean of the
 // sum of squared weights of bilinear interpolation), mirror_tail^2 what a gathering with no cap on mirrors adds to one with that of the picture, and
 // mesh^2 is the rest: what interpolation hides. Light from the source is cheap and has the edges: it is computed at many more pixels,
