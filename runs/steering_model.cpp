@@ -16,7 +16,7 @@ namespace meninas {
 namespace {
 
 constexpr double most_elements = 250'000.0;
-constexpr int most_rays = 4096, most_samples = 1024;
+constexpr int most_rays = 4096, least_samples = 4, most_samples = 1024;
 
 /// Hits that are computed of so many samples of a pixel: of sixteen that agree four tell enough (shading.cpp).
 double hits_of(int samples) { return samples <= 4 ? samples : 4.0 + 0.3 * (samples - 4); }
@@ -42,8 +42,15 @@ std::vector<Knobs> turns(const Knobs& now, const FreeKnobs& free, const Measured
   turn(free.elements && 2.0 * now.elements <= most_elements, [](Knobs& k) { k.elements *= 2.0; });
   turn(free.rays && 2 * now.rays <= most_rays, [](Knobs& k) { k.rays *= 2; });
   turn(free.samples && 4 * now.samples <= most_samples, [](Knobs& k) { k.samples *= 4; });
-  turn(free.term && now.term == DiffuseTerm::interpolated && run.error.direct_seconds > 0.0,
-       [](Knobs& k) { k.term = DiffuseTerm::direct; });
+  // Camera rays that cost next to nothing so far are worth less where each computes light: fewer of them may do.
+  const bool can_direct =
+      free.term && now.term == DiffuseTerm::interpolated && run.error.direct_seconds > 0.0;
+  for (const int fewer : {1, 4, 16})
+    turn(can_direct && (fewer == 1 || (free.samples && now.samples / fewer >= least_samples)),
+         [fewer](Knobs& k) {
+           k.term = DiffuseTerm::direct;
+           k.samples /= fewer;
+         });
   return all;
 }
 
@@ -93,6 +100,33 @@ Forecast forecast(const MeasuredRun& run, const Knobs& knobs) {
           pass_one + pass_two_seconds(run, knobs) + (again ? per_ray : run.estimate_seconds)};
 }
 
+/// Knobs that were turned one after the other may be further than they need be together: back by single turns, those first that save most,
+/// as long as the error is still foretold.
+static NextRun turned_back(const MeasuredRun& run, NextRun next, double error) {
+  for (;;) {
+    const Knobs& now = next.knobs;
+    std::vector<Knobs> all;
+    const auto back = [&](bool can, auto&& change) {
+      if (can) {
+        all.push_back(now);
+        change(all.back());
+      }
+    };
+    back(now.elements > run.knobs.elements, [](Knobs& k) { k.elements /= 2.0; });
+    back(now.rays > run.knobs.rays, [](Knobs& k) { k.rays /= 2; });
+    back(now.samples > run.knobs.samples, [](Knobs& k) { k.samples /= 4; });
+    std::optional<NextRun> best;
+    for (const Knobs& knobs : all) {
+      const Forecast then = forecast(run, knobs);
+      if (then.error <= error && (!best || then.seconds < best->forecast.seconds))
+        best = NextRun{knobs, then, {}};
+    }
+    if (!best)
+      return next;
+    next = *best;
+  }
+}
+
 NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds) {
   NextRun next{run.knobs, forecast(run, run.knobs), {}};
   while (next.forecast.error > error) {
@@ -114,6 +148,8 @@ NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, do
       break;
     next = *best;
   }
+  if (next.forecast.error <= error)
+    next = turned_back(run, next, error);
   next.why = reasons(run, next.knobs);
   return next;
 }

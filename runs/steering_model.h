@@ -4,7 +4,7 @@
 //   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide), the rest of mesh^2 r^-1; pass one r
 //   rays x r       form_factors^2 r^-1.2 (low-discrepancy rays); pass one (128 + rays), as light from the source costs about so much
 //   samples x r    pixels^2 r^-1.7 (stratified samples at edges); pass two r
-//   direct         mesh_direct^2 none; pass two as much as the hits that were made to find out
+//   direct         mesh_direct^2 none; pass two as much as the hits that were made to find out, also with a quarter or a sixteenth of the samples
 // The exponents are those of the gallery, roughly; every run is measured again, and only what comes next is foretold.
 #pragma once
 
@@ -51,7 +51,7 @@ struct NextRun {
 };
 
 /// Turns, one after the other, the knob that takes most of the logarithm of the squared error per second, until the error is foretold to be below `error`
-/// or no turn fits into `seconds`. The same knobs as before where none does.
+/// or no turn fits into `seconds`; then back what was turned further than that needs. The same knobs as before where none does.
 NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds);
 
 } // namespace meninas

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace meninas {
 namespace {
@@ -52,12 +53,42 @@ TEST(NextRun, TurnsTheKnobOfTheLargestPart) {
   EXPECT_GT(smooth.knobs.elements, Knobs{}.elements);
 }
 
+// 64 samples were next to nothing by interpolation; with light computed at every hit fewer are enough for what is wanted.
+TEST(NextRun, TakesFewerCameraRaysWhereEachComputesLight) {
+  MeasuredRun run = run_with(0.026, 0.026, 0.001, 0.001);
+  run.knobs.samples = 64;
+  run.knobs.elements = 100'000.0;
+  run.pass_one_seconds = 20.0;
+  const NextRun next = next_run(run, {}, 0.017, for_ever);
+  EXPECT_EQ(next.knobs.term, DiffuseTerm::direct);
+  EXPECT_LT(next.knobs.samples, 64);
+  EXPECT_LE(next.forecast.error, 0.017);
+  const NextRun kept = next_run(run, {.samples = false}, 0.017, for_ever);
+  EXPECT_EQ(kept.knobs.samples, 64);
+}
+
 TEST(NextRun, ForetellsWhatWasWanted) {
   for (const double wanted : {0.05, 0.02, 0.01}) {
     const NextRun next = next_run(run_with(0.08, 0.06, 0.05, 0.06), {}, wanted, for_ever);
     EXPECT_LE(next.forecast.error, wanted);
     EXPECT_GT(next.forecast.error, 0.3 * wanted) << "and not far more than that";
   }
+}
+
+TEST(NextRun, TurnsNoKnobFurtherThanNeeded) {
+  const MeasuredRun run = run_with(0.055, 0.048, 0.02, 0.02);
+  constexpr double wanted = 0.017;
+  const NextRun next = next_run(run, {}, wanted, for_ever);
+  ASSERT_LE(next.forecast.error, wanted);
+  std::vector<Knobs> less(3, next.knobs);
+  less[0].elements /= 2.0;
+  less[1].rays /= 2;
+  less[2].samples /= 4;
+  for (const Knobs& knobs : less)
+    if (knobs.elements >= run.knobs.elements && knobs.rays >= run.knobs.rays &&
+        knobs.samples >= run.knobs.samples) {
+      EXPECT_GT(forecast(run, knobs).error, wanted);
+    }
 }
 
 TEST(NextRun, StaysWithinTheTime) {
