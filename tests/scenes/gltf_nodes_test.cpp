@@ -109,7 +109,7 @@ TEST(GltfNodes, ChoosesTheScene) {
               testing::HasSubstr("scene 'Hal': the file has '0', 'Hall'"));
 }
 
-// Reading takes a time that is linear in their number: were it not, this test would take minutes.
+// Reading takes a time that is linear in their number.
 TEST(GltfNodes, AHundredThousandNodesInOneList) {
   auto file = square();
   std::string nodes = file.json["nodes"].dump();
