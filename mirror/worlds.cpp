@@ -9,8 +9,6 @@ namespace meninas {
 
 namespace {
 
-double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
-
 ConvexPolygon image_of(const Isometry& map, const ConvexPolygon& polygon) {
   ConvexPolygon image;
   for (const auto& vertex : polygon.span())

@@ -15,8 +15,6 @@ namespace meninas {
 
 namespace {
 
-double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
-
 /// w = rho / (B + B_mean) of every root cell: what an error of irradiance there is to the eye.
 std::vector<double> weights(const ElementMesh& mesh, const std::vector<Rgb>& irradiance) {
   const std::size_t roots =

@@ -7,8 +7,6 @@ namespace meninas {
 
 namespace {
 
-double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
-
 /// Root cells i0 .. i1 - 1 by j0 .. j1 - 1 of a quad side, or one cell of any side.
 struct Block {
   std::uint32_t side;

@@ -11,9 +11,15 @@
 
 namespace meninas {
 
-namespace {
+double form_factor_share(const Receiver& receiver, const VirtualLight& image, const Point3& y) {
+  const Vec3 to = y - receiver.position;
+  const double distance2 = glm::dot(to, to);
+  const double cosines =
+      std::max(0.0, glm::dot(to, receiver.normal)) * std::max(0.0, -glm::dot(to, image.normal));
+  return distance2 > 0.0 ? cosines / (distance2 * distance2) : 0.0;
+}
 
-double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
+namespace {
 
 /// Sums of the weights of the samples so far, and of those that arrive.
 struct VisibleShare {
@@ -34,14 +40,7 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
     for (int k = 0; k < count; ++k) {
       const auto sample = sobol4(static_cast<std::uint32_t>(first + k), seed);
       const Point3 y = point_on(image.polygon, area, Vec2(sample[0], sample[1]));
-
-      // The share of the form factor this point stands for: both cosines over the square of the distance.
-      const Vec3 to = y - receiver.position;
-      const double distance2 = glm::dot(to, to);
-      const double cosines =
-          std::max(0.0, glm::dot(to, receiver.normal)) * std::max(0.0, -glm::dot(to, image.normal));
-      weight[static_cast<std::size_t>(k)] =
-          distance2 > 0.0 ? cosines / (distance2 * distance2) : 0.0;
+      weight[static_cast<std::size_t>(k)] = form_factor_share(receiver, image, y);
       fold_legs(light.worlds, light.mirrors, image.world, receiver.position, receiver.plane_class,
                 y, emitter.plane_class, work.folded[static_cast<std::size_t>(k)]);
     }

@@ -57,6 +57,9 @@ struct ArrivingLight {
   }
 };
 
+/// What a point y of an image adds to the form factor, per area and times pi: both cosines over the square of the distance.
+double form_factor_share(const Receiver& receiver, const VirtualLight& image, const Point3& y);
+
 ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& workspace);

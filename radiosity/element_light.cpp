@@ -16,8 +16,6 @@ namespace meninas {
 
 namespace {
 
-double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
-
 /// Light of an element under way, of punctual lights: sums over `points`.
 struct ElementSum {
   ArrivingLight punctual;
@@ -61,15 +59,8 @@ void add_point(const LightScene& light, const Receiver& receiver, std::uint32_t 
     for (std::uint32_t k = 0; k < rays; ++k) {
       const auto sample = sobol4(work.images[sum].rays++, image_seed);
       const Point3 y = point_on(image.polygon, area, Vec2(sample[2], sample[3]));
-
-      // The share of the form factor this ray stands for: both cosines over the square of the distance, times the area.
-      const Vec3 to = y - receiver.position;
-      const double distance2 = glm::dot(to, to);
-      const double cosines =
-          std::max(0.0, glm::dot(to, receiver.normal)) * std::max(0.0, -glm::dot(to, image.normal));
-      const double weight = distance2 > 0.0 ? image.weight * glm::length(area) * cosines /
-                                                  (distance2 * distance2 * rays)
-                                            : 0.0;
+      const double weight =
+          image.weight * glm::length(area) / rays * form_factor_share(receiver, image, y);
       work.waiting.push_back({image.world, sum, emitter.plane_class, weight, receiver.position, y});
     }
   }

@@ -107,8 +107,6 @@ Vec2 point_of(bool triangle, std::uint32_t k, std::uint32_t seed) {
   return triangle && st.x + st.y > 1.0 ? 1.0 - st : st;
 }
 
-double largest(const glm::vec3& c) { return double{std::max({c.r, c.g, c.b})}; }
-
 /// What one element hides, in so many points besides its centre, and at those of outlines that pass it.
 Found look_at(const Refinement& refinement, const ElementMesh& mesh,
               const std::vector<glm::vec3>& values, ElementId element, int points,

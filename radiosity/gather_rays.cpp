@@ -119,8 +119,6 @@ Meeting meeting_of(const LightScene& light, const FaceRecord& face, const HitPac
   return {from.origin + t * from.direction, approach, mirror_shares(light, face, hits, k, cosine)};
 }
 
-float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
-
 /// The ray that goes on: behind a mirror, or one of the two ways from glass, which stays in its world if it is passed.
 MirroredRay going_on(const LightScene& light, const FaceRecord& face, const Carried& from,
                      const Meeting& at, std::uint32_t seed) {

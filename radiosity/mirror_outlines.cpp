@@ -59,8 +59,6 @@ void add_outline(const LightScene& light, const Point3& apex, const ConvexPolygo
   }
 }
 
-double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
-
 } // namespace
 
 MirrorOutlines mirror_outlines(const LightScene& light, double spacing, std::size_t most) {

@@ -10,8 +10,6 @@ namespace meninas {
 
 namespace {
 
-double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
-
 Direction mirrored(const Direction& out) { return {-out.x, -out.y, out.z}; }
 
 /// A cell's direction before the weights are brought to their norm: g, and g times the shares of what is no metal.

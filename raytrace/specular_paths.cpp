@@ -6,8 +6,6 @@
 
 namespace meninas {
 
-static float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
-
 Meeting meeting_of(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
                    const LaneState& state, std::uint32_t k, float distance) {
   const glm::dvec3 origin =

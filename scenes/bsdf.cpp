@@ -13,8 +13,6 @@ namespace meninas {
 
 namespace {
 
-double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
-
 /// The coat's Fresnel reflectance for light that meets a facet at this cosine (Schlick 1994), over the whole surface.
 Rgb coat_fresnel(const Bsdf& bsdf, double cosine) {
   if (bsdf.coat == 0.0)

@@ -12,8 +12,6 @@ namespace meninas::gltf {
 
 static constexpr double dielectric = 0.04;
 
-static double largest(const Rgb& colour) { return std::max({colour.r, colour.g, colour.b}); }
-
 /// m of the quadratic f0 m² + (d (1 - max s) / (1 - f0) + s - 2 f0) m + f0 - s = 0.
 static double metallic_of(double diffuse, double specular, double reflected) {
   if (specular < dielectric)
@@ -47,8 +45,7 @@ void read_specular_glossiness(const Document& document, const Json& model, Mater
   const auto metallic = metallic_of(largest(diffuse), largest(specular), largest(specular));
   const auto from_diffuse =
       diffuse * (1.0 - largest(specular)) / (1.0 - dielectric) / std::max(1.0 - metallic, 1e-6);
-  const auto from_specular =
-      (specular - dielectric * (1.0 - metallic)) / std::max(metallic, 1e-6);
+  const auto from_specular = (specular - dielectric * (1.0 - metallic)) / std::max(metallic, 1e-6);
   material.metallic = metallic;
   material.base_color =
       glm::clamp(glm::mix(from_diffuse, from_specular, metallic * metallic), 0.0, 1.0);

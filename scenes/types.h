@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <source_location>
@@ -37,6 +38,12 @@ template <typename Id>
   requires std::is_enum_v<Id>
 constexpr std::uint32_t index(Id id) {
   return static_cast<std::uint32_t>(id);
+}
+
+/// The brightest channel.
+template <typename Number>
+constexpr Number largest(const glm::vec<3, Number>& c) {
+  return std::max({c.r, c.g, c.b});
 }
 
 /// Throws std::logic_error with the place of the call when a precondition of the code itself is broken.

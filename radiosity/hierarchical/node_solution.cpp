@@ -9,8 +9,6 @@ namespace meninas {
 
 namespace {
 
-double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
-
 template <typename Value>
 std::vector<Value> by_element(const NodeCut& cut, const std::vector<Value>& by_receiver) {
   std::vector<Value> values;
