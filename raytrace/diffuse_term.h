@@ -9,9 +9,11 @@
 #pragma once
 
 #include "radiosity/point_gathering.h"
+#include "radiosity/shared_light.h"
 #include "raytrace/field_shading.h"
 
 #include <memory>
+#include <span>
 
 namespace meninas {
 
@@ -20,7 +22,7 @@ enum class DiffuseTerm { interpolated, direct, gather };
 struct DiffuseSettings {
   DiffuseTerm term = DiffuseTerm::interpolated;
   DirectSettings direct{.shadow_rays = 16, .penumbra_rays = 64}; ///< at a camera ray's hit
-  FormFactorSettings gather;    ///< how the rays of `gather` are followed
+  FormFactorSettings gather; ///< how the rays of `gather` are followed
   PointGatheringSettings points{.rays = 64, .cluster_shadow_rays = 4}; ///< of `gather`, at a hit
   std::uint32_t draw = 0; ///< another one: other samples at the hits of the same camera rays
 };
@@ -32,14 +34,18 @@ FieldContent field_content(const DiffuseField& field, const DiffuseSettings& set
 std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const DiffuseField& field);
 
 /// What the term needs besides the field; for `gather` alone.
-std::unique_ptr<const PointGathering> make_gathering(const LightScene& light,
-                                                     const DiffuseField& field,
-                                                     const DiffuseSettings& settings);
+std::unique_ptr<const PointGathering>
+make_gathering(const LightScene& light, const DiffuseField& field, const DiffuseSettings& settings);
 
 /// H at a point. `field` is what the interpolated part of it says there.
 glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& settings,
                               const PointGathering* gathering, ReflectedPart part,
                               const glm::vec3& field, const Receiver& receiver, std::uint32_t seed,
                               PointWorkspace& work);
+
+/// The mean of D over points of one plane that one pixel sees, which share their shadow rays: the term `direct`, but for the field.
+glm::vec3 direct_of_pixel(const LightScene& light, const DirectSettings& settings,
+                          ReflectedPart part, std::span<const Receiver> points, std::uint32_t seed,
+                          SharedLightWorkspace& work);
 
 } // namespace meninas

@@ -67,21 +67,77 @@ glm::vec3 radiance_of_lane(const RenderContext& context, const RayPacket& packet
 
 namespace {
 
-/// The sum of H over sixteen samples of one pixel on one side: of the first four, which are spread over the pixel, where they agree.
-glm::vec3 irradiance_of_packet(const RenderContext& context, const LaneState& state,
-                               const FaceRecord& face, const HitPacket& hits, TileWorkspace& work) {
+/// Lanes in a row whose samples of one pixel have landed on one side.
+struct LaneRun {
+  std::uint32_t first, end;
+};
+
+/// The sum of H over a run, D from shadow rays that all share.
+glm::vec3 shared_irradiance_of(const RenderContext& context, const LaneState& state,
+                               const FaceRecord& face, const HitPacket& hits, LaneRun run,
+                               TileWorkspace& work) {
+  const LightScene& light = context.light;
+  glm::vec3 field(0.0F);
+  work.receivers.clear();
+  for (std::uint32_t k = run.first; k < run.end; ++k) {
+    const FaceRecord& own = face_of(light.landing, hits, k);
+    const FieldPoint at = field_point(light.landing, face.side, uv_of(light, own, hits, k));
+    field += field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
+    work.receivers.push_back(receiver_at(light, own, hits, k));
+  }
+  const DiffuseSettings& diffuse = context.settings.diffuse;
+  const std::uint32_t key = hash(state.key(run.first, context.settings.seed), diffuse.draw);
+  return field + static_cast<float>(run.end - run.first) *
+                     direct_of_pixel(light, diffuse.direct, context.visible.part, work.receivers,
+                                     key, work.shared);
+}
+
+/// The sum of H over a run, lane by lane: of the first four, which are spread over the pixel, where they agree.
+glm::vec3 irradiance_of_each(const RenderContext& context, const LaneState& state,
+                             const HitPacket& hits, LaneRun run, TileWorkspace& work) {
   constexpr std::uint32_t few = 4;
   constexpr float alike = 0.005F; // relative: too little to be seen
   glm::vec3 sum(0.0F), low(std::numeric_limits<float>::infinity()), high(0.0F);
-  for (std::uint32_t k = 0; k < packet_size; ++k) {
-    const glm::vec3 h = irradiance_of_lane(context, state, face, hits, k, work);
+  for (std::uint32_t k = run.first; k < run.end; ++k) {
+    const glm::vec3 h =
+        irradiance_of_lane(context, state, face_of(context.light.landing, hits, k), hits, k, work);
     sum += h;
     low = glm::min(low, h);
     high = glm::max(high, h);
-    if (k + 1 == few && glm::all(glm::lessThanEqual(high - low, alike * high)))
+    if (k + 1 == run.first + few && run.end - run.first == packet_size &&
+        glm::all(glm::lessThanEqual(high - low, alike * high)))
       return static_cast<float>(packet_size) / static_cast<float>(few) * sum;
   }
   return sum;
+}
+
+/// The sum of H over a run where it is not that of the field alone.
+glm::vec3 irradiance_of_run(const RenderContext& context, const LaneState& state,
+                            const HitPacket& hits, LaneRun run, TileWorkspace& work) {
+  const ReflectedPart part = context.visible.part;
+  const bool shares = context.settings.diffuse.term == DiffuseTerm::direct &&
+                      run.end - run.first > 1 && part != ReflectedPart::none;
+  const FaceRecord& face = face_of(context.light.landing, hits, run.first);
+  return shares ? shared_irradiance_of(context, state, face, hits, run, work)
+                : irradiance_of_each(context, state, hits, run, work);
+}
+
+/// From lane k on those that have come to the same side, in the same pixel and by the same way, with light that a run can add up.
+LaneRun run_from(const RenderContext& context, const RayPacket& packet, const LaneState& state,
+                 const HitPacket& hits, const FaceRecord& face, std::uint32_t k) {
+  LaneRun run{k, k + 1};
+  if (context.settings.diffuse.term != DiffuseTerm::direct ||
+      context.visible.shading[face.side].textured)
+    return run;
+  const auto goes_on = [&](std::uint32_t j) {
+    return hits.triangle[j] != index(none<TriangleId>) && state.pixel[j] == state.pixel[k] &&
+           state.way(j) == state.way(k) &&
+           face_of(context.light.landing, hits, j).side == face.side &&
+           (!state.specular || state.specular[j].throughput == state.specular[k].throughput);
+  };
+  while (run.end < packet.count && goes_on(run.end))
+    ++run.end;
+  return run;
 }
 
 /// Adds what each ray has landed on to its pixel, and queues the rays that a mirror sends on.
@@ -89,7 +145,9 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
                       const HitPacket& hits, TileWorkspace& work) {
   const LightScene& light = context.light;
   const bool mirrors = context.settings.mode == RenderMode::hybrid;
-  glm::vec3 sum(0.0F); // of lanes of one pixel in a row
+  const bool computed = context.settings.diffuse.term != DiffuseTerm::interpolated;
+  glm::vec3 sum(0.0F);   // of lanes of one pixel in a row
+  std::uint32_t lit = 0; // lanes before have their light
   for (std::uint32_t k = 0; k < packet.count; ++k) {
     if (hits.triangle[k] != index(none<TriangleId>)) {
       const FaceRecord& face = face_of(light.landing, hits, k);
@@ -97,8 +155,17 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
       glm::vec3 radiance(0.0F);
       if (has_lobe)
         radiance = scattered_radiance(context, packet, state, face, hits, k, work);
-      else if (face.side != FaceRecord::nothing)
+      else if (face.side != FaceRecord::nothing && !computed)
         radiance = radiance_of_lane(context, packet, state, face, hits, k, work);
+      else if (face.side != FaceRecord::nothing) {
+        const SideShading shading = shading_at(context, packet, state, face, hits, k);
+        radiance = share_of_rays(context, state, face, hits, k) * shading.emitted;
+        if (k >= lit) {
+          const LaneRun run = run_from(context, packet, state, hits, face, k);
+          radiance += shading.albedo_over_pi * irradiance_of_run(context, state, hits, run, work);
+          lit = run.end;
+        }
+      }
       sum += state.specular ? state.specular[k].throughput * radiance : radiance;
       if (face.mirrors && mirrors && !has_lobe)
         reflect(context, face, packet, state, k, hits.distance[k], work);
@@ -147,7 +214,7 @@ bool shade_as_one(const RenderContext& context, const LaneState& state, const Hi
 
   if (context.settings.diffuse.term != DiffuseTerm::interpolated) {
     const SideShading& shading = context.visible.shading[face.side];
-    const glm::vec3 h = irradiance_of_packet(context, state, face, hits, work);
+    const glm::vec3 h = irradiance_of_run(context, state, hits, {0, packet_size}, work);
     work.sums[state.way(0)][state.pixel[0]] +=
         throughput *
         (static_cast<float>(packet_size) * shading.emitted + shading.albedo_over_pi * h);

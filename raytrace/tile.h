@@ -55,7 +55,9 @@ struct TileWorkspace {
   std::vector<LobeRay> lobe;
   std::vector<PunctualArrival> highlights;
   std::vector<EmissionSample> lamps;
-  PointWorkspace point; ///< of diffuse terms computed at the hit
+  PointWorkspace point;        ///< of diffuse terms computed at the hit
+  SharedLightWorkspace shared; ///< of those that a pixel's hits share
+  std::vector<Receiver> receivers;
   std::uint64_t camera_rays = 0, specular_rays = 0;
 };
 

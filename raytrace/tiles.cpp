@@ -72,7 +72,7 @@ static RayTotals totals_of(const tbb::enumerable_thread_specific<TileWorkspace>&
   for (const auto& work : workspaces) {
     totals.camera += work.camera_rays;
     totals.specular += work.specular_rays;
-    totals.shadow += work.point.direct.shadow_rays;
+    totals.shadow += work.point.direct.shadow_rays + work.shared.point.shadow_rays;
     totals.gather += work.point.rays;
   }
   return totals;

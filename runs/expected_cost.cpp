@@ -50,7 +50,7 @@ PointSeconds point_seconds(const PreparedScene& prepared, const PassOneSettings&
   seconds.source = seconds_of_one(receivers.size(), 4 * some, [&](std::size_t v) {
     direct_irradiance(light, receivers[v], settings.direct, seed(v), work.direct);
   });
-  ElementWorkspace element_work;
+  SharedLightWorkspace element_work;
   seconds.on_element = seconds_of_one(element_count(mesh), some, [&](std::size_t e) {
     direct_irradiance(light, static_cast<ElementId>(e), 0, settings.direct, element_work);
   });

@@ -18,8 +18,8 @@ namespace {
 constexpr double most_elements = 250'000.0;
 constexpr int most_rays = 4096, least_samples = 4, most_samples = 1024;
 
-/// Hits that are computed of so many samples of a pixel: of sixteen that agree four tell enough (shading.cpp).
-double hits_of(int samples) { return samples <= 4 ? samples : 4.0 + 0.3 * (samples - 4); }
+/// What so many samples of a pixel take, in hits of their own: they share shadow rays (radiosity/shared_light.h).
+double hits_of(int samples) { return samples <= 4 ? samples : std::max(4.0, 0.3 * samples); }
 
 double pass_two_seconds(const MeasuredRun& run, const Knobs& knobs) {
   const double share = double(knobs.samples) / run.knobs.samples;

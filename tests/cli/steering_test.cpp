@@ -55,7 +55,9 @@ TEST_F(Steering, LeavesWhatWasSet) {
                     "128", "--element-size", "0.25"})
                 .code,
             0);
-  for (const json& step : figures().at("choice").at("steps"))
+  const json steps = figures().at("choice").at("steps");
+  ASSERT_FALSE(steps.empty());
+  for (const json& step : steps)
     EXPECT_EQ(step.at("rays"), 128);
 }
 

@@ -1,0 +1,192 @@
+#include "radiosity/shared_light.h"
+
+#include "radiosity/point_form_factor.h"
+#include "radiosity/shadow_legs.h"
+#include "scenes/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+/// Of the points so far.
+struct PointSum {
+  ArrivingLight punctual;
+  int points = 0;
+};
+
+std::uint32_t sum_of(SharedLightWorkspace& work, const LightScene& light, const VirtualLight& image,
+                     int rays) {
+  const std::uint64_t key = (std::uint64_t{index(image.world)} << 32) | image.emitter;
+  const auto [found, is_new] =
+      work.image_of.try_emplace(key, static_cast<std::uint32_t>(work.images.size()));
+  if (is_new)
+    work.images.push_back({.source = light.worlds.worlds[index(image.world)].throughput *
+                                     light.emitters[image.emitter].radiosity,
+                           .world = image.world,
+                           .from_a_point = static_cast<std::uint32_t>(rays)});
+  return found->second;
+}
+
+/// What an image brings to the point without blockers, its brightest channel.
+double brought_by(const ImageSum& image, double form_factor) {
+  return form_factor * largest(image.source);
+}
+
+/// Of the images at a point the most that one of them brings, as far as it is not known to be hidden.
+double most_brought(const SharedLightWorkspace& work) {
+  double most = 0.0;
+  for (const auto& [sum, form_factor] : work.at_point) {
+    const ImageSum& image = work.images[sum];
+    if (image.rays == 0 || image.seen > 0.0)
+      most = std::max(most, brought_by(image, form_factor));
+  }
+  return most;
+}
+
+/// Adds what every image brings to a point without blockers, and the shadow rays that will tell how much of it arrives.
+void add_point(const LightScene& light, const Receiver& receiver, std::uint32_t point,
+               std::uint32_t seed, const SharedLightSettings& settings,
+               SharedLightWorkspace& work) {
+  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  // Where images are chosen, the steps through them begin elsewhere at every point, evenly by the golden section.
+  constexpr std::uint32_t golden_section = 0x9e3779b9;
+  const LightChoice choice{static_cast<std::size_t>(settings.images),
+                           0x1p-32 * (hash(seed, 0xc401ce) + point * golden_section)};
+  chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice,
+                work.point.choice, work.point.lights);
+  work.at_point.clear();
+  for (const VirtualLight& image : work.point.lights)
+    work.at_point.push_back({sum_of(work, light, image, settings.rays),
+                             image.weight * point_form_factor(receiver.position, receiver.normal,
+                                                              image.polygon.span())});
+  const double most = settings.brightest_most ? most_brought(work) : 0.0;
+
+  for (std::size_t i = 0; i < work.at_point.size(); ++i) {
+    const auto [sum, form_factor] = work.at_point[i];
+    if (form_factor <= 0.0)
+      continue;
+    const VirtualLight& image = work.point.lights[i];
+    ImageSum& total = work.images[sum];
+    total.form_factor += form_factor;
+    std::uint32_t rays = total.from_a_point;
+    if (most > 0.0) {
+      const double worth = std::min(brought_by(total, form_factor) / most, 1.0);
+      rays = std::max(1U, static_cast<std::uint32_t>(std::lround(rays * worth)));
+    }
+    const Emitter& emitter = light.emitters[image.emitter];
+    const Vec3 area = area_vector(image.polygon.span());
+    const auto image_seed = hash(seed, image.emitter, index(image.world));
+    for (std::uint32_t k = 0; k < rays; ++k) {
+      const auto sample = sobol4(total.rays++, image_seed);
+      const Point3 y = point_on(image.polygon, area, Vec2(sample[2], sample[3]));
+      const double weight =
+          image.weight * glm::length(area) / rays * form_factor_share(receiver, image, y);
+      work.waiting.push_back({image.world, sum, emitter.plane_class, weight, receiver.position, y});
+    }
+  }
+}
+
+/// Traces the waiting rays, those of one world together.
+void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspace& work) {
+  std::ranges::stable_sort(work.waiting, {}, [](const WaitingRay& ray) { return ray.world; });
+  for (std::size_t first = 0; first < work.waiting.size();) {
+    const WorldId world = work.waiting[first].world;
+    std::uint32_t count = 0;
+    while (count < 16 && first + count < work.waiting.size() &&
+           work.waiting[first + count].world == world) {
+      const WaitingRay& ray = work.waiting[first + count];
+      fold_legs(light.worlds, light.mirrors, world, ray.from, leaving, ray.to, ray.arriving,
+                work.point.folded[count]);
+      ++count;
+    }
+    const std::uint32_t dark = blocked(light, work.point.folded, count, work.point.shadow_rays);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const WaitingRay& ray = work.waiting[first + k];
+      ImageSum& image = work.images[ray.image];
+      image.all += ray.weight;
+      if (((dark >> k) & 1U) != 0U)
+        continue;
+      image.seen += ray.weight;
+      image.left += ray.weight * left_by_glass(light, world, work.point.folded[k]);
+    }
+    first += count;
+  }
+  work.waiting.clear();
+}
+
+/// The mean so far.
+ArrivingLight mean_of(const SharedLightWorkspace& work, const PointSum& sum) {
+  const double points = sum.points;
+  ArrivingLight mean{sum.punctual.total / points, sum.punctual.mirrored / points,
+                     sum.punctual.punctual / points};
+  for (const ImageSum& image : work.images) {
+    const Rgb visible = image.all > 0.0 ? image.left / image.all : Rgb(0.0);
+    const Rgb arrived = visible * image.form_factor / points * image.source;
+    mean.total += arrived;
+    if (image.world != real_world)
+      mean.mirrored += arrived;
+  }
+  return mean;
+}
+
+/// About the error of the mean by the shadow rays' choice.
+double penumbra_error(const SharedLightWorkspace& work, const PointSum& sum) {
+  double error = 0.0;
+  for (const ImageSum& image : work.images) {
+    const double visible = image.all > 0.0 ? image.seen / image.all : 0.0;
+    const double brought = brought_by(image, image.form_factor / sum.points);
+    error += visible * (1.0 - visible) * std::pow(image.rays, -1.5) * brought * brought;
+  }
+  return std::sqrt(error);
+}
+
+void add_punctual(const LightScene& light, const Receiver& receiver, PointSum& sum,
+                  SharedLightWorkspace& work) {
+  punctual_arrivals(light, receiver, work.point, work.arrivals);
+  for (const PunctualArrival& arrival : work.arrivals)
+    sum.punctual = sum.punctual + ArrivingLight{arrival.irradiance,
+                                                arrival.mirrored ? arrival.irradiance : Rgb(0.0),
+                                                arrival.irradiance};
+}
+
+} // namespace
+
+ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_point,
+                                const SharedLightSettings& settings, std::uint32_t seed,
+                                SharedLightWorkspace& work) {
+  work.images.clear();
+  work.image_of.clear();
+  PointSum sum;
+  Rgb before(0.0);
+  int wanted = std::min(settings.points, settings.most_points);
+  for (;;) {
+    const NumberedPoint next = next_point();
+    add_point(light, next.receiver, next.number, seed, settings, work);
+    if (!light.punctual.empty())
+      add_punctual(light, next.receiver, sum, work);
+    if (++sum.points < wanted)
+      continue;
+
+    // Between the first half of the points and all of them the mean has moved by about its own error.
+    trace_waiting(light, next.receiver.plane_class, work);
+    const ArrivingLight mean = mean_of(work, sum);
+    const double brightest = largest(mean.total);
+    const bool settled = sum.points > settings.points &&
+                         largest(glm::abs(mean.total - before)) <= settings.unsure * brightest &&
+                         penumbra_error(work, sum) <= settings.unsure_shadow * brightest;
+    const bool dark = sum.points >= 2 * settings.points && brightest == 0.0;
+    if (settled || dark || sum.points >= settings.most_points)
+      return mean;
+    before = mean.total;
+    for (ImageSum& image : work.images)
+      image.from_a_point = image.seen > 0.0 && image.seen < image.all
+                               ? static_cast<std::uint32_t>(settings.penumbra_rays)
+                               : 1;
+    wanted = std::min(2 * sum.points, settings.most_points);
+  }
+}
+
+} // namespace meninas

@@ -1,0 +1,77 @@
+// Direct irradiance where several points of one plane share their shadow rays: points of an element, or those on which the samples of a pixel land.
+//
+//   mean_p D(x_p)  ~  sum_w tau_w sum_e E_e  mean_p F(x_p, T_w e clipped)  sum_pk g_pk V_pk / sum_pk g_pk
+//
+// The points on each image that shadow rays go to are one low-discrepancy sequence, counted on from point to point: a few rays from each do what
+// many would from one. g is the share of the form factor a ray stands for, so that a fully visible image comes out as the closed form's mean,
+// without noise. Points are doubled until the mean settles. How many rays a point sends depends on those of earlier points alone, which keeps means
+// true: a point that sent more where its own first rays disagree, and believed them where they agree, would darken the outer half of every
+// penumbra and brighten the inner one.
+#pragma once
+
+#include "radiosity/light_samples.h"
+
+#include <functional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace meninas {
+
+struct SharedLightSettings {
+  int points = 2;       ///< to begin with
+  int most_points = 16; ///< doubled up to this while the mean is unsure
+  int images = 256;     ///< emitter images computed at a point; of more, a choice
+  int rays = 4;         ///< from each point to an image, to begin with
+  int penumbra_rays =
+      4; ///< from each of the later points to an image that is seen in part; one goes to others
+  double unsure = 0.01;         ///< relative change of the mean by the last doubling
+  double unsure_shadow = 0.005; ///< error of the mean by shadow rays, relative
+  bool brightest_most =
+      false; ///< images that bring less than the brightest one in sight take fewer rays
+};
+
+/// One emitter in one world, over all points so far.
+struct ImageSum {
+  Rgb source{0.0}; ///< tau E
+  WorldId world = real_world;
+  double form_factor = 0.0;       ///< sum over points, blockers aside
+  double all = 0.0, seen = 0.0;   ///< weights of its shadow rays, and of those that arrive
+  Rgb left{0.0};                  ///< of the latter, what glass on their way leaves
+  std::uint32_t rays = 0;         ///< shadow rays so far
+  std::uint32_t from_a_point = 1; ///< from each of the next points
+};
+
+/// A shadow ray that waits for others through the same mirrors.
+struct WaitingRay {
+  WorldId world = real_world;
+  std::uint32_t image = 0; ///< index of its ImageSum
+  PlaneId arriving = none<PlaneId>;
+  double weight = 0.0;
+  Point3 from, to;
+};
+
+/// Storage reused from one mean to the next; one for each thread.
+struct SharedLightWorkspace {
+  DirectWorkspace point;
+  std::vector<ImageSum> images;
+  std::unordered_map<std::uint64_t, std::uint32_t> image_of; ///< by world and emitter
+  std::vector<std::pair<std::uint32_t, double>>
+      at_point; ///< the images of one point: index of the ImageSum, form factor without blockers
+  std::vector<WaitingRay> waiting;
+  std::vector<PunctualArrival> arrivals;
+};
+
+struct NumberedPoint {
+  Receiver receiver;
+  std::uint32_t number; ///< in its sequence, of which some may be left out
+};
+/// The next of the points, all in one plane.
+using NextPoint = std::function<NumberedPoint()>;
+
+/// The mean over as many points as it takes.
+ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_point,
+                                const SharedLightSettings& settings, std::uint32_t seed,
+                                SharedLightWorkspace& workspace);
+
+} // namespace meninas
