@@ -5,10 +5,12 @@
 #include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
 #include <span>
 
 namespace meninas {
@@ -24,7 +26,7 @@ struct RowList {
   std::vector<float> weights;
 };
 
-/// Rows of one chunk, to be strung together in order; storage reused from one to the next.
+/// Rows of one chunk, to be strung together in order; storage reused from one to another.
 struct RowChunk {
   RowList transport, beyond;
   std::uint64_t rays = 0;
@@ -181,6 +183,49 @@ void assemble_row(const Assembly& assembly, std::size_t row, Workspace& work, Ro
   chunk.rays += gathered.traced;
 }
 
+/// Strings chunks together in their order, whichever threads assemble them.
+class OrderedRows {
+public:
+  OrderedRows(FormFactors& result, std::size_t count, const Progress& progress)
+      : result_(result), count_(count), progress_(progress) {}
+
+  /// An empty one, with the storage of another before it.
+  RowChunk unused() {
+    const std::lock_guard lock(mutex_);
+    if (spare_.empty())
+      return {};
+    RowChunk chunk = std::move(spare_.back());
+    spare_.pop_back();
+    return chunk;
+  }
+
+  /// Chunk number c, which waits until all before it are there.
+  void append(std::size_t c, RowChunk&& assembled) {
+    const std::lock_guard lock(mutex_);
+    waiting_.emplace(c, std::move(assembled));
+    for (auto first = waiting_.begin(); first != waiting_.end() && first->first == done_;
+         first = waiting_.erase(first)) {
+      RowChunk& chunk = first->second;
+      append_rows(chunk.transport, result_.transport);
+      append_rows(chunk.beyond, result_.beyond);
+      result_.rays_traced += chunk.rays;
+      clear(chunk);
+      spare_.push_back(std::move(chunk));
+      ++done_;
+      if (progress_)
+        progress_("form factors", static_cast<double>(done_) / static_cast<double>(count_));
+    }
+  }
+
+private:
+  FormFactors& result_;
+  std::size_t count_, done_ = 0;
+  const Progress& progress_;
+  std::mutex mutex_;
+  std::map<std::size_t, RowChunk> waiting_;
+  std::vector<RowChunk> spare_;
+};
+
 } // namespace
 
 FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings,
@@ -215,41 +260,20 @@ FormFactors assemble_rows(const LightScene& light, std::size_t size, const RowRe
   result.transport = empty_transport(size, assembly.bands);
   result.beyond = empty_transport(size, assembly.bands);
 
-  // Chunks are assembled by any thread and appended in order. No more are under way than there are slots, so that chunk c finds
-  // its slot, c modulo their number, free again.
   const std::size_t chunk_count = (size + chunk_size - 1) / chunk_size;
-  std::vector<RowChunk> slots(4 *
-                              static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
   tbb::enumerable_thread_specific<Workspace> workspaces;
-  std::size_t next = 0, done = 0;
-  const auto start_chunk = [&](tbb::flow_control& flow) {
-    if (next == chunk_count)
-      flow.stop();
-    return next++;
-  };
-  const auto assemble_chunk = [&](std::size_t c) {
+  OrderedRows rows{result, chunk_count, progress};
+  std::atomic<std::size_t> next{0};
+  tbb::parallel_for(std::size_t{0}, chunk_count, [&](std::size_t) {
+    const std::size_t c = next++; // begun in order, so that few wait for their turn
+    RowChunk chunk = rows.unused();
     Workspace& work = workspaces.local();
-    RowChunk& chunk = slots[c % slots.size()];
-    clear(chunk);
     work.row.place.resize(element_count(light.mesh), 0);
     work.beyond.place.resize(element_count(light.mesh), 0);
     for (std::size_t row = c * chunk_size; row < std::min(size, (c + 1) * chunk_size); ++row)
       assemble_row(assembly, row, work, chunk, result);
-    return c;
-  };
-  const auto append_chunk = [&](std::size_t c) {
-    const RowChunk& chunk = slots[c % slots.size()];
-    append_rows(chunk.transport, result.transport);
-    append_rows(chunk.beyond, result.beyond);
-    result.rays_traced += chunk.rays;
-    if (progress)
-      progress("form factors", static_cast<double>(++done) / static_cast<double>(chunk_count));
-  };
-  tbb::parallel_pipeline(
-      slots.size(),
-      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, start_chunk) &
-          tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, assemble_chunk) &
-          tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, append_chunk));
+    rows.append(c, std::move(chunk));
+  });
   return result;
 }
 

@@ -11,6 +11,7 @@
 
 #include <dlfcn.h>
 
+#include <cstddef>
 #include <new>
 
 namespace tbb::detail::r1 {
@@ -83,11 +84,19 @@ void wait(wait_context& waited, task_group_context& context) {
   after_tasks_of(waited);
 }
 
-void* allocate(d1::small_object_pool*&, std::size_t bytes, const d1::execution_data&) {
+/// The heap is no pool, but the headers insist on one: its address, which is all they look at.
+static d1::small_object_pool* no_pool() {
+  alignas(std::max_align_t) static std::byte place[64];
+  return reinterpret_cast<d1::small_object_pool*>(place);
+}
+
+void* allocate(d1::small_object_pool*& pool, std::size_t bytes, const d1::execution_data&) {
+  pool = no_pool();
   return ::operator new(bytes, std::align_val_t(d1::task_alignment));
 }
 
-void* allocate(d1::small_object_pool*&, std::size_t bytes) {
+void* allocate(d1::small_object_pool*& pool, std::size_t bytes) {
+  pool = no_pool();
   return ::operator new(bytes, std::align_val_t(d1::task_alignment));
 }
 
