@@ -8,7 +8,6 @@
 #include "bench/truth.h"
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"
-#include "scenes/gltf.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +27,7 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
   run.samples = samples;
   const PassOneSettings pass_one = two_pass_settings(run).pass_one;
   const double before = processor_seconds();
-  const auto prepared = prepare_scene(load_gltf(file), pass_one);
+  const auto prepared = prepare_scene(truth.scene, pass_one);
   const RadiositySolution solution = solve_pass_one(*prepared->light, pass_one);
   fmt::print("| `{}` | {:.2f} |", file.stem().string(), processor_seconds() - before);
   const LightScene& lit = field_scene(*prepared->light, solution);

@@ -6,12 +6,11 @@
 // or of a run of the two passes that is much finer. Every scene is rendered with a coarse and a fine mesh, few and many rays, by interpolation and
 // with light from the source computed at the hit, with few and many camera rays. The last line counts how many estimates are within a factor of two, or
 // below 0.002 like the error, which is as far as the noise of reference/images lets one see.
-#include "image/image_file.h"
+#include "bench/truth.h"
 #include "image/relative_error.h"
 #include "raytrace/picture_error.h"
 #include "runs/run_settings.h"
 #include "scenes/errors.h"
-#include "scenes/gltf.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
@@ -21,22 +20,9 @@
 #include <vector>
 
 using namespace meninas;
+using namespace meninas::bench;
 
 namespace {
-
-struct Truth {
-  Image mean;
-  std::optional<Image> variance;
-};
-
-Truth read_truth(const std::filesystem::path& file) {
-  ImageFile picture = read_image(file);
-  Truth truth{std::move(picture.picture), {}};
-  const auto variance = std::ranges::find(picture.layers, "variance", &Layer::name);
-  if (variance != picture.layers.end())
-    truth.variance = std::move(variance->image);
-  return truth;
-}
 
 struct Sweep {
   double elements;
@@ -63,8 +49,8 @@ struct Tally {
 };
 
 Tally measure_scene(const std::filesystem::path& references, const std::filesystem::path& file) {
-  const Scene scene = load_gltf(file);
-  const Truth truth = read_truth(references / (file.stem().string() + ".reference.exr"));
+  const Truth truth = read_truth(references, file);
+  const Scene& scene = truth.scene;
   Tally tally;
   for (const Sweep& sweep : sweeps) {
     TwoPassSettings settings = two_pass_settings(RunSettings{});

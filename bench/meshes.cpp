@@ -10,7 +10,6 @@
 #include "bench/truth.h"
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"
-#include "scenes/gltf.h"
 
 #include <fmt/format.h>
 
@@ -57,8 +56,8 @@ double needed(const std::vector<Measured>& uniform, double error, double (*what)
 }
 
 void measure_scene(const std::filesystem::path& references, const std::filesystem::path& file) {
-  const Scene scene = load_gltf(file);
   const Truth truth = read_truth(references, file);
+  const Scene& scene = truth.scene;
   fmt::print("\n{}\n{:>22} {:>9} {:>9} {:>9}   {}\n", file.stem().string(), "mesh", "elements",
              "seconds", "error", "uniform for this error: elements, seconds");
   std::vector<Measured> uniform;

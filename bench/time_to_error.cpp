@@ -9,14 +9,13 @@
 // what share of it bare Embree loops (bare_embree.h) would take for the rays that were traced: the floor. Starting the program is not in it.
 #include "bench/bare_embree.h"
 #include "bench/stage_rays.h"
-#include "image/image_file.h"
+#include "bench/truth.h"
 #include "image/relative_error.h"
 #include "radiosity/world_tail.h"
 #include "raytrace/probes.h"
 #include "runs/run_settings.h"
 #include "runs/setting_options.h"
 #include "scenes/errors.h"
-#include "scenes/gltf.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -34,8 +33,6 @@ using namespace meninas::bench;
 namespace {
 
 constexpr int side = 256;
-
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Seconds of one thread that a bare loop takes for a ray.
 struct BareSeconds {
@@ -77,15 +74,15 @@ struct Measured {
   double total() const { return prepare + form_factors + solve + interpolate + render; }
 };
 
-struct Truth {
-  Image mean;
-  std::optional<Image> variance;
-  std::vector<std::uint8_t> emits;
+struct Known {
+  Truth truth;
+  std::vector<std::uint8_t> emits; ///< pixels that show lamps; empty: not yet looked for
 };
 
 /// Stages are timed by the clock; their shares of processor time are the same where all threads work.
-Measured measure(const Scene& scene, const RunSettings& settings, Truth& truth,
-                 std::optional<BareSeconds>& bare) {
+Measured measure(Known& known, const RunSettings& settings, std::optional<BareSeconds>& bare) {
+  const Truth& truth = known.truth;
+  const Scene& scene = truth.scene;
   TwoPassSettings two_pass = two_pass_settings(settings);
   Measured m{.settings = settings};
   const double begin = processor_seconds();
@@ -116,10 +113,10 @@ Measured measure(const Scene& scene, const RunSettings& settings, Truth& truth,
 
   two_pass.render.width = truth.mean.width;
   two_pass.render.height = truth.mean.height;
-  if (truth.emits.empty())
-    truth.emits = emitter_pixels(lit, solution.field, camera, two_pass.render, truth.mean, 16);
+  if (known.emits.empty())
+    known.emits = emitter_pixels(lit, solution.field, camera, two_pass.render, truth.mean, 16);
   m.error = relative_error(render(lit, solution.field, camera, two_pass.render).image, truth.mean,
-                           truth.emits, truth.variance ? &*truth.variance : nullptr);
+                           known.emits, truth.variance ? &*truth.variance : nullptr);
   return m;
 }
 
@@ -139,15 +136,6 @@ std::vector<RunSettings> ladder(double area) {
   return all;
 }
 
-Truth read_truth(const std::filesystem::path& file) {
-  ImageFile picture = read_image(file);
-  Truth truth{std::move(picture.picture), {}, {}};
-  const auto variance = std::ranges::find(picture.layers, "variance", &Layer::name);
-  if (variance != picture.layers.end())
-    truth.variance = std::move(variance->image);
-  return truth;
-}
-
 void print(const std::string& what, const Measured& m) {
   fmt::print("{:22} {:6.2f} s  prepare {:.2f} form factors {:.2f} solve {:.2f} interpolate {:.2f} "
              "render {:.2f}  "
@@ -157,20 +145,21 @@ void print(const std::string& what, const Measured& m) {
   std::fflush(stdout);
 }
 
-void measure_presets(const Scene& scene, const std::string& name, Truth& truth) {
+void measure_presets(const std::string& name, Known& known) {
   std::optional<BareSeconds> bare;
   for (const Quality quality : {Quality::draft, Quality::normal, Quality::fine}) {
     RunSettings settings;
     settings.quality = quality;
-    print(name + ' ' + name_of(quality), measure(scene, settings, truth, bare));
+    print(name + ' ' + name_of(quality), measure(known, settings, bare));
   }
 }
 
-void measure_ladder(const Scene& scene, const std::string& name, Truth& truth) {
+void measure_ladder(const std::string& name, Known& known) {
   std::optional<BareSeconds> bare;
+  const Scene& scene = known.truth.scene;
   std::vector<Measured> all;
   for (const RunSettings& settings : ladder(receiving_area(scene, find_surfaces(scene))))
-    all.push_back(measure(scene, settings, truth, bare));
+    all.push_back(measure(known, settings, bare));
   for (const double wanted : {0.05, 0.02, 0.01}) {
     const Measured* best = nullptr;
     for (const Measured& m : all)
@@ -197,9 +186,8 @@ int main(int argc, char** argv) {
     for (int k = first + 1; k < argc; ++k) {
       const std::filesystem::path file = argv[k];
       const std::string name = file.stem().string();
-      const Scene scene = load_gltf(file);
-      Truth truth = read_truth(std::filesystem::path(argv[first]) / (name + ".reference.exr"));
-      (presets ? measure_presets : measure_ladder)(scene, name, truth);
+      Known known{read_truth(argv[first], file), {}};
+      (presets ? measure_presets : measure_ladder)(name, known);
     }
   } catch (const std::exception& error) {
     fmt::print("{}\n", error.what());

@@ -1,23 +1,34 @@
 #include "bench/truth.h"
 
 #include "image/image_file.h"
-#include "scenes/errors.h"
+#include "scenes/gltf.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 
 namespace meninas::bench {
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
+/// "r,g,b" as pictures keep it; black where they do not.
+static Rgb background_of(const Attributes& attributes) {
+  const auto found = std::ranges::find(attributes, "background", &Attributes::value_type::first);
+  Rgb background(0.0);
+  if (found != attributes.end())
+    std::sscanf(found->second.c_str(), "%lf,%lf,%lf", &background.r, &background.g, &background.b);
+  return background;
+}
+
 Truth read_truth(const std::filesystem::path& folder, const std::filesystem::path& scene) {
-  const auto file = folder / (scene.stem().string() + ".reference.exr");
-  ImageFile picture = read_image(file);
-  const auto variance = std::ranges::find(picture.layers, "variance", &Layer::name);
-  if (variance == picture.layers.end())
-    throw InputError(file.string(), "", "has no layer of variances");
-  return {std::move(picture.picture), std::move(variance->image)};
+  ImageFile file = read_image(folder / (scene.stem().string() + ".reference.exr"));
+  Truth truth{std::move(file.picture), {}, load_gltf(scene)};
+  const auto variance = std::ranges::find(file.layers, "variance", &Layer::name);
+  if (variance != file.layers.end())
+    truth.variance = std::move(variance->image);
+  truth.scene.background = background_of(file.attributes);
+  return truth;
 }
 
 double error_of(const Image& picture, const Truth& truth) {
@@ -29,7 +40,8 @@ double error_of(const Image& picture, const Truth& truth) {
     for (int band = 0; band < 3; ++band) {
       const double r = double{truth.mean.pixels[p][band]},
                    off = double{picture.pixels[p][band]} - r;
-      sum += (off * off - double{truth.variance.pixels[p][band]}) / std::pow(r + mean[band], 2.0);
+      sum += (off * off - (truth.variance ? double{truth.variance->pixels[p][band]} : 0.0)) /
+             std::pow(r + mean[band], 2.0);
     }
   return std::sqrt(std::max(sum, 0.0) / (3.0 * double(picture.pixels.size())));
 }

@@ -4,13 +4,12 @@
 //
 // Every scene is rendered for the relative error X, in the size of REFERENCES/NAME.reference.exr, whose variance is taken off. Its true error
 // stands beside the estimate that the run ended with, with the steps and the processor seconds it took.
-#include "image/image_file.h"
+#include "bench/truth.h"
 #include "image/relative_error.h"
 #include "raytrace/probes.h"
 #include "runs/setting_options.h"
 #include "runs/steering.h"
 #include "scenes/errors.h"
-#include "scenes/gltf.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,6 +20,7 @@
 #include <string>
 
 using namespace meninas;
+using namespace meninas::bench;
 
 namespace {
 
@@ -41,26 +41,25 @@ std::vector<std::uint8_t> emitters_in(const Scene& scene, const Camera& camera,
 
 double measure_scene(double wanted, const std::filesystem::path& references,
                      const std::filesystem::path& file) {
-  const Scene scene = load_gltf(file);
-  const ImageFile truth = read_image(references / (file.stem().string() + ".reference.exr"));
-  const auto variance = std::ranges::find(truth.layers, "variance", &Layer::name);
+  const Truth truth = read_truth(references, file);
+  const Scene& scene = truth.scene;
   const Camera camera =
       scene.cameras.empty() ? default_camera(bounds_of(scene)) : scene.cameras.front();
-  const auto emits = emitters_in(scene, camera, truth.picture);
+  const auto emits = emitters_in(scene, camera, truth.mean);
 
   RunFigures figures;
   const std::clock_t before = std::clock();
   const ViewPicture view = steer({scene,
                                   camera,
-                                  {truth.picture.width, truth.picture.height},
+                                  {truth.mean.width, truth.mean.height},
                                   {},
                                   {.error = wanted, .seconds = {}},
                                   0.0,
                                   0.0},
                                  {}, figures);
   const double seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
-  const double error = relative_error(view.image, truth.picture, emits,
-                                      variance == truth.layers.end() ? nullptr : &variance->image);
+  const double error =
+      relative_error(view.image, truth.mean, emits, truth.variance ? &*truth.variance : nullptr);
   const SteeredChoice& choice = *figures.choice;
   fmt::print("{:15} error {:.4f} estimate {:.4f} {} {} steps {:6.2f} s  {}\n", file.stem().string(),
              error, figures.error_estimate->total, choice.reached ? "reached" : "not reached",

@@ -16,10 +16,14 @@ namespace fs = std::filesystem;
 
 static Attributes attributes_of(const Scene& scene, const Camera& camera,
                                 const RunSettings& settings) {
-  return {{"scene", fs::path(scene.file).filename().string()},
-          {"sceneHash", hex_digits(content_hash(scene))},
-          {"camera", camera.name},
-          {"seed", std::to_string(settings.seed)}};
+  Attributes attributes{{"scene", fs::path(scene.file).filename().string()},
+                        {"sceneHash", hex_digits(content_hash(scene))},
+                        {"camera", camera.name},
+                        {"seed", std::to_string(settings.seed)}};
+  if (const Rgb& background = scene.background; background != Rgb(0.0))
+    attributes.emplace_back("background",
+                            fmt::format("{},{},{}", background.r, background.g, background.b));
+  return attributes;
 }
 
 LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
