@@ -6,7 +6,8 @@
 // many would from one. g is the share of the form factor a ray stands for, so that a fully visible image comes out as the closed form's mean,
 // without noise. Points are doubled until the mean settles. How many rays a point sends depends on those of earlier points alone, which keeps means
 // true: a point that sent more where its own first rays disagree, and believed them where they agree, would darken the outer half of every
-// penumbra and brighten the inner one.
+// penumbra and brighten the inner one. What is left of that is that means may settle on the first points: light or shade that all of their rays have
+// missed.
 #pragma once
 
 #include "radiosity/light_samples.h"
