@@ -121,7 +121,7 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
   for (const PunctualArrival& arrival : arrivals) {
     sum.total += arrival.irradiance;
     sum.punctual += arrival.irradiance;
-    if (arrival.mirrored)
+    if (arrival.mirrors > 0)
       sum.mirrored += arrival.irradiance;
   }
   return sum;

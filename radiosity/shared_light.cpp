@@ -148,7 +148,7 @@ void add_punctual(const LightScene& light, const Receiver& receiver, PointSum& s
   punctual_arrivals(light, receiver, work.point, work.arrivals);
   for (const PunctualArrival& arrival : work.arrivals)
     sum.punctual = sum.punctual + ArrivingLight{arrival.irradiance,
-                                                arrival.mirrored ? arrival.irradiance : Rgb(0.0),
+                                                arrival.mirrors > 0 ? arrival.irradiance : Rgb(0.0),
                                                 arrival.irradiance};
 }
 

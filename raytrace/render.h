@@ -63,7 +63,8 @@ Rendering render(const LightScene& light, const DiffuseField& field, const Camer
 
 /// The same picture as the sum of nine layers, each traced for itself: `emission`, `diffuse.direct` and `diffuse.mirrored` (light
 /// whose last leg to the surface was straight, or by way of mirrors), seen straight, in one mirror (`.mirror`) and by way of
-/// several (`.mirrors`). The four transport mechanisms: diffuse to diffuse is `diffuse.direct`, specular to diffuse `diffuse.mirrored`,
+/// several (`.mirrors`). To the eye a mirror is also what reflects by a lobe, gloss, coats and glass; to a surface ideal metals and glass alone, whose
+/// worlds pass one knows, while it spreads what gloss and coats reflect. The four transport mechanisms: diffuse to diffuse is `diffuse.direct`, specular to diffuse `diffuse.mirrored`,
 /// diffuse to specular what `.mirror` shows, specular to specular what `.mirrors` shows. The field must know its mirrored part.
 Rendering render_layers(const LightScene& light, const DiffuseField& field, const Camera& camera,
                         const RenderSettings& settings, const Progress& progress = {});

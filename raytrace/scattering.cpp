@@ -107,30 +107,33 @@ void queue_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction&
   }
 }
 
-/// Light of punctual lights by the lobe.
-glm::vec3 highlights(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
-                     const Receiver& receiver, TileWorkspace& work) {
-  Rgb sum(0.0);
+/// The pixel's sum of what a lobe shows of light that has come to it by that many mirrors.
+glm::vec3& seen_by_lobe(const SpecularRay& ray, int mirrors, TileWorkspace& work) {
+  return work.sums[more_mirrors(ray.way, 1 + mirrors)][ray.pixel];
+}
+
+/// Adds light of punctual lights by the lobe.
+void add_highlights(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
+                    const Receiver& receiver, const SpecularRay& ray, TileWorkspace& work) {
   punctual_arrivals(context.light, receiver, work.point.direct, work.highlights);
   for (const PunctualArrival& arrival : work.highlights) {
     // The irradiance has the cosine already.
     const Direction in = to_local(receiver.normal, arrival.towards);
     if (in.z > 0.0)
-      sum += reflection_lobe(bsdf, out, in) * arrival.irradiance;
+      seen_by_lobe(ray, arrival.mirrors, work) +=
+          ray.throughput * glm::vec3(reflection_lobe(bsdf, out, in) * arrival.irradiance);
   }
-  return sum;
 }
 
-/// Light of emitters by the lobe, in the share of the points.
-glm::vec3 lamps_in_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
-                        const Receiver& receiver, const SpecularRay& ray, int divisions,
-                        TileWorkspace& work) {
+/// Adds light of emitters by the lobe, in the share of the points.
+void add_lamps_in_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
+                       const Receiver& receiver, const SpecularRay& ray, int divisions,
+                       TileWorkspace& work) {
   const int points = points_per_lamp(context);
   const EmissionSampling sampling{.per_image = points,
                                   .first = ray.number * static_cast<std::uint32_t>(points),
                                   .seed = pixel_seed(work.area, ray.pixel, context.settings.seed)};
   emission_samples(context.light, receiver, sampling, work.point.direct, work.lamps);
-  Rgb sum(0.0);
   for (const EmissionSample& lamp : work.lamps) {
     const double distance = glm::length(lamp.towards);
     const Direction in = to_local(receiver.normal, lamp.towards / distance);
@@ -138,10 +141,10 @@ glm::vec3 lamps_in_lobe(const RenderContext& context, const Bsdf& bsdf, const Di
       continue;
     const double p = divisions * divisions * lobe_density(bsdf, out, in);
     const double q = density_of_points(points, distance, lamp.cosine, lamp.emitter_area);
-    sum += reflection_lobe(bsdf, out, in) * lamp.radiance *
-           (in.z * lamp.cosine * lamp.area / (distance * distance) * q / (p + q));
+    const double share = in.z * lamp.cosine * lamp.area / (distance * distance) * q / (p + q);
+    seen_by_lobe(ray, lamp.mirrors, work) +=
+        ray.throughput * glm::vec3(reflection_lobe(bsdf, out, in) * lamp.radiance * share);
   }
-  return sum;
 }
 
 } // namespace
@@ -193,11 +196,10 @@ glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& pack
   const ReflectedPart part = context.visible.part;
   const bool shows_lights = part == ReflectedPart::all || part == ReflectedPart::none;
   const Receiver receiver = receiver_at(context.light, face, hits, k);
-  glm::vec3& in_mirror = work.sums[one_more_mirror(ray.way)][ray.pixel];
   if (shows_lights && bsdf.alpha > 0.0 && !context.light.punctual.empty())
-    in_mirror += ray.throughput * highlights(context, bsdf, out, receiver, work);
+    add_highlights(context, bsdf, out, receiver, ray, work);
   if (shows_lights && samples_lamps(context, bsdf, ray))
-    in_mirror += ray.throughput * lamps_in_lobe(context, bsdf, out, receiver, ray, n, work);
+    add_lamps_in_lobe(context, bsdf, out, receiver, ray, n, work);
   if (!has_field)
     return glm::vec3(0.0F);
   glm::vec3 radiance = share_of_rays(context, state, face, hits, k) *

@@ -40,8 +40,8 @@ int points_per_lamp(const RenderContext& context);
 float share_of_rays(const RenderContext& context, const LaneState& state, const FaceRecord& face,
                     const HitPacket& hits, std::uint32_t k);
 
-/// The radiance of L_e and of the field where lane k has landed. The rays of its lobe are queued; light of punctual lights in the lobe goes to
-/// the pixel, as if seen in a mirror.
+/// The radiance of L_e and of the field where lane k has landed. The rays of its lobe are queued; light of punctual lights and of points on emitters in the lobe
+/// goes to the pixel, as if seen in a mirror, and by way of the mirrors of its world.
 glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& packet,
                              const LaneState& state, const FaceRecord& face, const HitPacket& hits,
                              std::uint32_t k, TileWorkspace& work);

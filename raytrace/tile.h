@@ -42,10 +42,11 @@ struct TileArea {
   int x0, y0, width, height;
 };
 
-/// The way of seeing behind a mirror.
-inline std::uint16_t one_more_mirror(std::uint16_t way) {
-  return static_cast<std::uint16_t>(std::min<std::size_t>(way + 1U, seen_ways - 1));
+/// The way of seeing behind that many mirrors more.
+inline std::uint16_t more_mirrors(std::uint16_t way, int mirrors) {
+  return static_cast<std::uint16_t>(std::min(way + mirrors, int{seen_ways - 1}));
 }
+inline std::uint16_t one_more_mirror(std::uint16_t way) { return more_mirrors(way, 1); }
 
 struct TileWorkspace {
   std::array<std::vector<glm::vec3>, seen_ways>

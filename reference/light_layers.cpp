@@ -7,8 +7,6 @@ namespace meninas::reference {
 
 namespace {
 
-constexpr std::size_t seen_ways = 3;
-
 double sum_where(const LayerLuminances& batch, const LayerChoice& counts) {
   double sum = 0.0;
   for (std::size_t layer = 0; layer < layer_count; ++layer)
@@ -22,7 +20,7 @@ double sum_where(const LayerLuminances& batch, const LayerChoice& counts) {
 std::string layer_name(std::size_t layer) {
   constexpr std::array arrivals{"emission", "diffuse.direct", "diffuse.mirrored"};
   constexpr std::array ways{"", ".mirror", ".mirrors"};
-  return std::string(arrivals[layer / seen_ways]) + ways[layer % seen_ways];
+  return std::string(arrivals[layer / ways.size()]) + ways[layer % ways.size()];
 }
 
 Rgb sum_of(const LayerRadiance& layers) {
@@ -32,23 +30,55 @@ Rgb sum_of(const LayerRadiance& layers) {
   return sum;
 }
 
-LightRoute scattered(LightRoute route) {
-  ++route.scatterings;
-  return route;
+void LightRoutes::take(std::size_t leg, std::size_t way, const Rgb& share) {
+  const std::size_t k = leg * way_count + std::min(way, way_count - 1);
+  share_[k] = ((some_ >> k) & 1U) != 0 ? share_[k] + share : share;
+  some_ |= 1U << k;
 }
 
-LightRoute reflected(LightRoute route, std::size_t mirrors) {
-  if (route.scatterings == 0)
-    route.mirrors_seen += mirrors;
-  if (route.scatterings == 1)
-    route.last_leg_mirrors += mirrors;
-  return route;
+void LightRoutes::take_mirrored(std::size_t leg, std::size_t way, std::size_t mirrors,
+                                const Rgb& share) {
+  if (leg == seeing)
+    take(seeing, way + mirrors, share);
+  else
+    take(leg == straight && mirrors > 0 ? mirrored : leg, way, share);
 }
 
-std::size_t layer_of(const LightRoute& route) {
-  const std::size_t way = std::min(route.mirrors_seen, seen_ways - 1);
-  const std::size_t arrival = route.scatterings == 0 ? 0 : route.last_leg_mirrors == 0 ? 1 : 2;
-  return arrival * seen_ways + way;
+LightRoutes LightRoutes::reflected(std::size_t mirrors) const {
+  if (mirrors == 0)
+    return *this;
+  LightRoutes next;
+  next.some_ = 0;
+  for (std::size_t k = 0; k < share_.size(); ++k)
+    if (((some_ >> k) & 1U) != 0)
+      next.take_mirrored(k / way_count, k % way_count, mirrors, share_[k]);
+  return next;
+}
+
+LightRoutes LightRoutes::scattered(const LobeShares& shares) const {
+  LightRoutes next;
+  next.some_ = 0;
+  for (std::size_t k = 0; k < share_.size(); ++k) {
+    if (((some_ >> k) & 1U) == 0)
+      continue;
+    const std::size_t leg = k / way_count, way = k % way_count;
+    const std::size_t beyond = leg == seeing ? straight : leg == straight ? straight_done : leg;
+    if (const Rgb even = Rgb(1.0) - shares.gloss - shares.glass; even != Rgb(0.0))
+      next.take(beyond, way, share_[k] * even);
+    if (shares.gloss != Rgb(0.0))
+      next.take(leg == seeing ? seeing : beyond, leg == seeing ? way + 1 : way,
+                share_[k] * shares.gloss);
+    if (shares.glass != Rgb(0.0))
+      next.take_mirrored(leg, way, 1, share_[k] * shares.glass);
+  }
+  return next;
+}
+
+void LightRoutes::add(const Rgb& radiance, LayerRadiance& layers) const {
+  constexpr std::array<std::size_t, leg_count> arrival{0, 1, 2, 1};
+  for (std::size_t k = 0; k < share_.size(); ++k)
+    if (((some_ >> k) & 1U) != 0)
+      layers[arrival[k / way_count] * way_count + k % way_count] += radiance * share_[k];
 }
 
 Share share_of(const std::vector<LayerLuminances>& batches, const LayerChoice& part,

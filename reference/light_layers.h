@@ -1,17 +1,22 @@
 // The picture as a sum of nine layers, by the rule of the two passes' layers (raytrace/render.h) but read off the paths themselves:
 //
-//   eye, ideal mirrors, x1, ideal mirrors, x2, ..., light
+//   eye, specular paths, x1, mirrors, x2, ..., light
 //
-// x1 is the first surface that scatters or emits, seen straight, in one mirror (`.mirror`) or by way of several (`.mirrors`). What it emits
+// x1 is the first surface that emits or scatters evenly, seen straight, by one reflection (`.mirror`) or by several (`.mirrors`): of ideal mirrors, and of
+// the lobes of glossy metals, coats and glass, however wide (DESIGN 5: what has a direction of its own is a specular path). What x1 emits
 // is `emission`; what it reflects is `diffuse.mirrored` if mirrors are between x1 and x2 (the light itself, when there is nothing between), else
-// `diffuse.direct`. At x1 all lobes that scatter count alike: also what a rough metal or a rough coat reflects is `diffuse`. An ideal lobe
-// (metal, smooth coat, pane) is a mirror; what is passed straight is no part of the way.
+// `diffuse.direct`. There mirrors are ideal metals and all glass; gloss and coats are x2, as pass one spreads what they reflect. What glass
+// passes, straight, bent or blurred, is no part of the way.
+//
+// One path may be of several layers: where a surface reflects f by parts f_even + f_gloss + f_glass, the path goes on for each of them in the
+// share f_part / f of its light, by channel. So the layers add up to what the path brings, whichever lobe its direction was drawn from.
 #pragma once
 
-#include "scenes/types.h"
+#include "scenes/lobes.h"
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -28,17 +33,27 @@ std::string layer_name(std::size_t layer);
 using LayerRadiance = std::array<Rgb, layer_count>;
 Rgb sum_of(const LayerRadiance& layers);
 
-/// What of a path, from the eye on, decides about its layer.
-struct LightRoute {
-  std::size_t scatterings = 0;
-  std::size_t mirrors_seen = 0;     ///< before x1
-  std::size_t last_leg_mirrors = 0; ///< between x1 and x2
-};
-LightRoute scattered(LightRoute route);
-LightRoute reflected(LightRoute route, std::size_t mirrors);
+/// What of a path, from the eye on, decides about its layer, each possibility with its share of the path's light.
+class LightRoutes {
+public:
+  /// Off that many mirrors.
+  [[nodiscard]] LightRoutes reflected(std::size_t mirrors) const;
+  /// Back from a surface, by the shares of its lobes; evenly in what these leave.
+  [[nodiscard]] LightRoutes scattered(const LobeShares& shares) const;
+  /// Light that is emitted where the path ends.
+  void add(const Rgb& radiance, LayerRadiance& layers) const;
 
-/// Of light that is emitted where the route ends.
-std::size_t layer_of(const LightRoute& route);
+private:
+  /// Before x1, and behind it: towards x2, straight or by mirrors so far, or past it.
+  enum Leg : std::size_t { seeing, straight, mirrored, straight_done };
+  static constexpr std::size_t leg_count = 4, way_count = 3; ///< ways of seeing x1
+  /// By leg, then by way; `some` has a bit for each that is there.
+  std::array<Rgb, leg_count * way_count> share_{Rgb(1.0)};
+  std::uint32_t some_ = 1;
+
+  void take(std::size_t leg, std::size_t way, const Rgb& share);
+  void take_mirrored(std::size_t leg, std::size_t way, std::size_t mirrors, const Rgb& share);
+};
 
 /// Mean luminances of the layers of a picture.
 using LayerLuminances = std::array<double, layer_count>;

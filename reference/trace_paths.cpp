@@ -15,7 +15,7 @@ struct Path {
   Ray ray;
   Rgb throughput{1.0};
   LayerRadiance radiance{}; ///< gathered so far
-  LightRoute route;
+  LightRoutes routes;
   Point3 scattered_at{0.0}; ///< where its direction was drawn, or the image in the mirrors since
   double density =
       0.0; ///< of that direction; 0 where light is met only: from the eye, over long chains
@@ -33,7 +33,7 @@ struct Connection {
   Point3 light;
   PlaneId arriving = none<PlaneId>;
   Rgb radiance{0.0};
-  std::size_t layer = 0;
+  LightRoutes routes;
   std::size_t path = 0;
 };
 
@@ -81,7 +81,7 @@ void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts&
     const TriangleId triangle{hits.triangle[lane]};
     path.alive = triangle != none<TriangleId>;
     if (!path.alive) {
-      path.radiance[layer_of(path.route)] += path.throughput * traced.scene.background;
+      path.routes.add(path.throughput * traced.scene.background, path.radiance);
       continue;
     }
     path.at =
@@ -120,7 +120,7 @@ void add_emission(const TracedScene& traced, LightSearch search, Path& path) {
                        chain_chance(traced, path.chain_length);
     weight = path.density / (path.density + p_l);
   }
-  path.radiance[layer_of(path.route)] += path.throughput * emission * weight;
+  path.routes.add(path.throughput * emission * weight, path.radiance);
 }
 
 /// A point of a light as it is seen from somewhere.
@@ -149,6 +149,11 @@ LightPoint choose_point(const TracedScene& traced, const Point3& view,
           choosing_density(traced, view, at), true};
 }
 
+/// The routes of what is scattered towards `out` from `in`; glass that is passed is no part of them.
+LightRoutes routes_on(const Path& path, const Direction& out, const Direction& in) {
+  return in.z < 0.0 ? path.routes : path.routes.scattered(lobe_shares(path.at.bsdf, out, in));
+}
+
 /// Light from a chosen point of a light, over a chain of mirrors or none, with the weight of having been chosen.
 std::optional<Connection> connect(const TracedScene& traced, const Path& path, const Chain& chain,
                                   const std::array<float, 4>& u, LightSearch search) {
@@ -167,7 +172,7 @@ std::optional<Connection> connect(const TracedScene& traced, const Path& path, c
   const double p_l = point.density * chain_chance(traced, chain.planes.size());
   return Connection{chain, point.position, point.plane,
                     path.throughput * f * point.light * (std::abs(in.z) / (p_s + p_l)),
-                    layer_of(reflected(scattered(path.route), chain.planes.size()))};
+                    routes_on(path, out, in).reflected(chain.planes.size())};
 }
 
 /// Looks for light directly and by way of chains of mirrors.
@@ -198,9 +203,9 @@ void add_connections(const TracedScene& traced, const std::vector<Connection>& c
   for (const Connection& connection : connections) {
     const SurfacePoint& x = paths[connection.path].at;
     if (traced.see_through || !connection.chain.planes.empty()) {
-      paths[connection.path].radiance[connection.layer] +=
-          connection.radiance *
+      const Rgb left =
           chain_throughput(traced, x, connection.chain, connection.light, connection.arriving);
+      connection.routes.add(connection.radiance * left, paths[connection.path].radiance);
       continue;
     }
     const std::uint32_t lane = packet.count++;
@@ -214,7 +219,7 @@ void add_connections(const TracedScene& traced, const std::vector<Connection>& c
   const std::uint32_t blocked = occluded(traced.rays, packet, Coherence::incoherent);
   for (std::uint32_t lane = 0; lane < packet.count; ++lane)
     if (((blocked >> lane) & 1U) == 0)
-      paths[lanes[lane]->path].radiance[lanes[lane]->layer] += lanes[lane]->radiance;
+      lanes[lane]->routes.add(lanes[lane]->radiance, paths[lanes[lane]->path].radiance);
 }
 
 /// The ray goes on behind what it has met; where and how its direction was drawn still holds.
@@ -225,8 +230,8 @@ void go_straight_on(Path& path) {
 
 /// Draws the path's next direction, or ends it.
 void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& u) {
-  const auto drawn =
-      sample(path.at.bsdf, local_out(path.at.normal, path.ray.direction), {u[0], u[1], u[2]});
+  const Direction out = local_out(path.at.normal, path.ray.direction);
+  const auto drawn = sample(path.at.bsdf, out, {u[0], u[1], u[2]});
   path.alive = drawn.has_value();
   if (!drawn)
     return;
@@ -250,12 +255,14 @@ void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& 
     path.scattered_at =
         reflected_in(traced.surfaces.planes[index(path.at.plane)], path.scattered_at);
     ++path.chain_length;
-    path.route = reflected(path.route, 1);
+    // A coat is a mirror to the eye alone.
+    const bool is_coat = path.at.bsdf.metal == Rgb(0.0) && path.at.bsdf.glass == 0.0;
+    path.routes = is_coat ? path.routes.scattered({.gloss = Rgb(1.0)}) : path.routes.reflected(1);
   } else {
     path.density = drawn->density;
     path.scattered_at = path.at.position;
     path.chain_length = 0;
-    path.route = scattered(path.route);
+    path.routes = routes_on(path, out, drawn->in);
   }
   path.backs = Backs::absorb;
 }

@@ -95,9 +95,10 @@ std::string meaning_of(std::string_view layer) {
     what = "light that a mirror threw on the surface";
   }
   if (layer.ends_with(".mirrors")) {
-    return what + ", seen by way of several mirrors";
+    return what + ", seen by way of several mirrors or glossy surfaces";
   }
-  return what + (layer.ends_with(".mirror") ? ", seen in one mirror" : ", seen straight");
+  return what + (layer.ends_with(".mirror") ? ", seen in one mirror or glossy surface"
+                                            : ", seen straight");
 }
 
 MetricSettings metric_settings_of(const Comparison& comparison) {

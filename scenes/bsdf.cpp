@@ -180,6 +180,25 @@ Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in)
   return lobe.f * facet_reflectance(bsdf, lobe.cosine);
 }
 
+LobeShares lobe_shares(const Bsdf& bsdf, const Direction& out, const Direction& in) {
+  const Rgb lobe = reflection_lobe(bsdf, out, in);
+  if (lobe == Rgb(0.0))
+    return {};
+  const Rgb f = evaluate(bsdf, out, in);
+  LobeShares shares;
+  for (int band = 0; band < 3; ++band)
+    shares.gloss[band] = f[band] > 0.0 ? std::min(1.0, lobe[band] / f[band]) : 0.0;
+  if (bsdf.glass == 0.0)
+    return shares;
+  Bsdf alone = bsdf;
+  alone.metal = Rgb(0.0);
+  alone.coat = 0.0;
+  const Rgb of_glass = reflection_lobe(alone, out, in) / glm::max(lobe, Rgb(1e-300));
+  shares.glass = shares.gloss * glm::min(of_glass, Rgb(1.0));
+  shares.gloss -= shares.glass;
+  return shares;
+}
+
 Rgb even_reflectance(const Bsdf& bsdf, double cosine) {
   Rgb share = bsdf.diffuse * (1.0 - coat_albedo(bsdf, cosine));
   if (has_facets_of_metal(bsdf))

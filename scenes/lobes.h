@@ -21,6 +21,12 @@ Rgb facet_transmittance(const Bsdf& bsdf, double cosine);
 /// The reflection lobe alone, S D G2 / (4 cos_o cos_i), of directions above the surface; 0 where it is ideal.
 Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in);
 
+/// The parts of f(o, i), ideal lobes left out, in the lobe that has a direction of its own: of metal and coat, and of glass. What is left is even.
+struct LobeShares {
+  Rgb gloss{0.0}, glass{0.0};
+};
+LobeShares lobe_shares(const Bsdf& bsdf, const Direction& out, const Direction& in);
+
 /// The lobes without a direction of their own, diffuse and what facets of metal spread: the share that they reflect towards this
 /// cosine of light that comes evenly from everywhere.
 Rgb even_reflectance(const Bsdf& bsdf, double cosine);
