@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <tuple>
 
 namespace meninas {
@@ -69,30 +70,75 @@ Candidate join(const Scene& scene, EdgeUse a, EdgeUse b) {
   return candidate;
 }
 
+/// A triangle at an edge can only be paired with one of its region and node that runs along the edge the other way.
+struct Kind {
+  std::uint32_t region = 0;
+  std::uint32_t node = 0;
+  bool forward = true;
+  auto operator<=>(const Kind&) const = default;
+};
+
+struct UseOfKind {
+  Kind kind;
+  EdgeUse use;
+};
+
+void sort_by_kind(const Scene& scene, const std::vector<std::uint32_t>& region_of,
+                  std::span<const EdgeUse> uses, std::vector<UseOfKind>& sorted) {
+  sorted.clear();
+  for (const EdgeUse& use : uses) {
+    const std::size_t t = index(use.triangle);
+    sorted.push_back({{region_of[t], index(scene.triangles[t].node), use.forward}, use});
+  }
+  std::ranges::sort(sorted, [](const UseOfKind& a, const UseOfKind& b) {
+    return std::tie(a.kind, a.use.triangle) < std::tie(b.kind, b.use.triangle);
+  });
+}
+
+/// The first later triangles that one at an edge can be paired with, in the order of triangles: found without a look at all the others, of
+/// which a pile of copies or a fan of sheets has as many as there are triangles.
+std::span<const UseOfKind> partners_of(const UseOfKind& one, std::span<const UseOfKind> sorted) {
+  Kind kind = one.kind;
+  kind.forward = !kind.forward;
+  const auto first =
+      std::upper_bound(sorted.begin(), sorted.end(), std::tie(kind, one.use.triangle),
+                       [](const auto& key, const UseOfKind& other) {
+                         return key < std::tie(other.kind, other.use.triangle);
+                       });
+  const auto end =
+      std::find_if(first, first + std::min<std::ptrdiff_t>(most_partners, sorted.end() - first),
+                   [&](const UseOfKind& other) { return other.kind != kind; });
+  return {first, end};
+}
+
+/// The quad of two triangles, if it is strictly convex.
+std::optional<Candidate> candidate_of(const Scene& scene, const EdgeUse& a, const EdgeUse& b,
+                                      const Direction& normal) {
+  Candidate candidate = join(scene, a, b);
+  std::array<Point3, 4> quad{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    quad[k] = position(scene, candidate.pair.vertices[k]);
+  }
+  const auto deviation = deviation_from_rectangle(quad, normal);
+  if (!deviation) {
+    return std::nullopt;
+  }
+  candidate.deviation = static_cast<int>(std::lround(quality_steps * *deviation));
+  return candidate;
+}
+
 std::vector<Candidate> find_candidates(const Scene& scene, const Regions& regions,
                                        const std::vector<std::uint32_t>& region_of,
                                        const Topology& topology) {
   std::vector<Candidate> candidates;
+  std::vector<UseOfKind> sorted;
   for (std::uint32_t edge = 0; edge + 1 < topology.first_use.size(); ++edge) {
-    const auto uses = uses_of(topology, edge);
-    for (std::size_t i = 0; i < uses.size(); ++i) {
-      int partners = 0;
-      for (std::size_t j = i + 1; j < uses.size() && partners < most_partners; ++j) {
-        const auto [a, b] = std::pair(index(uses[i].triangle), index(uses[j].triangle));
-        if (a == b || region_of[a] != region_of[b] || uses[i].forward == uses[j].forward ||
-            scene.triangles[a].node != scene.triangles[b].node) {
-          continue;
-        }
-        ++partners;
-        Candidate candidate = join(scene, uses[i], uses[j]);
-        std::array<Point3, 4> quad{};
-        for (std::size_t k = 0; k < 4; ++k) {
-          quad[k] = position(scene, candidate.pair.vertices[k]);
-        }
-        if (const auto deviation =
-                deviation_from_rectangle(quad, regions.regions[region_of[a]].plane.normal)) {
-          candidate.deviation = static_cast<int>(std::lround(quality_steps * *deviation));
-          candidates.push_back(candidate);
+    sort_by_kind(scene, region_of, uses_of(topology, edge), sorted);
+    for (const UseOfKind& one : sorted) {
+      const Direction& normal = regions.regions[one.kind.region].plane.normal;
+      for (const UseOfKind& other : partners_of(one, sorted)) {
+        if (const auto candidate = candidate_of(scene, one.use, other.use, normal)) {
+          candidates.push_back(*candidate);
         }
       }
     }

@@ -69,6 +69,31 @@ TEST(Patches, BelongToOneNode) {
   EXPECT_EQ(model.patches.size(), 2u);
 }
 
+TEST(Patches, RectanglesThatShareOneDiagonalAllPair) {
+  Scene scene = empty_soup();
+  constexpr int sheets = 50;
+  for (int half = 0; half < 2; ++half) {
+    for (int k = 0; k < sheets; ++k) {
+      const double turn = 3.0 * k / sheets;
+      const Vec3 out(std::cos(turn), 0.0, std::sin(turn));
+      const Point3 below(0, -1, 0);
+      const Point3 above(0, 1, 0);
+      if (half == 0) {
+        add_triangle(scene, {below, above, Point3(out)});
+      } else {
+        add_triangle(scene, {above, below, Point3(-out)});
+      }
+    }
+  }
+  const SurfaceModel model = find_surfaces(scene);
+  expect_consistent(scene, model);
+  EXPECT_EQ(model.patches.size(), sheets);
+  for (const Patch& patch : model.patches) {
+    EXPECT_EQ(patch.corner_count, 4);
+    EXPECT_TRUE(patch.affine);
+  }
+}
+
 TEST(Patches, PreferTheRectanglesOfAGrid) {
   Scene scene = empty_soup();
   add_grid(scene, 9, 7, [](double u, double v) { return Point3(9.0 * u, 3.5 * v, 1.0); });
