@@ -17,6 +17,7 @@ The program exits with 1 when one of the last three is there. Nothing but Python
 """
 import argparse
 import collections
+import contextlib
 import csv
 import json
 import pathlib
@@ -99,6 +100,17 @@ def judge(model, arguments, folder):
     return ("warns" if warnings else "renders"), warnings, seconds
 
 
+def table_of(path):
+    return path.open("w", newline="") if path else contextlib.nullcontext()
+
+
+def write_row(table, row):
+    """At once, so that a run that is stopped leaves what it knows."""
+    if table:
+        csv.writer(table).writerow(row)
+        table.flush()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("meninas")
@@ -114,17 +126,14 @@ def main():
     models = sorted(path for folder in arguments.folders for path in folder.rglob("*")
                     if path.suffix.lower() in (".gltf", ".glb") and path.is_file())
     rows = []
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, table_of(arguments.csv) as table:
+        write_row(table, ("model", "verdict", "seconds", "lines"))
         for model in models:
             verdict, lines, seconds = judge(model, arguments, pathlib.Path(folder))
             rows.append((model, verdict, seconds, lines))
+            write_row(table, (model, verdict, f"{seconds:.2f}", " | ".join(lines)))
             if verdict in BAD:
                 print(f"{verdict:8} {seconds:5.1f} s  {model}: {' | '.join(lines)}", flush=True)
-    if arguments.csv:
-        with arguments.csv.open("w", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(["model", "verdict", "seconds", "lines"])
-            writer.writerows((model, verdict, f"{seconds:.2f}", " | ".join(lines)) for model, verdict, seconds, lines in rows)
 
     verdicts = collections.Counter(verdict for _, verdict, _, _ in rows)
     print(f"\n{len(rows)} models")
