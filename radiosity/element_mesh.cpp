@@ -19,6 +19,9 @@ namespace {
 bool carries_radiosity(const Material& material) {
   if (is_emitter(material) || !(is_mirror(material) || is_glass(material)))
     return true;
+  // Where its texture of transmission is black glass is opaque.
+  if (material.transmission_texture)
+    return true;
   return glm::any(glm::greaterThan(diffuse_reflectance(material), Rgb(0.0)));
 }
 

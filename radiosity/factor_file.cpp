@@ -68,6 +68,20 @@ void add_glass(Hash& hash, const Bsdf& glass) {
   hash.add(static_cast<std::uint64_t>(glass.pane.faces));
 }
 
+/// Of glass: which image, and how it lies.
+void add_texture(Hash& hash, const Scene& scene, const std::optional<TextureUse>& use) {
+  if (!use)
+    return;
+  const Texture& texture = scene.textures[index(use->texture)];
+  hash.add(std::as_bytes(std::span(texture.encoded)));
+  hash.add(static_cast<std::uint64_t>(texture.wrap_u));
+  hash.add(static_cast<std::uint64_t>(texture.wrap_v));
+  hash.add(static_cast<std::uint64_t>(texture.magnified));
+  hash.add(static_cast<std::uint64_t>(use->texcoord_set));
+  hash.add(Rgb(use->offset, use->rotation));
+  hash.add(Rgb(use->scale, 0.0));
+}
+
 std::uint64_t hash_of_mirrors(const Scene& scene, const WorldTree& worlds) {
   Hash hash;
   for (const Triangle& triangle : scene.triangles) {
@@ -75,10 +89,16 @@ std::uint64_t hash_of_mirrors(const Scene& scene, const WorldTree& worlds) {
     hash.add(mirror_reflectance(material));
     if (is_glass(material))
       add_glass(hash, clear_glass(material, untextured(material)));
-    if (is_glass(material) && material.base_color_texture)
-      hash.add(std::as_bytes(
-          std::span(scene.textures[index(material.base_color_texture->texture)].encoded)));
+    if (is_glass(material) && is_textured(material))
+      for (const VertexId vertex : triangle.vertices)
+        for (const glm::vec2& texcoord : scene.vertices[index(vertex)].texcoord)
+          hash.add(Vec3(texcoord, 0.0));
   }
+  for (const Material& material : scene.materials)
+    if (is_glass(material))
+      for (const auto* use : {&material.base_color_texture, &material.metallic_roughness_texture,
+                              &material.transmission_texture, &material.thickness_texture})
+        add_texture(hash, scene, *use);
   for (const MirrorWorld& world : worlds.worlds) {
     hash.add(std::uint64_t{index(world.parent)});
     hash.add(std::uint64_t{index(world.mirror)});

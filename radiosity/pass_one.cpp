@@ -4,9 +4,11 @@
 #include "radiosity/gathered_emission.h"
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/shooting_blocks.h"
+#include "radiosity/surface_colour.h"
 #include "scenes/lobes.h"
 #include "scenes/stopwatch.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meninas {
@@ -25,13 +27,29 @@ ClosureError closure_error(const std::vector<RowClosure>& rows) {
   return error;
 }
 
-/// Of the light that an element receives, what the mirror or the glass that it is as well passes on: rays carry it.
 Rgb passed_on(const LightScene& light, MaterialId id) {
   const Material& material = light.scene.materials[index(id)];
   if (!is_glass(material))
     return mirror_reflectance(material);
   const GlassShares mean = mean_shares(light.glass[index(id)]);
   return mean.reflected + mean.passed;
+}
+
+/// Of the light that elements receive, what the mirror or the glass that they are as well passes on: rays carry it.
+std::vector<Rgb> passed_on_by_elements(const LightScene& light) {
+  const ElementMesh& mesh = light.mesh;
+  std::vector<Rgb> shares(mesh.area.size());
+  for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
+    const MeshSide& side = mesh.sides[s];
+    const auto first = shares.begin() + side.first_element;
+    if (side.textured && is_glass(light.scene.materials[index(side.material)]))
+      std::ranges::copy(passed_on_by_glass(light.scene, light.surfaces, light.textures, mesh,
+                                           static_cast<SideId>(s)),
+                        first);
+    else
+      std::fill_n(first, side.element_count, passed_on(light, side.material));
+  }
+  return shares;
 }
 
 /// What leaves an element follows the fractions of its own rays; what is absorbed follows what the elements receive. The two agree as
@@ -41,9 +59,7 @@ EnergyBalance energy_balance(const LightScene& light, const RadiositySolution& s
                              const std::vector<RowClosure>& rows,
                              const std::vector<Rgb>& entering) {
   const ElementMesh& mesh = light.mesh;
-  std::vector<Rgb> carried_on;
-  for (std::size_t m = 0; m < light.scene.materials.size(); ++m)
-    carried_on.push_back(passed_on(light, static_cast<MaterialId>(m)));
+  const std::vector<Rgb> carried_on = passed_on_by_elements(light);
   EnergyBalance energy;
   for (std::size_t i = 0; i < mesh.area.size(); ++i) {
     const double area = mesh.area[i] * solution.exposed[i];
@@ -51,8 +67,7 @@ EnergyBalance energy_balance(const LightScene& light, const RadiositySolution& s
     energy.emitted += area * mesh.emission[i];
     if (!entering.empty())
       energy.emitted += area * entering[i];
-    const MaterialId material = mesh.sides[index(mesh.side_of_element[i])].material;
-    const Rgb kept = 1.0 - mesh.reflectance[i] - carried_on[index(material)];
+    const Rgb kept = 1.0 - mesh.reflectance[i] - carried_on[i];
     energy.absorbed += area * kept * solution.irradiance[i];
     const Rgb followed = leaving / glm::max(Rgb(1e-9), 1.0 - Rgb(rows[i].cut_light));
     energy.absorbed += Rgb(rows[i].black_light) * followed;

@@ -56,16 +56,27 @@ double cosine_of(const Leg& leg, const Direction& normal) {
   return length > 0.0 ? std::abs(glm::dot(way, normal)) / length : 1.0;
 }
 
+Bsdf glass_there(const LightScene& light, const GlassCrossing& crossing) {
+  const MaterialId material = light.scene.triangles[index(crossing.triangle)].material;
+  const bool plain = !is_textured(light.scene.materials[index(material)]) &&
+                     !has_vertex_colors(light.scene, crossing.triangle);
+  return plain ? light.glass[index(material)]
+               : glass_at(light.scene, light.textures, crossing.triangle, crossing.barycentric);
+}
+
 Rgb passed(const LightScene& light, const GlassCrossing& crossing, Solids solids) {
-  const Triangle& triangle = light.scene.triangles[index(crossing.triangle)];
-  const Material& material = light.scene.materials[index(triangle.material)];
-  if (solids == Solids::opaque && is_solid_glass(material))
+  if (solids == Solids::opaque && is_solid_glass(material_of(light.scene, crossing.triangle)))
     return Rgb(0.0);
-  if (!is_textured(material) && !has_vertex_colors(light.scene, crossing.triangle))
-    return facet_transmittance(light.glass[index(triangle.material)], crossing.cosine);
-  return facet_transmittance(
-      glass_at(light.scene, light.textures, crossing.triangle, crossing.barycentric),
-      crossing.cosine);
+  return facet_transmittance(glass_there(light, crossing), crossing.cosine);
+}
+
+/// By the pane in which a leg ends.
+Rgb reflected(const LightScene& light, const Leg& leg, const Mirror& mirror) {
+  const double cosine = cosine_of(leg, mirror.plane.normal);
+  if (is_textured(light.scene.materials[index(mirror.glass)]))
+    if (const auto end = glass_at_end(light.rays, leg, mirror.plane_class))
+      return facet_reflectance(glass_there(light, *end), cosine);
+  return facet_reflectance(light.glass[index(mirror.glass)], cosine);
 }
 
 } // namespace
@@ -88,11 +99,9 @@ Rgb left_by_glass(const LightScene& light, WorldId world, std::span<const Leg> l
     const Mirror& mirror = light.mirrors.mirrors[index(light.worlds.worlds[index(world)].mirror)];
     if (mirror.glass == none<MaterialId>)
       continue;
-    const Rgb reflected =
-        facet_reflectance(light.glass[index(mirror.glass)], cosine_of(leg, mirror.plane.normal));
+    const Rgb there = reflected(light, leg, mirror);
     for (int band = 0; band < 3; ++band)
-      left[band] *=
-          mirror.reflectance[band] > 0.0 ? reflected[band] / mirror.reflectance[band] : 0.0;
+      left[band] *= mirror.reflectance[band] > 0.0 ? there[band] / mirror.reflectance[band] : 0.0;
   }
   return left;
 }

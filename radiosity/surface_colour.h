@@ -2,7 +2,7 @@
 //
 //   rho(x) = what its lobes reflect in the mean (diffuse_reflectance, scenes/bsdf.h),   E(x) = pi L(x)
 //
-// with base colour, metalness, roughness and emitted radiance L the material's factors times its textures. Pass one knows the means over its elements, pass two looks up the point: the irradiance is interpolated between
+// with base colour, metalness, roughness, transmission and emitted radiance L the material's factors times its textures. Pass one knows the means over its elements, pass two looks up the point: the irradiance is interpolated between
 // the elements, the colours are as sharp as their images.
 #pragma once
 
@@ -27,6 +27,12 @@ SurfaceColour surface_colour(const Scene& scene, const DecodedTextures& textures
 /// Clear glass there (scenes/lobes.h), of a triangle whose material it is.
 Bsdf glass_at(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
               Vec2 barycentric);
+
+/// What the elements of a side of glass pass on, reflected or passed, of light from everywhere: by their place among those of the side. The mean of
+/// a glass of mean tint stands for the mean over its tints.
+std::vector<Rgb> passed_on_by_glass(const Scene& scene, const SurfaceModel& surfaces,
+                                    const DecodedTextures& textures, const ElementMesh& mesh,
+                                    SideId side);
 
 /// The holes of cut-out materials, for the rays of a scene that outlives them.
 Holes holes_of(const Scene& scene, const DecodedTextures& textures);

@@ -6,6 +6,16 @@
 
 namespace meninas {
 
+/// Where glass is taken for not being there.
+static bool passes_most(const LightScene& light, const Hit& hit) {
+  const Material& material = material_of(light.scene, hit.triangle);
+  const double transmission =
+      material.transmission_texture
+          ? material_at(light.scene, light.textures, hit.triangle, hit.barycentric).transmission
+          : material.transmission;
+  return transmission >= 0.5;
+}
+
 Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
            int max_mirrors) {
   const CameraRay start = camera_ray(camera, picture_aspect, at.x, at.y);
@@ -28,7 +38,7 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
       sight.place = field_point(light.landing, face.side,
                                 landing_uv(face, light.surfaces, index(hit->triangle), b.x, b.y));
     }
-    const bool clear = face.glass && material_of(light.scene, hit->triangle).transmission >= 0.5;
+    const bool clear = face.glass && passes_most(light, *hit);
     if (!clear && (!face.mirrors || face.glass || sight.mirrors >= max_mirrors))
       return sight;
     ray.origin = sight.position;

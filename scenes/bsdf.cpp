@@ -114,21 +114,22 @@ BsdfSample spread_sample(const Bsdf& bsdf, const Direction& out, const Direction
 } // namespace
 
 /// In pass one a solid is taken for two sheets, each of them takes half of what its thickness does.
-static Rgb left_by_half(const Material& material) {
-  return is_solid_glass(material) ? attenuation(material, 0.5 * material.thickness) : Rgb(1.0);
+static Rgb left_by_half(const Material& material, const MaterialPoint& point) {
+  return is_solid_glass(material) ? attenuation(material, 0.5 * point.thickness) : Rgb(1.0);
 }
 
 MaterialPoint untextured(const Material& material) {
-  return {material.base_color, material.alpha, material.metallic, material.roughness,
-          material.emission};
+  return {material.base_color, material.alpha,        material.metallic, material.roughness,
+          material.emission,   material.transmission, material.thickness};
 }
 
 Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
   Bsdf bsdf;
   const double dielectric = 1.0 - point.metallic;
   bsdf.metal = point.base_color * point.metallic;
-  bsdf.diffuse = point.base_color * (dielectric * (1.0 - material.transmission));
-  bsdf.roughness = is_solid_glass(material) ? 0.0 : point.roughness;
+  bsdf.diffuse = point.base_color * (dielectric * (1.0 - point.transmission));
+  const bool solid = is_solid_glass(material);
+  bsdf.roughness = solid && point.transmission > 0.0 ? 0.0 : point.roughness;
   bsdf.alpha = bsdf.roughness <= ideal_mirror_roughness ? 0.0 : bsdf.roughness * bsdf.roughness;
   // KHR_materials_ior and KHR_materials_specular; ior 0 stands for F0 = 1.
   const double ratio = (material.ior - 1.0) / (material.ior + 1.0);
@@ -136,12 +137,12 @@ Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
   if (bsdf.roughness <= visible_coat_roughness) {
     bsdf.coat_f0 = f0;
     bsdf.coat_f90 = material.specular;
-    bsdf.coat = material.specular > 0.0 ? dielectric * (1.0 - material.transmission) : 0.0;
+    bsdf.coat = material.specular > 0.0 ? dielectric * (1.0 - point.transmission) : 0.0;
   }
-  bsdf.glass = dielectric * material.transmission;
+  bsdf.glass = dielectric * point.transmission;
   if (bsdf.glass > 0.0)
     bsdf.pane = {material.ior, f0, material.specular, point.base_color,
-                 is_solid_glass(material) ? GlassFaces::one : GlassFaces::both};
+                 solid ? GlassFaces::one : GlassFaces::both};
   return bsdf;
 }
 
@@ -224,7 +225,7 @@ bool has_lobes(const Material& material) {
 }
 
 bool has_visible_coat(const Material& material) {
-  if (material.specular == 0.0 || material.transmission == 1.0)
+  if (material.specular == 0.0 || (material.transmission == 1.0 && !material.transmission_texture))
     return false;
   return material.metallic_roughness_texture ||
          (material.metallic < 1.0 && material.roughness <= visible_coat_roughness);
@@ -248,7 +249,7 @@ Bsdf clear_glass(const Material& material, const MaterialPoint& point) {
   clear.diffuse = Rgb(0.0);
   clear.coat = 0.0;
   clear.roughness = clear.alpha = 0.0;
-  clear.pane.tint *= left_by_half(material);
+  clear.pane.tint *= left_by_half(material, point);
   return clear;
 }
 

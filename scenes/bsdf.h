@@ -35,6 +35,8 @@ struct MaterialPoint {
   double metallic = 0.0;
   double roughness = 1.0;
   Rgb emission{0.0}; ///< radiance
+  double transmission = 0.0;
+  double thickness = 0.0; ///< metres
 };
 
 /// The factors alone, as where there is no texture.

@@ -12,6 +12,23 @@ static bool parts(const Plane& plane, const Leg& leg) {
   return signed_distance(plane, leg.from) * signed_distance(plane, leg.to) <= 0.0;
 }
 
+static LaneRay ray_along(const FrameGeometry& geometry, const Leg& leg) {
+  LaneRay ray;
+  ray.origin = glm::vec3(to_frame(geometry.frame, leg.from));
+  ray.direction = glm::vec3((leg.to - leg.from) * geometry.frame.scale);
+  ray.leaving = index(leg.leaving);
+  return ray;
+}
+
+static GlassCrossing crossing_of(const FrameGeometry& geometry, const LaneRay& ray,
+                                 const LaneHit& hit) {
+  const Direction& normal = geometry.plane_normals[geometry.facts[hit.triangle].plane];
+  const Vec3 direction(ray.direction);
+  return {TriangleId{hit.triangle},
+          {hit.b1, hit.b2},
+          std::abs(glm::dot(normal, direction)) / glm::length(direction)};
+}
+
 void glass_crossings(const RayScene& rays, const Leg& leg, std::vector<GlassCrossing>& crossings) {
   crossings.clear();
   const FrameGeometry& geometry = rays.geometry();
@@ -20,11 +37,8 @@ void glass_crossings(const RayScene& rays, const Leg& leg, std::vector<GlassCros
   if (geometry.glass.size() <= few &&
       std::ranges::none_of(geometry.glass, [&](const Plane& plane) { return parts(plane, leg); }))
     return;
-  LaneRay ray;
-  ray.origin = glm::vec3(to_frame(geometry.frame, leg.from));
-  ray.direction = glm::vec3((leg.to - leg.from) * geometry.frame.scale);
+  LaneRay ray = ray_along(geometry, leg);
   ray.far = 1.0F;
-  ray.leaving = index(leg.leaving);
   const RayRule rule{.geometry = &geometry, .leaving = &ray.leaving, .only_glass = true};
   // A pane that is passed is left as a surface is: nothing in its plane is met again.
   for (;;) {
@@ -35,12 +49,23 @@ void glass_crossings(const RayScene& rays, const Leg& leg, std::vector<GlassCros
     ray.near = hit.distance;
     if (ray.leaving == index(leg.arriving))
       continue;
-    const Direction& normal = geometry.plane_normals[ray.leaving];
-    const Vec3 direction(ray.direction);
-    crossings.push_back({TriangleId{hit.triangle},
-                         {hit.b1, hit.b2},
-                         std::abs(glm::dot(normal, direction)) / glm::length(direction)});
+    crossings.push_back(crossing_of(geometry, ray, hit));
   }
+}
+
+std::optional<GlassCrossing> glass_at_end(const RayScene& rays, const Leg& leg, PlaneId plane) {
+  const FrameGeometry& geometry = rays.geometry();
+  // The one crossing of the plane, which rounding may put behind the end.
+  LaneRay ray = ray_along(geometry, leg);
+  ray.far = 2.0F;
+  const RayRule rule{.geometry = &geometry,
+                     .leaving = &ray.leaving,
+                     .only_plane = index(plane),
+                     .only_glass = true};
+  const LaneHit hit = trace_one(rays, ray, rule);
+  if (hit.triangle == no_index)
+    return std::nullopt;
+  return crossing_of(geometry, ray, hit);
 }
 
 } // namespace meninas

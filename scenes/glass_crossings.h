@@ -3,6 +3,7 @@
 
 #include "scenes/ray_scene.h"
 
+#include <optional>
 #include <vector>
 
 namespace meninas {
@@ -15,5 +16,8 @@ struct GlassCrossing {
 
 /// The glass between the ends of a leg, in order; not that in whose planes it begins or ends. Clears and fills `crossings`.
 void glass_crossings(const RayScene& rays, const Leg& leg, std::vector<GlassCrossing>& crossings);
+
+/// The glass in whose plane a leg ends; none where it ends beside it.
+std::optional<GlassCrossing> glass_at_end(const RayScene& rays, const Leg& leg, PlaneId plane);
 
 } // namespace meninas

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace meninas::gltf {
@@ -94,15 +95,18 @@ static void read_coat(const Json& json, Material& material, Findings& findings) 
 }
 
 /// Glass is there from both sides. What a solid is full of matters where it is one.
-static void read_glass(const Json& json, Material& material, Findings& findings) {
+static void read_glass(const Document& document, const Json& json, Material& material,
+                       Findings& findings) {
   if (const auto* extension = find(json, {"extensions", "KHR_materials_transmission"})) {
     material.transmission =
         fraction(number_or(*extension, "transmissionFactor", 0.0), material.name, findings);
-    if (find(*extension, "transmissionTexture"))
-      findings.about("textures of transmission are left out in materials", material.name);
+    material.transmission_texture =
+        read_texture_use(document, *extension, "transmissionTexture", material.name, findings);
   }
-  if (!is_glass(material))
+  if (!is_glass(material)) {
+    material.transmission_texture.reset(); // of nothing
     return;
+  }
   material.double_sided = true;
   const auto* extension = find(json, {"extensions", "KHR_materials_volume"});
   if (!extension)
@@ -116,9 +120,10 @@ static void read_glass(const Json& json, Material& material, Findings& findings)
     material.attenuation_distance = distance;
   if (thickness < 0.0 || !(distance > 0.0) || material.attenuation_color != color)
     findings.about("volumes with factors out of range were clamped in materials", material.name);
-  if (find(*extension, "thicknessTexture"))
-    findings.about("textures of thickness are left out, the surfaces bound the glass, in materials",
-                   material.name);
+  // Of a pane it is a texture of nothing, and without absorption it says nothing.
+  if (is_solid_glass(material) && std::isfinite(material.attenuation_distance))
+    material.thickness_texture =
+        read_texture_use(document, *extension, "thicknessTexture", material.name, findings);
 }
 
 static void read_alpha(const Json& json, Material& material, Findings& findings) {
@@ -145,7 +150,7 @@ static Material read_material(const Document& document, std::size_t index, Findi
     read_metallic_roughness(document, json, material, findings);
   read_emission(document, index, json, material, findings);
   read_coat(json, material, findings);
-  read_glass(json, material, findings);
+  read_glass(document, json, material, findings);
   if (material.alpha_mode == AlphaMode::blend &&
       (material.alpha < 1.0 || material.base_color_texture))
     findings.about("blending by alpha is not modelled, materials are opaque", material.name);

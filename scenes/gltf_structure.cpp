@@ -41,9 +41,13 @@ constexpr Rule specular[] = {
     {.name = "specularFactor", .kind = number},
     {.name = "specularColorFactor", .kind = numbers, .length = 3},
 };
-constexpr Rule transmission[] = {{.name = "transmissionFactor", .kind = number}};
+constexpr Rule transmission[] = {
+    {.name = "transmissionFactor", .kind = number},
+    {.name = "transmissionTexture", .kind = object, .fields = texture_use},
+};
 constexpr Rule volume[] = {
     {.name = "thicknessFactor", .kind = number},
+    {.name = "thicknessTexture", .kind = object, .fields = texture_use},
     {.name = "attenuationDistance", .kind = number},
     {.name = "attenuationColor", .kind = numbers, .length = 3},
 };

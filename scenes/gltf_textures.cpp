@@ -191,7 +191,8 @@ void read_textures(const Document& document, Scene& scene, Findings& findings) {
   TextureShelf shelf(document, scene, findings);
   for (auto& material : scene.materials) {
     for (auto* use : {&material.base_color_texture, &material.metallic_roughness_texture,
-                      &material.emissive_texture}) {
+                      &material.emissive_texture, &material.transmission_texture,
+                      &material.thickness_texture}) {
       if (!*use)
         continue;
       (*use)->texture = shelf.of(index((*use)->texture));

@@ -9,7 +9,7 @@ namespace meninas {
 /// Whether light leaves it otherwise than evenly or by a mirror of constant reflectance: by a lobe, or through it.
 bool has_lobes(const Material& material);
 
-/// A dielectric whose coat shows, by its factors or, where there is one, at some texel of its texture of roughness and metalness.
+/// A dielectric whose coat shows, by its factors or, where there is one, at some texel of its textures of roughness and metalness or of transmission.
 bool has_visible_coat(const Material& material);
 
 /// S of a facet that is met at this cosine.

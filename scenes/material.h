@@ -8,7 +8,8 @@
 // glass for clear (lobes.h).
 //
 // Glass (transmission > 0) is there from both sides: the loader makes it double-sided. Without thickness a sheet of it is a whole pane, with
-// both of its faces; with one it is the surface of a solid (KHR_materials_volume).
+// both of its faces; with one it is the surface of a solid (KHR_materials_volume). Where a texture of transmission is black it is what is below:
+// an opaque surface, from both sides.
 #pragma once
 
 #include "scenes/types.h"
@@ -57,6 +58,8 @@ struct Material {
   std::optional<TextureUse> base_color_texture;
   std::optional<TextureUse> metallic_roughness_texture;
   std::optional<TextureUse> emissive_texture;
+  std::optional<TextureUse> transmission_texture; ///< red
+  std::optional<TextureUse> thickness_texture;    ///< green
 };
 
 /// The reflectance of the material in pass one, which scatters evenly: all that it reflects but the ideal reflection of metals (lobes.h).

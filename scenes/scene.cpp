@@ -44,6 +44,11 @@ void add_material(ContentHash& hash, const Material& material) {
   add_texture_use(hash, material.base_color_texture);
   add_texture_use(hash, material.metallic_roughness_texture);
   add_texture_use(hash, material.emissive_texture);
+  // Scenes without them keep the hashes that they have had.
+  if (material.transmission_texture || material.thickness_texture) {
+    add_texture_use(hash, material.transmission_texture);
+    add_texture_use(hash, material.thickness_texture);
+  }
 }
 
 void add_light(ContentHash& hash, const PunctualLight& light) {

@@ -71,6 +71,8 @@ DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode)
     need(material.base_color_texture, decoded.colours, TextureContent::colour);
     need(material.emissive_texture, decoded.colours, TextureContent::colour);
     need(material.metallic_roughness_texture, decoded.numbers, TextureContent::numbers);
+    need(material.transmission_texture, decoded.numbers, TextureContent::numbers);
+    need(material.thickness_texture, decoded.numbers, TextureContent::numbers);
   }
   return decoded;
 }
@@ -141,7 +143,7 @@ glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Ve
 
 bool is_textured(const Material& material) {
   return material.base_color_texture || material.metallic_roughness_texture ||
-         material.emissive_texture;
+         material.emissive_texture || material.transmission_texture || material.thickness_texture;
 }
 
 bool has_vertex_colors(const Scene& scene, TriangleId triangle) {
@@ -179,6 +181,10 @@ MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, T
     point.roughness *= std::clamp(texel.g, 0.0, 1.0);
     point.metallic *= std::clamp(texel.b, 0.0, 1.0);
   }
+  if (const auto& use = material.transmission_texture)
+    point.transmission *= std::clamp(value(*use, textures.numbers).r, 0.0, 1.0);
+  if (const auto& use = material.thickness_texture)
+    point.thickness *= std::clamp(value(*use, textures.numbers).g, 0.0, 1.0);
   if (const auto& use = material.emissive_texture)
     point.emission *= glm::max(Rgb(value(*use, textures.colours)), Rgb(0.0));
   return point;

@@ -52,6 +52,25 @@ TEST(TwoPasses, AgreeWithPathsInAGlazedRoom) {
                     {"by reflection in the pane as well", {1.9, 0.9, 1.5}, {1.0, 0.9, 0.8}}});
 }
 
+TEST(TwoPasses, AgreeWithPathsInARoomWithAHalfGlazedPane) {
+  expect_agreement(half_glazed_room(Halves::by_texture),
+                   {{"lit through the glass", {1.5, 1.0, 0.4}, {1.4, 0.6, 0.0}},
+                    {"behind what is opaque", {1.4, 1.0, 0.4}, {0.9, 0.3, 0.0}},
+                    {"seen through the glass", {1.4, 1.0, 1.8}, {1.4, 1.3, 0.0}}});
+}
+
+TEST(TwoPasses, PathsMeetATextureOfTransmissionAsTheyMeetTwoPanes) {
+  // The same numbers draw the same paths.
+  for (const Point3& target : {Point3(1.4, 0.6, 0.0), Point3(0.6, 0.9, 0.8)}) {
+    const auto seen = [&](Halves halves) {
+      return radiance_seen(half_glazed_room(halves), {1.2, 1.0, 1.8}, target, 64).mean;
+    };
+    const Rgb one = seen(Halves::by_texture), two = seen(Halves::of_their_own);
+    for (int band = 0; band < 3; ++band)
+      EXPECT_NEAR(one[band], two[band], 1e-5 * two[band]);
+  }
+}
+
 TEST(TwoPasses, AgreeWithPathsThroughSolids) {
   // Walls that glow and are black: what is seen through an amber block is all there is to it.
   Scene scene;

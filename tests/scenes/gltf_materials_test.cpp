@@ -70,6 +70,43 @@ TEST(GltfMaterials, GlassIsThereFromBothSidesAndMayBeSolid) {
   EXPECT_TRUE(warns(odd, {"volumes", "'Jar'"}));
 }
 
+TEST(GltfMaterials, GlassHasTexturesOfTransmissionAndThickness) {
+  const Json use{{"index", 0},
+                 {"texCoord", 1},
+                 {"extensions", {{"KHR_texture_transform", {{"scale", {2.0, 3.0}}}}}}};
+  const auto with_glass = [&](double transmission, double thickness, double distance) {
+    auto file =
+        with_material({{"name", "Jar"},
+                       {"pbrMetallicRoughness", {{"metallicFactor", 0.0}}},
+                       {"extensions",
+                        {{"KHR_materials_transmission",
+                          {{"transmissionFactor", transmission}, {"transmissionTexture", use}}},
+                         {"KHR_materials_volume",
+                          {{"thicknessFactor", thickness},
+                           {"thicknessTexture", use},
+                           {"attenuationDistance", distance}}}}}});
+    file.json["images"] = Json::array({{{"uri", "data:image/png;base64,iVBORw0KGgo="}}});
+    file.json["textures"] = Json::array({{{"source", 0}}});
+    return load(file);
+  };
+  const auto solid = with_glass(0.5, 1.0, 2.0);
+  for (const auto& read :
+       {solid.materials.at(0).transmission_texture, solid.materials.at(0).thickness_texture}) {
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->texture, TextureId{0});
+    EXPECT_EQ(read->texcoord_set, 1);
+    EXPECT_EQ(read->scale, Vec2(2.0, 3.0));
+  }
+  EXPECT_TRUE(solid.ignored.empty());
+  EXPECT_FALSE(warns(solid, {"transmission"}));
+  EXPECT_FALSE(warns(solid, {"thickness"}));
+  const auto thin = with_glass(0.5, 0.0, 2.0);
+  EXPECT_TRUE(thin.materials.at(0).transmission_texture);
+  EXPECT_FALSE(thin.materials.at(0).thickness_texture) << "of nothing";
+  const auto opaque = with_glass(0.0, 1.0, 2.0);
+  EXPECT_FALSE(opaque.materials.at(0).transmission_texture) << "of nothing";
+}
+
 TEST(GltfMaterials, WithoutAMaterialItIsGrey) {
   auto file = square();
   file.json["meshes"][0]["primitives"][0].erase("material");

@@ -20,7 +20,8 @@ GltfFile everything() {
       {"KHR_materials_emissive_strength", {{"emissiveStrength", 3}}},
       {"KHR_materials_ior", {{"ior", 1.4}}},
       {"KHR_materials_specular", {{"specularFactor", 0.5}}},
-      {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}}};
+      {"KHR_materials_transmission",
+       {{"transmissionFactor", 0.5}, {"transmissionTexture", {{"index", 0}}}}}};
   file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {
       {"index", 0},
       {"extensions", {{"KHR_texture_transform", {{"offset", {0, 1}}, {"scale", {1, 2}}}}}}};
@@ -81,14 +82,13 @@ GltfFile old_material() {
   auto file = square();
   file.json["images"] = Json::array({{{"bufferView", 0}, {"name", "first"}}});
   file.json["textures"] = Json::array({{{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}});
-  file.json["materials"][0] = {
-      {"name", "Old"},
-      {"extensions",
-       {{"KHR_materials_pbrSpecularGlossiness",
-         {{"diffuseFactor", {0.5, 0.25, 0.125, 1}},
-          {"specularFactor", {0.04, 0.04, 0.04}},
-          {"glossinessFactor", 0.25},
-          {"diffuseTexture", {{"index", 0}}}}}}}};
+  file.json["materials"][0] = {{"name", "Old"},
+                               {"extensions",
+                                {{"KHR_materials_pbrSpecularGlossiness",
+                                  {{"diffuseFactor", {0.5, 0.25, 0.125, 1}},
+                                   {"specularFactor", {0.04, 0.04, 0.04}},
+                                   {"glossinessFactor", 0.25},
+                                   {"diffuseTexture", {{"index", 0}}}}}}}};
   return file;
 }
 

@@ -14,7 +14,8 @@ Scene rich_scene() {
   scene.file = "rich.gltf";
   add_room(scene, Point3(0.0), {1.0, 2.0, 3.0},
            {diffuse(0.5), diffuse(0.5, 2.0), mirror(0.9), {}, {}, {}});
-  scene.textures.push_back({.name = "wood.png", .encoded = std::vector<std::byte>(19, std::byte{7})});
+  scene.textures.push_back(
+      {.name = "wood.png", .encoded = std::vector<std::byte>(19, std::byte{7})});
   scene.materials[0].base_color_texture = TextureUse{TextureId{0}};
   scene.lights.push_back({});
   scene.cameras.push_back(look_at({0.5, 1.0, 2.5}, Point3(0.5, 1.0, 0.0), 0.9));
@@ -79,6 +80,8 @@ TEST(ContentHash, SeesEveryPropertyLightDependsOn) {
       [](Scene& s) { s.materials[0].base_color_texture.reset(); },
       [](Scene& s) { s.materials[0].emissive_texture = s.materials[0].base_color_texture; },
       [](Scene& s) { s.materials[0].metallic_roughness_texture = TextureUse{}; },
+      [](Scene& s) { s.materials[0].transmission_texture = TextureUse{}; },
+      [](Scene& s) { s.materials[0].thickness_texture = TextureUse{}; },
       [](Scene& s) { s.materials[0].base_color_texture->texcoord_set = 1; },
       [](Scene& s) { s.materials[0].base_color_texture->offset.y = 0.1; },
       [](Scene& s) { s.materials[0].base_color_texture->rotation = 0.1; },

@@ -1,5 +1,8 @@
 #include "tests/support/glass_rooms.h"
 
+#include "image/image_file.h"
+
+#include <array>
 #include <cmath>
 
 namespace meninas::test {
@@ -32,6 +35,20 @@ double pane_transmittance(double ior, double cosine) {
   return (1.0 - f) / (1.0 + f);
 }
 
+Texture half_black() {
+  Image image(2, 1);
+  image.at(1, 0) = glm::vec3(1.0F);
+  return {
+      .name = "half black", .encoded = encode_png(image, 0.0), .magnified = TexelFilter::nearest};
+}
+
+void lay_texture(Scene& scene) {
+  const std::array<glm::vec2, 4> coordinates{glm::vec2(0, 1), {1, 1}, {1, 0}, {0, 0}};
+  const std::size_t first = scene.vertices.size() - 4;
+  for (std::size_t k = 0; k < 4; ++k)
+    scene.vertices[first + k].texcoord = {coordinates[k], coordinates[k]};
+}
+
 Scene glazed_room() {
   Scene scene;
   std::array<Material, 6> walls;
@@ -41,6 +58,27 @@ Scene glazed_room() {
               double_sided(diffuse(0.0, 10.0)));
   add_polygon(scene, "pane", {{0.2, 0.0, 0.8}, {1.8, 0.0, 0.8}, {1.8, 1.7, 0.8}, {0.2, 1.7, 0.8}},
               glass({0.4, 0.9, 0.6}));
+  return scene;
+}
+
+Scene half_glazed_room(Halves halves) {
+  Scene scene = glazed_room();
+  Material pane = scene.materials.back();
+  scene.materials.pop_back();
+  scene.triangles.resize(scene.triangles.size() - 2);
+  if (halves == Halves::by_texture) {
+    scene.textures = {half_black()};
+    pane.transmission_texture = TextureUse{.texture = TextureId{0}};
+    add_polygon(scene, "pane", {{0.2, 0.0, 0.8}, {1.8, 0.0, 0.8}, {1.8, 1.7, 0.8}, {0.2, 1.7, 0.8}},
+                pane);
+    lay_texture(scene);
+    return scene;
+  }
+  add_polygon(scene, "right", {{1.0, 0.0, 0.8}, {1.8, 0.0, 0.8}, {1.8, 1.7, 0.8}, {1.0, 1.7, 0.8}},
+              pane);
+  pane.transmission = 0.0;
+  add_polygon(scene, "left", {{0.2, 0.0, 0.8}, {1.0, 0.0, 0.8}, {1.0, 1.7, 0.8}, {0.2, 1.7, 0.8}},
+              pane);
   return scene;
 }
 
