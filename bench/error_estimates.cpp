@@ -74,7 +74,7 @@ Tally measure_scene(const std::filesystem::path& references, const std::filesyst
       const double seconds = watch.lap() + solution.seconds.form_factors + solution.seconds.solve +
                              solution.seconds.interpolate;
       const PictureError e =
-          estimate_error(lit, solution.field, camera, settings, solution.solver, picture,
+          estimate_error(lit, solution.field, camera, settings, solution.solver, {picture, {}},
                          error_settings(settings, element_count(lit.mesh)));
       const double error =
           relative_error(picture, truth.mean, emits, truth.variance ? &*truth.variance : nullptr);

@@ -142,8 +142,9 @@ void add_pixel_options(CLI::App& command, RunSettings& settings, const std::stri
         settings.filter = parse_choice("--filter", text, choices_of(pixel_filters));
       });
   add("--pixel-error", "X",
-      "adaptive sampling: all --samples only where pixels differ by more than X of themselves from "
-      "a neighbour, a quarter of them (at least 4) elsewhere [all of them everywhere]",
+      "adaptive sampling: a few samples first, then four times as many, up to --samples, in pixels "
+      "that look to be off by more than X of themselves or of the picture's mean [all of them "
+      "everywhere]",
       [&](const std::string& text) {
         settings.pixel_error = parse_number("--pixel-error", text, Sign::positive);
       });

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace meninas {
@@ -151,16 +152,57 @@ void probe_field(Probing& probe, std::span<const glm::ivec2> pixels, std::size_t
   }
 }
 
-/// Another draw of all camera rays of the pixels.
-void probe_samples(Probing& probe, std::span<const glm::ivec2> pixels, const Image& picture,
-                   SquaredErrors& errors) {
+/// The pixels outside emitters by the number of their samples.
+std::map<std::uint32_t, std::vector<glm::ivec2>>
+pixels_by_samples(const SampledPicture& picture, const std::vector<std::uint8_t>& emits,
+                  int samples) {
+  std::map<std::uint32_t, std::vector<glm::ivec2>> groups;
+  for (std::size_t p = 0; p < emits.size(); ++p)
+    if (emits[p] == 0) {
+      const auto width = static_cast<std::size_t>(picture.image.width);
+      groups[picture.samples.empty() ? static_cast<std::uint32_t>(samples) : picture.samples[p]]
+          .emplace_back(static_cast<int>(p % width), static_cast<int>(p / width));
+    }
+  return groups;
+}
+
+/// So many of them, one at random of every run of the same length.
+std::vector<glm::ivec2> some_of(std::span<const glm::ivec2> pixels, std::size_t wanted,
+                                std::uint32_t seed) {
+  if (wanted >= pixels.size())
+    return {pixels.begin(), pixels.end()};
+  std::vector<glm::ivec2> some;
+  for (std::size_t k = 0; k < wanted; ++k) {
+    const double place = double(k) + double(hash(static_cast<std::uint32_t>(k), seed)) * 0x1p-32;
+    some.push_back(
+        pixels[static_cast<std::size_t>(place / double(wanted) * double(pixels.size()))]);
+  }
+  return some;
+}
+
+/// Another draw of all camera rays of some pixels.
+void probe_samples(Probing& probe, const SampledPicture& picture,
+                   const std::vector<std::uint8_t>& emits, int wanted, SquaredErrors& errors) {
   RenderSettings again = probe.settings.render;
   again.seed = hash(again.seed, 0xa9a17);
-  const Radiances other = probe(again, pixels);
-  errors.pixels = 0.5 * mean_of(pixels.size(), [&](std::size_t k) {
-                    const glm::vec3 change = other[k] - picture.at(pixels[k].x, pixels[k].y);
-                    return change * change;
-                  });
+  const auto groups = pixels_by_samples(picture, emits, again.samples);
+  std::size_t all = 0;
+  for (const auto& [samples, group] : groups)
+    all += group.size();
+  for (const auto& [samples, group] : groups) {
+    again.samples = static_cast<int>(samples);
+    // Pixels of few samples are cheap; and one in a hundred may have all of the error.
+    constexpr std::uint32_t few = 16;
+    const std::size_t share = static_cast<std::size_t>(wanted) / groups.size();
+    const auto pixels =
+        some_of(group, share * std::max(1U, few / samples), hash(again.seed, samples));
+    const Radiances other = probe(again, pixels);
+    const auto square = [&](std::size_t k) {
+      const glm::vec3 change = other[k] - picture.image.at(pixels[k].x, pixels[k].y);
+      return change * change;
+    };
+    errors.pixels += 0.5 * double(group.size()) / double(all) * mean_of(pixels.size(), square);
+  }
 }
 
 /// The largest radiosity that surfaces reflect.
@@ -184,7 +226,7 @@ PictureErrorSettings error_settings(const TwoPassSettings& settings, std::size_t
 
 PictureError estimate_error(const LightScene& light, const DiffuseField& field,
                             const Camera& camera, const TwoPassSettings& settings,
-                            const SolverResult& solver, const Image& picture,
+                            const SolverResult& solver, const SampledPicture& picture,
                             const PictureErrorSettings& how) {
   constexpr int emitter_samples = 1;
   constexpr double noise_of_interpolated = 4.0 / 9.0;
@@ -193,15 +235,15 @@ PictureError estimate_error(const LightScene& light, const DiffuseField& field,
   Probing probe{light, field, camera, settings};
   RenderSettings sized = settings.render;
   sized.layers = WithLayers::no;
-  const auto emits = emitter_pixels(light, field, camera, sized, picture, emitter_samples);
-  error.mean_radiance = mean_outside(picture, emits);
-  const auto pixels = spread_pixels(picture, emits, how.pixels, settings.render.seed);
+  const auto emits = emitter_pixels(light, field, camera, sized, picture.image, emitter_samples);
+  error.mean_radiance = mean_outside(picture.image, emits);
+  const auto pixels = spread_pixels(picture.image, emits, how.pixels, settings.render.seed);
   if (!(error.mean_radiance > 0.0) || pixels.empty())
     return error;
 
   SquaredErrors squared;
   probe_field(probe, pixels, static_cast<std::size_t>(how.gathered_pixels), squared, error);
-  probe_samples(probe, pixels, picture, squared);
+  probe_samples(probe, picture, emits, how.pixels, squared);
 
   // The parts make up the whole that was found, also where one of them alone was found larger.
   const double whole = std::max(squared.field, 0.0);

@@ -14,7 +14,8 @@
 // sum of squared weights of bilinear interpolation), mirror_tail^2 what a gathering with no cap on mirrors adds to one with that of the picture, and
 // mesh^2 is the rest: what interpolation hides. Light from the source is cheap and has the edges: it is computed at many more pixels,
 // and the difference that makes corrects the first mean.
-// pixels^2 is half the mean square of what another draw of all camera rays of those pixels changes. solver is the solver's bound, for the
+// pixels^2 is half the mean square of what another draw of all camera rays changes, at pixels of each number of samples for themselves: where
+// sampling is adaptive, the few that have many have most of the error. solver is the solver's bound, for the
 // brightest reflected radiosity, an upper bound; the others are estimates.
 //
 // Limits: gathered light comes from the picture's own field. An error that all of the field has alike is seen as what one more bounce changes,
@@ -43,13 +44,19 @@ struct PictureError {
          gather_seconds = 0.0; ///< that one hit took with these terms; 0: none was made
 };
 
+/// As render() made it.
+struct SampledPicture {
+  const Image& image;
+  const SampleCounts& samples;
+};
+
 /// So many pixels that finding out takes a few per cent of the rays of pass one, within limits.
 PictureErrorSettings error_settings(const TwoPassSettings& settings, std::size_t elements);
 
 /// Of `picture`, which render() made of this field with these settings. `largest_reflected` is the largest reflected radiosity, W/m^2.
 PictureError estimate_error(const LightScene& light, const DiffuseField& field,
                             const Camera& camera, const TwoPassSettings& settings,
-                            const SolverResult& solver, const Image& picture,
+                            const SolverResult& solver, const SampledPicture& picture,
                             const PictureErrorSettings& how);
 
 } // namespace meninas

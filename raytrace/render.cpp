@@ -17,16 +17,13 @@ static Rendering render_light(const LightScene& light, const DiffuseField& field
     add(result,
         trace_picture(light, all, gathering.get(), camera, settings, share, progress, store));
   };
-  trace({first_samples(settings)}, [&](int x, int y, const SeenRadiance& seen) {
-    result.image.at(x, y) = seen[0] + seen[1] + seen[2];
-  });
-  if (rest_samples(settings).count == 0)
-    return result;
-  const PixelMask worth = differing_pixels(result.image, settings.pixel_error);
-  trace({rest_samples(settings), &worth}, [&](int x, int y, const SeenRadiance& seen) {
+  const std::vector<SampleRound> rounds = choose_samples(settings, trace, result.image);
+  const SampleRound& last = rounds.back();
+  trace(last.share(), [&](int x, int y, const SeenRadiance& seen) {
     glm::vec3& pixel = result.image.at(x, y);
-    pixel = blended(settings, pixel, seen[0] + seen[1] + seen[2]);
+    pixel = blended(last.samples, pixel, seen[0] + seen[1] + seen[2]);
   });
+  result.samples = counts_of(rounds, result.image.pixels.size());
   return result;
 }
 

@@ -41,15 +41,19 @@ struct RenderSettings {
       16; ///< directions of a camera ray into the widest and brightest lobes (lobe_grid.h)
   std::uint32_t seed = 0;
   PixelFilter filter = PixelFilter::box;
-  /// Above 0: all samples only where neighbouring pixels differ by this share of themselves (sample_choice.h).
+  /// Above 0: no more samples than it takes for pixels to be right to this share of themselves or of the mean (sample_choice.h).
   double pixel_error = 0.0;
   WithLayers layers = WithLayers::no; ///< as `render_layers` makes them
   std::vector<Feature> features;      ///< layers after those
   DiffuseSettings diffuse;
 };
 
+/// By pixel, row by row; empty: all have as many as the settings say.
+using SampleCounts = std::vector<std::uint32_t>;
+
 struct Rendering {
   Image image; ///< radiance
+  SampleCounts samples;
   std::vector<Layer>
       layers; ///< of render_layers: they add up to the image, in their order; then features
   std::uint64_t camera_rays = 0;

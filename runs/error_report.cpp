@@ -30,7 +30,7 @@ std::string describe_error(const PictureError& error) {
   return text;
 }
 
-void report_error(const PictureSource& source, ErrorReport wanted, const Image& picture,
+void report_error(const PictureSource& source, ErrorReport wanted, const SampledPicture& picture,
                   std::vector<Layer>& layers, const RunEvents& events, RunFigures& figures) {
   if (wanted == ErrorReport::none)
     return;
@@ -41,7 +41,7 @@ void report_error(const PictureSource& source, ErrorReport wanted, const Image& 
   figures.error_estimate = error;
   note(events, describe_error(error));
   if (wanted == ErrorReport::map)
-    layers.push_back({"error", error_map(light, field, camera, settings, picture, error)});
+    layers.push_back({"error", error_map(light, field, camera, settings, picture.image, error)});
   figures.seconds.estimate = watch.lap();
 }
 

@@ -31,7 +31,7 @@ struct PictureSource {
 std::string describe_error(const PictureError& error);
 
 /// Fills in the figures and says the line as a note; the map is appended to the layers.
-void report_error(const PictureSource& source, ErrorReport wanted, const Image& picture,
+void report_error(const PictureSource& source, ErrorReport wanted, const SampledPicture& picture,
                   std::vector<Layer>& layers, const RunEvents& events, RunFigures& figures);
 
 } // namespace meninas

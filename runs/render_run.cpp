@@ -54,8 +54,8 @@ Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
       watch.lap() - pass_one.form_factors - pass_one.solve - pass_one.interpolate;
   report_error({field_scene(*prepared.light, result.solution), result.solution.field, camera,
                 settings, result.solution.solver},
-               wanted_report(request), result.rendering.image, result.rendering.layers, events,
-               figures);
+               wanted_report(request), {result.rendering.image, result.rendering.samples},
+               result.rendering.layers, events, figures);
   return std::move(result.rendering);
 }
 
@@ -112,7 +112,7 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   check_field(*request.solution, lit.field, settings.render);
   ViewPicture picture = render_view(lit, camera, size, request.settings, events, figures);
   report_error({lit.light(), lit.field, camera, settings, figures.solver}, wanted_report(request),
-               picture.image, picture.layers, events, figures);
+               {picture.image, picture.samples}, picture.layers, events, figures);
   return picture;
 }
 

@@ -59,16 +59,19 @@ QualityPreset preset_of(Quality quality) {
   return {};
 }
 
-/// A pixel's rays are shared out among its samples.
+/// A pixel's rays are shared out among its samples; where sampling is adaptive, most pixels have few.
 static DiffuseSettings diffuse_settings(const RunSettings& settings,
                                         const FormFactorSettings& form_factors, int samples) {
   constexpr int gather_rays = 2048, least = 16; // of a pixel; of a sample
+  constexpr int shared_at_most = 32;
+  if (settings.pixel_error)
+    samples = std::min(samples, shared_at_most);
   const QualityPreset preset = preset_of(settings.quality);
   DiffuseSettings result;
   result.term = settings.diffuse;
   result.direct.seed = settings.seed;
   result.direct.shadow_rays = preset.hit_shadow_rays;
-  result.direct.penumbra_rays = std::max(least, preset.pixel_penumbra_rays / samples);
+  result.direct.penumbra_rays = std::max(settings.pixel_error ? 1 : least, preset.pixel_penumbra_rays / samples);
   result.gather = form_factors;
   result.gather.method = FormFactorMethod::rays;
   result.points.rays = std::max(least, gather_rays / samples);

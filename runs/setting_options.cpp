@@ -81,6 +81,9 @@ std::vector<std::string> options_of(const RunSettings& settings) {
   if (settings.diffuse != standard.diffuse)
     add("--diffuse", name_of(settings.diffuse));
   add_given("--samples", settings.samples);
+  if (settings.filter != standard.filter)
+    add("--filter", std::string(name_of(settings.filter)));
+  add_given("--pixel-error", settings.pixel_error);
   add_given("--glossy-samples", settings.glossy_samples);
   if (settings.seed != standard.seed)
     add("--seed", fmt::format("{}", settings.seed));

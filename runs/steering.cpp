@@ -1,6 +1,7 @@
 #include "runs/steering.h"
 
 #include "radiosity/world_tail.h"
+#include "raytrace/sample_choice.h"
 #include "runs/error_report.h"
 #include "runs/preparation.h"
 #include "runs/setting_options.h"
@@ -12,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace meninas {
 
@@ -62,10 +64,21 @@ Knobs first_knobs(const RunSettings& settings) {
   return knobs;
 }
 
+/// What is asked for, with adaptive samples where their number is free.
+RunSettings settings_of(const SteeringRequest& request) {
+  constexpr double pixel_share = 2.0,
+                   finest = 0.01; // of single pixels; the mean over all is far less
+  RunSettings settings = request.settings;
+  if (!settings.samples && !settings.pixel_error && settings.mode == PictureMode::hybrid)
+    settings.pixel_error = request.goal.error ? pixel_share * *request.goal.error : finest;
+  return settings;
+}
+
 /// One run under way, with what later ones can use of it.
 struct Steering {
   const SteeringRequest& request;
   const RunEvents& events;
+  RunSettings settings; ///< that knobs are turned of
   FreeKnobs free;
   double area;
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
@@ -118,9 +131,32 @@ void light_scene(Steering& steering, const Knobs& knobs, const TwoPassSettings& 
   steering.figures = figures;
 }
 
+double mean_count(const SampleCounts& samples, int everywhere) {
+  if (samples.empty())
+    return everywhere;
+  return std::accumulate(samples.begin(), samples.end(), 0.0) / double(samples.size());
+}
+
+/// Of pixels that would take more samples than they could, than four times as many, and so on. Errors fall with n^-0.6 between noise and edges.
+std::array<double, 4> uncertain_shares(const Image& picture, const RenderSettings& render) {
+  std::array<double, 4> shares{1.0, 1.0, 1.0, 1.0};
+  constexpr double first = 4.0; // samples, of which uncertain_pixels() judges
+  double samples = render.samples;
+  for (double& share : shares) {
+    if (render.pixel_error > 0.0) {
+      const PixelMask uncertain =
+          uncertain_pixels(picture, render.pixel_error * std::pow(samples / first, 0.6));
+      share = double(std::ranges::count(uncertain, 1)) / double(uncertain.size());
+    }
+    samples *= 4.0;
+  }
+  return shares;
+}
+
 SteeredRun run_with(Steering& steering, const Knobs& knobs, bool may_end) {
   const SteeringRequest& request = steering.request;
-  const RunSettings settings = with_knobs(request.settings, steering.free, knobs, steering.area);
+  const RunSettings settings =
+      with_knobs(steering.settings, free_knobs(steering.settings), knobs, steering.area);
   TwoPassSettings two_pass = two_pass_settings(settings);
   two_pass.render.width = request.size.width;
   two_pass.render.height = request.size.height;
@@ -136,8 +172,9 @@ SteeredRun run_with(Steering& steering, const Knobs& knobs, bool may_end) {
   constexpr int more = 2; // what is decided by it deserves more pixels than what is only said
   how.gathered_pixels *= more;
   how.pixels = std::min(how.pixels * more, request.size.width * request.size.height);
-  const PictureError error = estimate_error(lit.light(), lit.field, request.camera, two_pass,
-                                            run.figures.solver, run.picture.image, how);
+  const PictureError error =
+      estimate_error(lit.light(), lit.field, request.camera, two_pass, run.figures.solver,
+                     {run.picture.image, run.picture.samples}, how);
   run.figures.error_estimate = error;
   run.figures.seconds.estimate = watch.lap();
   const RunSeconds& seconds = run.figures.seconds;
@@ -147,7 +184,9 @@ SteeredRun run_with(Steering& steering, const Knobs& knobs, bool may_end) {
                       seconds.interpolate,
                   seconds.render,
                   seconds.estimate,
-                  double(request.size.width) * request.size.height};
+                  double(request.size.width) * request.size.height,
+                  mean_count(run.picture.samples, knobs.samples),
+                  uncertain_shares(run.picture.image, two_pass.render)};
   return run;
 }
 
@@ -181,72 +220,104 @@ void say_end(const SteeredChoice& choice, const RunEvents& events) {
   note(events, fmt::format("kept step {}; the same picture again:{}", choice.kept + 1, options));
 }
 
-} // namespace
+/// Knobs whose turning did not help: the estimate does not know what is wrong.
+void leave_alone(FreeKnobs& free, const Knobs& before, const Knobs& turned) {
+  free.elements = free.elements && turned.elements == before.elements;
+  free.rays = free.rays && turned.rays == before.rays;
+  free.samples = free.samples && turned.samples == before.samples;
+  free.term = free.term && (turned.term == before.term || turned.term != DiffuseTerm::gather);
+}
 
-ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFigures& figures) {
-  constexpr int most_steps = 8;
-  constexpr double error_margin = 0.85,
-                   time_margin = 0.7;  // of a goal, that a forecast is held against
-  constexpr double worthwhile = 0.9;   // of the best error so far
-  constexpr double most_growth = 20.0; // of the time so far: the next run takes no longer
-  constexpr double at_once =
-      0.125; // of the error: parts so much smaller are not known well enough to be met yet
-  const double area = receiving_area(request.scene, find_surfaces(request.scene));
-  Steering steering{request, events, free_knobs(request.settings), area};
-  const double wanted = request.goal.error.value_or(0.0);
+/// How the mesh's error falls, if two meshes have been seen.
+double mesh_exponent(const MeasuredRun& before, const MeasuredRun& now) {
+  if (before.knobs.elements == now.knobs.elements)
+    return before.mesh_exponent;
+  return before.knobs.elements < now.knobs.elements ? measured_mesh_exponent(before, now)
+                                                    : measured_mesh_exponent(now, before);
+}
 
-  SteeredChoice choice;
-  choice.wanted_error = request.goal.error;
-  choice.wanted_seconds = request.goal.seconds;
-  std::optional<SteeredRun> best;
-  RunSeconds all;
-  NextRun next{first_knobs(request.settings), {}, "a quick look"};
-  for (int k = 0; k < most_steps; ++k) {
+/// Of several pictures the best, and what they have taught.
+struct Search {
+  Steering& steering;
+  const RunEvents& events;
+  SteeredChoice choice = {};
+  std::optional<SteeredRun> best = {};
+  RunSeconds seconds = {}; ///< of all
+
+  double error() const { return best->measured.error.total; }
+
+  /// Makes a picture; false when the time is over before it is ready.
+  bool step(const NextRun& next) {
+    constexpr double worthwhile = 0.9; // of the best error so far
     Stopwatch watch;
-    const bool solved = steering.lit_with.has_value();
     const auto was = steering.lit_with;
     std::optional<SteeredRun> run;
     try {
       run = run_with(steering, next.knobs, best.has_value());
     } catch (const OutOfTime&) {
       note(events, "the time is over before the next picture is ready");
-      break;
+      return false;
     }
-    const bool again = !solved || was != steering.lit_with;
-    add_seconds(all, run->figures.seconds, again);
+    add_seconds(seconds, run->figures.seconds, !was || was != steering.lit_with);
     const double error = run->measured.error.total;
     choice.steps.push_back({next.knobs.elements, run->figures.elements, next.knobs.rays,
                             next.knobs.samples, next.knobs.term, watch.lap(), error,
                             next.forecast.error, next.why});
     note(events, describe_step(choice.steps.back(), choice.steps.size()));
-    const MeasuredRun measured = run->measured;
-    const bool helped = !best || error < worthwhile * best->measured.error.total;
-    if (!best || error < best->measured.error.total) {
+    const double exponent = best ? mesh_exponent(best->measured, run->measured) : 1.0;
+    if (best && error >= worthwhile * this->error())
+      leave_alone(steering.free, best->measured.knobs, next.knobs);
+    if (!best || error < this->error()) {
       best = std::move(run);
       choice.kept = choice.steps.size() - 1;
     }
-    choice.reached = !request.goal.error || best->measured.error.total <= wanted;
+    best->measured.mesh_exponent = exponent;
+    return true;
+  }
+};
+
+} // namespace
+
+ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFigures& figures) {
+  constexpr int most_steps = 8;
+  constexpr double error_margin = 0.85,
+                   time_margin = 0.7;  // of a goal, that a forecast is held against
+  constexpr double most_growth = 20.0; // of the time so far: the next run takes no longer
+  constexpr double at_once =
+      0.125; // of the error: parts so much smaller are not known well enough to be met yet
+  const RunSettings settings = settings_of(request);
+  const double area = receiving_area(request.scene, find_surfaces(request.scene));
+  Steering steering{request, events, settings, free_knobs(settings), area};
+  const double wanted = request.goal.error.value_or(0.0);
+
+  Search search{steering, events};
+  SteeredChoice& choice = search.choice;
+  choice.wanted_error = request.goal.error;
+  choice.wanted_seconds = request.goal.seconds;
+  NextRun next{first_knobs(settings), {}, "a quick look"};
+  for (int k = 0; k < most_steps && search.step(next); ++k) {
+    choice.reached = !request.goal.error || search.error() <= wanted;
     if (request.goal.error && choice.reached)
       break;
-    // What did not help once is not worth more of it: the estimate does not know what is wrong.
-    if (!helped)
-      break;
-    next = next_run(measured, steering.free, std::max(error_margin * wanted, at_once * error),
-                    std::min(time_margin * steering.left(), most_growth * steering.spent()));
+    const MeasuredRun& measured = search.best->measured;
+    next =
+        next_run(measured, steering.free, std::max(error_margin * wanted, at_once * search.error()),
+                 std::min(time_margin * steering.left(), most_growth * steering.spent()));
     if (next.knobs == measured.knobs)
       break;
     note(events, fmt::format("next, because of {}", next.why));
   }
+  SteeredRun& best = *search.best;
   choice.options =
-      options_of(with_knobs(request.settings, steering.free, best->measured.knobs, area));
+      options_of(with_knobs(settings, free_knobs(settings), best.measured.knobs, area));
   say_end(choice, events);
-  all.load = figures.seconds.load;
   const int threads = figures.threads;
-  figures = best->figures;
-  figures.seconds = all;
+  search.seconds.load = figures.seconds.load;
+  figures = best.figures;
+  figures.seconds = search.seconds;
   figures.threads = threads;
   figures.choice = std::move(choice);
-  return std::move(best->picture);
+  return std::move(best.picture);
 }
 
 } // namespace meninas

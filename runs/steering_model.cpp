@@ -18,17 +18,53 @@ namespace {
 constexpr double most_elements = 250'000.0;
 constexpr int most_rays = 4096, least_samples = 4, most_samples = 1024;
 
+constexpr double at_edges = 1.7, of_noise = 1.1; // exponents
+constexpr double rays_of_a_hit = 64.0; ///< of a hit that gathers, where sampling is adaptive
+
 /// What so many samples of a pixel take, in hits of their own: they share shadow rays (radiosity/shared_light.h).
-double hits_of(int samples) { return samples <= 4 ? samples : std::max(4.0, 0.3 * samples); }
+double hits_of(double samples) { return samples <= 4.0 ? samples : 4.0 + 0.3 * (samples - 4.0); }
+
+/// Samples of a pixel in the mean.
+double samples_a_pixel(const MeasuredRun& run, int samples) {
+  double mean = std::min(run.samples_a_pixel, double(samples));
+  std::size_t round = 0;
+  for (int taken = run.knobs.samples; taken < samples; taken *= 4)
+    mean += run.uncertain[std::min(round++, run.uncertain.size() - 1)] * 3.0 * taken;
+  return mean;
+}
+
+/// Of the square of what camera rays are off by; nothing is left to gain where no pixel would take more.
+double pixel_decline(const MeasuredRun& run, const Knobs& knobs) {
+  const int samples = knobs.samples;
+  const double exponent = knobs.term == DiffuseTerm::interpolated ? at_edges : of_noise;
+  if (samples < run.knobs.samples)
+    return std::pow(samples_a_pixel(run, samples) / run.samples_a_pixel, -exponent);
+  double decline = 1.0;
+  std::size_t round = 0;
+  for (int taken = run.knobs.samples; taken < samples; taken *= 4)
+    decline *= run.uncertain[std::min(round++, run.uncertain.size() - 1)] > 0.0
+                   ? std::pow(4.0, -exponent)
+                   : 1.0;
+  return decline;
+}
+
+/// What one hit takes that gathers with rays of its own.
+double gather_seconds(const MeasuredRun& run) {
+  constexpr double source_rays = 128.0; // that cost as much as light from the source
+  return run.error.gather_seconds * (source_rays + rays_of_a_hit) / (source_rays + run.knobs.rays);
+}
 
 double pass_two_seconds(const MeasuredRun& run, const Knobs& knobs) {
-  const double share = double(knobs.samples) / run.knobs.samples;
+  const double samples = samples_a_pixel(run, knobs.samples);
+  const double share = samples / run.samples_a_pixel;
   if (knobs.term == run.knobs.term)
-    return run.pass_two_seconds * (knobs.term == DiffuseTerm::interpolated
-                                       ? share
-                                       : hits_of(knobs.samples) / hits_of(run.knobs.samples));
-  return share * run.pass_two_seconds +
-         run.pixels * hits_of(knobs.samples) * run.error.direct_seconds;
+    return run.pass_two_seconds * (knobs.term == DiffuseTerm::direct
+                                       ? hits_of(samples) / hits_of(run.samples_a_pixel)
+                                       : share);
+  const double hits =
+      run.pixels * (knobs.term == DiffuseTerm::direct ? hits_of(samples) * run.error.direct_seconds
+                                                      : samples * gather_seconds(run));
+  return share * run.pass_two_seconds + hits;
 }
 
 std::vector<Knobs> turns(const Knobs& now, const FreeKnobs& free, const MeasuredRun& run) {
@@ -39,18 +75,25 @@ std::vector<Knobs> turns(const Knobs& now, const FreeKnobs& free, const Measured
       change(all.back());
     }
   };
-  turn(free.elements && 2.0 * now.elements <= most_elements, [](Knobs& k) { k.elements *= 2.0; });
+  constexpr double most_growth = 16.0; // how the mesh's error falls is not known further than that
+  turn(free.elements &&
+           2.0 * now.elements <= std::min(most_elements, most_growth * run.knobs.elements),
+       [](Knobs& k) { k.elements *= 2.0; });
   turn(free.rays && 2 * now.rays <= most_rays, [](Knobs& k) { k.rays *= 2; });
   turn(free.samples && 4 * now.samples <= most_samples, [](Knobs& k) { k.samples *= 4; });
   // Camera rays that cost next to nothing so far are worth less where each computes light: fewer of them may do.
-  const bool can_direct =
-      free.term && now.term == DiffuseTerm::interpolated && run.error.direct_seconds > 0.0;
-  for (const int fewer : {1, 4, 16})
-    turn(can_direct && (fewer == 1 || (free.samples && now.samples / fewer >= least_samples)),
-         [fewer](Knobs& k) {
-           k.term = DiffuseTerm::direct;
-           k.samples /= fewer;
-         });
+  const auto turn_term = [&](bool can, DiffuseTerm term) {
+    for (const int fewer : {1, 4, 16})
+      turn(free.term && can &&
+               (fewer == 1 || (free.samples && now.samples / fewer >= least_samples)),
+           [&](Knobs& k) {
+             k.term = term;
+             k.samples /= fewer;
+           });
+  };
+  turn_term(now.term == DiffuseTerm::interpolated && run.error.direct_seconds > 0.0,
+            DiffuseTerm::direct);
+  turn_term(now.term != DiffuseTerm::gather && run.error.gather_seconds > 0.0, DiffuseTerm::gather);
   return all;
 }
 
@@ -62,8 +105,10 @@ std::string reasons(const MeasuredRun& run, const Knobs& next) {
     if (turned)
       all.push_back(fmt::format("{} {:.2g} %: {}", part, 100.0 * error, remedy));
   };
-  because(next.term != run.knobs.term, "edges within elements", e.mesh_direct,
-          "light from the source at every hit");
+  because(next.term == DiffuseTerm::direct && next.term != run.knobs.term, "edges within elements",
+          e.mesh_direct, "light from the source at every hit");
+  because(next.term == DiffuseTerm::gather && next.term != run.knobs.term, "mesh and form factors",
+          std::hypot(e.mesh, e.form_factors), "light gathered at every hit");
   because(next.elements != run.knobs.elements, "mesh", e.mesh,
           fmt::format("about {:.0f} elements", next.elements));
   because(next.rays != run.knobs.rays, "form factors", e.form_factors,
@@ -78,18 +123,42 @@ std::string reasons(const MeasuredRun& run, const Knobs& next) {
 
 } // namespace
 
+double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine) {
+  const auto square = [](double x) { return x * x; };
+  const auto rest = [&](const MeasuredRun& run) {
+    return std::max(square(run.error.mesh) - square(run.error.mesh_direct), 1e-12);
+  };
+  const double growth = std::log(fine.knobs.elements / coarse.knobs.elements);
+  return std::clamp(std::log(rest(coarse) / rest(fine)) / growth, 0.0, 1.0);
+}
+
+/// What the field is off by, squared.
+static double field_error(const MeasuredRun& run, const Knobs& knobs) {
+  const PictureError& e = run.error;
+  const auto square = [](double x) { return x * x; };
+  const double elements = knobs.elements / run.knobs.elements,
+               rays = double(knobs.rays) / run.knobs.rays;
+  if (knobs.term == DiffuseTerm::gather) {
+    if (run.knobs.term == DiffuseTerm::gather)
+      return 0.0;
+    constexpr double noise_of_interpolated = 4.0 / 9.0; // of a vertex's: raytrace/picture_error.h
+    return square(e.form_factors) / noise_of_interpolated *
+           std::pow(run.knobs.rays / rays_of_a_hit, 1.2) / samples_a_pixel(run, knobs.samples);
+  }
+  const double direct = square(e.mesh_direct), rest = std::max(square(e.mesh) - direct, 0.0);
+  const bool edges = knobs.term == run.knobs.term; // or they have become exact
+  return (edges ? direct * std::pow(elements, -0.5) : 0.0) +
+         rest * std::pow(elements, -run.mesh_exponent) +
+         square(e.form_factors) * std::pow(rays, -1.2) + square(e.mirror_tail);
+}
+
 Forecast forecast(const MeasuredRun& run, const Knobs& knobs) {
   const PictureError& e = run.error;
   const double elements = knobs.elements / run.knobs.elements,
-               rays = double(knobs.rays) / run.knobs.rays,
-               samples = double(knobs.samples) / run.knobs.samples;
+               rays = double(knobs.rays) / run.knobs.rays;
   const auto square = [](double x) { return x * x; };
-  const double direct = square(e.mesh_direct), rest = std::max(square(e.mesh) - direct, 0.0);
-  const bool edges = knobs.term == run.knobs.term; // or they have become exact
-  const double squared = (edges ? direct * std::pow(elements, -0.5) : 0.0) + rest / elements +
-                         square(e.form_factors) * std::pow(rays, -1.2) +
-                         square(e.pixels) * std::pow(samples, -1.7) + square(e.mirror_tail) +
-                         square(e.solver);
+  const double squared =
+      field_error(run, knobs) + square(e.pixels) * pixel_decline(run, knobs) + square(e.solver);
   constexpr double source_rays = 128.0; // that cost as much as light from the source
   const bool again = elements != 1.0 || rays != 1.0;
   const double pass_one = again ? run.pass_one_seconds * elements * (source_rays + knobs.rays) /

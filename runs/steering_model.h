@@ -3,14 +3,17 @@
 // From a measured run with its parts of the error (raytrace/picture_error.h) and seconds:
 //   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide), the rest of mesh^2 r^-1; pass one r
 //   rays x r       form_factors^2 r^-1.2 (low-discrepancy rays); pass one (128 + rays), as light from the source costs about so much
-//   samples x r    pixels^2 r^-1.7 (stratified samples at edges); pass two r
+//   samples x 4    pixels^2 4^-1.7 (stratified samples at edges), 4^-1.1 where rays are sent from hits; pass two as the pixels that would take them
 //   direct         mesh_direct^2 none; pass two as much as the hits that were made to find out, also with a quarter or a sixteenth of the samples
-// The exponents are those of the gallery, roughly; every run is measured again, and only what comes next is foretold.
+//   gather         mesh^2 and form_factors^2 none, but the noise of a hit's own rays, a share in pixels^2; pass two as the hits say
+// The exponents are those of the gallery, roughly; every run is measured again, and only what comes next is foretold. How the mesh's error
+// falls is measured as well, once two meshes have been seen.
 #pragma once
 
 #include "raytrace/picture_error.h"
 #include "runs/run_settings.h"
 
+#include <array>
 #include <string>
 
 namespace meninas {
@@ -18,7 +21,7 @@ namespace meninas {
 struct Knobs {
   double elements = 600.0; ///< wanted
   int rays = 64;
-  int samples = 4;
+  int samples = 4; ///< of a pixel, at most: sampling is adaptive
   DiffuseTerm term = DiffuseTerm::interpolated;
 
   bool operator==(const Knobs&) const = default;
@@ -34,7 +37,15 @@ struct MeasuredRun {
   PictureError error;
   double pass_one_seconds = 0.0, pass_two_seconds = 0.0, estimate_seconds = 0.0;
   double pixels = 0.0;
+  double samples_a_pixel = 4.0; ///< in the mean
+  /// The share of pixels that would take more than 1, 4, 16, 64 times as many samples as `knobs` say.
+  std::array<double, 4> uncertain{1.0, 1.0, 1.0, 1.0};
+  double mesh_exponent =
+      1.0; ///< e: the mesh's error squared falls with r^-e, what light from the source would not have aside
 };
+
+/// Which part of the mesh's error falls how fast, by two runs with meshes of their own.
+double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine);
 
 struct Forecast {
   double error = 0.0;

@@ -70,6 +70,7 @@ ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettin
                        Rendering rendering) {
   const RenderSettings used = two_pass_settings(settings).render;
   ViewPicture picture{.image = std::move(rendering.image),
+                      .samples = std::move(rendering.samples),
                       .layers = std::move(rendering.layers),
                       .attributes = attributes_of(scene, camera, settings)};
   picture.attributes.emplace_back("mode", used.mode == RenderMode::hybrid ? "hybrid" : "radiosity");
@@ -122,7 +123,7 @@ ViewPicture render_reference_view(Scene scene, const Camera& camera, PictureSize
                                   const RunSettings& settings, const RunEvents& events,
                                   RunFigures& figures) {
   ViewPicture result{
-      .image = {}, .layers = {}, .attributes = attributes_of(scene, camera, settings)};
+      .image = {}, .samples = {}, .layers = {}, .attributes = attributes_of(scene, camera, settings)};
   reference::ReferenceSettings limits = reference_settings(settings);
   limits.width = size.width;
   limits.height = size.height;

@@ -38,6 +38,7 @@ LitScene read_lit_scene(const std::filesystem::path& solution, Scene scene,
 /// A picture and what it is: the same bits belong to the same attributes, whether pass one was run or read.
 struct ViewPicture {
   Image image;
+  SampleCounts samples;
   std::vector<Layer> layers;
   Attributes attributes;
 };

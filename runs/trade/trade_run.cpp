@@ -136,7 +136,7 @@ void measure_point(Measuring& measuring, TradePoint& point) {
   point.elements = figures.elements;
   point.estimate =
       estimate_error(lit, result.solution.field, measuring.camera, two_pass, result.solution.solver,
-                     result.rendering.image, error_settings(two_pass, point.elements));
+                     {result.rendering.image, result.rendering.samples}, error_settings(two_pass, point.elements));
   point.picture = std::move(result.rendering.image);
 }
 

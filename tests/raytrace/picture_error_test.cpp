@@ -43,7 +43,7 @@ struct Lit {
     return render(light(), solution.field, camera(), settings).image;
   }
   PictureError error(const TwoPassSettings& settings, const Image& picture) const {
-    return estimate_error(light(), solution.field, camera(), settings, solution.solver, picture,
+    return estimate_error(light(), solution.field, camera(), settings, solution.solver, {picture, {}},
                           {.gathered_pixels = 256, .pixels = 1024});
   }
   /// Relative, outside emitters.

@@ -52,7 +52,7 @@ TEST(PixelFilter, WeightsSumToOneAndPlacesFollowThem) {
       const double low = double{places[k]} - 0.5, high = double{places[k + 1]} - 0.5;
       ASSERT_LT(low, high);
       const double between = (high - low) * filter_weight(filter, 0.5 * (low + high));
-const bool tail = k == 0 || k + 1 == filter_steps; // where weights go to zero
+      const bool tail = k == 0 || k + 1 == filter_steps; // where weights go to zero
       EXPECT_NEAR(between * double(filter_steps), 1.0, tail ? 0.6 : 0.02) << name_of(filter) << k;
     }
     EXPECT_NEAR(place_of(places, 0.5F), 0.5F, 1e-5F);
@@ -117,27 +117,44 @@ TEST(PixelFilter, LayersAddUpUnderAnyFilterAndAdaptively) {
   }
 }
 
-TEST(SampleChoice, NeighboursThatDifferAreBothWorthIt) {
+TEST(SampleChoice, NeighboursThatDifferAreBothUncertain) {
   Image picture(5, 4);
   for (glm::vec3& pixel : picture.pixels)
     pixel = glm::vec3(1.0F);
-  EXPECT_EQ(differing_pixels(picture, 0.01), PixelMask(20, 0));
-  picture.at(2, 1) = glm::vec3(1.0F, 1.2F, 1.0F);
-  const PixelMask worth = differing_pixels(picture, 0.1);
+  EXPECT_EQ(uncertain_pixels(picture, 0.0025), PixelMask(20, 0));
+  picture.at(2, 1) = glm::vec3(1.0F, 1.2F, 1.0F); // off by a quarter of the difference: 0.05
+  const PixelMask uncertain = uncertain_pixels(picture, 0.04);
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 5; ++x)
-      EXPECT_EQ(worth[static_cast<std::size_t>(5 * y + x)],
+      EXPECT_EQ(uncertain[static_cast<std::size_t>(5 * y + x)],
                 std::abs(x - 2) <= 1 && std::abs(y - 1) <= 1 ? 1 : 0);
-  EXPECT_EQ(differing_pixels(picture, 0.2), PixelMask(20, 0));
-  EXPECT_EQ(differing_pixels(Image(3, 3), 0.1), PixelMask(9, 0)) << "black";
+  EXPECT_EQ(uncertain_pixels(picture, 0.06), PixelMask(20, 0));
+  EXPECT_EQ(uncertain_pixels(Image(3, 3), 0.1), PixelMask(9, 0)) << "black";
 }
 
-TEST(SampleChoice, WhereNothingDiffersAQuarterIsTraced) {
+TEST(SampleChoice, BrightPixelsAreHeldAgainstTheMean) {
+  // A step of a tenth, where all is a hundred times the mean, is of more weight than the same step where all is the mean.
+  Image picture(20, 20);
+  for (glm::vec3& pixel : picture.pixels)
+    pixel = glm::vec3(1.0F);
+  picture.at(3, 3) = picture.at(3, 4) = glm::vec3(100.0F);
+  picture.at(12, 12) = glm::vec3(1.1F);
+  const PixelMask uncertain = uncertain_pixels(picture, 0.04);
+  EXPECT_EQ(uncertain[12 * 20 + 12], 0);
+  Image change(20, 20);
+  change.at(3, 3) = glm::vec3(1.0F);
+  EXPECT_EQ(uncertain_pixels(picture, change, 0.04)[3 * 20 + 3], 1) << "0.45 of a mean of 1.5";
+  change.at(3, 3) = glm::vec3(0.1F);
+  EXPECT_EQ(uncertain_pixels(picture, change, 0.04)[3 * 20 + 3], 0);
+}
+
+TEST(SampleChoice, WhereNothingDiffersTheFirstAreEnough) {
   Scene scene;
   add_polygon(scene, "lamp", {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, diffuse(0.0, 3.0));
   const Camera camera = look_at({0.1, 0.2, 2.0}, {0.1, 0.2, 0.0}, 0.3);
   const Taken lit = lit_up(scene, coarse());
-  for (const auto& [samples, traced] : {std::pair{64, 16}, {16, 4}, {8, 4}, {4, 4}, {2, 2}}) {
+  for (const auto& [samples, traced] :
+       {std::pair{1024, 16}, {256, 4}, {16, 4}, {8, 4}, {4, 4}, {2, 2}}) {
     RenderSettings settings = pixels(8, 8, samples);
     settings.pixel_error = 0.05;
     const Rendering rendering = render(*lit.prepared->light, lit.solution.field, camera, settings);
@@ -146,28 +163,40 @@ TEST(SampleChoice, WhereNothingDiffersAQuarterIsTraced) {
   }
 }
 
-TEST(SampleChoice, EdgesAreAsWithAllSamplesAndTheRestIsNear) {
+TEST(SampleChoice, PixelsAreRightToWhatIsAskedFor) {
   const Scene scene = room();
   const Taken lit = lit_up(scene, coarse());
-  RenderSettings settings = pixels(64, 48, 64);
+  RenderSettings settings = pixels(64, 48, 256);
   const LightScene& light = *lit.prepared->light;
   const Rendering all = render(light, lit.solution.field, scene.cameras[0], settings);
-  constexpr double error = 0.1;
-  settings.pixel_error = error;
-  const Rendering some = render(light, lit.solution.field, scene.cameras[0], settings);
-  EXPECT_LT(some.camera_rays, all.camera_rays * 7 / 10);
-  EXPECT_GT(some.camera_rays, all.camera_rays / 4);
   double mean = 0.0;
   for (const glm::vec3& pixel : all.image.pixels)
     mean += double{pixel.g} / double(all.image.pixels.size());
-  std::size_t off = 0;
-  for (std::size_t p = 0; p < all.image.pixels.size(); ++p) {
-    const glm::dvec3 a(all.image.pixels[p]), b(some.image.pixels[p]);
-    for (int band = 0; band < 3; ++band)
-      off += std::abs(a[band] - b[band]) > 0.5 * error * (a[band] + 0.05 * mean) ? 1 : 0;
+  std::uint64_t rays = 0;
+  for (const double error : {0.1, 0.03, 0.01}) {
+    settings.pixel_error = error;
+    const Rendering some = render(light, lit.solution.field, scene.cameras[0], settings);
+    EXPECT_LT(some.camera_rays, all.camera_rays / 3);
+    EXPECT_GT(some.camera_rays, rays);
+    rays = some.camera_rays;
+    std::uint64_t counted = 0;
+    for (const std::uint32_t samples : some.samples)
+      counted += samples;
+    EXPECT_EQ(counted, some.camera_rays);
+    std::size_t off = 0;
+    double square = 0.0;
+    for (std::size_t p = 0; p < all.image.pixels.size(); ++p) {
+      const glm::dvec3 a(all.image.pixels[p]), b(some.image.pixels[p]);
+      for (int band = 0; band < 3; ++band) {
+        const double relative = (a[band] - b[band]) / std::min(a[band] + 0.05 * mean, mean);
+        off += std::abs(relative) > 2.0 * error ? 1 : 0;
+        square += relative * relative / double(3 * all.image.pixels.size());
+      }
+    }
+    // The bound is one of single pixels: most are far better, and what four samples and those around have missed is rare.
+    EXPECT_LT(std::sqrt(square), 0.25 * error);
+    EXPECT_LE(off, all.image.pixels.size() / 500) << error;
   }
-  // What sixteen samples have missed altogether: slivers of lamps and mirror edges in single pixels.
-  EXPECT_LE(off, 3 * all.image.pixels.size() / 500);
 }
 
 TEST(SampleChoice, TheSameBitsForAnyThreads) {

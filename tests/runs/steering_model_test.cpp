@@ -57,6 +57,7 @@ TEST(NextRun, TurnsTheKnobOfTheLargestPart) {
 TEST(NextRun, TakesFewerCameraRaysWhereEachComputesLight) {
   MeasuredRun run = run_with(0.026, 0.026, 0.001, 0.001);
   run.knobs.samples = 64;
+  run.samples_a_pixel = 64.0;
   run.knobs.elements = 100'000.0;
   run.pass_one_seconds = 20.0;
   const NextRun next = next_run(run, {}, 0.017, for_ever);
@@ -68,11 +69,47 @@ TEST(NextRun, TakesFewerCameraRaysWhereEachComputesLight) {
 }
 
 TEST(NextRun, ForetellsWhatWasWanted) {
-  for (const double wanted : {0.05, 0.02, 0.01}) {
+  for (const double wanted : {0.05, 0.02, 0.015}) {
     const NextRun next = next_run(run_with(0.08, 0.06, 0.05, 0.06), {}, wanted, for_ever);
     EXPECT_LE(next.forecast.error, wanted);
     EXPECT_GT(next.forecast.error, 0.3 * wanted) << "and not far more than that";
   }
+}
+
+TEST(NextRun, DividesNoFurtherAtOnceThanIsKnown) {
+  const NextRun next = next_run(run_with(0.2, 0.0, 0.001, 0.001), {}, 0.001, for_ever);
+  EXPECT_LE(next.knobs.elements, 16.0 * Knobs{}.elements);
+}
+
+TEST(NextRun, GathersWhereMeshesDoNotHelp) {
+  // 8 % that four times the elements have taken a tenth of the square off: 0.9 = 4^-0.076.
+  MeasuredRun coarse = run_with(0.08, 0.0, 0.005, 0.001), fine = coarse;
+  fine.knobs.elements *= 4.0;
+  fine.error.mesh *= std::sqrt(0.9);
+  EXPECT_NEAR(measured_mesh_exponent(coarse, fine), 0.076, 0.001);
+  fine.error.gather_seconds = 1e-4;
+  const NextRun divided = next_run(fine, {}, 0.02, for_ever);
+  EXPECT_EQ(divided.knobs.term, DiffuseTerm::interpolated) << "by what meshes do as a rule";
+  fine.mesh_exponent = measured_mesh_exponent(coarse, fine);
+  const NextRun gathered = next_run(fine, {}, 0.02, for_ever);
+  EXPECT_EQ(gathered.knobs.term, DiffuseTerm::gather);
+  EXPECT_LE(gathered.forecast.error, 0.02);
+  EXPECT_THAT(gathered.why, HasSubstr("gathered at every hit"));
+}
+
+TEST(NextRun, SamplesCostWhatTheUncertainPixelsTake) {
+  // One pixel in twenty would take sixteen samples instead of four, and one in fifty 64 instead of those.
+  MeasuredRun run = run_with(0.001, 0.0, 0.001, 0.1);
+  run.uncertain = {0.05, 0.02, 0.0, 0.0};
+  Knobs more = run.knobs;
+  more.samples = 16;
+  const double picture = run.pass_two_seconds, estimate = run.estimate_seconds;
+  EXPECT_NEAR(forecast(run, more).seconds, estimate + picture * (4.0 + 0.05 * 12.0) / 4.0, 1e-9);
+  more.samples = 64;
+  const Forecast all = forecast(run, more);
+  EXPECT_NEAR(all.seconds, estimate + picture * (4.0 + 0.05 * 12.0 + 0.02 * 48.0) / 4.0, 1e-9);
+  more.samples = 256;
+  EXPECT_EQ(forecast(run, more).error, all.error) << "no pixel would take them";
 }
 
 TEST(NextRun, TurnsNoKnobFurtherThanNeeded) {
