@@ -120,17 +120,25 @@ Measured measure(Known& known, const RunSettings& settings, std::optional<BareSe
   return m;
 }
 
+struct PictureKnobs {
+  DiffuseTerm term = DiffuseTerm::interpolated;
+  int samples = 16;
+  std::optional<double> pixel_error = {};
+};
+
 std::vector<RunSettings> ladder(double area) {
   std::vector<RunSettings> all;
   for (const double elements : {600.0, 1500.0, 4000.0, 10'000.0})
-    for (const int rays : {64, 128, 256})
-      for (const DiffuseTerm term : {DiffuseTerm::interpolated, DiffuseTerm::direct}) {
+    for (const int rays : {64, 256})
+      for (const PictureKnobs& knobs : {PictureKnobs{}, PictureKnobs{DiffuseTerm::direct, 16, 0.1},
+                                        PictureKnobs{DiffuseTerm::direct, 256, 0.04}}) {
         RunSettings settings;
         settings.quality = Quality::draft;
         settings.element_size = std::sqrt(area / elements);
         settings.rays = rays;
-        settings.diffuse = term;
-        settings.samples = 16;
+        settings.diffuse = knobs.term;
+        settings.samples = knobs.samples;
+        settings.pixel_error = knobs.pixel_error;
         all.push_back(settings);
       }
   return all;

@@ -93,7 +93,11 @@ std::vector<Knobs> turns(const Knobs& now, const FreeKnobs& free, const Measured
   };
   turn_term(now.term == DiffuseTerm::interpolated && run.error.direct_seconds > 0.0,
             DiffuseTerm::direct);
-  turn_term(now.term != DiffuseTerm::gather && run.error.gather_seconds > 0.0, DiffuseTerm::gather);
+  // It is the dearest by far, and trusts what elements reflect: for where meshes do not help.
+  constexpr double does_not_help = 0.7; // the exponent
+  turn_term(now.term != DiffuseTerm::gather && run.error.gather_seconds > 0.0 &&
+                (!free.elements || run.mesh_exponent < does_not_help),
+            DiffuseTerm::gather);
   return all;
 }
 
@@ -126,8 +130,13 @@ std::string reasons(const MeasuredRun& run, const Knobs& next) {
 double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine) {
   const auto square = [](double x) { return x * x; };
   const auto rest = [&](const MeasuredRun& run) {
-    return std::max(square(run.error.mesh) - square(run.error.mesh_direct), 1e-12);
+    return square(run.error.mesh) - square(run.error.mesh_direct);
   };
+  // Where nearly all is edges the difference is what neither is known to.
+  constexpr double known = 0.25;
+  for (const MeasuredRun* run : {&coarse, &fine})
+    if (!(rest(*run) > known * square(run->error.mesh)))
+      return coarse.mesh_exponent;
   const double growth = std::log(fine.knobs.elements / coarse.knobs.elements);
   return std::clamp(std::log(rest(coarse) / rest(fine)) / growth, 0.0, 1.0);
 }
