@@ -66,8 +66,8 @@ Knobs first_knobs(const RunSettings& settings) {
 
 /// What is asked for, with adaptive samples where their number is free.
 RunSettings settings_of(const SteeringRequest& request) {
-  constexpr double pixel_share = 2.0,
-                   finest = 0.01; // of single pixels; the mean over all is far less
+  constexpr double pixel_share = 1.0,
+                   finest = 0.005; // of single pixels
   RunSettings settings = request.settings;
   if (!settings.samples && !settings.pixel_error && settings.mode == PictureMode::hybrid)
     settings.pixel_error = request.goal.error ? pixel_share * *request.goal.error : finest;

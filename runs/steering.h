@@ -3,7 +3,7 @@
 // First a coarse run, in a fraction of a second, with an estimate of its error by part; then the knobs that buy the most accuracy per second
 // (steering_model.h), and again, until the estimate is below what was wanted or the time is over. A run that changes pass two alone keeps
 // pass one. Knobs whose turning did not help are let alone. Of several pictures the one with the smallest estimate is kept. Samples of pixels
-// are adaptive (raytrace/sample_choice.h), to twice the wanted error at the worst ones.
+// are adaptive (raytrace/sample_choice.h), to the wanted error in every pixel.
 #pragma once
 
 #include "runs/steering_model.h"
