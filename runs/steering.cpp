@@ -66,8 +66,7 @@ Knobs first_knobs(const RunSettings& settings) {
 
 /// What is asked for, with adaptive samples where their number is free.
 RunSettings settings_of(const SteeringRequest& request) {
-  constexpr double pixel_share = 1.0,
-                   finest = 0.005; // of single pixels
+  constexpr double pixel_share = 1.0, finest = 0.02;
   RunSettings settings = request.settings;
   if (!settings.samples && !settings.pixel_error && settings.mode == PictureMode::hybrid)
     settings.pixel_error = request.goal.error ? pixel_share * *request.goal.error : finest;
