@@ -80,6 +80,15 @@ double distance_to(const std::array<Point3, 3>& corners, const Point3& x) {
   return glm::distance(point_of(corners, nearest_barycentric(corners, x)), x);
 }
 
+bool is_within(const std::array<Point3, 3>& corners, const Point3& x, double reach) {
+  // |n . (x - a)| / |n|, the distance to the plane, is no greater than that to the triangle; what rounding may decide is left to the latter.
+  constexpr double rounding = 1e-14; // of products of lengths up to 2, generously
+  const auto n = area_vector(corners);
+  if (std::abs(glm::dot(n, x - corners[0])) > 2.0 * reach * glm::length(n) + rounding)
+    return false;
+  return distance_to(corners, x) <= reach;
+}
+
 std::optional<ContactTriangle> blocking_contact(const Contacts& contacts,
                                                 const Departure& departure, double noise) {
   std::optional<ContactTriangle> blocker;

@@ -39,6 +39,8 @@ struct Departure {
 /// The weights of the second and third corner of the point of the triangle nearest to x.
 Vec2 nearest_barycentric(const std::array<Point3, 3>& corners, const Point3& x);
 double distance_to(const std::array<Point3, 3>& corners, const Point3& x);
+/// Whether the distance is at most `reach`; soon known where the plane of the triangle is further away.
+bool is_within(const std::array<Point3, 3>& corners, const Point3& x, double reach);
 
 /// The touching triangle that a departing ray runs into at once, if any: the one met most squarely.
 /// Lengths below `noise` count as zero.

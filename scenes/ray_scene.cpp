@@ -132,7 +132,7 @@ struct ContactQuery {
 
 bool collect_contact(RTCPointQueryFunctionArguments* args) {
   auto& query = *static_cast<ContactQuery*>(args->userPtr);
-  if (distance_to(corners_of(*query.geometry, args->primID), query.origin) <= reach)
+  if (is_within(corners_of(*query.geometry, args->primID), query.origin, reach))
     add_contact(*query.geometry, args->primID, query.leaving, query.found);
   return false;
 }
