@@ -228,7 +228,7 @@ PictureError estimate_error(const LightScene& light, const DiffuseField& field,
                             const Camera& camera, const TwoPassSettings& settings,
                             const SolverResult& solver, const SampledPicture& picture,
                             const PictureErrorSettings& how) {
-  constexpr int emitter_samples = 4;
+  constexpr int emitter_samples = 4; // slivers of lamps that one misses are the error of no light
   constexpr double noise_of_interpolated = 4.0 / 9.0;
   Stopwatch watch;
   PictureError error;

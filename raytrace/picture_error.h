@@ -29,7 +29,7 @@ namespace meninas {
 
 struct PictureErrorSettings {
   int gathered_pixels = 128; ///< where light is gathered, twice
-  int pixels = 1024;         ///< where the rest is computed
+  int pixels = 1024;         ///< where the rest is computed; more of those that have few samples
 };
 
 struct PictureError {

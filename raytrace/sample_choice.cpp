@@ -10,39 +10,30 @@ namespace {
 constexpr int growth = 4; ///< of the samples of a pixel, from round to round
 
 /// How far off pixels may be.
-class PixelBounds {
-public:
-  PixelBounds(const Image& picture, double pixel_error) : picture_(picture) {
-    double mean = 0.0;
-    for (const glm::vec3& pixel : picture.pixels)
-      mean += double{pixel.r + pixel.g + pixel.b} / (3.0 * double(picture.pixels.size()));
-    constexpr double dark = 0.05; // of the mean: errors in black corners are not seen
-    share_ = static_cast<float>(pixel_error);
-    floor_ = static_cast<float>(dark * mean);
-    mean_ = static_cast<float>(mean);
-  }
+struct PixelBound {
+  float share = 0.0F, mean = 0.0F;
 
   bool passed_by(const glm::vec3& error, const glm::vec3& radiance) const {
+    constexpr float dark = 0.05F; // of the mean: errors in black corners are not seen
     return glm::any(
-        glm::greaterThan(error, share_ * glm::min(radiance + floor_, glm::vec3(mean_))));
+        glm::greaterThan(error, share * glm::min(radiance + dark * mean, glm::vec3(mean))));
   }
-
-  bool passed_by(const glm::vec3& error, std::size_t pixel) const {
-    return passed_by(error, picture_.pixels[pixel]);
-  }
-
-private:
-  const Image& picture_;
-  float share_, floor_, mean_;
 };
 
-/// The mean of the squares over a pixel and its neighbours.
-glm::vec3 mean_square_around(const Image& image, int x, int y) {
+PixelBound bound_of(const Image& picture, double pixel_error) {
+  double mean = 0.0;
+  for (const glm::vec3& pixel : picture.pixels)
+    mean += double{pixel.r + pixel.g + pixel.b} / (3.0 * double(picture.pixels.size()));
+  return {static_cast<float>(pixel_error), static_cast<float>(mean)};
+}
+
+/// The sum of the squares of a pixel and its neighbours.
+glm::vec3 squares_around(const Image& image, int x, int y) {
   glm::vec3 sum(0.0F);
   for (int v = std::max(y - 1, 0); v <= std::min(y + 1, image.height - 1); ++v)
     for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u)
       sum += image.at(u, v) * image.at(u, v);
-  return sum / 9.0F;
+  return sum;
 }
 
 } // namespace
@@ -55,7 +46,7 @@ SampleRange first_samples(const RenderSettings& settings) {
 
 PixelMask uncertain_pixels(const Image& picture, double pixel_error) {
   constexpr float error_of_difference = 0.25F;
-  const PixelBounds bounds(picture, pixel_error);
+  const PixelBound bound = bound_of(picture, pixel_error);
   PixelMask uncertain(picture.pixels.size(), 0);
   // Each pair of neighbours once: to the right and the three below.
   for (int y = 0; y < picture.height; ++y)
@@ -65,7 +56,7 @@ PixelMask uncertain_pixels(const Image& picture, double pixel_error) {
         if (nx < 0 || nx >= picture.width || ny >= picture.height)
           continue;
         const glm::vec3 &a = picture.at(x, y), &b = picture.at(nx, ny);
-        if (!bounds.passed_by(error_of_difference * glm::abs(a - b), glm::max(a, b)))
+        if (!bound.passed_by(error_of_difference * glm::abs(a - b), glm::max(a, b)))
           continue;
         uncertain[static_cast<std::size_t>(y * picture.width + x)] = 1;
         uncertain[static_cast<std::size_t>(ny * picture.width + nx)] = 1;
@@ -75,15 +66,15 @@ PixelMask uncertain_pixels(const Image& picture, double pixel_error) {
 
 PixelMask uncertain_pixels(const Image& picture, const Image& change, double pixel_error) {
   constexpr float error_of_change = 0.45F;
-  const PixelBounds bounds(picture, pixel_error);
+  const PixelBound bound = bound_of(picture, pixel_error);
   PixelMask uncertain(picture.pixels.size(), 0);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
-      const auto pixel = static_cast<std::size_t>(y * picture.width + x);
-      // A line of three pixels has the root of a third of their mean square; a single one is believed as well.
+      // An edge goes through three of nine pixels: they share the squares. A pixel's own change is believed as well.
       const glm::vec3 error =
-          glm::max(glm::abs(change.at(x, y)), glm::sqrt(3.0F * mean_square_around(change, x, y)));
-      uncertain[pixel] = bounds.passed_by(error_of_change * error, pixel) ? 1 : 0;
+          glm::max(glm::abs(change.at(x, y)), glm::sqrt(squares_around(change, x, y) / 3.0F));
+      const bool passed = bound.passed_by(error_of_change * error, picture.at(x, y));
+      uncertain[static_cast<std::size_t>(y * picture.width + x)] = passed ? 1 : 0;
     }
   return uncertain;
 }

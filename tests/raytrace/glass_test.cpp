@@ -1,5 +1,5 @@
 // Panes and polished coats in both passes: what they pass and reflect, by closed forms and by what may not change.
-#include "tests/raytrace/pictures.h"
+#include "tests/raytrace/glass_pictures.h"
 #include "tests/support/glass_rooms.h"
 #include "tests/support/rooms.h"
 #include "tests/support/scene_builder.h"
@@ -18,28 +18,6 @@ constexpr double pi = std::numbers::pi;
 /// What clear panes of ior 1.5 pass and reflect.
 double passed(double cosine) { return pane_transmittance(1.5, cosine); }
 double reflected(double cosine) { return 1.0 - passed(cosine); }
-
-PassOneSettings coarse(double element_size = 0.25) {
-  PassOneSettings settings;
-  settings.mesh.element_size = element_size;
-  settings.form_factors.rays = settings.interpolation.rays = 256;
-  settings.solver.tolerance = 1e-6;
-  return settings;
-}
-
-RenderSettings one_pixel() {
-  RenderSettings settings;
-  settings.width = settings.height = 1;
-  settings.diffuse.term = DiffuseTerm::direct;
-  return settings;
-}
-
-/// What leaves `target` towards the eye.
-glm::dvec3 seen(const Scene& scene, Point3 eye, Point3 target,
-                RenderSettings settings = one_pixel(), double element_size = 0.25) {
-  return picture(lit_up(scene, coarse(element_size)), look_at(eye, target, 1e-4), settings)
-      .pixels[0];
-}
 
 PunctualLight bulb(Point3 at) {
   PunctualLight light;

@@ -1,7 +1,7 @@
 // Textures of transmission and thickness: glass and what is not, in one surface.
 #include "image/image_file.h"
 #include "scenes/refraction.h"
-#include "tests/raytrace/pictures.h"
+#include "tests/raytrace/glass_pictures.h"
 #include "tests/support/glass_rooms.h"
 #include "tests/support/rooms.h"
 
@@ -14,25 +14,6 @@ namespace meninas::test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-PassOneSettings coarse() {
-  PassOneSettings settings;
-  settings.mesh.element_size = 0.25;
-  settings.form_factors.rays = settings.interpolation.rays = 256;
-  settings.solver.tolerance = 1e-6;
-  return settings;
-}
-
-RenderSettings one_pixel() {
-  RenderSettings settings;
-  settings.width = settings.height = 1;
-  settings.diffuse.term = DiffuseTerm::direct;
-  return settings;
-}
-
-glm::dvec3 seen(const Scene& scene, Point3 eye, Point3 target) {
-  return picture(lit_up(scene, coarse()), look_at(eye, target, 1e-4), one_pixel()).pixels[0];
-}
 
 void add_bulb(Scene& scene, Point3 at) {
   PunctualLight light;

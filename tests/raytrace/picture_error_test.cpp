@@ -43,8 +43,8 @@ struct Lit {
     return render(light(), solution.field, camera(), settings).image;
   }
   PictureError error(const TwoPassSettings& settings, const Image& picture) const {
-    return estimate_error(light(), solution.field, camera(), settings, solution.solver, {picture, {}},
-                          {.gathered_pixels = 256, .pixels = 1024});
+    return estimate_error(light(), solution.field, camera(), settings, solution.solver,
+                          {picture, {}}, {.gathered_pixels = 256, .pixels = 1024});
   }
   /// Relative, outside emitters.
   double off(const TwoPassSettings& settings, const Image& picture, const Image& truth) const {
@@ -140,6 +140,25 @@ TEST(PictureError, OfCameraRaysIsWhatFewOfThemMiss) {
   const Image picture = lit.picture(settings.render);
   const double error = lit.off(settings, picture, lit.picture(many));
   EXPECT_NEAR(lit.error(settings, picture).pixels, error, 0.3 * error);
+}
+
+TEST(PictureError, OfAdaptiveCameraRaysIsThatOfThePixelsThatHaveMany) {
+  // Few pixels have many samples. Drawn by their share of the picture only a handful of them would be looked at.
+  TwoPassSettings settings = quick();
+  const Lit lit(lit_room(), settings);
+  settings.render.samples = 64;
+  settings.render.pixel_error = 0.05;
+  const Rendering some = render(lit.light(), lit.solution.field, lit.camera(), settings.render);
+  ASSERT_GT(std::ranges::count(some.samples, 4U), 0);
+  ASSERT_GT(std::ranges::count(some.samples, 64U), 0);
+  RenderSettings many = settings.render;
+  many.samples = 1024;
+  many.pixel_error = 0.0;
+  const double error = lit.off(settings, some.image, lit.picture(many));
+  const PictureError estimate =
+      estimate_error(lit.light(), lit.solution.field, lit.camera(), settings, lit.solution.solver,
+                     {some.image, some.samples}, {.gathered_pixels = 256, .pixels = 1024});
+  EXPECT_NEAR(estimate.pixels, error, 0.3 * error);
 }
 
 TEST(PictureError, OfAMirrorDepthIsTheLightBeyondIt) {

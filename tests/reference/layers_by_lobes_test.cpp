@@ -150,11 +150,7 @@ TEST(LayersByLobes, AgreeOnACoatedFloor) {
 
 TEST(LayersByLobes, AgreeOnFrostedGlass) {
   // Walls that glow and are black: pass one takes the pane for clear.
-  Scene scene;
-  std::array<Material, 6> walls;
-  for (std::size_t k = 0; k < 6; ++k)
-    walls[k] = diffuse(Rgb(0.0), Rgb(1.0 + double(k), 2.0, 3.0 - 0.4 * double(k)));
-  add_room(scene, Point3(0.0), Point3(2.0), walls);
+  Scene scene = glowing_room();
   Material frosted = glass({0.4, 0.9, 0.6});
   frosted.roughness = 0.3;
   add_polygon(scene, "pane", {{0.2, 0.0, 0.8}, {1.8, 0.0, 0.8}, {1.8, 1.7, 0.8}, {0.2, 1.7, 0.8}},

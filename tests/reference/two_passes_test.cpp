@@ -73,11 +73,7 @@ TEST(TwoPasses, PathsMeetATextureOfTransmissionAsTheyMeetTwoPanes) {
 
 TEST(TwoPasses, AgreeWithPathsThroughSolids) {
   // Walls that glow and are black: what is seen through an amber block is all there is to it.
-  Scene scene;
-  std::array<Material, 6> walls;
-  for (std::size_t k = 0; k < 6; ++k)
-    walls[k] = diffuse(Rgb(0.0), Rgb(1.0 + double(k), 2.0, 3.0 - 0.4 * double(k)));
-  add_room(scene, Point3(0.0), Point3(2.0), walls);
+  Scene scene = glowing_room();
   Material amber = solid_glass({1.0, 0.9, 0.8});
   amber.attenuation_color = {0.8, 0.5, 0.2};
   amber.attenuation_distance = 0.5;

@@ -49,6 +49,15 @@ void lay_texture(Scene& scene) {
     scene.vertices[first + k].texcoord = {coordinates[k], coordinates[k]};
 }
 
+Scene glowing_room() {
+  Scene scene;
+  std::array<Material, 6> walls;
+  for (std::size_t k = 0; k < 6; ++k)
+    walls[k] = diffuse(Rgb(0.0), Rgb(1.0 + double(k), 2.0, 3.0 - 0.4 * double(k)));
+  add_room(scene, Point3(0.0), Point3(2.0), walls);
+  return scene;
+}
+
 Scene glazed_room() {
   Scene scene;
   std::array<Material, 6> walls;

@@ -23,6 +23,9 @@ Texture half_black();
 /// Lays the image over the quad that was added last, its lower left corner first, by both sets of coordinates.
 void lay_texture(Scene& scene);
 
+/// A closed room of two metres whose walls are black and glow, each in a colour of its own.
+Scene glowing_room();
+
 /// A closed room of two metres with a lamp, and a green pane that stands before the wall z = 0.
 Scene glazed_room();
 
