@@ -9,6 +9,7 @@ namespace meninas {
 namespace {
 
 constexpr double sliver_aspect = 1000.0;
+constexpr std::size_t crowd = 1000; ///< faces at one corner
 
 // Among loose triangles that all cross each other every edge has every corner near it; what is looked at ends there.
 constexpr std::size_t most_points_tried = 20'000'000;
@@ -124,14 +125,34 @@ CountByNode divided_edges(const Scene& scene, const Topology& topology, double t
     const Point3& a = position(scene, edge.low);
     const Point3& b = position(scene, edge.high);
     bool divided = false;
-    tree.visit_inside({glm::min(a, b) - tolerance, glm::max(a, b) + tolerance}, [&](std::uint32_t k) {
-      ++tried;
-      divided = lies_inside(ends[k], a, b, tolerance);
-      return !divided;
-    });
+    tree.visit_inside({glm::min(a, b) - tolerance, glm::max(a, b) + tolerance},
+                      [&](std::uint32_t k) {
+                        ++tried;
+                        divided = lies_inside(ends[k], a, b, tolerance);
+                        return !divided;
+                      });
     if (divided) {
       ++counts[node_of(scene, edge.triangle)];
     }
+  }
+  return counts;
+}
+
+CountByNode crowded_corners(const Scene& scene, const Topology& topology) {
+  std::vector<std::pair<VertexId, NodeId>> uses;
+  for (const Triangle& triangle : scene.triangles) {
+    for (const VertexId vertex : triangle.vertices) {
+      uses.emplace_back(topology.welded[index(vertex)], triangle.node);
+    }
+  }
+  std::ranges::sort(uses);
+  CountByNode counts;
+  for (auto begin = uses.begin(); begin != uses.end();) {
+    const auto end = std::upper_bound(begin, uses.end(), *begin);
+    if (std::size_t(end - begin) > crowd) {
+      ++counts[begin->second];
+    }
+    begin = end;
   }
   return counts;
 }

@@ -23,6 +23,9 @@ CountByNode crowded_edges(const Scene& scene, const Topology& topology);
 /// millions of loose faces that all overlap.
 CountByNode divided_edges(const Scene& scene, const Topology& topology, double tolerance);
 
+/// Corners at which over a thousand faces of one node meet: the boxes of such faces overlap, and every ray passes most of them.
+CountByNode crowded_corners(const Scene& scene, const Topology& topology);
+
 /// Triangles a thousand times as long as they are high.
 CountByNode slivers(const Scene& scene);
 

@@ -178,6 +178,13 @@ public:
                       name(node), counted(count, "edge")),
           node);
     }
+    for (const auto& [node, count] : crowded_corners(scene_, topology_)) {
+      say("crowded_corners", count,
+          fmt::format("'{}' has {} at which over a thousand faces meet: rays near there take "
+                      "several times as long; fewer segments would do",
+                      name(node), counted(count, "corner")),
+          node);
+    }
     for (const auto& [node, count] : divided_edges(scene_, topology_, tolerance_)) {
       say("t_junctions", count,
           fmt::format(

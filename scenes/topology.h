@@ -1,5 +1,5 @@
 // Which triangles touch along which edges, whatever vertices the exporter split. (Used by
-// find_surfaces alone.)
+// find_surfaces and report_scene.)
 #pragma once
 
 #include "scenes/scene.h"

@@ -7,6 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace meninas::test {
 namespace {
 
@@ -182,6 +185,26 @@ TEST(SceneReport, CountsSliversButNotThinStrips) {
   const auto found = of_kind(report(scene), "slivers");
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].node, "Hair");
+}
+
+TEST(SceneReport, CountsCornersWhereOverAThousandFacesOfANodeMeet) {
+  const auto cone = [](std::uint32_t faces) {
+    Scene scene;
+    const auto rim = [&](std::uint32_t k) {
+      const double angle = 2.0 * std::numbers::pi * (k % faces) / faces;
+      return Point3(std::cos(angle), 0.0, std::sin(angle));
+    };
+    for (std::uint32_t k = 0; k < faces; ++k) {
+      add_polygon(scene, "Cone", {{0, 1, 0}, rim(k + 1), rim(k)}, diffuse(0.5));
+      scene.triangles.back().node = NodeId{0};
+    }
+    return scene;
+  };
+  EXPECT_EQ(count_of(report(cone(1000)), "crowded_corners"), 0u);
+  const auto found = of_kind(report(cone(1001)), "crowded_corners");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].node, "Cone");
+  EXPECT_EQ(found[0].count, 1u) << "the tip, and no corner of the rim";
 }
 
 TEST(SceneReport, CountsWhatPassesThroughAndNotWhatTouches) {
