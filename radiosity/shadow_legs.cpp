@@ -4,6 +4,7 @@
 #include "scenes/glass_crossings.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace meninas {
@@ -27,7 +28,8 @@ Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample) {
 }
 
 std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>, 16>& folded,
-                      std::uint32_t count, std::uint64_t& rays) {
+                      std::uint32_t count, std::uint64_t& rays,
+                      std::array<LegBlocker, 16>* blockers) {
   const RayFrame& frame = light.rays.frame();
   std::uint32_t result = 0;
   RayPacket packet;
@@ -40,7 +42,14 @@ std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>
       set_ray(packet, k, from, along, index(leg.leaving), 1.0F);
       packet.arriving[k] = index(leg.arriving);
     }
-    result |= occluded(light.rays, packet, Coherence::coherent);
+    Blockers triangles;
+    const std::uint32_t dark =
+        occluded(light.rays, packet, Coherence::coherent, blockers ? &triangles : nullptr);
+    for (std::uint32_t rest = blockers ? dark & ~result : 0; rest != 0; rest &= rest - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+      (*blockers)[k] = {TriangleId{triangles[k]}, static_cast<std::uint32_t>(step)};
+    }
+    result |= dark;
     rays += count;
     if (result == (1U << count) - 1U)
       break;

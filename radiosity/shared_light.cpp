@@ -18,7 +18,7 @@ struct PointSum {
 };
 
 std::uint32_t sum_of(SharedLightWorkspace& work, const LightScene& light, const VirtualLight& image,
-                     int rays) {
+                     const SharedLightSettings& settings) {
   const std::uint64_t key = (std::uint64_t{index(image.world)} << 32) | image.emitter;
   const auto [found, is_new] =
       work.image_of.try_emplace(key, static_cast<std::uint32_t>(work.images.size()));
@@ -26,7 +26,9 @@ std::uint32_t sum_of(SharedLightWorkspace& work, const LightScene& light, const 
     work.images.push_back({.source = light.worlds.worlds[index(image.world)].throughput *
                                      light.emitters[image.emitter].radiosity,
                            .world = image.world,
-                           .from_a_point = static_cast<std::uint32_t>(rays)});
+                           .emitter = image.emitter,
+                           .from_a_point = static_cast<std::uint32_t>(settings.rays),
+                           .blockers = settings.learns ? &work.blockers_of[key] : nullptr});
   return found->second;
 }
 
@@ -46,7 +48,66 @@ double most_brought(const SharedLightWorkspace& work) {
   return most;
 }
 
-/// Adds what every image brings to a point without blockers, and the shadow rays that will tell how much of it arrives.
+/// What of an image the point sees past known blockers; `parts` is storage.
+std::span<const ConvexPolygon> seen_parts(const LightScene& light, const Receiver& receiver,
+                                          const VirtualLight& image, const ImageSum& sum,
+                                          std::vector<ConvexPolygon>& parts) {
+  if (!sum.blockers || sum.blockers->known.empty())
+    return {&image.polygon, 1};
+  parts.assign(1, image.polygon);
+  for (const KnownBlocker& blocker : sum.blockers->known)
+    subtract(parts, receiver.position, blocker, light.surfaces.tolerance);
+  return parts;
+}
+
+double form_factor_of(const Receiver& receiver, std::span<const ConvexPolygon> parts) {
+  double sum = 0.0;
+  for (const ConvexPolygon& part : parts)
+    sum += point_form_factor(receiver.position, receiver.normal, part.span());
+  return sum;
+}
+
+double area_of(std::span<const ConvexPolygon> parts) {
+  double sum = 0.0;
+  for (const ConvexPolygon& part : parts)
+    sum += glm::length(area_vector(part.span()));
+  return sum;
+}
+
+/// A point of polygons that share a plane, with density one over their area: of a part by its share of the area.
+Point3 point_on(std::span<const ConvexPolygon> parts, double area, Vec2 sample) {
+  double before = 0.0;
+  for (const ConvexPolygon& part : parts.first(parts.size() - 1)) {
+    const Vec3 own = area_vector(part.span());
+    const double share = glm::length(own) / area;
+    if (sample.x < before + share)
+      return point_on(part, own, Vec2((sample.x - before) / share, sample.y));
+    before += share;
+  }
+  const double within =
+      before < 1.0 ? std::clamp((sample.x - before) / (1.0 - before), 0.0, 1.0) : 0.5;
+  return point_on(parts.back(), area_vector(parts.back().span()), Vec2(within, sample.y));
+}
+
+/// Sends the rays of one point towards what it sees of an image, as many as that is worth beside the brightest image.
+void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLight& image,
+              std::span<const ConvexPolygon> parts, std::uint32_t sum, double worth,
+              std::uint32_t seed, SharedLightWorkspace& work) {
+  ImageSum& total = work.images[sum];
+  const auto rays =
+      std::max(1U, static_cast<std::uint32_t>(std::lround(total.from_a_point * worth)));
+  const Emitter& emitter = light.emitters[image.emitter];
+  const double area = area_of(parts);
+  const auto image_seed = hash(seed, image.emitter, index(image.world));
+  for (std::uint32_t k = 0; k < rays; ++k) {
+    const auto sample = sobol4(total.rays++, image_seed);
+    const Point3 y = point_on(parts, area, Vec2(sample[2], sample[3]));
+    const double weight = image.weight * area / rays * form_factor_share(receiver, image, y);
+    work.waiting.push_back({image.world, sum, emitter.plane_class, weight, receiver.position, y});
+  }
+}
+
+/// Adds what every image brings to a point past known blockers, and the shadow rays that will tell how much of it arrives.
 void add_point(const LightScene& light, const Receiver& receiver, std::uint32_t point,
                std::uint32_t seed, const SharedLightSettings& settings,
                SharedLightWorkspace& work) {
@@ -58,10 +119,11 @@ void add_point(const LightScene& light, const Receiver& receiver, std::uint32_t 
   chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice,
                 work.point.choice, work.point.lights);
   work.at_point.clear();
-  for (const VirtualLight& image : work.point.lights)
-    work.at_point.push_back({sum_of(work, light, image, settings.rays),
-                             image.weight * point_form_factor(receiver.position, receiver.normal,
-                                                              image.polygon.span())});
+  for (const VirtualLight& image : work.point.lights) {
+    const std::uint32_t sum = sum_of(work, light, image, settings);
+    const auto parts = seen_parts(light, receiver, image, work.images[sum], work.parts);
+    work.at_point.push_back({sum, image.weight * form_factor_of(receiver, parts)});
+  }
   const double most = settings.brightest_most ? most_brought(work) : 0.0;
 
   for (std::size_t i = 0; i < work.at_point.size(); ++i) {
@@ -71,27 +133,45 @@ void add_point(const LightScene& light, const Receiver& receiver, std::uint32_t 
     const VirtualLight& image = work.point.lights[i];
     ImageSum& total = work.images[sum];
     total.form_factor += form_factor;
-    std::uint32_t rays = total.from_a_point;
-    if (most > 0.0) {
-      const double worth = std::min(brought_by(total, form_factor) / most, 1.0);
-      rays = std::max(1U, static_cast<std::uint32_t>(std::lround(rays * worth)));
-    }
-    const Emitter& emitter = light.emitters[image.emitter];
-    const Vec3 area = area_vector(image.polygon.span());
-    const auto image_seed = hash(seed, image.emitter, index(image.world));
-    for (std::uint32_t k = 0; k < rays; ++k) {
-      const auto sample = sobol4(total.rays++, image_seed);
-      const Point3 y = point_on(image.polygon, area, Vec2(sample[2], sample[3]));
-      const double weight =
-          image.weight * glm::length(area) / rays * form_factor_share(receiver, image, y);
-      work.waiting.push_back({image.world, sum, emitter.plane_class, weight, receiver.position, y});
-    }
+    const double worth = most > 0.0 ? std::min(brought_by(total, form_factor) / most, 1.0) : 1.0;
+    const auto parts = seen_parts(light, receiver, image, total, work.parts);
+    add_rays(light, receiver, image, parts, sum, worth, seed, work);
+  }
+}
+
+/// Keeps what has blocked a ray to the image.
+void meet_blocker(const LightScene& light, const LegBlocker& by, ImageSum& image) {
+  if (by.triangle == none<TriangleId>)
+    return;
+  const PatchId patch = light.surfaces.patch_of_triangle[index(by.triangle)];
+  const auto is_it = [&](const KnownBlocker& blocker) {
+    return blocker.patch == patch && blocker.leg == by.leg;
+  };
+  ImageBlockers& blockers = *image.blockers;
+  if (std::ranges::any_of(blockers.known, is_it) || std::ranges::any_of(blockers.met, is_it))
+    return;
+  if (auto blocker = blocker_of(light, image.world, light.emitters[image.emitter], by))
+    blockers.met.push_back(*std::move(blocker));
+}
+
+/// Later means know what rays have met. Where that is ever more, as it is of finely divided things, rays alone are better.
+void learn(std::vector<ImageSum>& images) {
+  constexpr std::size_t most_known = 8, most_learned = 32;
+  for (ImageSum& image : images) {
+    if (!image.blockers || image.blockers->met.empty())
+      continue;
+    auto& [known, met, learned] = *image.blockers;
+    learned += met.size();
+    known.insert(known.begin(), met.begin(), met.end());
+    known.resize(learned > most_learned ? 0 : std::min(known.size(), most_known));
+    met.clear();
   }
 }
 
 /// Traces the waiting rays, those of one world together.
 void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspace& work) {
   std::ranges::stable_sort(work.waiting, {}, [](const WaitingRay& ray) { return ray.world; });
+  std::array<LegBlocker, 16> blockers;
   for (std::size_t first = 0; first < work.waiting.size();) {
     const WorldId world = work.waiting[first].world;
     std::uint32_t count = 0;
@@ -102,13 +182,17 @@ void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspac
                 work.point.folded[count]);
       ++count;
     }
-    const std::uint32_t dark = blocked(light, work.point.folded, count, work.point.shadow_rays);
+    const std::uint32_t dark =
+        blocked(light, work.point.folded, count, work.point.shadow_rays, &blockers);
     for (std::uint32_t k = 0; k < count; ++k) {
       const WaitingRay& ray = work.waiting[first + k];
       ImageSum& image = work.images[ray.image];
       image.all += ray.weight;
-      if (((dark >> k) & 1U) != 0U)
+      if (((dark >> k) & 1U) != 0U) {
+        if (image.blockers)
+          meet_blocker(light, blockers[k], image);
         continue;
+      }
       image.seen += ray.weight;
       image.left += ray.weight * left_by_glass(light, world, work.point.folded[k]);
     }
@@ -178,8 +262,10 @@ ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_p
                          largest(glm::abs(mean.total - before)) <= settings.unsure * brightest &&
                          penumbra_error(work, sum) <= settings.unsure_shadow * brightest;
     const bool dark = sum.points >= 2 * settings.points && brightest == 0.0;
-    if (settled || dark || sum.points >= settings.most_points)
+    if (settled || dark || sum.points >= settings.most_points) {
+      learn(work.images);
       return mean;
+    }
     before = mean.total;
     for (ImageSum& image : work.images)
       image.from_a_point = image.seen > 0.0 && image.seen < image.all

@@ -1,6 +1,6 @@
 // Direct irradiance where several points of one plane share their shadow rays: points of an element, or those on which the samples of a pixel land.
 //
-//   mean_p D(x_p)  ~  sum_w tau_w sum_e E_e  mean_p F(x_p, T_w e clipped)  sum_pk g_pk V_pk / sum_pk g_pk
+//   mean_p D(x_p)  ~  sum_w tau_w sum_e E_e  mean_p F(x_p, T_w e past known blockers)  sum_pk g_pk V_pk / sum_pk g_pk
 //
 // The points on each image that shadow rays go to are one low-discrepancy sequence, counted on from point to point: a few rays from each do what
 // many would from one. g is the share of the form factor a ray stands for, so that a fully visible image comes out as the closed form's mean,
@@ -8,8 +8,13 @@
 // true: a point that sent more where its own first rays disagree, and believed them where they agree, would darken the outer half of every
 // penumbra and brighten the inner one. What is left of that is that means may settle on the first points: light or shade that all of their rays have
 // missed.
+//
+// What blocks rays is known to the means that come after, as long as they share a workspace (known_blockers.h). They take the shadows of known blockers
+// out of F exactly and send their rays past them: once all are known V is 1, and a penumbra has no noise. Means are true whatever is known, as it was
+// learned from other rays.
 #pragma once
 
+#include "radiosity/known_blockers.h"
 #include "radiosity/light_samples.h"
 
 #include <functional>
@@ -29,18 +34,28 @@ struct SharedLightSettings {
   double unsure = 0.01;         ///< relative change of the mean by the last doubling
   double unsure_shadow = 0.005; ///< error of the mean by shadow rays, relative
   bool brightest_most =
-      false; ///< images that bring less than the brightest one in sight take fewer rays
+      false;           ///< images that bring less than the brightest one in sight take fewer rays
+  bool learns = false; ///< what blocks its rays, and uses what others have learned
+};
+
+/// What is in the way to one emitter in one world.
+struct ImageBlockers {
+  std::vector<KnownBlocker> known;
+  std::vector<KnownBlocker> met; ///< by the mean in hand
+  std::size_t learned = 0;       ///< so far, forgotten ones too
 };
 
 /// One emitter in one world, over all points so far.
 struct ImageSum {
   Rgb source{0.0}; ///< tau E
   WorldId world = real_world;
-  double form_factor = 0.0;       ///< sum over points, blockers aside
-  double all = 0.0, seen = 0.0;   ///< weights of its shadow rays, and of those that arrive
-  Rgb left{0.0};                  ///< of the latter, what glass on their way leaves
-  std::uint32_t rays = 0;         ///< shadow rays so far
-  std::uint32_t from_a_point = 1; ///< from each of the next points
+  std::uint32_t emitter = 0;
+  double form_factor = 0.0;          ///< sum over points, past known blockers
+  double all = 0.0, seen = 0.0;      ///< weights of its shadow rays, and of those that arrive
+  Rgb left{0.0};                     ///< of the latter, what glass on their way leaves
+  std::uint32_t rays = 0;            ///< shadow rays so far
+  std::uint32_t from_a_point = 1;    ///< from each of the next points
+  ImageBlockers* blockers = nullptr; ///< null where none are learned
 };
 
 /// A shadow ray that waits for others through the same mirrors.
@@ -59,8 +74,11 @@ struct SharedLightWorkspace {
   std::unordered_map<std::uint64_t, std::uint32_t> image_of; ///< by world and emitter
   std::vector<std::pair<std::uint32_t, double>>
       at_point; ///< the images of one point: index of the ImageSum, form factor without blockers
+  std::vector<ConvexPolygon> parts; ///< of one image, past known blockers
   std::vector<WaitingRay> waiting;
   std::vector<PunctualArrival> arrivals;
+  /// By world and emitter. Kept from mean to mean until it is cleared: to be done where results are not to depend on what came before.
+  std::unordered_map<std::uint64_t, ImageBlockers> blockers_of;
 };
 
 struct NumberedPoint {

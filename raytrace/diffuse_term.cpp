@@ -66,14 +66,15 @@ glm::vec3 direct_of_pixel(const LightScene& light, const DirectSettings& setting
     return {points[number], number};
   };
   return part_of(shared_irradiance(light, next_point,
-                                   {.points = 4,
+                                   {.points = 2,
                                     .most_points = static_cast<int>(points.size()),
                                     .images = settings.images,
                                     .rays = settings.shadow_rays,
                                     .penumbra_rays = settings.penumbra_rays,
                                     .unsure = alike,
                                     .unsure_shadow = alike,
-                                    .brightest_most = true},
+                                    .brightest_most = true,
+                                    .learns = true},
                                    seed, work),
                  part);
 }

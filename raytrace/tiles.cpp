@@ -93,7 +93,9 @@ RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
     const int x0 = t % columns * tile_size, y0 = t / columns * tile_size;
     const TileArea tile{x0, y0, std::min(tile_size, settings.width - x0),
                         std::min(tile_size, settings.height - y0)};
-    render_tile(context, tile, workspaces.local(), store);
+    TileWorkspace& work = workspaces.local();
+    work.shared.blockers_of.clear();
+    render_tile(context, tile, work, store);
     if (progress)
       progress("render", double(++done) / (columns * rows));
   });
@@ -107,12 +109,18 @@ RayTotals trace_pixels(const LightScene& light, const VisibleLight& visible,
   const FilterPlaces places = places_of(settings);
   const RenderContext context = context_of(light, visible, gathering, camera, settings,
                                            {{0, std::max(settings.samples, 1)}}, places);
+  // Runs of pixels know each other's blockers, as those of a tile do.
+  constexpr std::size_t run = 32;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
-  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t k) {
-    const auto keep = [&](int, int, const SeenRadiance& seen) {
-      store(static_cast<int>(k), 0, seen);
-    };
-    render_tile(context, {pixels[k].x, pixels[k].y, 1, 1}, workspaces.local(), keep);
+  tbb::parallel_for(std::size_t{0}, (pixels.size() + run - 1) / run, [&](std::size_t first) {
+    TileWorkspace& work = workspaces.local();
+    work.shared.blockers_of.clear();
+    for (std::size_t k = run * first; k < std::min(run * (first + 1), pixels.size()); ++k) {
+      const auto keep = [&](int, int, const SeenRadiance& seen) {
+        store(static_cast<int>(k), 0, seen);
+      };
+      render_tile(context, {pixels[k].x, pixels[k].y, 1, 1}, work, keep);
+    }
   });
   return totals_of(workspaces);
 }

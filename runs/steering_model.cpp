@@ -18,7 +18,8 @@ namespace {
 constexpr double most_elements = 250'000.0;
 constexpr int most_rays = 4096, least_samples = 4, most_samples = 1024;
 
-constexpr double at_edges = 1.7, of_noise = 1.1; // exponents
+// Exponents: of pixels whose light is a smooth function between edges, of light from the source, and of what rays gather.
+constexpr double at_edges = 1.7, of_shadows = 1.4, of_noise = 1.1;
 constexpr double rays_of_a_hit = 64.0; ///< of a hit that gathers, where sampling is adaptive
 
 /// What so many samples of a pixel take, in hits of their own: they share shadow rays (radiosity/shared_light.h).
@@ -36,7 +37,9 @@ double samples_a_pixel(const MeasuredRun& run, int samples) {
 /// Of the square of what camera rays are off by; nothing is left to gain where no pixel would take more.
 double pixel_decline(const MeasuredRun& run, const Knobs& knobs) {
   const int samples = knobs.samples;
-  const double exponent = knobs.term == DiffuseTerm::interpolated ? at_edges : of_noise;
+  const double exponent = knobs.term == DiffuseTerm::interpolated ? at_edges
+                          : knobs.term == DiffuseTerm::direct     ? of_shadows
+                                                                  : of_noise;
   if (samples < run.knobs.samples)
     return std::pow(samples_a_pixel(run, samples) / run.samples_a_pixel, -exponent);
   double decline = 1.0;

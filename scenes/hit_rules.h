@@ -75,4 +75,20 @@ inline LegHit leg_hit(const LegRule& rule, const Candidate& candidate) {
   return at_start || at_end ? LegHit::touching : LegHit::blocking;
 }
 
+/// Judges the hits of a packet of legs, and keeps what they were.
+struct LegJudge {
+  LegRule rule;
+  std::uint32_t touching = 0;   ///< lanes with a hit that touches an end
+  Blockers* blockers = nullptr; ///< by lane; null: not asked for
+
+  bool blocks(const Candidate& candidate) {
+    const auto verdict = leg_hit(rule, candidate);
+    if (verdict == LegHit::touching)
+      touching |= 1U << candidate.lane;
+    if (verdict == LegHit::blocking && blockers)
+      (*blockers)[candidate.lane] = candidate.triangle;
+    return verdict == LegHit::blocking;
+  }
+};
+
 } // namespace meninas

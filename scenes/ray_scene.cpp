@@ -48,8 +48,7 @@ struct RayContext : RTCIntersectContext {
   RayRule rule;
 };
 struct LegContext : RTCIntersectContext {
-  LegRule rule;
-  std::uint32_t touching = 0; ///< lanes with a hit that touches an end
+  LegJudge judge;
 };
 
 /// The lanes whose hit is to be judged.
@@ -86,13 +85,8 @@ void filter_legs(const RTCFilterFunctionNArguments* args) {
   auto& context = *static_cast<LegContext*>(args->context);
   for (auto rest = hit_lanes(*args); rest != 0; rest &= rest - 1) {
     const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-    const auto hit = candidate(*args, lane);
-    const auto verdict = leg_hit(context.rule, hit);
-    if (verdict == LegHit::blocking)
-      continue;
-    args->valid[lane] = 0;
-    if (verdict == LegHit::touching)
-      context.touching |= 1U << hit.lane;
+    if (!context.judge.blocks(candidate(*args, lane)))
+      args->valid[lane] = 0;
   }
 }
 
@@ -294,7 +288,8 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
   }
 }
 
-std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence coherence) {
+std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence coherence,
+                       Blockers* blockers) {
   const auto& impl = rays.impl();
   RTCRay16 traced;
   alignas(64) const auto valid = traceable_lanes(packet);
@@ -304,7 +299,9 @@ std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence 
   rtcInitIntersectContext(&context);
   context.flags = flags_for(coherence);
   context.filter = filter_legs;
-  context.rule = {&impl.geometry, &packet, impl.noise};
+  context.judge = {.rule = {&impl.geometry, &packet, impl.noise}, .blockers = blockers};
+  if (blockers)
+    blockers->fill(no_index);
   rtcOccluded16(valid.data(), impl.scene.get(), &context, &traced);
 
   // Embree marks what is occluded by a far end of minus infinity.
@@ -313,7 +310,7 @@ std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence 
     met[k] = traced.tfar[k] < 0.0F ? valid[k] : 0;
   auto blocked = bits_of(met);
 
-  const auto open_ends = context.touching & ~blocked;
+  const auto open_ends = context.judge.touching & ~blocked;
   if (open_ends == 0)
     return blocked;
   ContactMemory memory;

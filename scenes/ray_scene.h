@@ -15,6 +15,7 @@
 #include "scenes/scene.h"
 #include "scenes/surfaces.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -122,7 +123,11 @@ bool occluded(const RayScene& rays, const Leg& leg);
 void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits, Backs backs,
                   Coherence coherence);
 
+/// The triangle that blocks a ray, by lane: one of those that do; none where what blocks touches an end.
+using Blockers = std::array<std::uint32_t, packet_size>;
+
 /// Bit k of the result is set where ray k meets something but glass before max_distance.
-std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence coherence);
+std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence coherence,
+                       Blockers* blockers = nullptr);
 
 } // namespace meninas
