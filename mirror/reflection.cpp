@@ -12,13 +12,13 @@ Direction reflect_direction(const Plane& mirror, const Direction& d) {
 
 Plane reflect_plane(const Plane& mirror, const Plane& plane) {
   const Direction normal = reflect_direction(mirror, plane.normal);
-  const Point3 on_plane = reflect_point(mirror, plane.offset * plane.normal);
+  const Point3 on_plane = reflect_point(mirror, origin_of(plane));
   return {normal, glm::dot(normal, on_plane)};
 }
 
 Plane apply(const Isometry& map, const Plane& plane) {
   const Direction normal = apply_direction(map, plane.normal);
-  return {normal, glm::dot(normal, apply(map, Point3(plane.offset * plane.normal)))};
+  return {normal, glm::dot(normal, apply(map, origin_of(plane)))};
 }
 
 Isometry compose_reflection(const Isometry& outer, const Plane& mirror) {

@@ -69,7 +69,7 @@ void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const 
     lights.push_back({emitter, at.world, image, plane.normal, weight});
     return;
   }
-  image = clip(image, world.plane.offset * world.plane.normal, -world.plane.normal);
+  image = clip(image, origin_of(world.plane), -world.plane.normal);
   for (std::uint32_t k = at.first; k < at.last && !image.empty(); ++k) {
     const ConvexPolygon part = clip_to_cone(image, observer.position, seen.openings[k]);
     if (!part.empty())

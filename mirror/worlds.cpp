@@ -27,7 +27,7 @@ std::vector<ConvexPolygon> in_front(std::span<const ConvexPolygon> window, const
       highest = std::max(highest, signed_distance(plane, vertex));
     }
     if (highest > 2.0 * rounding * magnitude)
-      front.push_back(clip(part, plane.offset * plane.normal, plane.normal));
+      front.push_back(clip(part, origin_of(plane), plane.normal));
   }
   std::erase_if(front, [](const ConvexPolygon& part) { return part.empty(); });
   return front;
@@ -80,7 +80,7 @@ std::vector<ConvexPolygon> window_in_world(const MirrorWorld& world, const Mirro
   for (const auto& part : mirror.window) {
     ConvexPolygon image = image_of(world.image, part);
     if (world.depth > 0)
-      image = clip(image, world.plane.offset * world.plane.normal, -world.plane.normal);
+      image = clip(image, origin_of(world.plane), -world.plane.normal);
     if (!image.empty())
       window.push_back(image);
   }

@@ -10,8 +10,6 @@ namespace meninas {
 
 namespace {
 
-Point3 origin_of(const Plane& plane) { return plane.offset * plane.normal; }
-
 /// The ancestor of a world, or itself, that many mirrors deep.
 const MirrorWorld& at_depth(const WorldTree& tree, WorldId world, std::uint32_t depth) {
   const MirrorWorld* found = &tree.worlds[index(world)];

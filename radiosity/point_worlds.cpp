@@ -8,8 +8,6 @@ namespace meninas {
 
 namespace {
 
-Point3 origin_of(const Plane& plane) { return plane.offset * plane.normal; }
-
 ConvexPolygon image_of(const Isometry& map, const ConvexPolygon& polygon) {
   ConvexPolygon image;
   for (const auto& vertex : polygon.span())

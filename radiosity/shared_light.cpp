@@ -40,24 +40,19 @@ double brought_by(const ImageSum& image, double form_factor) {
 /// Of the images at a point the most that one of them brings, as far as it is not known to be hidden.
 double most_brought(const SharedLightWorkspace& work) {
   double most = 0.0;
-  for (const auto& [sum, form_factor] : work.at_point) {
-    const ImageSum& image = work.images[sum];
+  for (const ImageAtPoint& at : work.at_point) {
+    const ImageSum& image = work.images[at.image];
     if (image.rays == 0 || image.seen > 0.0)
-      most = std::max(most, brought_by(image, form_factor));
+      most = std::max(most, brought_by(image, at.form_factor));
   }
   return most;
 }
 
-/// What of an image the point sees past known blockers; `parts` is storage.
-std::span<const ConvexPolygon> seen_parts(const LightScene& light, const Receiver& receiver,
-                                          const VirtualLight& image, const ImageSum& sum,
-                                          std::vector<ConvexPolygon>& parts) {
-  if (!sum.blockers || sum.blockers->known.empty())
+std::span<const ConvexPolygon> parts_of(const ImageAtPoint& at, const VirtualLight& image,
+                                        const SharedLightWorkspace& work) {
+  if (at.whole)
     return {&image.polygon, 1};
-  parts.assign(1, image.polygon);
-  for (const KnownBlocker& blocker : sum.blockers->known)
-    subtract(parts, receiver.position, blocker, light.surfaces.tolerance);
-  return parts;
+  return std::span(work.parts).subspan(at.first, at.parts);
 }
 
 double form_factor_of(const Receiver& receiver, std::span<const ConvexPolygon> parts) {
@@ -65,6 +60,24 @@ double form_factor_of(const Receiver& receiver, std::span<const ConvexPolygon> p
   for (const ConvexPolygon& part : parts)
     sum += point_form_factor(receiver.position, receiver.normal, part.span());
   return sum;
+}
+
+/// What the point sees of an image past known blockers.
+ImageAtPoint image_at(const LightScene& light, const Receiver& receiver, const VirtualLight& image,
+                      std::uint32_t sum, SharedLightWorkspace& work) {
+  ImageAtPoint at{.image = sum};
+  const ImageBlockers* blockers = work.images[sum].blockers;
+  if (blockers && !blockers->known.empty()) {
+    work.cutting.assign(1, image.polygon);
+    for (const KnownBlocker& blocker : blockers->known)
+      subtract(work.cutting, receiver.position, blocker, light.surfaces.tolerance);
+    at.whole = false;
+    at.first = work.parts.size();
+    at.parts = work.cutting.size();
+    work.parts.insert(work.parts.end(), work.cutting.begin(), work.cutting.end());
+  }
+  at.form_factor = image.weight * form_factor_of(receiver, parts_of(at, image, work));
+  return at;
 }
 
 double area_of(std::span<const ConvexPolygon> parts) {
@@ -91,9 +104,10 @@ Point3 point_on(std::span<const ConvexPolygon> parts, double area, Vec2 sample) 
 
 /// Sends the rays of one point towards what it sees of an image, as many as that is worth beside the brightest image.
 void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLight& image,
-              std::span<const ConvexPolygon> parts, std::uint32_t sum, double worth,
-              std::uint32_t seed, SharedLightWorkspace& work) {
-  ImageSum& total = work.images[sum];
+              const ImageAtPoint& at, double worth, std::uint32_t seed,
+              SharedLightWorkspace& work) {
+  ImageSum& total = work.images[at.image];
+  const auto parts = parts_of(at, image, work);
   const auto rays =
       std::max(1U, static_cast<std::uint32_t>(std::lround(total.from_a_point * worth)));
   const Emitter& emitter = light.emitters[image.emitter];
@@ -103,7 +117,8 @@ void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLi
     const auto sample = sobol4(total.rays++, image_seed);
     const Point3 y = point_on(parts, area, Vec2(sample[2], sample[3]));
     const double weight = image.weight * area / rays * form_factor_share(receiver, image, y);
-    work.waiting.push_back({image.world, sum, emitter.plane_class, weight, receiver.position, y});
+    work.waiting.push_back(
+        {image.world, at.image, emitter.plane_class, weight, receiver.position, y});
   }
 }
 
@@ -119,35 +134,32 @@ void add_point(const LightScene& light, const Receiver& receiver, std::uint32_t 
   chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice,
                 work.point.choice, work.point.lights);
   work.at_point.clear();
-  for (const VirtualLight& image : work.point.lights) {
-    const std::uint32_t sum = sum_of(work, light, image, settings);
-    const auto parts = seen_parts(light, receiver, image, work.images[sum], work.parts);
-    work.at_point.push_back({sum, image.weight * form_factor_of(receiver, parts)});
-  }
+  work.parts.clear();
+  for (const VirtualLight& image : work.point.lights)
+    work.at_point.push_back(
+        image_at(light, receiver, image, sum_of(work, light, image, settings), work));
   const double most = settings.brightest_most ? most_brought(work) : 0.0;
 
   for (std::size_t i = 0; i < work.at_point.size(); ++i) {
-    const auto [sum, form_factor] = work.at_point[i];
-    if (form_factor <= 0.0)
+    const ImageAtPoint& at = work.at_point[i];
+    if (at.form_factor <= 0.0)
       continue;
-    const VirtualLight& image = work.point.lights[i];
-    ImageSum& total = work.images[sum];
-    total.form_factor += form_factor;
-    const double worth = most > 0.0 ? std::min(brought_by(total, form_factor) / most, 1.0) : 1.0;
-    const auto parts = seen_parts(light, receiver, image, total, work.parts);
-    add_rays(light, receiver, image, parts, sum, worth, seed, work);
+    ImageSum& total = work.images[at.image];
+    total.form_factor += at.form_factor;
+    const double worth = most > 0.0 ? std::min(brought_by(total, at.form_factor) / most, 1.0) : 1.0;
+    add_rays(light, receiver, work.point.lights[i], at, worth, seed, work);
   }
 }
 
 /// Keeps what has blocked a ray to the image.
 void meet_blocker(const LightScene& light, const LegBlocker& by, ImageSum& image) {
-  if (by.triangle == none<TriangleId>)
+  ImageBlockers& blockers = *image.blockers;
+  if (by.triangle == none<TriangleId> || blockers.too_many())
     return;
   const PatchId patch = light.surfaces.patch_of_triangle[index(by.triangle)];
   const auto is_it = [&](const KnownBlocker& blocker) {
     return blocker.patch == patch && blocker.leg == by.leg;
   };
-  ImageBlockers& blockers = *image.blockers;
   if (std::ranges::any_of(blockers.known, is_it) || std::ranges::any_of(blockers.met, is_it))
     return;
   if (auto blocker = blocker_of(light, image.world, light.emitters[image.emitter], by))
@@ -156,14 +168,14 @@ void meet_blocker(const LightScene& light, const LegBlocker& by, ImageSum& image
 
 /// Later means know what rays have met. Where that is ever more, as it is of finely divided things, rays alone are better.
 void learn(std::vector<ImageSum>& images) {
-  constexpr std::size_t most_known = 8, most_learned = 32;
+  constexpr std::size_t most_known = 8;
   for (ImageSum& image : images) {
     if (!image.blockers || image.blockers->met.empty())
       continue;
     auto& [known, met, learned] = *image.blockers;
     learned += met.size();
     known.insert(known.begin(), met.begin(), met.end());
-    known.resize(learned > most_learned ? 0 : std::min(known.size(), most_known));
+    known.resize(image.blockers->too_many() ? 0 : std::min(known.size(), most_known));
     met.clear();
   }
 }

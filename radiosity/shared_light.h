@@ -43,6 +43,9 @@ struct ImageBlockers {
   std::vector<KnownBlocker> known;
   std::vector<KnownBlocker> met; ///< by the mean in hand
   std::size_t learned = 0;       ///< so far, forgotten ones too
+
+  /// Things as finely divided as this are left to rays.
+  bool too_many() const { return learned > 32; }
 };
 
 /// One emitter in one world, over all points so far.
@@ -67,14 +70,22 @@ struct WaitingRay {
   Point3 from, to;
 };
 
+/// What one point sees of an image past known blockers.
+struct ImageAtPoint {
+  std::uint32_t image = 0;          ///< index of its ImageSum
+  double form_factor = 0.0;         ///< times how many images it stands for
+  bool whole = true;                ///< nothing is known to be in the way
+  std::size_t first = 0, parts = 0; ///< otherwise: in SharedLightWorkspace::parts
+};
+
 /// Storage reused from one mean to the next; one for each thread.
 struct SharedLightWorkspace {
   DirectWorkspace point;
   std::vector<ImageSum> images;
   std::unordered_map<std::uint64_t, std::uint32_t> image_of; ///< by world and emitter
-  std::vector<std::pair<std::uint32_t, double>>
-      at_point; ///< the images of one point: index of the ImageSum, form factor without blockers
-  std::vector<ConvexPolygon> parts; ///< of one image, past known blockers
+  std::vector<ImageAtPoint> at_point;                        ///< the images of one point
+  std::vector<ConvexPolygon> parts;                          ///< of these
+  std::vector<ConvexPolygon> cutting;                        ///< of one of them
   std::vector<WaitingRay> waiting;
   std::vector<PunctualArrival> arrivals;
   /// By world and emitter. Kept from mean to mean until it is cleared: to be done where results are not to depend on what came before.

@@ -71,7 +71,8 @@ static DiffuseSettings diffuse_settings(const RunSettings& settings,
   result.term = settings.diffuse;
   result.direct.seed = settings.seed;
   result.direct.shadow_rays = preset.hit_shadow_rays;
-  result.direct.penumbra_rays = std::max(settings.pixel_error ? 1 : least, preset.pixel_penumbra_rays / samples);
+  result.direct.penumbra_rays =
+      std::max(settings.pixel_error ? 1 : least, preset.pixel_penumbra_rays / samples);
   result.gather = form_factors;
   result.gather.method = FormFactorMethod::rays;
   result.points.rays = std::max(least, gather_rays / samples);

@@ -122,8 +122,10 @@ ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize s
 ViewPicture render_reference_view(Scene scene, const Camera& camera, PictureSize size,
                                   const RunSettings& settings, const RunEvents& events,
                                   RunFigures& figures) {
-  ViewPicture result{
-      .image = {}, .samples = {}, .layers = {}, .attributes = attributes_of(scene, camera, settings)};
+  ViewPicture result{.image = {},
+                     .samples = {},
+                     .layers = {},
+                     .attributes = attributes_of(scene, camera, settings)};
   reference::ReferenceSettings limits = reference_settings(settings);
   limits.width = size.width;
   limits.height = size.height;

@@ -25,6 +25,8 @@ struct Plane {
 inline double signed_distance(const Plane& plane, const Point3& x) {
   return glm::dot(plane.normal, x) - plane.offset;
 }
+/// The point of the plane next to the origin of space.
+inline Point3 origin_of(const Plane& plane) { return plane.offset * plane.normal; }
 
 struct Surface {
   Plane plane; ///< normal towards the front

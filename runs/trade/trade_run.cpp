@@ -134,9 +134,9 @@ void measure_point(Measuring& measuring, TradePoint& point) {
                         figures.seconds.form_factors - figures.seconds.solve -
                         figures.seconds.interpolate;
   point.elements = figures.elements;
-  point.estimate =
-      estimate_error(lit, result.solution.field, measuring.camera, two_pass, result.solution.solver,
-                     {result.rendering.image, result.rendering.samples}, error_settings(two_pass, point.elements));
+  point.estimate = estimate_error(
+      lit, result.solution.field, measuring.camera, two_pass, result.solution.solver,
+      {result.rendering.image, result.rendering.samples}, error_settings(two_pass, point.elements));
   point.picture = std::move(result.rendering.image);
 }
 
