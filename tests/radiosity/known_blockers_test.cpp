@@ -127,7 +127,7 @@ TEST(KnownBlockers, StandWhereMirrorsShowThem) {
 }
 
 TEST(KnownBlockers, MeansAreTrueWhetherTheyAreKnownOrNot) {
-  // Slats of which no ray knows all: the mean over many seeds is that of the slats' shadows, with ten means of a workspace and with one.
+  // Slats of which no ray knows all: the mean over many seeds is that of the slats' shadows, of the first that a workspace takes, which knows none, and of the second and third, which know some.
   std::vector<std::vector<Point3>> slats;
   const Receiver origin{{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
   double open = factor(origin, facing_down(-1, 1, -1, 1, 2));
@@ -138,7 +138,7 @@ TEST(KnownBlockers, MeansAreTrueWhetherTheyAreKnownOrNot) {
   }
   const auto room = lit(lamp_room(slats), {.element_size = 3.0});
   const Receiver receiver = on_floor(*room, 0.0, 0.0);
-  for (const int count : {1, 10}) {
+  for (const int count : {1, 2, 3}) {
     constexpr int runs = 400;
     double sum = 0.0, squares = 0.0;
     for (int seed = 0; seed < runs; ++seed) {
