@@ -20,8 +20,7 @@ Footprint footprint_of(const RenderContext& context, const RayPacket& packet,
                        std::uint32_t k) {
   const Vec3 d(packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]);
   const double length = glm::length(d);
-  const double t =
-      double{hits.distance[k]} + (state.specular ? double{state.specular[k].travelled} : 0.0);
+  const double t = double{hits.distance[k]} + double{state.travelled(k)};
   const LightScene& light = context.light;
   const double width = beam_width(context, t, length) / light.rays.frame().scale;
 

@@ -1,6 +1,6 @@
 #include "raytrace/pixel_samples.h"
 
-#include "raytrace/shading.h"
+#include "raytrace/mirror_beam.h"
 #include "raytrace/specular_paths.h"
 #include "scenes/sampling.h"
 
@@ -39,12 +39,10 @@ void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileW
   for (std::size_t k = 0; k < packet_size; ++k)
     y[k] = (lanes.top[k] + y[k]) * pixel_height;
   RayPacket packet;
-  HitPacket hits;
   packet.count = lanes.count;
   set_camera_rays(packet, context.camera, x, y);
-  closest_hits(context.light.rays, packet, hits, Backs::transparent, Coherence::coherent);
-  shade_packet(context, packet,
-               {lanes.pixel.data(), nullptr, lanes.bits_x.data(), lanes.number.data()}, hits, work);
+  trace_together(context, packet,
+                 {lanes.pixel.data(), nullptr, lanes.bits_x.data(), lanes.number.data()}, work);
   // Lobes send many rays on: what is under way stays within memory.
   constexpr std::size_t most_queued = 1 << 17;
   if (work.next.size() > most_queued)
@@ -56,7 +54,8 @@ void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileW
 std::vector<std::uint32_t> pixel_net(const SampleRange& range, std::size_t d) {
   std::vector<std::uint32_t> net;
   for (int k = range.first; k < range.first + range.count; ++k)
-    net.push_back(static_cast<std::uint32_t>(sobol4(static_cast<std::uint32_t>(k), 0)[d] * 0x1p32F));
+    net.push_back(
+        static_cast<std::uint32_t>(sobol4(static_cast<std::uint32_t>(k), 0)[d] * 0x1p32F));
   return net;
 }
 

@@ -133,31 +133,46 @@ LaneRun run_from(const RenderContext& context, const RayPacket& packet, const La
     return hits.triangle[j] != index(none<TriangleId>) && state.pixel[j] == state.pixel[k] &&
            state.way(j) == state.way(k) &&
            face_of(context.light.landing, hits, j).side == face.side &&
-           (!state.specular || state.specular[j].throughput == state.specular[k].throughput);
+           (!state.specular || state.throughput(j) == state.throughput(k));
   };
   while (run.end < packet.count && goes_on(run.end))
     ++run.end;
   return run;
 }
 
-/// Adds what each ray has landed on to its pixel, and queues the rays that a mirror sends on.
-void shade_one_by_one(const RenderContext& context, const RayPacket& packet, const LaneState& state,
-                      const HitPacket& hits, TileWorkspace& work) {
+/// Queues the ray that goes on from where lane k has met an ideal mirror.
+void reflect_lane(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
+                  const LaneState& state, const HitPacket& hits, std::uint32_t k,
+                  TileWorkspace& work) {
+  if (face.mirrors && context.settings.mode == RenderMode::hybrid &&
+      !meets_lobes(context, face, hits, k))
+    reflect(context, face, packet, state, k, hits.distance[k], work);
+}
+
+/// What lane k shows of a face where it shares its light with no other.
+glm::vec3 radiance_by_itself(const RenderContext& context, const RayPacket& packet,
+                             const LaneState& state, const FaceRecord& face, const HitPacket& hits,
+                             std::uint32_t k, TileWorkspace& work) {
+  if (meets_lobes(context, face, hits, k))
+    return scattered_radiance(context, packet, state, face, hits, k, work);
+  return face.side == FaceRecord::nothing
+             ? glm::vec3(0.0F)
+             : radiance_of_lane(context, packet, state, face, hits, k, work);
+}
+
+/// Where light is computed at the hits: lane by lane, or by runs of lanes.
+void shade_by_runs(const RenderContext& context, const RayPacket& packet, const LaneState& state,
+                   const HitPacket& hits, TileWorkspace& work) {
   const LightScene& light = context.light;
-  const bool mirrors = context.settings.mode == RenderMode::hybrid;
-  const bool computed = context.settings.diffuse.term != DiffuseTerm::interpolated;
   glm::vec3 sum(0.0F);   // of lanes of one pixel in a row
   std::uint32_t lit = 0; // lanes before have their light
   for (std::uint32_t k = 0; k < packet.count; ++k) {
+    glm::vec3 radiance = context.visible.background;
     if (hits.triangle[k] != index(none<TriangleId>)) {
       const FaceRecord& face = face_of(light.landing, hits, k);
-      const bool has_lobe = meets_lobes(context, face, hits, k);
-      glm::vec3 radiance(0.0F);
-      if (has_lobe)
-        radiance = scattered_radiance(context, packet, state, face, hits, k, work);
-      else if (face.side != FaceRecord::nothing && !computed)
-        radiance = radiance_of_lane(context, packet, state, face, hits, k, work);
-      else if (face.side != FaceRecord::nothing) {
+      if (meets_lobes(context, face, hits, k) || face.side == FaceRecord::nothing) {
+        radiance = radiance_by_itself(context, packet, state, face, hits, k, work);
+      } else {
         const SideShading shading = shading_at(context, packet, state, face, hits, k);
         radiance = share_of_rays(context, state, face, hits, k) * shading.emitted;
         if (k >= lit) {
@@ -166,13 +181,9 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
           lit = run.end;
         }
       }
-      sum += state.specular ? state.specular[k].throughput * radiance : radiance;
-      if (face.mirrors && mirrors && !has_lobe)
-        reflect(context, face, packet, state, k, hits.distance[k], work);
-    } else {
-      sum += state.specular ? state.specular[k].throughput * context.visible.background
-                            : context.visible.background;
+      reflect_lane(context, face, packet, state, hits, k, work);
     }
+    sum += state.throughput(k) * radiance;
     if (k + 1 < packet.count && state.pixel[k + 1] == state.pixel[k] &&
         state.way(k + 1) == state.way(k))
       continue;
@@ -181,58 +192,89 @@ void shade_one_by_one(const RenderContext& context, const RayPacket& packet, con
   }
 }
 
-/// The common case of sixteen samples of one pixel that land on one quad side. Returns false where they do not.
-bool shade_as_one(const RenderContext& context, const LaneState& state, const HitPacket& hits,
-                  TileWorkspace& work) {
+/// Whether lanes on a face look the field up together.
+bool lands_together(const RenderContext& context, const LaneState& state, const FaceRecord& face,
+                    const HitPacket& hits, std::uint32_t lanes) {
+  if (face.side == FaceRecord::nothing || std::has_single_bit(lanes) ||
+      context.light.landing.sides[face.side].triangle)
+    return false;
+  const auto k = static_cast<std::uint32_t>(std::countr_zero(lanes));
+  const SideShading& side = context.visible.shading[face.side];
+  // What rays of lobes show of lamps is weighed ray by ray.
+  const bool weighed = state.specular && !context.bsdfs.empty() && side.emitted != glm::vec3(0.0F);
+  return !side.textured && !weighed && !meets_lobes(context, face, hits, k);
+}
+
+/// Adds what lanes show that have landed on one quad side, pixel by pixel.
+void add_quad(const RenderContext& context, const LaneState& state, const FaceRecord& face,
+              const HitPacket& hits, std::uint32_t lanes, TileWorkspace& work) {
+  const LightScene& light = context.light;
+  const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits);
+  while (lanes != 0) {
+    const auto first = static_cast<std::uint32_t>(std::countr_zero(lanes));
+    std::uint32_t alike = lanes & lanes_equal(state.pixel, state.pixel[first]);
+    if (state.specular)
+      for_each_lane(alike, [&](std::uint32_t k) {
+        if (state.way(k) != state.way(first) || state.throughput(k) != state.throughput(first))
+          alike &= ~(1U << k);
+      });
+    lanes &= ~alike;
+    work.sums[state.way(first)][state.pixel[first]] +=
+        state.throughput(first) * quad_radiance(light.mesh, context.visible, face.side, at, alike);
+  }
+}
+
+/// The lanes that have met what lane `first` has, a face or nothing.
+std::uint32_t lanes_on_face_of(const HitPacket& hits, std::uint32_t first) {
   std::uint32_t differ = 0;
   for (std::uint32_t k = 0; k < packet_size; ++k)
-    differ |= hits.triangle[k] ^ hits.triangle[0];
+    differ |= (hits.triangle[k] ^ hits.triangle[first]) |
+              static_cast<std::uint32_t>(hits.front[k] ^ hits.front[first]);
+  if (differ == 0)
+    return all_lanes;
+  const std::uint32_t lanes = lanes_equal(hits.triangle, hits.triangle[first]);
+  if (hits.triangle[first] == index(none<TriangleId>))
+    return lanes;
+  std::uint32_t fronts = 0;
   for (std::uint32_t k = 0; k < packet_size; ++k)
-    differ |= static_cast<std::uint32_t>(hits.front[k] ^ hits.front[0]);
-  for (std::uint32_t k = 0; k < packet_size; ++k)
-    differ |= state.pixel[k] ^ state.pixel[0];
-  if (differ != 0)
-    return false;
-  if (hits.triangle[0] == index(none<TriangleId>))
-    return context.visible.background == glm::vec3(0.0F);
-  const LightScene& light = context.light;
-  const FaceRecord& face = face_of(light.landing, hits, 0);
-  if (face.mirrors || meets_lobes(context, face, hits, 0) || face.side == FaceRecord::nothing ||
-      light.landing.sides[face.side].triangle || context.visible.shading[face.side].textured)
-    return false;
-  glm::vec3 throughput(1.0F);
-  if (state.specular) {
-    throughput = state.specular[0].throughput;
-    const bool glows = context.visible.shading[face.side].emitted != glm::vec3(0.0F);
-    if (glows && state.specular[0].density != 0.0F)
-      return false;
-    for (std::uint32_t k = 1; k < packet_size; ++k)
-      if (state.specular[k].throughput != throughput ||
-          (glows && state.specular[k].density != 0.0F) || state.way(k) != state.way(0))
-        return false;
-  }
+    fronts |= hits.front[k] != 0 ? lane_bits[k] : 0U;
+  return lanes & (hits.front[first] != 0 ? fronts : ~fronts);
+}
 
-  if (context.settings.diffuse.term != DiffuseTerm::interpolated) {
-    const SideShading& shading = context.visible.shading[face.side];
-    const glm::vec3 h = irradiance_of_run(context, state, hits, {0, packet_size}, work);
-    work.sums[state.way(0)][state.pixel[0]] +=
-        throughput *
-        (static_cast<float>(packet_size) * shading.emitted + shading.albedo_over_pi * h);
-    return true;
+/// Where the field is all: what has met one face is looked up together.
+void shade_by_faces(const RenderContext& context, const RayPacket& packet, const LaneState& state,
+                    const HitPacket& hits, TileWorkspace& work) {
+  const auto add = [&](std::uint32_t k, const glm::vec3& radiance) {
+    work.sums[state.way(k)][state.pixel[k]] += state.throughput(k) * radiance;
+  };
+  for (std::uint32_t rest = (1U << packet.count) - 1U, lanes = 0; rest != 0; rest &= ~lanes) {
+    const auto first = static_cast<std::uint32_t>(std::countr_zero(rest));
+    lanes = rest & lanes_on_face_of(hits, first);
+    if (hits.triangle[first] == index(none<TriangleId>)) {
+      if (context.visible.background != glm::vec3(0.0F))
+        for_each_lane(lanes, [&](std::uint32_t k) { add(k, context.visible.background); });
+      continue;
+    }
+    const FaceRecord& face = face_of(context.light.landing, hits, first);
+    if (lands_together(context, state, face, hits, lanes))
+      add_quad(context, state, face, hits, lanes, work);
+    else if (face.side != FaceRecord::nothing || face.mirrors)
+      for_each_lane(lanes, [&](std::uint32_t k) {
+        add(k, radiance_by_itself(context, packet, state, face, hits, k, work));
+      });
+    for_each_lane(
+        lanes, [&](std::uint32_t k) { reflect_lane(context, face, packet, state, hits, k, work); });
   }
-  const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits);
-  work.sums[state.way(0)][state.pixel[0]] +=
-      throughput * quad_radiance(light.mesh, context.visible, face.side, at);
-  return true;
 }
 
 } // namespace
 
 void shade_packet(const RenderContext& context, const RayPacket& packet, const LaneState& state,
                   const HitPacket& hits, TileWorkspace& work) {
-  if (packet.count == packet_size && shade_as_one(context, state, hits, work))
-    return;
-  shade_one_by_one(context, packet, state, hits, work);
+  if (context.settings.diffuse.term == DiffuseTerm::interpolated)
+    shade_by_faces(context, packet, state, hits, work);
+  else
+    shade_by_runs(context, packet, state, hits, work);
 }
 
 } // namespace meninas

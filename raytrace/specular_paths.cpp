@@ -8,24 +8,28 @@ namespace meninas {
 
 Meeting meeting_of(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
                    const LaneState& state, std::uint32_t k, float distance) {
-  const glm::dvec3 origin =
-      state.specular ? state.specular[k].origin
-                     : glm::dvec3(packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]);
-  const glm::dvec3 d = state.specular ? state.specular[k].direction
-                                      : glm::dvec3(packet.direction_x[k], packet.direction_y[k],
-                                                   packet.direction_z[k]);
+  glm::dvec3 origin, d;
+  if (state.specular) {
+    origin = state.specular[k].origin;
+    d = state.specular[k].direction;
+  } else if (state.beam) {
+    const MirrorBeam& beam = *state.beam;
+    origin = {beam.origin_x[k], beam.origin_y[k], beam.origin_z[k]};
+    d = {beam.direction_x[k], beam.direction_y[k], beam.direction_z[k]};
+  } else {
+    origin = {packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]};
+    d = {packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]};
+  }
   const double approach = glm::dot(face.normal, d);
   double t = (face.frame_offset - glm::dot(face.normal, origin)) / approach;
   if (!(t > 0.0) || t > 2.0 * distance + 1e-6)
     t = distance;
-  const float before = state.specular ? state.specular[k].travelled : 0.0F;
   return {origin + t * d, d, t / context.light.rays.frame().scale, approach,
-          before + static_cast<float>(t)};
+          state.travelled(k) + static_cast<float>(t)};
 }
 
 void go_on(const RenderContext& context, const SpecularRay& ray, TileWorkspace& work) {
-  if (ray.bounces <= context.settings.max_bounces &&
-      largest(ray.throughput) >= context.settings.min_throughput * ray.share)
+  if (goes_on(context, ray.bounces, ray.throughput, ray.share))
     work.next.push_back(ray);
 }
 
@@ -34,8 +38,10 @@ SpecularRay ray_from(const LaneState& state, std::uint32_t k, std::uint32_t leav
   SpecularRay ray;
   if (state.specular)
     ray = state.specular[k];
-  else
-    ray.throughput = glm::vec3(1.0F);
+  ray.throughput = state.throughput(k);
+  ray.way = static_cast<std::uint16_t>(state.way(k));
+  if (state.beam)
+    ray.bounces = state.beam->bounces;
   ray.pixel = state.pixel[k];
   ray.leaving = leaving;
   ray.key = state.key(k, seed);
@@ -82,7 +88,7 @@ static void trace_queued(const RenderContext& context, std::size_t first, std::s
                          Backs backs, TileWorkspace& work) {
   RayPacket packet;
   HitPacket hits;
-  std::array<std::uint32_t, packet_size> pixel;
+  std::array<std::uint32_t, packet_size> pixel{};
   for (; first < last; first += packet_size) {
     packet.count = static_cast<std::uint32_t>(std::min(packet_size, last - first));
     const LaneState state{pixel.data(), &work.current[first], nullptr, nullptr};

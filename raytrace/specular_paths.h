@@ -21,6 +21,13 @@ Meeting meeting_of(const RenderContext& context, const FaceRecord& face, const R
 SpecularRay ray_from(const LaneState& state, std::uint32_t k, std::uint32_t leaving,
                      std::uint32_t seed);
 
+/// Whether a path that bright is followed, beside what is its due of a camera ray's weight.
+inline bool goes_on(const RenderContext& context, std::int32_t bounces, const glm::vec3& throughput,
+                    float share) {
+  return bounces <= context.settings.max_bounces &&
+         largest(throughput) >= context.settings.min_throughput * share;
+}
+
 /// Queues a path, unless it is too faint for its share.
 void go_on(const RenderContext& context, const SpecularRay& ray, TileWorkspace& work);
 

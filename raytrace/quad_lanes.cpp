@@ -1,0 +1,89 @@
+#include "raytrace/quad_lanes.h"
+
+namespace meninas {
+
+LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const SideRecord& side,
+                        const HitPacket& hits) {
+  LanePoints at;
+  if (face.map != UvMap::general) {
+    const glm::vec2 uv0 = face.uv0, uv1 = face.uv1, uv2 = face.uv2;
+    for (std::size_t k = 0; k < packet_size; ++k)
+      at.s[k] = uv0.x + hits.b1[k] * uv1.x + hits.b2[k] * uv2.x;
+    for (std::size_t k = 0; k < packet_size; ++k)
+      at.t[k] = uv0.y + hits.b1[k] * uv1.y + hits.b2[k] * uv2.y;
+    if (face.map == UvMap::bilinear)
+      for (std::size_t k = 0; k < packet_size; ++k) {
+        const glm::vec2 uv = bilinear_uv(face.widening, {at.s[k], at.t[k]});
+        at.s[k] = uv.x;
+        at.t[k] = uv.y;
+      }
+  } else {
+    for (std::uint32_t k = 0; k < packet_size; ++k) {
+      const glm::vec2 uv = uv_of(light, face, hits, k);
+      at.s[k] = uv.x;
+      at.t[k] = uv.y;
+    }
+  }
+  const std::int32_t nu = side.nu, nv = side.nv;
+  const auto fu = static_cast<float>(nu), fv = static_cast<float>(nv);
+  const std::uint32_t first = side.first_element;
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const float u = (at.s[k] < 0.0F ? 0.0F : at.s[k] > 1.0F ? 1.0F : at.s[k]) * fu;
+    const float v = (at.t[k] < 0.0F ? 0.0F : at.t[k] > 1.0F ? 1.0F : at.t[k]) * fv;
+    const auto iu = static_cast<std::int32_t>(u), iv = static_cast<std::int32_t>(v);
+    const std::int32_t i = iu < nu ? iu : nu - 1, j = iv < nv ? iv : nv - 1;
+    at.s[k] = u - static_cast<float>(i);
+    at.t[k] = v - static_cast<float>(j);
+    at.element[k] = first + static_cast<std::uint32_t>(j * nu + i);
+  }
+  if (side.divided)
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      const Landing found =
+          descend(light.landing, false, {at.element[k], glm::vec2(at.s[k], at.t[k])});
+      at.element[k] = found.element;
+      at.s[k] = found.st.x;
+      at.t[k] = found.st.y;
+    }
+  return at;
+}
+
+/// The sum over all lanes, four at a time.
+static float sum_of(const LaneFloats& values) {
+  std::array<float, 4> sums;
+  for (std::size_t k = 0; k < 4; ++k)
+    sums[k] = (values[k] + values[k + 4]) + (values[k + 8] + values[k + 12]);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+static PointSums sums_of(const LaneFloats& s, const LaneFloats& t) {
+  LaneFloats st;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    st[k] = s[k] * t[k];
+  return {float{packet_size}, sum_of(s), sum_of(t), sum_of(st)};
+}
+
+static PointSums sums_of_some(const LanePoints& at, std::uint32_t lanes) {
+  LaneFloats s, t;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    s[k] = (lanes & lane_bits[k]) != 0 ? at.s[k] : 0.0F;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    t[k] = (lanes & lane_bits[k]) != 0 ? at.t[k] : 0.0F;
+  PointSums sums = sums_of(s, t);
+  sums.n = static_cast<float>(std::popcount(lanes));
+  return sums;
+}
+
+glm::vec3 quad_radiance(const ElementMesh& mesh, const VisibleLight& visible, std::uint32_t side,
+                        const LanePoints& at, std::uint32_t lanes) {
+  glm::vec3 sum(0.0F);
+  while (lanes != 0) {
+    const std::uint32_t element = at.element[static_cast<std::size_t>(std::countr_zero(lanes))];
+    const std::uint32_t here = lanes & lanes_equal(at.element.data(), element);
+    lanes &= ~here;
+    sum += field_radiance(mesh, visible.irradiance, visible.shading[side], element,
+                          here == all_lanes ? sums_of(at.s, at.t) : sums_of_some(at, here));
+  }
+  return sum;
+}
+
+} // namespace meninas
