@@ -2,6 +2,7 @@
 
 #include "radiosity/surface_colour.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace meninas {
@@ -21,6 +22,7 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
   const CameraRay start = camera_ray(camera, picture_aspect, at.x, at.y);
   Ray ray{start.origin, start.direction};
   Sight sight;
+  double step = 0.0;
   for (Backs backs = Backs::transparent, next = Backs::absorb;;
        backs = std::exchange(next, Backs::absorb)) {
     const auto hit = closest_hit(light.rays, ray, backs);
@@ -43,9 +45,12 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
       return sight;
     ray.origin = sight.position;
     ray.leaving = static_cast<PlaneId>(face.plane_class);
-    if (clear)
+    if (clear) {
       next = backs;
-    else {
+      // Where panes meet in an edge the one that was left before is met again, unless the eye goes on: in steps that double.
+      step = hit->distance > step ? 0.0 : std::max(2.0 * step, 1e-15 / light.rays.frame().scale);
+      ray.origin += step * ray.direction;
+    } else {
       ++sight.mirrors;
       ray.direction -= 2.0 * glm::dot(face.normal, ray.direction) * face.normal;
     }

@@ -1,5 +1,7 @@
 #include "raytrace/debug_view.h"
+#include "raytrace/sight.h"
 #include "tests/raytrace/pictures.h"
+#include "tests/support/glass_rooms.h"
 #include "tests/support/rooms.h"
 #include "tests/support/scene_builder.h"
 
@@ -80,6 +82,25 @@ TEST(DebugView, RowsCloseAndIrradianceIsTheFields) {
   for (const float value : light.values.values)
     EXPECT_NEAR(value, 2.0F, 1e-3F);
   EXPECT_GE(light.top, 1.99);
+}
+
+TEST(DebugView, LooksThroughTheEdgeOfTwoPanes) {
+  Scene scene;
+  add_polygon(scene, "left", {{-1, 0, 1}, {0, 0, 0}, {0, 2, 0}, {-1, 2, 1}}, glass(Rgb(1.0)));
+  add_polygon(scene, "right", {{0, 0, 0}, {1, 0, 1}, {1, 2, 1}, {0, 2, 0}}, glass(Rgb(1.0)));
+  add_polygon(scene, "wall", {{-9, -9, -1}, {9, -9, -1}, {9, 9, -1}, {-9, 9, -1}},
+              diffuse(0.5, 1.0));
+  const Taken lit = quick(scene);
+  // As exactly through it as rounding allows, where both panes are met at one point.
+  for (int k = 0; k < 2000; ++k) {
+    const double t = 1e-3 * k;
+    const Point3 eyes[] = {{t - 1.0, 0.7 * t, 1.0 + t}, {0.0, t, 0.0}, {1e-3 * t, 1.0, 0.5 + t}};
+    for (const Point3& eye : eyes) {
+      const Camera camera = look_at(eye, {0.0, 0.1 + 0.9 * t, eye.z == 0.0 ? -1.0 : 0.0}, 0.1);
+      const Sight sight = look(*lit.prepared->light, camera, 1.0, {0.5, 0.5}, 3);
+      ASSERT_NEAR(sight.position.z, -1.0, 1e-6) << eye.x << ' ' << eye.y << ' ' << eye.z;
+    }
+  }
 }
 
 } // namespace

@@ -166,5 +166,21 @@ TEST(Glass, ALegCrossesEveryPaneOnceAndIsNotBlocked) {
   EXPECT_EQ(crossings.size(), 1U);
 }
 
+TEST(Glass, ALegThroughTheEdgeOfTwoPanesCrossesEachOnce) {
+  Scene scene;
+  add_polygon(scene, "left", {{-1, 0, 1}, {0, 0, 0}, {0, 2, 0}, {-1, 2, 1}}, glass(Rgb(1.0)));
+  add_polygon(scene, "right", {{0, 0, 0}, {1, 0, 1}, {1, 2, 1}, {0, 2, 0}}, glass(Rgb(1.0)));
+  const RayScene rays = make_ray_scene(scene, find_surfaces(scene));
+  std::vector<GlassCrossing> crossings;
+  // Exactly through the edge: both of its sides are met at the same distance.
+  for (const double height : {0.5, 1.0, 1.25}) {
+    glass_crossings(rays, {{0.0, height, 1.0}, {0.0, height, -1.0}}, crossings);
+    EXPECT_EQ(crossings.size(), 2U) << height;
+  }
+  // From the edge itself.
+  glass_crossings(rays, {{0.0, 1.0, 0.0}, {0.0, 1.0, -1.0}}, crossings);
+  EXPECT_LE(crossings.size(), 2U);
+}
+
 } // namespace
 } // namespace meninas::test
