@@ -77,6 +77,24 @@ static Camera read_camera(const Document& document, std::size_t index, Findings&
   return camera;
 }
 
+/// From farther away, in scenes, or in a view as wide, nothing is seen of the scene; and the rays would leave the range of Embree's floats.
+static constexpr double farthest = 1e12;
+
+static void bring_near(const Bounds& bounds, Camera& camera, Findings& findings) {
+  const auto size = bounds.high - bounds.low;
+  const auto reach = farthest * std::max({size.x, size.y, size.z});
+  const auto centre = 0.5 * bounds.low + 0.5 * bounds.high;
+  const auto away = camera.position - centre;
+  const auto distance = std::max({std::abs(away.x), std::abs(away.y), std::abs(away.z)});
+  if (distance <= reach && camera.half_height <= reach)
+    return;
+  findings.about("cameras too far away, or of too wide a view, to see any of the scene",
+                 camera.name);
+  if (distance > reach)
+    camera.position = centre + away / distance * reach;
+  camera.half_height = std::min(camera.half_height, reach);
+}
+
 static std::string first_name(const Document& document, std::size_t node, std::string_view array,
                               std::size_t index, std::string_view kind) {
   const auto of_node = name_of(element(document.root, "nodes", node));
@@ -103,8 +121,11 @@ void read_cameras(const Document& document, std::span<const PlacedNode> nodes, S
     names.push_back(name);
   }
   const auto unique = unique_names(names);
-  for (std::size_t k = 0; k < unique.size(); ++k)
+  const auto bounds = bounds_of(scene);
+  for (std::size_t k = 0; k < unique.size(); ++k) {
     scene.cameras[k].name = unique[k];
+    bring_near(bounds, scene.cameras[k], findings);
+  }
 }
 
 static void read_cone(const Json& json, const std::string& name, PunctualLight& light,

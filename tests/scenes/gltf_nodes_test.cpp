@@ -192,6 +192,27 @@ TEST(GltfCameras, NamesAreUnique) {
   EXPECT_TRUE(warns(scene, {"scaled to nothing", "'Gone'"}));
 }
 
+TEST(GltfCameras, AreNotFartherAwayThanRaysReach) {
+  auto file = square();
+  file.json["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}},
+      {{"type", "orthographic"},
+       {"orthographic", {{"xmag", 1e300}, {"ymag", 1e300}, {"znear", 0}, {"zfar", 1}}}}};
+  for (const double far : {1e9, 1e30, 1e300})
+    file.add_node({{"camera", 0}, {"translation", {far, 1, 2}}});
+  file.add_node({{"camera", 1}});
+  const Scene scene = load(file);
+  ASSERT_EQ(scene.cameras.size(), 4U);
+  EXPECT_EQ(scene.cameras[0].position, Point3(1e9, 1, 2));
+  for (const auto& camera : scene.cameras) {
+    EXPECT_LE(glm::length(camera.position), 1e13) << camera.name;
+    EXPECT_LE(camera.half_height, 1e13) << camera.name;
+  }
+  EXPECT_GT(scene.cameras[2].position.x, 1e11) << "still on its side";
+  EXPECT_TRUE(warns(scene, {"too far away", "'camera0.1', 'camera0.2', 'camera1'"}))
+      << scene.warnings.front();
+}
+
 TEST(GltfCameras, RefusesImpossibleProjections) {
   EXPECT_THAT(error_of(with_camera(
                   {{"name", "C"}, {"type", "perspective"}, {"perspective", {{"yfov", 4.0}}}})),
