@@ -11,6 +11,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(Eigen3 REQUIRED)
 find_package(OpenImageIO REQUIRED)
+find_package(ZLIB REQUIRED)
 
 # Debian's OpenImageIO target lists an include directory that its package does not install.
 get_target_property(oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)

@@ -2,6 +2,7 @@
 #include "image/exr_header.h"
 #include "image/image_io.h"
 #include "image/png_pixels.h"
+#include "image/png_rows.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -93,7 +94,8 @@ const char* format_of(std::string_view bytes) {
   for (const auto& [signature, format] : signatures)
     if (bytes.starts_with(signature))
       return format;
-  if (bytes.starts_with("RIFF"sv) && bytes.substr(std::min<std::size_t>(8, bytes.size())).starts_with("WEBP"sv))
+  if (bytes.starts_with("RIFF"sv) &&
+      bytes.substr(std::min<std::size_t>(8, bytes.size())).starts_with("WEBP"sv))
     return "webp";
   return nullptr;
 }
@@ -158,6 +160,8 @@ void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) 
   if (!input->open(file_name, spec, config))
     fail(input->geterror(), "cannot be opened");
   check_limits(spec, limits);
+  if (!png.empty())
+    check_png_rows(bytes);
 
   // The buffer is not cleared, so a header that promises more than the file holds costs address space only.
   auto storage = std::make_unique<DecodedStorage>();
