@@ -61,7 +61,8 @@ GlbContent read_glb(const std::filesystem::path& file, std::uint64_t size_limit)
   if (!is_glb) {
     throw InputError(file.string(), "", "not a GLB file");
   }
-  gltf::Container container = gltf::parse_container(file.string(), std::move(resource.bytes));
+  gltf::Container container =
+      gltf::parse_container(file.string(), std::move(resource.bytes), size_limit);
   return {std::move(container.root), std::move(container.binary).value_or(gltf::Bytes{})};
 }
 

@@ -26,29 +26,55 @@ static std::string line_and_column(std::span<const unsigned char> text, std::siz
   return fmt::format("line {}, column {}", line, 1 + (last_break - before.rbegin()));
 }
 
-/// The most brackets that are open at once; those in strings are text.
-static int nesting_of(std::span<const unsigned char> text) {
-  int depth = 0, deepest = 0;
+namespace {
+
+/// What a text will be once it is parsed.
+struct Survey {
+  int nesting = 0;    ///< the most brackets that are open at once; those in strings are text
+  double bytes = 0.0; ///< of the parsed values, about, beside the text
+};
+
+} // namespace
+
+static Survey survey_of(std::span<const unsigned char> text) {
+  // A value in a list; a list, an object or a string by itself; a member of an object with its key. Strings also keep their text.
+  constexpr double per_value = 2 * sizeof(Json), per_block = 64.0, per_member = 128.0;
+  Survey survey;
+  int depth = 0;
   bool in_string = false;
   for (std::size_t k = 0; k < text.size(); ++k) {
     const unsigned char c = text[k];
     if (in_string && c == '\\')
       ++k;
-    else if (c == '"')
+    else if (c == '"') {
       in_string = !in_string;
-    else if (!in_string && (c == '{' || c == '['))
-      deepest = std::max(deepest, ++depth);
-    else if (!in_string && (c == '}' || c == ']'))
+      survey.bytes += 0.5 * per_block;
+    } else if (in_string)
+      survey.bytes += 1.0;
+    else if (c == '{' || c == '[') {
+      survey.nesting = std::max(survey.nesting, ++depth);
+      survey.bytes += per_block;
+    } else if (c == '}' || c == ']')
       --depth;
+    else if (c == ',')
+      survey.bytes += per_value;
+    else if (c == ':')
+      survey.bytes += per_member;
   }
-  return deepest;
+  return survey;
 }
 
-static Json parse_json(const std::string& file, std::span<const unsigned char> text) {
+static Json parse_json(const std::string& file, std::span<const unsigned char> text,
+                       std::uint64_t memory_limit) {
   // Beforehand: with a callback the parser takes a time that is quadratic in the length of lists.
-  if (nesting_of(text) > deepest_nesting)
+  const Survey survey = survey_of(text);
+  if (survey.nesting > deepest_nesting)
     throw InputError(file, "JSON",
                      fmt::format("is nested more than {} levels deep", deepest_nesting));
+  if (survey.bytes > static_cast<double>(memory_limit))
+    throw OutputError(file, "JSON",
+                      fmt::format("needs about {:.0f} MiB, the memory limit is {} MiB",
+                                  survey.bytes / (1 << 20), memory_limit >> 20));
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const Json::parse_error& error) {
@@ -68,6 +94,8 @@ static std::string looks_like(std::span<const unsigned char> bytes) {
     return "it is a JPEG image";
   if (begins({0x76, 0x2F, 0x31, 0x01}))
     return "it is an OpenEXR image";
+  if (begins({0xFF, 0xFE}) || begins({0xFE, 0xFF}))
+    return "it is text in UTF-16; save it as UTF-8";
   if (begins({'P', 'K', 3, 4}))
     return "it is a ZIP archive";
   if (begins({'B', 'L', 'E', 'N', 'D', 'E', 'R'}))
@@ -90,7 +118,8 @@ static void check_asset(const std::string& file, const Json& root) {
                      "the file asks for a reader of a newer glTF than 2.0 (minVersion)");
 }
 
-static Container split_glb(const std::string& file, std::span<const unsigned char> bytes) {
+static Container split_glb(const std::string& file, std::span<const unsigned char> bytes,
+                           std::uint64_t memory_limit) {
   if (bytes.size() < 12)
     throw InputError(file, "GLB header", fmt::format("truncated: {} of 12 bytes", bytes.size()));
   const auto version = little_endian(bytes, 4);
@@ -123,7 +152,7 @@ static Container split_glb(const std::string& file, std::span<const unsigned cha
       throw InputError(file, where, "the first chunk is not JSON");
     const auto content = bytes.subspan(at, size);
     if (chunk == 0)
-      root = parse_json(file, content);
+      root = parse_json(file, content, memory_limit);
     if (type == binary_chunk && !binary)
       binary = Bytes(content.begin(), content.end());
     at += size;
@@ -133,12 +162,12 @@ static Container split_glb(const std::string& file, std::span<const unsigned cha
   return {std::move(*root), std::move(binary)};
 }
 
-Container parse_container(const std::string& file, Bytes bytes) {
+Container parse_container(const std::string& file, Bytes bytes, std::uint64_t memory_limit) {
   if (bytes.empty())
     throw InputError(file, "", "not a glTF file: it is empty");
   Container container;
   if (bytes.size() >= 4 && little_endian(bytes, 0) == glb_magic) {
-    container = split_glb(file, bytes);
+    container = split_glb(file, bytes, memory_limit);
   } else {
     std::span<const unsigned char> text = bytes;
     if (text.size() >= 3 && text[0] == 0xEF && text[1] == 0xBB && text[2] == 0xBF)
@@ -149,7 +178,7 @@ Container parse_container(const std::string& file, Bytes bytes) {
     const auto first = std::ranges::find_if_not(text, is_blank);
     if (first == text.end() || *first != '{')
       throw InputError(file, "", fmt::format("not a glTF file: {}", looks_like(bytes)));
-    container.root = parse_json(file, text);
+    container.root = parse_json(file, text, memory_limit);
   }
   check_asset(file, container.root);
   return container;

@@ -15,8 +15,8 @@ static Vectors decode_for_each(const Document& document, const std::string& wher
   auto decoded = decode_vectors(document, accessor, width);
   if (decoded.size() != count)
     throw InputError(document.file, where,
-                     fmt::format("{} has {} elements, POSITION has {}", one_line(std::string(attribute)),
-                                 decoded.size(), count));
+                     fmt::format("{} has {} elements, POSITION has {}",
+                                 one_line(std::string(attribute)), decoded.size(), count));
   if (!std::ranges::all_of(decoded.values, [](double x) { return std::isfinite(x); }))
     throw InputError(document.file, where,
                      fmt::format("{} is not finite", one_line(std::string(attribute))));
@@ -64,8 +64,9 @@ static std::vector<glm::dmat4> joint_matrices(const Document& document, std::siz
     return matrices;
   const auto bind = decode_vectors(document, *inverse, 16);
   if (bind.size() < matrices.size())
-    throw InputError(document.file, place(document.root, "skins", skin),
-                     fmt::format("{} inverse bind matrices for {} joints", bind.size(), matrices.size()));
+    throw InputError(
+        document.file, place(document.root, "skins", skin),
+        fmt::format("{} inverse bind matrices for {} joints", bind.size(), matrices.size()));
   for (std::size_t k = 0; k < matrices.size(); ++k)
     matrices[k] = matrices[k] * matrix_of(&bind.values[16 * k]);
   return matrices;
@@ -97,8 +98,9 @@ static glm::dmat4 blend(const Document& document, const std::string& where,
       if (weight == 0.0)
         continue;
       if (joint >= joints.size())
-        throw InputError(document.file, where,
-                         fmt::format("vertex {} follows joint {} of {}", vertex, joint, joints.size()));
+        throw InputError(
+            document.file, where,
+            fmt::format("vertex {} follows joint {} of {}", vertex, joint, joints.size()));
       sum += weight * joints[joint];
       total += weight;
     }

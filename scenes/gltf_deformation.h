@@ -25,7 +25,8 @@ public:
 
 private:
   const Document& document_;
-  std::vector<const PlacedNode*> placed_; ///< by their index in the file; null outside the chosen scene
+  std::vector<const PlacedNode*>
+      placed_; ///< by their index in the file; null outside the chosen scene
   std::map<std::size_t, std::vector<glm::dmat4>> joints_;
 };
 

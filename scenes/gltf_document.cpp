@@ -15,7 +15,7 @@ Document read_document(Bytes bytes, const std::filesystem::path& file,
   document.folder = file.parent_path().empty() ? "." : file.parent_path();
   document.settings = settings;
 
-  auto container = parse_container(document.file, std::move(bytes));
+  auto container = parse_container(document.file, std::move(bytes), settings.memory_limit);
   check_structure(document.file, container.root);
 
   document.root = std::move(container.root);
@@ -104,8 +104,21 @@ std::string name_of(const Json& object) {
   return one_line(value->get<std::string>());
 }
 
+/// As much of a name as a line has room for, cut between characters of UTF-8.
+static std::string excerpt(std::string_view name) {
+  constexpr std::size_t most = 100;
+  if (name.size() <= most)
+    return one_line(std::string(name));
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U)
+    --end;
+  return one_line(std::string(name.substr(0, end))) + "...";
+}
+
 std::string place(const Json& root, std::string_view array, std::size_t index) {
-  const auto name = name_of(element(root, array, index));
+  const auto* given = find(element(root, array, index), "name");
+  const auto name =
+      given && given->is_string() ? excerpt(given->get_ref<const std::string&>()) : "";
   return name.empty() ? fmt::format("{}[{}]", array, index)
                       : fmt::format("{}[{}] '{}'", array, index, name);
 }
@@ -141,7 +154,7 @@ std::string name_list(std::span<const std::string> names, std::size_t total) {
   std::string list;
   const auto shown = std::min(names.size(), names_per_line);
   for (std::size_t k = 0; k < shown; ++k)
-    list += fmt::format("{}'{}'", k == 0 ? "" : ", ", names[k]);
+    list += fmt::format("{}'{}'", k == 0 ? "" : ", ", excerpt(names[k]));
   if (total > shown)
     list += fmt::format(" and {} more", total - shown);
   return list;

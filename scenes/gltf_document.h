@@ -37,8 +37,9 @@ struct Document {
   std::vector<Bytes> buffers; ///< empty for a buffer that only an extension could fill
 };
 
-/// Splits a .glb or takes a .gltf, and parses the JSON. Nothing inside is checked but that it says it is glTF 2.
-Container parse_container(const std::string& file, Bytes bytes);
+/// Splits a .glb or takes a .gltf, and parses the JSON, unless that would take more memory than the limit. Nothing inside is checked but that
+/// it says it is glTF 2.
+Container parse_container(const std::string& file, Bytes bytes, std::uint64_t memory_limit);
 
 /// Throws InputError unless every property the loader reads has its type, and every index points into its array.
 void check_structure(const std::string& file, const Json& root);

@@ -2,19 +2,16 @@
 #include "scenes/gltf_accessors.h"
 #include "scenes/gltf_deformation.h"
 #include "scenes/gltf_instances.h"
-#include "scenes/gltf_stages.h"
+#include "scenes/gltf_primitives.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace meninas::gltf {
 
 namespace {
-
-enum class Mode : std::uint64_t { points, lines, line_loop, line_strip, triangles, strip, fan };
 
 using Corners = std::array<std::uint32_t, 3>;
 
@@ -27,48 +24,10 @@ struct Part {
   MaterialId material = none<MaterialId>;
 };
 
-/// A primitive and how to speak of it.
-struct PrimitivePlace {
-  const Document& document;
-  const Json& json;
-  std::string where; ///< meshes[0] 'Wall', primitive 2
-  std::string node;
-  std::vector<double> morph_weights;
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(document.file, where, what);
-  }
-};
-
 // Coordinates whose fourth powers leave the range of doubles cannot be computed with.
 constexpr double largest_coordinate = 1e60;
 
 } // namespace
-
-static Mode mode_of(const PrimitivePlace& at) {
-  const auto mode = size_or(at.json, "mode", 4);
-  if (mode > 6)
-    at.fail(fmt::format("mode {} does not exist", mode));
-  return static_cast<Mode>(mode);
-}
-
-/// None for a primitive that nothing can be seen of: glTF 2.0, 3.7.2.1 lets positions be absent.
-static std::optional<std::size_t> position_accessor(const PrimitivePlace& at) {
-  const auto accessor = index_at(at.json["attributes"], "POSITION");
-  if (!accessor)
-    return std::nullopt;
-  const auto& json = element(at.document.root, "accessors", *accessor);
-  if (!json.contains("bufferView") && find(at.json, {"extensions", "KHR_draco_mesh_compression"}))
-    at.fail("its data is only there in KHR_draco_mesh_compression, which is not decoded: save the "
-            "file without mesh compression");
-  return *accessor;
-}
-
-static std::size_t triangles_in(Mode mode, std::uint64_t corners) {
-  if (corners < 3)
-    return 0;
-  return mode == Mode::triangles ? corners / 3 : corners - 2;
-}
 
 static std::vector<Vec3> decode_positions(const PrimitivePlace& at, std::size_t accessor) {
   const auto decoded = decode_vectors(at.document, accessor, 3);
@@ -96,10 +55,22 @@ decode_texcoords(const PrimitivePlace& at, std::size_t count, Findings& findings
       if (std::isfinite(uv.x) && std::isfinite(uv.y))
         texcoords[k][set] = uv;
       else
-        findings.about("texture coordinates that are not finite are read as 0 in nodes", at.node);
+        findings.about("texture coordinates that are not finite are read as 0 in nodes",
+                       at.in.node);
     }
   }
   return texcoords;
+}
+
+/// A material with textures on what has no coordinates for them.
+static void check_texcoords(const PrimitivePlace& at, Findings& findings) {
+  const auto material = index_at(at.json, "material");
+  if (!material)
+    return;
+  for (const auto set : texcoord_sets(element(at.document.root, "materials", *material)))
+    if (!at.json["attributes"].contains(fmt::format("TEXCOORD_{}", set)))
+      findings.about("texture coordinates that their materials ask for are missing in nodes",
+                     at.in.node);
 }
 
 /// COLOR_0, RGB or RGBA, in [0, 1]: linear factors of the base colour.
@@ -115,7 +86,7 @@ static std::vector<glm::vec4> decode_colors(const PrimitivePlace& at, Findings& 
     for (std::size_t c = 0; c < decoded.width; ++c) {
       const double value = decoded.values[decoded.width * k + c];
       if (!(value >= 0.0 && value <= 1.0))
-        findings.about("vertex colours outside [0, 1] are clamped in nodes", at.node);
+        findings.about("vertex colours outside [0, 1] are clamped in nodes", at.in.node);
       colors[k][static_cast<glm::length_t>(c)] =
           static_cast<float>(value > 0.0 ? std::min(value, 1.0) : 0.0);
     }
@@ -168,12 +139,12 @@ static std::vector<Corners> triangulate(Mode mode, std::span<const std::uint32_t
 static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& findings) {
   const auto mode = mode_of(at);
   if (mode < Mode::triangles) {
-    findings.about("points and lines are left out in nodes", at.node);
+    findings.about("points and lines are left out in nodes", at.in.node);
     return std::nullopt;
   }
   const auto accessor = position_accessor(at);
   if (!accessor) {
-    findings.about("primitives without positions are left out in nodes", at.node);
+    findings.about("primitives without positions are left out in nodes", at.in.node);
     return std::nullopt;
   }
   check_attribute_counts(at, *accessor);
@@ -181,14 +152,15 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& 
   Part part;
   part.positions = decode_positions(at, *accessor);
   if (const auto* targets = find(at.json, "targets"); targets && !targets->empty()) {
-    findings.about("morph targets stand still, by their default weights, in nodes", at.node);
-    apply_morph_targets(at.document, at.where, at.json, at.morph_weights, part.positions);
+    findings.about("morph targets stand still, by their default weights, in nodes", at.in.node);
+    apply_morph_targets(at.document, at.where(), at.json, at.in.morph_weights, part.positions);
   }
   part.texcoords = decode_texcoords(at, part.positions.size(), findings);
+  check_texcoords(at, findings);
   part.colors = decode_colors(at, findings);
   const auto corners = decode_corners(at, part.positions.size());
   if (mode == Mode::triangles && corners.size() % 3 != 0)
-    findings.about("vertices over after the last whole triangle are left out in nodes", at.node);
+    findings.about("vertices over after the last whole triangle are left out in nodes", at.in.node);
   part.triangles = triangulate(mode, corners);
   if (const auto material = index_at(at.json, "material"))
     part.material = static_cast<MaterialId>(*material);
@@ -241,8 +213,8 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
   for (std::size_t k = 0; k < placed.size(); ++k) {
     placed[k] = Point3(world * glm::dvec4(part.positions[k], 1.0));
     if (!(largest_of(placed[k]) < largest_coordinate))
-      at.fail(
-          fmt::format("vertex {} is over {:g} m away in node {}", k, largest_coordinate, at.node));
+      at.fail(fmt::format("vertex {} is over {:g} m away in node {}", k, largest_coordinate,
+                          at.in.node));
   }
 
   // Vertices join the scene when the first triangle that stays needs them.
@@ -272,102 +244,39 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
   const auto dropped = part.triangles.size() - kept;
   scene.degenerate_triangles += dropped;
   if (dropped > 0)
-    findings.about("triangles without area are in nodes", at.node);
-}
-
-template <typename Visit>
-static void each_primitive(const Document& document, const PlacedNode& node, std::size_t mesh,
-                           Visit visit) {
-  const auto& primitives = element(document.root, "meshes", mesh)["primitives"];
-  const auto& json = element(document.root, "nodes", node.index);
-  const auto name = name_of(json);
-  auto weights = numbers_at(json, "weights");
-  if (weights.empty())
-    weights = numbers_at(element(document.root, "meshes", mesh), "weights");
-  for (std::size_t k = 0; k < primitives.size(); ++k)
-    visit(PrimitivePlace{document, primitives[k],
-                         fmt::format("{}, primitive {}", place(document.root, "meshes", mesh), k),
-                         name.empty() ? fmt::format("node{}", node.index) : name, weights});
-}
-
-/// Bytes a vertex takes while its targets and joints are decoded.
-static double deformation_bytes(const PrimitivePlace& at, bool is_skinned) {
-  const auto* targets = find(at.json, "targets");
-  return sizeof(double) *
-         (3.0 * static_cast<double>(targets ? targets->size() : 0) + (is_skinned ? 8.0 : 0.0));
-}
-
-/// Instances multiply, so a small file can ask for any amount of memory; it is counted before anything is decoded.
-static void check_memory(const Document& document, std::span<const PlacedNode> nodes) {
-  constexpr double per_vertex = sizeof(Vertex) + 2 * sizeof(Point3) +
-                                sizeof(std::array<glm::vec2, 2>) + sizeof(glm::vec4) +
-                                4 * sizeof(double) + sizeof(VertexId);
-  constexpr double per_corner = sizeof(std::uint32_t);
-  constexpr double per_triangle = sizeof(Triangle) + sizeof(Corners);
-  double bytes = 0.0;
-  double vertices = 0.0;
-  std::set<std::size_t> skins;
-  for (const auto& node : nodes) {
-    const auto& json = element(document.root, "nodes", node.index);
-    const auto mesh = index_at(json, "mesh");
-    if (!mesh)
-      continue;
-    const auto skin = index_at(json, "skin");
-    if (skin && skins.insert(*skin).second)
-      bytes += sizeof(glm::dmat4) *
-               static_cast<double>(element(document.root, "skins", *skin)["joints"].size());
-    const auto copies = static_cast<double>(instance_count(document, node.index));
-    bytes += sizeof(glm::dmat4) * copies;
-    each_primitive(document, node, *mesh, [&](const PrimitivePlace& at) {
-      const auto mode = mode_of(at);
-      const auto accessor = mode < Mode::triangles ? std::nullopt : position_accessor(at);
-      if (!accessor)
-        return;
-      const auto count = accessor_count(document, *accessor);
-      const auto indices = index_at(at.json, "indices");
-      const auto corners = indices ? accessor_count(document, *indices) : count;
-      vertices += copies * static_cast<double>(count);
-      bytes += (copies * per_vertex + deformation_bytes(at, skin.has_value())) *
-                   static_cast<double>(count) +
-               per_corner * static_cast<double>(corners) +
-               copies * per_triangle * static_cast<double>(triangles_in(mode, corners));
-    });
-  }
-  const auto limit = static_cast<double>(document.settings.memory_limit);
-  if (bytes > limit || vertices >= static_cast<double>(index(none<VertexId>)))
-    throw OutputError(document.file, "geometry",
-                      fmt::format("needs about {:.0f} MiB, the memory limit is {:.0f} MiB",
-                                  bytes / (1 << 20), limit / (1 << 20)));
+    findings.about("triangles without area are in nodes", at.in.node);
 }
 
 /// A primitive where its node puts it: moved by the joints, or by the matrix of each instance.
 static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& node, NodeId id,
                        Skins& skins, Scene& scene, Findings& findings) {
   if (const auto skin = index_at(element(at.document.root, "nodes", node.index), "skin")) {
-    if (apply_skin(at.document, at.where, at.json, skins.joints(*skin), part.positions)) {
-      findings.about("skins stand still, as the joints are in the file, in nodes", at.node);
+    if (apply_skin(at.document, at.where(), at.json, skins.joints(*skin), part.positions)) {
+      findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
       return add_part(at, part, glm::dmat4(1.0), id, scene, findings);
     }
-    findings.about("skins without joints in the scene are left out in nodes", at.node);
+    findings.about("skins without joints in the scene are left out in nodes", at.in.node);
   }
-  for (const auto& world : instance_matrices(at.document, node))
+  const auto copies = instance_matrices(at.document, node);
+  if (copies.empty())
+    findings.about("instanced nodes without an instance are left out", at.in.node);
+  for (const auto& world : copies)
     add_part(at, part, world, id, scene, findings);
 }
 
 void read_geometry(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
                    Findings& findings) {
-  check_memory(document, nodes);
+  check_geometry_size(document, nodes);
   Skins skins(document, nodes);
   std::vector<std::string> names;
   for (const auto& node : nodes) {
-    const auto& json = element(document.root, "nodes", node.index);
-    const auto mesh = index_at(json, "mesh");
+    const auto mesh = index_at(element(document.root, "nodes", node.index), "mesh");
     if (!mesh)
       continue;
     const auto id = static_cast<NodeId>(names.size());
-    const auto name = name_of(json);
-    names.push_back(name.empty() ? fmt::format("node{}", node.index) : name);
-    each_primitive(document, node, *mesh, [&](const PrimitivePlace& at) {
+    const auto place = mesh_place(document, node.index, *mesh);
+    names.push_back(place.node);
+    each_primitive(place, [&](const PrimitivePlace& at) {
       if (auto part = decode_primitive(at, findings))
         place_part(at, std::move(*part), node, id, skins, scene, findings);
     });

@@ -28,9 +28,9 @@ std::uint64_t instance_count(const Document& document, std::size_t node) {
   for (const auto& [name, accessor] : attributes->items()) {
     const auto own = accessor_count(document, size_value(accessor));
     if (count && *count != own)
-      throw InputError(document.file, where_of(document, node),
-                       fmt::format("{} has {} elements, another attribute has {}", one_line(name),
-                                   own, *count));
+      throw InputError(
+          document.file, where_of(document, node),
+          fmt::format("{} has {} elements, another attribute has {}", one_line(name), own, *count));
     count = own;
   }
   return count.value_or(0);
@@ -44,7 +44,8 @@ static Vectors decode(const Document& document, std::size_t node, std::string_vi
     return {width, {}};
   auto vectors = decode_vectors(document, *accessor, width);
   if (!std::ranges::all_of(vectors.values, [](double x) { return std::isfinite(x); }))
-    throw InputError(document.file, where_of(document, node), fmt::format("{} is not finite", name));
+    throw InputError(document.file, where_of(document, node),
+                     fmt::format("{} is not finite", name));
   return vectors;
 }
 
@@ -62,8 +63,8 @@ static glm::dmat4 rotation_at(const Vectors& rotations, std::size_t k) {
   const auto largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2]), std::abs(v[3])});
   if (largest == 0.0)
     return glm::dmat4(1.0);
-  return glm::mat4_cast(glm::normalize(
-      glm::dquat(v[3] / largest, v[0] / largest, v[1] / largest, v[2] / largest)));
+  return glm::mat4_cast(
+      glm::normalize(glm::dquat(v[3] / largest, v[0] / largest, v[1] / largest, v[2] / largest)));
 }
 
 std::vector<glm::dmat4> instance_matrices(const Document& document, const PlacedNode& node) {

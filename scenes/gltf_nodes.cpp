@@ -144,9 +144,8 @@ static std::vector<bool> below_listed(const Json& root, const std::vector<bool>&
 
 /// Where the walk through the chosen scene begins. A scene lists roots alone; exporters also list nodes below them, which stay
 /// where their parents put them and are shown once, and nodes of which no ancestor is listed, which become roots.
-static std::vector<std::size_t> root_nodes(const Document& document,
-                                           std::span<const std::size_t> parents,
-                                           Findings& findings) {
+static std::vector<std::size_t>
+root_nodes(const Document& document, std::span<const std::size_t> parents, Findings& findings) {
   const auto none = parents.size();
   std::vector<std::size_t> roots;
   const auto scene = chosen_scene(document);

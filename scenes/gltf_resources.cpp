@@ -130,7 +130,9 @@ Resource read_uri(const std::string& uri, const fs::path& folder, const GltfSett
   if (uri.starts_with("data:"))
     return decode_data_uri(uri);
   const auto shown = one_line(uri.substr(0, 200));
-  if (has_scheme(uri))
+  // Exporters also make file names of names with colons.
+  std::error_code error;
+  if (has_scheme(uri) && !fs::exists(folder / uri, error))
     return {{}, fmt::format("'{}' is not a file beside the glTF file", shown)};
   const auto path = percent_decoded(uri);
   if (!path || path->empty())

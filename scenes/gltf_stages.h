@@ -39,6 +39,9 @@ std::optional<TextureUse> read_texture_use(const Document& document, const Json&
                                            std::string_view key, const std::string& material,
                                            Findings& findings);
 
+/// Which sets of texture coordinates the textures of a material ask for.
+std::set<std::uint64_t> texcoord_sets(const Json& material);
+
 /// Replaces the file's texture indices in the materials by textures of the scene, one per image and wrapping.
 void read_textures(const Document& document, Scene& scene, Findings& findings);
 

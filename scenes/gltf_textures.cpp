@@ -17,6 +17,7 @@ static constexpr std::uint64_t mirrored_repeat = 33648;
 static constexpr std::uint64_t repeat = 10497;
 static constexpr std::uint64_t nearest = 9728;
 static constexpr std::uint64_t linear = 9729;
+static constexpr std::uint64_t last_set = 1; // of texture coordinates
 
 /// A PNG or JPEG before a WebP: where a file has both, that is what the other is made from.
 static std::optional<std::size_t> image_of(const Json& texture) {
@@ -24,6 +25,12 @@ static std::optional<std::size_t> image_of(const Json& texture) {
     return image;
   const auto* webp = find(texture, {"extensions", "EXT_texture_webp"});
   return webp ? index_at(*webp, "source") : std::nullopt;
+}
+
+static std::uint64_t texcoord_set(const Json& use) {
+  const auto set = size_or(use, "texCoord", 0);
+  const auto* transform = find(use, {"extensions", "KHR_texture_transform"});
+  return transform ? size_or(*transform, "texCoord", set) : set;
 }
 
 std::optional<TextureUse> read_texture_use(const Document& document, const Json& owner,
@@ -35,7 +42,6 @@ std::optional<TextureUse> read_texture_use(const Document& document, const Json&
   TextureUse use;
   const auto index = *index_at(*json, "index");
   use.texture = static_cast<TextureId>(index);
-  auto set = size_or(*json, "texCoord", 0);
   if (const auto* transform = find(*json, {"extensions", "KHR_texture_transform"})) {
     const auto offset = numbers_at(*transform, "offset");
     const auto scale = numbers_at(*transform, "scale");
@@ -44,9 +50,9 @@ std::optional<TextureUse> read_texture_use(const Document& document, const Json&
     if (!scale.empty())
       use.scale = {scale[0], scale[1]};
     use.rotation = number_or(*transform, "rotation", 0.0);
-    set = size_or(*transform, "texCoord", set);
   }
-  if (set > 1) {
+  const auto set = texcoord_set(*json);
+  if (set > last_set) {
     findings.about("textures with texCoord above 1 are left out in materials", material);
     return std::nullopt;
   }
@@ -64,6 +70,21 @@ std::optional<TextureUse> read_texture_use(const Document& document, const Json&
     return std::nullopt;
   }
   return use;
+}
+
+std::set<std::uint64_t> texcoord_sets(const Json& material) {
+  std::set<std::uint64_t> sets;
+  const auto add = [&](std::initializer_list<std::string_view> path) {
+    if (const auto* use = find(material, path))
+      if (const auto set = texcoord_set(*use); set <= last_set)
+        sets.insert(set);
+  };
+  add({"emissiveTexture"});
+  add({"pbrMetallicRoughness", "baseColorTexture"});
+  add({"pbrMetallicRoughness", "metallicRoughnessTexture"});
+  add({"extensions", "KHR_materials_pbrSpecularGlossiness", "diffuseTexture"});
+  add({"extensions", "KHR_materials_transmission", "transmissionTexture"});
+  return sets;
 }
 
 namespace {

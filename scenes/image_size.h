@@ -11,7 +11,7 @@ struct ImageSize {
   std::uint32_t width = 0, height = 0;
 };
 
-/// Of PNG, JPEG and WebP; none for other formats and for headers that are cut off. Nothing else of the image is looked at.
+/// Of PNG, JPEG, WebP, EXR and HDR; none for other formats and for headers that are cut off. Nothing else of the image is looked at.
 std::optional<ImageSize> image_size(std::span<const unsigned char> encoded);
 
 } // namespace meninas

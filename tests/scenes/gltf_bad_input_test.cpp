@@ -245,6 +245,43 @@ TEST(GltfBadInput, MemoryIsCountedBeforeItIsTaken) {
   EXPECT_THAT(error_of(square(), {.memory_limit = 100}), HasSubstr("over the memory limit"));
 }
 
+TEST(GltfBadInput, TextThatNeedsTooMuchMemoryIsNotParsed) {
+  // Two bytes of text each, some seventy once they are parsed.
+  auto file = square();
+  file.json["extras"] = Json(20'000, Json::array());
+  EXPECT_THAT(error_of(file, {.memory_limit = 1 << 20}),
+              HasSubstr("JSON: needs about 2 MiB, the memory limit is 1 MiB"));
+  // Of a buffer in the text the text is all there is.
+  auto data = square();
+  data.data.resize(500'000);
+  EXPECT_EQ(error_of(data, {.memory_limit = 2 << 20}), "no error");
+}
+
+TEST(GltfBadInput, PrimitivesWithoutNumberAreNotLookedAt) {
+  // Nothing is seen of any of them, so they take no memory: only a lifetime.
+  auto file = square();
+  file.add_mesh(Json(10'000, {{"attributes", {{"POSITION", 0}}}, {"mode", 0}}));
+  for (int k = 0; k < 10'000; ++k)
+    file.add_node({{"mesh", 1}});
+  EXPECT_THAT(error_of(file), HasSubstr("have over 50000000 primitives and attributes"));
+}
+
+TEST(GltfBadInput, LongNamesAreCutInMessages) {
+  auto file = square();
+  std::string name;
+  for (int k = 0; k < 1000; ++k)
+    name += "\xc3\xa4"; // one character of two bytes, between which is no cut
+  file.json["materials"][0] = {{"name", "x" + name}};
+  file.json["nodes"][0]["name"] = name;
+  const Scene scene = load(file);
+  EXPECT_EQ(scene.nodes[0].name, name);
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_LT(scene.warnings[0].size(), 200U);
+  EXPECT_THAT(scene.warnings[0], HasSubstr("\xa4...'"));
+  file.json["nodes"][0]["rotation"] = {0, 0, 0, 0};
+  EXPECT_LT(error_of(file).size(), 200U);
+}
+
 TEST(GltfBadInput, FilesOutsideAreReadOnlyWhenAllowed) {
   const TemporaryFolder folder;
   auto file = square();
@@ -270,6 +307,8 @@ TEST(GltfBadInput, FilesThatAreNoGltf) {
             "blank.gltf: not a glTF file: it begins with neither '{' nor 'glTF'");
   EXPECT_EQ(error_of(folder.write("note.gltf", "Dear reader")),
             "note.gltf: not a glTF file: it begins with neither '{' nor 'glTF'");
+  EXPECT_EQ(error_of(folder.write("wide.gltf", std::string("\xff\xfe{\0", 4))),
+            "wide.gltf: not a glTF file: it is text in UTF-16; save it as UTF-8");
   EXPECT_EQ(error_of(folder.write("a.png", "\x89PNG\r\n\x1a\n")),
             "a.png: not a glTF file: it is a PNG image");
   EXPECT_EQ(error_of(folder.write("a.json", "{\"a\": 1}")),

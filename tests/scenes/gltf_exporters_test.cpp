@@ -83,6 +83,12 @@ TEST(GltfExporters, InstancesAreCopies) {
 
   file.json["accessors"].back()["count"] = 1;
   EXPECT_THAT(error_of(file), HasSubstr("nodes[0] 'Quad', EXT_mesh_gpu_instancing"));
+
+  auto none = square();
+  none.add_node({{"name", "Nowhere"},
+                 {"mesh", 0},
+                 {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", Json::object()}}}}}});
+  EXPECT_TRUE(warns(load(none), {"without an instance", "'Nowhere'"}));
 }
 
 // A file as an exporter of buildings writes it: thousands of nodes and materials, some without names, many with the same.
@@ -241,10 +247,11 @@ TEST(GltfExporters, FileNamesAreFoundAsTheyAreMeant) {
   const TemporaryFolder folder;
   auto file = square();
   const auto& spellings =
-      std::array<std::pair<const char*, const char*>, 4>{{{"my%20data.bin", "my data.bin"},
+      std::array<std::pair<const char*, const char*>, 5>{{{"my%20data.bin", "my data.bin"},
                                                           {"sub\\data.bin", "sub/data.bin"},
                                                           {"50%25.bin", "50%.bin"},
-                                                          {"raw%41.bin", "raw%41.bin"}}};
+                                                          {"raw%41.bin", "raw%41.bin"},
+                                                          {"Wall:2.bin", "Wall:2.bin"}}};
   for (const auto& [uri, name] : spellings) {
     folder.write(name, file.data);
     file.json["buffers"] = Json::array({{{"uri", uri}, {"byteLength", file.data.size()}}});

@@ -250,6 +250,17 @@ TEST(GltfTextures, KeepsBytesWrappingAndTransform) {
   EXPECT_EQ(use->scale, Vec2(2.0, 3.0));
 }
 
+TEST(GltfTextures, NamesWhatHasNoCoordinatesForThem) {
+  // The square has none, and its material asks for the second set.
+  auto file = textured();
+  EXPECT_TRUE(warns(load(file), {"coordinates that their materials ask for", "'Quad'"}));
+  const auto set = file.add_accessor<float>({0, 0, 1, 0, 1, 1, 0, 1}, "VEC2");
+  square_primitive(file)["attributes"]["TEXCOORD_0"] = set;
+  EXPECT_TRUE(warns(load(file), {"coordinates that their materials ask for"}));
+  square_primitive(file)["attributes"]["TEXCOORD_1"] = set;
+  EXPECT_FALSE(warns(load(file), {"coordinates"}));
+}
+
 TEST(GltfTextures, ReadsImagesFromBufferViewsAndFiles) {
   auto in_view = textured();
   in_view.json["images"][0] = {{"bufferView", in_view.add_view({9, 8, 7})},
