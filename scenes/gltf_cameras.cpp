@@ -77,22 +77,41 @@ static Camera read_camera(const Document& document, std::size_t index, Findings&
   return camera;
 }
 
-/// From farther away, in scenes, or in a view as wide, nothing is seen of the scene; and the rays would leave the range of Embree's floats.
-static constexpr double farthest = 1e12;
+namespace {
 
-static void bring_near(const Bounds& bounds, Camera& camera, Findings& findings) {
+/// From farther away, in scenes, or in a view as wide, nothing is seen of the scene, and the light that comes from there comes from one
+/// direction; but rays would leave the range of Embree's floats.
+constexpr double farthest = 1e12;
+
+struct Reach {
+  Point3 centre;
+  double distance;
+};
+
+} // namespace
+
+static Reach reach_of(const Scene& scene) {
+  const auto bounds = bounds_of(scene);
   const auto size = bounds.high - bounds.low;
-  const auto reach = farthest * std::max({size.x, size.y, size.z});
-  const auto centre = 0.5 * bounds.low + 0.5 * bounds.high;
-  const auto away = camera.position - centre;
+  return {0.5 * bounds.low + 0.5 * bounds.high, farthest * std::max({size.x, size.y, size.z})};
+}
+
+/// Brings a position within reach. How many times as far away it was before.
+static double bring_near(const Reach& reach, Point3& position) {
+  const auto away = position - reach.centre;
   const auto distance = std::max({std::abs(away.x), std::abs(away.y), std::abs(away.z)});
-  if (distance <= reach && camera.half_height <= reach)
+  if (distance <= reach.distance)
+    return 1.0;
+  position = reach.centre + away / distance * reach.distance;
+  return distance / reach.distance;
+}
+
+static void bring_near(const Reach& reach, Camera& camera, Findings& findings) {
+  if (bring_near(reach, camera.position) == 1.0 && camera.half_height <= reach.distance)
     return;
   findings.about("cameras too far away, or of too wide a view, to see any of the scene",
                  camera.name);
-  if (distance > reach)
-    camera.position = centre + away / distance * reach;
-  camera.half_height = std::min(camera.half_height, reach);
+  camera.half_height = std::min(camera.half_height, reach.distance);
 }
 
 static std::string first_name(const Document& document, std::size_t node, std::string_view array,
@@ -121,10 +140,10 @@ void read_cameras(const Document& document, std::span<const PlacedNode> nodes, S
     names.push_back(name);
   }
   const auto unique = unique_names(names);
-  const auto bounds = bounds_of(scene);
+  const auto reach = reach_of(scene);
   for (std::size_t k = 0; k < unique.size(); ++k) {
     scene.cameras[k].name = unique[k];
-    bring_near(bounds, scene.cameras[k], findings);
+    bring_near(reach, scene.cameras[k], findings);
   }
 }
 
@@ -195,8 +214,15 @@ void read_lights(const Document& document, std::span<const PlacedNode> nodes, Sc
     names.push_back(name);
   }
   const auto unique = unique_names(names);
-  for (std::size_t k = 0; k < unique.size(); ++k)
-    scene.lights[k].name = unique[k];
+  const auto reach = reach_of(scene);
+  for (std::size_t k = 0; k < unique.size(); ++k) {
+    auto& light = scene.lights[k];
+    light.name = unique[k];
+    if (light.kind == PunctualKind::directional)
+      continue;
+    const auto nearer = bring_near(reach, light.position);
+    light.intensity = light.intensity / nearer / nearer; // by the inverse square law as bright
+  }
 }
 
 } // namespace meninas::gltf

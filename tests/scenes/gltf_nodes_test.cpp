@@ -277,4 +277,24 @@ TEST(GltfLights, DefaultsAndClamps) {
               testing::HasSubstr("lights[0]: type 'laser' does not exist"));
 }
 
+TEST(GltfLights, FromFarAwayAreAsBrightFromNearer) {
+  auto file = square();
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "point"}, {"intensity", 1e29}}};
+  const Json use = {{"KHR_lights_punctual", {{"light", 0}}}};
+  for (const double far : {1e9, 1e20, 1e300})
+    file.add_node({{"extensions", use}, {"translation", {0.5, 0.5, far}}});
+  const Scene scene = load(file);
+  ASSERT_EQ(scene.lights.size(), 3U);
+  EXPECT_EQ(scene.lights[0].position.z, 1e9);
+  EXPECT_EQ(scene.lights[0].intensity.g, 1e29);
+  for (std::size_t k = 1; k < 3; ++k) {
+    const auto& light = scene.lights[k];
+    EXPECT_LE(light.position.z, 1e13);
+    EXPECT_GT(light.position.z, 1e11) << "from where it was";
+    const double before = k == 1 ? 1e29 / 1e20 / 1e20 : 0.0; // 1e29 / 1e600
+    EXPECT_NEAR(light.intensity.g / light.position.z / light.position.z, before, 1e-9 * before);
+  }
+}
+
 } // namespace meninas::test
