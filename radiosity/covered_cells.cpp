@@ -11,8 +11,8 @@ namespace {
 struct CellCounts {
   std::array<std::uint32_t, 64> rays{}, black{};
 
-  /// Every ray met black; a cell without rays is not known to be.
-  bool is_black(std::uint32_t cell) const { return rays[cell] >= 2 && black[cell] == rays[cell]; }
+  /// No ray of the cell has met anything else.
+  bool may_be_covered(std::uint32_t cell) const { return black[cell] == rays[cell]; }
 };
 
 /// Directions all the way round, neighbours of which start far apart.
@@ -53,6 +53,13 @@ bool is_enclosed(const LightScene& light, const RaySource& source, std::uint32_t
   return true;
 }
 
+/// Those that share an edge with it; at the border, itself instead.
+std::array<std::uint32_t, 4> cells_beside(std::uint32_t cell) {
+  const std::uint32_t i = cell / 8, j = cell % 8;
+  return {i > 0 ? cell - 8 : cell, i < 7 ? cell + 8 : cell, j > 0 ? cell - 1 : cell,
+          j < 7 ? cell + 1 : cell};
+}
+
 CellCounts count_cells(const DirectionNet& net, const RaySource& source,
                        std::span<const std::uint32_t> black_lanes) {
   CellCounts counts;
@@ -73,12 +80,29 @@ CellCounts count_cells(const DirectionNet& net, const RaySource& source,
 Covered find_covered(const LightScene& light, const DirectionNet& net, const RaySource& source,
                      std::span<const std::uint32_t> black_lanes) {
   const CellCounts counts = count_cells(net, source, black_lanes);
+  // A few rays leave cells out: what is covered is looked for from cells with black rays on, through those without any.
+  std::array<std::uint32_t, 64> waiting;
+  std::size_t count = 0;
+  CoveredCells asked = 0;
+  const auto ask = [&](std::uint32_t cell) {
+    if (counts.may_be_covered(cell) && ((asked >> cell) & 1U) == 0) {
+      asked |= CoveredCells{1} << cell;
+      waiting[count++] = cell;
+    }
+  };
+  for (std::uint32_t cell = 0; cell < 64; ++cell)
+    if (counts.black[cell] > 0)
+      ask(cell);
+
   Covered covered;
-  for (std::uint32_t cell = 0; cell < 64; ++cell) {
-    if (!counts.is_black(cell) || !is_enclosed(light, source, cell))
+  for (std::size_t next = 0; next < count; ++next) {
+    const std::uint32_t cell = waiting[next];
+    if (!is_enclosed(light, source, cell))
       continue;
     covered.cells |= CoveredCells{1} << cell;
     covered.rays += counts.rays[cell];
+    for (const std::uint32_t beside : cells_beside(cell))
+      ask(beside);
   }
   return covered;
 }
