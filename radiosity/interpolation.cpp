@@ -1,6 +1,7 @@
 #include "radiosity/interpolation.h"
 
 #include "radiosity/adaptive_field.h"
+#include "radiosity/contact_vertices.h"
 #include "radiosity/facets.h"
 #include "radiosity/mesh_division.h"
 #include "radiosity/vertex_fill.h"
@@ -149,6 +150,28 @@ static void average_facets(const LightScene& light, const ElementLight& elements
   }
 }
 
+/// Vertices on which something stands, or at whose side it does, take what is gathered beside it.
+static void light_contacts(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                           std::span<const Receiver> receivers, PointWorkspaces& workspaces,
+                           std::vector<std::uint8_t>& valid, DiffuseField& field) {
+  const ElementMesh& mesh = gathering.light.mesh;
+  std::vector<std::uint8_t> open = valid;
+  tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t v) {
+    if (open[v] != 0 && is_at_foot(gathering.light, receivers[v]))
+      open[v] = 0;
+  });
+  const std::vector<ContactEdge> edges = contact_edges(mesh, open);
+  std::vector<ContactLight> lights(edges.size());
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t k) {
+    const auto [covered, exposed] = edges[k];
+    lights[k] =
+        light_at_contact(gathering, irradiance, receivers[exposed], receivers[covered].position,
+                         size_of(mesh, mesh.element_of_vertex[exposed]),
+                         hash(covered, exposed, gathering.form_factors.seed), workspaces.local());
+  });
+  extend_to_contacts(edges, lights, valid, field);
+}
+
 static InterpolatedField gather_at_vertices(const LightScene& light, const ElementLight& elements,
                                             const FormFactorSettings& form_factors,
                                             const DirectSettings& direct,
@@ -193,12 +216,13 @@ static InterpolatedField gather_at_vertices(const LightScene& light, const Eleme
                            v < std::min(mesh.vertices.size(), (c + 1) * chunk_size); ++v)
                         light_vertex(v, work);
                     });
+  if (shares != nullptr)
+    share_indirect(*shares, valid, field);
+  light_contacts(gathering, elements.irradiance, receivers, workspaces, valid, field);
   for (const auto& work : workspaces) {
     result.form_factor_rays += work.rays;
     result.shadow_rays += work.direct.shadow_rays;
   }
-  if (shares != nullptr)
-    share_indirect(*shares, valid, field);
   for (auto* values :
        {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored}) {
     fill_vertices(mesh, valid, *values);

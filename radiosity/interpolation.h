@@ -4,7 +4,7 @@
 // from the elements behind, never below 0. `gather`: the irradiance is gathered at the vertex itself, direct light by closed form, the
 // rest by rays over the element radiosities (the cells of a hemicube, where form factors are found so): the field is right at its vertices.
 // Vertices of curved surfaces, whose facets are smaller than half an element, take the mean of the facets around instead (facets.h).
-// Vertices that see nothing but the black insides of things that stand on them hold no value; the field is interpolated from the others.
+// Vertices that see nothing but the black insides of things that stand on them hold no value of their own (contact_vertices.h, vertex_fill.h).
 // Between vertices the field is bilinear in quads, linear in triangles. It is irradiance, W/m^2: reflectance is applied at the hit.
 #pragma once
 

@@ -1,5 +1,6 @@
 #include "radiosity/vertex_light.h"
 
+#include "scenes/careful_rays.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -7,9 +8,10 @@
 
 namespace meninas {
 
-bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size) {
-  constexpr double reach = 0.35; // of an element
-  constexpr int least = packet_size - 1;
+/// Of sixteen directions over a point, how many are blocked within a fraction of an element.
+static std::size_t blocked_nearby(const LightScene& light, const Receiver& receiver,
+                                  double element_size) {
+  constexpr double reach = 0.35;
   const TangentFrame frame = frame_along(receiver.normal, receiver.tangent);
   const RayFrame& ray_frame = light.rays.frame();
   const glm::vec3 origin = (receiver.position - ray_frame.centre) * ray_frame.scale;
@@ -25,7 +27,29 @@ bool is_under_something(const LightScene& light, const Receiver& receiver, doubl
             static_cast<float>(reach * element_size * ray_frame.scale));
     packet.arriving[k] = index(none<PlaneId>);
   }
-  return std::popcount(occluded(light.rays, packet, Coherence::coherent)) >= least;
+  return static_cast<std::size_t>(std::popcount(occluded(light.rays, packet, Coherence::coherent)));
+}
+
+bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size) {
+  return blocked_nearby(light, receiver, element_size) >= packet_size - 1;
+}
+
+bool is_at_foot(const LightScene& light, const Receiver& receiver) {
+  constexpr double steep = 0.7; // sine of the wall's slope: facets of a curved surface are less
+  const RayFrame& frame = light.rays.frame();
+  const glm::vec3 origin = (receiver.position - frame.centre) * frame.scale;
+  const Contacts contacts = contacts_of(light.rays, origin, index(receiver.plane_class));
+  return std::ranges::any_of(contacts.others, [&](const ContactTriangle& wall) {
+    const Vec3 across =
+        glm::cross(wall.corners[1] - wall.corners[0], wall.corners[2] - wall.corners[0]);
+    if (glm::length(glm::cross(across, receiver.normal)) <= steep * glm::length(across))
+      return false;
+    // It stands on this side of the surface, not below it.
+    return std::ranges::any_of(wall.corners, [&](const Point3& corner) {
+      const Vec3 to = corner - Point3(origin);
+      return glm::dot(to, receiver.normal) > 0.01 * glm::length(to);
+    });
+  });
 }
 
 bool sees_black(const GatheredRays& gathered) {
@@ -40,6 +64,27 @@ static bool is_enclosed(const GatheredRays& gathered, const std::vector<Rgb>& ir
   };
   return sees_black(gathered) ||
          (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
+}
+
+/// Whether any light from the source arrives.
+static bool is_lit(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
+                   PointWorkspace& work) {
+  return direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct)
+             .total != Rgb(0.0);
+}
+
+bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+             const Receiver& receiver, double element_size, std::uint32_t seed,
+             PointWorkspace& work) {
+  // A wall beside the point blocks half of the directions, an overhang more.
+  constexpr std::size_t most_blocked = packet_size / 2 + 2;
+  constexpr int few_rays = 16;
+  static const DirectionNet net = make_direction_net(few_rays);
+  if (blocked_nearby(gathering.light, receiver, element_size) > most_blocked)
+    return false;
+  gather_rays(gathering.light, net, area_of(receiver), seed, gathering.form_factors, work.gather);
+  work.rays += work.gather.result.traced;
+  return !is_enclosed(work.gather.result, irradiance) || is_lit(gathering, receiver, seed, work);
 }
 
 VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
@@ -57,9 +102,7 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
                               PointWorkspace& work) {
   const ArrivingLight indirect = indirect_light_at(gathering, receiver, seed, work).indirect();
   const bool dark =
-      is_enclosed(work.gather.result, irradiance) &&
-      direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct)
-              .total == Rgb(0.0);
+      is_enclosed(work.gather.result, irradiance) && !is_lit(gathering, receiver, seed, work);
   return {indirect, indirect, dark || is_under_something(gathering.light, receiver, element_size)};
 }
 

@@ -25,6 +25,15 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
 VertexValue value_from_source(const PointGathering& gathering, const Receiver& receiver,
                               double element_size, std::uint32_t seed, PointWorkspace& work);
 
+/// Whether a wall stands on the surface along a line through this very point. Where nothing is covered the point still sees neither
+/// side of the wall, whose light is brightest beside it: a form factor that is 1/2 on one side of the line is 0 on it.
+bool is_at_foot(const LightScene& light, const Receiver& receiver);
+
+/// Whether a point is neither covered nor nearly so, under an edge, as far as few rays tell.
+bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+             const Receiver& receiver, double element_size, std::uint32_t seed,
+             PointWorkspace& work);
+
 /// Whether nearly all that a point sees is black: it is inside something that stands on its surface.
 bool sees_black(const GatheredRays& gathered);
 

@@ -1,0 +1,45 @@
+// Values for vertices on which something stands: what the field has to be there so that it is right where it is seen.
+//
+// Along every edge of an element from such a vertex v to an exposed one n, the place c is found where something begins to stand, and light
+// is gathered at two thirds of the way there, at p. The line through both values is followed under it:
+//
+//   H(v) = H(p) + min(|v - p| / |p - n|, 2) (H(p) - H(n)),  of each of its parts, at least 0
+//
+// Over the exposed part, from n to c, the line has the mean of any parabola (Radau's rule). v takes the mean over its edges, each weighed
+// by its exposed part. So the foot of a bright wall is bright, and a contact shadow dark. Vertices without such an edge are left to
+// fill_vertices() (vertex_fill.h).
+#pragma once
+
+#include "radiosity/interpolation.h"
+#include "radiosity/vertex_light.h"
+
+#include <span>
+
+namespace meninas {
+
+/// An edge of an element, by ElementVertexId.
+struct ContactEdge {
+  std::uint32_t covered, exposed;
+};
+
+/// `valid` by ElementVertexId: not covered.
+std::vector<ContactEdge> contact_edges(const ElementMesh& mesh,
+                                       std::span<const std::uint8_t> valid);
+
+/// What is gathered on an edge before something begins to stand on it.
+struct ContactLight {
+  double
+      place; ///< of p from the exposed end, as a share of the edge; 0: not found, there is no value
+  VertexValue value;
+};
+
+/// `exposed` and `covered` are the ends. `irradiance` by ElementId tells which elements are lit.
+ContactLight light_at_contact(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                              const Receiver& exposed, const Point3& covered, double element_size,
+                              std::uint32_t seed, PointWorkspace& work);
+
+/// Follows the lines through H(n) and H(p), and marks as valid what has got a value. `lights` by edge.
+void extend_to_contacts(std::span<const ContactEdge> edges, std::span<const ContactLight> lights,
+                        std::vector<std::uint8_t>& valid, DiffuseField& field);
+
+} // namespace meninas

@@ -1,0 +1,96 @@
+// The field where something stands on a surface: as bright at the foot of a bright wall as it is there, on either side of its lines.
+#include "radiosity/contact_vertices.h"
+#include "radiosity/point_form_factor.h"
+#include "tests/radiosity/lit_scene.h"
+#include "tests/support/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace meninas::test {
+namespace {
+
+/// `direct` from the source and 1 indirectly, by way of mirrors.
+ContactLight light_of(double place, double direct) {
+  return {place,
+          {.irradiance = {Rgb(direct + 1.0), Rgb(1.0)},
+           .indirect = {Rgb(1.0), Rgb(1.0)},
+           .covered = false}};
+}
+
+TEST(ContactVertices, FollowTheLineThroughWhatIsSeen) {
+  DiffuseField field;
+  field.irradiance.assign(6, glm::vec3(3.0F)); // 1 from the source, 2 by way of mirrors
+  field.indirect = field.mirrored = field.indirect_mirrored = {6, glm::vec3(2.0F)};
+  std::vector<std::uint8_t> valid(6, 0);
+  valid[0] = 1;
+  const std::vector<ContactEdge> edges{{1, 0}, {2, 0}, {3, 0}, {4, 0}, {4, 0}, {5, 0}};
+  const std::vector<ContactLight> lights{light_of(0.5, 1.5), light_of(0.1, 1.1),
+                                         light_of(0.5, 0.4), light_of(0.8, 2.0),
+                                         light_of(0.5, 1.0), light_of(0.0, 7.0)};
+  extend_to_contacts(edges, lights, valid, field);
+  const auto direct = [&](std::size_t v) { return field.irradiance[v].g - field.indirect[v].g; };
+  const float tolerance = 1e-6F;           // of floats
+  EXPECT_NEAR(direct(1), 2.0F, tolerance); // 1 at 0 and 1.5 at 1/2
+  EXPECT_NEAR(direct(2), 1.3F, tolerance); // no further than twice as far as is seen
+  EXPECT_EQ(direct(3), 0.0F);              // and not below darkness
+  EXPECT_NEAR(direct(4), (0.8F * 2.25F + 0.5F * 1.0F) / 1.3F, tolerance); // the mean of two lines
+  // 2 at 0 and 1 at 1/2: no part is less than nothing, nor more than the whole.
+  EXPECT_EQ(field.indirect[1].g, 0.0F);
+  EXPECT_NEAR(field.indirect_mirrored[4].g, 0.8F * 0.75F / 1.3F, tolerance);
+  for (std::size_t v = 0; v < 5; ++v) {
+    EXPECT_LE(field.mirrored[v].g, field.irradiance[v].g);
+    EXPECT_LE(field.indirect_mirrored[v].g, field.mirrored[v].g);
+  }
+  EXPECT_EQ(valid, (std::vector<std::uint8_t>{1, 1, 1, 1, 1, 0}));
+}
+
+TEST(ContactVertices, EdgesAreFoundOnce) {
+  Scene scene;
+  add_polygon(scene, "wall", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, diffuse(0.5));
+  const auto l = lit(std::move(scene), {.element_size = 0.25});
+  std::vector<std::uint8_t> valid(l->mesh.vertices.size(), 1);
+  for (std::size_t v = 0; v < valid.size(); ++v)
+    valid[v] = l->mesh.vertices[v] == Point3(0.5, 0.5, 0.0) ? 0 : 1;
+  const auto edges = contact_edges(l->mesh, valid);
+  ASSERT_EQ(edges.size(), 4U);
+  for (const auto& [covered, exposed] : edges)
+    EXPECT_NEAR(glm::distance(l->mesh.vertices[covered], l->mesh.vertices[exposed]), 0.25, 1e-12);
+}
+
+constexpr double height = 0.4;
+
+/// A box that glows stands on a black floor; one of its sides is the plane x = `side`.
+Scene glowing_box(double side) {
+  Scene scene;
+  add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 3}, {3, 0, 3}, {3, 0, 0}}, diffuse(0.0));
+  add_box(scene, "box", {side, 0.0, 0.83}, {side + 1.3, height, 2.17}, diffuse(0.0, 1.0));
+  return scene;
+}
+
+// What the floor receives from the one side of the box that it sees is known at every point. Beside the box it is 1/2, a cell away from it 0.38.
+TEST(ContactVertices, TheFootOfABrightWallIsLit) {
+  // The wall on a line of vertices, close to either side of one, and between two.
+  for (const double side : {0.8, 0.801, 0.799, 0.75, 0.78}) {
+    const auto l = lit(glowing_box(side), {.element_size = 0.1});
+    const RadiositySolution solution = solve_pass_one(*l->light, {});
+    const SideId floor = l->mesh.side_of_element[elements_of(*l, "floor")[0]];
+    const Patch& patch = l->surfaces.patches[index(l->mesh.sides[index(floor)].patch)];
+    const std::vector<Point3> wall{
+        {side, 0, 0.83}, {side, 0, 2.17}, {side, height, 2.17}, {side, height, 0.83}};
+    double found = 0.0, exact = 0.0, largest_error = 0.0;
+    for (int k = 0; k < 20; ++k) {
+      const Point3 x{side - 0.1 * (k + 0.5) / 20.0, 0.0, 1.52};
+      const double here = double{irradiance_at(l->mesh, solution.field, floor, uv_at(patch, x)).g};
+      const double truth = point_form_factor(x, {0.0, 1.0, 0.0}, wall);
+      found += here / 20.0;
+      exact += truth / 20.0;
+      largest_error = std::max(largest_error, std::abs(here - truth));
+    }
+    // Over one cell the factor is straight to (0.1 / 0.4)^3 / 4 of itself; vertices beside each other may share a line.
+    EXPECT_NEAR(found, exact, 0.01 * exact) << side;
+    EXPECT_LT(largest_error, 0.02) << side;
+  }
+}
+
+} // namespace
+} // namespace meninas::test
