@@ -162,18 +162,12 @@ private:
   TextureId add(std::size_t image, const Sampler& sampler) {
     const auto where = place(document_.root, "images", image);
     const auto resource = read_image(document_, image);
-    if (!resource.problem.empty() || resource.bytes.empty()) {
-      findings_.say(
-          fmt::format("{}: {}; the factor alone is used", where,
-                      resource.problem.empty() ? "the image is empty" : resource.problem));
-      return none<TextureId>;
-    }
-    if (const auto size = image_size(resource.bytes); size && !has_room_for(*size)) {
-      findings_.say(fmt::format("{}: {} x {} pixels would take the textures over the memory limit; "
-                                "the factor alone is used",
-                                where, size->width, size->height));
-      return none<TextureId>;
-    }
+    if (!resource.problem.empty() || resource.bytes.empty())
+      return leave_out(where, resource.problem.empty() ? "the image is empty" : resource.problem);
+    if (const auto size = image_size(resource.bytes); size && !has_room_for(*size))
+      return leave_out(where,
+                       fmt::format("{} x {} pixels would take the textures over the memory limit",
+                                   size->width, size->height));
     bytes_ += resource.bytes.size();
     if (bytes_ > document_.settings.memory_limit)
       throw OutputError(document_.file, where, "the images are over the memory limit");
@@ -189,6 +183,15 @@ private:
     return static_cast<TextureId>(scene_.textures.size() - 1);
   }
 
+  TextureId leave_out(const std::string& where, const std::string& why) {
+    constexpr std::size_t most_lines = 20;
+    if (++left_out_ <= most_lines)
+      findings_.say(fmt::format("{}: {}; the factor alone is used", where, why));
+    else
+      findings_.about("more images cannot be used", where);
+    return none<TextureId>;
+  }
+
   /// Decoded, an image is four floats a pixel, and a third as much again in coarser copies.
   bool has_room_for(const ImageSize& size) {
     const auto decoded = 16.0 * 4.0 / 3.0 * static_cast<double>(size.width) * size.height;
@@ -201,6 +204,7 @@ private:
   const Document& document_;
   Scene& scene_;
   Findings& findings_;
+  std::size_t left_out_ = 0;
   double decoded_bytes_ = 0.0;
   std::map<std::pair<std::size_t, Sampler>, TextureId> ids_;
   std::uint64_t bytes_ = 0;

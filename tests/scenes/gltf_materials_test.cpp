@@ -312,6 +312,23 @@ TEST(GltfTextures, MissingImagesAreWarnings) {
   EXPECT_TRUE(warns(load(unknown), {"unknown filters", "textures[0]"}));
 }
 
+TEST(GltfTextures, AFolderOfMissingImagesIsNotAFloodOfLines) {
+  auto file = textured();
+  file.json["images"] = file.json["textures"] = file.json["materials"] = Json::array();
+  const Json primitive = square_primitive(file);
+  for (int k = 0; k < 300; ++k) {
+    file.json["images"].push_back({{"uri", "gone" + std::to_string(k) + ".png"}});
+    file.json["textures"].push_back({{"source", k}});
+    file.add_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", k}}}}}});
+    file.json["meshes"][0]["primitives"][k] = primitive;
+    file.json["meshes"][0]["primitives"][k]["material"] = k;
+  }
+  const auto scene = load(file);
+  EXPECT_TRUE(warns(scene, {"images[0]: 'gone0.png': no such file"}));
+  EXPECT_TRUE(warns(scene, {"more images cannot be used", "'images[20]'", "and 272 more"}));
+  EXPECT_LT(scene.warnings.size(), 30U);
+}
+
 TEST(GltfTextures, ReadsSamplersAndKeepsAnImageOnceForEach) {
   auto file = textured();
   file.json["samplers"] =
