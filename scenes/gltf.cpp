@@ -49,7 +49,7 @@ static void collect_extensions(const Json& json, std::set<std::string>& names) {
 static bool is_of_looks_only(const std::string& extension) {
   constexpr std::string_view prefixes[] = {"KHR_materials_", "EXT_materials_", "MSFT_materials_",
                                            "KHR_texture_",   "EXT_texture_",   "MSFT_texture_",
-                                           "KHR_xmp",        "KHR_animation_"};
+                                           "KHR_xmp",        "KHR_animation_", "KHR_techniques_"};
   return std::ranges::any_of(
       prefixes, [&](std::string_view prefix) { return extension.starts_with(prefix); });
 }
