@@ -109,4 +109,18 @@ void trace_together(const RenderContext& context, RayPacket& packet, LaneState s
   shade_packet(context, packet, state, hits, work);
 }
 
+void shade_behind_mirrors(const RenderContext& context, const RayPacket& packet, LaneState state,
+                          const SurePath& path, const HitPacket& hits, TileWorkspace& work) {
+  MirrorBeam beam;
+  if (path.mirrors > 0) {
+    beam.throughput = path.throughput;
+    beam.way = more_mirrors(0, path.mirrors);
+    beam.bounces = path.mirrors;
+    state.beam = &beam;
+    work.specular_rays += packet_size * static_cast<std::uint64_t>(path.mirrors);
+  }
+  work.sure_rays += packet_size * static_cast<std::uint64_t>(1 + path.mirrors);
+  shade_packet(context, packet, state, hits, work);
+}
+
 } // namespace meninas

@@ -12,4 +12,8 @@ namespace meninas {
 void trace_together(const RenderContext& context, RayPacket& packet, LaneState state,
                     TileWorkspace& work);
 
+/// Shades what a packet of camera rays has come to by a path that was known (sure_paths.h).
+void shade_behind_mirrors(const RenderContext& context, const RayPacket& packet, LaneState state,
+                          const SurePath& path, const HitPacket& hits, TileWorkspace& work);
+
 } // namespace meninas

@@ -18,6 +18,19 @@ struct alignas(64) SampleLanes {
   std::uint32_t count = 0;
 };
 
+/// The path of a full packet, if it has one and that is known.
+const SurePath* path_of_all(const SurePaths& sure, const SampleLanes& lanes) {
+  const std::uint16_t path = sure.path_of[lanes.pixel[0]];
+  if (path == SurePaths::unknown || lanes.count != packet_size)
+    return nullptr;
+  // Pixels come in their order.
+  if (lanes.pixel.front() != lanes.pixel.back())
+    for (const std::uint32_t pixel : lanes.pixel)
+      if (sure.path_of[pixel] != path)
+        return nullptr;
+  return &sure.paths[path];
+}
+
 void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileWorkspace& work) {
   const float pixel_width = 1.0F / static_cast<float>(context.settings.width);
   const float pixel_height = 1.0F / static_cast<float>(context.settings.height);
@@ -40,9 +53,15 @@ void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileW
     y[k] = (lanes.top[k] + y[k]) * pixel_height;
   RayPacket packet;
   packet.count = lanes.count;
+  const LaneState state{lanes.pixel.data(), nullptr, lanes.bits_x.data(), lanes.number.data()};
+  if (const SurePath* path = path_of_all(work.sure, lanes)) {
+    HitPacket hits;
+    land_surely(*path, x, y, hits);
+    shade_behind_mirrors(context, packet, state, *path, hits, work);
+    return;
+  }
   set_camera_rays(packet, context.camera, x, y);
-  trace_together(context, packet,
-                 {lanes.pixel.data(), nullptr, lanes.bits_x.data(), lanes.number.data()}, work);
+  trace_together(context, packet, state, work);
   // Lobes send many rays on: what is under way stays within memory.
   constexpr std::size_t most_queued = 1 << 17;
   if (work.next.size() > most_queued)
@@ -63,6 +82,7 @@ void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileW
   const auto samples = static_cast<std::uint32_t>(context.net_x.size());
   const auto pixels = static_cast<std::uint32_t>(tile.width * tile.height);
   std::uint64_t traced = 0;
+  find_sure_paths(context, tile, work.sure);
   SampleLanes lanes{};
   for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
     const int px = tile.x0 + static_cast<int>(pixel) % tile.width,

@@ -1,7 +1,10 @@
 #include "raytrace/quad_lanes.h"
 
+#include "raytrace/wide_lanes.h"
+
 namespace meninas {
 
+MENINAS_WIDE_LANES
 LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const SideRecord& side,
                         const HitPacket& hits) {
   LanePoints at;
@@ -48,40 +51,50 @@ LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const S
 }
 
 /// The sum over all lanes, four at a time.
-static float sum_of(const LaneFloats& values) {
+static inline float sum_of(const LaneFloats& values) {
   std::array<float, 4> sums;
   for (std::size_t k = 0; k < 4; ++k)
     sums[k] = (values[k] + values[k + 4]) + (values[k + 8] + values[k + 12]);
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-static PointSums sums_of(const LaneFloats& s, const LaneFloats& t) {
-  LaneFloats st;
+/// The lanes of one element: which they are, and their sums.
+struct ElementLanes {
+  std::uint32_t lanes;
+  PointSums sums;
+};
+
+static inline ElementLanes lanes_on(const std::array<std::uint32_t, packet_size>& elements,
+                                    std::uint32_t element, const LanePoints& at) {
+  alignas(64) std::array<std::uint32_t, packet_size> is_here;
+  alignas(64) LaneFloats n, s, t, st;
   for (std::size_t k = 0; k < packet_size; ++k)
+    is_here[k] = elements[k] == element ? lane_bits[k] : 0U;
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    n[k] = elements[k] == element ? 1.0F : 0.0F;
+    s[k] = elements[k] == element ? at.s[k] : 0.0F;
+    t[k] = elements[k] == element ? at.t[k] : 0.0F;
     st[k] = s[k] * t[k];
-  return {float{packet_size}, sum_of(s), sum_of(t), sum_of(st)};
+  }
+  std::uint32_t lanes = 0;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    lanes |= is_here[k];
+  return {lanes, {sum_of(n), sum_of(s), sum_of(t), sum_of(st)}};
 }
 
-static PointSums sums_of_some(const LanePoints& at, std::uint32_t lanes) {
-  LaneFloats s, t;
-  for (std::size_t k = 0; k < packet_size; ++k)
-    s[k] = (lanes & lane_bits[k]) != 0 ? at.s[k] : 0.0F;
-  for (std::size_t k = 0; k < packet_size; ++k)
-    t[k] = (lanes & lane_bits[k]) != 0 ? at.t[k] : 0.0F;
-  PointSums sums = sums_of(s, t);
-  sums.n = static_cast<float>(std::popcount(lanes));
-  return sums;
-}
-
+MENINAS_WIDE_LANES
 glm::vec3 quad_radiance(const ElementMesh& mesh, const VisibleLight& visible, std::uint32_t side,
                         const LanePoints& at, std::uint32_t lanes) {
+  alignas(64) std::array<std::uint32_t, packet_size> elements = at.element;
+  if (lanes != all_lanes)
+    for (std::size_t k = 0; k < packet_size; ++k)
+      elements[k] = (lanes & lane_bits[k]) != 0 ? elements[k] : index(none<ElementId>);
   glm::vec3 sum(0.0F);
   while (lanes != 0) {
-    const std::uint32_t element = at.element[static_cast<std::size_t>(std::countr_zero(lanes))];
-    const std::uint32_t here = lanes & lanes_equal(at.element.data(), element);
-    lanes &= ~here;
-    sum += field_radiance(mesh, visible.irradiance, visible.shading[side], element,
-                          here == all_lanes ? sums_of(at.s, at.t) : sums_of_some(at, here));
+    const std::uint32_t element = elements[static_cast<std::size_t>(std::countr_zero(lanes))];
+    const ElementLanes here = lanes_on(elements, element, at);
+    lanes &= ~here.lanes;
+    sum += field_radiance(mesh, visible.irradiance, visible.shading[side], element, here.sums);
   }
   return sum;
 }

@@ -6,6 +6,7 @@
 #include "raytrace/diffuse_term.h"
 #include "raytrace/lobe_grid.h"
 #include "raytrace/render.h"
+#include "raytrace/sure_paths.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ struct TileWorkspace {
   std::array<std::vector<glm::vec3>, seen_ways>
       sums; ///< by way of seeing, then by pixel of the tile
   std::vector<SpecularRay> current, next;
+  SurePaths sure;
   TileArea area{};
   std::vector<LobeRay> lobe;
   std::vector<PunctualArrival> highlights;
@@ -60,6 +62,7 @@ struct TileWorkspace {
   SharedLightWorkspace shared; ///< of those that a pixel's hits share
   std::vector<Receiver> receivers;
   std::uint64_t camera_rays = 0, specular_rays = 0;
+  std::uint64_t sure_rays = 0; ///< of these, not traced
 };
 
 /// A seed of the pixel's own, wherever tiles begin.
@@ -91,6 +94,7 @@ struct RenderContext {
   std::uint32_t first_sample = 0;          ///< number of the first of these points
   std::vector<Bsdf>
       bsdfs; ///< by MaterialId, of those with lobes and without textures; empty where none has lobes
+  std::vector<FrustumFace> frustum_faces; ///< for sure_paths.h; empty: all rays are traced
 };
 
 inline bool is_chosen(const RenderContext& context, int x, int y) {

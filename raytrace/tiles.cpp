@@ -60,6 +60,7 @@ static RenderContext context_of(const LightScene& light, const VisibleLight& vis
                         settings.filter == PixelFilter::box ? nullptr : &places,
                         static_cast<double>(first_samples(settings).count),
                         static_cast<std::uint32_t>(share.samples.first),
+                        {},
                         {}};
   if (std::ranges::any_of(light.scene.materials, has_lobes))
     for (const Material& material : light.scene.materials)
@@ -72,6 +73,7 @@ static RayTotals totals_of(const tbb::enumerable_thread_specific<TileWorkspace>&
   for (const auto& work : workspaces) {
     totals.camera += work.camera_rays;
     totals.specular += work.specular_rays;
+    totals.sure += work.sure_rays;
     totals.shadow += work.point.direct.shadow_rays + work.shared.point.shadow_rays;
     totals.gather += work.point.rays;
   }
@@ -83,8 +85,9 @@ RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
                         const RenderSettings& settings, const SampleShare& share,
                         const Progress& progress, const StorePixel& store) {
   const FilterPlaces places = places_of(settings);
-  const RenderContext context =
-      context_of(light, visible, gathering, camera, settings, share, places);
+  RenderContext context = context_of(light, visible, gathering, camera, settings, share, places);
+  context.frustum_faces =
+      frustum_faces(light, static_cast<std::size_t>(tile_size) * tile_size * context.net_x.size());
   const int columns = (settings.width + tile_size - 1) / tile_size,
             rows = (settings.height + tile_size - 1) / tile_size;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
@@ -128,6 +131,7 @@ RayTotals trace_pixels(const LightScene& light, const VisibleLight& visible,
 void add(Rendering& rendering, const RayTotals& rays) {
   rendering.camera_rays += rays.camera;
   rendering.specular_rays += rays.specular;
+  rendering.sure_rays += rays.sure;
   rendering.shadow_rays += rays.shadow;
   rendering.gather_rays += rays.gather;
 }
