@@ -87,13 +87,10 @@ const Patch* whole_patch_of(const LightScene& light, std::uint32_t triangle) {
 
 } // namespace
 
-std::vector<FrustumFace> frustum_faces(const LightScene& light, std::size_t rays_of_a_tile) {
-  // To look at a face takes about as long as to trace a few rays.
-  constexpr std::size_t rays_to_a_face = 4;
+std::vector<FrustumFace> frustum_faces(const LightScene& light, std::size_t most) {
   std::vector<FrustumFace> faces;
   const FrameGeometry& geometry = light.rays.geometry();
-  if (!light.glass.empty() || geometry.noise > 0.25 * margin ||
-      rays_of_a_tile < rays_to_a_face * geometry.triangles.size())
+  if (!light.glass.empty() || geometry.noise > 0.25 * margin || geometry.triangles.size() > most)
     return faces;
   for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
     const auto own = corners_of(geometry, t);

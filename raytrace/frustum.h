@@ -41,9 +41,8 @@ struct FrustumFace {
   bool can_be_sure = true; ///< no holes, no sliver
 };
 
-/// Those that can be met. None where a tile of so many rays is traced sooner than they are looked through, nor where there is glass, in which
-/// rays are attenuated one by one.
-std::vector<FrustumFace> frustum_faces(const LightScene& light, std::size_t rays_of_a_tile);
+/// Those that can be met. None where the scene has more triangles than `most`, nor where there is glass, in which rays are attenuated one by one.
+std::vector<FrustumFace> frustum_faces(const LightScene& light, std::size_t most);
 
 /// The unfolded rays o + t d of the picture, o and d affine in (x, y), one of them constant, behind what they have left last.
 struct PictureRays {

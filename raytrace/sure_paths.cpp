@@ -205,6 +205,14 @@ PictureRays rays_of(const CameraFrame& camera) {
   return rays;
 }
 
+std::size_t chosen_pixels(const RenderContext& context, const TileArea& tile) {
+  std::size_t chosen = 0;
+  for (int y = tile.y0; y < tile.y0 + tile.height; ++y)
+    for (int x = tile.x0; x < tile.x0 + tile.width; ++x)
+      chosen += is_chosen(context, x, y) ? 1 : 0;
+  return chosen;
+}
+
 } // namespace
 
 void find_sure_paths(const RenderContext& context, const TileArea& tile, SurePaths& sure) {
@@ -212,7 +220,9 @@ void find_sure_paths(const RenderContext& context, const TileArea& tile, SurePat
   const std::size_t samples = context.net_x.size();
   sure.paths.clear();
   sure.path_of.assign(pixels, SurePaths::unknown);
-  if (context.filter || context.frustum_faces.empty())
+  const std::size_t rays = samples * chosen_pixels(context, tile);
+  if (context.filter || context.frustum_faces.empty() ||
+      rays < rays_to_a_face * context.frustum_faces.size())
     return;
   sure.legs.clear();
   sure.pieces.clear();
@@ -221,7 +231,7 @@ void find_sure_paths(const RenderContext& context, const TileArea& tile, SurePat
   search.add_leg({.rays = rays_of(context.camera)});
   // Where much comes near, little is certain.
   constexpr std::size_t rays_to_a_piece = 64;
-  if (pixels * samples < rays_to_a_piece * sure.pieces.size())
+  if (rays < rays_to_a_piece * sure.pieces.size())
     return;
   for (std::uint32_t k = 0; k < sure.pieces.size(); ++k)
     sure.in_block.push_back(k);

@@ -58,6 +58,9 @@ struct SurePaths {
   std::vector<std::uint32_t> in_block; ///< pieces of the block in hand, after those of its parents
 };
 
+/// To look at a face takes about as long as to trace a few rays.
+inline constexpr std::size_t rays_to_a_face = 4;
+
 /// Clears and fills `sure`.
 void find_sure_paths(const RenderContext& context, const TileArea& tile, SurePaths& sure);
 

@@ -68,6 +68,15 @@ static RenderContext context_of(const LightScene& light, const VisibleLight& vis
   return context;
 }
 
+/// Beyond so many triangles a tile's rays are traced sooner than it is known what comes near it, or little of that would be certain.
+static std::size_t most_frustum_faces(const RenderSettings& settings, std::size_t samples) {
+  constexpr std::size_t pixels = std::size_t{tile_size} * tile_size, rays_to_a_piece = 64;
+  const std::size_t tiles =
+      std::max<std::size_t>(1, static_cast<std::size_t>(settings.width) *
+                                   static_cast<std::size_t>(settings.height) / pixels);
+  return pixels * samples / std::max(rays_to_a_face, rays_to_a_piece / tiles);
+}
+
 static RayTotals totals_of(const tbb::enumerable_thread_specific<TileWorkspace>& workspaces) {
   RayTotals totals;
   for (const auto& work : workspaces) {
@@ -86,8 +95,7 @@ RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
                         const Progress& progress, const StorePixel& store) {
   const FilterPlaces places = places_of(settings);
   RenderContext context = context_of(light, visible, gathering, camera, settings, share, places);
-  context.frustum_faces =
-      frustum_faces(light, static_cast<std::size_t>(tile_size) * tile_size * context.net_x.size());
+  context.frustum_faces = frustum_faces(light, most_frustum_faces(settings, context.net_x.size()));
   const int columns = (settings.width + tile_size - 1) / tile_size,
             rows = (settings.height + tile_size - 1) / tile_size;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;

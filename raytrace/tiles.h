@@ -27,7 +27,7 @@ RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
                         const RenderSettings& settings, const SampleShare& share,
                         const Progress& progress, const StorePixel& store);
 
-/// The pixels of a list alone, the same values, in its order; `store` is told the place in the list as x.
+/// The pixels of a list alone, the same values but for roundings, in its order; `store` is told the place in the list as x.
 RayTotals trace_pixels(const LightScene& light, const VisibleLight& visible,
                        const PointGathering* gathering, const Camera& camera,
                        const RenderSettings& settings, std::span<const glm::ivec2> pixels,

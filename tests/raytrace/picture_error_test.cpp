@@ -76,9 +76,12 @@ TEST(Probes, ArePixelsOfThePicture) {
         render_pixels(lit.light(), lit.solution.field, lit.camera(), settings.render, pixels);
     ASSERT_EQ(probed.radiance.size(), pixels.size());
     for (std::size_t k = 0; k < pixels.size(); ++k)
-      if (term == DiffuseTerm::interpolated)
-        EXPECT_EQ(probed.radiance[k], picture.at(pixels[k].x, pixels[k].y)) << k;
-      else // samples at hits are drawn by the pixel's number in its tile: the same light, other noise
+      if (term == DiffuseTerm::interpolated) {
+        // The rays of a probe are traced, those of a picture's tile may be sure without: the same but for the rounding of (u, v), times some
+        // tens of such steps across an element.
+        const glm::vec3 seen = picture.at(pixels[k].x, pixels[k].y);
+        EXPECT_LT(glm::length(probed.radiance[k] - seen), 1e-5F * glm::length(seen)) << k;
+      } else // samples at hits are drawn by the pixel's number in its tile: the same light, other noise
         EXPECT_NEAR(probed.radiance[k].g, picture.at(pixels[k].x, pixels[k].y).g,
                     0.25F * picture.at(pixels[k].x, pixels[k].y).g)
             << k;
