@@ -69,6 +69,57 @@ Rgb visible_fraction(const LightScene& light, const VirtualLight& image, const R
   return share.all > 0.0 ? share.seen / share.all : Rgb(0.0);
 }
 
+/// What every image would bring without blockers; those that bring nothing are left out.
+void order_by_light(const LightScene& light, const Receiver& receiver, DirectWorkspace& work) {
+  work.form_factors.clear();
+  work.brought.clear();
+  work.order.clear();
+  for (std::uint32_t k = 0; k < work.lights.size(); ++k) {
+    const VirtualLight& image = work.lights[k];
+    const Rgb source = light.worlds.worlds[index(image.world)].throughput *
+                       light.emitters[image.emitter].radiosity;
+    work.form_factors.push_back(
+        image.weight * point_form_factor(receiver.position, receiver.normal, image.polygon.span()));
+    work.brought.push_back(work.form_factors.back() * largest(source));
+    if (work.brought.back() > 0.0)
+      work.order.push_back(k);
+  }
+  std::stable_sort(work.order.begin(), work.order.end(),
+                   [&](auto a, auto b) { return work.brought[a] > work.brought[b]; });
+}
+
+/// How much is seen of each of the dim images, by its one sample: sixteen rays together that have as many legs.
+void sample_dim_images(const LightScene& light, const Receiver& receiver,
+                       std::span<std::uint32_t> dim, std::uint32_t seed, DirectWorkspace& work) {
+  const auto depth_of = [&](std::uint32_t k) {
+    return light.worlds.worlds[index(work.lights[k].world)].depth;
+  };
+  work.visible.assign(work.lights.size(), Rgb(0.0));
+  std::ranges::stable_sort(dim, {}, depth_of);
+  for (std::size_t first = 0; first < dim.size();) {
+    std::array<double, 16> weight{};
+    std::uint32_t count = 0;
+    for (; count < 16 && first + count < dim.size() &&
+           depth_of(dim[first + count]) == depth_of(dim[first]);
+         ++count) {
+      const VirtualLight& image = work.lights[dim[first + count]];
+      const auto sample = sobol4(0, hash(seed, image.emitter, index(image.world)));
+      const Point3 y =
+          point_on(image.polygon, area_vector(image.polygon.span()), Vec2(sample[0], sample[1]));
+      weight[count] = form_factor_share(receiver, image, y);
+      fold_legs(light.worlds, light.mirrors, image.world, receiver.position, receiver.plane_class,
+                y, light.emitters[image.emitter].plane_class, work.folded[count]);
+    }
+    const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t own = dim[first + k];
+      if (((dark >> k) & 1U) == 0U && (light.glass.empty() || weight[k] > 0.0))
+        work.visible[own] = left_by_glass(light, work.lights[own].world, work.folded[k]);
+    }
+    first += count;
+  }
+}
+
 } // namespace
 
 ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
@@ -80,40 +131,37 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
   chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
                 work.lights);
 
-  // What every image would bring without blockers; brightest first.
-  work.form_factors.clear();
-  work.brought.clear();
-  work.order.clear();
-  for (const auto& image : work.lights) {
-    const Rgb source = light.worlds.worlds[index(image.world)].throughput *
-                       light.emitters[image.emitter].radiosity;
-    work.form_factors.push_back(
-        image.weight * point_form_factor(receiver.position, receiver.normal, image.polygon.span()));
-    work.brought.push_back(work.form_factors.back() * largest(source));
-    work.order.push_back(static_cast<std::uint32_t>(work.order.size()));
-  }
-  std::stable_sort(work.order.begin(), work.order.end(),
-                   [&](auto a, auto b) { return work.brought[a] > work.brought[b]; });
+  order_by_light(light, receiver, work);
 
   // An image is worth shadow rays by its share of what has arrived so far: a bright one that is hidden takes none from the others.
   ArrivingLight sum;
-  for (const auto k : work.order) {
-    if (work.brought[k] <= 0.0)
-      break;
+  const auto add = [&](std::uint32_t k, const Rgb& visible) {
     const VirtualLight& image = work.lights[k];
-    const double worth = work.brought[k] / std::max(work.brought[k], largest(sum.total));
-    const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
-    const int penumbra = static_cast<int>(std::lround(settings.penumbra_rays * worth));
-    const auto image_seed = hash(seed, image.emitter, index(image.world));
-    const Rgb visible =
-        visible_fraction(light, image, receiver, samples, penumbra, image_seed, work);
     const Rgb arrived = visible * work.form_factors[k] *
                         light.worlds.worlds[index(image.world)].throughput *
                         light.emitters[image.emitter].radiosity;
     sum.total += arrived;
     if (image.world != real_world)
       sum.mirrored += arrived;
+  };
+  std::size_t next = 0;
+  for (; next < work.order.size(); ++next) {
+    const std::uint32_t k = work.order[next];
+    const VirtualLight& image = work.lights[k];
+    const double worth = work.brought[k] / std::max(work.brought[k], largest(sum.total));
+    const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
+    if (samples == 1)
+      break;
+    const int penumbra = static_cast<int>(std::lround(settings.penumbra_rays * worth));
+    const auto image_seed = hash(seed, image.emitter, index(image.world));
+    add(k, visible_fraction(light, image, receiver, samples, penumbra, image_seed, work));
   }
+
+  // From the first that is worth one ray alone, so are all after it.
+  work.dim.assign(work.order.begin() + static_cast<std::ptrdiff_t>(next), work.order.end());
+  sample_dim_images(light, receiver, work.dim, seed, work);
+  for (const std::uint32_t k : std::span(work.order).subspan(next))
+    add(k, work.visible[k]);
   if (light.punctual.empty())
     return sum;
   std::vector<PunctualArrival> arrivals;

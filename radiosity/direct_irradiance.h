@@ -41,7 +41,9 @@ struct DirectWorkspace {
   std::vector<VirtualLight> lights;
   std::vector<double> form_factors; ///< unoccluded, by light
   std::vector<double> brought;      ///< brightest channel of what each light brings unoccluded
-  std::vector<std::uint32_t> order; ///< lights, those that bring most first
+  std::vector<std::uint32_t> order; ///< lights that bring any, those that bring most first
+  std::vector<std::uint32_t> dim;   ///< of them, those worth one shadow ray
+  std::vector<Rgb> visible;         ///< of what is dim, by light
   SeenWorlds seen;                  ///< for punctual lights
   std::vector<PunctualImage> images;
   std::array<std::vector<Leg>, 16> folded; ///< the legs of sixteen segments at a time
