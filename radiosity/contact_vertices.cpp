@@ -24,8 +24,8 @@ std::vector<ContactEdge> contact_edges(const ElementMesh& mesh,
 ContactLight light_at_contact(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
                               const Receiver& exposed, const Point3& covered, double element_size,
                               std::uint32_t seed, PointWorkspace& work) {
-  // Halves of what is not yet decided, to a sixteenth of the edge.
-  constexpr int halvings = 4;
+  // Halves of what is not yet decided, to a sixty-fourth of the edge.
+  constexpr int halvings = 6;
   Receiver point = exposed;
   double low = 0.0, high = 1.0;
   for (int k = 0; k < halvings; ++k) {
@@ -43,46 +43,61 @@ ContactLight light_at_contact(const PointGathering& gathering, const std::vector
   return {value.covered ? 0.0 : place, value};
 }
 
-/// The four parts of what arrives, none of which can be less than nothing: from the source and indirect, straight and by way of mirrors.
-static std::array<glm::vec3, 4> parts_of(const glm::vec3& total, const glm::vec3& mirrored,
-                                         const glm::vec3& indirect,
-                                         const glm::vec3& indirect_mirrored) {
-  const glm::vec3 direct_mirrored = mirrored - indirect_mirrored,
-                  indirect_straight = indirect - indirect_mirrored;
-  return {total - mirrored - indirect_straight, direct_mirrored, indirect_straight,
-          indirect_mirrored};
+namespace {
+
+/// Light and the part of it that comes by way of mirrors.
+struct Split {
+  glm::vec3 all{0.0F}, mirrored{0.0F};
+};
+
+/// The line through what is seen at n and at p, at v: no light is less than nothing, no part more than the whole. A part is never held to that by
+/// itself, so that the whole is what it would be if what mirrors show were there.
+Split beyond(const Split& seen, const Split& beside, float step) {
+  const auto line = [&](const glm::vec3& n, const glm::vec3& p) { return p + step * (p - n); };
+  const glm::vec3 all = glm::max(line(seen.all, beside.all), 0.0F);
+  return {all, glm::clamp(line(seen.mirrored, beside.mirrored), glm::vec3(0.0F), all)};
 }
+
+void add(Split& sum, float weight, const Split& light) {
+  sum.all += weight * light.all;
+  sum.mirrored += weight * light.mirrored;
+}
+
+Split without(const Split& light, const Split& part) {
+  return {light.all - part.all, light.mirrored - part.mirrored};
+}
+
+Split split(const ArrivingLight& light) { return {light.total, light.mirrored}; }
+
+} // namespace
 
 void extend_to_contacts(std::span<const ContactEdge> edges, std::span<const ContactLight> lights,
                         std::vector<std::uint8_t>& valid, DiffuseField& field) {
   for (std::size_t first = 0; first < edges.size();) {
     const std::uint32_t v = edges[first].covered;
-    std::array<glm::vec3, 4> sums{};
+    Split direct, indirect;
     float weights = 0.0F;
     for (; first < edges.size() && edges[first].covered == v; ++first) {
       const std::uint32_t n = edges[first].exposed;
       const auto& [place, value] = lights[first];
       if (place == 0.0)
         continue;
-      // The line through the values at n and p, at v.
-      const auto weight = static_cast<float>(place);
+      // The closer n and p are, the more of their noise the line carries to v.
+      const auto weight = static_cast<float>(place * place);
       const auto step = static_cast<float>(std::min((1.0 - place) / place, 2.0));
-      const auto seen = parts_of(field.irradiance[n], field.mirrored[n], field.indirect[n],
-                                 field.indirect_mirrored[n]);
-      const auto beside =
-          parts_of(glm::vec3(value.irradiance.total), glm::vec3(value.irradiance.mirrored),
-                   glm::vec3(value.indirect.total), glm::vec3(value.indirect.mirrored));
-      for (std::size_t part = 0; part < 4; ++part)
-        sums[part] += weight * glm::max(beside[part] + step * (beside[part] - seen[part]), 0.0F);
+      const Split all{field.irradiance[n], field.mirrored[n]},
+          seen{field.indirect[n], field.indirect_mirrored[n]};
+      const Split all_beside = split(value.irradiance), beside = split(value.indirect);
+      add(indirect, weight, beyond(seen, beside, step));
+      add(direct, weight, beyond(without(all, seen), without(all_beside, beside), step));
       weights += weight;
     }
     if (weights == 0.0F)
       continue;
-    const auto& [direct, direct_mirrored, indirect, indirect_mirrored] = sums;
-    field.indirect_mirrored[v] = indirect_mirrored / weights;
-    field.mirrored[v] = (direct_mirrored + indirect_mirrored) / weights;
-    field.indirect[v] = (indirect + indirect_mirrored) / weights;
-    field.irradiance[v] = (direct + direct_mirrored + indirect + indirect_mirrored) / weights;
+    field.indirect[v] = indirect.all / weights;
+    field.indirect_mirrored[v] = indirect.mirrored / weights;
+    field.irradiance[v] = (direct.all + indirect.all) / weights;
+    field.mirrored[v] = (direct.mirrored + indirect.mirrored) / weights;
     valid[v] = 1;
   }
 }

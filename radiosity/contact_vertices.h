@@ -3,10 +3,12 @@
 // Along every edge of an element from such a vertex v to an exposed one n, the place c is found where something begins to stand, and light
 // is gathered at two thirds of the way there, at p. The line through both values is followed under it:
 //
-//   H(v) = H(p) + min(|v - p| / |p - n|, 2) (H(p) - H(n)),  of each of its parts, at least 0
+//   H(v) = H(p) + min(|v - p| / |p - n|, 2) (H(p) - H(n)),  at least 0,
+//
+// for light from the source and for the rest, each with the part of it that comes by way of mirrors.
 //
 // Over the exposed part, from n to c, the line has the mean of any parabola (Radau's rule). v takes the mean over its edges, each weighed
-// by its exposed part. So the foot of a bright wall is bright, and a contact shadow dark. Vertices without such an edge are left to
+// by |p - n|^2, the inverse of its variance. So the foot of a bright wall is bright, and a contact shadow dark. Vertices without such an edge are left to
 // fill_vertices() (vertex_fill.h).
 #pragma once
 

@@ -33,15 +33,33 @@ TEST(ContactVertices, FollowTheLineThroughWhatIsSeen) {
   EXPECT_NEAR(direct(1), 2.0F, tolerance); // 1 at 0 and 1.5 at 1/2
   EXPECT_NEAR(direct(2), 1.3F, tolerance); // no further than twice as far as is seen
   EXPECT_EQ(direct(3), 0.0F);              // and not below darkness
-  EXPECT_NEAR(direct(4), (0.8F * 2.25F + 0.5F * 1.0F) / 1.3F, tolerance); // the mean of two lines
+  EXPECT_NEAR(direct(4), (0.64F * 2.25F + 0.25F * 1.0F) / 0.89F,
+              tolerance); // the mean of two lines
   // 2 at 0 and 1 at 1/2: no part is less than nothing, nor more than the whole.
   EXPECT_EQ(field.indirect[1].g, 0.0F);
-  EXPECT_NEAR(field.indirect_mirrored[4].g, 0.8F * 0.75F / 1.3F, tolerance);
+  EXPECT_NEAR(field.indirect_mirrored[4].g, 0.64F * 0.75F / 0.89F, tolerance);
   for (std::size_t v = 0; v < 5; ++v) {
     EXPECT_LE(field.mirrored[v].g, field.irradiance[v].g);
     EXPECT_LE(field.indirect_mirrored[v].g, field.mirrored[v].g);
   }
   EXPECT_EQ(valid, (std::vector<std::uint8_t>{1, 1, 1, 1, 1, 0}));
+}
+
+// Light by way of mirrors is to be what it is in the room that they show.
+TEST(ContactVertices, TheWholeDoesNotDependOnItsParts) {
+  std::array<DiffuseField, 2> fields;
+  for (const bool mirrors : {false, true}) {
+    DiffuseField& field = fields[mirrors ? 1 : 0];
+    field.irradiance = {glm::vec3(5.0F), glm::vec3(0.0F)};
+    field.mirrored = {glm::vec3(mirrors ? 1.0F : 0.0F), glm::vec3(0.0F)};
+    field.indirect = field.indirect_mirrored = {2, glm::vec3(0.0F)};
+    // By way of mirrors from 1 to 3, straight from 4 to 1.
+    const ArrivingLight arrived{Rgb(4.0), Rgb(mirrors ? 3.0 : 0.0)};
+    std::vector<std::uint8_t> valid{1, 0};
+    extend_to_contacts(std::vector<ContactEdge>{{1, 0}},
+                       std::vector<ContactLight>{{0.4, {arrived, {}, false}}}, valid, field);
+  }
+  EXPECT_EQ(fields[0].irradiance[1].g, fields[1].irradiance[1].g);
 }
 
 TEST(ContactVertices, EdgesAreFoundOnce) {
