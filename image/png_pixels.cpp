@@ -9,24 +9,6 @@
 
 namespace meninas::image_io {
 
-/// The checksum of ISO 3309, a byte at a time (PNG specification, annex D).
-static std::uint32_t crc32(std::string_view bytes) {
-  static constexpr auto table = [] {
-    std::array<std::uint32_t, 256> remainders{};
-    for (std::uint32_t byte = 0; byte < 256; ++byte) {
-      std::uint32_t remainder = byte;
-      for (int bit = 0; bit < 8; ++bit)
-        remainder = (remainder & 1U) != 0 ? 0xedb88320U ^ (remainder >> 1U) : remainder >> 1U;
-      remainders[byte] = remainder;
-    }
-    return remainders;
-  }();
-  std::uint32_t remainder = 0xffffffffU;
-  for (const char c : bytes)
-    remainder = table[(remainder ^ static_cast<std::uint8_t>(c)) & 0xffU] ^ (remainder >> 8U);
-  return ~remainder;
-}
-
 /// What of the chunks beside the pixels means something for them; of the rest libpng would speak on stderr.
 static bool belongs(const PngHeader& header, std::string_view type, std::size_t length,
                     std::size_t colours) {
@@ -42,36 +24,36 @@ static bool belongs(const PngHeader& header, std::string_view type, std::size_t 
 }
 
 std::vector<std::uint8_t> png_pixel_chunks(std::string_view png) {
-  constexpr std::size_t signature = 8, length_and_type = 8, checksum = 4;
   constexpr std::array<std::string_view, 5> kept{"IHDR", "PLTE", "tRNS", "IDAT", "IEND"};
-  std::vector<std::uint8_t> pixels(png.begin(), png.begin() + signature);
-  std::string_view rest = png.substr(signature);
+  std::vector<std::uint8_t> pixels(png.begin(), png.begin() + png_signature);
+  std::string_view rest = png.substr(png_signature);
   PngHeader header;
   std::size_t colours = 0;
   bool any_data = false, any_alpha = false;
   for (std::string_view type; type != "IEND";) {
-    if (rest.size() < length_and_type + checksum)
+    if (rest.size() < png_length_and_type + png_checksum)
       throw std::runtime_error("the PNG ends too early");
     const std::size_t length = big_endian(rest);
-    if (rest.size() - length_and_type - checksum < length)
+    if (rest.size() - png_length_and_type - png_checksum < length)
       throw std::runtime_error("the PNG ends too early");
     type = rest.substr(4, 4);
-    if (pixels.size() == signature && (type != "IHDR" || length != 13))
+    if (pixels.size() == png_signature && (type != "IHDR" || length != 13))
       throw std::runtime_error("the PNG has no header");
-    const bool repeated = (type == "IHDR" && pixels.size() > signature) ||
+    const bool repeated = (type == "IHDR" && pixels.size() > png_signature) ||
                           (type == "tRNS" && any_alpha) ||
                           (type != "IEND" && type != "IDAT" && any_data);
 
-    const auto chunk = rest.substr(0, length_and_type + length + checksum);
+    const auto chunk = rest.substr(0, png_length_and_type + length + png_checksum);
     rest.remove_prefix(chunk.size());
     if (std::ranges::find(kept, type) == kept.end() || repeated ||
         !belongs(header, type, length, colours))
       continue;
-    if (crc32(chunk.substr(4, 4 + length)) != big_endian(chunk.substr(length_and_type + length)))
+    if (checksum_of(chunk.substr(4, 4 + length)) !=
+        big_endian(chunk.substr(png_length_and_type + length)))
       throw std::runtime_error("the PNG is damaged: wrong checksum of its chunk " +
                                std::string(type));
     if (type == "IHDR")
-      header = png_header(chunk.substr(length_and_type));
+      header = png_header(chunk.substr(png_length_and_type));
     if (type == "PLTE")
       colours = length / 3;
     any_alpha = any_alpha || type == "tRNS";

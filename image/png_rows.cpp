@@ -12,6 +12,11 @@
 
 namespace meninas::image_io {
 
+std::uint32_t checksum_of(std::string_view bytes) {
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
 std::uint32_t big_endian(std::string_view four) {
   std::uint32_t value = 0;
   for (const char c : four.substr(0, 4))
@@ -130,9 +135,8 @@ private:
 } // namespace
 
 void check_png_rows(std::string_view png) {
-  constexpr std::size_t signature = 8, length_and_type = 8, checksum = 4;
-  std::string_view rest = png.substr(signature);
-  RowCheck check(png_header(rest.substr(length_and_type)));
+  std::string_view rest = png.substr(png_signature);
+  RowCheck check(png_header(rest.substr(png_length_and_type)));
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK)
     throw std::bad_alloc();
@@ -143,8 +147,8 @@ void check_png_rows(std::string_view png) {
   while (!rest.empty() && state == Z_OK && !check.complete()) {
     const std::size_t length = big_endian(rest);
     const auto type = rest.substr(4, 4);
-    const auto data = rest.substr(length_and_type, length);
-    rest.remove_prefix(length_and_type + length + checksum);
+    const auto data = rest.substr(png_length_and_type, length);
+    rest.remove_prefix(png_length_and_type + length + png_checksum);
     if (type != "IDAT" || length == 0)
       continue;
     stream.next_in = reinterpret_cast<const Bytef*>(data.data());

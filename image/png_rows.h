@@ -1,4 +1,6 @@
 // The header and the compressed rows of a PNG, looked at before libpng is: what it finds wrong with them it writes on stderr.
+//
+// Rows are decompressed for it once more than for the picture.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +18,12 @@ struct PngHeader {
 };
 
 inline constexpr std::uint32_t grey_png = 0, rgb_png = 2, palette_png = 3;
+
+/// What a file begins with, and what is around the data of every chunk (5.2 and 5.3).
+inline constexpr std::size_t png_signature = 8, png_length_and_type = 8, png_checksum = 4;
+
+/// The checksum of ISO 3309 (annex D).
+std::uint32_t checksum_of(std::string_view bytes);
 
 std::uint32_t big_endian(std::string_view four);
 

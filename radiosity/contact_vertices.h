@@ -8,8 +8,8 @@
 // for light from the source and for the rest, each with the part of it that comes by way of mirrors.
 //
 // Over the exposed part, from n to c, the line has the mean of any parabola (Radau's rule). v takes the mean over its edges, each weighed
-// by |p - n|^2, the inverse of its variance. So the foot of a bright wall is bright, and a contact shadow dark. Vertices without such an edge are left to
-// fill_vertices() (vertex_fill.h).
+// by |p - n|^2, the inverse of its variance. So the foot of a bright wall is bright, and a contact shadow dark. Vertices without such an edge
+// are left to fill_vertices() (vertex_fill.h).
 #pragma once
 
 #include "radiosity/interpolation.h"
@@ -30,8 +30,7 @@ std::vector<ContactEdge> contact_edges(const ElementMesh& mesh,
 
 /// What is gathered on an edge before something begins to stand on it.
 struct ContactLight {
-  double
-      place; ///< of p from the exposed end, as a share of the edge; 0: not found, there is no value
+  double place; ///< of p, as a share of the edge from its exposed end; 0 where none was found
   VertexValue value;
 };
 

@@ -15,6 +15,10 @@ inline constexpr double most_facet_turn = 40.0;
 /// By ElementVertexId: the facets a vertex takes the mean of; none where it has a value of its own.
 VertexElements facets_around(const LightScene& light);
 
+inline bool is_averaged(const VertexElements& facets, std::size_t vertex) {
+  return !facets.elements.empty() && !around(facets, vertex).empty();
+}
+
 /// The facets that any vertex takes the mean of, by ElementId: 1.
 std::vector<std::uint8_t> averaged_facets(const ElementMesh& mesh, const VertexElements& facets);
 

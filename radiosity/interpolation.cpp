@@ -150,14 +150,15 @@ static void average_facets(const LightScene& light, const ElementLight& elements
   }
 }
 
-/// Vertices on which something stands, or at whose side it does, take what is gathered beside it.
+/// Vertices on which something stands, or at whose side it does, take what is gathered beside it; those of facets keep their means.
 static void light_contacts(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
-                           std::span<const Receiver> receivers, PointWorkspaces& workspaces,
-                           std::vector<std::uint8_t>& valid, DiffuseField& field) {
+                           std::span<const Receiver> receivers, const VertexElements& facets,
+                           PointWorkspaces& workspaces, std::vector<std::uint8_t>& valid,
+                           DiffuseField& field) {
   const ElementMesh& mesh = gathering.light.mesh;
   std::vector<std::uint8_t> open = valid;
   tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t v) {
-    if (open[v] != 0 && is_at_foot(gathering.light, receivers[v]))
+    if (open[v] != 0 && !is_averaged(facets, v) && is_at_foot(gathering.light, receivers[v]))
       open[v] = 0;
   });
   const std::vector<ContactEdge> edges = contact_edges(mesh, open);
@@ -195,7 +196,7 @@ static InterpolatedField gather_at_vertices(const LightScene& light, const Eleme
   if (!facets.elements.empty())
     average_facets(light, elements, facets, form_factors, workspaces, field);
   const auto light_vertex = [&](std::size_t v, PointWorkspace& work) {
-    if (!facets.elements.empty() && !around(facets, v).empty())
+    if (is_averaged(facets, v))
       return;
     const double size = size_of(mesh, mesh.element_of_vertex[v]);
     const std::uint32_t seed = hash(static_cast<std::uint32_t>(v), form_factors.seed, 0x7e27);
@@ -218,7 +219,7 @@ static InterpolatedField gather_at_vertices(const LightScene& light, const Eleme
                     });
   if (shares != nullptr)
     share_indirect(*shares, valid, field);
-  light_contacts(gathering, elements.irradiance, receivers, workspaces, valid, field);
+  light_contacts(gathering, elements.irradiance, receivers, facets, workspaces, valid, field);
   for (const auto& work : workspaces) {
     result.form_factor_rays += work.rays;
     result.shadow_rays += work.direct.shadow_rays;

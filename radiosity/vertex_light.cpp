@@ -1,6 +1,7 @@
 #include "radiosity/vertex_light.h"
 
 #include "scenes/careful_rays.h"
+#include "scenes/frame_geometry.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ static std::size_t blocked_nearby(const LightScene& light, const Receiver& recei
   constexpr double reach = 0.35;
   const TangentFrame frame = frame_along(receiver.normal, receiver.tangent);
   const RayFrame& ray_frame = light.rays.frame();
-  const glm::vec3 origin = (receiver.position - ray_frame.centre) * ray_frame.scale;
+  const glm::vec3 origin(to_frame(ray_frame, receiver.position));
   RayPacket packet;
   packet.count = packet_size;
   for (std::uint32_t k = 0; k < packet_size; ++k) {
@@ -36,17 +37,15 @@ bool is_under_something(const LightScene& light, const Receiver& receiver, doubl
 
 bool is_at_foot(const LightScene& light, const Receiver& receiver) {
   constexpr double steep = 0.7; // sine of the wall's slope: facets of a curved surface are less
-  const RayFrame& frame = light.rays.frame();
-  const glm::vec3 origin = (receiver.position - frame.centre) * frame.scale;
-  const Contacts contacts = contacts_of(light.rays, origin, index(receiver.plane_class));
+  const Point3 origin = to_frame(light.rays.frame(), receiver.position);
+  const Contacts contacts = contacts_of(light.rays, glm::vec3(origin), index(receiver.plane_class));
   return std::ranges::any_of(contacts.others, [&](const ContactTriangle& wall) {
-    const Vec3 across =
-        glm::cross(wall.corners[1] - wall.corners[0], wall.corners[2] - wall.corners[0]);
-    if (glm::length(glm::cross(across, receiver.normal)) <= steep * glm::length(across))
+    const Direction& across = light.rays.geometry().plane_normals[index(wall.plane)];
+    if (glm::length(glm::cross(across, receiver.normal)) <= steep)
       return false;
     // It stands on this side of the surface, not below it.
     return std::ranges::any_of(wall.corners, [&](const Point3& corner) {
-      const Vec3 to = corner - Point3(origin);
+      const Vec3 to = corner - origin;
       return glm::dot(to, receiver.normal) > 0.01 * glm::length(to);
     });
   });

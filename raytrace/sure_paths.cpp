@@ -229,8 +229,6 @@ void find_sure_paths(const RenderContext& context, const TileArea& tile, SurePat
   sure.in_block.clear();
   Search search{context, tile, sure, std::max(1, least_rays / static_cast<int>(samples))};
   search.add_leg({.rays = rays_of(context.camera)});
-  // Where much comes near, little is certain.
-  constexpr std::size_t rays_to_a_piece = 64;
   if (rays < rays_to_a_piece * sure.pieces.size())
     return;
   for (std::uint32_t k = 0; k < sure.pieces.size(); ++k)

@@ -60,6 +60,8 @@ struct SurePaths {
 
 /// To look at a face takes about as long as to trace a few rays.
 inline constexpr std::size_t rays_to_a_face = 4;
+/// Where more than one of so many rays comes near a face, little is certain.
+inline constexpr std::size_t rays_to_a_piece = 64;
 
 /// Clears and fills `sure`.
 void find_sure_paths(const RenderContext& context, const TileArea& tile, SurePaths& sure);

@@ -70,7 +70,7 @@ static RenderContext context_of(const LightScene& light, const VisibleLight& vis
 
 /// Beyond so many triangles a tile's rays are traced sooner than it is known what comes near it, or little of that would be certain.
 static std::size_t most_frustum_faces(const RenderSettings& settings, std::size_t samples) {
-  constexpr std::size_t pixels = std::size_t{tile_size} * tile_size, rays_to_a_piece = 64;
+  constexpr std::size_t pixels = std::size_t{tile_size} * tile_size;
   const std::size_t tiles =
       std::max<std::size_t>(1, static_cast<std::size_t>(settings.width) *
                                    static_cast<std::size_t>(settings.height) / pixels);
