@@ -1,6 +1,7 @@
 #include "raytrace/picture_error.h"
 
 #include "radiosity/vertex_places.h"
+#include "raytrace/probe_choice.h"
 #include "scenes/sampling.h"
 #include "scenes/stopwatch.h"
 
@@ -47,22 +48,6 @@ double mean_of(std::size_t count, const Product& product) {
   return count > 0 ? sum / (3.0 * static_cast<double>(count)) : 0.0;
 }
 
-/// Well spread over the picture, outside emitters; any first ones of them are spread as well.
-std::vector<glm::ivec2> spread_pixels(const Image& picture, const std::vector<std::uint8_t>& emits,
-                                      int wanted, std::uint32_t seed) {
-  std::vector<glm::ivec2> pixels;
-  const auto tries = static_cast<std::uint32_t>(8 * wanted);
-  for (std::uint32_t k = 0; k < tries && pixels.size() < static_cast<std::size_t>(wanted); ++k) {
-    const auto at = sobol4(k, hash(seed, 0xe44));
-    const glm::ivec2 pixel(
-        std::min(static_cast<int>(at[0] * float(picture.width)), picture.width - 1),
-        std::min(static_cast<int>(at[1] * float(picture.height)), picture.height - 1));
-    if (emits[static_cast<std::size_t>(pixel.y * picture.width + pixel.x)] == 0)
-      pixels.push_back(pixel);
-  }
-  return pixels;
-}
-
 double mean_outside(const Image& picture, const std::vector<std::uint8_t>& emits) {
   double sum = 0.0, count = 0.0;
   for (std::size_t p = 0; p < emits.size(); ++p)
@@ -106,8 +91,9 @@ struct SquaredErrors {
 };
 
 /// What one camera ray a pixel shows is off: by two gatherings at the first pixels, and by light from the source at all.
-void probe_field(Probing& probe, std::span<const glm::ivec2> pixels, std::size_t gathered,
+void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered,
                  SquaredErrors& errors, PictureError& error) {
+  const std::span<const glm::ivec2> pixels = choice.pixels;
   const RenderSettings gathering = gathering_settings(probe.settings);
   RenderSettings shown = probe.settings.render;
   shown.samples = 1;
@@ -122,10 +108,11 @@ void probe_field(Probing& probe, std::span<const glm::ivec2> pixels, std::size_t
   const Radiances g1 = probe(drawn_again(gathering, 3), first),
                   g2 = probe(drawn_again(gathering, 4), first);
   error.gather_seconds = probe.seconds_each(2 * first.size());
-  const auto off = [&](std::size_t k) { return (g1[k] - l1[k]) * (g2[k] - l2[k]); };
+  const auto weight = [&](std::size_t k) { return static_cast<float>(choice.weight[k]); };
+  const auto off = [&](std::size_t k) { return weight(k) * (g1[k] - l1[k]) * (g2[k] - l2[k]); };
   const auto apart = [&](std::size_t k) {
     const glm::vec3 change = (g1[k] - l1[k]) - (g2[k] - l2[k]);
-    return change * change;
+    return weight(k) * change * change;
   };
   errors.field = mean_of(first.size(), off);
   errors.vertices = 0.5 * mean_of(first.size(), apart);
@@ -137,7 +124,9 @@ void probe_field(Probing& probe, std::span<const glm::ivec2> pixels, std::size_t
     const Radiances d1 = probe(drawn_again(source, 5), pixels),
                     d2 = probe(drawn_again(source, 6), pixels);
     error.direct_seconds = probe.seconds_each(2 * pixels.size());
-    const auto product = [&](std::size_t k) { return (d1[k] - l1[k]) * (d2[k] - l1[k]); };
+    const auto product = [&](std::size_t k) {
+      return weight(k) * (d1[k] - l1[k]) * (d2[k] - l1[k]);
+    };
     errors.source = mean_of(pixels.size(), product);
     errors.field += errors.source - mean_of(first.size(), product);
   }
@@ -147,7 +136,9 @@ void probe_field(Probing& probe, std::span<const glm::ivec2> pixels, std::size_t
     capped.diffuse.gather.max_bounces = probe.settings.pass_one.form_factors.max_bounces;
     const Radiances c1 = probe(drawn_again(capped, 3), first),
                     c2 = probe(drawn_again(capped, 4), first);
-    const auto beyond = [&](std::size_t k) { return (g1[k] - c1[k]) * (g2[k] - c2[k]); };
+    const auto beyond = [&](std::size_t k) {
+      return weight(k) * (g1[k] - c1[k]) * (g2[k] - c2[k]);
+    };
     errors.tail = mean_of(first.size(), beyond);
   }
 }
@@ -237,12 +228,14 @@ PictureError estimate_error(const LightScene& light, const DiffuseField& field,
   sized.layers = WithLayers::no;
   const auto emits = emitter_pixels(light, field, camera, sized, picture.image, emitter_samples);
   error.mean_radiance = mean_outside(picture.image, emits);
-  const auto pixels = spread_pixels(picture.image, emits, how.pixels, settings.render.seed);
-  if (!(error.mean_radiance > 0.0) || pixels.empty())
+  const ProbeChoice choice =
+      choose_probes(light, field, field_content(field, settings.render.diffuse), camera,
+                    settings.render, emits, how.pixels);
+  if (!(error.mean_radiance > 0.0) || choice.pixels.empty())
     return error;
 
   SquaredErrors squared;
-  probe_field(probe, pixels, static_cast<std::size_t>(how.gathered_pixels), squared, error);
+  probe_field(probe, choice, static_cast<std::size_t>(how.gathered_pixels), squared, error);
   probe_samples(probe, picture, emits, how.pixels, squared);
 
   // The parts make up the whole that was found, also where one of them alone was found larger.

@@ -3,7 +3,7 @@
 //
 //   total^2 = mesh^2 + form_factors^2 + mirror_tail^2 + pixels^2 + solver^2
 //
-// At some pixels light is also gathered: L is what the field shows through one camera ray, L_1 and L_2 what two independent gatherings of N
+// At some pixels (probe_choice.h) light is also gathered: L is what the field shows through one camera ray, L_1 and L_2 what two independent gatherings of N
 // rays and shadow rays show at its end, n of variance sigma^2 each. As n_1 and n_2 are independent,
 //
 //   mean (L_1 - L)(L_2 - L)  =  (error of L)^2              whatever the noise of either,
