@@ -95,9 +95,14 @@ SampledField direct_field(const LightScene& light, std::span<const double> weigh
     }
     return {arrived, covered};
   };
+  const IsOpenPoint is_open = [&](const Receiver& receiver, double element_size,
+                                  std::uint32_t seed) {
+    return !is_nearly_under_something(light, receiver, element_size) &&
+           !sample(receiver, element_size, seed).covered;
+  };
   const auto outlines = mirror_outlines(light, outline_step * light.mesh.element_size);
   SampledField field =
-      refine_field(light, {sample, mean_of_two(sample)}, weight, outlines, refinement);
+      refine_field(light, {sample, mean_of_two(sample), is_open}, weight, outlines, refinement);
   for (const auto& work : workspaces) {
     result.form_factor_rays += work.rays;
     result.shadow_rays += work.direct.shadow_rays;
@@ -169,8 +174,12 @@ SampledField gathered_field(const LightScene& light, const ElementLight& element
                              .cluster_shadow_rays = how.interpolation.cluster_shadow_rays});
     };
     const PointGathering whole = gathering(1), quarter = gathering(4);
-    const FieldSampler sampler{gathered_samples(whole, irradiance, workspaces),
-                               mean_of_two(gathered_samples(quarter, irradiance, workspaces))};
+    const FieldSampler sampler{
+        gathered_samples(whole, irradiance, workspaces),
+        mean_of_two(gathered_samples(quarter, irradiance, workspaces)),
+        [&](const Receiver& receiver, double element_size, std::uint32_t seed) {
+          return is_open(quarter, irradiance, receiver, element_size, seed, workspaces.local());
+        }};
     return refine_field(light, sampler, weight, {}, refinement);
   };
   const SampledField first = refined(light, elements.irradiance, elements.reflected,

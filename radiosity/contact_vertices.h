@@ -15,6 +15,7 @@
 #include "radiosity/interpolation.h"
 #include "radiosity/vertex_light.h"
 
+#include <functional>
 #include <span>
 
 namespace meninas {
@@ -24,9 +25,13 @@ struct ContactEdge {
   std::uint32_t covered, exposed;
 };
 
-/// `valid` by ElementVertexId: not covered.
+/// `valid` by ElementVertexId: not covered. Hanging vertices are neither: they take what the ends of their edges have.
 std::vector<ContactEdge> contact_edges(const ElementMesh& mesh,
                                        std::span<const std::uint8_t> valid);
+
+/// p, as a share of an edge from its exposed end to the covered one; 0 where nothing on it is open but that end.
+double contact_place(const Receiver& exposed, const Point3& covered,
+                     const std::function<bool(const Receiver&)>& is_open);
 
 /// What is gathered on an edge before something begins to stand on it.
 struct ContactLight {
@@ -38,6 +43,19 @@ struct ContactLight {
 ContactLight light_at_contact(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
                               const Receiver& exposed, const Point3& covered, double element_size,
                               std::uint32_t seed, PointWorkspace& work);
+
+/// The light that a covered vertex gets by lines along its edges.
+class ContactLines {
+public:
+  /// The line through what is seen at n and, at p, beside the contact.
+  void add(const ArrivingLight& seen, const ArrivingLight& beside, double place);
+
+  ArrivingLight mean() const; ///< of those that were added, one at least
+
+private:
+  ArrivingLight sum_;
+  double weights_ = 0.0;
+};
 
 /// Follows the lines through H(n) and H(p), and marks as valid what has got a value. `lights` by edge.
 void extend_to_contacts(std::span<const ContactEdge> edges, std::span<const ContactLight> lights,

@@ -1,5 +1,6 @@
 #include "radiosity/field_refinement.h"
 
+#include "radiosity/contact_vertices.h"
 #include "radiosity/mesh_division.h"
 #include "radiosity/vertex_fill.h"
 #include "radiosity/vertex_places.h"
@@ -25,12 +26,24 @@ struct Found {
   double sigma = 0.0; ///< x = sigma, the standard deviation of a sample
 };
 
+/// What is known of a vertex.
+enum class VertexState : std::uint8_t { unknown, covered, at_foot, exposed };
+
+/// What is sampled on an edge beside a contact.
+struct ContactSample {
+  double place = 0.0; ///< as a share of the edge (contact_vertices.h); 0: there is none
+  ArrivingLight light = {};
+};
+/// By the covered end of the edge, then by the other.
+using ContactSamples = std::map<std::pair<std::uint32_t, std::uint32_t>, ContactSample>;
+
 /// A mesh with what is known of the field on it.
 struct Growing {
   ElementMesh mesh;
   std::vector<PointSample> samples; ///< by ElementVertexId
-  std::vector<std::uint8_t> known;  ///< by ElementVertexId: 1 where there is a sample
+  std::vector<VertexState> known;   ///< by ElementVertexId
   std::vector<Found> found;         ///< by ElementId
+  ContactSamples contacts;
 };
 
 /// What does not change from round to round.
@@ -70,18 +83,60 @@ void sample_vertices(const Refinement& refinement, Growing& growing) {
   const std::vector<std::uint8_t> hanging = hanging_in(mesh);
   const std::vector<Receiver> receivers = vertex_receivers(mesh);
   for_each_in_parallel(mesh.vertices.size(), [&](std::size_t v) {
-    if (growing.known[v] != 0 || hanging[v] != 0)
+    if (growing.known[v] != VertexState::unknown || hanging[v] != 0)
       return;
     const ElementId element = mesh.element_of_vertex[v];
     const SideId side = mesh.side_of_element[index(element)];
     const Patch& patch = refinement.light.surfaces.patches[index(mesh.sides[index(side)].patch)];
     growing.samples[v] = refinement.sampler.at_vertices(
         receivers[v], size_of(mesh, element), seed_of(side, uv_at(patch, mesh.vertices[v])));
-    growing.known[v] = 1;
+    growing.known[v] = growing.samples[v].covered                   ? VertexState::covered
+                       : is_at_foot(refinement.light, receivers[v]) ? VertexState::at_foot
+                                                                    : VertexState::exposed;
   });
 }
 
-/// The samples as a field: covered vertices take their neighbours' values, hanging ones those of their ends.
+/// Samples the edges between exposed vertices and others that have not been.
+void sample_contacts(const Refinement& refinement, Growing& growing) {
+  const ElementMesh& mesh = growing.mesh;
+  const FieldSampler& sampler = refinement.sampler;
+  std::vector<std::uint8_t> exposed;
+  for (const VertexState known : growing.known)
+    exposed.push_back(known == VertexState::exposed ? 1 : 0);
+  const std::vector<ContactEdge> edges = contact_edges(mesh, exposed);
+  const std::vector<Receiver> receivers = vertex_receivers(mesh);
+  std::vector<ContactSample> samples(edges.size());
+  for_each_in_parallel(edges.size(), [&](std::size_t k) {
+    const auto [covered, open] = edges[k];
+    if (const auto before = growing.contacts.find({covered, open});
+        before != growing.contacts.end()) {
+      samples[k] = before->second;
+      return;
+    }
+    const ElementId element = mesh.element_of_vertex[open];
+    const double size = size_of(mesh, element);
+    const SideId side = mesh.side_of_element[index(element)];
+    const Patch& patch = refinement.light.surfaces.patches[index(mesh.sides[index(side)].patch)];
+    const Point3& end = mesh.vertices[covered];
+    const std::uint32_t seed =
+        hash(seed_of(side, uv_at(patch, mesh.vertices[open])), seed_of(side, uv_at(patch, end)));
+    Receiver point = receivers[open];
+    const double place = contact_place(point, end, [&](const Receiver& receiver) {
+      return sampler.is_open(receiver, size, seed);
+    });
+    if (place == 0.0)
+      return;
+    point.position = glm::mix(point.position, end, place);
+    const PointSample sample = sampler.at_vertices(point, size, seed);
+    if (!sample.covered)
+      samples[k] = {place, sample.light};
+  });
+  growing.contacts.clear();
+  for (std::size_t k = 0; k < edges.size(); ++k)
+    growing.contacts[{edges[k].covered, edges[k].exposed}] = samples[k];
+}
+
+/// The samples as a field: covered vertices follow what is beside them, or take their neighbours' values, hanging ones those of their ends.
 SampledField field_of(const Growing& growing) {
   const ElementMesh& mesh = growing.mesh;
   SampledField field;
@@ -89,7 +144,19 @@ SampledField field_of(const Growing& growing) {
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     field.total.emplace_back(growing.samples[v].light.total);
     field.mirrored.emplace_back(growing.samples[v].light.mirrored);
-    valid[v] = growing.known[v] != 0 && !growing.samples[v].covered ? 1 : 0;
+    valid[v] = growing.known[v] == VertexState::exposed || growing.known[v] == VertexState::at_foot
+                   ? 1
+                   : 0;
+  }
+  std::map<std::uint32_t, ContactLines> lines_to;
+  for (const auto& [ends, contact] : growing.contacts)
+    if (contact.place > 0.0)
+      lines_to[ends.first].add(growing.samples[ends.second].light, contact.light, contact.place);
+  for (const auto& [v, lines] : lines_to) {
+    const ArrivingLight light = lines.mean();
+    field.total[v] = glm::vec3(light.total);
+    field.mirrored[v] = glm::vec3(light.mirrored);
+    valid[v] = 1;
   }
   for (auto* values : {&field.total, &field.mirrored}) {
     fill_vertices(mesh, valid, *values);
@@ -267,20 +334,24 @@ Growing divided(const Refinement& refinement, const Growing& before,
   Growing after;
   after.mesh = divide_elements(before.mesh, refinement.light.surfaces, marked);
   after.samples.resize(after.mesh.vertices.size());
-  after.known.resize(after.mesh.vertices.size(), 0);
+  after.known.resize(after.mesh.vertices.size(), VertexState::unknown);
   after.found.resize(element_count(after.mesh));
+  std::vector<std::uint32_t> vertex_now(before.mesh.vertices.size(), 0);
   const std::vector<CellId> now = same_cells(before.mesh, after.mesh);
   for (std::size_t e = 0; e < element_count(before.mesh); ++e) {
     const CellId cell = now[index(before.mesh.cell_of_element[e])];
     const ElementCorners corners = corners_of(after.mesh, cell);
     for (std::size_t c = 0; c < corners.size(); ++c) {
       const std::uint32_t from = index(before.mesh.corners[e][c]), to = index(corners[c]);
+      vertex_now[from] = to;
       after.samples[to] = before.samples[from];
       after.known[to] = before.known[from];
     }
     if (is_leaf(after.mesh.cells[index(cell)]))
       after.found[after.mesh.cells[index(cell)].first_element] = before.found[e];
   }
+  for (const auto& [ends, contact] : before.contacts)
+    after.contacts[{vertex_now[ends.first], vertex_now[ends.second]}] = contact;
   return after;
 }
 
@@ -290,7 +361,7 @@ static Growing undivided(const ElementMesh& mesh) {
   Growing growing;
   growing.mesh = mesh;
   growing.samples.resize(mesh.vertices.size());
-  growing.known.resize(mesh.vertices.size(), 0);
+  growing.known.resize(mesh.vertices.size(), VertexState::unknown);
   growing.found.resize(element_count(mesh));
   return growing;
 }
@@ -304,6 +375,7 @@ SampledField refine_field(const LightScene& light, const FieldSampler& sampler,
   const double allowed = settings.error * settings.error * area;
   for (;;) {
     sample_vertices(refinement, growing);
+    sample_contacts(refinement, growing);
     SampledField field = field_of(growing);
     look_at_elements(refinement, field, growing);
     double error2 = 0.0;

@@ -15,6 +15,8 @@
 // element. sigma is estimated relative to H, from points around, and taken off; elements are divided only for what stands out of it.
 // So the bound is one for what elements hide. The noise of the vertices themselves is a matter of how many rays they take.
 //
+// Vertices on which something stands, or at whose side it does, take what is sampled beside it, as on undivided meshes (contact_vertices.h).
+//
 // Limit: what is smaller than the distance of the points in a root cell may be overlooked. Edges of light that mirrors throw are not: they
 // are known (mirror_outlines.h), and elements on them are looked at there too.
 #pragma once
@@ -37,8 +39,12 @@ struct PointSample {
 /// The sample at a point in elements of a size. Called from any thread; the same for the same arguments.
 using SamplePoint =
     std::function<PointSample(const Receiver& receiver, double element_size, std::uint32_t seed)>;
+/// Whether a point is neither covered nor nearly so, under an edge.
+using IsOpenPoint =
+    std::function<bool(const Receiver& receiver, double element_size, std::uint32_t seed)>;
 struct FieldSampler {
   SamplePoint at_vertices, between;
+  IsOpenPoint is_open;
 };
 
 struct RefinementSettings {

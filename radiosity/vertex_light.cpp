@@ -35,6 +35,13 @@ bool is_under_something(const LightScene& light, const Receiver& receiver, doubl
   return blocked_nearby(light, receiver, element_size) >= packet_size - 1;
 }
 
+bool is_nearly_under_something(const LightScene& light, const Receiver& receiver,
+                               double element_size) {
+  // A wall beside the point blocks half of the directions, an overhang more.
+  constexpr std::size_t most_blocked = packet_size / 2 + 2;
+  return blocked_nearby(light, receiver, element_size) > most_blocked;
+}
+
 bool is_at_foot(const LightScene& light, const Receiver& receiver) {
   constexpr double steep = 0.7; // sine of the wall's slope: facets of a curved surface are less
   const Point3 origin = to_frame(light.rays.frame(), receiver.position);
@@ -75,11 +82,9 @@ static bool is_lit(const PointGathering& gathering, const Receiver& receiver, st
 bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
              const Receiver& receiver, double element_size, std::uint32_t seed,
              PointWorkspace& work) {
-  // A wall beside the point blocks half of the directions, an overhang more.
-  constexpr std::size_t most_blocked = packet_size / 2 + 2;
   constexpr int few_rays = 16;
   static const DirectionNet net = make_direction_net(few_rays);
-  if (blocked_nearby(gathering.light, receiver, element_size) > most_blocked)
+  if (is_nearly_under_something(gathering.light, receiver, element_size))
     return false;
   gather_rays(gathering.light, net, area_of(receiver), seed, gathering.form_factors, work.gather);
   work.rays += work.gather.result.traced;

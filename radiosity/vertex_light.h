@@ -29,7 +29,11 @@ VertexValue value_from_source(const PointGathering& gathering, const Receiver& r
 /// side of the wall, whose light is brightest beside it: a form factor that is 1/2 on one side of the line is 0 on it.
 bool is_at_foot(const LightScene& light, const Receiver& receiver);
 
-/// Whether a point is neither covered nor nearly so, under an edge, as far as few rays tell.
+/// Whether more than half of what a point sees is blocked within a fraction of an element: it is covered or nearly so, under an edge.
+bool is_nearly_under_something(const LightScene& light, const Receiver& receiver,
+                               double element_size);
+
+/// Whether a point is neither covered nor nearly so, as far as few rays tell.
 bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
              const Receiver& receiver, double element_size, std::uint32_t seed,
              PointWorkspace& work);

@@ -77,36 +77,59 @@ TEST(ContactVertices, EdgesAreFoundOnce) {
 
 constexpr double height = 0.4;
 
-/// A box that glows stands on a black floor; one of its sides is the plane x = `side`.
+/// A black box that glows stands on a floor; one of its sides is the plane x = `side`.
 Scene glowing_box(double side) {
   Scene scene;
-  add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 3}, {3, 0, 3}, {3, 0, 0}}, diffuse(0.0));
+  add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 3}, {3, 0, 3}, {3, 0, 0}}, diffuse(0.5));
   add_box(scene, "box", {side, 0.0, 0.83}, {side + 1.3, height, 2.17}, diffuse(0.0, 1.0));
   return scene;
 }
 
-// What the floor receives from the one side of the box that it sees is known at every point. Beside the box it is 1/2, a cell away from it 0.38.
+/// What the floor receives within 0.1 of the foot, where it is 1/2 and falls to 0.38, beside what it receives from the one side of the box
+/// that it sees.
+struct AtFoot {
+  double found = 0.0, exact = 0.0; ///< means
+  double largest_error = 0.0;
+};
+AtFoot at_foot(const LitScene& l, const RadiositySolution& solution, double side) {
+  const ElementMesh& mesh = field_scene(*l.light, solution).mesh;
+  const SideId floor = l.mesh.side_of_element[elements_of(l, "floor")[0]];
+  const Patch& patch = l.surfaces.patches[index(mesh.sides[index(floor)].patch)];
+  const std::vector<Point3> wall{
+      {side, 0, 0.83}, {side, 0, 2.17}, {side, height, 2.17}, {side, height, 0.83}};
+  AtFoot foot;
+  for (int k = 0; k < 20; ++k) {
+    const Point3 x{side - 0.1 * (k + 0.5) / 20.0, 0.0, 1.52};
+    const double here = double{irradiance_at(mesh, solution.field, floor, uv_at(patch, x)).g};
+    const double truth = point_form_factor(x, {0.0, 1.0, 0.0}, wall);
+    foot.found += here / 20.0;
+    foot.exact += truth / 20.0;
+    foot.largest_error = std::max(foot.largest_error, std::abs(here - truth));
+  }
+  return foot;
+}
+
 TEST(ContactVertices, TheFootOfABrightWallIsLit) {
   // The wall on a line of vertices, close to either side of one, and between two.
   for (const double side : {0.8, 0.801, 0.799, 0.75, 0.78}) {
     const auto l = lit(glowing_box(side), {.element_size = 0.1});
-    const RadiositySolution solution = solve_pass_one(*l->light, {});
-    const SideId floor = l->mesh.side_of_element[elements_of(*l, "floor")[0]];
-    const Patch& patch = l->surfaces.patches[index(l->mesh.sides[index(floor)].patch)];
-    const std::vector<Point3> wall{
-        {side, 0, 0.83}, {side, 0, 2.17}, {side, height, 2.17}, {side, height, 0.83}};
-    double found = 0.0, exact = 0.0, largest_error = 0.0;
-    for (int k = 0; k < 20; ++k) {
-      const Point3 x{side - 0.1 * (k + 0.5) / 20.0, 0.0, 1.52};
-      const double here = double{irradiance_at(l->mesh, solution.field, floor, uv_at(patch, x)).g};
-      const double truth = point_form_factor(x, {0.0, 1.0, 0.0}, wall);
-      found += here / 20.0;
-      exact += truth / 20.0;
-      largest_error = std::max(largest_error, std::abs(here - truth));
-    }
+    const AtFoot foot = at_foot(*l, solve_pass_one(*l->light, {}), side);
     // Over one cell the factor is straight to (0.1 / 0.4)^3 / 4 of itself; vertices beside each other may share a line.
-    EXPECT_NEAR(found, exact, 0.01 * exact) << side;
-    EXPECT_LT(largest_error, 0.02) << side;
+    EXPECT_NEAR(foot.found, foot.exact, 0.01 * foot.exact) << side;
+    EXPECT_LT(foot.largest_error, 0.02) << side;
+  }
+}
+
+TEST(ContactVertices, TheFootOfABrightWallIsLitOnAdaptiveMeshes) {
+  for (const double side : {0.8, 0.801, 0.799, 0.75, 0.78}) {
+    const auto l = lit(glowing_box(side), {.element_size = 0.4});
+    PassOneSettings settings;
+    settings.interpolation.adaptive = AdaptiveSettings{.error = 0.01};
+    const RadiositySolution solution = solve_pass_one(*l->light, settings);
+    const AtFoot foot = at_foot(*l, solution, side);
+    EXPECT_NEAR(foot.found, foot.exact, 0.01 * foot.exact) << side;
+    // The bound is one of the mean square over all of the floor.
+    EXPECT_LT(foot.largest_error, 0.03) << side;
   }
 }
 
