@@ -79,6 +79,13 @@ void add_adaptive(CLI::App& command, RunSettings& settings) {
           "elements of one size [so it is]")
       ->excludes(adaptive)
       ->group(pass_one_group);
+  add_text(command, "--bends", "X",
+           "divides elements where indirect light bends by more than X of the scene's mean between "
+           "vertices, as at the feet of lit walls, up to three times [none]",
+           [&](const std::string& text) {
+             settings.bends = parse_number("--bends", text, Sign::positive);
+           })
+      ->group(pass_one_group);
 }
 
 } // namespace
@@ -233,6 +240,16 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
       settings.form_factors != FormFactorMethod::rays) {
     throw UsageError("--form-factors", "only 'rays' goes with --solver hierarchical");
   }
+  if (settings.bends && settings.adaptive == WithAdaptivity::yes) {
+    throw UsageError("--bends", "has no effect with --adaptive, which divides elements by itself");
+  }
+  if (settings.bends && settings.interpolation == Interpolation::average) {
+    throw UsageError("--bends", "looks at what is gathered: it does not go with "
+                                "--interpolation average");
+  }
+  if (settings.bends && settings.solver == SolverMethod::hierarchical) {
+    throw UsageError("--bends", "has no effect with --solver hierarchical");
+  }
   if (settings.adaptive == WithAdaptivity::yes &&
       settings.interpolation == Interpolation::average) {
     throw UsageError("--adaptive", "compares what is gathered: it does not go with "
@@ -242,9 +259,9 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
 
 void refuse_pass_one_options(const CLI::App& command, const std::string& reason) {
   constexpr std::array options{
-      "--element-size",  "--form-factors", "--rays",       "--hemicube-resolution",
-      "--solver",        "--tolerance",    "--steps",      "--link-error",
-      "--interpolation", "--adaptive",     "--no-adaptive"};
+      "--element-size",  "--form-factors", "--rays",        "--hemicube-resolution",
+      "--solver",        "--tolerance",    "--steps",       "--link-error",
+      "--interpolation", "--adaptive",     "--no-adaptive", "--bends"};
   for (const char* option : options) {
     if (command.count(option) > 0) {
       throw UsageError(option, reason);

@@ -7,15 +7,25 @@ namespace meninas {
 
 std::vector<ContactEdge> contact_edges(const ElementMesh& mesh,
                                        std::span<const std::uint8_t> valid) {
-  std::vector<std::uint8_t> hangs(valid.size(), 0);
-  for (const HangingVertex& hanging : mesh.hanging)
-    hangs[index(hanging.vertex)] = 1;
+  enum class State : std::uint8_t { covered, exposed, neither };
+  std::vector<State> states;
+  for (const std::uint8_t is_valid : valid)
+    states.push_back(is_valid != 0 ? State::exposed : State::covered);
+  for (const HangingVertex& hanging : mesh.hanging) {
+    const bool both = states[index(hanging.end_a)] == State::exposed &&
+                      states[index(hanging.end_b)] == State::exposed;
+    states[index(hanging.vertex)] = both ? State::exposed : State::neither;
+  }
   std::vector<ContactEdge> edges;
+  const auto add_edge = [&](std::uint32_t v, std::uint32_t n) {
+    if (states[v] == State::covered && states[n] == State::exposed)
+      edges.push_back({v, n});
+  };
   for (const ElementCorners& corners : mesh.corners)
     for (std::size_t c = 0; c < 4; ++c) {
       const auto a = index(corners[c]), b = index(corners[(c + 1) % 4]);
-      if (valid[a] != valid[b] && hangs[a] == 0 && hangs[b] == 0)
-        edges.push_back(valid[a] == 0 ? ContactEdge{a, b} : ContactEdge{b, a});
+      add_edge(a, b);
+      add_edge(b, a);
     }
   // Two elements share most edges.
   const auto ends = [](const ContactEdge& edge) { return std::pair(edge.covered, edge.exposed); };

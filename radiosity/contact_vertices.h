@@ -25,7 +25,7 @@ struct ContactEdge {
   std::uint32_t covered, exposed;
 };
 
-/// `valid` by ElementVertexId: not covered. Hanging vertices are neither: they take what the ends of their edges have.
+/// `valid` by ElementVertexId: not covered. Hanging vertices take what the ends of their edges have: they are exposed where both are, and never covered.
 std::vector<ContactEdge> contact_edges(const ElementMesh& mesh,
                                        std::span<const std::uint8_t> valid);
 

@@ -148,10 +148,13 @@ SampledField field_of(const Growing& growing) {
                    ? 1
                    : 0;
   }
+  for (auto* values : {&field.total, &field.mirrored})
+    settle_hanging(mesh, *values);
   std::map<std::uint32_t, ContactLines> lines_to;
   for (const auto& [ends, contact] : growing.contacts)
     if (contact.place > 0.0)
-      lines_to[ends.first].add(growing.samples[ends.second].light, contact.light, contact.place);
+      lines_to[ends.first].add({Rgb(field.total[ends.second]), Rgb(field.mirrored[ends.second])},
+                               contact.light, contact.place);
   for (const auto& [v, lines] : lines_to) {
     const ArrivingLight light = lines.mean();
     field.total[v] = glm::vec3(light.total);

@@ -29,6 +29,8 @@ struct InterpolationSettings {
   int rays = 512; ///< per vertex, for `gather`
   int cluster_shadow_rays =
       8; ///< per bright cluster (bright_clusters.h) and vertex, where it matters most
+  double bend =
+      0.0; ///< X: elements in which indirect light bends by more are divided (gathered_field.h); 0: none
   std::optional<AdaptiveSettings> adaptive =
       {}; ///< `gather` on a mesh of its own (adaptive_field.h)
 };
@@ -47,8 +49,8 @@ struct DiffuseField {
 
 struct InterpolatedField {
   DiffuseField field;
-  std::optional<ElementMesh> mesh = {}; ///< of an adaptive field; of others, that of the elements
-  double error = 0.0; ///< of an adaptive field: estimated, of what its settings bound
+  std::optional<ElementMesh> mesh = {}; ///< where it is finer than that of the elements
+  std::optional<double> error = {}; ///< of an adaptive field: estimated, of what its settings bound
   std::uint64_t form_factor_rays = 0;
   std::uint64_t shadow_rays = 0;
 };

@@ -40,7 +40,7 @@ struct RadiositySolution {
   std::vector<float> exposed;  ///< by ElementId: the share of the area that is there and on which nothing stands
   DiffuseField field;          ///< on field_scene()
   std::unique_ptr<RefinedScene> refined; ///< adaptive: the scene on the field's mesh
-  double interpolation_error = 0.0; ///< adaptive: estimated, of what its settings bound
+  std::optional<double> interpolation_error; ///< adaptive: estimated, of what its settings bound
   SolverResult solver; ///< its radiosity is moved out
   std::optional<LinkFigures> links; ///< of `hierarchical`
   EnergyBalance energy;

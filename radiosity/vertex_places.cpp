@@ -1,5 +1,8 @@
 #include "radiosity/vertex_places.h"
 
+#include <cmath>
+#include <numbers>
+
 namespace meninas {
 
 Point3 centre_of(const ElementMesh& mesh, ElementId element) {
@@ -45,13 +48,35 @@ VertexElements elements_around(const ElementMesh& mesh) {
   return around;
 }
 
+/// The angle of an element at one of its corners.
+static double angle_at(const ElementMesh& mesh, ElementId element, std::size_t vertex) {
+  const ElementCorners& corners = mesh.corners[index(element)];
+  const std::size_t count = corners[3] == corners[2] ? 3 : 4;
+  for (std::size_t c = 0; c < count; ++c) {
+    if (index(corners[c]) != vertex)
+      continue;
+    const Point3& at = mesh.vertices[vertex];
+    const Vec3 a = mesh.vertices[index(corners[(c + 1) % count])] - at,
+               b = mesh.vertices[index(corners[(c + count - 1) % count])] - at;
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+  }
+  return 0.0;
+}
+
+/// The vertex itself where elements surround it, of whatever sizes.
 static Point3 gathering_point(const ElementMesh& mesh, const VertexElements& all,
                               std::size_t vertex) {
   constexpr double inset = 0.02;
   const auto elements = around(all, vertex);
+  constexpr double nearly_all = 2.0 * std::numbers::pi - 1e-3;
   Point3 centre(0.0);
-  for (const ElementId element : elements)
+  double angle = 0.0;
+  for (const ElementId element : elements) {
     centre += centre_of(mesh, element) / double(elements.size());
+    angle += angle_at(mesh, element, vertex);
+  }
+  if (angle > nearly_all)
+    return mesh.vertices[vertex];
   return glm::mix(mesh.vertices[vertex], centre, inset);
 }
 

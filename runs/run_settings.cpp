@@ -109,6 +109,7 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
     pass_one.direct.most_points = preset.most_source_points;
   }
   pass_one.interpolation.rays = pass_one.form_factors.rays;
+  pass_one.interpolation.bend = settings.bends.value_or(0.0);
   if (adaptive) {
     pass_one.interpolation.adaptive =
         AdaptiveSettings{.error = settings.adaptive_error.value_or(preset.adaptive_error)};

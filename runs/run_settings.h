@@ -54,6 +54,7 @@ struct RunSettings {
   std::optional<double> element_size; ///< metres
   WithAdaptivity adaptive = WithAdaptivity::no;
   std::optional<double> adaptive_error;
+  std::optional<double> bends; ///< of the mean: elements in which light bends by more are divided
   FormFactorMethod form_factors = FormFactorMethod::rays;
   std::optional<int> rays;
   std::optional<int> hemicube_resolution; ///< even

@@ -65,6 +65,7 @@ std::vector<std::string> options_of(const RunSettings& settings) {
   add_given("--element-size", settings.element_size);
   if (settings.adaptive == WithAdaptivity::yes)
     add("--adaptive", settings.adaptive_error ? fmt::format("{}", *settings.adaptive_error) : "");
+  add_given("--bends", settings.bends);
   if (settings.form_factors != standard.form_factors)
     add("--form-factors", name_of(settings.form_factors));
   add_given("--rays", settings.rays);
@@ -73,6 +74,7 @@ std::vector<std::string> options_of(const RunSettings& settings) {
     add("--solver", name_of(settings.solver));
   add_given("--tolerance", settings.tolerance);
   add_given("--steps", settings.steps);
+  add_given("--link-error", settings.link_error);
   add_given("--mirror-depth", settings.mirror_depth);
   if (settings.interpolation)
     add("--interpolation", name_of(*settings.interpolation));

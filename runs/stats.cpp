@@ -179,8 +179,8 @@ void add_solution(RunFigures& figures, const RadiositySolution& solution) {
   if (solution.refined) {
     figures.elements = element_count(solution.refined->mesh);
     figures.vertices = solution.refined->mesh.vertices.size();
-    figures.interpolation_error = solution.interpolation_error;
   }
+  figures.interpolation_error = solution.interpolation_error;
   figures.rays.form_factor = solution.form_factor_rays;
   figures.rays.shadow = solution.shadow_rays;
   figures.seconds.form_factors = solution.seconds.form_factors;

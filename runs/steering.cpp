@@ -66,10 +66,16 @@ Knobs first_knobs(const RunSettings& settings) {
 
 /// What is asked for, with adaptive samples where their number is free.
 RunSettings settings_of(const SteeringRequest& request) {
-  constexpr double pixel_share = 1.0, finest = 0.02;
+  constexpr double pixel_share = 1.0, finest = 0.02, bends_that_show = 0.1;
   RunSettings settings = request.settings;
   if (!settings.samples && !settings.pixel_error && settings.mode == PictureMode::hybrid)
     settings.pixel_error = request.goal.error ? pixel_share * *request.goal.error : finest;
+  // A few small elements at the feet of lit walls cost little, and save dividing all.
+  const bool gathers =
+      settings.interpolation.value_or(Interpolation::gather) == Interpolation::gather;
+  if (!settings.bends && settings.adaptive == WithAdaptivity::no && gathers &&
+      settings.solver != SolverMethod::hierarchical)
+    settings.bends = bends_that_show;
   return settings;
 }
 

@@ -65,12 +65,21 @@ void turn_mesh(Turner& turner, const TradeScene& scene) {
       turner.turn("element-size", fmt::format("{}", size), fmt::format("{}", next), factor < 1.0,
                   [&](RunSettings& r) { r.element_size = next; });
   }
-  if (s.interpolation.value_or(Interpolation::gather) == Interpolation::gather)
-    turner.turn("adaptive", "no", "0.03", true, [&](RunSettings& r) {
-      r.adaptive = WithAdaptivity::yes;
-      r.adaptive_error = 0.03;
-      r.element_size = rounded(2.0 * size);
-    });
+  if (s.interpolation.value_or(Interpolation::gather) != Interpolation::gather)
+    return;
+  if (s.solver != SolverMethod::hierarchical) {
+    if (s.bends)
+      turner.turn("bends", fmt::format("{}", *s.bends), "no", false,
+                  [](RunSettings& r) { r.bends.reset(); });
+    else
+      turner.turn("bends", "no", "0.1", true, [](RunSettings& r) { r.bends = 0.1; });
+  }
+  turner.turn("adaptive", "no", "0.03", true, [&](RunSettings& r) {
+    r.adaptive = WithAdaptivity::yes;
+    r.bends.reset();
+    r.adaptive_error = 0.03;
+    r.element_size = rounded(2.0 * size);
+  });
 }
 
 void turn_transport(Turner& turner, const TradeScene& scene) {
@@ -118,8 +127,10 @@ void turn_picture(Turner& turner) {
   }
   if (s.interpolation.value_or(Interpolation::gather) == Interpolation::gather &&
       s.adaptive == WithAdaptivity::no)
-    turner.turn("interpolation", "gather", "average", false,
-                [](RunSettings& r) { r.interpolation = Interpolation::average; });
+    turner.turn("interpolation", "gather", "average", false, [](RunSettings& r) {
+      r.interpolation = Interpolation::average;
+      r.bends.reset();
+    });
 }
 
 } // namespace

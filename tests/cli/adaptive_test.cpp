@@ -109,6 +109,26 @@ TEST_F(Adaptive, WhatMakesNoSenseIsSaid) {
                      {"--adaptive", "--solution", "s.glb"});
 }
 
+TEST_F(Adaptive, BendsDivideSomeElements) {
+  const json figures = stats({"--bends", "0.001"}), none = stats({"--bends", "1000"});
+  EXPECT_GT(figures["mesh"]["elements"], figures["mesh"]["solved_elements"]);
+  EXPECT_TRUE(figures["mesh"]["interpolation_error"].is_null());
+  EXPECT_EQ(none["mesh"]["elements"], none["mesh"]["solved_elements"]);
+  const std::vector<std::string> pass_one{"--bends", "0.001", "--quality", "draft"};
+  const std::string at_once = bytes("render", "a.exr", with(small, pass_one));
+  bytes("solve", "s.glb", pass_one);
+  EXPECT_TRUE(bytes("render", "b.exr", with(small, {"--solution", "s.glb"})) == at_once);
+  EXPECT_TRUE(bytes("render", "c.exr", with(with(small, pass_one), {"--threads", "1"})) == at_once);
+  expect_usage_error("--bends: '0' is not positive", {"--bends", "0"});
+  expect_usage_error("--bends: has no effect with --adaptive, which divides elements by itself",
+                     {"--bends", "0.1", "--adaptive"});
+  expect_usage_error(
+      "--bends: looks at what is gathered: it does not go with --interpolation average",
+      {"--bends", "0.1", "--interpolation", "average"});
+  expect_usage_error("--bends: has no effect with --solver hierarchical",
+                     {"--bends", "0.1", "--solver", "hierarchical"});
+}
+
 TEST_F(Adaptive, FilesOfCasesAskForItToo) {
   const auto update = [&](const json& adaptive) {
     const json one{{"name", "room"},

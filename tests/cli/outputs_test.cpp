@@ -303,11 +303,10 @@ TEST_F(Outputs, PerNodeFiguresNameEveryNode) {
 TEST_F(Outputs, ThePlanAsJson) {
   const Outcome outcome = run("plan", {"--json"});
   const json plan = json::parse(outcome.out);
-  EXPECT_EQ(keys_of(plan), (std::set<std::string>{"mirrors", "mirror_worlds", "worlds", "emitters",
-                                                  "punctual_lights", "glossy", "transmissive",
-                                                  "textured", "bands", "closed", "patches",
-                                                  "elements", "expected", "stages", "ignored",
-                                                  "warnings", "odd"}));
+  EXPECT_EQ(keys_of(plan), (std::set<std::string>{
+                               "mirrors", "mirror_worlds", "worlds", "emitters", "punctual_lights",
+                               "glossy", "transmissive", "textured", "bands", "closed", "patches",
+                               "elements", "expected", "stages", "ignored", "warnings", "odd"}));
   ASSERT_EQ(plan["mirrors"].size(), 1U);
   EXPECT_EQ(plan["mirrors"][0]["name"], "mirror");
   EXPECT_NEAR(plan["mirrors"][0]["area"].get<double>(), 0.36, 1e-6); // floats in the file
@@ -362,9 +361,10 @@ TEST_F(Outputs, TheCameraDecidesTheShapeOfThePicture) {
 TEST(Help, ListsEveryOptionOfItsCommand) {
   const TemporaryFolder folder;
   const std::vector<std::string> pass_one{
-      "--element-size", "--form-factors",  "--rays",    "--solver",   "--tolerance",
-      "--mirror-depth", "--interpolation", "--quality", "--threads",  "--seed",
-      "--quiet",        "--stats",         "--output",  "--adaptive", "--no-adaptive"};
+      "--element-size", "--form-factors", "--rays",          "--solver",
+      "--tolerance",    "--mirror-depth", "--interpolation", "--quality",
+      "--threads",      "--seed",         "--quiet",         "--stats",
+      "--output",       "--adaptive",     "--no-adaptive",   "--bends"};
   std::map<std::string, std::vector<std::string>> options{
       {"render", pass_one},
       {"solve", pass_one},

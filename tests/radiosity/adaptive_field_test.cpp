@@ -49,7 +49,7 @@ TEST(AdaptiveField, AFurnaceNeedsNoElements) {
   EXPECT_EQ(element_count(s.solution.refined->mesh), element_count(s.lit->mesh));
   for (const auto& h : s.solution.field.irradiance)
     EXPECT_NEAR(h.g, 2.0F, 1e-3F); // B = E / (1 - rho), to the solver's tolerance
-  EXPECT_LT(s.solution.interpolation_error, 1e-3);
+  EXPECT_LT(s.solution.interpolation_error.value(), 1e-3);
 }
 
 /// Small and quick, with all kinds of elements that there are.

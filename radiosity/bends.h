@@ -1,0 +1,37 @@
+// Where a field bends within elements: what interpolation between vertices hides, by second differences.
+//
+// Along two edges that go on from one another, from a by way of v to b, the second derivative is
+//
+//   f'' = 2 ((f_a - f_v) / |a - v| + (f_b - f_v) / |b - v|) / (|a - v| + |b - v|),
+//
+// and linear interpolation over an element of size s is off by e = s^2 |f''| / 8 in its middle: of the irradiance of its corners, the largest, in the
+// brightest channel. An element is bent where
+//
+//   rho max(e - 3 noise H, 0) sqrt(A / A_mean) / B_mean  >  X.
+//
+// What noise of the values makes of e / H is taken to be its median over all vertices: most of a field is smooth.
+// Limit: borders of a surface have no second difference across them; elements there have it from their inner corners.
+#pragma once
+
+#include "radiosity/element_mesh.h"
+
+#include <span>
+#include <vector>
+
+namespace meninas {
+
+/// What bends are held against.
+struct BendScale {
+  double area = 0.0;      ///< A_mean, m^2
+  double radiosity = 0.0; ///< B_mean, W/m^2, the brightest channel
+};
+
+/// Of the elements that were solved; `reflected` by ElementId.
+BendScale bend_scale(const ElementMesh& mesh, std::span<const Rgb> reflected);
+
+/// By ElementId, 1 where the element is bent by more than X. `irradiance` by ElementVertexId.
+std::vector<std::uint8_t> bent_elements(const ElementMesh& mesh,
+                                        std::span<const glm::vec3> irradiance,
+                                        const BendScale& scale, double x);
+
+} // namespace meninas
