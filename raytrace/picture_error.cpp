@@ -110,26 +110,28 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   error.gather_seconds = probe.seconds_each(2 * first.size());
   const auto weight = [&](std::size_t k) { return static_cast<float>(choice.weight[k]); };
   const auto off = [&](std::size_t k) { return weight(k) * (g1[k] - l1[k]) * (g2[k] - l2[k]); };
-  const auto apart = [&](std::size_t k) {
-    const glm::vec3 change = (g1[k] - l1[k]) - (g2[k] - l2[k]);
-    return weight(k) * change * change;
-  };
   errors.field = mean_of(first.size(), off);
-  errors.vertices = 0.5 * mean_of(first.size(), apart);
 
+  // Without light from the source, whose noise is the pixels' or the mesh's, draw 3 and 4 are those of the gathering alone.
+  Radiances s1 = l1, s2 = l2;
   if (interpolated && !probe.field.indirect.empty()) {
     RenderSettings source = gathering;
     source.max_bounces = shown.max_bounces;
     source.diffuse.term = DiffuseTerm::direct;
-    const Radiances d1 = probe(drawn_again(source, 5), pixels),
-                    d2 = probe(drawn_again(source, 6), pixels);
+    s1 = probe(drawn_again(source, 3), pixels);
+    s2 = probe(drawn_again(source, 4), pixels);
     error.direct_seconds = probe.seconds_each(2 * pixels.size());
     const auto product = [&](std::size_t k) {
-      return weight(k) * (d1[k] - l1[k]) * (d2[k] - l1[k]);
+      return weight(k) * (s1[k] - l1[k]) * (s2[k] - l1[k]);
     };
     errors.source = mean_of(pixels.size(), product);
     errors.field += errors.source - mean_of(first.size(), product);
   }
+  const auto apart = [&](std::size_t k) {
+    const glm::vec3 change = (g1[k] - s1[k]) - (g2[k] - s2[k]);
+    return weight(k) * change * change;
+  };
+  errors.vertices = 0.5 * mean_of(first.size(), apart);
   if (is_capped(probe.settings)) {
     RenderSettings capped = gathering;
     capped.max_bounces = shown.max_bounces;
