@@ -285,7 +285,7 @@ struct Search {
 
 ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFigures& figures) {
   constexpr int most_steps = 8;
-  constexpr double error_margin = 0.85,
+  constexpr double error_margin = 0.7,
                    time_margin = 0.7;  // of a goal, that a forecast is held against
   constexpr double most_growth = 20.0; // of the time so far: the next run takes no longer
   constexpr double at_once =

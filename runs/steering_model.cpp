@@ -157,8 +157,12 @@ static double field_error(const MeasuredRun& run, const Knobs& knobs) {
     return square(e.form_factors) / noise_of_interpolated *
            std::pow(run.knobs.rays / rays_of_a_hit, 1.2) / samples_a_pixel(run, knobs.samples);
   }
-  const double direct = square(e.mesh_direct), rest = std::max(square(e.mesh) - direct, 0.0);
-  const bool edges = knobs.term == run.knobs.term; // or they have become exact
+  // Edges stay, or become exact. Of what is hardly more than they are, the rest is not known to less than a share of them.
+  constexpr double unknown = 0.1;
+  const bool edges = knobs.term == run.knobs.term;
+  const double direct = square(e.mesh_direct);
+  const double rest =
+      std::max(square(e.mesh) - direct, edges ? 0.0 : square(unknown * e.mesh_direct));
   return (edges ? direct * std::pow(elements, -0.5) : 0.0) +
          rest * std::pow(elements, -run.mesh_exponent) +
          square(e.form_factors) * std::pow(rays, -1.2) + square(e.mirror_tail);
