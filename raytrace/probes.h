@@ -13,8 +13,8 @@ struct ProbedPixels {
   std::vector<glm::vec3> radiance; ///< in the order of the list
   std::uint64_t rays = 0;          ///< of every kind
 };
-/// The pixels (x, y) that `render` would make with these settings: the same rays where light is interpolated, in other packets; with another draw of the samples at hits
-/// where it is computed there.
+/// The pixels (x, y) that `render` would make with these settings: the same rays where light is interpolated, in other packets; with
+/// another draw of the samples at hits where it is computed there.
 ProbedPixels render_pixels(const LightScene& light, const DiffuseField& field, const Camera& camera,
                            const RenderSettings& settings, std::span<const glm::ivec2> pixels);
 

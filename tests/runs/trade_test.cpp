@@ -49,7 +49,7 @@ std::set<std::string> knobs_of(const RunSettings& settings, const TradeScene& sc
 
 TEST(Knobs, AreAllTurned) {
   EXPECT_THAT(knobs_of({}, room),
-              ElementsAre("adaptive", "diffuse", "element-size", "form-factors", "interpolation",
+              ElementsAre("adaptive", "bends", "diffuse", "element-size", "form-factors", "interpolation",
                           "mirror-depth", "rays", "samples", "solver", "tolerance"));
   EXPECT_FALSE(knobs_of({}, {.area = 100.0, .mirrors = false}).contains("mirror-depth"));
 }
