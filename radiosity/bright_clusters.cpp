@@ -95,7 +95,6 @@ void search(ClusterSearch& context, const Block& block) {
 }
 
 void search_sides(ClusterSearch& context) {
-  context.found.clear();
   for (std::uint32_t s = 0; s < context.mesh.sides.size(); ++s) {
     const MeshSide& side = context.mesh.sides[s];
     if (!side.triangle) {
@@ -184,15 +183,11 @@ BrightClusters find_bright_clusters(const LightScene& light, const std::vector<R
   if (usual <= 0.0)
     return clusters;
 
-  // Blocks become less even until there are few enough; if that does not help, the noisiest are kept.
+  // Of too many the noisiest are kept. Uneven ones would be fewer, but the brightness of a wall beside a point is not that of its mean.
   clusters.worlds = first_worlds(light.worlds);
   const std::size_t most = settings.most / clusters.worlds.worlds.size();
   ClusterSearch context{mesh, reflected, settings.contrast * usual, settings.evenness, {}};
   search_sides(context);
-  while (context.found.size() > most && context.evenness < settings.least_even) {
-    context.evenness *= 2.0;
-    search_sides(context);
-  }
   if (context.found.size() > most) {
     std::stable_sort(context.found.begin(), context.found.end(),
                      [](const Candidate& a, const Candidate& b) { return a.noise > b.noise; });

@@ -1,10 +1,9 @@
 // Bright clusters: reflected light that is so uneven that gather rays would find it by chance (the spot a mirror throws on a floor, the
 // sill below a window). When vertices gather, such elements are treated as emitters: closed form times shadow rays, also through mirrors.
 //
-// An element is bright when its reflected radiosity exceeds `contrast` times the median over the
-// lit area. Bright neighbours of like radiosity
-// on one side are joined into blocks of root cells of a quad, or into cells of the forest. If there are more than `most` clusters they are made
-// coarser; beyond that those that would be noisiest are kept, and the rest is gathered. No path is in both: `owner` says which elements are taken from the source.
+// An element is bright when its reflected radiosity exceeds `contrast` times the median over the lit area. Bright neighbours of like radiosity
+// on one side are joined into blocks of root cells of a quad, or into cells of the forest. If there are more than `most` clusters
+// those that would be noisiest are kept, and the rest is gathered. No path is in both: `owned` says which elements are taken from the source.
 #pragma once
 
 #include "radiosity/light_scene.h"
@@ -15,8 +14,7 @@ namespace meninas {
 
 struct ClusterSettings {
   double contrast = 3.0;
-  double evenness = 1.5;   ///< largest over smallest radiosity within a cluster, to begin with
-  double least_even = 12;  ///< doubled up to about this while there are too many clusters
+  double evenness = 1.5;   ///< largest over smallest radiosity within a cluster, at most
   std::size_t most = 1024; ///< clusters times worlds they are looked at in
 };
 
