@@ -1,6 +1,8 @@
 // The field where something stands on a surface: as bright at the foot of a bright wall as it is there, on either side of its lines.
 #include "radiosity/contact_vertices.h"
+#include "radiosity/mesh_division.h"
 #include "radiosity/point_form_factor.h"
+#include "radiosity/vertex_places.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/scene_builder.h"
 
@@ -73,6 +75,38 @@ TEST(ContactVertices, EdgesAreFoundOnce) {
   ASSERT_EQ(edges.size(), 4U);
   for (const auto& [covered, exposed] : edges)
     EXPECT_NEAR(glm::distance(l->mesh.vertices[covered], l->mesh.vertices[exposed]), 0.25, 1e-12);
+}
+
+TEST(ContactVertices, HangingVerticesAreExposedWhereTheirEndsAreAndNeverCovered) {
+  Scene scene;
+  add_polygon(scene, "wall", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, diffuse(0.5));
+  const auto l = lit(std::move(scene), {.element_size = 0.25});
+  std::vector<std::uint8_t> marked(element_count(l->mesh), 0);
+  for (std::size_t e = 0; e < marked.size(); ++e)
+    marked[e] =
+        glm::distance(centre_of(l->mesh, static_cast<ElementId>(e)), Point3(0.375, 0.375, 0)) < 0.01
+            ? 1
+            : 0;
+  const ElementMesh mesh = divide_elements(l->mesh, l->surfaces, marked);
+  ASSERT_EQ(mesh.hanging.size(), 4U);
+  // All four edges from the middle of the divided element end at hanging vertices; two of these lose an end.
+  std::vector<std::uint8_t> valid(mesh.vertices.size(), 1);
+  const auto cover = [&](const Point3& x) {
+    for (std::size_t v = 0; v < valid.size(); ++v)
+      if (glm::distance(mesh.vertices[v], x) < 0.01)
+        valid[v] = 0;
+  };
+  cover({0.375, 0.375, 0});
+  EXPECT_EQ(contact_edges(mesh, valid).size(), 4U);
+  for (const HangingVertex& hanging : mesh.hanging)
+    valid[index(hanging.vertex)] = 0; // what they hold themselves does not matter
+  EXPECT_EQ(contact_edges(mesh, valid).size(), 4U);
+  cover({0.25, 0.25, 0});
+  std::size_t from_the_middle = 0;
+  for (const auto& [covered, exposed] : contact_edges(mesh, valid))
+    from_the_middle +=
+        glm::distance(mesh.vertices[covered], Point3(0.375, 0.375, 0)) < 0.01 ? 1 : 0;
+  EXPECT_EQ(from_the_middle, 2U);
 }
 
 constexpr double height = 0.4;

@@ -128,8 +128,10 @@ TEST(FieldRefinement, NoiseIsKnownAndNoReasonToDivide) {
   };
   const std::vector<double> weight(element_count(l->mesh), 1.0);
   const RefinementSettings settings{.error = 0.01, .most_levels = 4};
-  const SampledField field = refine_field(*l->light, {whole, told, everywhere}, weight, {}, settings),
-                     blind = refine_field(*l->light, {whole, whole, everywhere}, weight, {}, settings);
+  const SampledField field =
+                         refine_field(*l->light, {whole, told, everywhere}, weight, {}, settings),
+                     blind =
+                         refine_field(*l->light, {whole, whole, everywhere}, weight, {}, settings);
   EXPECT_LT(element_count(field.mesh), 2 * element_count(l->mesh));
   EXPECT_GT(element_count(blind.mesh), 100 * element_count(l->mesh));
   // Even over [-s, s]: the mean square is s^2 / 3; light is 1.5 on average, its root mean square 1.53.

@@ -48,9 +48,9 @@ std::set<std::string> knobs_of(const RunSettings& settings, const TradeScene& sc
 }
 
 TEST(Knobs, AreAllTurned) {
-  EXPECT_THAT(knobs_of({}, room),
-              ElementsAre("adaptive", "bends", "diffuse", "element-size", "form-factors", "interpolation",
-                          "mirror-depth", "rays", "samples", "solver", "tolerance"));
+  EXPECT_THAT(knobs_of({}, room), ElementsAre("adaptive", "bends", "diffuse", "element-size",
+                                              "form-factors", "interpolation", "mirror-depth",
+                                              "rays", "samples", "solver", "tolerance"));
   EXPECT_FALSE(knobs_of({}, {.area = 100.0, .mirrors = false}).contains("mirror-depth"));
 }
 
@@ -133,8 +133,8 @@ TEST(Sweep, RepeatsItsFront) {
   MadeUp made_up;
   const auto points = made_up.sweep_for(20.0);
   const auto front = pareto_front(points);
-  const auto repeated = std::ranges::count_if(
-      front, [&](std::size_t k) { return points[k].seconds.size() >= 2; });
+  const auto repeated =
+      std::ranges::count_if(front, [&](std::size_t k) { return points[k].seconds.size() >= 2; });
   EXPECT_GE(2 * static_cast<std::size_t>(repeated), front.size())
       << "the faster half at least: a fifth of the budget is for that";
 }
