@@ -1,7 +1,6 @@
 #include "raytrace/probe_choice.h"
 
-#include "raytrace/sample_choice.h"
-#include "raytrace/tiles.h"
+#include "raytrace/probes.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -61,12 +60,7 @@ static Image bend_picture(const LightScene& scene, const DiffuseField& field, Fi
   visible.background = glm::vec3(0.0F);
   for (SideShading& side : visible.shading)
     side.emitted = glm::vec3(0.0F);
-  Image image(settings.width, settings.height);
-  trace_picture(scene, visible, nullptr, camera, settings, {first_samples(settings)}, {},
-                [&](int x, int y, const SeenRadiance& seen) {
-                  image.at(x, y) = seen[0] + seen[1] + seen[2];
-                });
-  return image;
+  return first_picture(scene, visible, camera, settings);
 }
 
 namespace {

@@ -21,6 +21,16 @@ ProbedPixels render_pixels(const LightScene& light, const DiffuseField& field, c
   return probed;
 }
 
+Image first_picture(const LightScene& light, const VisibleLight& visible, const Camera& camera,
+                    const RenderSettings& settings) {
+  Image image(settings.width, settings.height);
+  trace_picture(light, visible, nullptr, camera, settings, {first_samples(settings)}, {},
+                [&](int x, int y, const SeenRadiance& seen) {
+                  image.at(x, y) = seen[0] + seen[1] + seen[2];
+                });
+  return image;
+}
+
 /// The emission that pixels show.
 static Image emission_picture(const LightScene& light, const DiffuseField& field,
                               const Camera& camera, const RenderSettings& settings) {
@@ -28,12 +38,7 @@ static Image emission_picture(const LightScene& light, const DiffuseField& field
   glow.part = ReflectedPart::none;
   for (SideShading& side : glow.shading)
     side.albedo_over_pi = glm::vec3(0.0F);
-  Image image(settings.width, settings.height);
-  trace_picture(light, glow, nullptr, camera, settings, {first_samples(settings)}, {},
-                [&](int x, int y, const SeenRadiance& seen) {
-                  image.at(x, y) = seen[0] + seen[1] + seen[2];
-                });
-  return image;
+  return first_picture(light, glow, camera, settings);
 }
 
 std::vector<std::uint8_t> emitter_pixels(const LightScene& light, const DiffuseField& field,

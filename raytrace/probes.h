@@ -1,6 +1,7 @@
 // Single pixels of a picture, and what of it shows emitters: what errors are estimated and measured on.
 #pragma once
 
+#include "raytrace/field_shading.h"
 #include "raytrace/render.h"
 
 #include <cstdint>
@@ -17,6 +18,10 @@ struct ProbedPixels {
 /// another draw of the samples at hits where it is computed there.
 ProbedPixels render_pixels(const LightScene& light, const DiffuseField& field, const Camera& camera,
                            const RenderSettings& settings, std::span<const glm::ivec2> pixels);
+
+/// What the first samples of every pixel show of that light, interpolated.
+Image first_picture(const LightScene& light, const VisibleLight& visible, const Camera& camera,
+                    const RenderSettings& settings);
 
 /// By pixel, row by row: 1 where emitted light is more than a twentieth of what `picture` shows, or next to such a pixel. Lamps are far
 /// brighter than what they light: an edge of one, a hundredth of a pixel off, is an error that no light transport made. `samples` per

@@ -153,6 +153,18 @@ TEST(PictureError, IsThatOfTheField) {
   EXPECT_NEAR(estimate.total, std::hypot(field, estimate.pixels, estimate.solver), 1e-9);
 }
 
+TEST(PictureError, OfFormFactorsIsNotThatOfShadowRays) {
+  // One shadow ray a hit makes light from the source noisy, that of elements as it was. Few pixels leave some per cent.
+  TwoPassSettings settings = quick();
+  const Lit lit(lit_room(), settings);
+  const Image picture = lit.picture(settings.render);
+  const double many = lit.error(settings, picture).form_factors;
+  settings.pass_one.direct.shadow_rays = settings.pass_one.direct.penumbra_rays = 1;
+  const double one = lit.error(settings, picture).form_factors;
+  EXPECT_GT(many, 0.0);
+  EXPECT_NEAR(one, many, 0.1 * many);
+}
+
 TEST(PictureError, OfCameraRaysIsWhatFewOfThemMiss) {
   TwoPassSettings settings = quick();
   const Lit lit(lit_room(), settings);
