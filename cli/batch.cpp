@@ -2,7 +2,6 @@
 #include "cli/common_options.h"
 #include "cli/settings.h"
 #include "cli/values.h"
-#include "image/image_file.h"
 #include "runs/batch/batch_run.h"
 #include "runs/progress_line.h"
 
@@ -123,9 +122,6 @@ void run(BatchOptions& options) {
   const BatchRequest& request = options.request;
   const auto jobs = read_batch(request.jobs_file, parse_render_settings);
   Console console(options.verbosity);
-  if (options.task == BatchTask::run) {
-    preload_image_io();
-  }
   auto pictures = plan_batch(request.jobs_file, jobs, request.gltf);
   if (options.task == BatchTask::outlook) {
     print(batch_outlook(request, pictures));

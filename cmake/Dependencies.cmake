@@ -10,7 +10,9 @@ find_package(TinyGLTF REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(Eigen3 REQUIRED)
+find_package(OpenEXR REQUIRED)
 find_package(OpenImageIO REQUIRED)
+find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
 
 # Debian's OpenImageIO target lists an include directory that its package does not install.

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace meninas::image_io {
+namespace meninas::decoder {
 
 namespace {
 
@@ -124,4 +124,4 @@ void check_exr_header(std::string_view exr, const Limits& limits) {
   check_size(read_header(reader), exr.size(), limits);
 }
 
-} // namespace meninas::image_io
+} // namespace meninas::decoder

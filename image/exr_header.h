@@ -4,13 +4,13 @@
 // it reads any of them: a damaged header of a few bytes would otherwise ask for gigabytes.
 #pragma once
 
-#include "image/image_io.h"
+#include "image/decoder_seam.h"
 
 #include <string_view>
 
-namespace meninas::image_io {
+namespace meninas::decoder {
 
 /// Throws std::runtime_error when an attribute or the table of chunks cannot fit into the file, or a side exceeds the limit.
 void check_exr_header(std::string_view exr, const Limits& limits);
 
-} // namespace meninas::image_io
+} // namespace meninas::decoder

@@ -1,7 +1,9 @@
 #include "image/image_file.h"
 
+#include "image/decoder_loader.h"
 #include "image/display.h"
-#include "image/image_io_loader.h"
+#include "image/exr_encoding.h"
+#include "image/png_encoding.h"
 #include "image/whole_file.h"
 #include "scenes/errors.h"
 #include "scenes/types.h"
@@ -22,11 +24,9 @@ namespace meninas {
 
 namespace fs = std::filesystem;
 
-static constexpr std::string_view attribute_prefix = "meninas:";
-static constexpr const char* software = "Meninas " MENINAS_VERSION;
-static constexpr image_io::Limits limits{.side = 1 << 16, .values = std::size_t{1} << 30};
+static constexpr decoder::Limits limits{.side = 1 << 16, .values = std::size_t{1} << 30};
 
-void preload_image_io() { image_io::preload(); }
+void preload_picture_reader() { decoder::preload(); }
 
 // --- Writing
 
@@ -81,16 +81,16 @@ static void expect_attributes(const Attributes& attributes) {
   }
 }
 
-/// What the module encoded; the reason it gives when it could not is the user's to read.
-static std::vector<std::byte> take_bytes(image_io::Encoded encoded, const std::string& file) {
-  if (encoded.owner == nullptr)
-    throw OutputError(file, "", fmt::format("cannot write: {}", encoded.error));
-  const auto release = [](image_io::Encoded* owned) {
-    image_io::module_table().release_encoded(owned);
-  };
-  const std::unique_ptr<image_io::Encoded, decltype(release)> owner(&encoded, release);
-  const auto bytes = std::as_bytes(std::span(encoded.bytes, encoded.size));
-  return {bytes.begin(), bytes.end()};
+/// Runs an encoder; the reason it gives when it cannot is the user's to read.
+template <typename Encode>
+static std::vector<std::byte> encoded_as(const std::string& file, Encode encode) {
+  try {
+    return encode();
+  } catch (const std::bad_alloc&) {
+    throw OutputError(file, "", "cannot write: not enough memory");
+  } catch (const std::exception& error) {
+    throw OutputError(file, "", fmt::format("cannot write: {}", error.what()));
+  }
 }
 
 void write_exr(const fs::path& file, const Image& picture, std::span<const Layer> layers,
@@ -101,38 +101,15 @@ void write_exr(const fs::path& file, const Image& picture, std::span<const Layer
   if (picture_format(file) != PictureFormat::exr)
     throw OutputError(file.string(), "", "an EXR's name must end in .exr");
 
-  std::vector<std::string> texts;
-  texts.reserve(layers.size() + attributes.size());
-  std::vector<image_io::RgbPlanes> planes{{"", &picture.pixels.front().r}};
-  for (const auto& layer : layers)
-    planes.push_back({texts.emplace_back(layer.name + ".").c_str(), &layer.image.pixels.front().r});
-  std::vector<image_io::TextPair> header;
-  for (const auto& [key, value] : attributes)
-    if (!value.empty())
-      header.push_back(
-          {texts.emplace_back(std::string(attribute_prefix) + key).c_str(), value.c_str()});
-
-  const image_io::ExrRequest request{
-      .width = picture.width,
-      .height = picture.height,
-      .storage = type == PixelType::half ? image_io::Storage::half : image_io::Storage::float32,
-      .planes = planes.data(),
-      .plane_count = planes.size(),
-      .attributes = header.data(),
-      .attribute_count = header.size(),
-      .software = software};
-  write_whole_file(file, take_bytes(image_io::module_table().encode_exr(&request), file.string()));
+  write_whole_file(file, encoded_as(file.string(),
+                                    [&] { return encode_exr(picture, layers, type, attributes); }));
 }
 
 std::vector<std::byte> encode_png(const Image& picture, double exposure, Compression compression) {
   expect_picture(picture);
-  const auto code_values = display_codes(picture, exposure);
-  const image_io::PngRequest request{.width = picture.width,
-                                     .height = picture.height,
-                                     .rgb = code_values.data(),
-                                     .effort = compression == Compression::small ? 6 : 1,
-                                     .software = software};
-  return take_bytes(image_io::module_table().encode_png(&request), "PNG");
+  const auto codes = display_codes(picture, exposure);
+  return encoded_as("PNG",
+                    [&] { return encode_png(picture.width, picture.height, codes, compression); });
 }
 
 void write_png(const fs::path& file, const Image& picture, double exposure) {
@@ -151,12 +128,12 @@ void check_writable_image(const fs::path& file) {
 namespace {
 
 struct ReleaseDecoded {
-  void operator()(image_io::Decoded* decoded) const {
-    image_io::module_table().release_decoded(decoded);
+  void operator()(decoder::Decoded* decoded) const {
+    decoder::module_table().release_decoded(decoded);
     delete decoded;
   }
 };
-using DecodedPicture = std::unique_ptr<image_io::Decoded, ReleaseDecoded>;
+using DecodedPicture = std::unique_ptr<decoder::Decoded, ReleaseDecoded>;
 
 /// Where a colour's components are among the channels of a file.
 using Components = std::array<int, 3>;
@@ -165,7 +142,7 @@ using Components = std::array<int, 3>;
 /// of them, but only 256 or 65536 different ones.
 class ChannelReader {
 public:
-  ChannelReader(const image_io::Decoded& decoded, Encoding encoding) : decoded_(decoded) {
+  ChannelReader(const decoder::Decoded& decoded, Encoding encoding) : decoded_(decoded) {
     if (encoding == Encoding::linear || decoded.code_values == 0)
       return;
     const int last = decoded.code_values;
@@ -185,7 +162,7 @@ public:
   }
 
 private:
-  const image_io::Decoded& decoded_;
+  const decoder::Decoded& decoded_;
   std::vector<float> linear_;
 };
 
@@ -193,14 +170,14 @@ private:
 
 static DecodedPicture decode(std::span<const std::byte> bytes, const std::string& name) {
   DecodedPicture decoded(
-      new image_io::Decoded(image_io::module_table().decode(bytes.data(), bytes.size(), limits)));
+      new decoder::Decoded(decoder::module_table().decode(bytes.data(), bytes.size(), limits)));
   if (decoded->owner == nullptr)
     throw InputError(name, "", fmt::format("cannot read the picture: {}", decoded->error));
   return decoded;
 }
 
 /// Channel number by name. Some decoders leave grey pictures unnamed, so one or two channels are grey (and alpha).
-static std::map<std::string, int, std::less<>> channel_numbers(const image_io::Decoded& decoded) {
+static std::map<std::string, int, std::less<>> channel_numbers(const decoder::Decoded& decoded) {
   std::map<std::string, int, std::less<>> numbers;
   for (int channel = 0; channel < decoded.channels; ++channel)
     numbers.emplace(decoded.channel_names[channel], channel);
@@ -247,7 +224,7 @@ static Components take_picture(std::map<std::string, int, std::less<>>& channels
   return components;
 }
 
-static Image extract(const image_io::Decoded& decoded, const ChannelReader& reader,
+static Image extract(const decoder::Decoded& decoded, const ChannelReader& reader,
                      const Components& components) {
   Image image(decoded.width, decoded.height);
   for (std::size_t pixel = 0; pixel < image.pixels.size(); ++pixel)

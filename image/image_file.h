@@ -1,5 +1,6 @@
-// Pictures in and out of files. (The only user of OpenImageIO, in one shared module that is opened with the first
-// picture, because linking OpenImageIO costs more at every start than a draft picture takes.)
+// Pictures in and out of files. They are written by the libraries of their formats, OpenEXR and libpng, and read, from
+// many formats, by OpenImageIO, in one shared module that is opened with the first picture that is read, because linking
+// OpenImageIO costs more at every start than a draft picture takes.
 //
 // A file appears whole or not at all: it is encoded in memory, written under a temporary name in the same folder and
 // renamed. Throws OutputError when it cannot be written, InputError when it cannot be read, each naming the file.
@@ -12,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,10 +24,11 @@ enum class PixelType { half, float32 };
 /// Key and value written into the file's header (program version, settings, samples, ...), as `meninas:KEY`.
 /// Keys are not empty and different from each other; neither part holds a zero byte. Empty values are not written.
 using Attributes = std::vector<std::pair<std::string, std::string>>;
+inline constexpr std::string_view attribute_prefix = "meninas:";
 
-/// Opens the module on a thread of its own, so that it is there when the picture has been computed.
-/// Worth calling once it is clear that a picture will be read or written; never needed.
-void preload_image_io();
+/// Opens the module that reads on a thread of its own, so that it is there when it is needed.
+/// Worth calling once it is clear that a picture will be read; never needed.
+void preload_picture_reader();
 
 /// What an output name asks for, by its extension (in any case). Throws OutputError for any other.
 enum class PictureFormat { exr, png };
@@ -34,8 +37,9 @@ PictureFormat picture_format(const std::filesystem::path& file);
 /// Linear EXR of one part: R, G, B of the picture, then NAME.R, NAME.G, NAME.B of each layer, compressed without loss.
 /// Layers have the picture's size and names of their own. No value may be NaN; values beyond the largest of the
 /// type (65504 for half), infinities too, become that largest value.
-void write_exr(const std::filesystem::path& file, const Image& picture, std::span<const Layer> layers = {},
-               PixelType type = PixelType::half, const Attributes& attributes = {});
+void write_exr(const std::filesystem::path& file, const Image& picture,
+               std::span<const Layer> layers = {}, PixelType type = PixelType::half,
+               const Attributes& attributes = {});
 
 /// sRGB-encoded 8-bit PNG of the picture times 2^exposure, clipped at white and rounded to the nearest code value.
 /// No value may be NaN.
@@ -50,10 +54,11 @@ enum class Encoding { srgb, linear };
 /// Layers and attributes come sorted by name, as an EXR stores them.
 struct ImageFile {
   Image picture;
-  std::vector<Layer> layers;                 ///< every NAME with NAME.R, NAME.G and NAME.B
-  Attributes attributes;                     ///< those that write_exr wrote
-  std::vector<std::string> ignored_channels; ///< all others, alpha among them, by the name they have in the file
-  Encoding encoding = Encoding::linear;      ///< of the file; the values here are linear
+  std::vector<Layer> layers; ///< every NAME with NAME.R, NAME.G and NAME.B
+  Attributes attributes;     ///< those that write_exr wrote
+  std::vector<std::string>
+      ignored_channels; ///< all others, alpha among them, by the name they have in the file
+  Encoding encoding = Encoding::linear; ///< of the file; the values here are linear
 };
 /// EXR and HDR as they are; PNG and JPEG decoded from sRGB to linear. Grey becomes R = G = B.
 /// The kind is recognised by the content. Refuses more than 65536 pixels on a side and more than 2^30 values in all.

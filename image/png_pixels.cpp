@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace meninas::image_io {
+namespace meninas::decoder {
 
 /// What of the chunks beside the pixels means something for them; of the rest libpng would speak on stderr.
 static bool belongs(const PngHeader& header, std::string_view type, std::size_t length,
@@ -67,4 +67,4 @@ std::vector<std::uint8_t> png_pixel_chunks(std::string_view png) {
   return pixels;
 }
 
-} // namespace meninas::image_io
+} // namespace meninas::decoder

@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
-namespace meninas::image_io {
+namespace meninas::decoder {
 
 /// The PNG with its chunks IHDR, PLTE, tRNS, IDAT and IEND alone.
 /// Throws std::runtime_error when one is cut off, damaged (by its checksum) or missing. Those that come twice, too late, or mean nothing to
 /// pixels of their kind are left out.
 std::vector<std::uint8_t> png_pixel_chunks(std::string_view png);
 
-} // namespace meninas::image_io
+} // namespace meninas::decoder

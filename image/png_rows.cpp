@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace meninas::image_io {
+namespace meninas::decoder {
 
 std::uint32_t checksum_of(std::string_view bytes) {
   return static_cast<std::uint32_t>(
@@ -168,4 +168,4 @@ void check_png_rows(std::string_view png) {
     throw std::runtime_error("the PNG ends too early");
 }
 
-} // namespace meninas::image_io
+} // namespace meninas::decoder

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace meninas::image_io {
+namespace meninas::decoder {
 
 /// PNG specification, 11.2.2.
 struct PngHeader {
@@ -33,4 +33,4 @@ PngHeader png_header(std::string_view bytes);
 /// Throws std::runtime_error unless the chunks IDAT, which are whole, hold every row, with a filter that exists. Takes no memory for the rows.
 void check_png_rows(std::string_view png);
 
-} // namespace meninas::image_io
+} // namespace meninas::decoder

@@ -80,7 +80,6 @@ void compare_run(const CompareRequest& request, const RunEvents& events) {
   const ThreadLimit limit(request.settings.threads);
   RunFigures figures;
   figures.threads = limit.threads();
-  preload_image_io();
 
   Scene scene = load_scene(request.scene, request.settings);
   const Camera camera = choose_camera(scene, request.camera, events);

@@ -1,5 +1,6 @@
 #include "runs/preparation.h"
 
+#include "image/image_file.h"
 #include "scenes/gltf.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,11 @@ Scene under_background(Scene scene, const RunSettings& settings) {
 }
 
 Scene load_scene(const std::filesystem::path& file, const RunSettings& settings) {
-  return under_background(load_gltf(file, settings.gltf), settings);
+  Scene scene = load_gltf(file, settings.gltf);
+  if (!scene.textures.empty()) {
+    preload_picture_reader();
+  }
+  return under_background(std::move(scene), settings);
 }
 
 std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,

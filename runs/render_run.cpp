@@ -118,7 +118,7 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
 
 /// What is left to do once there is a picture.
 double seconds_to_write(PictureSize size) {
-  constexpr double at_least = 0.1, a_pixel = 2e-7; // of EXR and PNG
+  constexpr double at_least = 0.01, a_pixel = 2e-7; // of EXR and PNG
   return at_least + a_pixel * size.width * size.height;
 }
 
@@ -137,7 +137,6 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   const Camera camera = choose_camera(scene, request.camera, events);
   const PictureSize size = choose_size(request.size, camera);
   check_memory(scene, request.settings, size);
-  preload_image_io();
   figures.seconds.load = watch.lap();
 
   const auto render_picture = [&] {

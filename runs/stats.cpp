@@ -34,14 +34,14 @@ Json solve_json(const SolverResult& solver, const std::optional<LinkFigures>& li
     channel_error_bounds.push_back(as_json(bound));
   }
   Json json{{"solver", name_of(solver.method)},
-          {"iterations", solver.iterations},
-          {"residual", solver.residual},
-          {"error_bound", solver.error_bound},
-          {"converged", solver.converged},
-          {"residuals", solver.residuals},
-          {"bands", solver.bands},
-          {"channel_residuals", std::move(channel_residuals)},
-          {"channel_error_bounds", std::move(channel_error_bounds)}};
+            {"iterations", solver.iterations},
+            {"residual", solver.residual},
+            {"error_bound", solver.error_bound},
+            {"converged", solver.converged},
+            {"residuals", solver.residuals},
+            {"bands", solver.bands},
+            {"channel_residuals", std::move(channel_residuals)},
+            {"channel_error_bounds", std::move(channel_error_bounds)}};
   if (links) {
     json["receivers"] = links->receivers;
     json["links"] = links->links;

@@ -1,5 +1,6 @@
 #include "runs/batch/batch_run.h"
 
+#include "image/image_file.h"
 #include "runs/batch/interruption.h"
 #include "runs/memory.h"
 #include "runs/resources.h"
@@ -10,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <map>
@@ -145,13 +147,22 @@ void conclude(const Batch& batch) {
   }
 }
 
+/// What is loaded with the first texture counts among what was there before the work.
+void load_picture_reader() {
+  decode_image(encode_png(Image(1, 1), 0.0), Encoding::srgb, "one pixel");
+}
+
 } // namespace
 
 BatchReport batch_run(const BatchRequest& request, std::vector<BatchPicture> pictures,
                       const BatchEvents& events) {
   const ThreadLimit limit(request.threads);
-  // What is loaded with the first picture counts among what was there before the work.
-  encode_png(Image(1, 1), 0.0);
+  const bool textured = std::ranges::any_of(pictures, [](const BatchPicture& picture) {
+    return picture.facts && picture.facts->sizes.texture_bytes > 0;
+  });
+  if (textured) {
+    load_picture_reader();
+  }
   Batch batch(request, std::move(pictures), limit.threads(), events);
   {
     const Interruption interruption([&](int signal) { stop(batch, signal); });

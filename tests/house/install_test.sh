@@ -26,20 +26,21 @@ find_package(meninas 0.1 REQUIRED)
 add_executable(consumer consumer.cpp)
 target_link_libraries(consumer PRIVATE meninas::runs)
 END
-# Through the image module too, which the program opens at run time.
+# Through the module that reads pictures too, which the program opens at run time.
 cat >"$scratch/consumer/consumer.cpp" <<'END'
 #include "image/image_file.h"
 #include "raytrace/two_pass.h"
 
 int main(int, char** arguments) {
   meninas::write_png(arguments[1], meninas::Image(4, 4), 0.0);
+  return meninas::read_image(arguments[1]).picture.width == 4 ? 0 : 1;
 }
 END
 flags=
 if [[ -n $sanitize ]]; then
   flags=-fsanitize=$sanitize
   # The sanitizer opens modules in the program's place, and so without the program's search path.
-  LD_LIBRARY_PATH=$(dirname "$(find "$prefix" -name meninas_image_io.so)")
+  LD_LIBRARY_PATH=$(dirname "$(find "$prefix" -name meninas_decoder.so)")
   export LD_LIBRARY_PATH
 fi
 cmake -S "$scratch/consumer" -B "$scratch/consumer/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \

@@ -42,6 +42,8 @@ constexpr std::array wrapped_libraries = {
     WrappedLibrary{"Embree", "embree", "scenes"},
     WrappedLibrary{"tinygltf", "tiny_gltf", "scenes"},
     WrappedLibrary{"OpenImageIO", "OpenImageIO/", "image"},
+    WrappedLibrary{"OpenEXR", "OpenEXR/", "image"},
+    WrappedLibrary{"libpng", "png.h", "image"},
 };
 
 std::string folder_of(std::string_view path) {

@@ -1,4 +1,4 @@
-#include "image/image_io_loader.h"
+#include "image/decoder_loader.h"
 
 #include "scenes/errors.h"
 
@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-namespace meninas::image_io {
+namespace meninas::decoder {
 
 namespace fs = std::filesystem;
 
-static constexpr const char* module_name = "meninas_image_io.so";
+static constexpr const char* module_name = "meninas_decoder.so";
 
 /// The build tree and an installed tree agree on where the module is, seen from a folder above the program:
 /// in LIBDIR/meninas. So nothing but the program's own place is needed to find it, and both trees can be moved.
@@ -45,14 +45,12 @@ static const Table* open_module() {
   void* module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (module == nullptr) {
     const char* reason = dlerror();
-    throw InputError(
-        "", "", fmt::format("cannot open the module that reads and writes pictures: {}", reason));
+    throw InputError("", "", fmt::format("cannot open the module that reads pictures: {}", reason));
   }
   const auto entry = reinterpret_cast<EntryPoint>(dlsym(module, entry_point));
   const Table* table = entry == nullptr ? nullptr : entry();
   if (table == nullptr || table->seam_version != seam_version)
-    throw InputError(file.string(), "",
-                     "the module that reads and writes pictures belongs to another build");
+    throw InputError(file.string(), "", "the module that reads pictures belongs to another build");
   return table;
 }
 
@@ -73,4 +71,4 @@ const Table& module_table() {
   return table;
 }
 
-} // namespace meninas::image_io
+} // namespace meninas::decoder

@@ -1,9 +1,9 @@
-// Opens the module of image_io.h, once, when the first picture needs it.
+// Opens the module of decoder_seam.h, once, when the first picture that is read needs it.
 #pragma once
 
-#include "image/image_io.h"
+#include "image/decoder_seam.h"
 
-namespace meninas::image_io {
+namespace meninas::decoder {
 
 /// Starts opening the module on a thread of its own and returns at once.
 void preload();
@@ -12,4 +12,4 @@ void preload();
 /// Throws InputError when it is missing, does not load or comes from another build.
 const Table& module_table();
 
-} // namespace meninas::image_io
+} // namespace meninas::decoder

@@ -1,6 +1,6 @@
-// The module behind image_io.h, and the only user of OpenImageIO.
+// The module behind decoder_seam.h, and the only user of OpenImageIO.
+#include "image/decoder_seam.h"
 #include "image/exr_header.h"
-#include "image/image_io.h"
 #include "image/png_pixels.h"
 #include "image/png_rows.h"
 
@@ -20,10 +20,8 @@
 #include <utility>
 #include <vector>
 
-namespace meninas::image_io {
+namespace meninas::decoder {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
 
 struct DecodedStorage {
   std::unique_ptr<float[]> pixels;
@@ -188,106 +186,12 @@ void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) 
   result.owner = storage.release();
 }
 
-OIIO::ImageSpec exr_spec(const ExrRequest& request) {
-  const auto type = request.storage == Storage::half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
-  OIIO::ImageSpec spec(request.width, request.height, static_cast<int>(3 * request.plane_count),
-                       type);
-  spec.channelnames.clear();
-  for (std::size_t k = 0; k < request.plane_count; ++k)
-    for (const char* component : {"R", "G", "B"})
-      spec.channelnames.push_back(request.planes[k].prefix + std::string(component));
-  spec.attribute("compression", "zip");
-  spec.attribute("oiio:ColorSpace", "Linear");
-  spec.attribute("Software", request.software);
-  // Without a date of its own the header would get the time of day, and the same picture two different files.
-  spec.attribute("DateTime", "");
-  for (std::size_t k = 0; k < request.attribute_count; ++k)
-    spec.attribute(request.attributes[k].key, request.attributes[k].value);
-  return spec;
-}
-
-/// The planes side by side for some rows, clipped to what the file's type can hold: an infinity would poison every
-/// filter that touches it later.
-void gather_rows(const ExrRequest& request, int first, int last, std::vector<float>& rows) {
-  const float largest =
-      request.storage == Storage::half ? 65504.0F : std::numeric_limits<float>::max();
-  const auto width = static_cast<std::size_t>(request.width);
-  const auto begin = static_cast<std::size_t>(first) * width;
-  const auto count = static_cast<std::size_t>(last - first) * width;
-  const auto stride = 3 * request.plane_count;
-  rows.resize(count * stride);
-  for (std::size_t k = 0; k < request.plane_count; ++k) {
-    const float* source = request.planes[k].rgb + 3 * begin;
-    float* target = rows.data() + 3 * k;
-    for (std::size_t pixel = 0; pixel < count; ++pixel)
-      for (std::size_t c = 0; c < 3; ++c)
-        target[pixel * stride + c] = std::clamp(source[3 * pixel + c], -largest, largest);
-  }
-}
-
-void hand_over(Encoded& result, std::unique_ptr<Bytes> bytes) {
-  result.bytes = bytes->data();
-  result.size = bytes->size();
-  result.owner = bytes.release();
-}
-
-void encode_exr_into(Encoded& result, const ExrRequest& request) {
-  auto bytes = std::make_unique<Bytes>();
-  OIIO::Filesystem::IOVecOutput writer(*bytes);
-  auto output = OIIO::ImageOutput::create("exr");
-  if (!output)
-    fail(OIIO::geterror(), "cannot encode EXR");
-  output->set_ioproxy(&writer);
-  if (!output->open(file_name, exr_spec(request)))
-    fail(output->geterror(), "cannot encode EXR");
-
-  // A band of rows at a time keeps the interleaved copy small, and is enough for parallel compression.
-  constexpr int band = 256;
-  std::vector<float> rows;
-  for (int first = 0; first < request.height; first += band) {
-    const int last = std::min(first + band, request.height);
-    gather_rows(request, first, last, rows);
-    if (!output->write_scanlines(first, last, 0, OIIO::TypeFloat, rows.data()))
-      fail(output->geterror(), "cannot encode EXR");
-  }
-  if (!output->close())
-    fail(output->geterror(), "cannot encode EXR");
-  hand_over(result, std::move(bytes));
-}
-
-void encode_png_into(Encoded& result, const PngRequest& request) {
-  auto bytes = std::make_unique<Bytes>();
-  OIIO::Filesystem::IOVecOutput writer(*bytes);
-  auto output = OIIO::ImageOutput::create("png");
-  if (!output)
-    fail(OIIO::geterror(), "cannot encode PNG");
-  OIIO::ImageSpec spec(request.width, request.height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("Software", request.software);
-  spec.attribute("png:compressionLevel", request.effort);
-  output->set_ioproxy(&writer);
-  if (!output->open(file_name, spec) || !output->write_image(OIIO::TypeDesc::UINT8, request.rgb) ||
-      !output->close())
-    fail(output->geterror(), "cannot encode PNG");
-  hand_over(result, std::move(bytes));
-}
-
-/// OpenEXR compresses by threads of its own, as many as the machine has unless told otherwise; -1 is none.
+/// OpenEXR decompresses by threads of its own, as many as the machine has unless told otherwise; -1 is none.
 void use_threads(int count) {
   static std::atomic<int> used{0};
   if (used.exchange(count) != count)
     OIIO::attribute("exr_threads", count > 1 ? count : -1);
 }
-
-Encoded encode_exr(const ExrRequest* request) {
-  return guarded<Encoded>([&](Encoded& result) { encode_exr_into(result, *request); });
-}
-
-Encoded encode_png(const PngRequest* request) {
-  return guarded<Encoded>([&](Encoded& result) { encode_png_into(result, *request); });
-}
-
-void release_encoded(Encoded* encoded) { delete static_cast<Bytes*>(encoded->owner); }
 
 Decoded decode(const void* bytes, std::size_t size, Limits limits) {
   return guarded<Decoded>([&](Decoded& result) {
@@ -297,13 +201,11 @@ Decoded decode(const void* bytes, std::size_t size, Limits limits) {
 
 void release_decoded(Decoded* decoded) { delete static_cast<DecodedStorage*>(decoded->owner); }
 
-constexpr Table table{seam_version,    use_threads, encode_exr,     encode_png,
-                      release_encoded, decode,      release_decoded};
+constexpr Table table{seam_version, use_threads, decode, release_decoded};
 
 } // namespace
-} // namespace meninas::image_io
+} // namespace meninas::decoder
 
-extern "C" __attribute__((visibility("default"))) const meninas::image_io::Table*
-meninas_image_io() {
-  return &meninas::image_io::table;
+extern "C" __attribute__((visibility("default"))) const meninas::decoder::Table* meninas_decoder() {
+  return &meninas::decoder::table;
 }
