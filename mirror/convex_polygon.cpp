@@ -10,29 +10,27 @@ ConvexPolygon::ConvexPolygon(std::span<const Point3> corners) : size(corners.siz
   std::copy(corners.begin(), corners.end(), vertices.begin());
 }
 
-ConvexPolygon& ConvexPolygon::operator=(const ConvexPolygon& other) {
-  size = other.size;
-  std::copy_n(other.vertices.begin(), size, vertices.begin());
-  return *this;
-}
+namespace {
 
-ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec3& normal) {
+using Distances = std::array<double, ConvexPolygon::capacity>;
+enum class Kept { nothing, all, part };
+
+/// What a clip keeps. Most keep all or nothing; only a polygon that straddles the plane is rebuilt.
+Kept measure(const ConvexPolygon& polygon, const Point3& origin, const Vec3& normal,
+             Distances& distance) {
   if (polygon.empty())
-    return {};
-
-  // Most clips keep all or nothing; only a polygon that straddles the plane is rebuilt.
-  std::array<double, ConvexPolygon::capacity> distance;
+    return Kept::nothing;
   bool any_inside = false, any_outside = false;
   for (std::size_t k = 0; k < polygon.size; ++k) {
     distance[k] = glm::dot(normal, polygon.vertices[k] - origin);
     any_inside |= distance[k] > 0.0;
     any_outside |= distance[k] < 0.0;
   }
-  if (!any_outside)
-    return polygon;
-  if (!any_inside)
-    return {};
+  return !any_outside ? Kept::all : any_inside ? Kept::part : Kept::nothing;
+}
 
+/// The part of positive distance of a polygon that has corners on both sides.
+ConvexPolygon positive_part(const ConvexPolygon& polygon, const Distances& distance) {
   const auto next_of = [&polygon](std::size_t k) { return k + 1 < polygon.size ? k + 1 : 0; };
   const auto crosses = [&distance](std::size_t a, std::size_t b) {
     return (distance[a] > 0.0 && distance[b] < 0.0) || (distance[a] < 0.0 && distance[b] > 0.0);
@@ -58,7 +56,32 @@ ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec
       part.push_back(glm::mix(polygon.vertices[k], polygon.vertices[next], t));
     }
   }
-  return part.empty() ? ConvexPolygon{} : part;
+  if (part.empty())
+    part.size = 0;
+  return part;
+}
+
+} // namespace
+
+ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec3& normal) {
+  Distances distance;
+  switch (measure(polygon, origin, normal, distance)) {
+  case Kept::nothing:
+    return {};
+  case Kept::all:
+    return polygon;
+  default:
+    return positive_part(polygon, distance);
+  }
+}
+
+void clip_in_place(ConvexPolygon& polygon, const Point3& origin, const Vec3& normal) {
+  Distances distance;
+  const Kept kept = measure(polygon, origin, normal, distance);
+  if (kept == Kept::nothing)
+    polygon.size = 0;
+  else if (kept == Kept::part)
+    polygon = positive_part(polygon, distance);
 }
 
 namespace {
@@ -97,7 +120,7 @@ ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
     const Vec3 a = from - apex, b = to - apex;
     from = to;
     const Vec3 inward = side > 0.0 ? glm::cross(a, b) : glm::cross(b, a);
-    part = clip(part, apex, inward);
+    clip_in_place(part, apex, inward);
   }
   return part;
 }

@@ -15,10 +15,16 @@ struct ConvexPolygon {
   std::array<Point3, capacity> vertices;
   std::size_t size = 0;
 
-  ConvexPolygon() = default;
+  ConvexPolygon() {} // not defaulted: that would clear the vertices, wherever one is made by {}
   explicit ConvexPolygon(std::span<const Point3> corners);
   ConvexPolygon(const ConvexPolygon& other) { *this = other; }
-  ConvexPolygon& operator=(const ConvexPolygon& other); ///< copies the vertices in use only
+  /// Copies the vertices in use only.
+  ConvexPolygon& operator=(const ConvexPolygon& other) {
+    size = other.size;
+    for (std::size_t k = 0; k < size; ++k)
+      vertices[k] = other.vertices[k];
+    return *this;
+  }
 
   std::span<const Point3> span() const { return {vertices.data(), size}; }
   bool empty() const { return size < 3; }
@@ -27,6 +33,9 @@ struct ConvexPolygon {
 
 /// The part of the polygon where dot(normal, x - origin) >= 0; empty if that has no area.
 ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec3& normal);
+
+/// The same of a polygon that is not needed whole any more.
+void clip_in_place(ConvexPolygon& polygon, const Point3& origin, const Vec3& normal);
 
 /// The part of the polygon inside the cone from the apex through the window: one clip per edge of the window.
 /// The window may be of either orientation; an apex in the window's plane sees nothing.

@@ -62,14 +62,14 @@ void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const 
   if (world.depth > 0)
     for (std::size_t k = 0; k < image.size; ++k)
       image.vertices[k] = apply(world.image, image.vertices[k]);
-  image = clip(image, observer.position, observer.normal);
+  clip_in_place(image, observer.position, observer.normal);
   if (image.empty())
     return;
   if (world.depth == 0) {
     lights.push_back({emitter, at.world, image, plane.normal, weight});
     return;
   }
-  image = clip(image, origin_of(world.plane), -world.plane.normal);
+  clip_in_place(image, origin_of(world.plane), -world.plane.normal);
   for (std::uint32_t k = at.first; k < at.last && !image.empty(); ++k) {
     const ConvexPolygon part = clip_to_cone(image, observer.position, seen.openings[k]);
     if (!part.empty())

@@ -39,12 +39,12 @@ std::optional<KnownBlocker> blocker_of(const LightScene& light, WorldId world,
 
   // The leg runs from the plane of its first mirror to that of the next one, or to the emitter.
   if (on_leg.depth > 0)
-    known.polygon = clip(known.polygon, origin_of(on_leg.plane), -on_leg.plane.normal);
+    clip_in_place(known.polygon, origin_of(on_leg.plane), -on_leg.plane.normal);
   const MirrorWorld& of_image = light.worlds.worlds[index(world)];
   const Plane end = on_leg.depth == of_image.depth
                         ? apply(of_image.image, emitter.plane)
                         : at_depth(light.worlds, world, blocker.leg + 1).plane;
-  known.polygon = clip(known.polygon, origin_of(end), end.normal);
+  clip_in_place(known.polygon, origin_of(end), end.normal);
   if (known.polygon.empty())
     return std::nullopt;
   return known;

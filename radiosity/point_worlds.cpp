@@ -206,7 +206,7 @@ private:
         continue;
       ConvexPolygon image = clip(image_of(station.image, face.polygon), point_.x, point_.normal);
       if (station.depth > 0)
-        image = clip(image, origin_of(station.plane), -station.plane.normal);
+        clip_in_place(image, origin_of(station.plane), -station.plane.normal);
       if (!image.empty())
         obstacles.push_back(
             {image, face.plane_class, appearance_of(point_.x, centre, face.radius)});
@@ -220,7 +220,7 @@ private:
                       std::vector<ConvexPolygon>& visible) const {
     ConvexPolygon above = clip(polygon, point_.x, point_.normal);
     if (station.depth > 0)
-      above = clip(above, origin_of(station.plane), -station.plane.normal);
+      clip_in_place(above, origin_of(station.plane), -station.plane.normal);
     if (above.empty())
       return;
     std::vector<ConvexPolygon> parts;

@@ -71,10 +71,13 @@ ImageAtPoint image_at(const LightScene& light, const Receiver& receiver, const V
     work.cutting.assign(1, image.polygon);
     for (const KnownBlocker& blocker : blockers->known)
       subtract(work.cutting, receiver.position, blocker, light.surfaces.tolerance);
-    at.whole = false;
-    at.first = work.parts.size();
-    at.parts = work.cutting.size();
-    work.parts.insert(work.parts.end(), work.cutting.begin(), work.cutting.end());
+    at.whole = work.cutting.size() == 1 &&
+               std::ranges::equal(work.cutting.front().span(), image.polygon.span());
+    if (!at.whole) {
+      at.first = work.parts.size();
+      at.parts = work.cutting.size();
+      work.parts.insert(work.parts.end(), work.cutting.begin(), work.cutting.end());
+    }
   }
   at.form_factor = image.weight * form_factor_of(receiver, parts_of(at, image, work));
   return at;

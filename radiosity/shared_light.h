@@ -74,7 +74,7 @@ struct WaitingRay {
 struct ImageAtPoint {
   std::uint32_t image = 0;          ///< index of its ImageSum
   double form_factor = 0.0;         ///< times how many images it stands for
-  bool whole = true;                ///< nothing is known to be in the way
+  bool whole = true;                ///< nothing known is in the way
   std::size_t first = 0, parts = 0; ///< otherwise: in SharedLightWorkspace::parts
 };
 

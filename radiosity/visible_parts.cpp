@@ -78,7 +78,7 @@ void cut_out(const ConvexPolygon& part, const Point3& x, const Cone& cone,
     const ConvexPolygon piece = clip(rest, x, -cone.inward[k]);
     if (!piece.empty() && glm::length(area_vector(piece.span())) > least)
       outside.push_back(piece);
-    rest = clip(rest, x, cone.inward[k]);
+    clip_in_place(rest, x, cone.inward[k]);
   }
   // Nothing of it is hidden: it stays whole.
   if (rest.empty() || glm::length(area_vector(rest.span())) <= least) {

@@ -47,6 +47,22 @@ bool is_convex(const ConvexPolygon& polygon, const Direction& normal) {
   return true;
 }
 
+TEST(ClipPolygon, InPlaceIsTheSame) {
+  Random random(11);
+  int cut = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const ConvexPolygon polygon = random_polygon(random, 3 + static_cast<std::size_t>(k) % 10);
+    const Point3 origin = random.in_box(Vec3(-2.0), Vec3(2.0));
+    const Vec3 normal = random.direction();
+    ConvexPolygon above = polygon;
+    clip_in_place(above, origin, normal);
+    const ConvexPolygon expected = clip(polygon, origin, normal);
+    EXPECT_TRUE(std::ranges::equal(above.span(), expected.span()));
+    cut += expected.empty() || std::ranges::equal(expected.span(), polygon.span()) ? 0 : 1;
+  }
+  EXPECT_GT(cut, 200);
+}
+
 TEST(ClipPolygon, PartAndComplementMakeTheWhole) {
   Random random(1);
   for (int k = 0; k < 2000; ++k) {
