@@ -163,7 +163,7 @@ Ball ball_around(std::span<const Point3> polygon) {
 ConvexPolygon clip_to(const Frustum& f, ConvexPolygon part) {
   for (const HalfSpace& half : f.bounds)
     if (reaches_out(half, part.span()))
-      part = clip(part, (half.offset - margin) * half.normal, half.normal);
+      clip_in_place(part, (half.offset - margin) * half.normal, half.normal);
   return part;
 }
 
