@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace meninas {
 
@@ -30,6 +31,25 @@ std::string describe_error(const PictureError& error) {
   return text;
 }
 
+std::optional<std::string> first_turn(const PictureError& error, DiffuseTerm term) {
+  constexpr double visible = 0.02;
+  if (error.total < visible)
+    return std::nullopt;
+  // Light from emitters at every hit leaves what the rest of the field hides between vertices.
+  const double without_edges =
+      std::sqrt(std::max(0.0, error.mesh * error.mesh - error.mesh_direct * error.mesh_direct));
+  const bool edges = term == DiffuseTerm::interpolated && without_edges < 0.7 * error.mesh;
+  struct Turn {
+    const char* option;
+    double error;
+  };
+  const std::array turns{
+      Turn{edges ? "--diffuse direct" : "a smaller --element-size", error.mesh},
+      Turn{"more --rays", error.form_factors}, Turn{"a greater --mirror-depth", error.mirror_tail},
+      Turn{"more --samples", error.pixels}, Turn{"a smaller --tolerance", error.solver}};
+  return fmt::format("{} would help most", std::ranges::max(turns, {}, &Turn::error).option);
+}
+
 void report_error(const PictureSource& source, ErrorReport wanted, const SampledPicture& picture,
                   std::vector<Layer>& layers, const RunEvents& events, RunFigures& figures) {
   if (wanted == ErrorReport::none)
@@ -39,7 +59,11 @@ void report_error(const PictureSource& source, ErrorReport wanted, const Sampled
   const PictureError error = estimate_error(light, field, camera, settings, solver, picture,
                                             error_settings(settings, element_count(light.mesh)));
   figures.error_estimate = error;
-  note(events, describe_error(error));
+  // A black picture has a warning of its own, and nothing that an error could be relative to.
+  if (error.mean_radiance > 0.0) {
+    const auto turn = first_turn(error, settings.render.diffuse.term);
+    note(events, describe_error(error) + (turn ? "; " + *turn : ""));
+  }
   if (wanted == ErrorReport::map)
     layers.push_back({"error", error_map(light, field, camera, settings, picture.image, error)});
   figures.seconds.estimate = watch.lap();

@@ -5,6 +5,7 @@
 #include "runs/run_events.h"
 #include "runs/stats.h"
 
+#include <optional>
 #include <string>
 
 namespace meninas {
@@ -30,7 +31,11 @@ struct PictureSource {
 /// "error about 1.3 % of the mean radiance: mesh 1.2 %, camera rays 0.5 %", the larger parts first, no part that does not matter.
 std::string describe_error(const PictureError& error);
 
-/// Fills in the figures and says the line as a note; the map is appended to the layers.
+/// What to turn first where the error can be seen (2 %): the option that makes the largest part smaller, as
+/// "--diffuse direct would help most". Nothing where it cannot, and where no option would.
+std::optional<std::string> first_turn(const PictureError& error, DiffuseTerm term);
+
+/// Fills in the figures and says the line as a note, with what to turn first; the map is appended to the layers.
 void report_error(const PictureSource& source, ErrorReport wanted, const SampledPicture& picture,
                   std::vector<Layer>& layers, const RunEvents& events, RunFigures& figures);
 

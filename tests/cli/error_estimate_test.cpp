@@ -41,6 +41,12 @@ TEST_F(ErrorEstimate, IsInTheFiguresAndTheLine) {
   EXPECT_NEAR(error.at("total").get<double>(), std::sqrt(square), 1e-9);
 }
 
+TEST_F(ErrorEstimate, SaysWhatToTurnFirst) {
+  const Outcome outcome = render({"-o", "out.exr", "--stats", "out.json", "--samples", "1"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("; more --samples would help most"));
+}
+
 TEST_F(ErrorEstimate, FallsWithCameraRays) {
   const auto pixels_with = [&](const char* samples) {
     EXPECT_EQ(

@@ -1,0 +1,40 @@
+// What a run says to turn first, by the parts of its error.
+#include "runs/error_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace meninas::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Optional;
+
+constexpr DiffuseTerm interpolated = DiffuseTerm::interpolated, direct = DiffuseTerm::direct;
+
+TEST(FirstTurn, IsOfTheLargestPart) {
+  EXPECT_THAT(first_turn({.form_factors = 0.04, .pixels = 0.03, .total = 0.05}, interpolated),
+              Optional(HasSubstr("--rays")));
+  EXPECT_THAT(first_turn({.form_factors = 0.03, .pixels = 0.04, .total = 0.05}, interpolated),
+              Optional(HasSubstr("--samples")));
+  EXPECT_THAT(first_turn({.mirror_tail = 0.05, .total = 0.05}, interpolated),
+              Optional(HasSubstr("--mirror-depth")));
+  EXPECT_THAT(first_turn({.solver = 0.05, .total = 0.05}, interpolated),
+              Optional(HasSubstr("--tolerance")));
+}
+
+TEST(FirstTurn, TakesLightFromTheSourceWhereEdgesWithinElementsAreMostOfTheMesh) {
+  const PictureError edges{.mesh = 0.1, .mesh_direct = 0.09, .total = 0.1},
+      smooth{.mesh = 0.1, .mesh_direct = 0.05, .total = 0.1};
+  EXPECT_THAT(first_turn(edges, interpolated), Optional(HasSubstr("--diffuse direct")));
+  EXPECT_THAT(first_turn(smooth, interpolated), Optional(HasSubstr("--element-size")));
+  EXPECT_THAT(first_turn(edges, direct), Optional(HasSubstr("--element-size")));
+}
+
+TEST(FirstTurn, IsNotAskedForWhereTheErrorIsHardToSee) {
+  EXPECT_EQ(first_turn({.mesh = 0.019, .total = 0.019}, interpolated), std::nullopt);
+  EXPECT_NE(first_turn({.mesh = 0.021, .total = 0.021}, interpolated), std::nullopt);
+}
+
+} // namespace
+} // namespace meninas::test
