@@ -4,14 +4,15 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -20,6 +21,26 @@
 namespace meninas {
 
 namespace {
+
+/// A file in memory.
+class ByteStream : public Imf::OStream {
+public:
+  explicit ByteStream(std::vector<std::byte>& bytes) : OStream("memory"), bytes_(bytes) {}
+
+  void write(const char* from, int count) override {
+    const auto size = static_cast<std::size_t>(count);
+    // The library comes back to fill in where the rows are.
+    bytes_.resize(std::max(bytes_.size(), place_ + size));
+    std::memcpy(bytes_.data() + place_, from, size);
+    place_ += size;
+  }
+  std::uint64_t tellp() override { return place_; }
+  void seekp(std::uint64_t place) override { place_ = place; }
+
+private:
+  std::vector<std::byte>& bytes_;
+  std::size_t place_ = 0;
+};
 
 /// Three channels of the file, stored under `prefix` ("" or "NAME.").
 struct Planes {
@@ -120,14 +141,13 @@ std::vector<std::byte> encode_exr(const Image& picture, std::span<const Layer> l
                                   PixelType type, const Attributes& attributes) {
   const auto planes = planes_of(picture, layers);
   const auto stored = type == PixelType::half ? Imf::HALF : Imf::FLOAT;
-  Imf::StdOSStream stream;
+  std::vector<std::byte> bytes;
+  ByteStream stream(bytes);
   {
     Imf::OutputFile file(stream, header_of(picture, planes, stored, attributes), use_threads());
     type == PixelType::half ? write_rows<half>(file, planes) : write_rows<float>(file, planes);
   }
-  const std::string bytes = stream.str();
-  const auto whole = std::as_bytes(std::span(bytes));
-  return {whole.begin(), whole.end()};
+  return bytes;
 }
 
 } // namespace meninas

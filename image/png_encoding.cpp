@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <memory>
 #include <stdexcept>
 
 namespace meninas {
@@ -15,16 +16,14 @@ std::vector<std::byte> encode_png(int width, int height, std::span<const std::ui
   image.format = PNG_FORMAT_RGB;
   image.flags = compression == Compression::quick ? PNG_IMAGE_FLAG_FAST : 0;
 
-  // Room for the worst case, where nothing can be compressed.
+  // Room for the worst case, where nothing can be compressed; what stays untouched costs nothing.
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  std::vector<std::byte> bytes(size);
+  const auto bytes = std::make_unique_for_overwrite<std::byte[]>(size);
   constexpr int as_it_is = 0, packed_rows = 0;
-  if (png_image_write_to_memory(&image, bytes.data(), &size, as_it_is, codes.data(), packed_rows,
+  if (png_image_write_to_memory(&image, bytes.get(), &size, as_it_is, codes.data(), packed_rows,
                                 nullptr) == 0)
     throw std::runtime_error(image.message);
-  bytes.resize(size);
-  bytes.shrink_to_fit();
-  return bytes;
+  return {bytes.get(), bytes.get() + size};
 }
 
 } // namespace meninas
