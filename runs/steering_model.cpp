@@ -84,15 +84,21 @@ std::vector<Knobs> turns(const Knobs& now, const FreeKnobs& free, const Measured
        [](Knobs& k) { k.elements *= 2.0; });
   turn(free.rays && 2 * now.rays <= most_rays, [](Knobs& k) { k.rays *= 2; });
   turn(free.samples && 4 * now.samples <= most_samples, [](Knobs& k) { k.samples *= 4; });
-  // Camera rays that cost next to nothing so far are worth less where each computes light: fewer of them may do.
+  // Camera rays that cost next to nothing so far are worth less where each computes light: as few of them as do, first of all. So may be what has
+  // been turned in pass one, which must not keep such light out of the time.
   const auto turn_term = [&](bool can, DiffuseTerm term) {
-    for (const int fewer : {1, 4, 16})
-      turn(free.term && can &&
-               (fewer == 1 || (free.samples && now.samples / fewer >= least_samples)),
-           [&](Knobs& k) {
-             k.term = term;
-             k.samples /= fewer;
-           });
+    for (const bool as_it_was : {true, false})
+      for (const int fewer : {256, 64, 16, 4, 1})
+        turn(free.term && can &&
+                 (fewer == 1 || (free.samples && now.samples / fewer >= least_samples)),
+             [&](Knobs& k) {
+               k.term = term;
+               k.samples /= fewer;
+               if (as_it_was) {
+                 k.elements = run.knobs.elements;
+                 k.rays = run.knobs.rays;
+               }
+             });
   };
   turn_term(now.term == DiffuseTerm::interpolated && run.error.direct_seconds > 0.0,
             DiffuseTerm::direct);
@@ -233,8 +239,10 @@ NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, do
       break;
     next = *best;
   }
-  if (next.forecast.error <= error)
-    next = turned_back(run, next, error);
+  // Where the time has ended it, what was turned for next to nothing goes back as well.
+  constexpr double as_good = 1.01;
+  if (next.knobs != run.knobs)
+    next = turned_back(run, next, std::max(error, as_good * next.forecast.error));
   next.why = reasons(run, next.knobs);
   return next;
 }

@@ -78,6 +78,28 @@ TEST(NextRun, TakesFewerCameraRaysWhereEachComputesLight) {
   EXPECT_EQ(kept.knobs.samples, 64);
 }
 
+// Interpolated, camera rays cost next to nothing: as many as there can be must not keep light from the source, which needs few, out of the time.
+TEST(NextRun, ComputesLightAtHitsOfFewCameraRaysWhereTheTimeIsShort) {
+  MeasuredRun run = run_with(0.089, 0.089, 0.01, 0.017);
+  run.error.direct_seconds = 2e-5; // four hits a pixel take 5.2 s
+  run.uncertain = {0.2, 0.03, 0.005, 0.001};
+  const NextRun next = next_run(run, {}, 0.014, 6.0);
+  EXPECT_EQ(next.knobs.term, DiffuseTerm::direct);
+  EXPECT_LE(next.knobs.samples, 16);
+  EXPECT_LE(next.forecast.seconds, 6.0);
+}
+
+TEST(NextRun, GoesBackWithWhatHardlyMattersWhereTheTimeIsShort) {
+  // Edges that no time is left to compute: a thousand camera rays would take off next to nothing else.
+  MeasuredRun run = run_with(0.2, 0.2, 0.001, 0.002);
+  run.error.direct_seconds = 1.0;
+  const NextRun next = next_run(run, {}, 0.014, 1.0);
+  EXPECT_EQ(next.knobs.term, DiffuseTerm::interpolated);
+  EXPECT_GT(next.knobs.elements, run.knobs.elements);
+  EXPECT_EQ(next.knobs.samples, run.knobs.samples);
+  EXPECT_EQ(next.knobs.rays, run.knobs.rays);
+}
+
 TEST(NextRun, ForetellsWhatWasWanted) {
   for (const double wanted : {0.05, 0.02, 0.015}) {
     const NextRun next = next_run(run_with(0.08, 0.06, 0.05, 0.06), {}, wanted, for_ever);
