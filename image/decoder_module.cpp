@@ -11,7 +11,6 @@
 #include <atomic>
 #include <cstring>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -52,17 +51,16 @@ std::string one_line(std::string text) {
   return line;
 }
 
-template <typename Result>
-void set_error(Result& result, const std::string& reason) {
+void set_error(Decoded& result, const std::string& reason) {
   const auto length = std::min(reason.size(), sizeof result.error - 1);
   std::memcpy(result.error, reason.data(), length);
   result.error[length] = '\0';
 }
 
 /// Runs `work` and turns any exception into the text that may cross the seam.
-template <typename Result, typename Work>
-Result guarded(Work work) {
-  Result result{};
+template <typename Work>
+Decoded guarded(Work work) {
+  Decoded result{};
   try {
     work(result);
   } catch (const std::bad_alloc&) {
@@ -194,7 +192,7 @@ void use_threads(int count) {
 }
 
 Decoded decode(const void* bytes, std::size_t size, Limits limits) {
-  return guarded<Decoded>([&](Decoded& result) {
+  return guarded([&](Decoded& result) {
     decode_into(result, {static_cast<const char*>(bytes), size}, limits);
   });
 }

@@ -31,22 +31,28 @@ std::string describe_error(const PictureError& error) {
   return text;
 }
 
-std::optional<std::string> first_turn(const PictureError& error, DiffuseTerm term) {
+std::optional<std::string> first_turn(const PictureError& error, const TwoPassSettings& settings) {
   constexpr double visible = 0.02;
   if (error.total < visible)
     return std::nullopt;
   // Light from emitters at every hit leaves what the rest of the field hides between vertices.
   const double without_edges =
       std::sqrt(std::max(0.0, error.mesh * error.mesh - error.mesh_direct * error.mesh_direct));
-  const bool edges = term == DiffuseTerm::interpolated && without_edges < 0.7 * error.mesh;
+  const bool edges =
+      settings.render.diffuse.term == DiffuseTerm::interpolated && without_edges < 0.7 * error.mesh;
+  const char* mesh = edges                                      ? "--diffuse direct"
+                     : settings.pass_one.interpolation.adaptive ? "a smaller bound of --adaptive"
+                                                                : "a smaller --element-size";
+  const bool cells = settings.pass_one.form_factors.method == FormFactorMethod::hemicube;
   struct Turn {
     const char* option;
     double error;
   };
   const std::array turns{
-      Turn{edges ? "--diffuse direct" : "a smaller --element-size", error.mesh},
-      Turn{"more --rays", error.form_factors}, Turn{"a greater --mirror-depth", error.mirror_tail},
-      Turn{"more --samples", error.pixels}, Turn{"a smaller --tolerance", error.solver}};
+      Turn{mesh, error.mesh},
+      Turn{cells ? "a greater --hemicube-resolution" : "more --rays", error.form_factors},
+      Turn{"a greater --mirror-depth", error.mirror_tail}, Turn{"more --samples", error.pixels},
+      Turn{"a smaller --tolerance", error.solver}};
   return fmt::format("{} would help most", std::ranges::max(turns, {}, &Turn::error).option);
 }
 
@@ -61,7 +67,7 @@ void report_error(const PictureSource& source, ErrorReport wanted, const Sampled
   figures.error_estimate = error;
   // A black picture has a warning of its own, and nothing that an error could be relative to.
   if (error.mean_radiance > 0.0) {
-    const auto turn = first_turn(error, settings.render.diffuse.term);
+    const auto turn = first_turn(error, settings);
     note(events, describe_error(error) + (turn ? "; " + *turn : ""));
   }
   if (wanted == ErrorReport::map)

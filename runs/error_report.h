@@ -32,8 +32,8 @@ struct PictureSource {
 std::string describe_error(const PictureError& error);
 
 /// What to turn first where the error can be seen (2 %): the option that makes the largest part smaller, as
-/// "--diffuse direct would help most". Nothing where it cannot, and where no option would.
-std::optional<std::string> first_turn(const PictureError& error, DiffuseTerm term);
+/// "--diffuse direct would help most". Nothing where it cannot.
+std::optional<std::string> first_turn(const PictureError& error, const TwoPassSettings& settings);
 
 /// Fills in the figures and says the line as a note, with what to turn first; the map is appended to the layers.
 void report_error(const PictureSource& source, ErrorReport wanted, const SampledPicture& picture,

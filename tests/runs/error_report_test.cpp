@@ -10,7 +10,13 @@ namespace {
 using testing::HasSubstr;
 using testing::Optional;
 
-constexpr DiffuseTerm interpolated = DiffuseTerm::interpolated, direct = DiffuseTerm::direct;
+TwoPassSettings settings_with(DiffuseTerm term) {
+  TwoPassSettings settings;
+  settings.render.diffuse.term = term;
+  return settings;
+}
+const TwoPassSettings interpolated = settings_with(DiffuseTerm::interpolated),
+                      direct = settings_with(DiffuseTerm::direct);
 
 TEST(FirstTurn, IsOfTheLargestPart) {
   EXPECT_THAT(first_turn({.form_factors = 0.04, .pixels = 0.03, .total = 0.05}, interpolated),
@@ -29,6 +35,15 @@ TEST(FirstTurn, TakesLightFromTheSourceWhereEdgesWithinElementsAreMostOfTheMesh)
   EXPECT_THAT(first_turn(edges, interpolated), Optional(HasSubstr("--diffuse direct")));
   EXPECT_THAT(first_turn(smooth, interpolated), Optional(HasSubstr("--element-size")));
   EXPECT_THAT(first_turn(edges, direct), Optional(HasSubstr("--element-size")));
+}
+
+TEST(FirstTurn, NamesTheOptionThatTheRunListensTo) {
+  TwoPassSettings other = direct;
+  other.pass_one.form_factors.method = FormFactorMethod::hemicube;
+  other.pass_one.interpolation.adaptive = AdaptiveSettings{};
+  EXPECT_THAT(first_turn({.form_factors = 0.05, .total = 0.05}, other),
+              Optional(HasSubstr("--hemicube-resolution")));
+  EXPECT_THAT(first_turn({.mesh = 0.05, .total = 0.05}, other), Optional(HasSubstr("--adaptive")));
 }
 
 TEST(FirstTurn, IsNotAskedForWhereTheErrorIsHardToSee) {
