@@ -10,7 +10,6 @@ namespace meninas {
 namespace {
 
 constexpr double margin = frustum_margin;
-constexpr double least_slope = 0.02; ///< cosine at which faces are met
 
 double height_over(const HalfSpace& half, const Point3& p) {
   return glm::dot(half.normal, p) - half.offset;
@@ -44,6 +43,15 @@ std::array<Weight, 2> weights_of(const std::array<Point3, 3>& corners) {
 bool reaches_out(const HalfSpace& half, std::span<const Point3> polygon) {
   return std::ranges::any_of(polygon,
                              [&](const Point3& p) { return height_over(half, p) < -margin; });
+}
+
+Ball ball_around(std::span<const Point3> polygon) {
+  Ball ball;
+  for (const Point3& p : polygon)
+    ball.centre += p / static_cast<double>(polygon.size());
+  for (const Point3& p : polygon)
+    ball.radius = std::max(ball.radius, glm::distance(p, ball.centre));
+  return ball;
 }
 
 FrustumFace face_of(const FrameGeometry& geometry, std::uint32_t triangle,
@@ -134,30 +142,10 @@ Frustum frustum_of(const PictureRays& rays, Vec2 from, Vec2 to) {
   return f;
 }
 
-bool sees_back(const Frustum& f, const Direction& normal) {
-  return std::ranges::all_of(f.direction, [&](const Vec3& d) { return glm::dot(normal, d) > 0.0; });
-}
-
-bool is_outside(const Frustum& f, std::span<const Point3> polygon) {
-  return std::ranges::any_of(f.bounds, [&](const HalfSpace& half) {
-    return std::ranges::all_of(polygon,
-                               [&](const Point3& p) { return height_over(half, p) < -margin; });
-  });
-}
-
 bool is_outside(const Frustum& f, const Ball& ball) {
   return std::ranges::any_of(f.bounds, [&](const HalfSpace& half) {
     return height_over(half, ball.centre) < -margin - ball.radius;
   });
-}
-
-Ball ball_around(std::span<const Point3> polygon) {
-  Ball ball;
-  for (const Point3& p : polygon)
-    ball.centre += p / static_cast<double>(polygon.size());
-  for (const Point3& p : polygon)
-    ball.radius = std::max(ball.radius, glm::distance(p, ball.centre));
-  return ball;
 }
 
 ConvexPolygon clip_to(const Frustum& f, ConvexPolygon part) {
@@ -165,35 +153,6 @@ ConvexPolygon clip_to(const Frustum& f, ConvexPolygon part) {
     if (reaches_out(half, part.span()))
       clip_in_place(part, (half.offset - margin) * half.normal, half.normal);
   return part;
-}
-
-double distance_to(const FrustumFace& face, const Frustum& f, std::size_t corner) {
-  return (face.offset - glm::dot(face.normal, f.origin[corner])) /
-         glm::dot(face.normal, f.direction[corner]);
-}
-
-bool covers(const FrustumFace& face, const Frustum& f) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double cosine =
-        std::abs(glm::dot(face.normal, f.direction[i])) / glm::length(f.direction[i]);
-    const double distance = distance_to(face, f, i);
-    if (!(cosine > least_slope) || !(distance > 0.0))
-      return false;
-    const Point3 foot = f.origin[i] + distance * f.direction[i];
-    const double least = margin / cosine;
-    if (!(height_over(f.bounds[4], foot) > margin))
-      return false;
-    for (std::size_t k = 0; k < face.corner_count; ++k)
-      if (!(height_over(face.edges[k], foot) > least))
-        return false;
-  }
-  return true;
-}
-
-bool is_behind(const FrustumFace& face, double side, std::span<const Point3> polygon) {
-  return std::ranges::all_of(polygon, [&](const Point3& p) {
-    return side * (glm::dot(face.normal, p) - face.offset) < -margin;
-  });
 }
 
 LandingForms landing_forms(const std::array<Point3, 3>& corners, const PictureRays& rays) {

@@ -1,4 +1,4 @@
-// Reflection frusta: what the rays of a block of pixels can meet, straight or behind mirrors, for certain.
+// Reflection frusta: what the rays of a rectangle of the picture can come near to, straight or behind mirrors.
 //
 // Four corner rays bound the frustum, the planes between these, and the plane that it leaves. All lengths are in the frame of the ray scene.
 // "Certainly" is by `frustum_margin`, many roundings away from all edges and planes.
@@ -62,26 +62,11 @@ struct Frustum {
 };
 Frustum frustum_of(const PictureRays& rays, Vec2 from, Vec2 to);
 
-/// Whether all corner rays go along the normal, to see a back.
-bool sees_back(const Frustum& f, const Direction& normal);
-
 /// Whether all of it is outside one of the bounds.
 bool is_outside(const Frustum& f, const Ball& ball);
-bool is_outside(const Frustum& f, std::span<const Point3> polygon);
 
 /// The part in the frustum, and a margin more.
 ConvexPolygon clip_to(const Frustum& f, ConvexPolygon polygon);
-
-Ball ball_around(std::span<const Point3> polygon);
-
-/// To the plane of the face along a corner ray, in lengths of its direction.
-double distance_to(const FrustumFace& face, const Frustum& f, std::size_t corner);
-
-/// Whether the face holds the feet of all corner rays.
-bool covers(const FrustumFace& face, const Frustum& f);
-
-/// Whether all of a polygon is behind the face, for rays that come from its side: 1 in front, -1 behind.
-bool is_behind(const FrustumFace& face, double side, std::span<const Point3> polygon);
 
 /// Weights of the second and third corner of a triangle at (x, y): b1 and b2 over the last, each affine, times (1, x, y).
 struct LandingForms {

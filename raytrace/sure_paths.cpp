@@ -19,6 +19,11 @@ struct Block {
   int x, y, width, height; ///< pixels of the tile
 };
 
+PictureBlock picture_block(const Block& block) {
+  const double half_u = 0.5 * block.width, half_v = 0.5 * block.height;
+  return {block.x + half_u, block.y + half_v, half_u, half_v};
+}
+
 /// A tile in search of its paths.
 struct Search {
   const RenderContext& context;
@@ -26,15 +31,11 @@ struct Search {
   SurePaths& sure;
   int least_pixels;
 
-  Frustum frustum_of_block(const FrustumLeg& leg, const Block& block) const {
-    const Vec2 size(context.settings.width, context.settings.height);
-    const Vec2 from(tile.x0 + block.x, tile.y0 + block.y);
-    return frustum_of(leg.rays, from / size, (from + Vec2(block.width, block.height)) / size);
-  }
-
   /// Finds what reaches into the tile's frustum.
   std::uint32_t add_leg(FrustumLeg leg) {
-    const Frustum f = frustum_of_block(leg, {0, 0, tile.width, tile.height});
+    const Vec2 corner(tile.width, tile.height);
+    const Frustum f = frustum_of(leg.rays, Vec2(0.0), corner);
+    leg.longest = longest_direction(leg.rays, corner);
     leg.first = static_cast<std::uint32_t>(sure.pieces.size());
     for (const FrustumFace& face : context.frustum_faces) {
       if (face.plane == leg.leaving || is_outside(f, face.around))
@@ -42,7 +43,7 @@ struct Search {
       const ConvexPolygon part =
           clip_to(f, ConvexPolygon(std::span(face.corners).first(face.corner_count)));
       if (!part.empty())
-        sure.pieces.push_back({&face, part, ball_around(part.span())});
+        sure.pieces.push_back({&face, view_of(leg.rays, face, part)});
     }
     leg.last = static_cast<std::uint32_t>(sure.pieces.size());
     sure.legs.push_back(leg);
@@ -66,17 +67,18 @@ struct Search {
 
   /// Asks a block for its path behind the mirrors of a leg, of which the pieces from `first` to `last` come near it.
   void ask(const Block& block, std::uint32_t leg, std::size_t first, std::size_t last) {
-    const Frustum f = frustum_of_block(sure.legs[leg], block);
+    const PictureBlock seen = picture_block(block);
+    const double longest = sure.legs[leg].longest;
     const std::size_t begin = sure.in_block.size();
     for (std::size_t k = first; k < last; ++k) {
       const std::uint32_t candidate = sure.in_block[k];
       const FrustumPiece& piece = sure.pieces[candidate];
       // The eye looks through backs.
-      const bool unseen = leg == 0 && piece.face->single_sided && sees_back(f, piece.face->normal);
-      if (!unseen && !is_outside(f, piece.around) && !is_outside(f, piece.polygon.span()))
+      const bool unseen = leg == 0 && piece.face->single_sided && sees_back(piece.view, seen);
+      if (!unseen && !is_outside(piece.view, seen, longest))
         sure.in_block.push_back(candidate);
     }
-    if (!settle(block, leg, f, begin) && block.width * block.height >= 2 * least_pixels)
+    if (!settle(block, leg, seen, begin) && block.width * block.height >= 2 * least_pixels)
       divide(block, leg, begin);
     sure.in_block.resize(begin);
   }
@@ -93,47 +95,48 @@ struct Search {
       }
   }
 
-  /// Whether all else in the block's frustum is behind a face that covers it.
-  bool is_first(const FrustumFace& face, const Frustum& f, std::size_t begin) const {
-    const double side = sees_back(f, face.normal) ? -1.0 : 1.0;
+  /// Whether all else in the block is behind a piece that covers it.
+  bool is_first(const FrustumPiece& piece, const PictureBlock& block, std::size_t begin) const {
     return std::ranges::all_of(std::span(sure.in_block).subspan(begin), [&](std::uint32_t k) {
       const FrustumPiece& other = sure.pieces[k];
       // Of a sheet, the side that faces the rays is met.
-      if (other.face == &face || (other.face->plane == face.plane && other.face->single_sided &&
-                                  sees_back(f, other.face->normal)))
-        return true;
-      return is_behind(face, side, other.polygon.span()) ||
-             is_behind(face, side, clip_to(f, other.polygon).span());
+      return &other == &piece ||
+             (other.face->plane == piece.face->plane && other.face->single_sided &&
+              sees_back(other.view, block)) ||
+             is_behind(piece.view, other.view, block);
     });
   }
 
-  /// The face that all rays of the block meet, if that is certain.
-  const FrustumFace* met_by_all(const Frustum& f, std::size_t begin) const {
-    const FrustumFace* first = nullptr;
+  /// The piece that all rays of the block meet, if that is certain.
+  const FrustumPiece* met_by_all(const PictureBlock& block, double longest,
+                                 std::size_t begin) const {
+    const FrustumPiece* first = nullptr;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = begin; k < sure.in_block.size(); ++k) {
-      const FrustumFace& face = *sure.pieces[sure.in_block[k]].face;
-      const bool dark_back = face.single_sided && sees_back(f, face.normal);
-      const double distance = distance_to(face, f, 0);
-      if (distance < nearest && face.can_be_sure && !dark_back && covers(face, f)) {
-        first = &face;
+      const FrustumPiece& piece = sure.pieces[sure.in_block[k]];
+      const double distance = distance_in_middle(piece.view, block);
+      if (distance < nearest && piece.face->can_be_sure &&
+          !(piece.face->single_sided && sees_back(piece.view, block)) &&
+          covers(piece.view, block, longest)) {
+        first = &piece;
         nearest = distance;
       }
     }
-    return first && is_first(*first, f, begin) ? first : nullptr;
+    return first && is_first(*first, block, begin) ? first : nullptr;
   }
 
   /// Whether nothing is gained by dividing the block.
-  bool settle(const Block& block, std::uint32_t at, const Frustum& f, std::size_t begin) {
+  bool settle(const Block& block, std::uint32_t at, const PictureBlock& seen, std::size_t begin) {
     const std::size_t end = sure.in_block.size();
     if (begin == end) {
       mark(block, at, nullptr, true);
       return true;
     }
-    const FrustumFace* met = met_by_all(f, begin);
-    if (!met)
+    const FrustumPiece* piece = met_by_all(seen, sure.legs[at].longest, begin);
+    if (!piece)
       return false;
-    const bool front = !sees_back(f, met->normal);
+    const FrustumFace* met = piece->face;
+    const bool front = !sees_back(piece->view, seen);
     const LightScene& light = context.light;
     const FaceRecord& face = light.landing.faces[2 * std::size_t{met->triangle} + (front ? 0 : 1)];
     const bool has_side = face.side != FaceRecord::nothing;
@@ -176,32 +179,36 @@ struct Search {
     if (!met)
       return path;
     path.triangle = met->triangle;
-    path.corner =
-        glm::vec2(Vec2(tile.x0, tile.y0) / Vec2(context.settings.width, context.settings.height));
-    PictureRays rays = leg.rays;
-    const double x = path.corner.x, y = path.corner.y;
-    rays.origin += x * rays.origin_x + y * rays.origin_y;
-    rays.direction += x * rays.direction_x + y * rays.direction_y;
+    const Vec2 size(context.settings.width, context.settings.height);
+    path.corner = glm::vec2(Vec2(tile.x0, tile.y0) / size);
     const LandingForms forms =
-        landing_forms(corners_of(context.light.rays.geometry(), met->triangle), rays);
-    path.b1 = forms.b1;
-    path.b2 = forms.b2;
-    path.over = forms.over;
+        landing_forms(corners_of(context.light.rays.geometry(), met->triangle), leg.rays);
+    const Vec3 in_pictures(1.0, size);
+    path.b1 = in_pictures * forms.b1;
+    path.b2 = in_pictures * forms.b2;
+    path.over = in_pictures * forms.over;
     return path;
   }
 };
 
-PictureRays rays_of(const CameraFrame& camera) {
-  PictureRays rays{camera.origin,
-                   camera.origin_x,
-                   camera.origin_y,
-                   camera.direction,
-                   camera.direction_x,
-                   camera.direction_y,
+/// Those of the camera, at (x, y) pixels of the tile.
+PictureRays rays_of(const CameraFrame& camera, const TileArea& tile,
+                    const RenderSettings& settings) {
+  const Vec2 pixel = 1.0 / Vec2(settings.width, settings.height);
+  const double x = tile.x0 * pixel.x, y = tile.y0 * pixel.y;
+  PictureRays rays{Vec3(camera.origin) + x * Vec3(camera.origin_x) + y * Vec3(camera.origin_y),
+                   pixel.x * Vec3(camera.origin_x),
+                   pixel.y * Vec3(camera.origin_y),
+                   Vec3(camera.direction) + x * Vec3(camera.direction_x) +
+                       y * Vec3(camera.direction_y),
+                   pixel.x * Vec3(camera.direction_x),
+                   pixel.y * Vec3(camera.direction_y),
                    {}};
-  const Direction n = glm::normalize(rays.direction + 0.5 * (rays.direction_x + rays.direction_y));
-  rays.near = {n, glm::dot(n, rays.origin) + std::min(0.0, glm::dot(n, rays.origin_x)) +
-                      std::min(0.0, glm::dot(n, rays.origin_y))};
+  const Vec2 corner(tile.width, tile.height);
+  const Direction n = glm::normalize(rays.direction + 0.5 * corner.x * rays.direction_x +
+                                     0.5 * corner.y * rays.direction_y);
+  rays.near = {n, glm::dot(n, rays.origin) + std::min(0.0, corner.x * glm::dot(n, rays.origin_x)) +
+                      std::min(0.0, corner.y * glm::dot(n, rays.origin_y))};
   return rays;
 }
 
@@ -228,7 +235,7 @@ void find_sure_paths(const RenderContext& context, const TileArea& tile, SurePat
   sure.pieces.clear();
   sure.in_block.clear();
   Search search{context, tile, sure, std::max(1, least_rays / static_cast<int>(samples))};
-  search.add_leg({.rays = rays_of(context.camera)});
+  search.add_leg({.rays = rays_of(context.camera, tile, context.settings)});
   if (rays < rays_to_a_piece * sure.pieces.size())
     return;
   for (std::uint32_t k = 0; k < sure.pieces.size(); ++k)

@@ -1,15 +1,15 @@
 // Pixels whose camera rays certainly all take the same path, by the same mirrors to the same face: these rays need not be traced.
 //
-// The rays of a block of pixels are a reflection frustum (frustum.h). Where a face covers it, and whatever else reaches into it lies behind the
+// The rays of a block of pixels are a reflection frustum. Where a face covers it, and whatever else reaches into it lies behind the
 // plane of the face, all rays of the block meet it. If it is a mirror, the frustum is reflected and asked the same behind it. A block that is
 // not sure of its path is divided, down to a few rays, which are traced then. Which faces reach into the frustum of a tile is found once
-// for every leg, and each block sorts out those of its parent.
+// for every leg (frustum.h), with how its rays see them (face_view.h), and each block sorts out those of its parent.
 //
 // The unfolded ray through the point (x, y) of the picture is o + t d, o and d affine in (x, y), one of them constant. It lands where
 // n . (o + t d) = c, so that the weights of a triangle's corners there are ratios of affine functions of x and y: nothing else is left to compute.
 #pragma once
 
-#include "raytrace/frustum.h"
+#include "raytrace/face_view.h"
 
 #include <vector>
 
@@ -18,16 +18,16 @@ namespace meninas {
 struct RenderContext;
 struct TileArea;
 
-/// A part of a face in the frustum of the tile.
+/// A face that reaches into the frustum of the tile.
 struct FrustumPiece {
   const FrustumFace* face;
-  ConvexPolygon polygon;
-  Ball around{};
+  FaceView view;
 };
 
 /// The rays of a tile behind a chain of mirrors, and what is there.
 struct FrustumLeg {
-  PictureRays rays;
+  PictureRays rays; ///< at (x, y) pixels of the tile
+  double longest = 0.0; ///< of their directions
   std::uint32_t leaving = index(none<PlaneId>);
   std::uint32_t parent = 0;
   std::int32_t mirrors = 0;
