@@ -120,7 +120,7 @@ void shade_behind_mirrors(const RenderContext& context, const RayPacket& packet,
     work.specular_rays += packet_size * static_cast<std::uint64_t>(path.mirrors);
   }
   work.sure_rays += packet_size * static_cast<std::uint64_t>(1 + path.mirrors);
-  shade_packet(context, packet, state, hits, work);
+  shade_alike(context, packet, state, hits, work);
 }
 
 } // namespace meninas

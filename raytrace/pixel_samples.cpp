@@ -2,6 +2,7 @@
 
 #include "raytrace/mirror_beam.h"
 #include "raytrace/specular_paths.h"
+#include "raytrace/wide_lanes.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -31,26 +32,25 @@ const SurePath* path_of_all(const SurePaths& sure, const SampleLanes& lanes) {
   return &sure.paths[path];
 }
 
+/// Places in the picture, from 0 to 1, of samples at `bits` / 2^32 of pixels that begin at `start`.
+MENINAS_WIDE_LANES
+void places_in_picture(const std::array<std::uint32_t, packet_size>& bits,
+                       const std::array<float, packet_size>& start, int pixels,
+                       const FilterPlaces* filter, std::array<float, packet_size>& places) {
+  const float pixel = 1.0F / static_cast<float>(pixels);
+  for (std::size_t k = 0; k < packet_size; ++k)
+    places[k] = static_cast<float>(static_cast<std::int32_t>(bits[k] >> 8U)) * 0x1p-24F;
+  if (filter)
+    for (float& place : places)
+      place = place_of(*filter, place);
+  for (std::size_t k = 0; k < packet_size; ++k)
+    places[k] = (start[k] + places[k]) * pixel;
+}
+
 void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileWorkspace& work) {
-  const float pixel_width = 1.0F / static_cast<float>(context.settings.width);
-  const float pixel_height = 1.0F / static_cast<float>(context.settings.height);
-  const auto unit = [](std::uint32_t bits) {
-    return static_cast<float>(static_cast<std::int32_t>(bits >> 8U)) * 0x1p-24F;
-  };
   alignas(64) std::array<float, packet_size> x, y;
-  for (std::size_t k = 0; k < packet_size; ++k)
-    x[k] = unit(lanes.bits_x[k]);
-  for (std::size_t k = 0; k < packet_size; ++k)
-    y[k] = unit(lanes.bits_y[k]);
-  if (context.filter)
-    for (std::size_t k = 0; k < packet_size; ++k) {
-      x[k] = place_of(*context.filter, x[k]);
-      y[k] = place_of(*context.filter, y[k]);
-    }
-  for (std::size_t k = 0; k < packet_size; ++k)
-    x[k] = (lanes.left[k] + x[k]) * pixel_width;
-  for (std::size_t k = 0; k < packet_size; ++k)
-    y[k] = (lanes.top[k] + y[k]) * pixel_height;
+  places_in_picture(lanes.bits_x, lanes.left, context.settings.width, context.filter, x);
+  places_in_picture(lanes.bits_y, lanes.top, context.settings.height, context.filter, y);
   RayPacket packet;
   packet.count = lanes.count;
   const LaneState state{lanes.pixel.data(), nullptr, lanes.bits_x.data(), lanes.number.data()};
@@ -95,20 +95,21 @@ void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileW
     const std::uint32_t shift_y = hash(shift_x, 1);
     for (std::uint32_t sample = 0; sample < samples;) {
       const std::uint32_t first = lanes.count;
-      const auto end = std::min(static_cast<std::uint32_t>(packet_size), first + samples - sample);
-      for (std::uint32_t k = first; k < end; ++k) {
-        lanes.bits_x[k] = context.net_x[sample + k - first] ^ shift_x;
-        lanes.bits_y[k] = context.net_y[sample + k - first] ^ shift_y;
-        lanes.left[k] = static_cast<float>(px);
-        lanes.top[k] = static_cast<float>(py);
-        lanes.pixel[k] = pixel;
-        lanes.number[k] = context.first_sample + sample + k - first;
-      }
-      sample += end - first;
-      lanes.count = end % packet_size;
-      if (lanes.count != 0)
+      const auto count =
+          std::min(static_cast<std::uint32_t>(packet_size) - first, samples - sample);
+      for (std::uint32_t k = 0; k < count; ++k)
+        lanes.bits_x[first + k] = context.net_x[sample + k] ^ shift_x;
+      for (std::uint32_t k = 0; k < count; ++k)
+        lanes.bits_y[first + k] = context.net_y[sample + k] ^ shift_y;
+      for (std::uint32_t k = 0; k < count; ++k)
+        lanes.number[first + k] = context.first_sample + sample + k;
+      std::fill_n(lanes.left.begin() + first, count, static_cast<float>(px));
+      std::fill_n(lanes.top.begin() + first, count, static_cast<float>(py));
+      std::fill_n(lanes.pixel.begin() + first, count, pixel);
+      sample += count;
+      lanes.count = first + count;
+      if (lanes.count < packet_size)
         continue;
-      lanes.count = packet_size;
       trace_samples(context, lanes, work);
       lanes.count = 0;
     }

@@ -5,6 +5,24 @@
 namespace meninas {
 
 MENINAS_WIDE_LANES
+std::uint32_t lanes_equal(const std::uint32_t* values, std::uint32_t value) {
+  std::uint32_t lanes = 0;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    lanes |= values[k] == value ? lane_bits[k] : 0U;
+  return lanes;
+}
+
+MENINAS_WIDE_LANES
+LaneIndices faces_of(const HitPacket& hits) {
+  LaneIndices faces;
+  for (std::size_t k = 0; k < packet_size; ++k) {
+    const std::uint32_t face = 2 * hits.triangle[k] + (hits.front[k] != 0 ? 0U : 1U);
+    faces[k] = hits.triangle[k] == index(none<TriangleId>) ? index(none<TriangleId>) : face;
+  }
+  return faces;
+}
+
+MENINAS_WIDE_LANES
 LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const SideRecord& side,
                         const HitPacket& hits) {
   LanePoints at;
@@ -64,9 +82,9 @@ struct ElementLanes {
   PointSums sums;
 };
 
-static inline ElementLanes lanes_on(const std::array<std::uint32_t, packet_size>& elements,
+static inline ElementLanes lanes_on(const LaneIndices& elements,
                                     std::uint32_t element, const LanePoints& at) {
-  alignas(64) std::array<std::uint32_t, packet_size> is_here;
+  alignas(64) LaneIndices is_here;
   alignas(64) LaneFloats n, s, t, st;
   for (std::size_t k = 0; k < packet_size; ++k)
     is_here[k] = elements[k] == element ? lane_bits[k] : 0U;
@@ -85,7 +103,7 @@ static inline ElementLanes lanes_on(const std::array<std::uint32_t, packet_size>
 MENINAS_WIDE_LANES
 glm::vec3 quad_radiance(const ElementMesh& mesh, const VisibleLight& visible, std::uint32_t side,
                         const LanePoints& at, std::uint32_t lanes) {
-  alignas(64) std::array<std::uint32_t, packet_size> elements = at.element;
+  alignas(64) LaneIndices elements = at.element;
   if (lanes != all_lanes)
     for (std::size_t k = 0; k < packet_size; ++k)
       elements[k] = (lanes & lane_bits[k]) != 0 ? elements[k] : index(none<ElementId>);

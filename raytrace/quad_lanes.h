@@ -17,10 +17,11 @@ inline glm::vec2 uv_of(const LightScene& light, const FaceRecord& face, const Hi
 }
 
 using LaneFloats = std::array<float, packet_size>;
+using LaneIndices = std::array<std::uint32_t, packet_size>;
 
 /// Where on a quad side the lanes have landed: element, and place in it.
 struct alignas(64) LanePoints {
-  std::array<std::uint32_t, packet_size> element;
+  LaneIndices element;
   LaneFloats s, t;
 };
 
@@ -38,12 +39,10 @@ void for_each_lane(std::uint32_t lanes, Visit visit) {
 inline constexpr std::uint32_t all_lanes = (1U << packet_size) - 1U;
 
 /// Bit k is set where values[k] is `value`.
-inline std::uint32_t lanes_equal(const std::uint32_t* values, std::uint32_t value) {
-  std::uint32_t lanes = 0;
-  for (std::uint32_t k = 0; k < packet_size; ++k)
-    lanes |= values[k] == value ? lane_bits[k] : 0U;
-  return lanes;
-}
+std::uint32_t lanes_equal(const std::uint32_t* values, std::uint32_t value);
+
+/// Which face of LandingTable the lanes have met; all that have met nothing have the same number.
+LaneIndices faces_of(const HitPacket& hits);
 
 /// The sum of the radiances at the points of some lanes, with one look-up for each element: the bilinear field is linear in the sums of 1, s, t and s t.
 glm::vec3 quad_radiance(const ElementMesh& mesh, const VisibleLight& visible, std::uint32_t side,

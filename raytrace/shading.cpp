@@ -205,6 +205,15 @@ bool lands_together(const RenderContext& context, const LaneState& state, const 
   return !side.textured && !weighed && !meets_lobes(context, face, hits, k);
 }
 
+/// Those of the lanes that belong to the pixel of the first.
+std::uint32_t lanes_of_first_pixel(const LaneState& state, std::uint32_t lanes) {
+  const std::uint32_t pixel = state.pixel[std::countr_zero(lanes)];
+  // Camera rays come in the order of their pixels.
+  if (!state.specular && state.pixel[std::bit_width(lanes) - 1] == pixel)
+    return lanes;
+  return lanes & lanes_equal(state.pixel, pixel);
+}
+
 /// Adds what lanes show that have landed on one quad side, pixel by pixel.
 void add_quad(const RenderContext& context, const LaneState& state, const FaceRecord& face,
               const HitPacket& hits, std::uint32_t lanes, TileWorkspace& work) {
@@ -212,7 +221,7 @@ void add_quad(const RenderContext& context, const LaneState& state, const FaceRe
   const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits);
   while (lanes != 0) {
     const auto first = static_cast<std::uint32_t>(std::countr_zero(lanes));
-    std::uint32_t alike = lanes & lanes_equal(state.pixel, state.pixel[first]);
+    std::uint32_t alike = lanes_of_first_pixel(state, lanes);
     if (state.specular)
       for_each_lane(alike, [&](std::uint32_t k) {
         if (state.way(k) != state.way(first) || state.throughput(k) != state.throughput(first))
@@ -224,57 +233,49 @@ void add_quad(const RenderContext& context, const LaneState& state, const FaceRe
   }
 }
 
-/// The lanes that have met what lane `first` has, a face or nothing.
-std::uint32_t lanes_on_face_of(const HitPacket& hits, std::uint32_t first) {
-  std::uint32_t differ = 0;
-  for (std::uint32_t k = 0; k < packet_size; ++k)
-    differ |= (hits.triangle[k] ^ hits.triangle[first]) |
-              static_cast<std::uint32_t>(hits.front[k] ^ hits.front[first]);
-  if (differ == 0)
-    return all_lanes;
-  const std::uint32_t lanes = lanes_equal(hits.triangle, hits.triangle[first]);
-  if (hits.triangle[first] == index(none<TriangleId>))
-    return lanes;
-  std::uint32_t fronts = 0;
-  for (std::uint32_t k = 0; k < packet_size; ++k)
-    fronts |= hits.front[k] != 0 ? lane_bits[k] : 0U;
-  return lanes & (hits.front[first] != 0 ? fronts : ~fronts);
-}
-
-/// Where the field is all: what has met one face is looked up together.
-void shade_by_faces(const RenderContext& context, const RayPacket& packet, const LaneState& state,
-                    const HitPacket& hits, TileWorkspace& work) {
+/// Where the field is all: what lanes show that have met one face, or nothing.
+void shade_face(const RenderContext& context, const RayPacket& packet, const LaneState& state,
+                const HitPacket& hits, std::uint32_t lanes, TileWorkspace& work) {
   const auto add = [&](std::uint32_t k, const glm::vec3& radiance) {
     work.sums[state.way(k)][state.pixel[k]] += state.throughput(k) * radiance;
   };
-  for (std::uint32_t rest = (1U << packet.count) - 1U, lanes = 0; rest != 0; rest &= ~lanes) {
-    const auto first = static_cast<std::uint32_t>(std::countr_zero(rest));
-    lanes = rest & lanes_on_face_of(hits, first);
-    if (hits.triangle[first] == index(none<TriangleId>)) {
-      if (context.visible.background != glm::vec3(0.0F))
-        for_each_lane(lanes, [&](std::uint32_t k) { add(k, context.visible.background); });
-      continue;
-    }
-    const FaceRecord& face = face_of(context.light.landing, hits, first);
-    if (lands_together(context, state, face, hits, lanes))
-      add_quad(context, state, face, hits, lanes, work);
-    else if (face.side != FaceRecord::nothing || face.mirrors)
-      for_each_lane(lanes, [&](std::uint32_t k) {
-        add(k, radiance_by_itself(context, packet, state, face, hits, k, work));
-      });
+  const auto first = static_cast<std::uint32_t>(std::countr_zero(lanes));
+  if (hits.triangle[first] == index(none<TriangleId>)) {
+    if (context.visible.background != glm::vec3(0.0F))
+      for_each_lane(lanes, [&](std::uint32_t k) { add(k, context.visible.background); });
+    return;
+  }
+  const FaceRecord& face = face_of(context.light.landing, hits, first);
+  if (lands_together(context, state, face, hits, lanes))
+    add_quad(context, state, face, hits, lanes, work);
+  else if (face.side != FaceRecord::nothing || face.mirrors)
+    for_each_lane(lanes, [&](std::uint32_t k) {
+      add(k, radiance_by_itself(context, packet, state, face, hits, k, work));
+    });
+  if (face.mirrors)
     for_each_lane(
         lanes, [&](std::uint32_t k) { reflect_lane(context, face, packet, state, hits, k, work); });
-  }
 }
 
 } // namespace
 
 void shade_packet(const RenderContext& context, const RayPacket& packet, const LaneState& state,
                   const HitPacket& hits, TileWorkspace& work) {
-  if (context.settings.diffuse.term == DiffuseTerm::interpolated)
-    shade_by_faces(context, packet, state, hits, work);
-  else
-    shade_by_runs(context, packet, state, hits, work);
+  if (context.settings.diffuse.term != DiffuseTerm::interpolated)
+    return shade_by_runs(context, packet, state, hits, work);
+  const LaneIndices faces = faces_of(hits);
+  for (std::uint32_t rest = (1U << packet.count) - 1U, lanes = 0; rest != 0; rest &= ~lanes) {
+    lanes =
+        rest & lanes_equal(faces.data(), faces[static_cast<std::size_t>(std::countr_zero(rest))]);
+    shade_face(context, packet, state, hits, lanes, work);
+  }
+}
+
+void shade_alike(const RenderContext& context, const RayPacket& packet, const LaneState& state,
+                 const HitPacket& hits, TileWorkspace& work) {
+  if (context.settings.diffuse.term != DiffuseTerm::interpolated)
+    return shade_by_runs(context, packet, state, hits, work);
+  shade_face(context, packet, state, hits, all_lanes, work);
 }
 
 } // namespace meninas

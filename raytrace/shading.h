@@ -27,4 +27,8 @@ glm::vec3 radiance_of_lane(const RenderContext& context, const RayPacket& packet
 void shade_packet(const RenderContext& context, const RayPacket& packet, const LaneState& state,
                   const HitPacket& hits, TileWorkspace& work);
 
+/// The same of a full packet whose rays have all met one face, or nothing.
+void shade_alike(const RenderContext& context, const RayPacket& packet, const LaneState& state,
+                 const HitPacket& hits, TileWorkspace& work);
+
 } // namespace meninas

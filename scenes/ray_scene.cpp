@@ -231,12 +231,12 @@ void read_hits(const RTCRayHit16& traced, float noise, HitPacket& hits, LaneFlag
     hits.front[k] = slope[k] < 0.0F;
 }
 
-RTCHit16 no_hits() {
-  RTCHit16 hit{};
+void clear(RTCHit16& hit) {
+  for (float* values : {hit.Ng_x, hit.Ng_y, hit.Ng_z, hit.u, hit.v})
+    std::fill_n(values, packet_size, 0.0F);
   std::fill_n(hit.primID, packet_size, no_index);
   std::fill_n(hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
   std::fill_n(hit.instID[0], packet_size, RTC_INVALID_GEOMETRY_ID);
-  return hit;
 }
 
 /// Goes on behind the backs that the lanes of `through` met.
@@ -266,7 +266,7 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
   RTCRayHit16 traced;
   alignas(64) const auto valid = traceable_lanes(packet);
   load_rays(impl.geometry, packet, valid, traced.ray);
-  traced.hit = no_hits();
+  clear(traced.hit);
 
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);

@@ -8,15 +8,6 @@ namespace meninas {
 
 namespace {
 
-constexpr std::uint32_t mix(std::uint32_t x) {
-  x ^= x >> 16;
-  x *= 0x21f0aaadU;
-  x ^= x >> 15;
-  x *= 0x735a2d97U;
-  x ^= x >> 15;
-  return x;
-}
-
 constexpr std::uint32_t reversed_bits(std::uint32_t x) {
   x = ((x >> 1) & 0x55555555U) | ((x & 0x55555555U) << 1);
   x = ((x >> 2) & 0x33333333U) | ((x & 0x33333333U) << 2);
@@ -79,12 +70,6 @@ constexpr std::uint32_t relabelled(std::uint32_t index) {
 }
 
 } // namespace
-
-std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  auto h = mix(a + 0x9e3779b9U);
-  h = mix(h ^ (b + 0x85ebca6bU));
-  return mix(h ^ (c + 0xc2b2ae35U));
-}
 
 std::array<float, 4> sobol4(std::uint32_t index, std::uint32_t seed) {
   // Sobol's integers are bit-reversed, and so is what the scrambling works on: both reversals cancel.

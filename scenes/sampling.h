@@ -10,8 +10,22 @@
 
 namespace meninas {
 
+/// A bijection that changes about half of the bits wherever one is changed (by multiplications and shifts, after Wellons).
+constexpr std::uint32_t mix(std::uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x21f0aaadU;
+  x ^= x >> 15;
+  x *= 0x735a2d97U;
+  x ^= x >> 15;
+  return x;
+}
+
 /// A well-mixed hash of its arguments, for seeds.
-std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c = 0);
+constexpr std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c = 0) {
+  std::uint32_t h = mix(a + 0x9e3779b9U);
+  h = mix(h ^ (b + 0x85ebca6bU));
+  return mix(h ^ (c + 0xc2b2ae35U));
+}
 
 /// Point `index` of the scrambled four-dimensional Sobol sequence that belongs to `seed`; each coordinate in [0, 1).
 std::array<float, 4> sobol4(std::uint32_t index, std::uint32_t seed);
