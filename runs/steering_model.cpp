@@ -70,43 +70,45 @@ double pass_two_seconds(const MeasuredRun& run, const Knobs& knobs) {
   return share * run.pass_two_seconds + hits;
 }
 
-std::vector<Knobs> turns(const Knobs& now, const FreeKnobs& free, const MeasuredRun& run) {
-  std::vector<Knobs> all;
-  const auto turn = [&](bool can, auto&& change) {
-    if (can) {
-      all.push_back(now);
-      change(all.back());
-    }
-  };
-  constexpr double most_growth = 16.0; // how the mesh's error falls is not known further than that
-  turn(free.elements &&
-           2.0 * now.elements <= std::min(most_elements, most_growth * run.knobs.elements),
-       [](Knobs& k) { k.elements *= 2.0; });
-  turn(free.rays && 2 * now.rays <= most_rays, [](Knobs& k) { k.rays *= 2; });
-  turn(free.samples && 4 * now.samples <= most_samples, [](Knobs& k) { k.samples *= 4; });
-  // Camera rays that cost next to nothing so far are worth less where each computes light: as few of them as do, first of all. So may be what has
-  // been turned in pass one, which must not keep such light out of the time.
-  const auto turn_term = [&](bool can, DiffuseTerm term) {
-    for (const bool as_it_was : {true, false})
-      for (const int fewer : {256, 64, 16, 4, 1})
-        turn(free.term && can &&
-                 (fewer == 1 || (free.samples && now.samples / fewer >= least_samples)),
-             [&](Knobs& k) {
-               k.term = term;
-               k.samples /= fewer;
-               if (as_it_was) {
-                 k.elements = run.knobs.elements;
-                 k.rays = run.knobs.rays;
-               }
-             });
-  };
-  turn_term(now.term == DiffuseTerm::interpolated && run.error.direct_seconds > 0.0,
-            DiffuseTerm::direct);
+/// first, growth times as many, and so on up to `most`; where it is not free, the first alone.
+std::vector<double> steps_up(bool free, double first, double growth, double most) {
+  std::vector<double> steps{first};
+  while (free && growth * steps.back() <= most)
+    steps.push_back(growth * steps.back());
+  return steps;
+}
+
+/// Light computed at hits takes the place of the field's where it is known what it takes.
+std::vector<DiffuseTerm> terms(const MeasuredRun& run, const FreeKnobs& free) {
+  std::vector<DiffuseTerm> all{run.knobs.term};
+  if (!free.term)
+    return all;
+  if (run.knobs.term == DiffuseTerm::interpolated && run.error.direct_seconds > 0.0)
+    all.push_back(DiffuseTerm::direct);
   // It is the dearest by far, and trusts what elements reflect: for where meshes do not help.
   constexpr double does_not_help = 0.7; // the exponent
-  turn_term(now.term != DiffuseTerm::gather && run.error.gather_seconds > 0.0 &&
-                (!free.elements || run.mesh_exponent < does_not_help),
-            DiffuseTerm::gather);
+  if (run.knobs.term != DiffuseTerm::gather && run.error.gather_seconds > 0.0 &&
+      (!free.elements || run.mesh_exponent < does_not_help))
+    all.push_back(DiffuseTerm::gather);
+  return all;
+}
+
+/// All that may be tried next.
+std::vector<Knobs> knobs_after(const MeasuredRun& run, const FreeKnobs& free) {
+  constexpr double most_growth = 16.0; // how the mesh's error falls is not known further than that
+  const Knobs& now = run.knobs;
+  const double finest = std::min(most_elements, most_growth * now.elements);
+  std::vector<Knobs> all;
+  for (const DiffuseTerm term : terms(run, free))
+    for (const double elements : steps_up(free.elements, now.elements, 2.0, finest))
+      for (const double rays : steps_up(free.rays, now.rays, 2.0, most_rays)) {
+        // Camera rays that cost next to nothing so far are worth less where each computes light.
+        double fewest = now.samples;
+        while (free.samples && term != now.term && fewest / 4.0 >= least_samples)
+          fewest /= 4.0;
+        for (const double samples : steps_up(free.samples, fewest, 4.0, most_samples))
+          all.push_back({elements, static_cast<int>(rays), static_cast<int>(samples), term});
+      }
   return all;
 }
 
@@ -191,58 +193,26 @@ Forecast forecast(const MeasuredRun& run, const Knobs& knobs) {
           pass_one + pass_two_seconds(run, knobs) + (again ? per_ray : run.estimate_seconds)};
 }
 
-/// Knobs that were turned one after the other may be further than they need be together: back by single turns, those first that save most,
-/// as long as the error is still foretold.
-static NextRun turned_back(const MeasuredRun& run, NextRun next, double error) {
-  for (;;) {
-    const Knobs& now = next.knobs;
-    std::vector<Knobs> all;
-    const auto back = [&](bool can, auto&& change) {
-      if (can) {
-        all.push_back(now);
-        change(all.back());
-      }
-    };
-    back(now.elements > run.knobs.elements, [](Knobs& k) { k.elements /= 2.0; });
-    back(now.rays > run.knobs.rays, [](Knobs& k) { k.rays /= 2; });
-    back(now.samples > run.knobs.samples, [](Knobs& k) { k.samples /= 4; });
-    std::optional<NextRun> best;
-    for (const Knobs& knobs : all) {
-      const Forecast then = forecast(run, knobs);
-      if (then.error <= error && (!best || then.seconds < best->forecast.seconds))
-        best = NextRun{knobs, then, {}};
-    }
-    if (!best)
-      return next;
-    next = *best;
-  }
-}
-
 NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds) {
-  NextRun next{run.knobs, forecast(run, run.knobs), {}};
-  while (next.forecast.error > error) {
-    std::optional<NextRun> best;
-    double most = 0.0;
-    for (const Knobs& knobs : turns(next.knobs, free, run)) {
-      const Forecast then = forecast(run, knobs);
-      if (then.seconds > seconds || !(then.error < next.forecast.error))
-        continue;
-      // What lies within what is done anyhow costs next to nothing.
-      const double cost = std::max(then.seconds - next.forecast.seconds, 1e-4);
-      const double gain = std::log(next.forecast.error / then.error) / cost;
-      if (gain > most) {
-        most = gain;
-        best = NextRun{knobs, then, {}};
-      }
-    }
-    if (!best)
-      break;
-    next = *best;
-  }
-  // Where the time has ended it, what was turned for next to nothing goes back as well.
   constexpr double as_good = 1.01;
-  if (next.knobs != run.knobs)
-    next = turned_back(run, next, std::max(error, as_good * next.forecast.error));
+  const NextRun same{run.knobs, forecast(run, run.knobs), {}};
+  if (same.forecast.error <= error)
+    return same;
+  std::vector<NextRun> better;
+  double least = same.forecast.error;
+  for (const Knobs& knobs : knobs_after(run, free)) {
+    const Forecast then = forecast(run, knobs);
+    if (then.seconds > seconds || !(then.error < same.forecast.error))
+      continue;
+    better.push_back({knobs, then, {}});
+    least = std::min(least, then.error);
+  }
+  // The quickest of those that do, or that are as good as any.
+  NextRun next = same;
+  for (const NextRun& other : better)
+    if (other.forecast.error <= std::max(error, as_good * least) &&
+        (next.knobs == run.knobs || other.forecast.seconds < next.forecast.seconds))
+      next = other;
   next.why = reasons(run, next.knobs);
   return next;
 }

@@ -61,8 +61,8 @@ struct NextRun {
   std::string why;
 };
 
-/// Turns, one after the other, the knob that takes most of the logarithm of the squared error per second, until the error is foretold to be below `error`
-/// or no turn fits into `seconds`; then back what was turned further than that needs, or than hardly changes what is foretold. The same knobs as before where none does.
+/// Of all turns of the knobs that fit into `seconds` the quickest that is foretold to bring the error below `error`, or, where none does, that brings it as low
+/// as any, to a hundredth. The same knobs as before where none lowers it.
 NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds);
 
 } // namespace meninas
