@@ -37,7 +37,9 @@ TEST(Metrics, IdenticalPicturesDoNotDiffer) {
        {Metric::rmse, Metric::relmse, Metric::mae, Metric::max_abs, Metric::flip})
     EXPECT_EQ(value_of(difference, metric), 0.0) << name_of(metric);
   EXPECT_EQ(difference.psnr, std::numeric_limits<double>::infinity());
-  EXPECT_NEAR(difference.ssim, 1.0, 1e-6); // floats
+  EXPECT_EQ(difference.ssim, 1.0);
+  for (const float grey : {0.05F, 0.2F, 0.7F, 1.0F})
+    EXPECT_EQ(compare_pictures(flat(16, 16, grey), flat(16, 16, grey)).ssim, 1.0) << grey;
   for (const Metric metric : {Metric::rmse, Metric::relmse, Metric::mae, Metric::max_abs})
     for (const float value : error_map(difference, metric, picture, picture).values)
       EXPECT_EQ(value, 0.0F);
