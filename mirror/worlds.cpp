@@ -125,21 +125,15 @@ WorldTree mirror_worlds(const MirrorSet& mirrors, const WorldSettings& settings)
                         throughput,
                         compose_reflection(parent.image, mirror.plane),
                         plane,
-                        std::move(window)};
+                        std::move(window),
+                        parent.chain};
+      world.chain.push_back(world.mirror);
       tree.children[w][m] = static_cast<WorldId>(tree.worlds.size());
       tree.worlds.push_back(std::move(world));
       open.push_back(std::move(parts));
     }
   }
   return tree;
-}
-
-std::vector<MirrorId> chain_of(const WorldTree& tree, WorldId world) {
-  std::vector<MirrorId> chain;
-  for (; world != real_world; world = tree.worlds[index(world)].parent)
-    chain.push_back(tree.worlds[index(world)].mirror);
-  std::reverse(chain.begin(), chain.end());
-  return chain;
 }
 
 } // namespace meninas

@@ -35,6 +35,7 @@ struct MirrorWorld {
   Isometry image; ///< real room -> unfolded space
   Plane plane;    ///< of the last mirror in unfolded space, normal towards the observer
   std::vector<ConvexPolygon> window; ///< of the last mirror in unfolded space
+  std::vector<MirrorId> chain;       ///< first one first
 };
 
 /// A world that light reaches but that is not in the tree.
@@ -69,6 +70,8 @@ inline WorldId child(const WorldTree& tree, WorldId world, MirrorId mirror) {
 std::vector<ConvexPolygon> window_in_world(const MirrorWorld& world, const Mirror& mirror);
 
 /// The mirrors of the chain, first one first.
-std::vector<MirrorId> chain_of(const WorldTree& tree, WorldId world);
+inline const std::vector<MirrorId>& chain_of(const WorldTree& tree, WorldId world) {
+  return tree.worlds[index(world)].chain;
+}
 
 } // namespace meninas

@@ -34,13 +34,21 @@ std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>
   std::uint32_t result = 0;
   RayPacket packet;
   packet.count = count;
-  for (std::size_t step = 0; step < folded[0].size(); ++step) {
+  std::size_t legs = 0;
+  for (std::uint32_t k = 0; k < count; ++k)
+    legs = std::max(legs, folded[k].size());
+  for (std::size_t step = 0; step < legs; ++step) {
     for (std::uint32_t k = 0; k < count; ++k) {
+      if (step >= folded[k].size()) {
+        packet.max_distance[k] = 0.0F; // no ray
+        continue;
+      }
       const Leg& leg = folded[k][step];
       const Vec3 from = (leg.from - frame.centre) * frame.scale,
                  along = (leg.to - leg.from) * frame.scale;
       set_ray(packet, k, from, along, index(leg.leaving), 1.0F);
       packet.arriving[k] = index(leg.arriving);
+      ++rays;
     }
     Blockers triangles;
     const std::uint32_t dark =
@@ -50,7 +58,6 @@ std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>
       (*blockers)[k] = {TriangleId{triangles[k]}, static_cast<std::uint32_t>(step)};
     }
     result |= dark;
-    rays += count;
     if (result == (1U << count) - 1U)
       break;
   }

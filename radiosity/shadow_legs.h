@@ -17,7 +17,7 @@ struct LegBlocker {
   std::uint32_t leg = 0;
 };
 
-/// Tests up to sixteen folded segments of as many legs each; bit k of the result is set where segment k is blocked, `blockers[k]` by what. Adds to
+/// Tests up to sixteen folded segments, best of about as many legs each; bit k of the result is set where segment k is blocked, `blockers[k]` by what. Adds to
 /// `rays`.
 std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>, 16>& folded,
                       std::uint32_t count, std::uint64_t& rays,

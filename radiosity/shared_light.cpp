@@ -90,8 +90,8 @@ double area_of(std::span<const ConvexPolygon> parts) {
   return sum;
 }
 
-/// A point of polygons that share a plane, with density one over their area: of a part by its share of the area.
-Point3 point_on(std::span<const ConvexPolygon> parts, double area, Vec2 sample) {
+/// A point of polygons that share a plane, with density one over their area: of a part by its share of the area. `last` is that of the last one.
+Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& last, Vec2 sample) {
   double before = 0.0;
   for (const ConvexPolygon& part : parts.first(parts.size() - 1)) {
     const Vec3 own = area_vector(part.span());
@@ -102,7 +102,7 @@ Point3 point_on(std::span<const ConvexPolygon> parts, double area, Vec2 sample) 
   }
   const double within =
       before < 1.0 ? std::clamp((sample.x - before) / (1.0 - before), 0.0, 1.0) : 0.5;
-  return point_on(parts.back(), area_vector(parts.back().span()), Vec2(within, sample.y));
+  return point_on(parts.back(), last, Vec2(within, sample.y));
 }
 
 /// Sends the rays of one point towards what it sees of an image, as many as that is worth beside the brightest image.
@@ -115,13 +115,15 @@ void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLi
       std::max(1U, static_cast<std::uint32_t>(std::lround(total.from_a_point * worth)));
   const Emitter& emitter = light.emitters[image.emitter];
   const double area = area_of(parts);
+  const Vec3 last = area_vector(parts.back().span());
   const auto image_seed = hash(seed, image.emitter, index(image.world));
+  const int mirrors = light.worlds.worlds[index(image.world)].depth;
   for (std::uint32_t k = 0; k < rays; ++k) {
     const auto sample = sobol4(total.rays++, image_seed);
-    const Point3 y = point_on(parts, area, Vec2(sample[2], sample[3]));
+    const Point3 y = point_on(parts, area, last, Vec2(sample[2], sample[3]));
     const double weight = image.weight * area / rays * form_factor_share(receiver, image, y);
     work.waiting.push_back(
-        {image.world, at.image, emitter.plane_class, weight, receiver.position, y});
+        {image.world, mirrors, at.image, emitter.plane_class, weight, receiver.position, y});
   }
 }
 
@@ -183,19 +185,17 @@ void learn(std::vector<ImageSum>& images) {
   }
 }
 
-/// Traces the waiting rays, those of one world together.
+/// Traces the waiting rays, those of as many legs together.
 void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspace& work) {
-  std::ranges::stable_sort(work.waiting, {}, [](const WaitingRay& ray) { return ray.world; });
+  std::ranges::stable_sort(work.waiting, {}, &WaitingRay::mirrors);
   std::array<LegBlocker, 16> blockers;
   for (std::size_t first = 0; first < work.waiting.size();) {
-    const WorldId world = work.waiting[first].world;
-    std::uint32_t count = 0;
-    while (count < 16 && first + count < work.waiting.size() &&
-           work.waiting[first + count].world == world) {
-      const WaitingRay& ray = work.waiting[first + count];
-      fold_legs(light.worlds, light.mirrors, world, ray.from, leaving, ray.to, ray.arriving,
-                work.point.folded[count]);
-      ++count;
+    const auto count =
+        static_cast<std::uint32_t>(std::min<std::size_t>(16, work.waiting.size() - first));
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const WaitingRay& ray = work.waiting[first + k];
+      fold_legs(light.worlds, light.mirrors, ray.world, ray.from, leaving, ray.to, ray.arriving,
+                work.point.folded[k]);
     }
     const std::uint32_t dark =
         blocked(light, work.point.folded, count, work.point.shadow_rays, &blockers);
@@ -209,7 +209,7 @@ void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspac
         continue;
       }
       image.seen += ray.weight;
-      image.left += ray.weight * left_by_glass(light, world, work.point.folded[k]);
+      image.left += ray.weight * left_by_glass(light, ray.world, work.point.folded[k]);
     }
     first += count;
   }

@@ -61,9 +61,10 @@ struct ImageSum {
   ImageBlockers* blockers = nullptr; ///< null where none are learned
 };
 
-/// A shadow ray that waits for others through the same mirrors.
+/// A shadow ray that waits for others by way of about as many mirrors.
 struct WaitingRay {
   WorldId world = real_world;
+  int mirrors = 0;
   std::uint32_t image = 0; ///< index of its ImageSum
   PlaneId arriving = none<PlaneId>;
   double weight = 0.0;
