@@ -82,8 +82,8 @@ struct ElementLanes {
   PointSums sums;
 };
 
-static inline ElementLanes lanes_on(const LaneIndices& elements,
-                                    std::uint32_t element, const LanePoints& at) {
+static inline ElementLanes lanes_on(const LaneIndices& elements, std::uint32_t element,
+                                    const LanePoints& at) {
   alignas(64) LaneIndices is_here;
   alignas(64) LaneFloats n, s, t, st;
   for (std::size_t k = 0; k < packet_size; ++k)

@@ -64,7 +64,8 @@ double pass_two_seconds(const MeasuredRun& run, const Knobs& knobs) {
     return run.pass_two_seconds * (knobs.term == DiffuseTerm::direct
                                        ? hits_of(samples) / hits_of(run.samples_a_pixel)
                                        : share);
-  constexpr double together = 0.6; // of what single hits take: those of a tile know each other's blockers
+  constexpr double together =
+      0.6; // of what single hits take: those of a tile know each other's blockers
   const double hits = run.pixels * (knobs.term == DiffuseTerm::direct
                                         ? together * hits_of(samples) * run.error.direct_seconds
                                         : samples * gather_seconds(run));
