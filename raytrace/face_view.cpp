@@ -136,10 +136,12 @@ bool covers(const FaceView& view, const PictureBlock& block, double longest) {
 
 bool is_behind(const FaceView& face, const FaceView& other, const PictureBlock& block) {
   const double sign = sign_over(face.slope, block), theirs = sign_over(other.slope, block);
-  // h' / s' - h / s, times the lengths of both slopes: by more than a margin under the face.
+  // h' / s' - h / s, times the lengths of both slopes: by more than a margin under the face, and over the other.
   const AffineForm farther = other.height * face.slope + (-1.0) * (face.height * other.slope);
+  const AffineForm apart = sign * theirs * farther;
   return sign * theirs != 0.0 &&
-         least_over(1.0, sign * theirs * farther + (-margin * theirs) * other.slope, block) > 0.0;
+         least_over(1.0, apart + (-margin * theirs) * other.slope, block) > 0.0 &&
+         least_over(1.0, apart + (-margin * sign) * face.slope, block) > 0.0;
 }
 
 } // namespace meninas

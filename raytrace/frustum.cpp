@@ -128,8 +128,8 @@ PictureRays reflected(const PictureRays& rays, const HalfSpace& mirror) {
   return behind;
 }
 
-Frustum frustum_of(const PictureRays& rays, Vec2 from, Vec2 to) {
-  const std::array corners{from, Vec2(to.x, from.y), to, Vec2(from.x, to.y)};
+Frustum frustum_of(const PictureRays& rays, Vec2 to) {
+  const std::array corners{Vec2(0.0), Vec2(to.x, 0.0), to, Vec2(0.0, to.y)};
   Frustum f;
   for (std::size_t i = 0; i < 4; ++i) {
     const auto [x, y] = std::pair(corners[i].x, corners[i].y);

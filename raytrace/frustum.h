@@ -44,23 +44,24 @@ struct FrustumFace {
 /// Those that can be met. None where the scene has more triangles than `most`, nor where there is glass, in which rays are attenuated one by one.
 std::vector<FrustumFace> frustum_faces(const LightScene& light, std::size_t most);
 
-/// The unfolded rays o + t d of the picture, o and d affine in (x, y), one of them constant, behind what they have left last.
+/// The unfolded rays o + t d through the points (x, y) of a picture or a tile of it, in pixels; o and d affine in (x, y), one of them constant, behind what
+/// they have left last.
 struct PictureRays {
   Point3 origin;
   Vec3 origin_x, origin_y;
   Vec3 direction, direction_x, direction_y;
-  HalfSpace near; ///< which they are in
+  HalfSpace near; ///< in which they are, and go on
 };
 
 PictureRays reflected(const PictureRays& rays, const HalfSpace& mirror);
 
-/// The rays through the corners of a rectangle of the picture, and the planes around all of its rays.
+/// The rays through the corners of the rectangle from (0, 0) to `to`, and the planes around all of its rays.
 struct Frustum {
   std::array<Point3, 4> origin;
   std::array<Vec3, 4> direction;
   std::array<HalfSpace, 5> bounds; ///< the last is where they come from
 };
-Frustum frustum_of(const PictureRays& rays, Vec2 from, Vec2 to);
+Frustum frustum_of(const PictureRays& rays, Vec2 to);
 
 /// Whether all of it is outside one of the bounds.
 bool is_outside(const Frustum& f, const Ball& ball);

@@ -34,7 +34,7 @@ struct Search {
   /// Finds what reaches into the tile's frustum.
   std::uint32_t add_leg(FrustumLeg leg) {
     const Vec2 corner(tile.width, tile.height);
-    const Frustum f = frustum_of(leg.rays, Vec2(0.0), corner);
+    const Frustum f = frustum_of(leg.rays, corner);
     leg.longest = longest_direction(leg.rays, corner);
     leg.first = static_cast<std::uint32_t>(sure.pieces.size());
     for (const FrustumFace& face : context.frustum_faces) {
@@ -205,8 +205,9 @@ PictureRays rays_of(const CameraFrame& camera, const TileArea& tile,
                    pixel.y * Vec3(camera.direction_y),
                    {}};
   const Vec2 corner(tile.width, tile.height);
-  const Direction n = glm::normalize(rays.direction + 0.5 * corner.x * rays.direction_x +
-                                     0.5 * corner.y * rays.direction_y);
+  // All of the picture goes ahead from the plane through its middle ray; of that of a tile's own, not even all of the tile where the view is wide.
+  const Direction n = glm::normalize(Vec3(camera.direction) + 0.5 * Vec3(camera.direction_x) +
+                                     0.5 * Vec3(camera.direction_y));
   rays.near = {n, glm::dot(n, rays.origin) + std::min(0.0, corner.x * glm::dot(n, rays.origin_x)) +
                       std::min(0.0, corner.y * glm::dot(n, rays.origin_y))};
   return rays;

@@ -26,7 +26,7 @@ struct FrustumPiece {
 
 /// The rays of a tile behind a chain of mirrors, and what is there.
 struct FrustumLeg {
-  PictureRays rays; ///< at (x, y) pixels of the tile
+  PictureRays rays;     ///< at (x, y) pixels of the tile
   double longest = 0.0; ///< of their directions
   std::uint32_t leaving = index(none<PlaneId>);
   std::uint32_t parent = 0;

@@ -225,6 +225,13 @@ void say_end(const SteeredChoice& choice, const RunEvents& events) {
   note(events, fmt::format("kept step {}; the same picture again:{}", choice.kept + 1, options));
 }
 
+/// What did not do once will not do by being made again.
+bool was_made(const SteeredChoice& choice, const Knobs& knobs) {
+  return std::ranges::any_of(choice.steps, [&](const SteeredStep& step) {
+    return Knobs{step.wanted_elements, step.rays, step.samples, step.term} == knobs;
+  });
+}
+
 /// Knobs whose turning did not help: the estimate does not know what is wrong.
 void leave_alone(FreeKnobs& free, const Knobs& before, const Knobs& turned) {
   free.elements = free.elements && turned.elements == before.elements;
@@ -308,7 +315,7 @@ ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFi
     next =
         next_run(measured, steering.free, std::max(error_margin * wanted, at_once * search.error()),
                  std::min(time_margin * steering.left(), most_growth * steering.spent()));
-    if (next.knobs == measured.knobs)
+    if (next.knobs == measured.knobs || was_made(choice, next.knobs))
       break;
     note(events, fmt::format("next, because of {}", next.why));
   }

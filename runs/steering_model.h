@@ -4,7 +4,7 @@
 //   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide), the rest of mesh^2 r^-1; pass one r
 //   rays x r       form_factors^2 r^-1.2 (low-discrepancy rays); pass one (128 + rays), as light from the source costs about so much
 //   samples x 4    pixels^2 4^-1.7 (stratified samples at edges), 4^-1.4 with light from the source at hits, 4^-1.1 where they gather; pass two as the pixels that would take them
-//   direct         mesh_direct^2 none, of which the rest of mesh^2 is not known to less than a hundredth; pass two six tenths of what the hits take that were made to find out, as those of a tile share, also with fewer samples, down to a 256th
+//   direct         mesh_direct^2 none, of which the rest of mesh^2 is not known to less than a hundredth; pass two six tenths of what the hits take that were made to find out, as those of a tile share, also with fewer samples, down to four
 //   gather         mesh^2 and form_factors^2 none, but the noise of a hit's own rays, a share in pixels^2; pass two as the hits say
 // The exponents are those of the gallery, roughly; every run is measured again, and only what comes next is foretold. How the mesh's error
 // falls is measured as well, once two meshes have been seen.
@@ -61,7 +61,7 @@ struct NextRun {
   std::string why;
 };
 
-/// Of all turns of the knobs that fit into `seconds` the quickest that is foretold to bring the error below `error`, or, where none does, that brings it as low
+/// Of all combinations of the knobs, from what they are up, that fit into `seconds` the quickest that is foretold to bring the error below `error`, or, where none does, that brings it as low
 /// as any, to a hundredth. The same knobs as before where none lowers it.
 NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds);
 

@@ -79,7 +79,7 @@ PictureBlock any_block(Random& random) {
 }
 
 FaceView view_in(const PictureRays& rays, const FrustumFace& face) {
-  const Frustum picture = frustum_of(rays, Vec2(0.0), Vec2(size));
+  const Frustum picture = frustum_of(rays, Vec2(size));
   return view_of(rays, face, clip_to(picture, ConvexPolygon(face.corners)));
 }
 

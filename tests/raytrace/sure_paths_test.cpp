@@ -74,6 +74,12 @@ TEST(SurePaths, FollowFacingMirrors) {
               0.4);
 }
 
+TEST(SurePaths, OfVeryWideViewsAreTheSame) {
+  // The first tile goes far beyond the middle of the picture: its last rays go back from the plane across its own middle.
+  for (const double vertical_fov : {2.4, 2.6, 3.0})
+    expect_same(half_room(), look_at({1.7, 1.6, 2.7}, {0.2, 1.0, 0.8}, vertical_fov), 0.2, 40);
+}
+
 TEST(SurePaths, OfParallelRaysAreTheSame) {
   Camera camera = look_at({1.8, 2.2, 2.8}, {0.1, 0.2, 0.4}, 1.0);
   camera.projection = Projection::orthographic;
