@@ -90,7 +90,7 @@ double area_of(std::span<const ConvexPolygon> parts) {
   return sum;
 }
 
-/// A point of polygons that share a plane, with density one over their area: of a part by its share of the area. `last` is that of the last one.
+/// A point of polygons that share a plane, with density one over their area: of a part by its share of the area. `last` is the area vector of the last one.
 Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& last, Vec2 sample) {
   double before = 0.0;
   for (const ConvexPolygon& part : parts.first(parts.size() - 1)) {
@@ -114,8 +114,8 @@ void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLi
   const auto rays =
       std::max(1U, static_cast<std::uint32_t>(std::lround(total.from_a_point * worth)));
   const Emitter& emitter = light.emitters[image.emitter];
-  const double area = area_of(parts);
   const Vec3 last = area_vector(parts.back().span());
+  const double area = area_of(parts.first(parts.size() - 1)) + glm::length(last);
   const auto image_seed = hash(seed, image.emitter, index(image.world));
   const int mirrors = light.worlds.worlds[index(image.world)].depth;
   for (std::uint32_t k = 0; k < rays; ++k) {
