@@ -4,9 +4,6 @@
 
 namespace meninas {
 
-namespace {
-
-/// Appends the parts of a world's window that x sees through the visible parts of its parent's.
 void add_openings(const MirrorWorld& world, const Observer& observer, const SeenWorld& parent,
                   std::vector<ConvexPolygon>& openings) {
   if (signed_distance(world.plane, observer.position) <= 0.0)
@@ -26,6 +23,8 @@ void add_openings(const MirrorWorld& world, const Observer& observer, const Seen
     }
   }
 }
+
+namespace {
 
 void walk(const WorldTree& tree, const Observer& observer, const SeenWorld& at, SeenWorlds& seen) {
   seen.worlds.push_back(at);
@@ -48,6 +47,14 @@ void seen_worlds(const WorldTree& tree, const Observer& observer, SeenWorlds& se
   walk(tree, observer, {}, seen);
 }
 
+/// Where a polygon of the real room appears.
+static ConvexPolygon image_of(ConvexPolygon polygon, const MirrorWorld& world) {
+  if (world.depth > 0)
+    for (std::size_t k = 0; k < polygon.size; ++k)
+      polygon.vertices[k] = apply(world.image, polygon.vertices[k]);
+  return polygon;
+}
+
 void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,
                 const SeenWorld& at, std::uint32_t emitter, const Observer& observer, double weight,
                 std::vector<VirtualLight>& lights) {
@@ -58,10 +65,7 @@ void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const 
     return;
 
   // The image is cut by the horizon, by the last mirror's plane, and by each visible part of the last window.
-  ConvexPolygon image = e.polygon;
-  if (world.depth > 0)
-    for (std::size_t k = 0; k < image.size; ++k)
-      image.vertices[k] = apply(world.image, image.vertices[k]);
+  ConvexPolygon image = image_of(e.polygon, world);
   clip_in_place(image, observer.position, observer.normal);
   if (image.empty())
     return;
@@ -75,6 +79,14 @@ void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const 
     if (!part.empty())
       lights.push_back({emitter, at.world, part, plane.normal, weight});
   }
+}
+
+void add_whole_image(const WorldTree& tree, std::span<const Emitter> emitters, WorldId id,
+                     std::uint32_t emitter, std::vector<VirtualLight>& lights) {
+  const MirrorWorld& world = tree.worlds[index(id)];
+  const Emitter& e = emitters[emitter];
+  const Plane plane = world.depth == 0 ? e.plane : apply(world.image, e.plane);
+  lights.push_back({emitter, id, image_of(e.polygon, world), plane.normal, 1.0});
 }
 
 void all_lights(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,

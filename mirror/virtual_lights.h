@@ -42,6 +42,10 @@ struct SeenWorlds {
   std::vector<ConvexPolygon> openings;
 };
 
+/// Appends the parts of a world's window that x sees through the visible parts of its parent's.
+void add_openings(const MirrorWorld& world, const Observer& observer, const SeenWorld& parent,
+                  std::vector<ConvexPolygon>& openings);
+
 /// Clears and fills `seen`, whose storage is reused from call to call.
 void seen_worlds(const WorldTree& tree, const Observer& observer, SeenWorlds& seen);
 
@@ -49,6 +53,10 @@ void seen_worlds(const WorldTree& tree, const Observer& observer, SeenWorlds& se
 void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,
                 const SeenWorld& world, std::uint32_t emitter, const Observer& observer,
                 double weight, std::vector<VirtualLight>& lights);
+
+/// Appends the image of one emitter in a world to whose observer nothing of it is hidden.
+void add_whole_image(const WorldTree& tree, std::span<const Emitter> emitters, WorldId world,
+                     std::uint32_t emitter, std::vector<VirtualLight>& lights);
 
 /// Appends the images of all emitters in all seen worlds.
 void all_lights(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,

@@ -127,17 +127,56 @@ void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLi
   }
 }
 
-/// Adds what every image brings to a point past known blockers, and the shadow rays that will tell how much of it arrives.
-void add_point(const LightScene& light, const Receiver& receiver, std::uint32_t point,
-               std::uint32_t seed, const SharedLightSettings& settings,
-               SharedLightWorkspace& work) {
+/// What an element sees of the images; null until it has been asked for so often that it pays.
+const RegionImages* region_of(const LightScene& light, ElementId element, RegionCache& cache) {
+  constexpr std::size_t slots = 1024;
+  constexpr std::uint32_t often = 16;
+  cache.slots.resize(slots);
+  RegionCache::Slot& slot = cache.slots[index(element) % slots];
+  if (slot.element != element)
+    slot = {element, 0, {}};
+  if (++slot.asked < often)
+    return nullptr;
+  if (slot.asked == often) {
+    const ElementMesh& mesh = light.mesh;
+    const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(element)])];
+    std::array<Point3, 4> corners;
+    for (std::size_t c = 0; c < corners.size(); ++c)
+      corners[c] = mesh.vertices[index(mesh.corners[index(element)][c])];
+    images_of_region(light.worlds, light.emitters,
+                     {std::span(corners).first(side.triangle ? 3 : 4), side.normal,
+                      light.surfaces.tolerance},
+                     slot.images);
+  }
+  return &slot.images;
+}
+
+/// The images that a point may see, or a choice of them.
+void find_lights(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
+                 std::size_t most, SharedLightWorkspace& work) {
+  const Receiver& receiver = point.receiver;
   const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const bool all = light.emitters.size() * light.worlds.worlds.size() <= most;
+  const RegionImages* region = all && point.element != none<ElementId>
+                                   ? region_of(light, point.element, work.regions)
+                                   : nullptr;
+  if (region) {
+    lights_in_region(light.worlds, light.emitters, *region, observer, work.point.choice.seen,
+                     work.point.lights);
+    return;
+  }
   // Where images are chosen, the steps through them begin elsewhere at every point, evenly by the golden section.
   constexpr std::uint32_t golden_section = 0x9e3779b9;
-  const LightChoice choice{static_cast<std::size_t>(settings.images),
-                           0x1p-32 * (hash(seed, 0xc401ce) + point * golden_section)};
+  const LightChoice choice{most, 0x1p-32 * (hash(seed, 0xc401ce) + point.number * golden_section)};
   chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice,
                 work.point.choice, work.point.lights);
+}
+
+/// Adds what every image brings to a point past known blockers, and the shadow rays that will tell how much of it arrives.
+void add_point(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
+               const SharedLightSettings& settings, SharedLightWorkspace& work) {
+  const Receiver& receiver = point.receiver;
+  find_lights(light, point, seed, static_cast<std::size_t>(settings.images), work);
   work.at_point.clear();
   work.parts.clear();
   for (const VirtualLight& image : work.point.lights)
@@ -263,7 +302,7 @@ ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_p
   int wanted = std::min(settings.points, settings.most_points);
   for (;;) {
     const NumberedPoint next = next_point();
-    add_point(light, next.receiver, next.number, seed, settings, work);
+    add_point(light, next, seed, settings, work);
     if (!light.punctual.empty())
       add_punctual(light, next.receiver, sum, work);
     if (++sum.points < wanted)

@@ -14,6 +14,7 @@
 // learned from other rays.
 #pragma once
 
+#include "mirror/region_images.h"
 #include "radiosity/known_blockers.h"
 #include "radiosity/light_samples.h"
 
@@ -79,6 +80,16 @@ struct ImageAtPoint {
   std::size_t first = 0, parts = 0; ///< otherwise: in SharedLightWorkspace::parts
 };
 
+/// What the elements asked for last see of the images. Points say which element they are in.
+struct RegionCache {
+  struct Slot {
+    ElementId element = none<ElementId>;
+    std::uint32_t asked = 0;
+    RegionImages images; ///< once it has been asked for often
+  };
+  std::vector<Slot> slots;
+};
+
 /// Storage reused from one mean to the next; one for each thread.
 struct SharedLightWorkspace {
   DirectWorkspace point;
@@ -88,6 +99,7 @@ struct SharedLightWorkspace {
   std::vector<ConvexPolygon> parts;                          ///< of these
   std::vector<ConvexPolygon> cutting;                        ///< of one of them
   std::vector<WaitingRay> waiting;
+  RegionCache regions;
   std::vector<PunctualArrival> arrivals;
   /// By world and emitter. Kept from mean to mean until it is cleared: to be done where results are not to depend on what came before.
   std::unordered_map<std::uint64_t, ImageBlockers> blockers_of;
@@ -96,6 +108,7 @@ struct SharedLightWorkspace {
 struct NumberedPoint {
   Receiver receiver;
   std::uint32_t number; ///< in its sequence, of which some may be left out
+  ElementId element = none<ElementId>; ///< the one it is in, if many other points are
 };
 /// The next of the points, all in one plane.
 using NextPoint = std::function<NumberedPoint()>;

@@ -57,14 +57,11 @@ glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& se
 }
 
 glm::vec3 direct_of_pixel(const LightScene& light, const DirectSettings& settings,
-                          ReflectedPart part, std::span<const Receiver> points, std::uint32_t seed,
+                          ReflectedPart part, std::span<const NumberedPoint> points, std::uint32_t seed,
                           SharedLightWorkspace& work) {
   constexpr double alike = 0.005; // relative: too little to be seen
   std::uint32_t next = 0;
-  const auto next_point = [&]() -> NumberedPoint {
-    const std::uint32_t number = next++;
-    return {points[number], number};
-  };
+  const auto next_point = [&] { return points[next++]; };
   return part_of(shared_irradiance(light, next_point,
                                    {.points = 2,
                                     .most_points = static_cast<int>(points.size()),

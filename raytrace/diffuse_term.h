@@ -45,7 +45,7 @@ glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& se
 
 /// The mean of D over points of one plane that one pixel sees, which share their shadow rays: the term `direct`, but for the field.
 glm::vec3 direct_of_pixel(const LightScene& light, const DirectSettings& settings,
-                          ReflectedPart part, std::span<const Receiver> points, std::uint32_t seed,
+                          ReflectedPart part, std::span<const NumberedPoint> points, std::uint32_t seed,
                           SharedLightWorkspace& work);
 
 } // namespace meninas

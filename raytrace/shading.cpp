@@ -78,17 +78,18 @@ glm::vec3 shared_irradiance_of(const RenderContext& context, const LaneState& st
                                TileWorkspace& work) {
   const LightScene& light = context.light;
   glm::vec3 field(0.0F);
-  work.receivers.clear();
+  work.points.clear();
   for (std::uint32_t k = run.first; k < run.end; ++k) {
     const FaceRecord& own = face_of(light.landing, hits, k);
     const FieldPoint at = field_point(light.landing, face.side, uv_of(light, own, hits, k));
     field += field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
-    work.receivers.push_back(receiver_at(light, own, hits, k));
+    work.points.push_back({receiver_at(light, own, hits, k), k - run.first,
+                           static_cast<ElementId>(at.element)});
   }
   const DiffuseSettings& diffuse = context.settings.diffuse;
   const std::uint32_t key = hash(state.key(run.first, context.settings.seed), diffuse.draw);
   return field + static_cast<float>(run.end - run.first) *
-                     direct_of_pixel(light, diffuse.direct, context.visible.part, work.receivers,
+                     direct_of_pixel(light, diffuse.direct, context.visible.part, work.points,
                                      key, work.shared);
 }
 
