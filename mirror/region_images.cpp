@@ -62,7 +62,7 @@ struct Classifier {
     return above(least, most, margin);
   }
 
-  /// What is seen of the target through one part of a window, whose plane has all of the region in front of it.
+  /// What is seen of the target through one part of a window that all of the region is in front of.
   Seen through_part(const ConvexPolygon& part, const ConvexPolygon& target) const {
     const Point3& origin = region.corners[0];
     const double side =
@@ -94,6 +94,8 @@ struct Classifier {
   }
 
   Seen through_window(const MirrorWorld& world, const ConvexPolygon& target) const {
+    if (before(world.plane) != Seen::whole)
+      return Seen::part;
     bool any_part = false;
     for (const ConvexPolygon& part : world.window) {
       const Seen seen = through_part(part, target);

@@ -38,8 +38,8 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
     const int count = std::min(16, end - first);
     std::array<double, 16> weight{};
     for (int k = 0; k < count; ++k) {
-      const auto sample = sobol4(static_cast<std::uint32_t>(first + k), seed);
-      const Point3 y = point_on(image.polygon, area, Vec2(sample[0], sample[1]));
+      const Vec2 sample(sobol2(static_cast<std::uint32_t>(first + k), seed, SobolPair::first));
+      const Point3 y = point_on(image.polygon, area, sample);
       weight[static_cast<std::size_t>(k)] = form_factor_share(receiver, image, y);
       fold_legs(light.worlds, light.mirrors, image.world, receiver.position, receiver.plane_class,
                 y, emitter.plane_class, work.folded[static_cast<std::size_t>(k)]);
@@ -103,9 +103,8 @@ void sample_dim_images(const LightScene& light, const Receiver& receiver,
            depth_of(dim[first + count]) == depth_of(dim[first]);
          ++count) {
       const VirtualLight& image = work.lights[dim[first + count]];
-      const auto sample = sobol4(0, hash(seed, image.emitter, index(image.world)));
-      const Point3 y =
-          point_on(image.polygon, area_vector(image.polygon.span()), Vec2(sample[0], sample[1]));
+      const Vec2 sample(sobol2(0, hash(seed, image.emitter, index(image.world)), SobolPair::first));
+      const Point3 y = point_on(image.polygon, area_vector(image.polygon.span()), sample);
       weight[count] = form_factor_share(receiver, image, y);
       fold_legs(light.worlds, light.mirrors, image.world, receiver.position, receiver.plane_class,
                 y, light.emitters[image.emitter].plane_class, work.folded[count]);

@@ -39,7 +39,7 @@ std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>
     legs = std::max(legs, folded[k].size());
   for (std::size_t step = 0; step < legs; ++step) {
     for (std::uint32_t k = 0; k < count; ++k) {
-      if (step >= folded[k].size()) {
+      if (step >= folded[k].size() || ((result >> k) & 1U) != 0) {
         packet.max_distance[k] = 0.0F; // no ray
         continue;
       }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace meninas {
 
@@ -119,36 +120,12 @@ void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLi
   const auto image_seed = hash(seed, image.emitter, index(image.world));
   const int mirrors = light.worlds.worlds[index(image.world)].depth;
   for (std::uint32_t k = 0; k < rays; ++k) {
-    const auto sample = sobol4(total.rays++, image_seed);
-    const Point3 y = point_on(parts, area, last, Vec2(sample[2], sample[3]));
+    const Vec2 sample(sobol2(total.rays++, image_seed, SobolPair::second));
+    const Point3 y = point_on(parts, area, last, sample);
     const double weight = image.weight * area / rays * form_factor_share(receiver, image, y);
     work.waiting.push_back(
         {image.world, mirrors, at.image, emitter.plane_class, weight, receiver.position, y});
   }
-}
-
-/// What an element sees of the images; null until it has been asked for so often that it pays.
-const RegionImages* region_of(const LightScene& light, ElementId element, RegionCache& cache) {
-  constexpr std::size_t slots = 1024;
-  constexpr std::uint32_t often = 16;
-  cache.slots.resize(slots);
-  RegionCache::Slot& slot = cache.slots[index(element) % slots];
-  if (slot.element != element)
-    slot = {element, 0, {}};
-  if (++slot.asked < often)
-    return nullptr;
-  if (slot.asked == often) {
-    const ElementMesh& mesh = light.mesh;
-    const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(element)])];
-    std::array<Point3, 4> corners;
-    for (std::size_t c = 0; c < corners.size(); ++c)
-      corners[c] = mesh.vertices[index(mesh.corners[index(element)][c])];
-    images_of_region(light.worlds, light.emitters,
-                     {std::span(corners).first(side.triangle ? 3 : 4), side.normal,
-                      light.surfaces.tolerance},
-                     slot.images);
-  }
-  return &slot.images;
 }
 
 /// The images that a point may see, or a choice of them.
@@ -158,7 +135,7 @@ void find_lights(const LightScene& light, const NumberedPoint& point, std::uint3
   const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
   const bool all = light.emitters.size() * light.worlds.worlds.size() <= most;
   const RegionImages* region = all && point.element != none<ElementId>
-                                   ? region_of(light, point.element, work.regions)
+                                   ? images_of_element(light, point.element, work.elements)
                                    : nullptr;
   if (region) {
     lights_in_region(light.worlds, light.emitters, *region, observer, work.point.choice.seen,
@@ -224,22 +201,38 @@ void learn(std::vector<ImageSum>& images) {
   }
 }
 
+/// The waiting rays by their number of mirrors, fewest first, in order where these are as many.
+void order_waiting(SharedLightWorkspace& work) {
+  std::vector<std::uint32_t>& begin = work.first_with;
+  begin.assign(1, 0);
+  for (const WaitingRay& ray : work.waiting) {
+    const auto next = static_cast<std::size_t>(ray.mirrors) + 1;
+    if (begin.size() <= next)
+      begin.resize(next + 1, 0);
+    ++begin[next];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  work.order.resize(work.waiting.size());
+  for (std::uint32_t k = 0; k < work.waiting.size(); ++k)
+    work.order[begin[static_cast<std::size_t>(work.waiting[k].mirrors)]++] = k;
+}
+
 /// Traces the waiting rays, those of as many legs together.
 void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspace& work) {
-  std::ranges::stable_sort(work.waiting, {}, &WaitingRay::mirrors);
+  order_waiting(work);
   std::array<LegBlocker, 16> blockers;
   for (std::size_t first = 0; first < work.waiting.size();) {
     const auto count =
         static_cast<std::uint32_t>(std::min<std::size_t>(16, work.waiting.size() - first));
     for (std::uint32_t k = 0; k < count; ++k) {
-      const WaitingRay& ray = work.waiting[first + k];
+      const WaitingRay& ray = work.waiting[work.order[first + k]];
       fold_legs(light.worlds, light.mirrors, ray.world, ray.from, leaving, ray.to, ray.arriving,
                 work.point.folded[k]);
     }
     const std::uint32_t dark =
         blocked(light, work.point.folded, count, work.point.shadow_rays, &blockers);
     for (std::uint32_t k = 0; k < count; ++k) {
-      const WaitingRay& ray = work.waiting[first + k];
+      const WaitingRay& ray = work.waiting[work.order[first + k]];
       ImageSum& image = work.images[ray.image];
       image.all += ray.weight;
       if (((dark >> k) & 1U) != 0U) {

@@ -14,7 +14,7 @@
 // learned from other rays.
 #pragma once
 
-#include "mirror/region_images.h"
+#include "radiosity/element_images.h"
 #include "radiosity/known_blockers.h"
 #include "radiosity/light_samples.h"
 
@@ -80,16 +80,6 @@ struct ImageAtPoint {
   std::size_t first = 0, parts = 0; ///< otherwise: in SharedLightWorkspace::parts
 };
 
-/// What the elements asked for last see of the images. Points say which element they are in.
-struct RegionCache {
-  struct Slot {
-    ElementId element = none<ElementId>;
-    std::uint32_t asked = 0;
-    RegionImages images; ///< once it has been asked for often
-  };
-  std::vector<Slot> slots;
-};
-
 /// Storage reused from one mean to the next; one for each thread.
 struct SharedLightWorkspace {
   DirectWorkspace point;
@@ -99,7 +89,8 @@ struct SharedLightWorkspace {
   std::vector<ConvexPolygon> parts;                          ///< of these
   std::vector<ConvexPolygon> cutting;                        ///< of one of them
   std::vector<WaitingRay> waiting;
-  RegionCache regions;
+  std::vector<std::uint32_t> order, first_with; ///< of these
+  ElementImages elements;
   std::vector<PunctualArrival> arrivals;
   /// By world and emitter. Kept from mean to mean until it is cleared: to be done where results are not to depend on what came before.
   std::unordered_map<std::uint64_t, ImageBlockers> blockers_of;

@@ -69,6 +69,11 @@ constexpr std::uint32_t relabelled(std::uint32_t index) {
          byte_tables[2][(index >> 16) & 255U] ^ byte_tables[3][index >> 24];
 }
 
+float coordinate(std::uint32_t unscrambled, std::uint32_t seed, std::uint32_t k) {
+  const auto bits = reversed_bits(scrambled(unscrambled, mix(seed + k * 0x9e3779b9U)));
+  return static_cast<float>(bits >> 8) * 0x1p-24F;
+}
+
 } // namespace
 
 std::array<float, 4> sobol4(std::uint32_t index, std::uint32_t seed) {
@@ -77,11 +82,15 @@ std::array<float, 4> sobol4(std::uint32_t index, std::uint32_t seed) {
   const std::array<std::uint32_t, 4> unscrambled{index, pascal(index), second, pascal(second)};
 
   std::array<float, 4> point{};
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    const auto bits = reversed_bits(scrambled(unscrambled[k], mix(seed + k * 0x9e3779b9U)));
-    point[k] = static_cast<float>(bits >> 8) * 0x1p-24F;
-  }
+  for (std::uint32_t k = 0; k < 4; ++k)
+    point[k] = coordinate(unscrambled[k], seed, k);
   return point;
+}
+
+glm::vec2 sobol2(std::uint32_t index, std::uint32_t seed, SobolPair pair) {
+  const auto k = static_cast<std::uint32_t>(pair);
+  const auto first = pair == SobolPair::first ? index : relabelled(index);
+  return {coordinate(first, seed, k), coordinate(pascal(first), seed, k + 1)};
 }
 
 glm::vec2 concentric_disc(float u, float v) {

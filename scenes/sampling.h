@@ -30,6 +30,10 @@ constexpr std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c =
 /// Point `index` of the scrambled four-dimensional Sobol sequence that belongs to `seed`; each coordinate in [0, 1).
 std::array<float, 4> sobol4(std::uint32_t index, std::uint32_t seed);
 
+/// Coordinates 0 and 1 of that point, or 2 and 3, in half of the time.
+enum class SobolPair : std::uint32_t { first = 0, second = 2 };
+glm::vec2 sobol2(std::uint32_t index, std::uint32_t seed, SobolPair pair);
+
 /// Maps the unit square to the unit disc, preserving area fractions and neighbourhoods (Shirley and Chiu 1997).
 glm::vec2 concentric_disc(float u, float v);
 

@@ -67,6 +67,14 @@ TEST(Sobol, CoordinatesAreInTheUnitIntervalWithTheRightMoments) {
   }
 }
 
+TEST(Sobol, PairsAreThoseOfThePoint) {
+  for (std::uint32_t k = 0; k < 300; ++k) {
+    const auto point = sobol4(k, 17);
+    EXPECT_EQ(sobol2(k, 17, SobolPair::first), glm::vec2(point[0], point[1]));
+    EXPECT_EQ(sobol2(k, 17, SobolPair::second), glm::vec2(point[2], point[3]));
+  }
+}
+
 TEST(Sobol, SeedsGiveUnrelatedPoints) {
   // The mean of the same index over seeds is 1/2 with deviation sqrt(1/12/n); six deviations happen once in 5e8 tests.
   constexpr std::uint32_t count = 1U << 14;
