@@ -22,10 +22,10 @@ ArrivingLight direct_irradiance(const LightScene& light, ElementId element, Cove
   const auto next_point = [&]() -> NumberedPoint {
     for (;;) {
       const std::uint32_t number = next++;
-      const auto sample = sobol4(number, seed);
-      if (is_covered(covered, sample[0], sample[1]))
+      const Vec2 sample(sobol2(number, seed, SobolPair::first));
+      if (is_covered(covered, sample.x, sample.y))
         continue;
-      return {{point_in(area, Vec2(sample[0], sample[1])), area.normal, area.plane_class}, number};
+      return {{point_in(area, sample), area.normal, area.plane_class}, number, element};
     }
   };
   return shared_irradiance(light, next_point,
