@@ -22,7 +22,7 @@ QualityPreset preset_of(Quality quality) {
             .source_points = 4,
             .most_source_points = 64,
             .samples = 16,
-            .hit_shadow_rays = 8,
+            .hit_shadow_rays = 4,
             .pixel_penumbra_rays = 256,
             .max_error = 0.1,
             .root_elements = 600,
