@@ -1,6 +1,7 @@
 #include "raytrace/picture_error.h"
 
 #include "radiosity/vertex_places.h"
+#include "raytrace/noise_choice.h"
 #include "raytrace/probe_choice.h"
 #include "scenes/sampling.h"
 #include "scenes/stopwatch.h"
@@ -159,26 +160,13 @@ pixels_by_samples(const SampledPicture& picture, const std::vector<std::uint8_t>
   return groups;
 }
 
-/// So many of them, one at random of every run of the same length.
-std::vector<glm::ivec2> some_of(std::span<const glm::ivec2> pixels, std::size_t wanted,
-                                std::uint32_t seed) {
-  if (wanted >= pixels.size())
-    return {pixels.begin(), pixels.end()};
-  std::vector<glm::ivec2> some;
-  for (std::size_t k = 0; k < wanted; ++k) {
-    const double place = double(k) + double(hash(static_cast<std::uint32_t>(k), seed)) * 0x1p-32;
-    some.push_back(
-        pixels[static_cast<std::size_t>(place / double(wanted) * double(pixels.size()))]);
-  }
-  return some;
-}
-
 /// Another draw of all camera rays of some pixels.
 void probe_samples(Probing& probe, const SampledPicture& picture,
                    const std::vector<std::uint8_t>& emits, int wanted, SquaredErrors& errors) {
   RenderSettings again = probe.settings.render;
   again.seed = hash(again.seed, 0xa9a17);
   const auto groups = pixels_by_samples(picture, emits, again.samples);
+  const std::vector<double> contrasts = squared_contrasts(picture.image, emits);
   std::size_t all = 0;
   for (const auto& [samples, group] : groups)
     all += group.size();
@@ -187,14 +175,17 @@ void probe_samples(Probing& probe, const SampledPicture& picture,
     // Pixels of few samples are cheap; and one in a hundred may have all of the error.
     constexpr std::uint32_t few = 16;
     const std::size_t share = static_cast<std::size_t>(wanted) / groups.size();
-    const auto pixels =
-        some_of(group, share * std::max(1U, few / samples), hash(again.seed, samples));
-    const Radiances other = probe(again, pixels);
+    const ProbeChoice choice =
+        choose_redrawn(group, contrasts, picture.image.width, share * std::max(1U, few / samples),
+                       hash(again.seed, samples));
+    const Radiances other = probe(again, choice.pixels);
     const auto square = [&](std::size_t k) {
-      const glm::vec3 change = other[k] - picture.image.at(pixels[k].x, pixels[k].y);
-      return change * change;
+      const glm::ivec2 pixel = choice.pixels[k];
+      const glm::vec3 change = other[k] - picture.image.at(pixel.x, pixel.y);
+      return static_cast<float>(choice.weight[k]) * change * change;
     };
-    errors.pixels += 0.5 * double(group.size()) / double(all) * mean_of(pixels.size(), square);
+    errors.pixels +=
+        0.5 * double(group.size()) / double(all) * mean_of(choice.pixels.size(), square);
   }
 }
 

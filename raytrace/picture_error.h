@@ -15,7 +15,7 @@
 // mesh^2 is the rest: what interpolation hides. Light from the source is cheap and has the edges: it is computed at many more pixels,
 // and the difference that makes corrects the first mean.
 // pixels^2 is half the mean square of what another draw of all camera rays changes, at pixels of each number of samples for themselves: where
-// sampling is adaptive, the few that have many have most of the error. solver is the solver's bound, for the
+// sampling is adaptive, the few that have many have most of the error; and of those rather at edges (noise_choice.h). solver is the solver's bound, for the
 // brightest reflected radiosity, an upper bound; the others are estimates.
 //
 // Limits: gathered light comes from the picture's own field. An error that all of the field has alike is seen as what one more bounce changes,
@@ -29,7 +29,7 @@ namespace meninas {
 
 struct PictureErrorSettings {
   int gathered_pixels = 128; ///< where light is gathered, twice
-  int pixels = 1024;         ///< where the rest is computed; more of those that have few samples
+  int pixels = 1024;         ///< where the rest is computed; of another draw more of those that have few samples
 };
 
 struct PictureError {

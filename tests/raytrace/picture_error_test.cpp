@@ -195,6 +195,41 @@ TEST(PictureError, OfAdaptiveCameraRaysIsThatOfThePixelsThatHaveMany) {
   EXPECT_NEAR(estimate.pixels, error, 0.3 * error);
 }
 
+TEST(PictureError, OfCameraRaysIsThatOfAllPixelsFromAFew) {
+  // 64 pixels four times, as they have four samples, of 1,600; over the seeds of the choice their mean square is that of all.
+  TwoPassSettings settings = quick();
+  const Lit lit(lit_room(), settings);
+  settings.render.samples = 4;
+  const Image picture = lit.picture(settings.render);
+  constexpr int seeds = 32;
+  double few = 0.0, few2 = 0.0, all = 0.0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    settings.render.seed = static_cast<std::uint32_t>(seed);
+    const auto square = [&](int pixels) {
+      const PictureError error = estimate_error(lit.light(), lit.solution.field, lit.camera(),
+                                                settings, lit.solution.solver, {picture, {}},
+                                                {.gathered_pixels = 8, .pixels = pixels});
+      return error.pixels * error.pixels;
+    };
+    const double found = square(64);
+    few += found / seeds;
+    few2 += found * found / seeds;
+    all += square(1024) / seeds;
+  }
+  const double sigma = std::sqrt(few2 - few * few);
+  EXPECT_NEAR(few, all, 4.0 * sigma / std::sqrt(double(seeds)));
+  EXPECT_LT(sigma, 0.25 * all) << "which are drawn alike leave 0.6";
+}
+
+TEST(PictureError, OfASinglePixelIsFinite) {
+  TwoPassSettings settings = quick();
+  settings.render.width = settings.render.height = 1;
+  const Lit lit(lit_room(), settings);
+  const PictureError error = lit.error(settings, lit.picture(settings.render));
+  EXPECT_TRUE(std::isfinite(error.total));
+  EXPECT_GE(error.pixels, 0.0);
+}
+
 TEST(PictureError, OfAMirrorDepthIsTheLightBeyondIt) {
   // The mirror seen black, and nothing by way of it: nearly all of what is wrong.
   TwoPassSettings settings = quick();
