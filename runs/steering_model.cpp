@@ -69,6 +69,32 @@ double pass_two_seconds(const MeasuredRun& run, const Knobs& knobs) {
   return share * run.pass_two_seconds + hits;
 }
 
+/// Samples drawn again to find out, of a pixel that is looked at: as many pixels of each number of samples, more of those of few (raytrace/picture_error.cpp).
+double samples_drawn_again(int samples) {
+  constexpr int least_drawn = 16, most_rounds = 64; // first samples to last
+  double drawn = 0.0, groups = 0.0;
+  for (int n = std::max(least_samples, samples / most_rounds); n <= samples; n *= 4) {
+    drawn += std::max(n, least_drawn);
+    groups += 1.0;
+  }
+  return groups > 0.0 ? drawn / groups : least_drawn;
+}
+
+/// What finding out the error takes.
+double estimate_seconds(const MeasuredRun& run, const Knobs& knobs) {
+  constexpr double of_camera_rays = 1.0 / 3.0; // the share drawn again, with four samples a pixel
+  constexpr double source_rays = 128.0;        // that cost as much as light from the source
+  const auto pixels = [](double elements) {
+    return error_settings(TwoPassSettings{}, static_cast<std::size_t>(elements)).gathered_pixels;
+  };
+  const auto of_a_pixel = [](const Knobs& k) {
+    return (1.0 - of_camera_rays) * (source_rays + k.rays) / (source_rays + Knobs{}.rays) +
+           of_camera_rays * samples_drawn_again(k.samples) / samples_drawn_again(Knobs{}.samples);
+  };
+  return run.estimate_seconds * pixels(knobs.elements) / pixels(run.knobs.elements) *
+         of_a_pixel(knobs) / of_a_pixel(run.knobs);
+}
+
 /// first, growth times as many, and so on up to `most`; where it is not free, the first alone.
 std::vector<double> steps_up(bool free, double first, double growth, double most) {
   std::vector<double> steps{first};
@@ -187,9 +213,8 @@ Forecast forecast(const MeasuredRun& run, const Knobs& knobs) {
   const double pass_one = again ? run.pass_one_seconds * elements * (source_rays + knobs.rays) /
                                       (source_rays + run.knobs.rays)
                                 : 0.0;
-  const double per_ray = run.estimate_seconds * std::max(1.0, elements * rays);
   return {std::sqrt(squared),
-          pass_one + pass_two_seconds(run, knobs) + (again ? per_ray : run.estimate_seconds)};
+          pass_one + pass_two_seconds(run, knobs) + estimate_seconds(run, knobs)};
 }
 
 NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds) {

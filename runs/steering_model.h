@@ -6,6 +6,7 @@
 //   samples x 4    pixels^2 4^-1.7 (stratified samples at edges), 4^-1.4 with light from the source at hits, 4^-1.1 where they gather; pass two as the pixels that would take them
 //   direct         mesh_direct^2 none, of which the rest of mesh^2 is not known to less than a hundredth; pass two six tenths of what the hits take that were made to find out, as those of a tile share, also with fewer samples, down to four
 //   gather         mesh^2 and form_factors^2 none, but the noise of a hit's own rays, a share in pixels^2; pass two as the hits say
+//   the estimate   as the pixels it looks at, a share of the elements within limits; two thirds of it 128 + rays, a third the samples drawn again, of each number as many pixels
 // The exponents are those of the gallery, roughly; every run is measured again, and only what comes next is foretold. How the mesh's error
 // falls is measured as well, once two meshes have been seen.
 #pragma once
