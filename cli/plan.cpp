@@ -42,7 +42,7 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PlanOptions>& 
   add("--samples", "N", "camera rays per pixel [as render]", [&settings](const std::string& text) {
     settings.samples = static_cast<int>(parse_integer("--samples", text, 1, 1 << 24));
   });
-  add("--diffuse", "interpolated|direct|gather", "light on diffuse surfaces [interpolated]",
+  add("--diffuse", "interpolated|direct|gather", "light on diffuse surfaces [as render]",
       [&settings](const std::string& text) { settings.diffuse = parse_diffuse(text); });
   add("--threads", "N", "threads at work [all]", [&settings](const std::string& text) {
     settings.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));

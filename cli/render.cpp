@@ -90,7 +90,8 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       });
   add("--diffuse", "interpolated|direct|gather",
       "light on diffuse surfaces: as pass one has it at vertices, with that of emitters and their "
-      "mirror images computed at every hit, or all of it gathered there [interpolated]",
+      "mirror images computed at every hit, or all of it gathered there [interpolated, fine "
+      "direct]",
       [&](const std::string& text) { options.common.settings.diffuse = parse_diffuse(text); });
   add("--camera", "NAME", "camera of the scene [its first]",
       [&](const std::string& text) { request.camera = text; });

@@ -89,7 +89,10 @@ void compare_run(const CompareRequest& request, const RunEvents& events) {
   comparison.scene = request.scene.filename().string();
   comparison.camera = camera.name;
 
-  TwoPassSettings settings = two_pass_settings(request.settings);
+  // Mirrors alone are to tell the two modes apart.
+  RunSettings of_both = request.settings;
+  of_both.diffuse = DiffuseTerm::interpolated;
+  TwoPassSettings settings = two_pass_settings(of_both);
   settings.pass_one.interpolation.method = Interpolation::gather; // knows what mirrors brought
   settings.render.width = size.width;
   settings.render.height = size.height;

@@ -59,6 +59,13 @@ Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
   return std::move(result.rendering);
 }
 
+/// The preset asks for no more than a stored field knows.
+RunSettings settings_for(const DiffuseField& field, RunSettings settings) {
+  if (!settings.diffuse && field.indirect.empty())
+    settings.diffuse = DiffuseTerm::interpolated;
+  return settings;
+}
+
 /// Throws InputError where the field does not know what the picture builds on.
 void check_field(const std::filesystem::path& solution, const DiffuseField& field,
                  const RenderSettings& settings) {
@@ -109,8 +116,10 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   }
   const LitScene lit =
       read_lit_scene(*request.solution, std::move(scene), settings.pass_one, events, figures);
+  const RunSettings known = settings_for(lit.field, request.settings);
+  settings.render.diffuse = two_pass_settings(known).render.diffuse;
   check_field(*request.solution, lit.field, settings.render);
-  ViewPicture picture = render_view(lit, camera, size, request.settings, events, figures);
+  ViewPicture picture = render_view(lit, camera, size, known, events, figures);
   report_error({lit.light(), lit.field, camera, settings, figures.solver}, wanted_report(request),
                {picture.image, picture.samples}, picture.layers, events, figures);
   return picture;

@@ -50,6 +50,7 @@ QualityPreset preset_of(Quality quality) {
             .source_points = 16,
             .most_source_points = 256,
             .samples = 64,
+            .diffuse = DiffuseTerm::direct,
             .hit_shadow_rays = 16,
             .pixel_penumbra_rays = 1024,
             .max_error = 0.01,
@@ -57,6 +58,16 @@ QualityPreset preset_of(Quality quality) {
             .adaptive_error = 0.005};
   }
   return {};
+}
+
+DiffuseTerm diffuse_term(const RunSettings& settings) {
+  if (settings.mode == PictureMode::radiosity)
+    return DiffuseTerm::interpolated;
+  // Means of elements by the analytic method do not tell light of emitters from the rest.
+  const bool told_apart = settings.form_factors != FormFactorMethod::analytic ||
+                          settings.interpolation != Interpolation::average;
+  const DiffuseTerm preset = preset_of(settings.quality).diffuse;
+  return settings.diffuse.value_or(told_apart ? preset : DiffuseTerm::interpolated);
 }
 
 /// A pixel's rays are shared out among its samples; where sampling is adaptive, most pixels have few.
@@ -68,7 +79,7 @@ static DiffuseSettings diffuse_settings(const RunSettings& settings,
     samples = std::min(samples, shared_at_most);
   const QualityPreset preset = preset_of(settings.quality);
   DiffuseSettings result;
-  result.term = settings.diffuse;
+  result.term = diffuse_term(settings);
   result.direct.seed = settings.seed;
   result.direct.shadow_rays = preset.hit_shadow_rays;
   result.direct.penumbra_rays =

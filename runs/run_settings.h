@@ -27,6 +27,7 @@ struct QualityPreset {
   int source_points = 0;   ///< of an element, at which light from emitters is computed for its mean
   int most_source_points = 0; ///< likewise, where the first ones disagree
   int samples = 0;            ///< camera rays per pixel
+  DiffuseTerm diffuse = DiffuseTerm::interpolated; ///< of a hybrid picture
   int hit_shadow_rays = 0;    ///< from a hit to an emitter, where light is computed there
   int pixel_penumbra_rays =
       0; ///< likewise, where the first ones disagree, shared out among a pixel's samples
@@ -66,7 +67,7 @@ struct RunSettings {
   std::optional<Interpolation> interpolation;
   std::optional<int> samples;
   PictureMode mode = PictureMode::hybrid;
-  DiffuseTerm diffuse = DiffuseTerm::interpolated; ///< of a hybrid picture
+  std::optional<DiffuseTerm> diffuse;              ///< of a hybrid picture
   WithLayers layers = WithLayers::no;              ///< of light, of a hybrid picture or a reference
   std::vector<Feature> features;                   ///< layers of the scene, not of a reference
   std::optional<DebugView> view;                   ///< painted instead of light
@@ -81,6 +82,9 @@ struct RunSettings {
   int threads = 0;  ///< 0: all the machine has
   std::uint32_t seed = 0;
 };
+
+/// What is asked for, or what the preset has; `interpolated` where the mode or the field knows no other.
+DiffuseTerm diffuse_term(const RunSettings& settings);
 
 /// Numbers of rays and samples are rounded up to powers of two.
 TwoPassSettings two_pass_settings(const RunSettings& settings);

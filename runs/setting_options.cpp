@@ -80,8 +80,10 @@ std::vector<std::string> options_of(const RunSettings& settings) {
     add("--interpolation", name_of(*settings.interpolation));
   if (settings.mode == PictureMode::radiosity)
     add("--mode", "radiosity");
-  if (settings.diffuse != standard.diffuse)
-    add("--diffuse", name_of(settings.diffuse));
+  RunSettings by_preset = settings;
+  by_preset.diffuse.reset();
+  if (diffuse_term(settings) != diffuse_term(by_preset))
+    add("--diffuse", name_of(diffuse_term(settings)));
   add_given("--samples", settings.samples);
   if (settings.filter != standard.filter)
     add("--filter", std::string(name_of(settings.filter)));

@@ -48,8 +48,7 @@ FreeKnobs free_knobs(const RunSettings& settings) {
   return {.elements = !settings.element_size && settings.adaptive == WithAdaptivity::no,
           .rays = !settings.rays && settings.form_factors == FormFactorMethod::rays,
           .samples = !settings.samples,
-          .term = settings.diffuse == DiffuseTerm::interpolated &&
-                  settings.mode == PictureMode::hybrid};
+          .term = !settings.diffuse && settings.mode == PictureMode::hybrid};
 }
 
 Knobs first_knobs(const RunSettings& settings) {
@@ -60,7 +59,7 @@ Knobs first_knobs(const RunSettings& settings) {
   knobs.rays = settings.rays.value_or(settings.form_factors == FormFactorMethod::rays ? knobs.rays
                                                                                       : draft.rays);
   knobs.samples = settings.samples.value_or(knobs.samples);
-  knobs.term = settings.diffuse;
+  knobs.term = settings.diffuse.value_or(knobs.term);
   return knobs;
 }
 

@@ -8,7 +8,7 @@ namespace meninas {
 BatchForecast::BatchForecast(std::span<const BatchPicture> pictures) : waits_(pictures.size()) {
   for (const BatchPicture& picture : pictures) {
     const RunSettings& settings = picture.request.settings;
-    kind_of_.emplace_back(settings.mode, settings.diffuse, settings.quality);
+    kind_of_.emplace_back(settings.mode, diffuse_term(settings), settings.quality);
     rays_.push_back(double(picture.size.width) * picture.size.height *
                     two_pass_settings(settings).render.samples);
   }

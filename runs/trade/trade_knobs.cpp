@@ -116,7 +116,7 @@ void turn_picture(Turner& turner) {
   const RunSettings& s = turner.from;
   turner.steps<int>("samples", *s.samples, 4, 1, 1024, &RunSettings::samples);
   const auto term = [&](DiffuseTerm to, bool finer) {
-    turner.turn("diffuse", name_of(s.diffuse), name_of(to), finer,
+    turner.turn("diffuse", name_of(*s.diffuse), name_of(to), finer,
                 [&](RunSettings& r) { r.diffuse = to; });
   };
   if (s.diffuse == DiffuseTerm::interpolated)
@@ -144,6 +144,7 @@ RunSettings spelled_out(const RunSettings& settings, const TradeScene& scene) {
     result.rays = preset.rays;
   if (!result.samples)
     result.samples = preset.samples;
+  result.diffuse = diffuse_term(result);
   return result;
 }
 

@@ -1,0 +1,68 @@
+#include "runs/run_settings.h"
+#include "runs/setting_options.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace meninas::test {
+namespace {
+
+RunSettings with_quality(Quality quality) {
+  RunSettings settings;
+  settings.quality = quality;
+  return settings;
+}
+
+// README: `fine` computes light from the source at the hits, unless it is told otherwise.
+TEST(DiffuseTerm, IsThePresets) {
+  EXPECT_EQ(diffuse_term(with_quality(Quality::draft)), DiffuseTerm::interpolated);
+  EXPECT_EQ(diffuse_term(with_quality(Quality::normal)), DiffuseTerm::interpolated);
+  EXPECT_EQ(diffuse_term(with_quality(Quality::fine)), DiffuseTerm::direct);
+  EXPECT_EQ(two_pass_settings(with_quality(Quality::fine)).render.diffuse.term,
+            DiffuseTerm::direct);
+}
+
+TEST(DiffuseTerm, IsWhatIsAskedFor) {
+  RunSettings settings = with_quality(Quality::fine);
+  settings.diffuse = DiffuseTerm::interpolated;
+  EXPECT_EQ(diffuse_term(settings), DiffuseTerm::interpolated);
+  settings.quality = Quality::draft;
+  settings.diffuse = DiffuseTerm::gather;
+  EXPECT_EQ(diffuse_term(settings), DiffuseTerm::gather);
+}
+
+// Pass one alone is Gouraud shading, and a field that does not tell light of emitters apart knows nothing else.
+TEST(DiffuseTerm, IsInterpolatedWherePassOneIsAllThereIs) {
+  RunSettings settings = with_quality(Quality::fine);
+  settings.mode = PictureMode::radiosity;
+  EXPECT_EQ(diffuse_term(settings), DiffuseTerm::interpolated);
+
+  settings = with_quality(Quality::fine);
+  settings.form_factors = FormFactorMethod::analytic;
+  EXPECT_EQ(diffuse_term(settings), DiffuseTerm::direct);
+  settings.interpolation = Interpolation::average;
+  EXPECT_EQ(diffuse_term(settings), DiffuseTerm::interpolated);
+}
+
+// The options of a run are those that differ from what its preset does.
+TEST(OptionsOf, SayTheDiffuseTermWhereThePresetDoesNot) {
+  const auto said = [](const RunSettings& settings) {
+    const std::vector<std::string> options = options_of(settings);
+    const auto at = std::ranges::find(options, "--diffuse");
+    return at == options.end() ? std::string() : *std::next(at);
+  };
+  RunSettings settings = with_quality(Quality::fine);
+  EXPECT_EQ(said(settings), "");
+  settings.diffuse = DiffuseTerm::direct;
+  EXPECT_EQ(said(settings), "");
+  settings.diffuse = DiffuseTerm::interpolated;
+  EXPECT_EQ(said(settings), "interpolated");
+  settings.quality = Quality::draft;
+  EXPECT_EQ(said(settings), "");
+  settings.diffuse = DiffuseTerm::direct;
+  EXPECT_EQ(said(settings), "direct");
+}
+
+} // namespace
+} // namespace meninas::test
