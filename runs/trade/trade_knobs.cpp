@@ -112,9 +112,22 @@ void turn_transport(Turner& turner, const TradeScene& scene) {
   }
 }
 
+/// Adaptive sampling saves most of many samples; of few there is nothing to save.
+void turn_pixel_error(Turner& turner) {
+  constexpr double first = 0.05;
+  constexpr int many = 16;
+  const RunSettings& s = turner.from;
+  if (s.pixel_error)
+    turner.steps<double>("pixel-error", *s.pixel_error, 0.5, 0.005, 0.2, &RunSettings::pixel_error);
+  else if (*s.samples >= many)
+    turner.turn("pixel-error", "no", fmt::format("{}", first), false,
+                [&](RunSettings& r) { r.pixel_error = first; });
+}
+
 void turn_picture(Turner& turner) {
   const RunSettings& s = turner.from;
   turner.steps<int>("samples", *s.samples, 4, 1, 1024, &RunSettings::samples);
+  turn_pixel_error(turner);
   const auto term = [&](DiffuseTerm to, bool finer) {
     turner.turn("diffuse", name_of(*s.diffuse), name_of(to), finer,
                 [&](RunSettings& r) { r.diffuse = to; });

@@ -55,6 +55,8 @@ double at_stake(const KnobTurn& turn, const PictureError& e) {
     return share(e.form_factors, 0.55);
   if (turn.knob == "samples")
     return share(e.pixels, 0.9);
+  if (turn.knob == "pixel-error")
+    return share(e.pixels, 0.6);
   return 0.0;
 }
 

@@ -48,9 +48,10 @@ std::set<std::string> knobs_of(const RunSettings& settings, const TradeScene& sc
 }
 
 TEST(Knobs, AreAllTurned) {
-  EXPECT_THAT(knobs_of({}, room), ElementsAre("adaptive", "bends", "diffuse", "element-size",
-                                              "form-factors", "interpolation", "mirror-depth",
-                                              "rays", "samples", "solver", "tolerance"));
+  EXPECT_THAT(knobs_of({}, room),
+              ElementsAre("adaptive", "bends", "diffuse", "element-size", "form-factors",
+                          "interpolation", "mirror-depth", "pixel-error", "rays", "samples",
+                          "solver", "tolerance"));
   EXPECT_FALSE(knobs_of({}, {.area = 100.0, .mirrors = false}).contains("mirror-depth"));
 }
 
@@ -61,6 +62,24 @@ TEST(Knobs, EveryTurnIsAnotherSettingAndSaysWhichValueItTook) {
     EXPECT_TRUE(all.insert(options_of(next.settings)).second) << next.turn.knob;
     EXPECT_NE(next.turn.from, next.turn.to);
   }
+}
+
+TEST(Knobs, ManySamplesCanBeMadeAdaptiveAndThenMoreOrLessSo) {
+  const auto pixel_errors = [](const RunSettings& settings) {
+    std::set<std::pair<std::string, bool>> all;
+    for (const TurnedSettings& next : turned(settings, room))
+      if (next.turn.knob == "pixel-error")
+        all.insert({next.turn.to, next.finer});
+    return all;
+  };
+  using Turns = std::set<std::pair<std::string, bool>>;
+  RunSettings settings = spelled_out({}, room);
+  settings.samples = 4;
+  EXPECT_EQ(pixel_errors(settings), Turns{});
+  settings.samples = 16;
+  EXPECT_EQ(pixel_errors(settings), (Turns{{"0.05", false}}));
+  settings.pixel_error = 0.05;
+  EXPECT_EQ(pixel_errors(settings), (Turns{{"0.025", true}, {"0.1", false}}));
 }
 
 TEST(Knobs, OptionsSayWhatDiffersFromTheDefaults) {
