@@ -11,11 +11,11 @@
 
 namespace meninas {
 
-double form_factor_share(const Receiver& receiver, const VirtualLight& image, const Point3& y) {
+double form_factor_share(const Receiver& receiver, const Direction& normal, const Point3& y) {
   const Vec3 to = y - receiver.position;
   const double distance2 = glm::dot(to, to);
   const double cosines =
-      std::max(0.0, glm::dot(to, receiver.normal)) * std::max(0.0, -glm::dot(to, image.normal));
+      std::max(0.0, glm::dot(to, receiver.normal)) * std::max(0.0, -glm::dot(to, normal));
   return distance2 > 0.0 ? cosines / (distance2 * distance2) : 0.0;
 }
 
@@ -121,15 +121,9 @@ void sample_dim_images(const LightScene& light, const Receiver& receiver,
 
 } // namespace
 
-ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
+ArrivingLight images_irradiance(const LightScene& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& work) {
-  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
-  const LightChoice choice{static_cast<std::size_t>(settings.images),
-                           0x1p-32 * hash(seed, 0xc401ce, 0)};
-  chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
-                work.lights);
-
   order_by_light(light, receiver, work);
 
   // An image is worth shadow rays by its share of what has arrived so far: a bright one that is hidden takes none from the others.
@@ -161,6 +155,18 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
   sample_dim_images(light, receiver, work.dim, seed, work);
   for (const std::uint32_t k : std::span(work.order).subspan(next))
     add(k, work.visible[k]);
+  return sum;
+}
+
+ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
+                                const DirectSettings& settings, std::uint32_t seed,
+                                DirectWorkspace& work) {
+  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const LightChoice choice{static_cast<std::size_t>(settings.images),
+                           0x1p-32 * hash(seed, 0xc401ce, 0)};
+  chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
+                work.lights);
+  ArrivingLight sum = images_irradiance(light, receiver, settings, seed, work);
   if (light.punctual.empty())
     return sum;
   std::vector<PunctualArrival> arrivals;

@@ -59,8 +59,16 @@ struct ArrivingLight {
   }
 };
 
-/// What a point y of an image adds to the form factor, per area and times pi: both cosines over the square of the distance.
-double form_factor_share(const Receiver& receiver, const VirtualLight& image, const Point3& y);
+/// What a point y of an image with that normal adds to the form factor, per area and times pi: both cosines over the square of the distance.
+double form_factor_share(const Receiver& receiver, const Direction& normal, const Point3& y);
+inline double form_factor_share(const Receiver& receiver, const VirtualLight& image, const Point3& y) {
+  return form_factor_share(receiver, image.normal, y);
+}
+
+/// What the images in `workspace.lights` bring.
+ArrivingLight images_irradiance(const LightScene& light, const Receiver& receiver,
+                                const DirectSettings& settings, std::uint32_t seed,
+                                DirectWorkspace& workspace);
 
 ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
