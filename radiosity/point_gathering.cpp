@@ -2,6 +2,7 @@
 
 #include "scenes/sampling.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace meninas {
@@ -45,21 +46,23 @@ PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosi
                                const PointGatheringSettings& settings)
     : light(scene), reflected(std::move(radiosity)), form_factors(factors), direct(direct_light),
       secondary(cluster_settings(direct_light, settings.cluster_shadow_rays)),
-      clusters(find_bright_clusters(scene, reflected)), clustered{scene.scene,
-                                                                  scene.surfaces,
-                                                                  scene.rays,
-                                                                  scene.mirrors,
-                                                                  clusters.worlds,
-                                                                  scene.mesh,
-                                                                  scene.textures,
-                                                                  {},
-                                                                  clusters.emitters,
-                                                                  {},
-                                                                  make_emitter_tree(
-                                                                      clusters.emitters),
-                                                                  {},
-                                                                  Rgb(0.0),
-                                                                  scene.glass},
+      cut{settings.cluster_theta, std::max(8 * settings.cluster_shadow_rays, settings.rays / 8)},
+      clusters(find_bright_clusters(scene, reflected)),
+      cluster_tree(make_cluster_tree(clusters.emitters)), clustered{scene.scene,
+                                                                    scene.surfaces,
+                                                                    scene.rays,
+                                                                    scene.mirrors,
+                                                                    clusters.worlds,
+                                                                    scene.mesh,
+                                                                    scene.textures,
+                                                                    {},
+                                                                    clusters.emitters,
+                                                                    {},
+                                                                    make_emitter_tree(
+                                                                        clusters.emitters),
+                                                                    {},
+                                                                    Rgb(0.0),
+                                                                    scene.glass},
       net(make_direction_net(settings.rays)),
       cube(factors.method == FormFactorMethod::hemicube ? make_hemicube(factors.hemicube_resolution)
                                                         : Hemicube{}) {}
@@ -84,8 +87,9 @@ PointLight indirect_light_at(const PointGathering& gathering, const Receiver& re
 
   return {landed_light(gathering, work.gather.result),
           {},
-          direct_irradiance(gathering.clustered, receiver, gathering.secondary, hash(seed, 2),
-                            work.direct)};
+          cluster_irradiance(gathering.clustered, gathering.cluster_tree, receiver,
+                             gathering.secondary, gathering.cut, hash(seed, 2), work.clusters,
+                             work.direct)};
 }
 
 PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,

@@ -3,10 +3,11 @@
 //   H(x) = D(x) + 1/N sum over rays of  tau B(landing)  + bright clusters
 //
 // D is the light from the source (direct_irradiance.h). Rays land on elements of known radiosity; elements so bright that rays would find
-// them by chance are taken from the source as well (bright_clusters.h). Each path is in one of the three.
+// them by chance are taken from the source as well (bright_clusters.h), those far away together (cluster_cut.h). Each path is in one of the three.
 #pragma once
 
 #include "radiosity/bright_clusters.h"
+#include "radiosity/cluster_cut.h"
 #include "radiosity/direct_irradiance.h"
 #include "radiosity/gather_rays.h"
 
@@ -14,7 +15,8 @@ namespace meninas {
 
 struct PointGatheringSettings {
   int rays = 512;              ///< over the hemisphere
-  int cluster_shadow_rays = 8; ///< per bright cluster, where it matters most
+  int cluster_shadow_rays = 8; ///< per bright cluster, where it matters most; eight times as many for all that are far away together, or an eighth of `rays`
+  double cluster_theta = ClusterCut{}.theta; ///< which are (cluster_cut.h); 0: none
 };
 
 /// What light is gathered from, the same for all points. Stays where it was made.
@@ -30,7 +32,9 @@ struct PointGathering {
   std::vector<Rgb> reflected;
   FormFactorSettings form_factors;
   DirectSettings direct, secondary;
+  ClusterCut cut;
   BrightClusters clusters;
+  ClusterTree cluster_tree; ///< over their emitters
   LightScene clustered; ///< the same scene with the bright clusters for emitters
   DirectionNet net;
   Hemicube cube; ///< where the form factors are found so
@@ -40,6 +44,7 @@ struct PointGathering {
 struct PointWorkspace {
   GatherWorkspace gather;
   DirectWorkspace direct;
+  ClusterWorkspace clusters;
   std::uint64_t rays = 0;
 };
 
