@@ -137,8 +137,8 @@ void trace_rays(const LightScene& light, const ClusterTree& tree, const Receiver
       const ClusterStandIn& part = work.stand_ins[stand_in];
       const ClusterPlane& plane = tree.planes[part.plane];
       const Isometry& image = light.worlds.worlds[index(part.world)].image;
-      const auto sample = sobol4(number, hash(seed, part.node, index(part.world)));
-      const ClusterPoint point = point_on(tree, tree.nodes[part.node], Vec2(sample[0], sample[1]));
+      const Vec2 sample(sobol2(number, hash(seed, part.node, index(part.world)), SobolPair::first));
+      const ClusterPoint point = point_on(tree, tree.nodes[part.node], sample);
       const Point3 y = apply(image, point.position);
       weight[k] =
           point.colour * form_factor_share(receiver, apply_direction(image, plane.plane.normal), y);
