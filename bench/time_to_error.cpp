@@ -129,9 +129,10 @@ struct PictureKnobs {
 std::vector<RunSettings> ladder(double area) {
   std::vector<RunSettings> all;
   for (const double elements : {600.0, 1500.0, 4000.0, 10'000.0})
-    for (const int rays : {64, 256})
-      for (const PictureKnobs& knobs : {PictureKnobs{}, PictureKnobs{DiffuseTerm::direct, 16, 0.1},
-                                        PictureKnobs{DiffuseTerm::direct, 256, 0.04}}) {
+    for (const int rays : {64, 128, 256})
+      for (const PictureKnobs& knobs : {PictureKnobs{}, PictureKnobs{DiffuseTerm::direct, 16, 0.04},
+                                        PictureKnobs{DiffuseTerm::direct, 64, 0.02},
+                                        PictureKnobs{DiffuseTerm::direct, 256, 0.02}}) {
         RunSettings settings;
         settings.quality = Quality::draft;
         settings.element_size = std::sqrt(area / elements);
@@ -139,6 +140,8 @@ std::vector<RunSettings> ladder(double area) {
         settings.diffuse = knobs.term;
         settings.samples = knobs.samples;
         settings.pixel_error = knobs.pixel_error;
+        if (knobs.term == DiffuseTerm::direct)
+          settings.bends = 0.1; // what is left between vertices are the feet of lit walls
         all.push_back(settings);
       }
   return all;
