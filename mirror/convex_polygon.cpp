@@ -101,6 +101,15 @@ double shortest_edge(const ConvexPolygon& window, const Point3& apex) {
 
 } // namespace
 
+bool is_point(const ConvexPolygon& polygon, const Point3& apex) {
+  const double shortest = shortest_edge(polygon, apex);
+  for (std::size_t k = 0; k < polygon.size; ++k)
+    if (glm::distance(polygon.vertices[k], polygon.vertices[k > 0 ? k - 1 : polygon.size - 1]) >=
+        shortest)
+      return false;
+  return true;
+}
+
 ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
                            const ConvexPolygon& window) {
   if (window.empty())
@@ -112,17 +121,19 @@ ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
     return {};
   ConvexPolygon part = polygon;
   const double shortest = shortest_edge(window, apex);
+  bool has_edges = false;
   Point3 from = window.vertices[window.size - 1];
   for (std::size_t k = 0; k < window.size && !part.empty(); ++k) {
     const Point3& to = window.vertices[k];
     if (glm::distance(from, to) < shortest)
       continue;
+    has_edges = true;
     const Vec3 a = from - apex, b = to - apex;
     from = to;
     const Vec3 inward = side > 0.0 ? glm::cross(a, b) : glm::cross(b, a);
     clip_in_place(part, apex, inward);
   }
-  return part;
+  return has_edges ? part : ConvexPolygon();
 }
 
 Vec3 area_vector(std::span<const Point3> polygon) {

@@ -38,9 +38,12 @@ ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec
 void clip_in_place(ConvexPolygon& polygon, const Point3& origin, const Vec3& normal);
 
 /// The part of the polygon inside the cone from the apex through the window: one clip per edge of the window.
-/// The window may be of either orientation; an apex in the window's plane sees nothing.
+/// The window may be of either orientation; an apex in the window's plane sees nothing, nor does one that looks through a point.
 ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
                            const ConvexPolygon& window);
+
+/// Whether all edges are as short as their rounding, as what is left of a polygon that a cone only touches: nothing is seen through it.
+bool is_point(const ConvexPolygon& polygon, const Point3& apex);
 
 /// Half the sum of the cross products of the edges: its length is the area.
 Vec3 area_vector(std::span<const Point3> polygon);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meninas {
 
@@ -42,13 +43,13 @@ struct Classifier {
   Seen over_horizon(const ConvexPolygon& target) const {
     constexpr double slope = 1e-3; // normals of a surface that is not quite flat
     double least = HUGE_VAL, most = -HUGE_VAL, reach = 0.0;
-    for (const Point3& y : target.span()) {
-      const Vec3 to = y - region.corners[0];
-      const double height = glm::dot(region.normal, to);
-      least = std::min(least, height);
-      most = std::max(most, height);
-      reach = std::max(reach, glm::length(to));
-    }
+    for (const Point3& y : target.span())
+      for (const Point3& x : region.corners) {
+        const double height = glm::dot(region.normal, y - x);
+        least = std::min(least, height);
+        most = std::max(most, height);
+        reach = std::max(reach, glm::distance(x, y));
+      }
     return above(least, most, margin() + slope * reach);
   }
 
@@ -67,10 +68,14 @@ struct Classifier {
     const Point3& origin = region.corners[0];
     const double side =
         glm::dot(area_vector(part.span()), part.vertices[0] - origin) > 0.0 ? 1.0 : -1.0;
-    double reach = 0.0;
+    double reach = 0.0, magnitude = 0.0;
     for (const auto& points : {region.corners, part.span(), target.span()})
-      for (const Point3& point : points)
+      for (const Point3& point : points) {
         reach = std::max(reach, glm::distance(point, origin));
+        magnitude = std::max(magnitude, glm::length(point));
+      }
+    // Corners of a window that was cut are off by their rounding, which is all that the direction of a very short edge has.
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * magnitude;
     Seen seen = Seen::whole;
     Point3 from = part.vertices[part.size - 1];
     for (std::size_t k = 0; k < part.size; ++k) {
@@ -84,8 +89,10 @@ struct Classifier {
           most = std::max(most, f);
         }
       }
-      // A point that is off by d changes f by at most |b - a| |y - a| d.
-      seen = both(seen, above(least, most, 2.0 * reach * glm::distance(a, b) * margin()));
+      // x or y that is off by d changes f by at most |b - a| |y - a| d, a or b by |b - x| |y - x| d.
+      const double length = glm::distance(a, b);
+      const double unsure = 2.0 * reach * (length * margin() + 2.0 * reach * rounding);
+      seen = both(seen, length > margin() ? above(least, most, unsure) : Seen::part);
       if (seen == Seen::none)
         return seen;
       from = b;

@@ -18,7 +18,7 @@ void add_openings(const MirrorWorld& world, const Observer& observer, const Seen
     }
     for (std::uint32_t k = parent.first; k < parent.last; ++k) {
       const ConvexPolygon seen = clip_to_cone(above, observer.position, openings[k]);
-      if (!seen.empty())
+      if (!seen.empty() && !is_point(seen, observer.position))
         openings.push_back(seen);
     }
   }

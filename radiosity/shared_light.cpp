@@ -131,6 +131,9 @@ void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLi
 /// The images that a point may see, or a choice of them.
 void find_lights(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
                  std::size_t most, SharedLightWorkspace& work) {
+  work.point.lights.clear();
+  if (light.emitters.empty())
+    return;
   const Receiver& receiver = point.receiver;
   const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
   const bool all = light.emitters.size() * light.worlds.worlds.size() <= most;

@@ -22,6 +22,8 @@ enum class DiffuseTerm { interpolated, direct, gather };
 struct DiffuseSettings {
   DiffuseTerm term = DiffuseTerm::interpolated;
   DirectSettings direct{.shadow_rays = 16, .penumbra_rays = 64}; ///< at a camera ray's hit
+  /// Where the hits of a pixel share them, to begin with: fewer do, as later hits correct them. A hit by itself believes its first ones.
+  int shared_shadow_rays = 16;
   FormFactorSettings gather; ///< how the rays of `gather` are followed
   PointGatheringSettings points{.rays = 64, .cluster_shadow_rays = 4}; ///< of `gather`, at a hit
   std::uint32_t draw = 0; ///< another one: other samples at the hits of the same camera rays
@@ -44,7 +46,7 @@ glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& se
                               PointWorkspace& work);
 
 /// The mean of D over points of one plane that one pixel sees, which share their shadow rays: the term `direct`, but for the field.
-glm::vec3 direct_of_pixel(const LightScene& light, const DirectSettings& settings,
+glm::vec3 direct_of_pixel(const LightScene& light, const DiffuseSettings& settings,
                           ReflectedPart part, std::span<const NumberedPoint> points, std::uint32_t seed,
                           SharedLightWorkspace& work);
 

@@ -83,14 +83,14 @@ glm::vec3 shared_irradiance_of(const RenderContext& context, const LaneState& st
     const FaceRecord& own = face_of(light.landing, hits, k);
     const FieldPoint at = field_point(light.landing, face.side, uv_of(light, own, hits, k));
     field += field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
-    work.points.push_back({receiver_at(light, own, hits, k), k - run.first,
-                           static_cast<ElementId>(at.element)});
+    work.points.push_back(
+        {receiver_at(light, own, hits, k), k - run.first, static_cast<ElementId>(at.element)});
   }
   const DiffuseSettings& diffuse = context.settings.diffuse;
   const std::uint32_t key = hash(state.key(run.first, context.settings.seed), diffuse.draw);
-  return field + static_cast<float>(run.end - run.first) *
-                     direct_of_pixel(light, diffuse.direct, context.visible.part, work.points,
-                                     key, work.shared);
+  return field +
+         static_cast<float>(run.end - run.first) *
+             direct_of_pixel(light, diffuse, context.visible.part, work.points, key, work.shared);
 }
 
 /// The sum of H over a run, lane by lane: of the first four, which are spread over the pixel, where they agree.

@@ -22,7 +22,8 @@ QualityPreset preset_of(Quality quality) {
             .source_points = 4,
             .most_source_points = 64,
             .samples = 16,
-            .hit_shadow_rays = 4,
+            .hit_shadow_rays = 8,
+            .shared_shadow_rays = 4,
             .pixel_penumbra_rays = 256,
             .max_error = 0.1,
             .root_elements = 600,
@@ -37,6 +38,7 @@ QualityPreset preset_of(Quality quality) {
             .most_source_points = 256,
             .samples = 16,
             .hit_shadow_rays = 16,
+            .shared_shadow_rays = 16,
             .pixel_penumbra_rays = 1024,
             .max_error = 0.03,
             .root_elements = 1'500,
@@ -52,6 +54,7 @@ QualityPreset preset_of(Quality quality) {
             .samples = 64,
             .diffuse = DiffuseTerm::direct,
             .hit_shadow_rays = 16,
+            .shared_shadow_rays = 16,
             .pixel_penumbra_rays = 1024,
             .max_error = 0.01,
             .root_elements = 5'000,
@@ -60,14 +63,17 @@ QualityPreset preset_of(Quality quality) {
   return {};
 }
 
+bool tells_light_apart(const RunSettings& settings) {
+  return settings.form_factors != FormFactorMethod::analytic ||
+         settings.interpolation != Interpolation::average;
+}
+
 DiffuseTerm diffuse_term(const RunSettings& settings) {
   if (settings.mode == PictureMode::radiosity)
     return DiffuseTerm::interpolated;
-  // Means of elements by the analytic method do not tell light of emitters from the rest.
-  const bool told_apart = settings.form_factors != FormFactorMethod::analytic ||
-                          settings.interpolation != Interpolation::average;
   const DiffuseTerm preset = preset_of(settings.quality).diffuse;
-  return settings.diffuse.value_or(told_apart ? preset : DiffuseTerm::interpolated);
+  return settings.diffuse.value_or(tells_light_apart(settings) ? preset
+                                                               : DiffuseTerm::interpolated);
 }
 
 /// A pixel's rays are shared out among its samples; where sampling is adaptive, most pixels have few.
@@ -82,6 +88,7 @@ static DiffuseSettings diffuse_settings(const RunSettings& settings,
   result.term = diffuse_term(settings);
   result.direct.seed = settings.seed;
   result.direct.shadow_rays = preset.hit_shadow_rays;
+  result.shared_shadow_rays = preset.shared_shadow_rays;
   result.direct.penumbra_rays =
       std::max(settings.pixel_error ? 1 : least, preset.pixel_penumbra_rays / samples);
   result.gather = form_factors;

@@ -29,6 +29,7 @@ struct QualityPreset {
   int samples = 0;            ///< camera rays per pixel
   DiffuseTerm diffuse = DiffuseTerm::interpolated; ///< of a hybrid picture
   int hit_shadow_rays = 0;    ///< from a hit to an emitter, where light is computed there
+  int shared_shadow_rays = 0; ///< likewise, to begin with, from each of a pixel's hits that share them
   int pixel_penumbra_rays =
       0; ///< likewise, where the first ones disagree, shared out among a pixel's samples
   double max_error = 0.0;     ///< of a reference: relative standard error of the picture
@@ -82,6 +83,9 @@ struct RunSettings {
   int threads = 0;  ///< 0: all the machine has
   std::uint32_t seed = 0;
 };
+
+/// Whether the field knows the light that does not come from emitters by itself: means of elements by the analytic method do not.
+bool tells_light_apart(const RunSettings& settings);
 
 /// What is asked for, or what the preset has; `interpolated` where the mode or the field knows no other.
 DiffuseTerm diffuse_term(const RunSettings& settings);

@@ -48,7 +48,8 @@ FreeKnobs free_knobs(const RunSettings& settings) {
   return {.elements = !settings.element_size && settings.adaptive == WithAdaptivity::no,
           .rays = !settings.rays && settings.form_factors == FormFactorMethod::rays,
           .samples = !settings.samples,
-          .term = !settings.diffuse && settings.mode == PictureMode::hybrid};
+          .term = !settings.diffuse && settings.mode == PictureMode::hybrid &&
+                  tells_light_apart(settings)};
 }
 
 Knobs first_knobs(const RunSettings& settings) {

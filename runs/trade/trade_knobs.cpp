@@ -132,7 +132,7 @@ void turn_picture(Turner& turner) {
     turner.turn("diffuse", name_of(*s.diffuse), name_of(to), finer,
                 [&](RunSettings& r) { r.diffuse = to; });
   };
-  if (s.diffuse == DiffuseTerm::interpolated)
+  if (s.diffuse == DiffuseTerm::interpolated && tells_light_apart(s))
     term(DiffuseTerm::direct, true);
   else if (s.diffuse == DiffuseTerm::direct) {
     term(DiffuseTerm::interpolated, false);

@@ -167,6 +167,21 @@ TEST(ClipToCone, ApexInThePlaneOfTheWindowSeesNothing) {
   EXPECT_TRUE(clip_to_cone(target, {0.5, 0.5, 0.0}, window).empty());
 }
 
+// What is left of a window that another only touches: corners that rounding holds apart.
+TEST(ClipToCone, NothingIsSeenThroughAPoint) {
+  const Point3 apex(0.1, 0.2, 0.0), at(0.3, 0.4, 1.0);
+  const Vec3 x(2e-16, 0.0, 0.0), y(0.0, 2e-16, 0.0);
+  const ConvexPolygon point(std::array{at, at + x, at + x + y});
+  const Vec3 u(5.0, 0.0, 0.0), v(0.0, 5.0, 0.0);
+  const Point3 corner(-2.0, -2.0, 2.0);
+  const ConvexPolygon wall(std::array{corner, corner + u, corner + u + v, corner + v});
+  EXPECT_TRUE(is_point(point, apex));
+  EXPECT_TRUE(clip_to_cone(wall, apex, point).empty());
+  EXPECT_FALSE(is_point(wall, apex));
+  EXPECT_FALSE(
+      clip_to_cone(wall, apex, ConvexPolygon(std::array{at, at + 0.1 * u, at + 0.1 * v})).empty());
+}
+
 TEST(ClipToCone, TouchingConesShareNoArea) {
   const ConvexPolygon window = quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0});
   const ConvexPolygon beside = quad({2, 0, 2}, {2, 0, 0}, {0, 2, 0});

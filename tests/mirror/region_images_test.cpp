@@ -195,6 +195,39 @@ TEST(RegionImages, LeaveOutWhatIsBehindTheMirror) {
   EXPECT_TRUE(images.images.empty());
 }
 
+/// An orthonormal frame, by two random directions.
+glm::dmat3 random_rotation(Random& random) {
+  const Direction x = random.direction();
+  const Direction z = glm::normalize(glm::cross(x, random.direction()));
+  return {x, glm::cross(z, x), z};
+}
+
+// Where a mirror touches the plane of another with a corner its window is cut there, and an edge is left that is as long as rounding makes it
+// and points anywhere. Turned rooms, or the corner is on the plane exactly.
+TEST(RegionImages, AreThoseOfTheirPointsWhereAMirrorTouchesTheNext) {
+  const WorldSettings deep{.min_throughput = 0.0, .max_depth = 4, .max_worlds = 100};
+  Scene scene = room_with_mirrors({true});
+  add_polygon(scene, "touching", {{0.0, 0.1, 1.2}, {0.7, 0.2, 1.4}, {0.5, 1.2, 1.7}}, mirror(0.9));
+  add_polygon(scene, "touching too", {{0.0, 0.2, 0.5}, {0.5, 1.2, 0.1}, {0.7, 0.3, 0.3}},
+              mirror(0.9));
+  Random random(3);
+  for (int turn = 0; turn < 50; ++turn) {
+    const glm::dmat3 rotation = random_rotation(random);
+    const GlowingRoom room = glowing(transformed(scene, rotation, 1.0, Vec3(0.0)), deep);
+    RegionImages images;
+    for (int wall = 1; wall < 6; ++wall)
+      for (int k = 0; k < 9; ++k) {
+        Cell cell = cell_of(room_size, wall, k % 3, k / 3, 3);
+        for (Point3& corner : cell.corners)
+          corner = rotation * corner;
+        cell.normal = rotation * cell.normal;
+        images_of_region(room.worlds, room.emitters, {cell.corners, cell.normal, hit_error},
+                         images);
+        expect_same_lights(room, cell, images, random);
+      }
+  }
+}
+
 // Nothing is decided by a length of its own: in rooms of all sizes the same cells see the same wholly.
 TEST(RegionImages, DoNotDependOnTheScale) {
   const auto counts_at = [](double scale) {
