@@ -1,5 +1,7 @@
 #include "mirror/emitters.h"
 
+#include "mirror/median_split.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -53,25 +55,13 @@ struct Builder {
     return node;
   }
 
-  /// Halves the range across the longest side of the box around the centres, at the median: n log n and never deeper than log n.
+  /// Halves the range by its centres, again and again.
   void split(std::uint32_t first, std::uint32_t count) {
     const std::size_t self = tree.nodes.size();
     tree.nodes.push_back(node_over(first, count));
     if (count == 1)
       return;
-    const auto members = range(first, count);
-    Point3 low = centres[members[0]], high = low;
-    for (const auto e : members) {
-      low = glm::min(low, centres[e]);
-      high = glm::max(high, centres[e]);
-    }
-    const Vec3 size = high - low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-    const std::uint32_t half = count / 2;
-    std::nth_element(members.begin(), members.begin() + half, members.end(),
-                     [&](std::uint32_t a, std::uint32_t b) {
-                       return std::pair(centres[a][axis], a) < std::pair(centres[b][axis], b);
-                     });
+    const std::uint32_t half = split_at_median(range(first, count), centres, 3);
     split(first, half);
     tree.nodes[self].second_child = static_cast<std::uint32_t>(tree.nodes.size());
     split(first + half, count - half);

@@ -1,5 +1,7 @@
 #include "radiosity/cluster_tree.h"
 
+#include "mirror/median_split.h"
+
 #include <cmath>
 #include <map>
 
@@ -26,7 +28,7 @@ Point3 centre_of(const ConvexPolygon& polygon) {
 }
 
 /// A place in the clusters' plane in whole steps of a millionth of their extent: ties stay ties wherever the scene lies.
-using Place = std::array<long, 2>;
+using Place = glm::vec<2, std::int64_t>;
 
 struct Builder {
   std::span<const Emitter> clusters;
@@ -50,9 +52,10 @@ struct Builder {
     if (!(extent > 0.0))
       return;
     for (const auto c : members)
-      for (std::size_t k = 0; k < 2; ++k)
-        places[c][k] =
-            std::lround(0x1p20 * (glm::dot(axes[k], centres[c] - centres[members[0]]) / extent));
+      for (int k = 0; k < 2; ++k)
+        places[c][k] = std::llround(0x1p20 * (glm::dot(axes[static_cast<std::size_t>(k)],
+                                                       centres[c] - centres[members[0]]) /
+                                              extent));
   }
 
   ClusterNode node_over(std::uint32_t first, std::uint32_t count) const {
@@ -92,19 +95,8 @@ struct Builder {
     tree.nodes.push_back(node_over(first, count));
     if (count == 1)
       return;
-    const auto members = std::span(tree.order).subspan(first, count);
-    Place low = places[members[0]], high = low;
-    for (const auto c : members)
-      for (std::size_t k = 0; k < 2; ++k) {
-        low[k] = std::min(low[k], places[c][k]);
-        high[k] = std::max(high[k], places[c][k]);
-      }
-    const std::size_t axis = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
-    const std::uint32_t half = count / 2;
-    std::nth_element(members.begin(), members.begin() + half, members.end(),
-                     [&](std::uint32_t a, std::uint32_t b) {
-                       return std::pair(places[a][axis], a) < std::pair(places[b][axis], b);
-                     });
+    const std::uint32_t half =
+        split_at_median(std::span(tree.order).subspan(first, count), places, 2);
     split(first, half);
     tree.nodes[self].second_child = static_cast<std::uint32_t>(tree.nodes.size());
     split(first + half, count - half);
@@ -156,7 +148,7 @@ std::vector<std::vector<std::uint32_t>> by_plane(std::span<const Emitter> cluste
 } // namespace
 
 ClusterTree make_cluster_tree(std::span<const Emitter> clusters) {
-  Builder builder{clusters, {}, std::vector<Place>(clusters.size(), Place{}), {}};
+  Builder builder{clusters, {}, std::vector<Place>(clusters.size(), Place(0)), {}};
   for (const auto& cluster : clusters)
     builder.centres.push_back(centre_of(cluster.polygon));
   ClusterTree& tree = builder.tree;

@@ -1,5 +1,6 @@
 #include "raytrace/noise_choice.h"
 
+#include "raytrace/pixel_neighbours.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -14,20 +15,14 @@ std::vector<double> squared_contrasts(const Image& picture, std::span<const std:
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
            static_cast<std::size_t>(x);
   };
-  // Each pair of neighbours once: to the right and the three below.
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x)
-      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 1}, {0, 1}, {1, 1}}) {
-        const int nx = x + dx, ny = y + dy;
-        if (nx < 0 || nx >= picture.width || ny >= picture.height)
-          continue;
-        const std::size_t a = place(x, y), b = place(nx, ny);
-        if (emits[a] != 0 || emits[b] != 0)
-          continue;
-        const glm::dvec3 step = glm::dvec3(picture.pixels[a]) - glm::dvec3(picture.pixels[b]);
-        contrasts[a] += glm::dot(step, step);
-        contrasts[b] += glm::dot(step, step);
-      }
+  for_each_neighbours(picture.width, picture.height, [&](int x, int y, int nx, int ny) {
+    const std::size_t a = place(x, y), b = place(nx, ny);
+    if (emits[a] != 0 || emits[b] != 0)
+      return;
+    const glm::dvec3 step = glm::dvec3(picture.pixels[a]) - glm::dvec3(picture.pixels[b]);
+    contrasts[a] += glm::dot(step, step);
+    contrasts[b] += glm::dot(step, step);
+  });
   return contrasts;
 }
 

@@ -1,5 +1,7 @@
 #include "raytrace/sample_choice.h"
 
+#include "raytrace/pixel_neighbours.h"
+
 #include <algorithm>
 #include <functional>
 
@@ -48,19 +50,13 @@ PixelMask uncertain_pixels(const Image& picture, double pixel_error) {
   constexpr float error_of_difference = 0.25F;
   const PixelBound bound = bound_of(picture, pixel_error);
   PixelMask uncertain(picture.pixels.size(), 0);
-  // Each pair of neighbours once: to the right and the three below.
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x)
-      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 1}, {0, 1}, {1, 1}}) {
-        const int nx = x + dx, ny = y + dy;
-        if (nx < 0 || nx >= picture.width || ny >= picture.height)
-          continue;
-        const glm::vec3 &a = picture.at(x, y), &b = picture.at(nx, ny);
-        if (!bound.passed_by(error_of_difference * glm::abs(a - b), glm::max(a, b)))
-          continue;
-        uncertain[static_cast<std::size_t>(y * picture.width + x)] = 1;
-        uncertain[static_cast<std::size_t>(ny * picture.width + nx)] = 1;
-      }
+  for_each_neighbours(picture.width, picture.height, [&](int x, int y, int nx, int ny) {
+    const glm::vec3 &a = picture.at(x, y), &b = picture.at(nx, ny);
+    if (!bound.passed_by(error_of_difference * glm::abs(a - b), glm::max(a, b)))
+      return;
+    uncertain[static_cast<std::size_t>(y * picture.width + x)] = 1;
+    uncertain[static_cast<std::size_t>(ny * picture.width + nx)] = 1;
+  });
   return uncertain;
 }
 

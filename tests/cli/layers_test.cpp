@@ -77,6 +77,27 @@ TEST_F(LayersOption, OfASolutionThatKnowsItsMirroredPart) {
       "render", {"--layers", "--solution", "blind.glb", "-o", "no.exr"});
 }
 
+// `fine` computes light of emitters at the hits where the solution knows the rest by itself, and interpolates where not.
+TEST_F(LayersOption, OfASolutionThatDoesNotTellLightOfEmittersApart) {
+  ASSERT_EQ(run("solve", {"--element-size", "0.5", "-o", "mixed.glb", "--form-factors", "analytic",
+                          "--interpolation", "average"})
+                .code,
+            0);
+  const auto render = [&](const std::string& picture, std::vector<std::string> more) {
+    std::vector<std::string> options{"--quality",  "fine",      "--samples", "4",
+                                     "--solution", "mixed.glb", "-o",        picture};
+    options.insert(options.end(), more.begin(), more.end());
+    return run("render", options);
+  };
+  ASSERT_EQ(render("fine.exr", {}).code, 0);
+  ASSERT_EQ(render("interpolated.exr", {"--diffuse", "interpolated"}).code, 0);
+  EXPECT_EQ(read_image(folder_ / "fine.exr").picture.pixels,
+            read_image(folder_ / "interpolated.exr").picture.pixels);
+  const Outcome refused = render("direct.exr", {"--diffuse", "direct"});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, testing::HasSubstr("does not know its light without that of emitters"));
+}
+
 TEST_F(LayersOption, WhereTheyCannotBeIsSaid) {
   expect_error(2, "--layers: has no effect with --mode radiosity: its mirrors are black", "render",
                {"--layers", "--mode", "radiosity", "-o", "no.exr"});
@@ -91,8 +112,7 @@ TEST_F(LayersOption, DiffuseTermsThatHaveNoEffectAreRefused) {
                {"--diffuse", "direct", "--mode", "reference", "-o", "no.exr"});
   expect_error(2, "--diffuse: has no effect with --mode radiosity: it shows pass one", "render",
                {"--diffuse", "gather", "--mode", "radiosity", "-o", "no.exr"});
-  expect_error(2,
-               "--diffuse direct: needs --interpolation gather with --form-factors analytic",
+  expect_error(2, "--diffuse direct: needs --interpolation gather with --form-factors analytic",
                "render",
                {"--diffuse", "direct", "--form-factors", "analytic", "--interpolation", "average",
                 "-o", "no.exr"});

@@ -82,6 +82,18 @@ TEST(Knobs, ManySamplesCanBeMadeAdaptiveAndThenMoreOrLessSo) {
   EXPECT_EQ(pixel_errors(settings), (Turns{{"0.025", true}, {"0.1", false}}));
 }
 
+TEST(Knobs, LightThatIsNotToldApartIsNotComputedAtHits) {
+  const auto turns_diffuse = [](const RunSettings& settings) {
+    return std::ranges::any_of(turned(spelled_out(settings, room), room),
+                               [](const auto& next) { return next.turn.knob == "diffuse"; });
+  };
+  RunSettings settings;
+  settings.interpolation = Interpolation::average;
+  EXPECT_TRUE(turns_diffuse(settings));
+  settings.form_factors = FormFactorMethod::analytic;
+  EXPECT_FALSE(turns_diffuse(settings));
+}
+
 TEST(Knobs, OptionsSayWhatDiffersFromTheDefaults) {
   EXPECT_THAT(options_of({}), IsEmpty());
   RunSettings settings;
