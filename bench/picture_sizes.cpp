@@ -6,7 +6,8 @@
 // loops (Embree's default flags) find the rays ready in packets, and look at nothing but whether they met something. Of the picture's rays some are sure of
 // what they meet and are not traced (raytrace/sure_paths.h); of its time, the others' queries take what our own queries take for as many such rays.
 // The rest finds paths, makes rays, shades what they meet, and adds up pixels. The three take turns, and a share is the median of those of all
-// turns, so that a busy machine, which slows them alike, hardly shows.
+// turns, so that a busy machine, which slows them alike, hardly shows. In a turn each goes over about as many rays: a small picture is made several
+// times, so that it does not alone meet caches that hold what another has left.
 #include "bench/stage_loops.h"
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"
@@ -26,7 +27,8 @@ using namespace meninas::bench;
 namespace {
 
 constexpr std::size_t packet_count = 1 << 12;
-constexpr double wanted_rays = 3e7; // of all turns
+constexpr double wanted_rays = 3e7;                            // of all turns
+constexpr double rays_a_turn = 8 * packet_size * packet_count; // as the bare loops trace at most
 
 /// The same packets by our own queries.
 RayLoop query_loop(const LightScene& light, const StageRays& rays) {
@@ -49,19 +51,24 @@ void measure_size(const LightScene& light, const DiffuseField& field, const Came
   const StageRays rays = camera_rays_of(light, camera, settings, packet_count);
   const RayLoop bare_rays = bare_loop(bare, rays, Coherence::coherent);
   const RayLoop queries = query_loop(light, rays);
+  const double in_picture = double(size) * size * settings.samples;
+  const double per_turn = std::max(in_picture, rays_a_turn);
   double sure = 0.0;
-  const RayLoop picture = [&] {
-    const Rendering rendering = render(light, field, camera, settings);
-    const std::uint64_t all = rendering.camera_rays + rendering.specular_rays;
-    sure = static_cast<double>(rendering.sure_rays) / static_cast<double>(all);
+  const RayLoop pictures = [&] {
+    std::uint64_t all = 0;
+    for (double made = 0.0; made < per_turn; made += in_picture) {
+      const Rendering rendering = render(light, field, camera, settings);
+      const std::uint64_t rays_of_one = rendering.camera_rays + rendering.specular_rays;
+      sure = static_cast<double>(rendering.sure_rays) / static_cast<double>(rays_of_one);
+      all += rays_of_one;
+    }
     return all;
   };
-  const double per_turn = double(size) * size * settings.samples;
   const int turns = static_cast<int>(std::clamp(wanted_rays / per_turn, 3.0, 101.0));
   std::vector<double> rates, share, queried;
   for (int turn = 0; turn < turns; ++turn) {
     const double a = 1.0 / rate_of(bare_rays), b = 1.0 / rate_of(queries),
-                 c = 1.0 / rate_of(picture); // microseconds a ray
+                 c = 1.0 / rate_of(pictures); // microseconds a ray
     rates.push_back(1.0 / c);
     share.push_back(a / c);
     queried.push_back(100.0 * (1.0 - sure) * b / c);

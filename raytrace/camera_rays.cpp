@@ -1,5 +1,7 @@
 #include "raytrace/camera_rays.h"
 
+#include "raytrace/wide_lanes.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +29,7 @@ CameraFrame make_camera_frame(const Camera& camera, double picture_aspect, const
   return rays;
 }
 
+MENINAS_WIDE_LANES
 void set_camera_rays(RayPacket& packet, const CameraFrame& camera,
                      const std::array<float, packet_size>& x,
                      const std::array<float, packet_size>& y) {

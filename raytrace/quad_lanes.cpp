@@ -2,7 +2,40 @@
 
 #include "raytrace/wide_lanes.h"
 
+#include <cstring>
+
 namespace meninas {
+
+/// All lanes in registers: short loops over arrays are taken apart lane by lane.
+using AllFloats = float __attribute__((vector_size(4 * packet_size)));
+using AllBits = std::int32_t __attribute__((vector_size(4 * packet_size)));
+using FourFloats = float __attribute__((vector_size(16)));
+using FourBits = std::int32_t __attribute__((vector_size(16)));
+
+template <typename Registers, typename Lanes>
+static inline void load(Registers& registers, const Lanes& lanes) {
+  static_assert(sizeof(Registers) == sizeof(Lanes));
+  std::memcpy(&registers, &lanes, sizeof registers);
+}
+
+/// The sum over all lanes, four at a time.
+static inline float sum_of(const AllFloats& values) {
+  std::array<FourFloats, 4> four;
+  load(four, values);
+  const FourFloats sums = (four[0] + four[1]) + (four[2] + four[3]);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+/// Bit k is set where lane k of the comparison holds.
+static inline std::uint32_t lanes_where(const AllBits& holds) {
+  AllBits bits;
+  load(bits, lane_bits);
+  bits &= holds;
+  std::array<FourBits, 4> four;
+  load(four, bits);
+  const FourBits all = (four[0] | four[1]) | (four[2] | four[3]);
+  return static_cast<std::uint32_t>((all[0] | all[1]) | (all[2] | all[3]));
+}
 
 MENINAS_WIDE_LANES
 std::uint32_t lanes_equal(const std::uint32_t* values, std::uint32_t value) {
@@ -68,36 +101,19 @@ LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const S
   return at;
 }
 
-/// The sum over all lanes, four at a time.
-static inline float sum_of(const LaneFloats& values) {
-  std::array<float, 4> sums;
-  for (std::size_t k = 0; k < 4; ++k)
-    sums[k] = (values[k] + values[k + 4]) + (values[k + 8] + values[k + 12]);
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
 /// The lanes of one element: which they are, and their sums.
 struct ElementLanes {
   std::uint32_t lanes;
   PointSums sums;
 };
 
-static inline ElementLanes lanes_on(const LaneIndices& elements, std::uint32_t element,
-                                    const LanePoints& at) {
-  alignas(64) LaneIndices is_here;
-  alignas(64) LaneFloats n, s, t, st;
-  for (std::size_t k = 0; k < packet_size; ++k)
-    is_here[k] = elements[k] == element ? lane_bits[k] : 0U;
-  for (std::size_t k = 0; k < packet_size; ++k) {
-    n[k] = elements[k] == element ? 1.0F : 0.0F;
-    s[k] = elements[k] == element ? at.s[k] : 0.0F;
-    t[k] = elements[k] == element ? at.t[k] : 0.0F;
-    st[k] = s[k] * t[k];
-  }
-  std::uint32_t lanes = 0;
-  for (std::size_t k = 0; k < packet_size; ++k)
-    lanes |= is_here[k];
-  return {lanes, {sum_of(n), sum_of(s), sum_of(t), sum_of(st)}};
+static inline ElementLanes lanes_on(const AllBits& elements, std::uint32_t element,
+                                    const AllFloats& all_s, const AllFloats& all_t) {
+  const AllBits is_here = elements == static_cast<std::int32_t>(element);
+  const AllFloats none{};
+  const AllFloats s = is_here ? all_s : none, t = is_here ? all_t : none;
+  const std::uint32_t lanes = lanes_where(is_here);
+  return {lanes, {static_cast<float>(std::popcount(lanes)), sum_of(s), sum_of(t), sum_of(s * t)}};
 }
 
 MENINAS_WIDE_LANES
@@ -107,14 +123,21 @@ glm::vec3 quad_radiance(const ElementMesh& mesh, const VisibleLight& visible, st
   if (lanes != all_lanes)
     for (std::size_t k = 0; k < packet_size; ++k)
       elements[k] = (lanes & lane_bits[k]) != 0 ? elements[k] : index(none<ElementId>);
-  glm::vec3 sum(0.0F);
+  AllBits all;
+  AllFloats s, t;
+  load(all, elements);
+  load(s, at.s);
+  load(t, at.t);
+  const auto count = static_cast<float>(std::popcount(lanes));
+  glm::vec3 irradiance(0.0F);
   while (lanes != 0) {
     const std::uint32_t element = elements[static_cast<std::size_t>(std::countr_zero(lanes))];
-    const ElementLanes here = lanes_on(elements, element, at);
+    const ElementLanes here = lanes_on(all, element, s, t);
     lanes &= ~here.lanes;
-    sum += field_radiance(mesh, visible.irradiance, visible.shading[side], element, here.sums);
+    irradiance += field_irradiance(mesh, visible.irradiance, element, here.sums);
   }
-  return sum;
+  const SideShading& shading = visible.shading[side];
+  return count * shading.emitted + shading.albedo_over_pi * irradiance;
 }
 
 } // namespace meninas
