@@ -3,6 +3,7 @@
 #include "radiosity/closedness.h"
 #include "radiosity/world_tail.h"
 #include "scenes/lobes.h"
+#include "scenes/smooth_metals.h"
 #include "scenes/texture_lookup.h"
 
 #include <fmt/format.h>
@@ -17,10 +18,18 @@ namespace {
 
 bool is_grey(const Rgb& colour) { return colour.r == colour.g && colour.g == colour.b; }
 
-/// So smooth that what the metal throws has a shape.
+/// So smooth that what the metal throws has a shape, though pass one spreads it.
 bool throws_shapes(const Material& material) {
-  constexpr double limit = 0.3;
-  return is_glossy(material) && material.roughness <= limit;
+  return is_glossy(material) && material.roughness <= smooth_metal_roughness &&
+         !material.throws_as_mirror;
+}
+
+bool throws_sharply(const Material& material) {
+  return is_glossy(material) && material.throws_as_mirror;
+}
+
+bool throws_evenly(const Material& material) {
+  return is_glossy(material) && !material.throws_as_mirror;
 }
 
 bool is_coated(const Material& material) {
@@ -194,9 +203,14 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
 /// Lobes are followed in the picture alone.
 void describe_lobes(const std::vector<const Material*>& materials,
                     std::vector<std::string>& stages) {
-  if (const auto names = names_where(materials, is_glossy); !names.empty()) {
+  if (const auto names = names_where(materials, throws_evenly); !names.empty()) {
     stages.push_back("glossy metals: grids of rays over their lobes in the picture, even in pass "
                      "one: " +
+                     quoted(names));
+  }
+  if (const auto names = names_where(materials, throws_sharply); !names.empty()) {
+    stages.push_back("smooth metals: grids of rays over their lobes in the picture, mirrors in "
+                     "pass one: " +
                      quoted(names));
   }
   if (const auto names = names_where(materials, is_coated); !names.empty()) {

@@ -183,11 +183,16 @@ glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& pack
   const bool spent = bsdf.alpha > 0.0 && ray.lobes >= most_lobes;
   const Meeting at = meeting_of(context, face, packet, state, k, hits.distance[k]);
   const Direction out = local_out(face.normal, glm::normalize(at.direction));
-  // The field stands for what is left out, but glass has none: it is clear from there on.
-  if (spent && bsdf.glass > 0.0)
+  const bool smooth =
+      material_of(context.light.scene, TriangleId{hits.triangle[k]}).throws_as_mirror;
+  // The field stands for what is left out, but it knows nothing of what glass and smooth metals reflect: they are ideal from there on.
+  const bool goes_on_ideally = smooth || bsdf.glass > 0.0;
+  if (smooth && !has_field)
+    bsdf.metal = metal_all_in_lobe(bsdf, out.z);
+  if (spent && goes_on_ideally)
     bsdf.roughness = bsdf.alpha = 0.0;
   const int n = ray.lobes == 0 ? lobe_divisions(bsdf, out.z, context.settings.glossy_samples) : 1;
-  if (bsdf.glass > 0.0 || !(spent || radiosity))
+  if (goes_on_ideally || !(spent || radiosity))
     queue_lobe(context, bsdf, out, face, at, media_at(context, hits, k, ray.medium), n, ray, work);
   if (spent || radiosity)
     return has_field ? radiance_of_lane(context, packet, state, face, hits, k, work)

@@ -207,6 +207,13 @@ Rgb even_reflectance(const Bsdf& bsdf, double cosine) {
   return share;
 }
 
+Rgb metal_all_in_lobe(const Bsdf& bsdf, double cosine) {
+  if (!has_facets_of_metal(bsdf))
+    return bsdf.metal;
+  const double again = met_again(bsdf, cosine);
+  return bsdf.metal + spread_by_facets(bsdf, mean_met_again(bsdf)) * (again / (1.0 - again));
+}
+
 Rgb mean_reflectance(const Bsdf& bsdf) {
   Rgb share = bsdf.diffuse;
   if (bsdf.coat > 0.0) {

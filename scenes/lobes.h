@@ -31,6 +31,9 @@ LobeShares lobe_shares(const Bsdf& bsdf, const Direction& out, const Direction& 
 /// cosine of light that comes evenly from everywhere.
 Rgb even_reflectance(const Bsdf& bsdf, double cosine);
 
+/// The rho_s with which the reflection lobe alone reflects, towards this cosine, what metal reflects in all: for surfaces without light to be spread.
+Rgb metal_all_in_lobe(const Bsdf& bsdf, double cosine);
+
 /// The share of light from everywhere that is reflected to anywhere, by all lobes together but those of glass.
 Rgb mean_reflectance(const Bsdf& bsdf);
 

@@ -3,7 +3,8 @@
 namespace meninas {
 
 bool is_mirror(const Material& material) {
-  return material.metallic > 0.0 && material.roughness <= ideal_mirror_roughness &&
+  return material.metallic > 0.0 &&
+         (material.roughness <= ideal_mirror_roughness || material.throws_as_mirror) &&
          glm::any(glm::greaterThan(material.base_color, Rgb(0.0)));
 }
 

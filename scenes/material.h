@@ -4,8 +4,8 @@
 //   specular reflectance  rho_s = base_color metallic
 //
 // A metal whose roughness is at most `ideal_mirror_roughness` is an ideal mirror of constant reflectance rho_s.
-// The lobes of rougher metals, coats and glass are in bsdf.h. Pass two shows them; pass one spreads those of metals and coats evenly, and takes
-// glass for clear (lobes.h).
+// The lobes of rougher metals, coats and glass are in bsdf.h. Pass two shows them; pass one spreads those of metals and coats evenly, takes
+// smooth metals for ideal mirrors (smooth_metals.h) and glass for clear (lobes.h).
 //
 // Glass (transmission > 0) is there from both sides: the loader makes it double-sided. Without thickness a sheet of it is a whole pane, with
 // both of its faces; with one it is the surface of a solid (KHR_materials_volume). Where a texture of transmission is black it is what is below:
@@ -43,6 +43,8 @@ struct Material {
   double metallic = 0.0; ///< in [0, 1]
   double roughness = 1.0;
   Rgb emission{0.0}; ///< emitted radiance L, W/m^2/sr; emitted radiosity is E = pi L
+  bool throws_as_mirror =
+      false; ///< what this rough metal throws, pass one carries as an ideal mirror does (smooth_metals.h)
   bool double_sided =
       false; ///< false: the front reflects, emits and mirrors, the back is opaque and black
   double ior = 1.5;
@@ -65,9 +67,10 @@ struct Material {
 /// The reflectance of the material in pass one, which scatters evenly: all that it reflects but the ideal reflection of metals (lobes.h).
 Rgb diffuse_reflectance(const Material& material);
 
-/// The reflectance of an ideal mirror; zero for everything that is not one.
+/// The reflectance of what is a mirror in pass one; zero for everything that is not one.
 Rgb mirror_reflectance(const Material& material);
 
+/// In pass one: an ideal mirror, or a metal that throws light as one.
 bool is_mirror(const Material& material);
 bool is_emitter(const Material& material);
 

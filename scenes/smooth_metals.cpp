@@ -1,0 +1,57 @@
+#include "scenes/smooth_metals.h"
+
+#include "scenes/surfaces.h"
+#include "scenes/texture_lookup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace meninas {
+
+namespace {
+
+bool is_smooth_metal(const Material& material) {
+  return is_glossy(material) && material.roughness <= smooth_metal_roughness &&
+         !is_textured(material) && !is_glass(material) && material.alpha_mode != AlphaMode::mask;
+}
+
+/// Whether the planes are one, but for roundings, whichever way they face.
+bool is_same(const Plane& a, const Plane& b, double size) {
+  constexpr double rounding = 1e-5; // vertices are floats
+  const double sign = glm::dot(a.normal, b.normal) < 0.0 ? -1.0 : 1.0;
+  return glm::distance(a.normal, sign * b.normal) < rounding &&
+         std::abs(a.offset - sign * b.offset) < rounding * size;
+}
+
+double size_of(const Scene& scene) {
+  const Bounds bounds = bounds_of(scene);
+  return std::max(glm::length(bounds.low), glm::length(bounds.high));
+}
+
+} // namespace
+
+void mark_smooth_metals(Scene& scene) {
+  for (Material& material : scene.materials)
+    material.throws_as_mirror = is_smooth_metal(material);
+  if (std::ranges::none_of(scene.materials, &Material::throws_as_mirror))
+    return;
+  const double size = size_of(scene);
+  std::vector<std::vector<Plane>> planes(scene.materials.size());
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const std::size_t m = index(scene.triangles[t].material);
+    Material& material = scene.materials[m];
+    if (!material.throws_as_mirror)
+      continue;
+    const auto at = corners(scene, TriangleId{t});
+    const Direction normal = glm::normalize(area_vector(at));
+    const Plane plane{normal, glm::dot(normal, at[0])};
+    if (std::ranges::none_of(planes[m],
+                             [&](const Plane& known) { return is_same(known, plane, size); }))
+      planes[m].push_back(plane);
+    if (planes[m].size() > most_smooth_planes || has_vertex_colors(scene, TriangleId{t}))
+      material.throws_as_mirror = false;
+  }
+}
+
+} // namespace meninas
