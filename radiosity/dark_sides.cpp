@@ -4,6 +4,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <span>
+
 namespace meninas {
 
 namespace {
@@ -47,6 +50,39 @@ bool sees_emitter(const RayScene& rays, const Patch& patch, const Plane& plane, 
   return false;
 }
 
+/// Some probe point sees the light, in front of the side; whatever its cone.
+bool sees_light(const RayScene& rays, const Patch& patch, const Plane& plane, PlaneId plane_class,
+                const PunctualLight& light) {
+  for (std::uint32_t k = 0; k < probe_points; ++k) {
+    const auto sample = sobol4(k, 0xe311);
+    const Point3 from = point_at(patch, spread(patch, sample[0], sample[1]));
+    if (light.kind != PunctualKind::directional) {
+      if (signed_distance(plane, light.position) > 0.0 &&
+          !occluded(rays, {from, light.position, plane_class, none<PlaneId>}))
+        return true;
+    } else if (glm::dot(plane.normal, light.direction) < 0.0 &&
+               !closest_hit(
+                   rays, {.origin = from, .direction = -light.direction, .leaving = plane_class})) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Sides that are lit by what escaping rays would come to.
+bool is_lit(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
+            std::span<const Patch* const> emitters, const Patch& patch, const Plane& plane) {
+  const PlaneId plane_class = surfaces.surfaces[index(patch.surface)].plane_class;
+  return std::ranges::any_of(scene.lights,
+                             [&](const PunctualLight& light) {
+                               return sees_light(rays, patch, plane, plane_class, light);
+                             }) ||
+         std::ranges::any_of(emitters, [&](const Patch* emitter) {
+           return sees_emitter(rays, patch, plane, plane_class, *emitter,
+                               surfaces.surfaces[index(emitter->surface)].plane_class);
+         });
+}
+
 } // namespace
 
 DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays) {
@@ -63,7 +99,9 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
   }
 
   DarkSides dark(surfaces.patches.size(), {0, 0});
-  if (double_sided * emitters.size() * 2 * probe_points > most_emitter_probes)
+  const std::size_t sources = emitters.size() + scene.lights.size();
+  if (double_sided * sources * 2 * probe_points > most_emitter_probes ||
+      scene.background != Rgb(0.0))
     return dark;
   tbb::parallel_for(std::size_t{0}, surfaces.patches.size(), [&](std::size_t p) {
     const Patch& patch = surfaces.patches[p];
@@ -74,13 +112,9 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
     for (std::size_t facing = 0; facing < 2; ++facing) {
       const double sign = facing == 0 ? 1.0 : -1.0;
       const Plane plane{sign * surface.plane.normal, sign * surface.plane.offset};
-      if (!everything_escapes(rays, patch, surface.plane_class, plane.normal))
-        continue;
-      bool lit = false;
-      for (const Patch* emitter : emitters)
-        lit = lit || sees_emitter(rays, patch, plane, surface.plane_class, *emitter,
-                                  surfaces.surfaces[index(emitter->surface)].plane_class);
-      dark[p][facing] = lit ? 0 : 1;
+      if (everything_escapes(rays, patch, surface.plane_class, plane.normal) &&
+          !is_lit(scene, surfaces, rays, emitters, patch, plane))
+        dark[p][facing] = 1;
     }
   });
   return dark;
