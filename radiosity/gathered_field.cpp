@@ -3,6 +3,7 @@
 #include "radiosity/bends.h"
 #include "radiosity/contact_vertices.h"
 #include "radiosity/facets.h"
+#include "radiosity/gap_vertices.h"
 #include "radiosity/mesh_division.h"
 #include "radiosity/vertex_fill.h"
 #include "radiosity/vertex_light.h"
@@ -192,6 +193,18 @@ void light_contacts(const VertexSource& source, const FoundField& found,
   extend_to_contacts(edges, lights, valid, field);
 }
 
+/// The corners of elements that are open only in between take what is gathered there.
+void light_gaps(const VertexSource& source, const ElementMesh& mesh,
+                std::vector<std::uint8_t>& valid, DiffuseField& field) {
+  const std::vector<ElementId> covered = covered_elements(mesh, valid);
+  std::vector<std::optional<GapLight>> lights(covered.size());
+  tbb::parallel_for(std::size_t{0}, covered.size(), [&](std::size_t k) {
+    lights[k] = light_in_gap(source.gathering, source.elements.irradiance, mesh, covered[k],
+                             source.workspaces.local());
+  });
+  take_from_gaps(mesh, covered, lights, valid, field);
+}
+
 /// The field with values at all vertices.
 DiffuseField settled(const VertexSource& source, const FoundField& found) {
   DiffuseField field = found.field;
@@ -202,6 +215,7 @@ DiffuseField settled(const VertexSource& source, const FoundField& found) {
     share_indirect(*source.shares, valid, field);
   for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
   light_contacts(source, found, valid, field);
+  light_gaps(source, found.mesh, valid, field);
   for_each_array(field, [&](auto& values) {
     fill_vertices(found.mesh, valid, values);
     settle_hanging(found.mesh, values);

@@ -1,0 +1,91 @@
+#include "radiosity/gap_vertices.h"
+
+#include "scenes/sampling.h"
+
+#include <algorithm>
+#include <map>
+
+namespace meninas {
+
+namespace {
+
+struct GapSum {
+  GapLight light;
+  double count = 0.0;
+
+  void add(const GapLight& other) {
+    light.irradiance.total += other.irradiance.total;
+    light.irradiance.mirrored += other.irradiance.mirrored;
+    light.indirect.total += other.indirect.total;
+    light.indirect.mirrored += other.indirect.mirrored;
+    ++count;
+  }
+  GapLight mean() const {
+    const auto share = [&](const ArrivingLight& sum) {
+      return ArrivingLight{sum.total / count, sum.mirrored / count};
+    };
+    return {share(light.irradiance), share(light.indirect)};
+  }
+};
+
+/// The k-th of the points that stand for an element, by its corners; a triangle has its third twice.
+Point3 point_in(const ElementMesh& mesh, ElementId element, std::uint32_t k) {
+  const auto sample = sobol4(k, 0x6a9);
+  const auto at = [&](std::size_t c) {
+    return mesh.vertices[index(mesh.corners[index(element)][c])];
+  };
+  const double s = sample[0], t = sample[1];
+  return glm::mix(glm::mix(at(0), at(1), s), glm::mix(at(3), at(2), s), t);
+}
+
+} // namespace
+
+std::optional<GapLight> light_in_gap(const PointGathering& gathering,
+                                     const std::vector<Rgb>& irradiance, const ElementMesh& mesh,
+                                     ElementId element, PointWorkspace& work) {
+  constexpr std::uint32_t points = 8;
+  const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(element)])];
+  const double size = size_of(mesh, element);
+  GapSum sum;
+  for (std::uint32_t k = 0; k < points; ++k) {
+    const Receiver receiver{point_in(mesh, element, k), side.normal, side.plane_class,
+                            side.tangent};
+    if (is_under_something(gathering.light, receiver, size))
+      continue;
+    const std::uint32_t seed = hash(index(element), k, gathering.form_factors.seed);
+    const VertexValue value = value_at(gathering, irradiance, receiver, size, seed, work);
+    if (!value.covered)
+      sum.add({value.irradiance, value.indirect});
+  }
+  return sum.count > 0.0 ? std::optional(sum.mean()) : std::nullopt;
+}
+
+std::vector<ElementId> covered_elements(const ElementMesh& mesh,
+                                        std::span<const std::uint8_t> valid) {
+  std::vector<ElementId> covered;
+  for (std::uint32_t e = 0; e < element_count(mesh); ++e)
+    if (std::ranges::all_of(mesh.corners[e],
+                            [&](ElementVertexId v) { return valid[index(v)] == 0; }))
+      covered.push_back(static_cast<ElementId>(e));
+  return covered;
+}
+
+void take_from_gaps(const ElementMesh& mesh, std::span<const ElementId> elements,
+                    std::span<const std::optional<GapLight>> lights,
+                    std::vector<std::uint8_t>& valid, DiffuseField& field) {
+  std::map<std::uint32_t, GapSum> sums;
+  for (std::size_t k = 0; k < elements.size(); ++k)
+    if (lights[k])
+      for (const ElementVertexId v : mesh.corners[index(elements[k])])
+        sums[index(v)].add(*lights[k]);
+  for (const auto& [v, sum] : sums) {
+    const GapLight light = sum.mean();
+    field.irradiance[v] = glm::vec3(light.irradiance.total);
+    field.mirrored[v] = glm::vec3(light.irradiance.mirrored);
+    field.indirect[v] = glm::vec3(light.indirect.total);
+    field.indirect_mirrored[v] = glm::vec3(light.indirect.mirrored);
+    valid[v] = 1;
+  }
+}
+
+} // namespace meninas
