@@ -46,6 +46,24 @@ std::optional<Cell> cell_at(const Bsdf& bsdf, const Direction& out, double u, do
 /// What makes a sum the albedo it should be.
 double norm(double albedo, double sum) { return sum > 0.0 ? albedo / sum : 0.0; }
 
+/// The lobe without width.
+void add_ideal(const Bsdf& bsdf, const Direction& out, std::vector<LobeRay>& rays) {
+  rays.push_back({mirrored(out), ideal_reflection(bsdf, out.z)});
+  if (const auto behind = direction_behind(bsdf.pane, out); bsdf.glass > 0.0 && behind)
+    rays.push_back({*behind, facet_transmittance(bsdf, out.z), true});
+}
+
+void add_cell(const Bsdf& bsdf, const Cell& cell, double metal_norm, double coat_norm,
+              std::vector<LobeRay>& rays) {
+  const Rgb weight = bsdf.metal * (cell.visible * metal_norm) + cell.coat * coat_norm;
+  if (!(bsdf.glass > 0.0)) {
+    rays.push_back({cell.in, weight});
+    return;
+  }
+  rays.push_back({cell.in, weight + cell.glass * metal_norm});
+  rays.push_back({{cell.in.x, cell.in.y, -cell.in.z}, cell.through * metal_norm, true});
+}
+
 } // namespace
 
 int lobe_divisions(const Bsdf& bsdf, double cosine, double directions) {
@@ -66,13 +84,8 @@ double lobe_density(const Bsdf& bsdf, const Direction& out, const Direction& in)
 void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift,
                std::vector<LobeRay>& rays) {
   rays.clear();
-  const bool pane = bsdf.glass > 0.0;
-  if (bsdf.alpha == 0.0) {
-    rays.push_back({mirrored(out), ideal_reflection(bsdf, out.z)});
-    if (const auto behind = direction_behind(bsdf.pane, out); pane && behind)
-      rays.push_back({*behind, facet_transmittance(bsdf, out.z), true});
-    return;
-  }
+  if (bsdf.alpha == 0.0)
+    return add_ideal(bsdf, out, rays);
   // The two parts of S, each with the sum that its norm is made of.
   std::vector<Cell> cells;
   double metal_sum = 0.0, coat_sum = 0.0;
@@ -94,12 +107,16 @@ void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift
   const SchlickAlbedo albedo = schlick_albedo(bsdf.roughness, out.z);
   const double metal_norm = norm(albedo.f0 + albedo.f90, metal_sum);
   const double coat_norm = norm(bsdf.coat * coat_albedo(bsdf, out.z), coat_sum);
-  for (const Cell& cell : cells) {
-    const Rgb weight = bsdf.metal * (cell.visible * metal_norm) + cell.coat * coat_norm;
-    rays.push_back({cell.in, pane ? weight + cell.glass * metal_norm : weight});
-    if (pane)
-      rays.push_back({{cell.in.x, cell.in.y, -cell.in.z}, cell.through * metal_norm, true});
-  }
+  for (const Cell& cell : cells)
+    add_cell(bsdf, cell, metal_norm, coat_norm, rays);
+}
+
+void lobe_sample(const Bsdf& bsdf, const Direction& out, Vec2 u, std::vector<LobeRay>& rays) {
+  rays.clear();
+  if (bsdf.alpha == 0.0)
+    return add_ideal(bsdf, out, rays);
+  if (const auto cell = cell_at(bsdf, out, u.x, u.y))
+    add_cell(bsdf, *cell, 1.0, 1.0, rays);
 }
 
 } // namespace meninas

@@ -7,6 +7,9 @@
 // the weights add up to the lobe's albedo whatever n: under even light a white metal and what its facets spread add up to exactly 1. So
 // the sum converges to the convolution of the light with the lobe, with an error of order 1 / n^2 in the mean (it is a ratio of sums).
 //
+// Behind another lobe one direction at random stands for the grid. It keeps its own weight S g, whose mean is right: the norm would make every single
+// one the whole albedo, however little the facets let through towards it.
+//
 // A pane has the same lobe once more, folded through the surface, with what it passes in place of S.
 //
 // A lobe of no width (roughness at most `ideal_mirror_roughness`) is one direction, the mirror's.
@@ -34,5 +37,8 @@ int lobe_divisions(const Bsdf& bsdf, double cosine, double directions);
 /// The directions of light that leaves towards `out`, which is above the surface; `shift` in [0, 1)^2. Clears and fills `rays`.
 void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift,
                std::vector<LobeRay>& rays);
+
+/// One direction in place of the grid, or none where its facet reflects below the surface.
+void lobe_sample(const Bsdf& bsdf, const Direction& out, Vec2 u, std::vector<LobeRay>& rays);
 
 } // namespace meninas

@@ -63,7 +63,10 @@ void queue_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction&
   const bool lamps_sampled = samples_lamps(context, bsdf, ray);
   const RenderSettings& settings = context.settings;
   const std::uint32_t seed = pixel_seed(work.area, ray.pixel, settings.seed);
-  lobe_grid(bsdf, out, n, shift_of(ray, seed), work.lobe);
+  if (ray.lobes == 0)
+    lobe_grid(bsdf, out, n, shift_of(ray, seed), work.lobe);
+  else
+    lobe_sample(bsdf, out, shift_of(ray, seed), work.lobe);
   const glm::vec3 throughput = ray.throughput;
   const std::uint32_t key = ray.lobes == 0 ? hash(seed, ray.number) : ray.key;
   const std::uint16_t way = ray.way;
@@ -194,12 +197,14 @@ glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& pack
   const int n = ray.lobes == 0 ? lobe_divisions(bsdf, out.z, context.settings.glossy_samples) : 1;
   if (goes_on_ideally || !(spent || radiosity))
     queue_lobe(context, bsdf, out, face, at, media_at(context, hits, k, ray.medium), n, ray, work);
-  if (spent || radiosity)
+  if (spent)
     return has_field ? radiance_of_lane(context, packet, state, face, hits, k, work)
                      : glm::vec3(0.0F);
 
   const ReflectedPart part = context.visible.part;
-  const bool shows_lights = part == ReflectedPart::all || part == ReflectedPart::none;
+  // Pass one alone shows what is even: what the layers seen directly hold.
+  const bool shows_lights =
+      !radiosity && (part == ReflectedPart::all || part == ReflectedPart::none);
   const Receiver receiver = receiver_at(context.light, face, hits, k);
   if (shows_lights && bsdf.alpha > 0.0 && !context.light.punctual.empty())
     add_highlights(context, bsdf, out, receiver, ray, work);

@@ -73,6 +73,34 @@ TEST(Layers, AddUpToThePicture) {
   EXPECT_EQ(largest_value(taken.by_name["emission.mirrors"]), 0.0) << "there is one mirror";
 }
 
+TEST(Layers, SeenDirectlyArePassOneAlone) {
+  Scene room = half_room_with_small_mirror();
+  room.cameras = {look_at({1.8, 1.1, 2.8}, {0.4, 1.3, 1.0}, 1.7)};
+  // As it is, of gloss, and varnished.
+  Scene gloss = room, varnished = room;
+  for (Material& material : gloss.materials)
+    if (!is_mirror(material) && !is_emitter(material)) {
+      material.metallic = 0.7;
+      material.roughness = 0.5;
+    }
+  for (Material& material : varnished.materials)
+    if (!is_mirror(material))
+      material.roughness = 0.1;
+  for (const Scene& scene : {room, gloss, varnished}) {
+    TwoPassSettings settings = quick(24, 18);
+    Layered taken = layers_of(scene, settings);
+    settings.render.mode = RenderMode::radiosity;
+    const Image alone = layers_of(scene, settings).whole.image;
+    for (std::size_t p = 0; p < alone.pixels.size(); ++p) {
+      const glm::vec3 seen = taken.by_name["emission"].pixels[p] +
+                             taken.by_name["diffuse.direct"].pixels[p] +
+                             taken.by_name["diffuse.mirrored"].pixels[p];
+      for (int band = 0; band < 3; ++band)
+        ASSERT_NEAR(alone.pixels[p][band], seen[band], rounding * seen[band]) << p;
+    }
+  }
+}
+
 TEST(Layers, WithoutMirrorsAllLightIsDirect) {
   Scene scene = doubled(half_room());
   scene.cameras = {look_at({1.6, 1.3, 2.7}, {0.0, 1.0, 1.0}, 1.0)};
