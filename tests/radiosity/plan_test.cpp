@@ -93,6 +93,14 @@ TEST(Plan, LobesAreNamedAndWarnedAboutWhereTheyThrowShapes) {
       plan_of(room_with(rough)).warnings,
       Contains("light that smooth metals throw on other surfaces is spread evenly: 'first'"));
 
+  rough.throws_as_mirror = true;
+  const TransportPlan smooth = plan_of(room_with(rough));
+  EXPECT_EQ(smooth.glossy, 1U);
+  EXPECT_EQ(smooth.mirror_list.size(), 1U);
+  EXPECT_THAT(smooth.warnings, IsEmpty());
+  EXPECT_THAT(smooth.stages,
+              Contains(testing::AllOf(HasSubstr("smooth metals"), HasSubstr("'first'"))));
+
   Material coated = diffuse(0.5);
   coated.roughness = 0.1;
   EXPECT_THAT(plan_of(room_with(coated)).stages,

@@ -1,0 +1,77 @@
+// Which rough metals pass one takes for mirrors.
+#include "scenes/smooth_metals.h"
+#include "tests/support/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace meninas::test {
+namespace {
+
+Material metal_of(double roughness) {
+  Material material = mirror(0.9);
+  material.roughness = roughness;
+  return material;
+}
+
+Scene plate_of(const Material& material) {
+  Scene scene;
+  add_polygon(scene, "plate", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, material);
+  return scene;
+}
+
+bool throws_as_mirror(Scene scene) {
+  mark_smooth_metals(scene);
+  return scene.materials[0].throws_as_mirror;
+}
+
+TEST(SmoothMetals, AreSmootherThanTheBoundAndNoIdealMirrors) {
+  EXPECT_TRUE(throws_as_mirror(plate_of(metal_of(0.05))));
+  EXPECT_TRUE(throws_as_mirror(plate_of(metal_of(smooth_metal_roughness))));
+  EXPECT_FALSE(throws_as_mirror(plate_of(metal_of(smooth_metal_roughness + 0.01))));
+  EXPECT_FALSE(throws_as_mirror(plate_of(metal_of(0.0)))) << "a mirror is one without";
+  EXPECT_FALSE(throws_as_mirror(plate_of(diffuse(0.5))));
+}
+
+TEST(SmoothMetals, AreOfOneReflectance) {
+  Material textured = metal_of(0.1);
+  textured.metallic_roughness_texture = TextureUse{};
+  EXPECT_FALSE(throws_as_mirror(plate_of(textured)));
+  Material cut_out = metal_of(0.1);
+  cut_out.alpha_mode = AlphaMode::mask;
+  EXPECT_FALSE(throws_as_mirror(plate_of(cut_out)));
+  Scene colored = plate_of(metal_of(0.1));
+  colored.vertices[0].color = glm::vec4(0.5F, 1.0F, 1.0F, 1.0F);
+  EXPECT_FALSE(throws_as_mirror(colored));
+}
+
+/// A ring of so many upright plates of one material.
+Scene ring(int plates, const Material& material) {
+  Scene scene;
+  const auto corner = [&](int k, double height) {
+    const double angle = 2.0 * std::numbers::pi * k / plates;
+    return Point3(std::cos(angle), height, std::sin(angle));
+  };
+  for (int k = 0; k < plates; ++k)
+    add_polygon(scene, "plate", {corner(k, 0), corner(k + 1, 0), corner(k + 1, 1), corner(k, 1)},
+                material);
+  // The builder makes a material for each of them: they are to share the first.
+  for (Triangle& triangle : scene.triangles)
+    triangle.material = MaterialId{0};
+  return scene;
+}
+
+TEST(SmoothMetals, LieInFewPlanes) {
+  EXPECT_TRUE(throws_as_mirror(ring(7, metal_of(0.2))));
+  EXPECT_FALSE(throws_as_mirror(ring(20, metal_of(0.2)))) << "what it throws no one would find";
+}
+
+TEST(SmoothMetals, AreFoundWherever) {
+  const Scene far = transformed(ring(7, metal_of(0.2)), glm::dmat3(1.0), 1e-3, {0.5, 0.5, 0.5});
+  EXPECT_TRUE(throws_as_mirror(far));
+}
+
+} // namespace
+} // namespace meninas::test
