@@ -34,6 +34,24 @@ void check_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::
   }
 }
 
+/// Half floats, where they hold the picture: its brightest value, and those a hundred times darker without loss.
+PixelType type_for(const Image& picture, std::span<const Layer> layers, PixelType wanted) {
+  constexpr float largest_half = 65504.0F, least_normal_half = 0x1p-14F;
+  const auto brightest_of = [](const Image& image) {
+    float brightest = 0.0F;
+    for (const glm::vec3& pixel : image.pixels)
+      brightest = std::max({brightest, pixel.r, pixel.g, pixel.b});
+    return brightest;
+  };
+  const float picture_brightest = brightest_of(picture);
+  float brightest = picture_brightest;
+  for (const Layer& layer : layers)
+    brightest = std::max(brightest, brightest_of(layer.image));
+  const bool fits = brightest <= largest_half &&
+                    (picture_brightest == 0.0F || picture_brightest >= 100.0F * least_normal_half);
+  return fits ? wanted : PixelType::float32;
+}
+
 } // namespace
 
 void check_outputs(const OutputFiles& outputs, const std::vector<fs::path>& inputs) {
@@ -68,9 +86,14 @@ void write_pictures(const std::vector<fs::path>& files, const Image& picture,
                     std::span<const Layer> layers, const PictureSettings& settings,
                     const Attributes& attributes, const RunEvents& events) {
   std::optional<double> exposure = settings.exposure;
+  const PixelType type = type_for(picture, layers, settings.exr_type);
+  if (type != settings.exr_type && std::ranges::any_of(files, [](const fs::path& file) {
+        return picture_format(file) == PictureFormat::exr;
+      }))
+    note(events, "values that 16 bits do not hold: the EXR has 32 bits a channel");
   for (const fs::path& file : files) {
     if (picture_format(file) == PictureFormat::exr) {
-      write_exr(file, picture, layers, settings.exr_type, attributes);
+      write_exr(file, picture, layers, type, attributes);
       continue;
     }
     if (!exposure) {
