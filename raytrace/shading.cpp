@@ -46,7 +46,8 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
   const FieldPoint at = field_point(light.landing, face.side, uv_of(light, face, hits, k));
   const glm::vec3 field =
       field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
-  const DiffuseSettings& diffuse = context.settings.diffuse;
+  const bool in_lobe = state.specular && state.specular[k].lobes > 0;
+  const DiffuseSettings& diffuse = in_lobe ? context.behind_lobes : context.settings.diffuse;
   const std::uint32_t key = state.key(k, context.settings.seed);
   return irradiance_at_point(light, diffuse, context.gathering, context.visible.part, field,
                              receiver_at(light, face, hits, k),

@@ -94,6 +94,7 @@ struct RenderContext {
   std::uint32_t first_sample = 0;          ///< number of the first of these points
   std::vector<Bsdf>
       bsdfs; ///< by MaterialId, of those with lobes and without textures; empty where none has lobes
+  DiffuseSettings behind_lobes; ///< where many rays of a pixel land by way of one
   std::vector<FrustumFace> frustum_faces; ///< for sure_paths.h; empty: all rays are traced
 };
 
