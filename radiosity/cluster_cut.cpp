@@ -142,16 +142,15 @@ void trace_rays(const LightScene& light, const ClusterTree& tree, const Receiver
       const Point3 y = apply(image, point.position);
       weight[k] =
           point.colour * form_factor_share(receiver, apply_direction(image, plane.plane.normal), y);
-      fold_legs(light.worlds, light.mirrors, part.world, receiver.position, receiver.plane_class, y,
-                plane.plane_class, direct.folded[k]);
+      fold(light, part.world, receiver.position, receiver.plane_class, y, plane.plane_class,
+           direct.folded[k]);
     }
     const std::uint32_t dark = blocked(light, direct.folded, count, direct.shadow_rays);
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t stand_in = work.rays[first + k].stand_in;
       work.sent[stand_in] += weight[k];
       if (((dark >> k) & 1U) == 0U)
-        work.arrived[stand_in] +=
-            weight[k] * left_by_glass(light, work.stand_ins[stand_in].world, direct.folded[k]);
+        work.arrived[stand_in] += weight[k] * left_by_glass(light, direct.folded[k]);
     }
   }
 }

@@ -41,8 +41,8 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
       const Vec2 sample(sobol2(static_cast<std::uint32_t>(first + k), seed, SobolPair::first));
       const Point3 y = point_on(image.polygon, area, sample);
       weight[static_cast<std::size_t>(k)] = form_factor_share(receiver, image, y);
-      fold_legs(light.worlds, light.mirrors, image.world, receiver.position, receiver.plane_class,
-                y, emitter.plane_class, work.folded[static_cast<std::size_t>(k)]);
+      fold(light, image.world, receiver.position, receiver.plane_class, y, emitter.plane_class,
+           work.folded[static_cast<std::size_t>(k)]);
     }
     const std::uint32_t dark =
         blocked(light, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
@@ -50,7 +50,7 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
       share.all += weight[static_cast<std::size_t>(k)];
       if (((dark >> k) & 1U) == 0U)
         share.seen += weight[static_cast<std::size_t>(k)] *
-                      left_by_glass(light, image.world, work.folded[static_cast<std::size_t>(k)]);
+                      left_by_glass(light, work.folded[static_cast<std::size_t>(k)]);
     }
     share.samples += count;
     share.arrived += count - std::popcount(dark);
@@ -106,14 +106,14 @@ void sample_dim_images(const LightScene& light, const Receiver& receiver,
       const Vec2 sample(sobol2(0, hash(seed, image.emitter, index(image.world)), SobolPair::first));
       const Point3 y = point_on(image.polygon, area_vector(image.polygon.span()), sample);
       weight[count] = form_factor_share(receiver, image, y);
-      fold_legs(light.worlds, light.mirrors, image.world, receiver.position, receiver.plane_class,
-                y, light.emitters[image.emitter].plane_class, work.folded[count]);
+      fold(light, image.world, receiver.position, receiver.plane_class, y,
+           light.emitters[image.emitter].plane_class, work.folded[count]);
     }
     const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t own = dim[first + k];
       if (((dark >> k) & 1U) == 0U && (light.glass.empty() || weight[k] > 0.0))
-        work.visible[own] = left_by_glass(light, work.lights[own].world, work.folded[k]);
+        work.visible[own] = left_by_glass(light, work.folded[k]);
     }
     first += count;
   }

@@ -10,6 +10,7 @@
 #include "mirror/light_choice.h"
 #include "mirror/punctual_images.h"
 #include "radiosity/form_factors.h"
+#include "radiosity/shadow_legs.h"
 
 namespace meninas {
 
@@ -46,7 +47,7 @@ struct DirectWorkspace {
   std::vector<Rgb> visible;         ///< of what is dim, by light
   SeenWorlds seen;                  ///< for punctual lights
   std::vector<PunctualImage> images;
-  std::array<std::vector<Leg>, 16> folded; ///< the legs of sixteen segments at a time
+  std::array<FoldedSegment, 16> folded; ///< sixteen segments at a time
   std::uint64_t shadow_rays = 0;
 };
 

@@ -23,8 +23,8 @@ void punctual_arrivals(const LightScene& light, const Receiver& receiver, Direct
     std::uint32_t count = 0;
     while (count < 16 && first + count < work.images.size() &&
            work.images[first + count].world == world) {
-      fold_legs(light.worlds, light.mirrors, world, receiver.position, receiver.plane_class,
-                work.images[first + count].position, none<PlaneId>, work.folded[count]);
+      fold(light, world, receiver.position, receiver.plane_class,
+           work.images[first + count].position, none<PlaneId>, work.folded[count]);
       ++count;
     }
     const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
@@ -34,7 +34,7 @@ void punctual_arrivals(const LightScene& light, const Receiver& receiver, Direct
       const PunctualImage& image = work.images[first + k];
       arrivals.push_back({glm::normalize(image.position - receiver.position),
                           light.worlds.worlds[index(world)].throughput * image.irradiance *
-                              left_by_glass(light, world, work.folded[k]),
+                              left_by_glass(light, work.folded[k]),
                           light.worlds.worlds[index(world)].depth});
     }
     first += count;
@@ -63,8 +63,8 @@ void emission_samples(const LightScene& light, const Receiver& receiver,
       const double cosine = -glm::dot(to, image.normal) / std::max(glm::length(to), 1e-300);
       samples.push_back({to, std::max(0.0, cosine), image.weight * glm::length(area) / count,
                          emitter.area, Rgb(0.0), light.worlds.worlds[index(image.world)].depth});
-      fold_legs(light.worlds, light.mirrors, image.world, receiver.position, receiver.plane_class,
-                y, emitter.plane_class, work.folded[k]);
+      fold(light, image.world, receiver.position, receiver.plane_class, y, emitter.plane_class,
+           work.folded[k]);
     }
     const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
     const Rgb radiance =
@@ -72,7 +72,7 @@ void emission_samples(const LightScene& light, const Receiver& receiver,
     for (std::uint32_t k = 0; k < count; ++k)
       if (((dark >> k) & 1U) == 0)
         samples[begin + k].radiance =
-            radiance * left_by_glass(light, image.world, work.folded[k], Solids::opaque);
+            radiance * left_by_glass(light, work.folded[k], Solids::opaque);
   }
 }
 

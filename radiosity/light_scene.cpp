@@ -1,5 +1,6 @@
 #include "radiosity/light_scene.h"
 
+#include "radiosity/mirror_holes.h"
 #include "radiosity/surface_colour.h"
 
 #include <algorithm>
@@ -87,7 +88,8 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    {},
                    scene.lights,
                    std::numbers::pi * scene.background,
-                   glass_of(scene)};
+                   glass_of(scene),
+                   cut_out_mirrors(surfaces, rays, mirrors)};
   light.from_source.assign(mesh.sides.size(), 0);
 
   double area = 0.0, emitting_area = 0.0;

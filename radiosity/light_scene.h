@@ -36,6 +36,7 @@ struct LightScene {
   Rgb background{0.0}; ///< irradiance pi L of the whole sky, gathered by rays that escape
   std::vector<Bsdf>
       glass; ///< by MaterialId, clear (scenes/lobes.h) and without textures; empty where there is none
+  std::vector<std::uint8_t> cut_out_mirrors; ///< by MirrorId (mirror_holes.h); empty where there is none
 };
 
 /// Whether mirrors and glass treat all channels alike: transport needs but one band.

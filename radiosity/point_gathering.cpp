@@ -62,7 +62,8 @@ PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosi
                                                                         clusters.emitters),
                                                                     {},
                                                                     Rgb(0.0),
-                                                                    scene.glass},
+                                                                    scene.glass,
+                                                                    scene.cut_out_mirrors},
       net(make_direction_net(settings.rays)),
       cube(factors.method == FormFactorMethod::hemicube ? make_hemicube(factors.hemicube_resolution)
                                                         : Hemicube{}) {}

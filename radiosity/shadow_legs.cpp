@@ -1,5 +1,6 @@
 #include "radiosity/shadow_legs.h"
 
+#include "radiosity/mirror_holes.h"
 #include "radiosity/surface_colour.h"
 #include "scenes/glass_crossings.h"
 
@@ -27,23 +28,41 @@ Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample) {
   return polygon.vertices[0];
 }
 
-std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>, 16>& folded,
+void fold(const LightScene& light, WorldId world, const Point3& x, PlaneId leaving, const Point3& y,
+          PlaneId arriving, FoldedSegment& segment) {
+  segment.world = world;
+  fold_legs(light.worlds, light.mirrors, world, x, leaving, y, arriving, segment.legs);
+}
+
+/// By bits, the segments that meet a mirror in a hole.
+static std::uint32_t lost_in_holes(const LightScene& light, std::span<const FoldedSegment> folded) {
+  std::uint32_t lost = 0;
+  for (std::size_t k = 0; k < folded.size(); ++k)
+    if (meets_hole(light, folded[k].world, folded[k].legs))
+      lost |= 1U << k;
+  return lost;
+}
+
+std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 16>& folded,
                       std::uint32_t count, std::uint64_t& rays,
                       std::array<LegBlocker, 16>* blockers) {
   const RayFrame& frame = light.rays.frame();
-  std::uint32_t result = 0;
+  std::uint32_t result = lost_in_holes(light, std::span(folded).first(count));
+  for (std::uint32_t rest = blockers ? result : 0; rest != 0; rest &= rest - 1)
+    (*blockers)[static_cast<std::size_t>(std::countr_zero(rest))] = {};
   RayPacket packet;
   packet.count = count;
   std::size_t legs = 0;
   for (std::uint32_t k = 0; k < count; ++k)
-    legs = std::max(legs, folded[k].size());
-  for (std::size_t step = 0; step < legs; ++step) {
+    legs = std::max(legs, folded[k].legs.size());
+  const std::uint32_t all = (1U << count) - 1U;
+  for (std::size_t step = 0; step < legs && result != all; ++step) {
     for (std::uint32_t k = 0; k < count; ++k) {
-      if (step >= folded[k].size() || ((result >> k) & 1U) != 0) {
+      if (step >= folded[k].legs.size() || ((result >> k) & 1U) != 0) {
         packet.max_distance[k] = 0.0F; // no ray
         continue;
       }
-      const Leg& leg = folded[k][step];
+      const Leg& leg = folded[k].legs[step];
       const Vec3 from = (leg.from - frame.centre) * frame.scale,
                  along = (leg.to - leg.from) * frame.scale;
       set_ray(packet, k, from, along, index(leg.leaving), 1.0F);
@@ -58,8 +77,6 @@ std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>
       (*blockers)[k] = {TriangleId{triangles[k]}, static_cast<std::uint32_t>(step)};
     }
     result |= dark;
-    if (result == (1U << count) - 1U)
-      break;
   }
   return result;
 }
@@ -97,11 +114,11 @@ Rgb reflected(const LightScene& light, const Leg& leg, const Mirror& mirror) {
 
 } // namespace
 
-Rgb left_by_glass(const LightScene& light, WorldId world, std::span<const Leg> legs,
-                  Solids solids) {
+Rgb left_by_glass(const LightScene& light, const FoldedSegment& segment, Solids solids) {
   Rgb left(1.0);
   if (light.glass.empty())
     return left;
+  const auto& legs = segment.legs;
   std::vector<GlassCrossing> crossings;
   for (const Leg& leg : legs) {
     glass_crossings(light.rays, leg, crossings);
@@ -110,7 +127,8 @@ Rgb left_by_glass(const LightScene& light, WorldId world, std::span<const Leg> l
   }
   // The last mirror of the chain is met by the last leg but one, and so on.
   std::size_t step = legs.size() - 1;
-  for (; world != real_world; world = light.worlds.worlds[index(world)].parent) {
+  for (WorldId world = segment.world; world != real_world;
+       world = light.worlds.worlds[index(world)].parent) {
     const Leg& leg = legs[--step];
     const Mirror& mirror = light.mirrors.mirrors[index(light.worlds.worlds[index(world)].mirror)];
     if (mirror.glass == none<MaterialId>)

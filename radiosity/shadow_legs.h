@@ -11,23 +11,33 @@ namespace meninas {
 /// A point of a convex polygon with density one over its area, whose area vector is given.
 Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample);
 
-/// What blocks a segment, and on which of its legs: none where it touches an end of the leg.
+/// What blocks a segment, and on which of its legs: none where it touches an end of the leg, or a mirror has a hole.
 struct LegBlocker {
   TriangleId triangle = none<TriangleId>;
   std::uint32_t leg = 0;
 };
 
-/// Tests up to sixteen folded segments, best of about as many legs each; bit k of the result is set where segment k is blocked, `blockers[k]` by what. Adds to
-/// `rays`.
-std::uint32_t blocked(const LightScene& light, const std::array<std::vector<Leg>, 16>& folded,
+/// The real legs of a segment from a point to one in the unfolded space of a world, as `fold_legs` tells them.
+struct FoldedSegment {
+  WorldId world = real_world;
+  std::vector<Leg> legs;
+};
+
+/// Folds the segment from x to y in its storage.
+void fold(const LightScene& light, WorldId world, const Point3& x, PlaneId leaving, const Point3& y,
+          PlaneId arriving, FoldedSegment& segment);
+
+/// Tests up to sixteen folded segments, best of about as many legs each; bit k of the result is set where segment k is
+/// blocked, `blockers[k]` by what, or meets a mirror in a hole. Adds to `rays`.
+std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 16>& folded,
                       std::uint32_t count, std::uint64_t& rays,
                       std::array<LegBlocker, 16>* blockers = nullptr);
 
-/// What glass makes of light on a free segment in a world, beside the throughput of that world: the product of what passes each pane at the
+/// What glass makes of light on a free segment, beside the throughput of its world: the product of what passes each pane at the
 /// angle at which it is crossed, and of what each pane that is a mirror of the world reflects at its angle over the mean that the world's
 /// throughput has for it. 1 where there is no glass. Solids count as the sheets that their faces are, or, for those whose rays find what is refracted, pass nothing.
 enum class Solids { sheets, opaque };
-Rgb left_by_glass(const LightScene& light, WorldId world, std::span<const Leg> legs,
+Rgb left_by_glass(const LightScene& light, const FoldedSegment& segment,
                   Solids solids = Solids::sheets);
 
 } // namespace meninas

@@ -229,8 +229,7 @@ void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspac
         static_cast<std::uint32_t>(std::min<std::size_t>(16, work.waiting.size() - first));
     for (std::uint32_t k = 0; k < count; ++k) {
       const WaitingRay& ray = work.waiting[work.order[first + k]];
-      fold_legs(light.worlds, light.mirrors, ray.world, ray.from, leaving, ray.to, ray.arriving,
-                work.point.folded[k]);
+      fold(light, ray.world, ray.from, leaving, ray.to, ray.arriving, work.point.folded[k]);
     }
     const std::uint32_t dark =
         blocked(light, work.point.folded, count, work.point.shadow_rays, &blockers);
@@ -244,7 +243,7 @@ void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspac
         continue;
       }
       image.seen += ray.weight;
-      image.left += ray.weight * left_by_glass(light, ray.world, work.point.folded[k]);
+      image.left += ray.weight * left_by_glass(light, work.point.folded[k]);
     }
     first += count;
   }

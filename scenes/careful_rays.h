@@ -9,8 +9,9 @@ namespace meninas {
 
 LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule);
 
-/// The triangles within reach of a point that leaves a plane.
-Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving);
+/// The triangles within reach of a point that leaves a plane, or nearer than `least_reach` if that is further.
+Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving,
+                     double least_reach = 0.0);
 
 // --- What is made of it
 

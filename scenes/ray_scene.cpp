@@ -121,21 +121,23 @@ struct ContactQuery {
   const FrameGeometry* geometry;
   Point3 origin;
   std::uint32_t leaving;
+  double reach;
   Contacts found;
 };
 
 bool collect_contact(RTCPointQueryFunctionArguments* args) {
   auto& query = *static_cast<ContactQuery*>(args->userPtr);
-  if (is_within(corners_of(*query.geometry, args->primID), query.origin, reach))
+  if (is_within(corners_of(*query.geometry, args->primID), query.origin, query.reach))
     add_contact(*query.geometry, args->primID, query.leaving, query.found);
   return false;
 }
 
 } // namespace
 
-Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving) {
-  ContactQuery query{&rays.geometry(), Point3(origin), leaving, {}};
-  RTCPointQuery point{origin.x, origin.y, origin.z, 0.0F, static_cast<float>(2.0 * reach)};
+Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving,
+                     double least_reach) {
+  ContactQuery query{&rays.geometry(), Point3(origin), leaving, std::max(reach, least_reach), {}};
+  RTCPointQuery point{origin.x, origin.y, origin.z, 0.0F, static_cast<float>(2.0 * query.reach)};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(rays.impl().scene.get(), &point, &context, collect_contact, &query);

@@ -12,18 +12,18 @@
 namespace meninas::test {
 namespace {
 
-using Segments = std::array<std::vector<Leg>, 16>;
+using Segments = std::array<FoldedSegment, 16>;
 
 /// From one wall to the ceiling's image in any of the worlds.
-std::vector<Leg> any_segment(const LightScene& light, Random& random) {
+FoldedSegment any_segment(const LightScene& light, Random& random) {
   const auto worlds = static_cast<double>(light.worlds.worlds.size());
   const auto world = static_cast<WorldId>(static_cast<std::uint32_t>(random.between(0.0, worlds)));
   const Point3 from = random.in_box(Vec3(0.05), Vec3(0.95));
   const Point3 to = random.in_box(Vec3(0.05), Vec3(0.95));
-  std::vector<Leg> legs;
-  fold_legs(light.worlds, light.mirrors, world, from, none<PlaneId>,
-            apply(light.worlds.worlds[index(world)].image, to), none<PlaneId>, legs);
-  return legs;
+  FoldedSegment segment;
+  fold(light, world, from, none<PlaneId>, apply(light.worlds.worlds[index(world)].image, to),
+       none<PlaneId>, segment);
+  return segment;
 }
 
 TEST(ShadowLegs, SegmentsOfAnyNumberOfLegsAreTestedTogether) {
@@ -37,7 +37,7 @@ TEST(ShadowLegs, SegmentsOfAnyNumberOfLegsAreTestedTogether) {
   for (int trial = 0; trial < 500; ++trial) {
     for (auto& segment : segments) {
       segment = any_segment(*room->light, random);
-      legs.insert(segment.size());
+      legs.insert(segment.legs.size());
     }
     std::uint64_t rays = 0;
     std::array<LegBlocker, 16> blockers;
@@ -46,7 +46,7 @@ TEST(ShadowLegs, SegmentsOfAnyNumberOfLegsAreTestedTogether) {
       one[0] = segments[k];
       const bool is_dark = (together >> k & 1U) != 0;
       ASSERT_EQ(blocked(*room->light, one, 1, rays) != 0, is_dark);
-      EXPECT_TRUE(!is_dark || blockers[k].leg < segments[k].size());
+      EXPECT_TRUE(!is_dark || blockers[k].leg < segments[k].legs.size());
     }
     dark += std::popcount(together);
     free += 16 - std::popcount(together);
@@ -63,9 +63,9 @@ TEST(ShadowLegs, RaysAreCountedLegByLeg) {
   std::uint64_t legs = 0, rays = 0;
   for (std::uint32_t k = 0; k < 3; ++k) {
     const Point3 to = apply(light.worlds.worlds[k].image, Point3(0.5, 0.5, 0.5));
-    fold_legs(light.worlds, light.mirrors, static_cast<WorldId>(k), {0.4, 0.5, 0.6}, none<PlaneId>,
-              to, none<PlaneId>, segments[k]);
-    legs += segments[k].size();
+    fold(light, static_cast<WorldId>(k), {0.4, 0.5, 0.6}, none<PlaneId>, to, none<PlaneId>,
+         segments[k]);
+    legs += segments[k].legs.size();
   }
   EXPECT_EQ(blocked(light, segments, 3, rays), 0U);
   EXPECT_EQ(rays, legs);
