@@ -12,6 +12,9 @@ namespace {
 
 constexpr const char* pass_one_group = "Pass one";
 
+// As of emission in files: its square is still in the range of the floats that pictures are made of.
+constexpr double brightest_background = 1e30;
+
 const Choices<Quality> qualities{
     {"draft", Quality::draft}, {"normal", Quality::normal}, {"fine", Quality::fine}};
 const Choices<FormFactorMethod> form_factor_methods{{"rays", FormFactorMethod::rays},
@@ -197,7 +200,12 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
 void add_light_options(CLI::App& command, CommonOptions& options) {
   add_text(command, "--background", "L|R,G,B",
            "radiance of everything beyond the scene, W/m^2/sr [0]", [&](const std::string& text) {
-             options.settings.background = parse_colour("--background", text);
+             const Rgb radiance = parse_colour("--background", text);
+             if (!glm::all(glm::lessThanEqual(radiance, Rgb(brightest_background)))) {
+               throw UsageError("--background", fmt::format("'{}' is over {:g} W/m^2/sr", text,
+                                                            brightest_background));
+             }
+             options.settings.background = radiance;
            });
 }
 

@@ -77,6 +77,8 @@ TEST_F(Errors, ValuesAreChecked) {
       {"--size", "640x0", "'640x0' is not a size such as 640x480"},
       {"--size", "65536x65536",
        "'65536x65536' is larger than 65536 pixels on a side or 134217728 in all"},
+      {"--background", "1e40", "'1e40' is over 1e+30 W/m^2/sr"},
+      {"--background", "1,2e30,0", "'1,2e30,0' is over 1e+30 W/m^2/sr"},
       {"--exposure", "bright", "'bright' is not a number"}};
   for (const auto& [option, value, what] : cases) {
     expect(2, option + ": " + what, {"render", "room.glb", "-o", "out.png", option, value});
