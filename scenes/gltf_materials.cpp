@@ -91,6 +91,9 @@ static void read_coat(const Json& json, Material& material, Findings& findings) 
     material.specular_color = glm::clamp(color, 0.0, brightest_emission);
     if (material.specular_color != color)
       findings.about("specular colours out of range were clamped in materials", material.name);
+    if (material.specular > 0.0 &&
+        (extension->contains("specularTexture") || extension->contains("specularColorTexture")))
+      findings.about("textures of specular reflection are left out in materials", material.name);
   }
 }
 
@@ -134,7 +137,8 @@ static void read_alpha(const Json& json, Material& material, Findings& findings)
     material.alpha_mode = AlphaMode::blend;
   else if (mode != "OPAQUE")
     findings.about("materials with an unknown alphaMode are opaque", material.name);
-  material.alpha_cutoff = std::clamp(number_or(json, "alphaCutoff", 0.5), 0.0, 1.0);
+  // Above 1 nothing is left of the surface.
+  material.alpha_cutoff = std::max(number_or(json, "alphaCutoff", 0.5), 0.0);
 }
 
 static Material read_material(const Document& document, std::size_t index, Findings& findings) {
@@ -151,9 +155,6 @@ static Material read_material(const Document& document, std::size_t index, Findi
   read_emission(document, index, json, material, findings);
   read_coat(json, material, findings);
   read_glass(document, json, material, findings);
-  if (material.alpha_mode == AlphaMode::blend &&
-      (material.alpha < 1.0 || material.base_color_texture))
-    findings.about("blending by alpha is not modelled, materials are opaque", material.name);
   if (find(json, {"extensions", "KHR_materials_unlit"}))
     findings.about("unlit materials are lit: their colour is read as reflectance", material.name);
   if (const auto* coat = find(json, {"extensions", "KHR_materials_clearcoat"}))
@@ -164,6 +165,21 @@ static Material read_material(const Document& document, std::size_t index, Findi
     findings.about("occlusion textures are left out, occlusion is computed, in materials",
                    material.name);
   return material;
+}
+
+/// Alpha is in the factor, the texture or the colours of the vertices.
+static void warn_of_blending(const Scene& scene, Findings& findings) {
+  std::vector<bool> has_clear_vertices(scene.materials.size(), false);
+  for (const auto& triangle : scene.triangles)
+    for (const auto vertex : triangle.vertices)
+      if (scene.vertices[index(vertex)].color.a < 1.0F)
+        has_clear_vertices[index(triangle.material)] = true;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const auto& material = scene.materials[m];
+    if (material.alpha_mode == AlphaMode::blend &&
+        (material.alpha < 1.0 || material.base_color_texture || has_clear_vertices[m]))
+      findings.about("blending by alpha is not modelled, materials are opaque", material.name);
+  }
 }
 
 void read_materials(const Document& document, Scene& scene, Findings& findings) {
@@ -192,6 +208,7 @@ void read_materials(const Document& document, Scene& scene, Findings& findings) 
       last = ids.find(triangle.material);
     triangle.material = last->second;
   }
+  warn_of_blending(scene, findings);
   read_textures(document, scene, findings);
 }
 

@@ -84,6 +84,11 @@ std::set<std::uint64_t> texcoord_sets(const Json& material) {
   add({"pbrMetallicRoughness", "metallicRoughnessTexture"});
   add({"extensions", "KHR_materials_pbrSpecularGlossiness", "diffuseTexture"});
   add({"extensions", "KHR_materials_transmission", "transmissionTexture"});
+  // Of a pane it is a texture of nothing, and without absorption it says nothing.
+  const auto* volume = find(material, {"extensions", "KHR_materials_volume"});
+  if (volume && number_or(*volume, "thicknessFactor", 0.0) > 0.0 &&
+      volume->contains("attenuationDistance"))
+    add({"extensions", "KHR_materials_volume", "thicknessTexture"});
   return sets;
 }
 
