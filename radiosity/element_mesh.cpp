@@ -22,6 +22,9 @@ bool carries_radiosity(const Material& material) {
   // Where its texture of transmission is black glass is opaque.
   if (material.transmission_texture)
     return true;
+  // And where its texture of metalness is, it is no metal.
+  if (material.metallic_roughness_texture && material.transmission < 1.0)
+    return true;
   return glm::any(glm::greaterThan(diffuse_reflectance(material), Rgb(0.0)));
 }
 

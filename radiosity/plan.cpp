@@ -24,6 +24,12 @@ bool throws_shapes(const Material& material) {
          !material.throws_as_mirror;
 }
 
+/// The factor is rough, but texels may be smooth.
+bool may_throw_shapes(const Material& material) {
+  return is_glossy(material) && material.roughness > smooth_metal_roughness &&
+         material.metallic_roughness_texture;
+}
+
 bool throws_sharply(const Material& material) {
   return is_glossy(material) && material.throws_as_mirror;
 }
@@ -47,11 +53,14 @@ bool scatters_grey(const Material& material) {
            is_grey(material.attenuation_color)));
 }
 
-/// Materials that are on some triangle, by their place in the scene.
-std::vector<const Material*> used_materials(const Scene& scene) {
+/// Materials that are on some triangle of which that holds, by their place in the scene.
+template <typename Predicate>
+std::vector<const Material*> materials_where(const Scene& scene, Predicate&& holds) {
   std::set<MaterialId> used;
-  for (const Triangle& triangle : scene.triangles) {
-    used.insert(triangle.material);
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    if (holds(TriangleId{t})) {
+      used.insert(scene.triangles[t].material);
+    }
   }
   std::vector<const Material*> materials;
   for (const MaterialId id : used) {
@@ -174,6 +183,12 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
     plan.warnings.push_back("light that smooth metals throw on other surfaces is spread evenly: " +
                             quoted(names));
   }
+  if (const auto names = names_where(materials, may_throw_shapes); !names.empty()) {
+    plan.warnings.push_back(
+        "light that metals throw on other surfaces is spread evenly, also where "
+        "a texture makes them smooth: " +
+        quoted(names));
+  }
   const auto is_frosted = [](const Material& m) {
     return is_pane(m) && m.roughness > ideal_mirror_roughness;
   };
@@ -200,12 +215,23 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
   }
 }
 
+/// At the vertices of glass colours tint it.
+void warn_of_colored_mirrors(const Scene& scene, TransportPlan& plan) {
+  const auto colored =
+      materials_where(scene, [&](TriangleId t) { return has_vertex_colors(scene, t); });
+  const auto is_metal_mirror = [](const Material& m) { return is_mirror(m) && !is_glass(m); };
+  if (const auto names = names_where(colored, is_metal_mirror); !names.empty()) {
+    plan.warnings.push_back("vertex colours of mirrors are not applied to what they reflect: " +
+                            quoted(names));
+  }
+}
+
 /// Lobes are followed in the picture alone.
 void describe_lobes(const std::vector<const Material*>& materials,
                     std::vector<std::string>& stages) {
   if (const auto names = names_where(materials, throws_evenly); !names.empty()) {
-    stages.push_back("glossy metals: grids of rays over their lobes in the picture, even in pass "
-                     "one: " +
+    stages.push_back("glossy metals: grids of rays over their lobes in the picture, spread evenly "
+                     "in pass one: " +
                      quoted(names));
   }
   if (const auto names = names_where(materials, throws_sharply); !names.empty()) {
@@ -214,7 +240,7 @@ void describe_lobes(const std::vector<const Material*>& materials,
                      quoted(names));
   }
   if (const auto names = names_where(materials, is_coated); !names.empty()) {
-    stages.push_back("coats: rays over their lobes in the picture, even in pass one: " +
+    stages.push_back("coats: rays over their lobes in the picture, spread evenly in pass one: " +
                      quoted(names));
   }
   if (const auto names = names_where(materials, is_pane); !names.empty()) {
@@ -286,7 +312,7 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
   plan.emitters = count_emitters(scene, surfaces);
   plan.punctual_lights = scene.lights.size();
 
-  const auto materials = used_materials(scene);
+  const auto materials = materials_where(scene, [](TriangleId) { return true; });
   const auto count = [&](auto&& holds) {
     return static_cast<std::size_t>(std::ranges::count_if(
         materials, holds, [](const Material* m) -> const Material& { return *m; }));
@@ -314,6 +340,7 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
     plan.warnings.push_back("no camera: a default view of the whole scene is used");
   }
   warn_of_materials(materials, plan);
+  warn_of_colored_mirrors(scene, plan);
   warn_of_facets(scene, surfaces, plan);
   plan.stages = describe_stages(surfaces, plan, materials);
   return plan;

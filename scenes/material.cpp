@@ -2,8 +2,13 @@
 
 namespace meninas {
 
+/// Texels say where it is metal and how smooth: no mirror of one reflectance. Those of glass are read wherever light meets it.
+static bool has_texels_of_metal(const Material& material) {
+  return material.metallic_roughness_texture && !is_glass(material);
+}
+
 bool is_mirror(const Material& material) {
-  return material.metallic > 0.0 &&
+  return material.metallic > 0.0 && !has_texels_of_metal(material) &&
          (material.roughness <= ideal_mirror_roughness || material.throws_as_mirror) &&
          glm::any(glm::greaterThan(material.base_color, Rgb(0.0)));
 }
@@ -13,7 +18,8 @@ bool is_emitter(const Material& material) {
 }
 
 bool is_glossy(const Material& material) {
-  return material.metallic > 0.0 && material.roughness > ideal_mirror_roughness;
+  return material.metallic > 0.0 &&
+         (material.roughness > ideal_mirror_roughness || has_texels_of_metal(material));
 }
 
 bool is_glass(const Material& material) {

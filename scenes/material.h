@@ -3,8 +3,8 @@
 //   diffuse reflectance   rho_d = base_color (1 - metallic)
 //   specular reflectance  rho_s = base_color metallic
 //
-// A metal whose roughness is at most `ideal_mirror_roughness` is an ideal mirror of constant reflectance rho_s.
-// The lobes of rougher metals, coats and glass are in bsdf.h. Pass two shows them; pass one spreads those of metals and coats evenly, takes
+// A metal whose roughness is at most `ideal_mirror_roughness`, without a texture of that, is an ideal mirror of constant reflectance rho_s.
+// The lobes of other metals, coats and glass are in bsdf.h. Pass two shows them; pass one spreads those of metals and coats evenly, takes
 // smooth metals for ideal mirrors (smooth_metals.h) and glass for clear (lobes.h).
 //
 // Glass (transmission > 0) is there from both sides: the loader makes it double-sided. Without thickness a sheet of it is a whole pane, with
@@ -74,7 +74,7 @@ Rgb mirror_reflectance(const Material& material);
 bool is_mirror(const Material& material);
 bool is_emitter(const Material& material);
 
-/// A metal too rough for an ideal mirror.
+/// A metal too rough for an ideal mirror, or with a texture that says where it is smooth and metal.
 bool is_glossy(const Material& material);
 
 /// It lets light through: a pane, or the surface of a solid.

@@ -85,8 +85,10 @@ TEST(Plan, LobesAreNamedAndWarnedAboutWhereTheyThrowShapes) {
   rough.roughness = 0.4;
   const TransportPlan glossy = plan_of(room_with(rough));
   EXPECT_EQ(glossy.glossy, 1U);
-  EXPECT_THAT(glossy.stages,
-              Contains(testing::AllOf(HasSubstr("glossy metals"), HasSubstr("'first'"))));
+  EXPECT_THAT(
+      glossy.stages,
+      Contains("glossy metals: grids of rays over their lobes in the picture, spread evenly "
+               "in pass one: 'first'"));
   EXPECT_THAT(glossy.warnings, IsEmpty());
   rough.roughness = 0.2;
   EXPECT_THAT(
@@ -104,9 +106,49 @@ TEST(Plan, LobesAreNamedAndWarnedAboutWhereTheyThrowShapes) {
   Material coated = diffuse(0.5);
   coated.roughness = 0.1;
   EXPECT_THAT(plan_of(room_with(coated)).stages,
-              Contains(testing::AllOf(HasSubstr("coats"), HasSubstr("'first'"))));
+              Contains("coats: rays over their lobes in the picture, spread evenly in pass one: "
+                       "'first'"));
   coated.specular = 0.0;
   EXPECT_THAT(plan_of(room_with(coated)).stages, testing::Not(Contains(HasSubstr("coats"))));
+}
+
+TEST(Plan, MetalsWithATextureOfRoughnessAreNoMirrorsAndWarnedAbout) {
+  Material metal = mirror(0.9);
+  metal.metallic_roughness_texture = TextureUse{.texture = TextureId{0}};
+  for (const double roughness : {0.0, 0.2, 1.0}) {
+    metal.roughness = roughness;
+    const TransportPlan plan = plan_of(room_with(metal));
+    EXPECT_EQ(plan.glossy, 1U);
+    EXPECT_THAT(plan.mirror_list, IsEmpty());
+    EXPECT_THAT(plan.stages, Contains(HasSubstr("glossy metals")));
+    EXPECT_THAT(
+        plan.warnings,
+        testing::ElementsAre(
+            roughness < 1.0
+                ? "light that smooth metals throw on other surfaces is spread evenly: 'first'"
+                : "light that metals throw on other surfaces is spread evenly, also where a "
+                  "texture makes them smooth: 'first'"));
+  }
+  metal.metallic = 0.0;
+  EXPECT_THAT(plan_of(room_with(metal)).warnings, IsEmpty());
+}
+
+TEST(Plan, VertexColoursOfMirrorsAreWarnedAbout) {
+  Material glass = diffuse(0.9);
+  glass.roughness = 0.0;
+  glass.transmission = 1.0;
+  const auto warnings_of = [](const Material& material, glm::vec4 color) {
+    Scene scene = room_with(material);
+    scene.vertices[0].color = color;
+    return plan_of(scene).warnings;
+  };
+  const glm::vec4 red(1.0F, 0.0F, 0.0F, 1.0F);
+  EXPECT_THAT(warnings_of(mirror(0.9), red),
+              testing::ElementsAre(
+                  "vertex colours of mirrors are not applied to what they reflect: 'first'"));
+  EXPECT_THAT(warnings_of(mirror(0.9), glm::vec4(1.0F)), IsEmpty());
+  EXPECT_THAT(warnings_of(diffuse(0.9), red), IsEmpty());
+  EXPECT_THAT(warnings_of(glass, red), IsEmpty()) << "it tints the glass";
 }
 
 TEST(Plan, PunctualLightsAreModelled) {

@@ -173,5 +173,25 @@ TEST(GlassTextures, ThicknessSaysWhatASheetOfASolidTakes) {
   }
 }
 
+TEST(GlassTextures, WhereMetalIsNoneItIsGlassAndDiffuse) {
+  // By its factors all metal, by its texture where x > 0; half of what is no metal is glass.
+  Scene scene;
+  scene.textures = {half_black()};
+  Material material = glass(Rgb(0.8));
+  material.metallic = 1.0;
+  material.specular = 0.0;
+  material.transmission = 0.5;
+  material.metallic_roughness_texture = TextureUse{.texture = TextureId{0}};
+  add_polygon(scene, "plate", {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}}, material);
+  lay_texture(scene);
+  add_bulb(scene, {0, 1, 0});
+  for (const double x : {-0.5, 0.5}) {
+    const Point3 at(x, 0, 0);
+    const Vec3 way = Point3(0, 1, 0) - at;
+    const double exact = x < 0.0 ? 0.4 / pi / std::pow(glm::dot(way, way), 1.5) : 0.0;
+    EXPECT_NEAR(seen(scene, at + Vec3(0, 0.5, 0.4), at).g, exact, 1e-5) << x;
+  }
+}
+
 } // namespace
 } // namespace meninas::test

@@ -2,6 +2,8 @@
 #include "image/image_file.h"
 #include "radiosity/surface_colour.h"
 #include "raytrace/two_pass.h"
+#include "tests/raytrace/glass_pictures.h"
+#include "tests/support/glass_rooms.h"
 #include "tests/support/scene_builder.h"
 
 #include <gmock/gmock.h>
@@ -157,6 +159,30 @@ TEST(Textures, AreAsSharpInAMirror) {
     }
   EXPECT_GT(white, 20);
   EXPECT_GT(black, 20);
+}
+
+TEST(Textures, WhereSmoothMetalIsNoneItIsDiffuse) {
+  // Metal where x > 0, and all of it smooth; a bulb, which no ideal mirror shows but in its own direction.
+  Scene scene;
+  scene.textures = {half_black()};
+  Material metal = mirror(0.8);
+  metal.specular = 0.0;
+  metal.metallic_roughness_texture = TextureUse{.texture = TextureId{0}};
+  add_polygon(scene, "plate", {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}}, metal);
+  lay_texture(scene);
+  scene.lights = {{.name = "bulb", .position = {0.0, 1.0, 0.0}}};
+  for (const double x : {-0.9, -0.4, 0.4, 0.9}) {
+    const Point3 at(x, 0.0, 0.0);
+    const Vec3 way = scene.lights[0].position - at;
+    const double r2 = glm::dot(way, way);
+    const double exact = x < 0.0 ? 0.8 / std::numbers::pi / (r2 * std::sqrt(r2)) : 0.0;
+    EXPECT_NEAR(seen(scene, at + Vec3(0.0, 0.5, 0.4), at).g, exact, 1e-5) << x;
+  }
+  // What the metal throws is spread evenly.
+  const Taken taken = lit_up(scene, coarse());
+  ASSERT_GT(element_count(taken.prepared->mesh), 0U);
+  for (const Rgb& reflectance : taken.prepared->mesh.reflectance)
+    EXPECT_NEAR(reflectance.g, 0.8, 1e-6);
 }
 
 TEST(Textures, WhatGlowsInPatternsLightsInPatterns) {
