@@ -210,7 +210,7 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
   }
   const auto is_textured_mirror = [](const Material& m) { return is_mirror(m) && is_textured(m); };
   if (const auto names = names_where(materials, is_textured_mirror); !names.empty()) {
-    plan.warnings.push_back("textures of mirrors are not applied to what they reflect: " +
+    plan.warnings.push_back("textures of mirrors are not applied to what they throw on surfaces: " +
                             quoted(names));
   }
 }

@@ -228,7 +228,9 @@ Rgb mean_reflectance(const Bsdf& bsdf) {
 }
 
 bool has_lobes(const Material& material) {
-  return is_glass(material) || is_glossy(material) || has_visible_coat(material);
+  const bool is_painted_mirror = is_mirror(material) && material.base_color_texture;
+  return is_glass(material) || is_glossy(material) || has_visible_coat(material) ||
+         is_painted_mirror;
 }
 
 bool has_visible_coat(const Material& material) {

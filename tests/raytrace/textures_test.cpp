@@ -309,5 +309,25 @@ TEST(CutOuts, WhatIsCutOutNeitherEmitsNorReflects) {
   EXPECT_NEAR(solution.energy.emitted.g, 0.5 * std::numbers::pi, 0.02);
 }
 
+TEST(Textures, OfMirrorsColourWhatIsSeenInThem) {
+  // A sky seen in a mirror painted with 2 x 2 squares, half of them black; the camera looks at the middle of the first, which is white, and at the
+  // next.
+  Scene scene;
+  scene.background = Rgb(1.0);
+  scene.textures = {chessboard(2, 8)};
+  Material silver = mirror(0.9);
+  silver.base_color_texture = TextureUse{.texture = TextureId{0}};
+  add_square(scene, "mirror", 0.0, true, silver);
+  const TwoPassSettings settings = quick(1.0);
+  const auto prepared = prepare_scene(scene, settings.pass_one);
+  const RadiositySolution solution = solve_pass_one(*prepared->light, settings.pass_one);
+  const auto seen_at = [&](double x) {
+    const Camera camera = look_at({x, 1.0, 0.3}, {x, 0.0, -0.25}, 1e-3);
+    return render(*prepared->light, solution.field, camera, settings.render).image.pixels[0].g;
+  };
+  EXPECT_NEAR(seen_at(-0.25), 0.9, 1e-5);
+  EXPECT_EQ(seen_at(0.25), 0.0F);
+}
+
 } // namespace
 } // namespace meninas::test
