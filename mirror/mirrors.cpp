@@ -11,8 +11,8 @@ namespace meninas {
 
 namespace {
 
-/// Surfaces of one plane, one facing and one reflectance are one mirror, of glass those of one material.
-using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double, MaterialId>;
+/// Surfaces of one plane, one facing and one reflectance are one mirror, of glass those of one material, ideal ones by themselves.
+using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double, MaterialId, bool>;
 
 /// What it reflects in the mean.
 Rgb reflectance_of(const Material& material) {
@@ -57,12 +57,18 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
     if (reflectance == Rgb(0.0))
       continue;
     const MaterialId glass = is_glass(material) ? surface.material : none<MaterialId>;
+    const bool has_width = material.roughness > ideal_mirror_roughness;
     for (int face = 0; face < (material.double_sided ? 2 : 1); ++face) {
       const Plane plane = face == 0 ? surface.plane : flipped(surface.plane);
       const bool along =
           glm::dot(plane.normal, model.planes[index(surface.plane_class)].normal) > 0.0;
-      const MirrorKey key{
-          index(surface.plane_class), along, reflectance.r, reflectance.g, reflectance.b, glass};
+      const MirrorKey key{index(surface.plane_class),
+                          along,
+                          reflectance.r,
+                          reflectance.g,
+                          reflectance.b,
+                          glass,
+                          has_width};
       const auto [place, is_new] = known.emplace(key, candidates.size());
       if (is_new) {
         candidates.emplace_back();
@@ -70,6 +76,7 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
         candidates.back().mirror.plane_class = surface.plane_class;
         candidates.back().mirror.reflectance = reflectance;
         candidates.back().mirror.glass = glass;
+        candidates.back().mirror.has_width = has_width;
       }
       add_face(candidates[place->second], model, static_cast<SurfaceId>(s), face);
     }

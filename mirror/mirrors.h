@@ -29,6 +29,8 @@ struct Mirror {
   PlaneId plane_class = none<PlaneId>;
   Rgb reflectance{1.0};
   MaterialId glass = none<MaterialId>; ///< none: a mirror of constant reflectance
+  bool has_width =
+      false; ///< what is seen in it is blurred: an ideal mirror only to the surfaces that it throws light on
   double area = 0.0;
   std::vector<ConvexPolygon>
       window; ///< convex, disjoint, counter-clockwise seen from the reflecting side

@@ -174,7 +174,7 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
   for (const PunctualArrival& arrival : arrivals) {
     sum.total += arrival.irradiance;
     sum.punctual += arrival.irradiance;
-    if (arrival.mirrors > 0)
+    if (arrival.world != real_world)
       sum.mirrored += arrival.irradiance;
   }
   return sum;

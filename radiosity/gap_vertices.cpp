@@ -1,13 +1,17 @@
 #include "radiosity/gap_vertices.h"
 
+#include "scenes/frame_geometry.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 
 namespace meninas {
 
 namespace {
+
+constexpr double most_points = 4.0; ///< that gather in an element
 
 struct GapSum {
   GapLight light;
@@ -38,22 +42,59 @@ Point3 point_in(const ElementMesh& mesh, ElementId element, std::uint32_t k) {
   return glm::mix(glm::mix(at(0), at(1), s), glm::mix(at(3), at(2), s), t);
 }
 
+/// Whether what a ray has met is lit, or shows something that may be: nothing at all, too.
+bool meets_light(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                 const HitPacket& hits, std::uint32_t k) {
+  const LightScene& light = gathering.light;
+  if (hits.triangle[k] == index(none<TriangleId>))
+    return true;
+  const FaceRecord& face = light.landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
+  if (face.side == FaceRecord::nothing)
+    return face.mirrors;
+  const glm::vec2 uv = landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
+  return irradiance[land(light.landing, face.side, uv).element] != Rgb(0.0);
+}
+
+/// Those of the points of an element from which the ray along the normal comes to light, by bits.
+std::uint32_t points_that_see_light(const PointGathering& gathering,
+                                    const std::vector<Rgb>& irradiance, const ElementMesh& mesh,
+                                    ElementId element, PointWorkspace& work) {
+  const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(element)])];
+  const RayScene& rays = gathering.light.rays;
+  RayPacket packet;
+  HitPacket hits;
+  packet.count = packet_size;
+  for (std::uint32_t k = 0; k < packet_size; ++k)
+    set_ray(packet, k, glm::vec3(to_frame(rays.frame(), point_in(mesh, element, k))),
+            glm::vec3(side.normal), index(side.plane_class));
+  closest_hits(rays, packet, hits, Backs::absorb, Coherence::coherent);
+  work.rays += packet_size;
+  std::uint32_t lit = 0;
+  for (std::uint32_t k = 0; k < packet_size; ++k)
+    lit |= meets_light(gathering, irradiance, hits, k) ? 1U << k : 0U;
+  return lit;
+}
+
 } // namespace
 
 std::optional<GapLight> light_in_gap(const PointGathering& gathering,
                                      const std::vector<Rgb>& irradiance, const ElementMesh& mesh,
                                      ElementId element, PointWorkspace& work) {
-  constexpr std::uint32_t points = 8;
   const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(element)])];
   const double size = size_of(mesh, element);
   GapSum sum;
-  for (std::uint32_t k = 0; k < points; ++k) {
+  for (std::uint32_t lit = points_that_see_light(gathering, irradiance, mesh, element, work);
+       lit != 0 && sum.count < most_points; lit &= lit - 1) {
+    const auto k = static_cast<std::uint32_t>(std::countr_zero(lit));
     const Receiver receiver{point_in(mesh, element, k), side.normal, side.plane_class,
                             side.tangent};
     if (is_under_something(gathering.light, receiver, size))
       continue;
     const std::uint32_t seed = hash(index(element), k, gathering.form_factors.seed);
     const VertexValue value = value_at(gathering, irradiance, receiver, size, seed, work);
+    // Where the one arrives at nothing but the void, so do the others.
+    if (value.irradiance.total == Rgb(0.0))
+      break;
     if (!value.covered)
       sum.add({value.irradiance, value.indirect});
   }

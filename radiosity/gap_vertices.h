@@ -1,8 +1,8 @@
 // Values for the ground of gaps: elements on all of whose corners something stands, but which are open in between, as the floor is
 // between two boxes closer together than its elements are wide.
 //
-// A few points of such an element are asked; those that nothing stands on gather, and the corners take the means of their elements. Under what stands
-// there nothing is seen of that, and contact_vertices.h goes before: its edges have an open end.
+// Of sixteen points of such an element those are open whose ray along the normal comes to light: a few of them gather, and the corners take the
+// means of their elements. Under what stands there nothing is seen of that, and contact_vertices.h goes before: its edges have an open end.
 #pragma once
 
 #include "radiosity/interpolation.h"

@@ -35,7 +35,7 @@ void punctual_arrivals(const LightScene& light, const Receiver& receiver, Direct
       arrivals.push_back({glm::normalize(image.position - receiver.position),
                           light.worlds.worlds[index(world)].throughput * image.irradiance *
                               left_by_glass(light, work.folded[k]),
-                          light.worlds.worlds[index(world)].depth});
+                          world});
     }
     first += count;
   }
@@ -62,7 +62,7 @@ void emission_samples(const LightScene& light, const Receiver& receiver,
       const Vec3 to = y - receiver.position;
       const double cosine = -glm::dot(to, image.normal) / std::max(glm::length(to), 1e-300);
       samples.push_back({to, std::max(0.0, cosine), image.weight * glm::length(area) / count,
-                         emitter.area, Rgb(0.0), light.worlds.worlds[index(image.world)].depth});
+                         emitter.area, Rgb(0.0), image.world});
       fold(light, image.world, receiver.position, receiver.plane_class, y, emitter.plane_class,
            work.folded[k]);
     }

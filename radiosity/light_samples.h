@@ -14,7 +14,7 @@ namespace meninas {
 struct PunctualArrival {
   Direction towards; ///< the light
   Rgb irradiance{0.0};
-  int mirrors = 0; ///< on the way
+  WorldId world = real_world; ///< by which it comes
 };
 
 /// What punctual lights and their images send. Clears and fills `arrivals`.
@@ -29,7 +29,7 @@ struct EmissionSample {
   double emitter_area = 0.0; ///< of the whole emitter
   Rgb radiance{
       0.0}; ///< as it arrives: mirrors' reflectances are in it, and 0 where something blocks it
-  int mirrors = 0; ///< on the way
+  WorldId world = real_world; ///< of the image
 };
 
 /// Points `first` to `first + per_image` (at most 16) of the low-discrepancy sequence of `seed` on every image of every emitter that is computed

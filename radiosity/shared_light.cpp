@@ -280,9 +280,10 @@ void add_punctual(const LightScene& light, const Receiver& receiver, PointSum& s
                   SharedLightWorkspace& work) {
   punctual_arrivals(light, receiver, work.point, work.arrivals);
   for (const PunctualArrival& arrival : work.arrivals)
-    sum.punctual = sum.punctual + ArrivingLight{arrival.irradiance,
-                                                arrival.mirrors > 0 ? arrival.irradiance : Rgb(0.0),
-                                                arrival.irradiance};
+    sum.punctual =
+        sum.punctual + ArrivingLight{arrival.irradiance,
+                                     arrival.world != real_world ? arrival.irradiance : Rgb(0.0),
+                                     arrival.irradiance};
 }
 
 } // namespace

@@ -110,8 +110,10 @@ void queue_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction&
   }
 }
 
-/// The pixel's sum of what a lobe shows of light that has come to it by that many mirrors.
-glm::vec3& seen_by_lobe(const SpecularRay& ray, int mirrors, TileWorkspace& work) {
+/// The pixel's sum of what a lobe shows of light that has come to it by a mirror world.
+glm::vec3& seen_by_lobe(const RenderContext& context, const SpecularRay& ray, WorldId world,
+                        TileWorkspace& work) {
+  const int mirrors = context.light.worlds.worlds[index(world)].depth;
   return work.sums[more_mirrors(ray.way, 1 + mirrors)][ray.pixel];
 }
 
@@ -122,8 +124,9 @@ void add_highlights(const RenderContext& context, const Bsdf& bsdf, const Direct
   for (const PunctualArrival& arrival : work.highlights) {
     // The irradiance has the cosine already.
     const Direction in = to_local(receiver.normal, arrival.towards);
-    if (in.z > 0.0)
-      seen_by_lobe(ray, arrival.mirrors, work) +=
+    // What mirrors with a width of their own show, the lobe's rays find by their lobes.
+    if (in.z > 0.0 && context.blurred[index(arrival.world)] == 0)
+      seen_by_lobe(context, ray, arrival.world, work) +=
           ray.throughput * glm::vec3(reflection_lobe(bsdf, out, in) * arrival.irradiance);
   }
 }
@@ -140,12 +143,12 @@ void add_lamps_in_lobe(const RenderContext& context, const Bsdf& bsdf, const Dir
   for (const EmissionSample& lamp : work.lamps) {
     const double distance = glm::length(lamp.towards);
     const Direction in = to_local(receiver.normal, lamp.towards / distance);
-    if (lamp.radiance == Rgb(0.0) || !(in.z > 0.0))
+    if (lamp.radiance == Rgb(0.0) || !(in.z > 0.0) || context.blurred[index(lamp.world)] != 0)
       continue;
     const double p = divisions * divisions * lobe_density(bsdf, out, in);
     const double q = density_of_points(points, distance, lamp.cosine, lamp.emitter_area);
     const double share = in.z * lamp.cosine * lamp.area / (distance * distance) * q / (p + q);
-    seen_by_lobe(ray, lamp.mirrors, work) +=
+    seen_by_lobe(context, ray, lamp.world, work) +=
         ray.throughput * glm::vec3(reflection_lobe(bsdf, out, in) * lamp.radiance * share);
   }
 }

@@ -95,6 +95,8 @@ struct RenderContext {
   std::vector<Bsdf>
       bsdfs; ///< by MaterialId, of those with lobes and without textures; empty where none has lobes
   DiffuseSettings behind_lobes; ///< where many rays of a pixel land by way of one
+  std::vector<std::uint8_t>
+      blurred; ///< by WorldId: 1 where one of its mirrors has a lobe of its own, which rays follow
   std::vector<FrustumFace> frustum_faces; ///< for sure_paths.h; empty: all rays are traced
 };
 

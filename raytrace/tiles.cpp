@@ -43,6 +43,16 @@ static FilterPlaces places_of(const RenderSettings& settings) {
   return settings.filter == PixelFilter::box ? FilterPlaces{} : filter_places(settings.filter);
 }
 
+/// As RenderContext::blurred.
+static std::vector<std::uint8_t> blurred_worlds(const LightScene& light) {
+  std::vector<std::uint8_t> blurred;
+  for (const MirrorWorld& world : light.worlds.worlds)
+    blurred.push_back(std::ranges::any_of(world.chain, [&](MirrorId mirror) {
+      return light.mirrors.mirrors[index(mirror)].has_width;
+    }));
+  return blurred;
+}
+
 /// Refers to all it is given.
 static RenderContext context_of(const LightScene& light, const VisibleLight& visible,
                                 const PointGathering* gathering, const Camera& camera,
@@ -62,6 +72,7 @@ static RenderContext context_of(const LightScene& light, const VisibleLight& vis
                         static_cast<std::uint32_t>(share.samples.first),
                         {},
                         {},
+                        blurred_worlds(light),
                         {}};
   // The rays of a lobe share the pixel: what one of them sees of a shadow, the others see differently.
   context.behind_lobes = settings.diffuse;

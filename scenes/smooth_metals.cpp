@@ -13,20 +13,17 @@ namespace {
 
 bool is_smooth_metal(const Material& material) {
   return is_glossy(material) && material.roughness <= smooth_metal_roughness &&
-         !is_textured(material) && !is_glass(material) && material.alpha_mode != AlphaMode::mask;
+         !is_textured(material) && !is_glass(material) && !is_emitter(material) &&
+         material.alpha_mode != AlphaMode::mask;
 }
 
-/// Whether the planes are one, but for roundings, whichever way they face.
+/// Whether the planes may be one, whichever way they face: those of small triangles, whose vertices are floats, are not known well. Facets of
+/// curved surfaces are farther apart.
 bool is_same(const Plane& a, const Plane& b, double size) {
-  constexpr double rounding = 1e-5; // vertices are floats
+  constexpr double angle = 2e-3, share = 2e-3;
   const double sign = glm::dot(a.normal, b.normal) < 0.0 ? -1.0 : 1.0;
-  return glm::distance(a.normal, sign * b.normal) < rounding &&
-         std::abs(a.offset - sign * b.offset) < rounding * size;
-}
-
-double size_of(const Scene& scene) {
-  const Bounds bounds = bounds_of(scene);
-  return std::max(glm::length(bounds.low), glm::length(bounds.high));
+  return glm::distance(a.normal, sign * b.normal) < angle &&
+         std::abs(a.offset - sign * b.offset) < share * size;
 }
 
 } // namespace
@@ -36,7 +33,9 @@ void mark_smooth_metals(Scene& scene) {
     material.throws_as_mirror = is_smooth_metal(material);
   if (std::ranges::none_of(scene.materials, &Material::throws_as_mirror))
     return;
-  const double size = size_of(scene);
+  const Bounds bounds = bounds_of(scene);
+  const Point3 middle = 0.5 * (bounds.low + bounds.high);
+  const double size = glm::distance(bounds.low, bounds.high);
   std::vector<std::vector<Plane>> planes(scene.materials.size());
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const std::size_t m = index(scene.triangles[t].material);
@@ -45,7 +44,7 @@ void mark_smooth_metals(Scene& scene) {
       continue;
     const auto at = corners(scene, TriangleId{t});
     const Direction normal = glm::normalize(area_vector(at));
-    const Plane plane{normal, glm::dot(normal, at[0])};
+    const Plane plane{normal, glm::dot(normal, at[0] - middle)};
     if (std::ranges::none_of(planes[m],
                              [&](const Plane& known) { return is_same(known, plane, size); }))
       planes[m].push_back(plane);

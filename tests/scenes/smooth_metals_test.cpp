@@ -68,6 +68,38 @@ TEST(SmoothMetals, LieInFewPlanes) {
   EXPECT_FALSE(throws_as_mirror(ring(20, metal_of(0.2)))) << "what it throws no one would find";
 }
 
+TEST(SmoothMetals, AreFlatHoweverFinelyTheyAreDivided) {
+  // Tilted, in floats: the planes of small triangles differ by more than those of large ones.
+  constexpr int n = 300;
+  Scene scene = plate_of(metal_of(0.1));
+  scene.vertices.clear();
+  scene.triangles.clear();
+  const Vec3 along = glm::normalize(Vec3(0.8, 0.3, 0.1)),
+             across = glm::normalize(Vec3(-0.2, 0.9, 0.4));
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      Vertex vertex;
+      vertex.position =
+          Point3(glm::vec3(Vec3(3.0, 1.0, 2.0) + (1.6 * i / n) * along + (1.6 * j / n) * across));
+      scene.vertices.push_back(vertex);
+    }
+  const auto at = [](int i, int j) { return static_cast<VertexId>(j * (n + 1) + i); };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      scene.triangles.push_back(
+          {{at(i, j), at(i + 1, j), at(i + 1, j + 1)}, MaterialId{0}, NodeId{0}});
+      scene.triangles.push_back(
+          {{at(i, j), at(i + 1, j + 1), at(i, j + 1)}, MaterialId{0}, NodeId{0}});
+    }
+  EXPECT_TRUE(throws_as_mirror(scene));
+}
+
+TEST(SmoothMetals, DoNotEmit) {
+  Material glowing = metal_of(0.1);
+  glowing.emission = Rgb(1.0);
+  EXPECT_FALSE(throws_as_mirror(plate_of(glowing)));
+}
+
 TEST(SmoothMetals, AreFoundWherever) {
   const Scene far = transformed(ring(7, metal_of(0.2)), glm::dmat3(1.0), 1e-3, {0.5, 0.5, 0.5});
   EXPECT_TRUE(throws_as_mirror(far));
