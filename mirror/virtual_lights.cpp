@@ -1,6 +1,7 @@
 #include "mirror/virtual_lights.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace meninas {
 
@@ -66,6 +67,12 @@ void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const 
 
   // The image is cut by the horizon, by the last mirror's plane, and by each visible part of the last window.
   ConvexPolygon image = image_of(e.polygon, world);
+  // What glows in the plane of the last mirror sends no light to it: the back of a sheet would shine forward through its own front.
+  const auto is_in_mirror = [&](const Point3& p) {
+    return std::abs(signed_distance(world.plane, p)) <= observer.tolerance;
+  };
+  if (world.depth > 0 && std::ranges::all_of(image.span(), is_in_mirror))
+    return;
   clip_in_place(image, observer.position, observer.normal);
   if (image.empty())
     return;

@@ -61,6 +61,9 @@ Point3 first_target(const TracedScene& traced, const Chain& chain, Point3 y) {
 Rgb chain_throughput(const TracedScene& traced, const SurfacePoint& x, const Chain& chain,
                      const Point3& y, PlaneId arriving) {
   constexpr int most_layers = 256;
+  // Nothing in the plane of a mirror is seen in it.
+  if (!chain.planes.empty() && chain.planes.back() == arriving)
+    return Rgb(0.0);
   Rgb throughput(1.0);
   Point3 from = x.position, target = first_target(traced, chain, y);
   PlaneId leaving = x.plane;

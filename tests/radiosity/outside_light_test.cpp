@@ -1,4 +1,5 @@
 // Light that no surface emits: of punctual lights, also by way of mirrors, and of the background.
+#include "radiosity/point_form_factor.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/scene_builder.h"
 
@@ -174,6 +175,20 @@ TEST(Background, HalfOfItMayComeByWayOfAMirror) {
     EXPECT_NEAR(solution.field.irradiance[v].g, 0.5 * (1.0 + rho) * std::numbers::pi, 0.01);
     EXPECT_NEAR(solution.field.mirrored[v].g, 0.5 * rho * std::numbers::pi, 0.01);
   }
+}
+
+TEST(GlowingMirrors, SendNothingByWayOfThemselves) {
+  // A sheet that glows and mirrors on both sides, upright over the floor: of its light a point gets that of the side that it sees.
+  Scene scene;
+  add_polygon(scene, "floor", {{0.1, 0, 3}, {4, 0, 3}, {4, 0, -3}, {0.1, 0, -3}}, diffuse(0.5));
+  Material sheet = double_sided(mirror(rho));
+  sheet.emission = Rgb(1.0 / std::numbers::pi);
+  const std::vector<Point3> corners{{0, 1, 1}, {0, 1, -1}, {0, 2, -1}, {0, 2, 1}};
+  add_polygon(scene, "sheet", corners, sheet);
+  const Point3 at{1.0, 0.0, 0.2};
+  const ArrivingLight light = arriving(scene, at, {0, 1, 0});
+  EXPECT_NEAR(light.total.g, point_form_factor(at, {0, 1, 0}, corners), 1e-9);
+  EXPECT_EQ(light.mirrored.g, 0.0);
 }
 
 } // namespace
