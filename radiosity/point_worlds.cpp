@@ -274,6 +274,9 @@ private:
   /// Goes on behind a mirror, unless nothing that matters can come from there.
   void enter(const Station& station, MirrorId id, const std::vector<Obstacle>& obstacles) {
     const Mirror& mirror = view_.mirrors.mirrors[index(id)];
+    // Nor does it meet a mirror there: two reflections in one plane would let it pass straight through a sheet that mirrors on both sides.
+    if (mirror.plane_class == station.plane_class)
+      return;
     const Plane plane = apply(station.image, mirror.plane);
     if (signed_distance(plane, point_.x) <= view_.tolerance)
       return;

@@ -1,8 +1,10 @@
 // Every known form factor that the command can be asked for, by the analytic method and by rays.
 #include "tests/radiosity/asked_factors.h"
+#include "tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -138,6 +140,31 @@ TEST(KnownFactorsByHemicubes, MostErrorsAreWithinTheirEstimates) {
     }
   EXPECT_GE(covered, 0.9 * asked_count);
   EXPECT_GE(useful, 0.5 * asked_count);
+}
+
+// A sheet that stands in a closed room and mirrors on both sides takes nothing and lets nothing through: every wall sees all of the walls,
+// and one that it faces sees itself in it.
+TEST(FactorsBesideASheetOfMirror, AddUpToOne) {
+  Scene scene;
+  const Material wall = diffuse(0.5);
+  add_room(scene, {0, 0, 0}, {2, 2, 2}, {wall, wall, wall, wall, wall, wall});
+  add_polygon(scene, "sheet", {{0.6, 0.5, 1}, {1.5, 0.5, 1}, {1.5, 1.6, 1}, {0.6, 1.6, 1}},
+              double_sided(mirror(1.0)));
+  const SurfaceModel surfaces = find_surfaces(scene);
+  std::vector<NodeId> walls;
+  for (const char* name : {"x0", "x1", "y0", "y1", "z0", "z1"})
+    walls.push_back(find_node(scene, name));
+  NodeFactorSettings settings;
+  for (const NodeId from : {walls[0], walls[4]}) {
+    const NodeFactors factors = node_form_factors(scene, surfaces, from, walls, settings);
+    double sum = 0.0;
+    for (const ExtendedFactor& factor : factors.to)
+      sum += factor.total.value;
+    EXPECT_NEAR(sum, 1.0, 10.0 * settings.accuracy) << "the errors of six factors";
+  }
+  // z0 sees itself in the sheet.
+  const std::array self{walls[4]};
+  EXPECT_GT(node_form_factors(scene, surfaces, walls[4], self, settings).to[0].total.value, 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, KnownFactors, testing::ValuesIn(families),
