@@ -18,10 +18,8 @@ struct GapSum {
   double count = 0.0;
 
   void add(const GapLight& other) {
-    light.irradiance.total += other.irradiance.total;
-    light.irradiance.mirrored += other.irradiance.mirrored;
-    light.indirect.total += other.indirect.total;
-    light.indirect.mirrored += other.indirect.mirrored;
+    light.irradiance = light.irradiance + other.irradiance;
+    light.indirect = light.indirect + other.indirect;
     ++count;
   }
   GapLight mean() const {

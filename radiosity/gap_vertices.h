@@ -8,7 +8,6 @@
 #include "radiosity/interpolation.h"
 #include "radiosity/vertex_light.h"
 
-#include <functional>
 #include <optional>
 #include <span>
 

@@ -40,7 +40,7 @@ PixelType type_for(const Image& picture, std::span<const Layer> layers, PixelTyp
   const auto brightest_of = [](const Image& image) {
     float brightest = 0.0F;
     for (const glm::vec3& pixel : image.pixels)
-      brightest = std::max({brightest, pixel.r, pixel.g, pixel.b});
+      brightest = std::max(brightest, largest(pixel));
     return brightest;
   };
   const float picture_brightest = brightest_of(picture);

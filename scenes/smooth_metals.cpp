@@ -43,7 +43,10 @@ void mark_smooth_metals(Scene& scene) {
     if (!material.throws_as_mirror)
       continue;
     const auto at = corners(scene, TriangleId{t});
-    const Direction normal = glm::normalize(area_vector(at));
+    const Vec3 area = area_vector(at);
+    if (area == Vec3(0.0))
+      continue;
+    const Direction normal = glm::normalize(area);
     const Plane plane{normal, glm::dot(normal, at[0] - middle)};
     if (std::ranges::none_of(planes[m],
                              [&](const Plane& known) { return is_same(known, plane, size); }))

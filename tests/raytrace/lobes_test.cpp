@@ -1,6 +1,7 @@
 // Glossy metals and coats: the grid over a lobe against its integral, what it leaves of even light, and both in pictures.
 #include "raytrace/lobe_grid.h"
 #include "tests/raytrace/pictures.h"
+#include "tests/support/metals.h"
 #include "tests/support/scene_builder.h"
 
 #include <gmock/gmock.h>
@@ -14,14 +15,6 @@ namespace meninas::test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Material metal(Rgb reflectance, double roughness) {
-  Material material;
-  material.base_color = reflectance;
-  material.metallic = 1.0;
-  material.roughness = roughness;
-  return material;
-}
 
 Material plastic(double reflectance, double roughness) {
   Material material = diffuse(reflectance);

@@ -1,5 +1,6 @@
 // Which rough metals pass one takes for mirrors.
 #include "scenes/smooth_metals.h"
+#include "tests/support/metals.h"
 #include "tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>
@@ -9,12 +10,6 @@
 
 namespace meninas::test {
 namespace {
-
-Material metal_of(double roughness) {
-  Material material = mirror(0.9);
-  material.roughness = roughness;
-  return material;
-}
 
 Scene plate_of(const Material& material) {
   Scene scene;
@@ -28,21 +23,21 @@ bool throws_as_mirror(Scene scene) {
 }
 
 TEST(SmoothMetals, AreSmootherThanTheBoundAndNoIdealMirrors) {
-  EXPECT_TRUE(throws_as_mirror(plate_of(metal_of(0.05))));
-  EXPECT_TRUE(throws_as_mirror(plate_of(metal_of(smooth_metal_roughness))));
-  EXPECT_FALSE(throws_as_mirror(plate_of(metal_of(smooth_metal_roughness + 0.01))));
-  EXPECT_FALSE(throws_as_mirror(plate_of(metal_of(0.0)))) << "a mirror is one without";
+  EXPECT_TRUE(throws_as_mirror(plate_of(metal(Rgb(0.9), 0.05))));
+  EXPECT_TRUE(throws_as_mirror(plate_of(metal(Rgb(0.9), smooth_metal_roughness))));
+  EXPECT_FALSE(throws_as_mirror(plate_of(metal(Rgb(0.9), smooth_metal_roughness + 0.01))));
+  EXPECT_FALSE(throws_as_mirror(plate_of(metal(Rgb(0.9), 0.0)))) << "a mirror is one without";
   EXPECT_FALSE(throws_as_mirror(plate_of(diffuse(0.5))));
 }
 
 TEST(SmoothMetals, AreOfOneReflectance) {
-  Material textured = metal_of(0.1);
+  Material textured = metal(Rgb(0.9), 0.1);
   textured.metallic_roughness_texture = TextureUse{};
   EXPECT_FALSE(throws_as_mirror(plate_of(textured)));
-  Material cut_out = metal_of(0.1);
+  Material cut_out = metal(Rgb(0.9), 0.1);
   cut_out.alpha_mode = AlphaMode::mask;
   EXPECT_FALSE(throws_as_mirror(plate_of(cut_out)));
-  Scene colored = plate_of(metal_of(0.1));
+  Scene colored = plate_of(metal(Rgb(0.9), 0.1));
   colored.vertices[0].color = glm::vec4(0.5F, 1.0F, 1.0F, 1.0F);
   EXPECT_FALSE(throws_as_mirror(colored));
 }
@@ -64,14 +59,15 @@ Scene ring(int plates, const Material& material) {
 }
 
 TEST(SmoothMetals, LieInFewPlanes) {
-  EXPECT_TRUE(throws_as_mirror(ring(7, metal_of(0.2))));
-  EXPECT_FALSE(throws_as_mirror(ring(20, metal_of(0.2)))) << "what it throws no one would find";
+  EXPECT_TRUE(throws_as_mirror(ring(7, metal(Rgb(0.9), 0.2))));
+  EXPECT_FALSE(throws_as_mirror(ring(20, metal(Rgb(0.9), 0.2))))
+      << "what it throws no one would find";
 }
 
 TEST(SmoothMetals, AreFlatHoweverFinelyTheyAreDivided) {
   // Tilted, in floats: the planes of small triangles differ by more than those of large ones.
   constexpr int n = 300;
-  Scene scene = plate_of(metal_of(0.1));
+  Scene scene = plate_of(metal(Rgb(0.9), 0.1));
   scene.vertices.clear();
   scene.triangles.clear();
   const Vec3 along = glm::normalize(Vec3(0.8, 0.3, 0.1)),
@@ -95,13 +91,14 @@ TEST(SmoothMetals, AreFlatHoweverFinelyTheyAreDivided) {
 }
 
 TEST(SmoothMetals, DoNotEmit) {
-  Material glowing = metal_of(0.1);
+  Material glowing = metal(Rgb(0.9), 0.1);
   glowing.emission = Rgb(1.0);
   EXPECT_FALSE(throws_as_mirror(plate_of(glowing)));
 }
 
 TEST(SmoothMetals, AreFoundWherever) {
-  const Scene far = transformed(ring(7, metal_of(0.2)), glm::dmat3(1.0), 1e-3, {0.5, 0.5, 0.5});
+  const Scene far =
+      transformed(ring(7, metal(Rgb(0.9), 0.2)), glm::dmat3(1.0), 1e-3, {0.5, 0.5, 0.5});
   EXPECT_TRUE(throws_as_mirror(far));
 }
 
