@@ -27,20 +27,6 @@ std::vector<double> mean_emissions(const Scene& scene, const DecodedTextures& te
   return emissions;
 }
 
-/// A share for what shines on the whole scene, comparable with the power of lamps in it.
-double punctual_power(const PunctualLight& light, const Bounds& bounds) {
-  const double radius = 0.5 * glm::length(bounds.high - bounds.low);
-  switch (light.kind) {
-  case PunctualKind::point:
-    return 4.0 * std::numbers::pi * mean(light.intensity);
-  case PunctualKind::spot:
-    return 2.0 * std::numbers::pi * (1.0 - std::cos(light.outer_cone)) * mean(light.intensity);
-  case PunctualKind::directional:
-    return std::numbers::pi * radius * radius * mean(light.intensity);
-  }
-  return 0.0;
-}
-
 } // namespace
 
 LightTable make_light_table(const Scene& scene, const DecodedTextures& textures) {
@@ -55,13 +41,7 @@ LightTable make_light_table(const Scene& scene, const DecodedTextures& textures)
     const double power =
         std::numbers::pi * area * sides * emissions[index(scene.triangles[t].material)];
     if (power > 0.0)
-      table.lights.push_back({triangle, 0, power});
-  }
-  const Bounds bounds = bounds_of(scene);
-  for (std::size_t k = 0; k < scene.lights.size(); ++k) {
-    const double power = punctual_power(scene.lights[k], bounds);
-    if (power > 0.0)
-      table.lights.push_back({none<TriangleId>, static_cast<std::uint32_t>(k), power});
+      table.lights.push_back({triangle, power});
   }
 
   // Relative to the largest, so that no sum overflows.
@@ -74,9 +54,8 @@ LightTable make_light_table(const Scene& scene, const DecodedTextures& textures)
   for (Light& light : table.lights) {
     light.power /= sum;
     table.cumulative.push_back(below += light.power);
-    if (light.triangle != none<TriangleId>)
-      table.area_density[index(light.triangle)] =
-          light.power / glm::length(area_vector(corners(scene, light.triangle)));
+    table.area_density[index(light.triangle)] =
+        light.power / glm::length(area_vector(corners(scene, light.triangle)));
   }
   return table;
 }

@@ -1,11 +1,10 @@
-// The lights of a scene, for next-event estimation: emitting triangles and punctual lights, chosen by their power.
+// The lights of a scene that have an extent, for next-event estimation: emitting triangles, chosen by their power.
 //
 // A point on an emitting triangle is chosen evenly over its area. As a density of directions at x that is
 //   p(omega) = P(triangle) / area * distance^2 / |cos at the light|,
 // the same number whether the light was chosen or met by chance: both are needed for multiple importance sampling.
 #pragma once
 
-#include "scenes/punctual_light.h"
 #include "scenes/ray_scene.h"
 #include "scenes/texture_lookup.h"
 
@@ -14,10 +13,8 @@
 
 namespace meninas::reference {
 
-/// An emitting triangle, or a punctual light where `triangle` is none.
 struct Light {
   TriangleId triangle = none<TriangleId>;
-  std::uint32_t punctual = 0;
   double power = 0.0; ///< as a share of all: the chance to be chosen
 };
 

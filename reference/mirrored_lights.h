@@ -1,11 +1,11 @@
-// Light by way of plane mirrors, found from the other end: next-event estimation through chains of ideal mirrors.
+// Light of emitting surfaces by way of plane mirrors, found from the other end: next-event estimation through chains of ideal mirrors.
 //
 // A reflection is an isometry: a path x -> z1 -> ... -> zL -> y over the planes m1 ... mL is the straight line from the image x' of x (reflected
 // in m1, then m2, ...) to y, of the same length and with the same angle at y. Choosing y on a light and each of the L planes evenly among M
 // finds the direction at x with density
 //   p_l(omega) = P(triangle) / area * |x' - y|^2 / |cos at y| / M^L,
 // and x -> z1 follows from it; the chain counts if it meets exactly those planes. The same path is met by chance with density p_s: both are weighted
-// as for direct light (trace_paths.h), so the estimate stays unbiased, and light of punctual lights by way of mirrors is there at all.
+// as for direct light (trace_paths.h), so the estimate stays unbiased. Punctual lights are looked for in light_images.h.
 // Chains are at most `longest_chain` long; light over longer ones, or in scenes with more than `most_mirror_planes` of them (curved mirrors), is only met.
 #pragma once
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace meninas::reference {
 
@@ -127,26 +128,19 @@ void add_emission(const TracedScene& traced, LightSearch search, Path& path) {
 struct LightPoint {
   Point3 position;
   PlaneId plane = none<PlaneId>;
-  Rgb light{0.0};       ///< radiance; of a punctual light irradiance
-  double density = 0.0; ///< p_l; of a punctual light the chance to choose it
-  bool can_be_met = true;
+  Rgb light{0.0};       ///< radiance
+  double density = 0.0; ///< p_l
 };
 
 LightPoint choose_point(const TracedScene& traced, const Point3& view,
                         const std::array<float, 4>& u) {
   const Light& light = choose_light(traced.lights, u[0]);
-  if (light.triangle == none<TriangleId>) {
-    const double reach = 8.0 / traced.rays.frame().scale;
-    const auto [position, irradiance] =
-        punctual_sample(traced.scene.lights[light.punctual], view, reach);
-    return {position, none<PlaneId>, irradiance, light.power, false};
-  }
   const Vec2 place = even_barycentric(u[1], u[2]);
   SurfacePoint at = surface_point(traced, light.triangle, place, true);
   if (glm::dot(view - at.position, at.normal) < 0.0)
     at = surface_point(traced, light.triangle, place, false);
   return {at.position, at.plane, at.hole ? Rgb(0.0) : at.material.emission,
-          choosing_density(traced, view, at), true};
+          choosing_density(traced, view, at)};
 }
 
 /// The routes of what is scattered towards `out` from `in`; glass that is passed is no part of them.
@@ -159,27 +153,25 @@ std::optional<Connection> connect(const TracedScene& traced, const Path& path, c
                                   const std::array<float, 4>& u, LightSearch search) {
   const LightPoint point = choose_point(traced, chain.image, u);
   const Vec3 leg = first_target(traced, chain, point.position) - path.at.position;
-  if (point.light == Rgb(0.0) || point.density == 0.0 || glm::dot(leg, leg) == 0.0 ||
-      (point.can_be_met && search == LightSearch::meeting))
+  if (point.light == Rgb(0.0) || point.density == 0.0 || glm::dot(leg, leg) == 0.0)
     return std::nullopt;
   const Direction out = local_out(path.at.normal, path.ray.direction);
   const Direction in = to_local(path.at.normal, glm::normalize(leg));
   const Rgb f = evaluate(path.at.bsdf, out, in);
   if (f == Rgb(0.0))
     return std::nullopt;
-  const bool met_as_well = point.can_be_met && search == LightSearch::both;
-  const double p_s = met_as_well ? sample_density(path.at.bsdf, out, in) : 0.0;
+  const double p_s = search == LightSearch::both ? sample_density(path.at.bsdf, out, in) : 0.0;
   const double p_l = point.density * chain_chance(traced, chain.planes.size());
   return Connection{chain, point.position, point.plane,
                     path.throughput * f * point.light * (std::abs(in.z) / (p_s + p_l)),
                     routes_on(path, out, in).reflected(chain.planes.size())};
 }
 
-/// Looks for light directly and by way of chains of mirrors.
-void look_for_light(const TracedScene& traced, const Paths& paths, std::uint32_t k,
-                    const VertexNumbers& u, LightSearch search,
-                    std::vector<Connection>& connections) {
-  if (traced.lights.lights.empty())
+/// Looks for emitting surfaces directly and by way of chains of mirrors.
+void look_for_surfaces(const TracedScene& traced, const Paths& paths, std::uint32_t k,
+                       const VertexNumbers& u, LightSearch search,
+                       std::vector<Connection>& connections) {
+  if (traced.lights.lights.empty() || search == LightSearch::meeting)
     return;
   const std::size_t longest = traced.mirror_planes.empty() ? 0 : longest_chain;
   for (std::size_t length = 0; length <= longest; ++length) {
@@ -193,33 +185,67 @@ void look_for_light(const TracedScene& traced, const Paths& paths, std::uint32_t
   }
 }
 
-/// Adds what arrives over the connections: those over nothing but air sixteen at a time.
-void add_connections(const TracedScene& traced, const std::vector<Connection>& connections,
-                     Paths& paths, PathCounts& counts) {
-  counts.shadow_rays += connections.size();
-  RayPacket packet{};
-  std::array<const Connection*, packet_size> lanes{};
-  const RayFrame& frame = traced.rays.frame();
-  for (const Connection& connection : connections) {
-    const SurfacePoint& x = paths[connection.path].at;
-    if (traced.see_through || !connection.chain.planes.empty()) {
-      const Rgb left =
-          chain_throughput(traced, x, connection.chain, connection.light, connection.arriving);
-      connection.routes.add(connection.radiance * left, paths[connection.path].radiance);
-      continue;
-    }
-    const std::uint32_t lane = packet.count++;
-    lanes[lane] = &connection;
-    set_ray(packet, lane, (x.position - frame.centre) * frame.scale,
-            (connection.light - x.position) * frame.scale, index(x.plane), 1.0F);
-    packet.arriving[lane] = index(connection.arriving);
+/// Looks for punctual lights, by all chains at once.
+void look_for_images(const TracedScene& traced, const Paths& paths, std::uint32_t k,
+                     const VertexNumbers& u, std::vector<ImageConnection>& chosen,
+                     std::vector<Connection>& connections) {
+  const Path& path = paths[k];
+  const Direction out = local_out(path.at.normal, path.ray.direction);
+  choose_images(traced, path.at, out, {u.light[0][0], u.light[0][1]}, chosen);
+  for (const ImageConnection& seen : chosen) {
+    const auto& planes = seen.image->planes;
+    Point3 light = seen.target;
+    for (const PlaneId plane : planes)
+      light = reflected_in(traced.surfaces.planes[index(plane)], light);
+    const Direction in = to_local(path.at.normal, glm::normalize(seen.target - path.at.position));
+    Connection& connection = connections.emplace_back();
+    connection.chain.planes = planes;
+    connection.light = light;
+    connection.radiance = path.throughput * seen.radiance;
+    connection.routes = routes_on(path, out, in).reflected(planes.size());
+    connection.path = k;
   }
-  if (packet.count == 0)
-    return;
+}
+
+/// Adds what arrives over connections through nothing but air, sixteen or fewer of them.
+void add_clear_connections(const TracedScene& traced, std::span<const Connection* const> clear,
+                           Paths& paths) {
+  RayPacket packet{};
+  const RayFrame& frame = traced.rays.frame();
+  for (const Connection* connection : clear) {
+    const SurfacePoint& x = paths[connection->path].at;
+    const std::uint32_t lane = packet.count++;
+    set_ray(packet, lane, (x.position - frame.centre) * frame.scale,
+            (connection->light - x.position) * frame.scale, index(x.plane), 1.0F);
+    packet.arriving[lane] = index(connection->arriving);
+  }
   const std::uint32_t blocked = occluded(traced.rays, packet, Coherence::incoherent);
   for (std::uint32_t lane = 0; lane < packet.count; ++lane)
     if (((blocked >> lane) & 1U) == 0)
-      lanes[lane]->routes.add(lanes[lane]->radiance, paths[lanes[lane]->path].radiance);
+      clear[lane]->routes.add(clear[lane]->radiance, paths[clear[lane]->path].radiance);
+}
+
+/// Adds what arrives over the connections.
+void add_connections(const TracedScene& traced, const std::vector<Connection>& connections,
+                     Paths& paths, PathCounts& counts) {
+  counts.shadow_rays += connections.size();
+  std::array<const Connection*, packet_size> clear{};
+  std::size_t count = 0;
+  for (const Connection& connection : connections) {
+    if (traced.see_through || !connection.chain.planes.empty()) {
+      const Rgb left = chain_throughput(traced, paths[connection.path].at, connection.chain,
+                                        connection.light, connection.arriving);
+      connection.routes.add(connection.radiance * left, paths[connection.path].radiance);
+      continue;
+    }
+    clear[count++] = &connection;
+    if (count == packet_size) {
+      add_clear_connections(traced, clear, paths);
+      count = 0;
+    }
+  }
+  if (count > 0)
+    add_clear_connections(traced, std::span(clear).first(count), paths);
 }
 
 /// The ray goes on behind what it has met; where and how its direction was drawn still holds.
@@ -292,6 +318,7 @@ trace_paths(const TracedScene& traced, const std::array<CameraRay, packet_size>&
     paths[k].ray = {.origin = camera_rays[k].origin, .direction = camera_rays[k].direction};
 
   std::vector<Connection> connections;
+  std::vector<ImageConnection> chosen;
   const auto goes_on = [](const Path& path) { return path.alive; };
   for (std::uint32_t bounce = 0; std::ranges::any_of(paths, goes_on); ++bounce) {
     intersect(traced, Backs::transparent, paths, counts);
@@ -308,7 +335,8 @@ trace_paths(const TracedScene& traced, const std::array<CameraRay, packet_size>&
         continue;
       }
       add_emission(traced, search, path);
-      look_for_light(traced, paths, k, u, search, connections);
+      look_for_surfaces(traced, paths, k, u, search, connections);
+      look_for_images(traced, paths, k, u, chosen, connections);
       scatter(traced, path, u.scatter);
       if (path.alive)
         play_roulette(path, bounce, u.scatter[3]);

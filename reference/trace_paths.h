@@ -4,7 +4,7 @@
 //   L(x, o) = L_e(x, o) + integral f(x, o, i) L(y(x, i), -i) cos_i d i
 // A path follows one direction i per vertex, drawn from the material's own density p_s; light that is emitted at y is also looked for from x
 // by choosing y among the lights, with density p_l. Each is counted with the weight of the balance heuristic, p_s / (p_s + p_l) and
-// p_l / (p_s + p_l), which add up to one for every path. Light over one or two plane mirrors is looked
+// p_l / (p_s + p_l), which add up to one for every path. Punctual lights, which are not met, are all looked for (light_images.h). Light over one or two plane mirrors is looked
 // for as well (mirrored_lights.h); otherwise ideal lobes have no density: what they lead to is counted whole and never looked for. Paths end by Russian roulette with the survivors' weight raised, so that the expectation is untouched.
 #pragma once
 

@@ -37,10 +37,11 @@ TracedScene make_traced_scene(Scene scene) {
   DecodedTextures textures = decode_textures(scene, decode);
   LightTable lights = make_light_table(scene, textures);
   std::vector<PlaneId> mirror_planes = find_mirror_planes(scene, surfaces, bsdfs);
+  std::vector<LightImage> light_images = make_light_images(scene, surfaces, bsdfs, mirror_planes);
   const bool see_through = std::ranges::any_of(scene.materials, is_see_through);
-  return {std::move(scene),   std::move(surfaces),      std::move(rays),
-          std::move(normals), std::move(textures),      std::move(bsdfs),
-          std::move(lights),  std::move(mirror_planes), see_through};
+  return {std::move(scene),        std::move(surfaces), std::move(rays),   std::move(normals),
+          std::move(textures),     std::move(bsdfs),    std::move(lights), std::move(mirror_planes),
+          std::move(light_images), see_through};
 }
 
 SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 barycentric,

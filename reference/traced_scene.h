@@ -3,6 +3,7 @@
 // It shares the scene and its ray queries with the two passes, and nothing else: no mesh, no mirror worlds, no form factors.
 #pragma once
 
+#include "reference/light_images.h"
 #include "reference/light_table.h"
 #include "scenes/bsdf.h"
 #include "scenes/ray_scene.h"
@@ -22,7 +23,8 @@ struct TracedScene {
   std::vector<Bsdf> bsdfs; ///< of the materials, without their textures
   LightTable lights;
   std::vector<PlaneId> mirror_planes; ///< mirrored_lights.h
-  bool see_through = false;           ///< there are panes or cut-outs that light passes straight
+  std::vector<LightImage> light_images;
+  bool see_through = false; ///< there are panes or cut-outs that light passes straight
 };
 
 /// Throws InputError for a texture that cannot be decoded.

@@ -10,7 +10,7 @@ static void warn_of_scene(const reference::TracedScene& traced, const RunEvents&
   for (const std::string& warning : traced.scene.warnings) {
     warn(events, warning);
   }
-  if (traced.lights.lights.empty()) {
+  if (traced.lights.lights.empty() && traced.light_images.empty()) {
     warn(events, "nothing emits light: the picture will be black");
   }
   if (traced.scene.cameras.empty()) {

@@ -1,0 +1,122 @@
+// Punctual lights are all asked for, whichever is the strongest, and thinned out without bias where they are too many.
+#include "reference/light_images.h"
+#include "tests/reference/tracing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace meninas::test {
+namespace {
+
+using std::numbers::pi;
+
+/// So dark that what a floor sends to walls and mirrors does not come back.
+constexpr double rho = 1e-6;
+
+PunctualLight bulb(const Point3& position, const Rgb& intensity) {
+  return {
+      .name = "bulb", .kind = PunctualKind::point, .intensity = intensity, .position = position};
+}
+
+/// The irradiance of a point of the ground, by way of nothing.
+Rgb irradiance(const PunctualLight& bulb, const Point3& x) {
+  const Vec3 leg = bulb.position - x;
+  return bulb.intensity * (leg.y / std::pow(glm::dot(leg, leg), 1.5));
+}
+
+TEST(LightImages, AWeakLampIsSeenBesideASunThatDoesNotComeIn) {
+  Scene scene;
+  add_polygon(scene, "floor", {{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}}, diffuse(rho));
+  add_polygon(scene, "roof", {{-9, 3, -9}, {9, 3, -9}, {9, 3, 9}, {-9, 3, 9}}, diffuse(0.0));
+  PunctualLight sun{.name = "sun", .kind = PunctualKind::directional, .intensity = Rgb(1000.0)};
+  sun.direction = {0, -1, 0};
+  scene.lights = {sun, bulb({1, 2, 0}, {0.03, 0.02, 0.01})};
+  // If one of the two were chosen by its power, the lamp would be met one time in ten thousand.
+  const MeanRadiance seen = radiance_seen(scene, {2, 1, 1}, Point3(0.0), 32);
+  expect_radiance(seen, irradiance(scene.lights[1], Point3(0.0)) * (rho / pi), 1e-5);
+}
+
+TEST(LightImages, OfMoreThanCanBeAskedForTheMeanIsThatOfAll) {
+  Scene scene;
+  add_polygon(scene, "floor", {{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}}, diffuse(rho));
+  add_polygon(scene, "mirror", {{-9, 3, -9}, {9, 3, -9}, {9, 3, 9}, {-9, 3, 9}}, mirror(0.8));
+  Rgb sum(0.0);
+  // Lights at 1500 places, their colours and heights in no order, and their images.
+  for (int k = 0; k < 1500; ++k) {
+    const double a = std::fmod(k * 0.618, 1.0), b = std::fmod(k * 0.755, 1.0),
+                 c = std::fmod(k * 0.57, 1.0);
+    const PunctualLight light =
+        bulb({4.0 * a - 2.0, 0.5 + 2.0 * b, 4.0 * c - 2.0}, Rgb(1.0 + b, 1.0, 2.0 * a));
+    PunctualLight image = light;
+    image.position.y = 6.0 - image.position.y;
+    sum += irradiance(light, Point3(0.0)) + 0.8 * irradiance(image, Point3(0.0));
+    scene.lights.push_back(light);
+  }
+  ASSERT_GT(2 * scene.lights.size(), reference::most_images);
+  expect_radiance(radiance_seen(scene, {2, 1, 1}, Point3(0.0), 64), sum * (rho / pi));
+}
+
+/// A corner of two perfect mirrors, with a bulb and a spot in it.
+Scene corner_of_mirrors() {
+  Scene scene;
+  const auto wall = diffuse(0.3), glass = mirror(1.0);
+  add_polygon(scene, "floor", {{0, 0, 2}, {2, 0, 2}, {2, 0, 0}, {0, 0, 0}}, wall);
+  add_polygon(scene, "roof", {{0, 2, 0}, {2, 2, 0}, {2, 2, 2}, {0, 2, 2}}, wall);
+  add_polygon(scene, "x", {{2, 0, 0}, {2, 0, 2}, {2, 2, 2}, {2, 2, 0}}, wall);
+  add_polygon(scene, "z", {{0, 0, 2}, {0, 2, 2}, {2, 2, 2}, {2, 0, 2}}, wall);
+  add_polygon(scene, "mirror x", {{0, 0, 0}, {0, 2, 0}, {0, 2, 2}, {0, 0, 2}}, glass);
+  add_polygon(scene, "mirror z", {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, glass);
+  add_box(scene, "box", {0.9, 0.0, 0.9}, {1.2, 0.5, 1.2}, wall);
+  PunctualLight spot = bulb({1.5, 1.5, 1.5}, Rgb(4.0, 3.0, 2.0));
+  spot.kind = PunctualKind::spot;
+  spot.direction = glm::normalize(Vec3(-1.0, -0.5, -0.8));
+  spot.outer_cone = 0.3;
+  scene.lights = {bulb({0.4, 1.2, 0.7}, Rgb(1.0)), spot};
+  return scene;
+}
+
+/// What the corner and its three images hold, without the mirrors.
+Scene opened(Scene scene) {
+  const auto is_mirror = [&](const Triangle& t) {
+    return scene.materials[index(t.material)].metallic > 0.0;
+  };
+  std::erase_if(scene.triangles, is_mirror);
+  for (const int axis : {0, 2}) {
+    const Scene half = scene;
+    const auto vertices = static_cast<std::uint32_t>(half.vertices.size());
+    for (Vertex vertex : half.vertices) {
+      vertex.position[axis] *= -1.0;
+      scene.vertices.push_back(vertex);
+    }
+    for (Triangle triangle : half.triangles) {
+      std::swap(triangle.vertices[1], triangle.vertices[2]);
+      for (VertexId& vertex : triangle.vertices)
+        vertex = VertexId{index(vertex) + vertices};
+      scene.triangles.push_back(triangle);
+    }
+    for (PunctualLight light : half.lights) {
+      light.position[axis] *= -1.0;
+      light.direction[axis] *= -1.0;
+      scene.lights.push_back(light);
+    }
+  }
+  return scene;
+}
+
+TEST(LightImages, ACornerOfMirrorsIsTheRoomFourTimesOver) {
+  const Scene corner = corner_of_mirrors();
+  const Camera camera = look_at({1.8, 1.4, 1.8}, {0.8, 0.2, 0.8}, 0.9);
+  const MeanRadiance a = mean_radiance(traced_picture(corner, camera, tracing(12, 12, 256))),
+                     b = mean_radiance(
+                         traced_picture(opened(corner), camera, tracing(12, 12, 256)));
+  for (int band = 0; band < 3; ++band) {
+    const double error = std::hypot(a.error[band], b.error[band]);
+    EXPECT_LT(error, 0.01 * a.mean[band]) << "too noisy to tell";
+    EXPECT_NEAR(a.mean[band], b.mean[band], 4.0 * error) << band;
+  }
+}
+
+} // namespace
+} // namespace meninas::test
