@@ -15,7 +15,7 @@ namespace {
 /// Of the points so far.
 struct PointSum {
   ArrivingLight punctual;
-  int points = 0;
+  int points = 0, punctual_points = 0;
 };
 
 std::uint32_t sum_of(SharedLightWorkspace& work, const LightScene& light, const VirtualLight& image,
@@ -252,9 +252,9 @@ void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspac
 
 /// The mean so far.
 ArrivingLight mean_of(const SharedLightWorkspace& work, const PointSum& sum) {
-  const double points = sum.points;
-  ArrivingLight mean{sum.punctual.total / points, sum.punctual.mirrored / points,
-                     sum.punctual.punctual / points};
+  const double points = sum.points, lit = std::max(sum.punctual_points, 1);
+  ArrivingLight mean{sum.punctual.total / lit, sum.punctual.mirrored / lit,
+                     sum.punctual.punctual / lit};
   for (const ImageSum& image : work.images) {
     const Rgb visible = image.all > 0.0 ? image.left / image.all : Rgb(0.0);
     const Rgb arrived = visible * image.form_factor / points * image.source;
@@ -278,6 +278,9 @@ double penumbra_error(const SharedLightWorkspace& work, const PointSum& sum) {
 
 void add_punctual(const LightScene& light, const Receiver& receiver, PointSum& sum,
                   SharedLightWorkspace& work) {
+  if (light.punctual.empty())
+    return;
+  ++sum.punctual_points;
   punctual_arrivals(light, receiver, work.point, work.arrivals);
   for (const PunctualArrival& arrival : work.arrivals)
     sum.punctual =
@@ -299,8 +302,7 @@ ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_p
   for (;;) {
     const NumberedPoint next = next_point();
     add_point(light, next, seed, settings, work);
-    if (!light.punctual.empty())
-      add_punctual(light, next.receiver, sum, work);
+    add_punctual(light, next.receiver, sum, work);
     if (++sum.points < wanted)
       continue;
 
@@ -314,7 +316,11 @@ ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_p
     const bool dark = sum.points >= 2 * settings.points && brightest == 0.0;
     if (settled || dark || sum.points >= settings.most_points) {
       learn(work.images);
-      return mean;
+      if (!settings.punctual_everywhere || light.punctual.empty())
+        return mean;
+      while (sum.punctual_points < settings.most_points)
+        add_punctual(light, next_point().receiver, sum, work);
+      return mean_of(work, sum);
     }
     before = mean.total;
     for (ImageSum& image : work.images)

@@ -12,6 +12,9 @@
 // What blocks rays is known to the means that come after, as long as they share a workspace (known_blockers.h). They take the shadows of known blockers
 // out of F exactly and send their rays past them: once all are known V is 1, and a penumbra has no noise. Means are true whatever is known, as it was
 // learned from other rays.
+//
+// Shadows of punctual lights have no penumbra: a mean that settles where four points of sixteen agree takes an edge that leaves them on one side for none,
+// always the same way, so that no number of means makes up for it. Where that shows, in pixels, all points ask for these lights.
 #pragma once
 
 #include "radiosity/element_images.h"
@@ -35,7 +38,9 @@ struct SharedLightSettings {
   double unsure = 0.01;         ///< relative change of the mean by the last doubling
   double unsure_shadow = 0.005; ///< error of the mean by shadow rays, relative
   bool brightest_most =
-      false;           ///< images that bring less than the brightest one in sight take fewer rays
+      false; ///< images that bring less than the brightest one in sight take fewer rays
+  /// Punctual lights are asked for from all of `most_points`, also where the mean has settled.
+  bool punctual_everywhere = false;
   bool learns = false; ///< what blocks its rays, and uses what others have learned
 };
 
@@ -98,7 +103,7 @@ struct SharedLightWorkspace {
 
 struct NumberedPoint {
   Receiver receiver;
-  std::uint32_t number; ///< in its sequence, of which some may be left out
+  std::uint32_t number;                ///< in its sequence, of which some may be left out
   ElementId element = none<ElementId>; ///< the one it is in, if many other points are
 };
 /// The next of the points, all in one plane.

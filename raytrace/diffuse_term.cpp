@@ -71,6 +71,7 @@ glm::vec3 direct_of_pixel(const LightScene& light, const DiffuseSettings& settin
                                     .unsure = alike,
                                     .unsure_shadow = alike,
                                     .brightest_most = true,
+                                    .punctual_everywhere = true,
                                     .learns = true},
                                    seed, work),
                  part);

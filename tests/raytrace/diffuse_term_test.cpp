@@ -81,6 +81,29 @@ TEST(DiffuseTerm, DirectIsTheClosedFormAnywhereOnAnElement) {
   }
 }
 
+/// A wall in the sun, of radiance 1, and the slanting edge of a screen's shadow on it: from row to row, of sixteen, a sixteenth of the pixel more is lit.
+Scene edge_of_a_shadow() {
+  Scene scene;
+  add_polygon(scene, "wall", {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, diffuse(0.5));
+  add_polygon(scene, "screen", {{-2, -1.2, 2}, {-0.075, -1.2, 2}, {0.075, 1.2, 2}, {-2, 1.2, 2}},
+              diffuse(0.0));
+  PunctualLight sun{
+      .name = "sun", .kind = PunctualKind::directional, .intensity = Rgb(2.0 * std::numbers::pi)};
+  sun.direction = {0, 0, -1};
+  scene.lights = {sun};
+  scene.cameras = {look_at({0, 0, 1}, {0, 0, 0}, 2.0 * std::atan(0.4))};
+  return scene;
+}
+
+TEST(DiffuseTerm, ShadowsOfPunctualLightsEndWithinPixels) {
+  // Where four of a pixel's samples agree the others do not: pixels lit by five sixths would be lit all over.
+  TwoPassSettings settings = quick(1, 16, DiffuseTerm::direct);
+  settings.render.samples = 64;
+  const Image image = rendering_of(edge_of_a_shadow(), settings).image;
+  for (int row = 0; row < 16; ++row)
+    EXPECT_NEAR(image.at(0, row).g, (row + 0.5) / 16.0, 0.03) << row;
+}
+
 TEST(DiffuseTerm, AllAgreeInAFurnace) {
   // E = 1, rho = 1/2: B = 2 and L = 2 / pi. Emitters are all there is, so they are gathered: no path may come twice.
   for (const DiffuseTerm term : all_terms) {
