@@ -19,6 +19,7 @@ struct Emitter {
   PlaneId plane_class = none<PlaneId>;
   Rgb radiosity{0.0}; ///< E = pi L
   double area = 0.0;
+  MaterialId coat = none<MaterialId>; ///< above it, where that is a mirror: of what reflects, not of lamps
 };
 
 struct EmitterNode {

@@ -11,11 +11,13 @@ namespace meninas {
 
 namespace {
 
-/// Surfaces of one plane, one facing and one reflectance are one mirror, of glass those of one material, ideal ones by themselves.
+/// Surfaces of one plane, one facing and one reflectance are one mirror, of glass and coats those of one material, ideal ones by themselves.
 using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double, MaterialId, bool>;
 
 /// What it reflects in the mean.
 Rgb reflectance_of(const Material& material) {
+  if (has_mirror_coat(material))
+    return mean_shares(mirror_coat(material)).reflected;
   return is_glass(material) ? mean_shares(clear_glass(material, untextured(material))).reflected
                             : mirror_reflectance(material);
 }
@@ -51,12 +53,14 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
   for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
     const Surface& surface = model.surfaces[s];
     const Material& material = scene.materials[index(surface.material)];
-    if (!is_mirror(material) && (!is_glass(material) || is_solid_glass(material)))
+    const bool is_pane = is_glass(material) && !is_solid_glass(material);
+    if (!is_mirror(material) && !is_pane && !has_mirror_coat(material))
       continue;
     const Rgb reflectance = reflectance_of(material);
     if (reflectance == Rgb(0.0))
       continue;
-    const MaterialId glass = is_glass(material) ? surface.material : none<MaterialId>;
+    const bool is_coat = has_mirror_coat(material);
+    const MaterialId by_angle = is_glass(material) || is_coat ? surface.material : none<MaterialId>;
     const bool has_width = material.roughness > ideal_mirror_roughness;
     for (int face = 0; face < (material.double_sided ? 2 : 1); ++face) {
       const Plane plane = face == 0 ? surface.plane : flipped(surface.plane);
@@ -67,7 +71,7 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
                           reflectance.r,
                           reflectance.g,
                           reflectance.b,
-                          glass,
+                          by_angle,
                           has_width};
       const auto [place, is_new] = known.emplace(key, candidates.size());
       if (is_new) {
@@ -75,7 +79,8 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
         candidates.back().mirror.plane = plane;
         candidates.back().mirror.plane_class = surface.plane_class;
         candidates.back().mirror.reflectance = reflectance;
-        candidates.back().mirror.glass = glass;
+        candidates.back().mirror.by_angle = by_angle;
+        candidates.back().mirror.is_coat = is_coat;
         candidates.back().mirror.has_width = has_width;
       }
       add_face(candidates[place->second], model, static_cast<SurfaceId>(s), face);
@@ -92,17 +97,24 @@ MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces,
   set.mirror_of_surface.assign(surfaces.surfaces.size(), {none<MirrorId>, none<MirrorId>});
   auto candidates = mirror_planes(scene, surfaces);
 
-  std::stable_sort(
-      candidates.begin(), candidates.end(),
-      [](const Candidate& a, const Candidate& b) { return a.mirror.area > b.mirror.area; });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) {
+                     return std::pair(b.mirror.is_coat, a.mirror.area) >
+                            std::pair(a.mirror.is_coat, b.mirror.area);
+                   });
   double total_area = 0.0;
+  std::size_t counted = 0;
   for (const auto& candidate : candidates)
-    total_area += candidate.mirror.area;
+    if (!candidate.mirror.is_coat) {
+      total_area += candidate.mirror.area;
+      ++counted;
+    }
   const auto limit = static_cast<std::size_t>(settings.max_mirrors);
-  const double least = candidates.size() > limit ? settings.smallest_share * total_area : 0.0;
+  const double least = counted > limit ? settings.smallest_share * total_area : 0.0;
 
   for (auto& candidate : candidates) {
-    if (set.mirrors.size() >= limit || candidate.mirror.area < least) {
+    const bool too_many = set.mirrors.size() >= limit || candidate.mirror.area < least;
+    if (too_many && !candidate.mirror.is_coat) {
       set.facets += candidate.faces.size();
       continue;
     }

@@ -4,8 +4,9 @@
 // a double-sided mirror is two mirrors, back to back. Curved mirrors are many small planes: beyond `max_mirrors` planes
 // only large ones are enumerated, the rest are facets, which rays follow exactly all the same but which get no mirror world.
 //
-// Glass is a mirror on either side whose reflectance depends on the angle (scenes/glass.h): what is said of it here is the mean over all angles, by
-// which its worlds are judged. Solids have none, rays alone follow what they reflect. What light meets on its way, whoever follows it asks of the glass itself.
+// Glass is a mirror on either side whose reflectance depends on the angle (scenes/glass.h), and so is the coat of a polished floor on its front
+// (scenes/smooth_surfaces.h): what is said of them here is the mean over all angles, by which their worlds are judged. Solids have none, rays alone follow
+// what they reflect. What light meets on its way, whoever follows it asks of the glass or the coat itself. Coats come last, and do not count: they are few.
 #pragma once
 
 #include "mirror/convex_polygon.h"
@@ -28,7 +29,9 @@ struct Mirror {
   Plane plane; ///< normal towards the reflecting side
   PlaneId plane_class = none<PlaneId>;
   Rgb reflectance{1.0};
-  MaterialId glass = none<MaterialId>; ///< none: a mirror of constant reflectance
+  MaterialId by_angle =
+      none<MaterialId>; ///< glass or coated; none: a mirror of constant reflectance
+  bool is_coat = false;
   bool has_width =
       false; ///< what is seen in it is blurred: an ideal mirror only to the surfaces that it throws light on
   double area = 0.0;
@@ -38,7 +41,7 @@ struct Mirror {
 };
 
 struct MirrorSet {
-  std::vector<Mirror> mirrors; ///< largest first
+  std::vector<Mirror> mirrors; ///< largest first, coats behind all others
   std::vector<std::array<MirrorId, 2>>
       mirror_of_surface; ///< by SurfaceId, for its front and its back; none for facets and the rest
   std::size_t facets = 0; ///< mirror surfaces that are not enumerated

@@ -239,7 +239,7 @@ FormFactors analytic_transport(const LightScene& light, const FormFactorSettings
   if (std::ranges::any_of(light.mesh.solid, [](float share) { return share < 1.0F; }))
     throw UsageError(light.scene.file, "--form-factors analytic takes cut-outs for opaque: rays or "
                                        "hemicubes see through their holes");
-  if (!light.glass.empty())
+  if (light.has_glass)
     throw UsageError(light.scene.file, "--form-factors analytic takes glass for opaque: rays or "
                                        "hemicubes see through it");
   if (size > most_elements)

@@ -129,6 +129,7 @@ Emitter make_emitter(const LightScene& light, const Candidate& candidate) {
   emitter.polygon = ConvexPolygon(corners);
   emitter.plane = side.plane;
   emitter.plane_class = side.plane_class;
+  emitter.coat = side.coat;
   emitter.radiosity = candidate.radiosity;
   emitter.area = glm::length(area_vector(emitter.polygon.span()));
   return emitter;
@@ -153,14 +154,14 @@ double area_median(const ElementMesh& mesh, const std::vector<Rgb>& reflected) {
   return 0.0;
 }
 
-/// The real world, and the worlds of single mirrors while they are few.
-WorldTree first_worlds(const WorldTree& tree) {
+/// The real world, and the worlds of single mirrors while they are few, without coats if there are more with them.
+WorldTree first_worlds(const WorldTree& tree, const MirrorSet& mirrors) {
   constexpr std::size_t few = 4;
-  std::size_t kept = 1;
-  while (kept < tree.worlds.size() && tree.worlds[kept].depth == 1)
-    ++kept;
+  std::size_t kept = 1, of_mirrors = 1;
+  for (; kept < tree.worlds.size() && tree.worlds[kept].depth == 1; ++kept)
+    of_mirrors += mirrors.mirrors[index(tree.worlds[kept].mirror)].is_coat ? 0 : 1;
   if (kept > few)
-    kept = 1;
+    kept = of_mirrors > few ? 1 : of_mirrors;
   WorldTree first;
   first.worlds.assign(tree.worlds.begin(), tree.worlds.begin() + static_cast<std::ptrdiff_t>(kept));
   first.children.assign(tree.children.begin(),
@@ -184,7 +185,7 @@ BrightClusters find_bright_clusters(const LightScene& light, const std::vector<R
     return clusters;
 
   // Of too many the noisiest are kept. Uneven ones would be fewer, but the brightness of a wall beside a point is not that of its mean.
-  clusters.worlds = first_worlds(light.worlds);
+  clusters.worlds = first_worlds(light.worlds, light.mirrors);
   const std::size_t most = settings.most / clusters.worlds.worlds.size();
   ClusterSearch context{mesh, reflected, settings.contrast * usual, settings.evenness, {}};
   search_sides(context);

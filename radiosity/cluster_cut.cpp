@@ -123,6 +123,8 @@ void share_rays(int rays, int per_cluster, const Rgb& arrived, const LightScene&
   });
 }
 
+SegmentEnd end_of(const ClusterPlane& plane) { return {plane.plane.normal, plane.coat}; }
+
 /// Traces sixteen rays at a time.
 void trace_rays(const LightScene& light, const ClusterTree& tree, const Receiver& receiver,
                 std::uint32_t seed, ClusterWorkspace& work, DirectWorkspace& direct) {
@@ -150,7 +152,10 @@ void trace_rays(const LightScene& light, const ClusterTree& tree, const Receiver
       const std::uint32_t stand_in = work.rays[first + k].stand_in;
       work.sent[stand_in] += weight[k];
       if (((dark >> k) & 1U) == 0U)
-        work.arrived[stand_in] += weight[k] * left_by_glass(light, direct.folded[k]);
+        work.arrived[stand_in] +=
+            weight[k] * left_between(light, end_of(receiver),
+                                     end_of(tree.planes[work.stand_ins[stand_in].plane]),
+                                     direct.folded[k]);
     }
   }
 }

@@ -133,6 +133,7 @@ std::vector<std::vector<std::uint32_t>> by_plane(std::span<const Emitter> cluste
     auto& known = of_class[clusters[c].plane_class];
     const auto alike = std::ranges::find_if(known, [&](std::size_t g) {
       return clusters[c].plane_class != none<PlaneId> &&
+             clusters[groups[g][0]].coat == clusters[c].coat &&
              glm::dot(clusters[groups[g][0]].plane.normal, clusters[c].plane.normal) > 0.0;
     });
     if (alike != known.end()) {
@@ -155,7 +156,7 @@ ClusterTree make_cluster_tree(std::span<const Emitter> clusters) {
   for (const auto& members : by_plane(clusters)) {
     const Emitter& any = clusters[members[0]];
     tree.planes.push_back(
-        {any.plane, any.plane_class, static_cast<std::uint32_t>(tree.nodes.size())});
+        {any.plane, any.plane_class, any.coat, static_cast<std::uint32_t>(tree.nodes.size())});
     const auto first = static_cast<std::uint32_t>(tree.order.size());
     tree.order.insert(tree.order.end(), members.begin(), members.end());
     builder.set_places(members);

@@ -1,4 +1,4 @@
-// A tree over bright clusters, plane by plane: each node stands for some clusters of one plane that face one way.
+// A tree over bright clusters, plane by plane: each node stands for some clusters of one plane that face one way, below one coat or none.
 //
 // Its splits follow the clusters' own plane, not the axes of space: the tree is the same wherever the scene lies and however large it is.
 #pragma once
@@ -31,6 +31,7 @@ struct ClusterTriangle {
 struct ClusterPlane {
   Plane plane; ///< normal towards the side that sends
   PlaneId plane_class = none<PlaneId>;
+  MaterialId coat = none<MaterialId>; ///< above all of them
   std::uint32_t root = 0; ///< index into ClusterTree::nodes
 };
 

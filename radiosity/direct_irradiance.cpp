@@ -50,7 +50,8 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
       share.all += weight[static_cast<std::size_t>(k)];
       if (((dark >> k) & 1U) == 0U)
         share.seen += weight[static_cast<std::size_t>(k)] *
-                      left_by_glass(light, work.folded[static_cast<std::size_t>(k)]);
+                      left_between(light, end_of(receiver), end_of(emitter),
+                                   work.folded[static_cast<std::size_t>(k)]);
     }
     share.samples += count;
     share.arrived += count - std::popcount(dark);
@@ -64,7 +65,7 @@ Rgb visible_fraction(const LightScene& light, const VirtualLight& image, const R
   const bool agree = share.arrived == 0 || share.arrived == share.samples;
   if (!agree && penumbra_samples > samples)
     sample_visibility(light, image, receiver, samples, penumbra_samples, seed, work, share);
-  if (share.arrived == share.samples && light.glass.empty())
+  if (share.arrived == share.samples && light.by_angle.empty())
     return Rgb(1.0);
   return share.all > 0.0 ? share.seen / share.all : Rgb(0.0);
 }
@@ -112,8 +113,10 @@ void sample_dim_images(const LightScene& light, const Receiver& receiver,
     const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t own = dim[first + k];
-      if (((dark >> k) & 1U) == 0U && (light.glass.empty() || weight[k] > 0.0))
-        work.visible[own] = left_by_glass(light, work.folded[k]);
+      if (((dark >> k) & 1U) == 0U && (light.by_angle.empty() || weight[k] > 0.0))
+        work.visible[own] =
+            left_between(light, end_of(receiver), end_of(light.emitters[work.lights[own].emitter]),
+                         work.folded[k]);
     }
     first += count;
   }

@@ -4,7 +4,7 @@
 //
 // F is Lambert's closed form for a point and a polygon, V the visible fraction: low-discrepancy points on the clipped image, weighted by
 // the cosines and distance of the form factor they stand for, each tested along every leg of the folded path. Few points where all
-// agree, more in penumbrae; glass on the legs takes its part of each. Punctual lights, and their images, add I f cos / d^2 where the one segment to them is free.
+// agree, more in penumbrae; glass and coats on the legs take their part of each. Punctual lights, and their images, add I f cos / d^2 where the one segment to them is free.
 #pragma once
 
 #include "mirror/light_choice.h"
@@ -34,7 +34,11 @@ struct Receiver {
   Direction normal;
   PlaneId plane_class = none<PlaneId>;
   Vec3 tangent{0.0}; ///< a direction in the plane that samples are counted from; zero: any
+  MaterialId coat = none<MaterialId>; ///< above it, where that is a mirror: it lets in what light gets below
 };
+
+inline SegmentEnd end_of(const Receiver& receiver) { return {receiver.normal, receiver.coat}; }
+inline SegmentEnd end_of(const Emitter& emitter) { return {emitter.plane.normal, emitter.coat}; }
 
 /// Storage reused from point to point; one for each thread.
 struct DirectWorkspace {

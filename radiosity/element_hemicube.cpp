@@ -41,6 +41,7 @@ void gather_element(const LightScene& light, const Hemicube& cube, const Directi
     point.normal = element.normal;
     point.plane_class = element.plane_class;
     point.tangent = element.tangent;
+    point.coat = element.coat;
     gather_rays(light, cube, point, settings, work);
   } else {
     work.result.clear();

@@ -25,7 +25,9 @@ ArrivingLight direct_irradiance(const LightScene& light, ElementId element, Cove
       const Vec2 sample(sobol2(number, seed, SobolPair::first));
       if (is_covered(covered, sample.x, sample.y))
         continue;
-      return {{point_in(area, sample), area.normal, area.plane_class}, number, element};
+      return {{point_in(area, sample), area.normal, area.plane_class, Vec3(0.0), area.coat},
+              number,
+              element};
     }
   };
   return shared_irradiance(light, next_point,

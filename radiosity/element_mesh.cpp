@@ -46,6 +46,7 @@ MeshSide make_side(const Scene& scene, const SurfaceModel& model, PatchId id, Fa
   side.tangent = glm::normalize(patch.corners[1] - patch.corners[0]);
   side.plane_class = surface.plane_class;
   side.material = patch.material;
+  side.coat = has_mirror_coat(material) ? patch.material : none<MaterialId>;
   side.node = patch.node;
   side.nu = divisions.u;
   side.nv = divisions.v;

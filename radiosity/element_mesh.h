@@ -38,6 +38,7 @@ struct MeshSide {
   Plane plane;
   PlaneId plane_class = none<PlaneId>;
   MaterialId material = none<MaterialId>;
+  MaterialId coat = none<MaterialId>; ///< the same, where its coat is a mirror
   NodeId node = none<NodeId>;
   int nu = 1, nv = 1;
   bool triangle = false;

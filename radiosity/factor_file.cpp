@@ -59,7 +59,11 @@ std::uint64_t hash_of_geometry(const Scene& scene) {
   return hash.value();
 }
 
-/// What light meets in glass is part of the transport.
+/// What light meets in glass and on coats is part of the transport.
+void add_coat(Hash& hash, const Bsdf& coat) {
+  hash.add(coat.coat_f0);
+  hash.add(Rgb(coat.coat, coat.coat_f90, 0.0));
+}
 void add_glass(Hash& hash, const Bsdf& glass) {
   hash.add(glass.metal);
   hash.add(Rgb(glass.glass, glass.pane.ior, glass.pane.f90));
@@ -89,6 +93,8 @@ std::uint64_t hash_of_mirrors(const Scene& scene, const WorldTree& worlds) {
     hash.add(mirror_reflectance(material));
     if (is_glass(material))
       add_glass(hash, clear_glass(material, untextured(material)));
+    if (has_mirror_coat(material))
+      add_coat(hash, mirror_coat(material));
     if (is_glass(material) && is_textured(material))
       for (const VertexId vertex : triangle.vertices)
         for (const glm::vec2& texcoord : scene.vertices[index(vertex)].texcoord)

@@ -191,8 +191,8 @@ Found look_at(const Refinement& refinement, const ElementMesh& mesh,
   int open = 0;
   const auto look = [&](Vec2 uv, Vec2 st) {
     const PointSample sample = refinement.sampler.between(
-        {point_at(patch, uv), side.normal, side.plane_class, side.tangent}, size_of(mesh, element),
-        seed_of(cell.side, uv));
+        {point_at(patch, uv), side.normal, side.plane_class, side.tangent, side.coat},
+        size_of(mesh, element), seed_of(cell.side, uv));
     if (sample.covered)
       return;
     ++open;

@@ -84,8 +84,8 @@ std::optional<GapLight> light_in_gap(const PointGathering& gathering,
   for (std::uint32_t lit = points_that_see_light(gathering, irradiance, mesh, element, work);
        lit != 0 && sum.count < most_points; lit &= lit - 1) {
     const auto k = static_cast<std::uint32_t>(std::countr_zero(lit));
-    const Receiver receiver{point_in(mesh, element, k), side.normal, side.plane_class,
-                            side.tangent};
+    const Receiver receiver{point_in(mesh, element, k), side.normal, side.plane_class, side.tangent,
+                            side.coat};
     if (is_under_something(gathering.light, receiver, size))
       continue;
     const std::uint32_t seed = hash(index(element), k, gathering.form_factors.seed);

@@ -1,5 +1,6 @@
 #include "radiosity/gather_rays.h"
 
+#include "radiosity/gather_legs.h"
 #include "radiosity/surface_colour.h"
 #include "scenes/lobes.h"
 #include "scenes/sampling.h"
@@ -7,105 +8,39 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 namespace meninas {
 
 namespace {
 
-/// What a ray carries besides its geometry.
-struct Carried {
-  glm::dvec3 origin, direction;
-  float weight;
-  glm::vec3 throughput;
-  WorldId world;
-  std::uint32_t number;
-  std::uint32_t meetings = 0;
-  int reflections = 0;
-};
-
-/// Rays straight from the receiver are what their packet says, and `Weights` of lane k.
-template <typename Weights>
-struct FirstLegs {
-  const RayPacket& packet;
-  Weights weights;
-  std::uint32_t first; ///< number of lane 0
-
-  constexpr float weight(std::uint32_t k) const { return weights(k); }
-  static constexpr glm::vec3 throughput(std::uint32_t) { return glm::vec3(1.0F); }
-  static constexpr WorldId world(std::uint32_t) { return real_world; }
-  Carried carried(std::uint32_t k) const {
-    return {{packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]},
-            {packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]},
-            weight(k),
-            glm::vec3(1.0F),
-            real_world,
-            first + k};
-  }
-};
-
-/// The rays of a net weigh 1, those of a hemicube as much as their cells.
-constexpr auto weights_of(const NetPacket&) {
-  return [](std::uint32_t) { return 1.0F; };
+const Bsdf& coat_of(const LightScene& light, TriangleId triangle) {
+  return light.by_angle[index(light.scene.triangles[index(triangle)].material)];
 }
-auto weights_of(const HemicubePacket& cells) {
-  return [&cells](std::uint32_t k) { return cells.weight[k]; };
-}
-std::size_t ray_count(const DirectionNet& net) { return net.points.size(); }
-std::size_t ray_count(const Hemicube& cube) { return cube.cells; }
 
-/// Rays that left with light of their own.
-struct LitLegs {
-  const LitPacket& packet;
-  std::uint32_t first;
-
-  static constexpr float weight(std::uint32_t) { return 1.0F; }
-  const glm::vec3& throughput(std::uint32_t k) const { return packet.light[k]; }
-  static constexpr WorldId world(std::uint32_t) { return real_world; }
-  Carried carried(std::uint32_t k) const {
-    const RayPacket& rays = packet.rays;
-    return {{rays.origin_x[k], rays.origin_y[k], rays.origin_z[k]},
-            {rays.direction_x[k], rays.direction_y[k], rays.direction_z[k]},
-            1.0F,
-            packet.light[k],
-            real_world,
-            first + k};
-  }
-};
-
-/// Rays from mirrors have their record.
-struct MirroredLegs {
-  const MirroredRay* rays;
-
-  float weight(std::uint32_t k) const { return rays[k].weight; }
-  const glm::vec3& throughput(std::uint32_t k) const { return rays[k].throughput; }
-  WorldId world(std::uint32_t k) const { return rays[k].world; }
-  Carried carried(std::uint32_t k) const {
-    const MirroredRay& ray = rays[k];
-    return {ray.origin, ray.direction, ray.weight,   ray.throughput,
-            ray.world,  ray.number,    ray.meetings, ray.reflections};
-  }
-};
-
-/// What a mirror or glass makes of light that meets it at this cosine.
+/// What a mirror, glass or a coat makes of light that meets it at this cosine.
 struct MirrorShares {
   glm::vec3 reflected, passed;
 };
 MirrorShares mirror_shares(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                            std::uint32_t k, double cosine) {
+  const TriangleId triangle{hits.triangle[k]};
+  if (face.coat)
+    return {facet_reflectance(coat_of(light, triangle), cosine), glm::vec3(0.0F)};
   if (!face.glass)
     return {face.reflectance, glm::vec3(0.0F)};
-  const TriangleId triangle{hits.triangle[k]};
   const Bsdf glass =
       is_textured(material_of(light.scene, triangle)) || has_vertex_colors(light.scene, triangle)
           ? glass_at(light.scene, light.textures, triangle, {hits.b1[k], hits.b2[k]})
-          : light.glass[index(light.scene.triangles[index(triangle)].material)];
+          : light.by_angle[index(light.scene.triangles[index(triangle)].material)];
   return {facet_reflectance(glass, cosine), facet_transmittance(glass, cosine)};
 }
 
-/// Where a ray meets a mirror or glass: the point comes from its exact plane, not from the rounded distance.
+/// Where a ray meets a mirror, glass or a coat: the point comes from its exact plane, not from the rounded distance.
 struct Meeting {
   glm::dvec3 position;
   double approach; ///< the direction along the normal
+  double cosine;
   MirrorShares shares;
 };
 Meeting meeting_of(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
@@ -116,7 +51,8 @@ Meeting meeting_of(const LightScene& light, const FaceRecord& face, const HitPac
   if (!(t > 0.0) || t > 2.0 * distance + 1e-6)
     t = distance;
   const double cosine = std::min(1.0, std::abs(approach) / glm::length(from.direction));
-  return {from.origin + t * from.direction, approach, mirror_shares(light, face, hits, k, cosine)};
+  return {from.origin + t * from.direction, approach, cosine,
+          mirror_shares(light, face, hits, k, cosine)};
 }
 
 /// The ray that goes on: behind a mirror, or one of the two ways from glass, which stays in its world if it is passed.
@@ -138,6 +74,28 @@ MirroredRay going_on(const LightScene& light, const FaceRecord& face, const Carr
   ray.world = child(light.worlds, from.world, face.mirror);
   ++ray.reflections;
   return ray;
+}
+
+/// A coat takes its part of what lands below it. Whether the ray is one of those that it reflects, with what light then.
+std::optional<MirroredRay> meet_coat(const LightScene& light, const FaceRecord& face,
+                                     const HitPacket& hits, std::uint32_t k, const Carried& from,
+                                     std::uint32_t seed, RayLanding* landing) {
+  const Meeting at = meeting_of(light, face, hits, k, from);
+  if (landing != nullptr)
+    landing->light *=
+        glm::vec3(let_out_by_coat(coat_of(light, TriangleId{hits.triangle[k]}), at.cosine));
+  const float chance = largest(at.shares.reflected);
+  if (sobol4(from.number, hash(seed, from.meetings, 0xc0a7))[0] >= chance)
+    return std::nullopt;
+  return MirroredRay{at.position,
+                     from.direction - 2.0 * at.approach * face.normal,
+                     from.weight,
+                     from.throughput * at.shares.reflected / chance,
+                     child(light.worlds, from.world, face.mirror),
+                     face.plane_class,
+                     from.number,
+                     from.meetings + 1,
+                     from.reflections + 1};
 }
 
 /// How rays ended: sums of their weights and of their light.
@@ -175,6 +133,13 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
                         const Legs& legs, std::uint32_t count, const HitPacket& hits,
                         GatherWorkspace& work) {
   Ends ends;
+  const auto follow = [&](float weight, const MirroredRay& ray) {
+    if (largest(ray.throughput) >= settings.min_throughput &&
+        ray.reflections <= settings.max_bounces)
+      work.next.push_back(ray);
+    else
+      ends.stop(weight, ray.throughput);
+  };
   for (std::uint32_t k = 0; k < count; ++k) {
     const float weight = legs.weight(k);
     const glm::vec3 tau = legs.throughput(k);
@@ -198,13 +163,18 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
       // What the surface keeps or scatters besides is no loss of the mirror's.
       if (face.side != FaceRecord::nothing)
         ends.mirror_absorbed -= weight * tau * (1.0F - at.shares.reflected - at.shares.passed);
-      const MirroredRay ray = going_on(light, face, from, at, work.seed);
-      if (largest(ray.throughput) >= settings.min_throughput &&
-          ray.reflections <= settings.max_bounces)
-        work.next.push_back(ray);
-      else
-        ends.stop(weight, ray.throughput);
+      follow(weight, going_on(light, face, from, at, work.seed));
       continue;
+    }
+    if (face.coat) [[unlikely]] {
+      RayLanding* const landing =
+          face.side != FaceRecord::nothing ? &work.result.landings.back() : nullptr;
+      if (const auto ray = meet_coat(light, face, hits, k, legs.carried(k), work.seed, landing)) {
+        // The surface has all of the light, and what is reflected is on its way.
+        ends.mirror_absorbed -= weight * (tau - ray->throughput);
+        follow(weight, *ray);
+        continue;
+      }
     }
     if (face.side == FaceRecord::nothing) {
       ends.black += weight;
@@ -217,6 +187,18 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
   }
   add(ends, work.result);
   return ends.black_lanes;
+}
+
+/// What the receiver's coat lets in, by lane.
+std::array<glm::vec3, packet_size> let_in_by(const Bsdf& coat, const RaySource& source,
+                                             const RayPacket& packet) {
+  std::array<glm::vec3, packet_size> light{};
+  for (std::uint32_t k = 0; k < packet.count; ++k) {
+    const Vec3 direction(packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]);
+    light[k] = glm::vec3(
+        let_out_by_coat(coat, glm::dot(direction, source.area.normal) / glm::length(direction)));
+  }
+  return light;
 }
 
 /// `Rays`: a DirectionNet or a Hemicube.
@@ -234,9 +216,17 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
         static_cast<std::uint32_t>(std::min(packet_size, ray_count(rays) - n * packet_size));
     set_rays(rays.packets[n], source, packet);
     closest_hits(light.rays, packet, hits, Backs::absorb, Coherence::coherent);
-    const FirstLegs legs{packet, weights_of(rays.packets[n]),
-                         static_cast<std::uint32_t>(n * packet_size)};
-    work.black_lanes.push_back(sort_hits(light, settings, legs, packet.count, hits, work));
+    const auto first = static_cast<std::uint32_t>(n * packet_size);
+    const auto sort = [&](auto&& let_in) {
+      const FirstLegs legs{packet, weights_of(rays.packets[n]), let_in, first};
+      return sort_hits(light, settings, legs, packet.count, hits, work);
+    };
+    if (source.area.coat == none<MaterialId>) {
+      work.black_lanes.push_back(sort([](std::uint32_t) { return glm::vec3(1.0F); }));
+      continue;
+    }
+    const auto let_in = let_in_by(light.by_angle[index(source.area.coat)], source, packet);
+    work.black_lanes.push_back(sort([&](std::uint32_t k) { return let_in[k]; }));
   }
   work.result.escaped_straight = work.result.escaped;
   work.result.traced += ray_count(rays);

@@ -6,6 +6,9 @@
 // Where glass reflects R and passes T of its light, a ray goes either way: on by reflection with chance p = max R / (max R + max T) and R / p of its
 // light, else straight through with T / (1 - p) of it (max over the channels). So rays remain as many as they were, however many panes there are, and each ends once. The
 // numbers that decide are low-discrepancy over the receiver's rays.
+//
+// On a surface below a coat that is a mirror (scenes/smooth_surfaces.h) a ray lands, with (1 - R) / (1 - R_mean) of its light, since the coat lets out
+// less at grazing angles, and goes on by reflection with chance max R besides. A coated receiver's own rays leave with as much: F stays reciprocal.
 #pragma once
 
 #include "radiosity/covered_cells.h"
@@ -118,6 +121,7 @@ ReceiverArea part_of_side(const LightScene& light, const MeshSide& side, bool tr
   area.normal = side.normal;
   area.plane_class = side.plane_class;
   area.tangent = side.tangent;
+  area.coat = side.coat;
   return area;
 }
 

@@ -62,7 +62,7 @@ static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
       return;
     const MeshSide& side = mesh.sides[index(mesh.side_of_element[e])];
     const Receiver middle{centre_of(mesh, static_cast<ElementId>(e)), side.normal, side.plane_class,
-                          side.tangent};
+                          side.tangent, side.coat};
     const PointLight found = light_at(
         gathering, middle, hash(static_cast<std::uint32_t>(e), 0xface7), workspaces.local());
     mirrored[0][e] = share(found.from_source) * parts[0][e];

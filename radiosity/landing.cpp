@@ -55,6 +55,7 @@ static FaceRecord make_face(const Scene& scene, const SurfaceModel& model, const
   face.side = index(mesh.sides_of_patch[index(patch_id)][static_cast<std::size_t>(facing)]);
   face.glass = is_glass(material);
   face.mirrors = is_mirror(material) || face.glass;
+  face.coat = has_mirror_coat(material);
   face.mirror = mirrors.mirror_of_surface[index(patch.surface)][static_cast<std::size_t>(facing)];
   face.reflectance = mirror_reflectance(material);
   set_uv_map(face, patch, model.corner_uv[triangle]);

@@ -23,6 +23,7 @@ struct FaceRecord {
 
   std::uint32_t side = nothing; ///< index of a SideId where the face carries radiosity
   bool mirrors = false;         ///< an ideal mirror, enumerated or a facet, or glass
+  bool coat = false;            ///< one to the light of surfaces alone, over what it scatters
   UvMap map = UvMap::affine;
   MirrorId mirror = none<MirrorId>;
   std::uint32_t plane_class = nothing;

@@ -34,7 +34,7 @@ void punctual_arrivals(const LightScene& light, const Receiver& receiver, Direct
       const PunctualImage& image = work.images[first + k];
       arrivals.push_back({glm::normalize(image.position - receiver.position),
                           light.worlds.worlds[index(world)].throughput * image.irradiance *
-                              left_by_glass(light, work.folded[k]),
+                              left_between(light, end_of(receiver), {}, work.folded[k]),
                           world});
     }
     first += count;
@@ -72,7 +72,7 @@ void emission_samples(const LightScene& light, const Receiver& receiver,
     for (std::uint32_t k = 0; k < count; ++k)
       if (((dark >> k) & 1U) == 0)
         samples[begin + k].radiance =
-            radiance * left_by_glass(light, work.folded[k], Solids::opaque);
+            radiance * left_by_angle(light, work.folded[k], Solids::opaque);
   }
 }
 

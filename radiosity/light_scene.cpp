@@ -55,6 +55,8 @@ bool grey_mirrors(const Scene& scene) {
   const bool colored = std::ranges::any_of(
       scene.vertices, [&](const Vertex& vertex) { return !is_grey(Rgb(vertex.color)); });
   return std::ranges::all_of(scene.materials, [&](const Material& material) {
+    if (has_mirror_coat(material))
+      return is_grey(material.specular_color);
     if (!is_glass(material))
       return is_grey(mirror_reflectance(material));
     return is_grey(material.base_color) && is_grey(material.specular_color) &&
@@ -62,13 +64,15 @@ bool grey_mirrors(const Scene& scene) {
   });
 }
 
-/// As `LightScene::glass`.
-static std::vector<Bsdf> glass_of(const Scene& scene) {
-  std::vector<Bsdf> glass;
-  if (std::ranges::any_of(scene.materials, is_glass))
+/// As `LightScene::by_angle`.
+static std::vector<Bsdf> reflecting_by_angle(const Scene& scene) {
+  std::vector<Bsdf> bsdfs;
+  if (std::ranges::any_of(scene.materials, is_glass) ||
+      std::ranges::any_of(scene.materials, has_mirror_coat))
     for (const Material& material : scene.materials)
-      glass.push_back(clear_glass(material, untextured(material)));
-  return glass;
+      bsdfs.push_back(has_mirror_coat(material) ? mirror_coat(material)
+                                                : clear_glass(material, untextured(material)));
+  return bsdfs;
 }
 
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
@@ -88,7 +92,8 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    {},
                    scene.lights,
                    std::numbers::pi * scene.background,
-                   glass_of(scene),
+                   reflecting_by_angle(scene),
+                   std::ranges::any_of(scene.materials, is_glass),
                    cut_out_mirrors(surfaces, rays, mirrors)};
   light.from_source.assign(mesh.sides.size(), 0);
 

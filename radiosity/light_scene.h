@@ -35,7 +35,8 @@ struct LightScene {
   std::vector<PunctualLight> punctual; ///< always from the source
   Rgb background{0.0}; ///< irradiance pi L of the whole sky, gathered by rays that escape
   std::vector<Bsdf>
-      glass; ///< by MaterialId, clear (scenes/lobes.h) and without textures; empty where there is none
+      by_angle; ///< by MaterialId, clear glass and coats that are mirrors (scenes/lobes.h), without textures; empty where there are none
+  bool has_glass = false;
   std::vector<std::uint8_t> cut_out_mirrors; ///< by MirrorId (mirror_holes.h); empty where there is none
 };
 

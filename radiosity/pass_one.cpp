@@ -29,13 +29,13 @@ ClosureError closure_error(const std::vector<RowClosure>& rows) {
 
 Rgb passed_on(const LightScene& light, MaterialId id) {
   const Material& material = light.scene.materials[index(id)];
-  if (!is_glass(material))
+  if (!is_glass(material) && !has_mirror_coat(material))
     return mirror_reflectance(material);
-  const GlassShares mean = mean_shares(light.glass[index(id)]);
+  const GlassShares mean = mean_shares(light.by_angle[index(id)]);
   return mean.reflected + mean.passed;
 }
 
-/// Of the light that elements receive, what the mirror or the glass that they are as well passes on: rays carry it.
+/// Of the light that elements receive, what the mirror, the glass or the coat that they are as well passes on: rays carry it.
 std::vector<Rgb> passed_on_by_elements(const LightScene& light) {
   const ElementMesh& mesh = light.mesh;
   std::vector<Rgb> shares(mesh.area.size());

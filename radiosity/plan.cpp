@@ -3,7 +3,7 @@
 #include "radiosity/closedness.h"
 #include "radiosity/world_tail.h"
 #include "scenes/lobes.h"
-#include "scenes/smooth_metals.h"
+#include "scenes/smooth_surfaces.h"
 #include "scenes/texture_lookup.h"
 
 #include <fmt/format.h>
@@ -38,8 +38,8 @@ bool throws_evenly(const Material& material) {
   return is_glossy(material) && !material.throws_as_mirror;
 }
 
-bool is_coated(const Material& material) {
-  return !is_glossy(material) && has_visible_coat(material);
+bool has_even_coat(const Material& material) {
+  return !is_glossy(material) && has_visible_coat(material) && !has_mirror_coat(material);
 }
 
 bool is_pane(const Material& material) { return is_glass(material) && !is_solid_glass(material); }
@@ -48,6 +48,7 @@ bool is_pane(const Material& material) { return is_glass(material) && !is_solid_
 bool scatters_grey(const Material& material) {
   return is_grey(diffuse_reflectance(material)) && is_grey(mirror_reflectance(material)) &&
          is_grey(material.emission) && !is_textured(material) &&
+         (!has_mirror_coat(material) || is_grey(material.specular_color)) &&
          (!is_glass(material) ||
           (is_grey(material.base_color) && is_grey(material.specular_color) &&
            is_grey(material.attenuation_color)));
@@ -239,7 +240,12 @@ void describe_lobes(const std::vector<const Material*>& materials,
                      "pass one: " +
                      quoted(names));
   }
-  if (const auto names = names_where(materials, is_coated); !names.empty()) {
+  if (const auto names = names_where(materials, has_mirror_coat); !names.empty()) {
+    stages.push_back("coats of large flat surfaces: rays over their lobes in the picture, mirrors "
+                     "by Schlick in pass one: " +
+                     quoted(names));
+  }
+  if (const auto names = names_where(materials, has_even_coat); !names.empty()) {
     stages.push_back("coats: rays over their lobes in the picture, spread evenly in pass one: " +
                      quoted(names));
   }

@@ -62,7 +62,8 @@ PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosi
                                                                         clusters.emitters),
                                                                     {},
                                                                     Rgb(0.0),
-                                                                    scene.glass,
+                                                                    scene.by_angle,
+                                                                    scene.has_glass,
                                                                     scene.cut_out_mirrors},
       net(make_direction_net(settings.rays)),
       cube(factors.method == FormFactorMethod::hemicube ? make_hemicube(factors.hemicube_resolution)
@@ -74,6 +75,7 @@ ReceiverArea area_of(const Receiver& point) {
   area.normal = point.normal;
   area.plane_class = point.plane_class;
   area.tangent = point.tangent;
+  area.coat = point.coat;
   return area;
 }
 

@@ -31,6 +31,16 @@ Vec2 exposed_place(CoveredCells covered, Vec2 st) {
   return (Vec2(cell / 8, cell % 8) + within) / 8.0;
 }
 
+/// What the coat above an element, if it is a mirror, lets out of the light of rays that leave it.
+void pass_coat(const LightScene& light, std::uint32_t element, const LaneDirections& local,
+               LitPacket& packet) {
+  const MaterialId coat = light.mesh.sides[index(light.mesh.side_of_element[element])].coat;
+  if (coat == none<MaterialId>)
+    return;
+  for (std::uint32_t k = 0; k < packet.rays.count; ++k)
+    packet.light[k] *= glm::vec3(let_out_by_coat(light.by_angle[index(coat)], local.z[k]));
+}
+
 /// The element's area in the frame of the rays; its source's directions are those of all elements of a side.
 RaySource source_of(const LightScene& light, std::uint32_t element) {
   return ray_source(receiver_of(light, static_cast<ElementId>(element)), light.rays.frame(), 0);
@@ -87,7 +97,9 @@ typename RayShots<Value>::ChunkResult RayShots<Value>::follow(const Shot& shot, 
       packet.light[k] = shot.light[member];
       result.kept += Rgb(packet.light[k]);
     }
-    set_directions(cosine_hemisphere(u, v), source, packet.rays);
+    const LaneDirections directions = cosine_hemisphere(u, v);
+    set_directions(directions, source, packet.rays);
+    pass_coat(light_, shot.elements[0], directions, packet);
   }
   GatherWorkspace& work = workspaces_.local();
   follow_light(light_, std::span(packets).first(used), hash(shot.seed, first), settings_, work);

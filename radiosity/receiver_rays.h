@@ -32,6 +32,7 @@ struct ReceiverArea {
   Direction normal;
   PlaneId plane_class = none<PlaneId>;
   Vec3 tangent{0.0}; ///< a direction in the plane that directions are counted from; zero: any
+  MaterialId coat = none<MaterialId>; ///< above it, where that is a mirror
 
   bool is_point() const { return edge_u == Vec3(0.0) && edge_v == Vec3(0.0); }
 };

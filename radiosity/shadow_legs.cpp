@@ -93,7 +93,7 @@ Bsdf glass_there(const LightScene& light, const GlassCrossing& crossing) {
   const MaterialId material = light.scene.triangles[index(crossing.triangle)].material;
   const bool plain = !is_textured(light.scene.materials[index(material)]) &&
                      !has_vertex_colors(light.scene, crossing.triangle);
-  return plain ? light.glass[index(material)]
+  return plain ? light.by_angle[index(material)]
                : glass_at(light.scene, light.textures, crossing.triangle, crossing.barycentric);
 }
 
@@ -103,25 +103,25 @@ Rgb passed(const LightScene& light, const GlassCrossing& crossing, Solids solids
   return facet_transmittance(glass_there(light, crossing), crossing.cosine);
 }
 
-/// By the pane in which a leg ends.
+/// By the pane or the coat in which a leg ends.
 Rgb reflected(const LightScene& light, const Leg& leg, const Mirror& mirror) {
   const double cosine = cosine_of(leg, mirror.plane.normal);
-  if (is_textured(light.scene.materials[index(mirror.glass)]))
+  if (!mirror.is_coat && is_textured(light.scene.materials[index(mirror.by_angle)]))
     if (const auto end = glass_at_end(light.rays, leg, mirror.plane_class))
       return facet_reflectance(glass_there(light, *end), cosine);
-  return facet_reflectance(light.glass[index(mirror.glass)], cosine);
+  return facet_reflectance(light.by_angle[index(mirror.by_angle)], cosine);
 }
 
 } // namespace
 
-Rgb left_by_glass(const LightScene& light, const FoldedSegment& segment, Solids solids) {
+Rgb left_by_angle(const LightScene& light, const FoldedSegment& segment, Solids solids) {
   Rgb left(1.0);
-  if (light.glass.empty())
+  if (light.by_angle.empty())
     return left;
   const auto& legs = segment.legs;
   std::vector<GlassCrossing> crossings;
-  for (const Leg& leg : legs) {
-    glass_crossings(light.rays, leg, crossings);
+  for (std::size_t k = 0; light.has_glass && k < legs.size(); ++k) {
+    glass_crossings(light.rays, legs[k], crossings);
     for (const GlassCrossing& crossing : crossings)
       left *= passed(light, crossing, solids);
   }
@@ -131,13 +131,26 @@ Rgb left_by_glass(const LightScene& light, const FoldedSegment& segment, Solids 
        world = light.worlds.worlds[index(world)].parent) {
     const Leg& leg = legs[--step];
     const Mirror& mirror = light.mirrors.mirrors[index(light.worlds.worlds[index(world)].mirror)];
-    if (mirror.glass == none<MaterialId>)
+    if (mirror.by_angle == none<MaterialId>)
       continue;
     const Rgb there = reflected(light, leg, mirror);
     for (int band = 0; band < 3; ++band)
       left[band] *= mirror.reflectance[band] > 0.0 ? there[band] / mirror.reflectance[band] : 0.0;
   }
   return left;
+}
+
+/// By the coat of a surface at which a leg ends.
+static Rgb let_through(const LightScene& light, const SegmentEnd& end, const Leg& leg) {
+  return end.coat == none<MaterialId>
+             ? Rgb(1.0)
+             : let_out_by_coat(light.by_angle[index(end.coat)], cosine_of(leg, end.normal));
+}
+
+Rgb left_between(const LightScene& light, const SegmentEnd& receiver, const SegmentEnd& sender,
+                 const FoldedSegment& segment) {
+  return let_through(light, receiver, segment.legs.front()) *
+         let_through(light, sender, segment.legs.back()) * left_by_angle(light, segment);
 }
 
 } // namespace meninas

@@ -33,11 +33,21 @@ std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 1
                       std::uint32_t count, std::uint64_t& rays,
                       std::array<LegBlocker, 16>* blockers = nullptr);
 
-/// What glass makes of light on a free segment, beside the throughput of its world: the product of what passes each pane at the
-/// angle at which it is crossed, and of what each pane that is a mirror of the world reflects at its angle over the mean that the world's
-/// throughput has for it. 1 where there is no glass. Solids count as the sheets that their faces are, or, for those whose rays find what is refracted, pass nothing.
+/// What glass and coats make of light on a free segment, beside the throughput of its world: the product of what passes each pane at the
+/// angle at which it is crossed, and of what each pane or coat that is a mirror of the world reflects at its angle over the mean that the world's
+/// throughput has for it. 1 where there are none. Solids count as the sheets that their faces are, or, for those whose rays find what is refracted, pass nothing.
 enum class Solids { sheets, opaque };
-Rgb left_by_glass(const LightScene& light, const FoldedSegment& segment,
+Rgb left_by_angle(const LightScene& light, const FoldedSegment& segment,
                   Solids solids = Solids::sheets);
+
+/// A surface at the end of a segment, and the coat above it where that is a mirror.
+struct SegmentEnd {
+  Direction normal;
+  MaterialId coat = none<MaterialId>;
+};
+
+/// The same, for light that is sent from below one coat and received below another: each lets through (1 - R(cos)) / (1 - R_mean) (let_out_by_coat).
+Rgb left_between(const LightScene& light, const SegmentEnd& receiver, const SegmentEnd& sender,
+                 const FoldedSegment& segment);
 
 } // namespace meninas

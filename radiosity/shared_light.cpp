@@ -220,8 +220,8 @@ void order_waiting(SharedLightWorkspace& work) {
     work.order[begin[static_cast<std::size_t>(work.waiting[k].mirrors)]++] = k;
 }
 
-/// Traces the waiting rays, those of as many legs together.
-void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspace& work) {
+/// Traces the waiting rays, those of as many legs together. They come from points of one surface, as the receiver is.
+void trace_waiting(const LightScene& light, const Receiver& receiver, SharedLightWorkspace& work) {
   order_waiting(work);
   std::array<LegBlocker, 16> blockers;
   for (std::size_t first = 0; first < work.waiting.size();) {
@@ -229,7 +229,8 @@ void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspac
         static_cast<std::uint32_t>(std::min<std::size_t>(16, work.waiting.size() - first));
     for (std::uint32_t k = 0; k < count; ++k) {
       const WaitingRay& ray = work.waiting[work.order[first + k]];
-      fold(light, ray.world, ray.from, leaving, ray.to, ray.arriving, work.point.folded[k]);
+      fold(light, ray.world, ray.from, receiver.plane_class, ray.to, ray.arriving,
+           work.point.folded[k]);
     }
     const std::uint32_t dark =
         blocked(light, work.point.folded, count, work.point.shadow_rays, &blockers);
@@ -243,7 +244,7 @@ void trace_waiting(const LightScene& light, PlaneId leaving, SharedLightWorkspac
         continue;
       }
       image.seen += ray.weight;
-      image.left += ray.weight * left_by_glass(light, work.point.folded[k]);
+      image.left += ray.weight * left_between(light, end_of(receiver), {}, work.point.folded[k]);
     }
     first += count;
   }
@@ -307,7 +308,7 @@ ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_p
       continue;
 
     // Between the first half of the points and all of them the mean has moved by about its own error.
-    trace_waiting(light, next.receiver.plane_class, work);
+    trace_waiting(light, next.receiver, work);
     const ArrivingLight mean = mean_of(work, sum);
     const double brightest = largest(mean.total);
     const bool settled = sum.points > settings.points &&

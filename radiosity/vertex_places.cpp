@@ -88,7 +88,7 @@ std::vector<Receiver> vertex_receivers(const ElementMesh& mesh) {
     const MeshSide& side =
         mesh.sides[index(mesh.side_of_element[index(mesh.element_of_vertex[v])])];
     receivers.push_back(
-        {gathering_point(mesh, all, v), side.normal, side.plane_class, side.tangent});
+        {gathering_point(mesh, all, v), side.normal, side.plane_class, side.tangent, side.coat});
   }
   return receivers;
 }

@@ -22,7 +22,7 @@ const FaceRecord* mirror_of_all(const RenderContext& context, const RayPacket& p
   const LightScene& light = context.light;
   // Where there is glass, rays are attenuated one by one.
   if (packet.count != packet_size || hits.triangle[0] == index(none<TriangleId>) ||
-      context.settings.mode != RenderMode::hybrid || !light.glass.empty())
+      context.settings.mode != RenderMode::hybrid || light.has_glass)
     return nullptr;
   const FaceRecord& first = face_of(light.landing, hits, 0);
   if (!is_same_mirror(first, first) || meets_lobes(context, first, hits, 0))

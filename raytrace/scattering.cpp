@@ -208,7 +208,9 @@ glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& pack
   // Pass one alone shows what is even: what the layers seen directly hold.
   const bool shows_lights =
       !radiosity && (part == ReflectedPart::all || part == ReflectedPart::none);
-  const Receiver receiver = receiver_at(context.light, face, hits, k);
+  // Lobes show what is above the coat.
+  Receiver receiver = receiver_at(context.light, face, hits, k);
+  receiver.coat = none<MaterialId>;
   if (shows_lights && bsdf.alpha > 0.0 && !context.light.punctual.empty())
     add_highlights(context, bsdf, out, receiver, ray, work);
   if (shows_lights && samples_lamps(context, bsdf, ray))

@@ -14,9 +14,12 @@ namespace meninas {
 Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                      std::uint32_t k) {
   const auto [a, b, c] = corners(light.scene, TriangleId{hits.triangle[k]});
-  return {a + double{hits.b1[k]} * (b - a) + double{hits.b2[k]} * (c - a), face.normal,
-          static_cast<PlaneId>(face.plane_class),
-          face.side == FaceRecord::nothing ? Vec3(0.0) : light.mesh.sides[face.side].tangent};
+  const Point3 at = a + double{hits.b1[k]} * (b - a) + double{hits.b2[k]} * (c - a);
+  const auto plane = static_cast<PlaneId>(face.plane_class);
+  if (face.side == FaceRecord::nothing)
+    return {at, face.normal, plane};
+  const MeshSide& side = light.mesh.sides[face.side];
+  return {at, face.normal, plane, side.tangent, side.coat};
 }
 
 SideShading shading_at(const RenderContext& context, const RayPacket& packet,

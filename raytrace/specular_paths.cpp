@@ -98,7 +98,7 @@ static void trace_queued(const RenderContext& context, std::size_t first, std::s
       set_ray(packet, k, glm::vec3(ray.origin), glm::vec3(ray.direction), ray.leaving);
     }
     closest_hits(context.light.rays, packet, hits, backs, Coherence::coherent);
-    if (!context.light.glass.empty())
+    if (context.light.has_glass)
       attenuate(context, packet, hits, &work.current[first]);
     shade_packet(context, packet, state, hits, work);
   }

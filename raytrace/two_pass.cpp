@@ -3,6 +3,7 @@
 #include "image/image_file.h"
 #include "radiosity/surface_colour.h"
 #include "scenes/errors.h"
+#include "scenes/smooth_surfaces.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
@@ -33,6 +34,8 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
   Stopwatch watch;
 
   // What is there, and which transport it needs; what it does not need is not run.
+  if (settings.form_factors.method == FormFactorMethod::analytic)
+    spread_coats(prepared->scene);
   prepared->surfaces = find_surfaces(prepared->scene);
   prepared->plan = plan_transport(prepared->scene, prepared->surfaces, settings.plan);
   prepared->seconds.plan = watch.lap();

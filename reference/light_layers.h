@@ -5,7 +5,8 @@
 // x1 is the first surface that emits or scatters evenly, seen straight, by one reflection (`.mirror`) or by several (`.mirrors`): of ideal mirrors, and of
 // the lobes of glossy metals, coats and glass, however wide (DESIGN 5: what has a direction of its own is a specular path). What x1 emits
 // is `emission`; what it reflects is `diffuse.mirrored` if mirrors are between x1 and x2 (the light itself, when there is nothing between), else
-// `diffuse.direct`. There mirrors are ideal metals and all glass; gloss and coats are x2, as pass one spreads what they reflect. What glass
+// `diffuse.direct`. There mirrors are ideal metals, all glass, and the gloss and coats that pass one takes for mirrors (Material::throws_as_mirror); other
+// gloss and coats are x2, as pass one spreads what they reflect. What glass
 // passes, straight, bent or blurred, is no part of the way.
 //
 // One path may be of several layers: where a surface reflects f by parts f_even + f_gloss + f_glass, the path goes on for each of them in the

@@ -25,9 +25,14 @@ std::vector<PlaneId> find_mirror_planes(const Scene& scene, const SurfaceModel& 
   const auto is_pane = [](const Material& material, const Bsdf& bsdf) {
     return bsdf.glass > 0.0 && !is_solid_glass(material);
   };
-  const auto all = planes_where(
-      [&](const Material& m, const Bsdf& b) { return is_metal(m, b) || is_pane(m, b); });
-  return all.empty() ? planes_where(is_metal) : all;
+  const auto is_whole = [&](const Material& m, const Bsdf& b) {
+    return is_metal(m, b) || is_pane(m, b);
+  };
+  auto planes = planes_where(
+      [&](const Material& m, const Bsdf& b) { return is_whole(m, b) || has_mirror_coat(m); });
+  if (planes.empty())
+    planes = planes_where(is_whole);
+  return planes.empty() ? planes_where(is_metal) : planes;
 }
 
 Point3 reflected_in(const Plane& plane, const Point3& x) {

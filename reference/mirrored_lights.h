@@ -18,7 +18,8 @@ namespace meninas::reference {
 inline constexpr std::size_t longest_chain = 2;
 inline constexpr std::size_t most_mirror_planes = 16;
 
-/// The planes on which some metal or pane mirrors ideally; without panes where there are too many, none where there still are.
+/// The planes on which some metal, pane or coat that pass one takes for a mirror mirrors ideally; without coats, then without panes where there are too
+/// many, none where there still are.
 std::vector<PlaneId> find_mirror_planes(const Scene& scene, const SurfaceModel& surfaces,
                                         const std::vector<Bsdf>& bsdfs);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace meninas::reference {
 
@@ -144,8 +145,15 @@ LightPoint choose_point(const TracedScene& traced, const Point3& view,
 }
 
 /// The routes of what is scattered towards `out` from `in`; glass that is passed is no part of them.
-LightRoutes routes_on(const Path& path, const Direction& out, const Direction& in) {
-  return in.z < 0.0 ? path.routes : path.routes.scattered(lobe_shares(path.at.bsdf, out, in));
+LightRoutes routes_on(const TracedScene& traced, const Path& path, const Direction& out,
+                      const Direction& in) {
+  if (in.z < 0.0)
+    return path.routes;
+  LobeShares shares = lobe_shares(path.at.bsdf, out, in);
+  // What pass one takes for a mirror is one on the way of light, as glass is.
+  if (material_of(traced.scene, path.at.triangle).throws_as_mirror)
+    shares.glass += std::exchange(shares.gloss, Rgb(0.0));
+  return path.routes.scattered(shares);
 }
 
 /// Light from a chosen point of a light, over a chain of mirrors or none, with the weight of having been chosen.
@@ -164,7 +172,7 @@ std::optional<Connection> connect(const TracedScene& traced, const Path& path, c
   const double p_l = point.density * chain_chance(traced, chain.planes.size());
   return Connection{chain, point.position, point.plane,
                     path.throughput * f * point.light * (std::abs(in.z) / (p_s + p_l)),
-                    routes_on(path, out, in).reflected(chain.planes.size())};
+                    routes_on(traced, path, out, in).reflected(chain.planes.size())};
 }
 
 /// Looks for emitting surfaces directly and by way of chains of mirrors.
@@ -202,7 +210,7 @@ void look_for_images(const TracedScene& traced, const Paths& paths, std::uint32_
     connection.chain.planes = planes;
     connection.light = light;
     connection.radiance = path.throughput * seen.radiance;
-    connection.routes = routes_on(path, out, in).reflected(planes.size());
+    connection.routes = routes_on(traced, path, out, in).reflected(planes.size());
     connection.path = k;
   }
 }
@@ -281,14 +289,15 @@ void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& 
     path.scattered_at =
         reflected_in(traced.surfaces.planes[index(path.at.plane)], path.scattered_at);
     ++path.chain_length;
-    // A coat is a mirror to the eye alone.
-    const bool is_coat = path.at.bsdf.metal == Rgb(0.0) && path.at.bsdf.glass == 0.0;
+    // A coat that throws no light as a mirror is one to the eye alone.
+    const bool is_coat = path.at.bsdf.metal == Rgb(0.0) && path.at.bsdf.glass == 0.0 &&
+                         !material_of(traced.scene, path.at.triangle).throws_as_mirror;
     path.routes = is_coat ? path.routes.scattered({.gloss = Rgb(1.0)}) : path.routes.reflected(1);
   } else {
     path.density = drawn->density;
     path.scattered_at = path.at.position;
     path.chain_length = 0;
-    path.routes = routes_on(path, out, drawn->in);
+    path.routes = routes_on(traced, path, out, drawn->in);
   }
   path.backs = Backs::absorb;
 }

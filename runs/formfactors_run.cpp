@@ -2,6 +2,7 @@
 
 #include "runs/resources.h"
 #include "scenes/gltf.h"
+#include "scenes/smooth_surfaces.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
@@ -165,7 +166,9 @@ std::string matrix(const Scene& scene, const SurfaceModel& surfaces,
 
 std::string formfactors_run(const FormFactorsRequest& request, const RunEvents& events) {
   const ThreadLimit limit(request.threads);
-  const Scene scene = load_gltf(request.scene, request.gltf);
+  Scene scene = load_gltf(request.scene, request.gltf);
+  // Between surfaces; what a coat throws is their own reflectance's affair.
+  spread_coats(scene);
   for (const std::string& warning : scene.warnings) {
     warn(events, warning);
   }

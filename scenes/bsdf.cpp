@@ -71,6 +71,14 @@ double mean_below_coat(const Bsdf& bsdf) {
   return std::max(0.0, 1.0 - mean.f0 * largest(bsdf.coat_f0) - mean.f90 * bsdf.coat_f90);
 }
 
+/// What the coat reflects of even light.
+Rgb mean_of_coat(const Bsdf& bsdf) {
+  if (bsdf.coat == 0.0)
+    return Rgb(0.0);
+  const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
+  return bsdf.coat * (mean.f0 * bsdf.coat_f0 + Rgb(mean.f90 * bsdf.coat_f90));
+}
+
 /// rho_d (1 - e(o)) (1 - e(i)) / (1 - e_avg)
 Rgb diffuse_coupled(const Bsdf& bsdf, double cos_out, double cos_in) {
   if (bsdf.coat == 0.0)
@@ -216,11 +224,8 @@ Rgb metal_all_in_lobe(const Bsdf& bsdf, double cosine) {
 
 Rgb mean_reflectance(const Bsdf& bsdf) {
   Rgb share = bsdf.diffuse;
-  if (bsdf.coat > 0.0) {
-    const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
-    share = share * mean_below_coat(bsdf) +
-            bsdf.coat * (mean.f0 * bsdf.coat_f0 + Rgb(mean.f90 * bsdf.coat_f90));
-  }
+  if (bsdf.coat > 0.0)
+    share = share * mean_below_coat(bsdf) + mean_of_coat(bsdf);
   if (!has_facets_of_metal(bsdf))
     return share + bsdf.metal;
   const double again = mean_met_again(bsdf);
@@ -248,7 +253,10 @@ Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point) {
   Bsdf bsdf = make_bsdf(material, point);
   if (is_mirror(material))
     bsdf.metal = Rgb(0.0);
-  return mean_reflectance(bsdf);
+  if (!has_mirror_coat(material))
+    return mean_reflectance(bsdf);
+  bsdf.roughness = bsdf.alpha = 0.0;
+  return bsdf.diffuse * mean_below_coat(bsdf);
 }
 
 Bsdf clear_glass(const Material& material, const MaterialPoint& point) {
@@ -262,9 +270,23 @@ Bsdf clear_glass(const Material& material, const MaterialPoint& point) {
   return clear;
 }
 
+Bsdf mirror_coat(const Material& material) {
+  Bsdf coat = make_bsdf(material, untextured(material));
+  coat.diffuse = coat.metal = Rgb(0.0);
+  coat.glass = 0.0;
+  coat.roughness = coat.alpha = 0.0;
+  return coat;
+}
+
+Rgb let_out_by_coat(const Bsdf& coat, double cosine) {
+  const double below = mean_below_coat(coat);
+  return Rgb(below > 0.0 ? (1.0 - coat_albedo(coat, cosine)) / below : 0.0);
+}
+
 GlassShares mean_shares(const Bsdf& clear) {
   const GlassShares mean = mean_glass_shares(clear.pane);
-  return {clear.metal + clear.glass * mean.reflected, clear.glass * mean.passed};
+  return {clear.metal + mean_of_coat(clear) + clear.glass * mean.reflected,
+          clear.glass * mean.passed};
 }
 
 Direction to_local(const Direction& normal, const Direction& w) {

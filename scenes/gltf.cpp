@@ -1,7 +1,7 @@
 #include "scenes/gltf.h"
 
 #include "scenes/gltf_stages.h"
-#include "scenes/smooth_metals.h"
+#include "scenes/smooth_surfaces.h"
 
 #include <fmt/format.h>
 
@@ -124,7 +124,7 @@ Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& f
                          : fmt::format("nothing to render: all {} triangles are without area",
                                        scene.degenerate_triangles));
   read_materials(document, scene, findings);
-  mark_smooth_metals(scene);
+  mark_smooth_surfaces(scene);
   read_cameras(document, nodes, scene, findings);
   read_lights(document, nodes, scene, findings);
 

@@ -45,7 +45,14 @@ Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point);
 /// ideal reflection of metal.
 Bsdf clear_glass(const Material& material, const MaterialPoint& point);
 
-/// What clear glass reflects and passes of light from everywhere.
+/// The coat of a diffuse surface as pass one takes it where it is a mirror: alone, and ideal however rough.
+Bsdf mirror_coat(const Material& material);
+
+/// What is scattered below a coat leaves it by (1 - R(cos)) / (1 - R_mean), 1 in the mean: together with what the coat reflects, a white surface shows
+/// what is around it, from everywhere.
+Rgb let_out_by_coat(const Bsdf& coat, double cosine);
+
+/// What clear glass, or a coat, reflects and passes of light from everywhere.
 GlassShares mean_shares(const Bsdf& clear);
 
 // --- The frame of a surface, +z along its normal

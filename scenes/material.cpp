@@ -13,6 +13,10 @@ bool is_mirror(const Material& material) {
          glm::any(glm::greaterThan(material.base_color, Rgb(0.0)));
 }
 
+bool has_mirror_coat(const Material& material) {
+  return material.throws_as_mirror && material.metallic == 0.0;
+}
+
 bool is_emitter(const Material& material) {
   return glm::any(glm::greaterThan(material.emission, Rgb(0.0)));
 }

@@ -5,7 +5,7 @@
 //
 // A metal whose roughness is at most `ideal_mirror_roughness`, without a texture of that, is an ideal mirror of constant reflectance rho_s.
 // The lobes of other metals, coats and glass are in bsdf.h. Pass two shows them; pass one spreads those of metals and coats evenly, takes
-// smooth metals for ideal mirrors (smooth_metals.h) and glass for clear (lobes.h).
+// smooth metals, and the coats of large flat surfaces, for ideal mirrors (smooth_surfaces.h) and glass for clear (lobes.h).
 //
 // Glass (transmission > 0) is there from both sides: the loader makes it double-sided. Without thickness a sheet of it is a whole pane, with
 // both of its faces; with one it is the surface of a solid (KHR_materials_volume). Where a texture of transmission is black it is what is below:
@@ -44,7 +44,7 @@ struct Material {
   double roughness = 1.0;
   Rgb emission{0.0}; ///< emitted radiance L, W/m^2/sr; emitted radiosity is E = pi L
   bool throws_as_mirror =
-      false; ///< what this rough metal throws, pass one carries as an ideal mirror does (smooth_metals.h)
+      false; ///< what this rough metal, or this coat, throws, pass one carries as an ideal mirror does (smooth_surfaces.h)
   bool double_sided =
       false; ///< false: the front reflects, emits and mirrors, the back is opaque and black
   double ior = 1.5;
@@ -72,6 +72,9 @@ Rgb mirror_reflectance(const Material& material);
 
 /// In pass one: an ideal mirror, or a metal that throws light as one.
 bool is_mirror(const Material& material);
+
+/// In pass one: diffuse below a coat that is an ideal mirror by Schlick's R(cos).
+bool has_mirror_coat(const Material& material);
 bool is_emitter(const Material& material);
 
 /// A metal too rough for an ideal mirror, or with a texture that says where it is smooth and metal.

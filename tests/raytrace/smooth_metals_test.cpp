@@ -1,5 +1,5 @@
 // Flat metals that are nearly mirrors: mirrors in pass one, lobes in the picture.
-#include "scenes/smooth_metals.h"
+#include "scenes/smooth_surfaces.h"
 #include "tests/raytrace/pictures.h"
 #include "tests/support/metals.h"
 #include "tests/support/rooms.h"
@@ -20,7 +20,7 @@ PassOneSettings coarse() {
 /// The mean of a picture under a sky of radiance 1.
 double mean_under_sky(Scene scene, const Camera& camera, int samples) {
   scene.background = Rgb(1.0);
-  mark_smooth_metals(scene);
+  mark_smooth_surfaces(scene);
   RenderSettings settings;
   settings.width = settings.height = 8;
   settings.samples = samples;
@@ -38,7 +38,7 @@ TEST(SmoothMetalPictures, PassOneIsThatOfTheMirror) {
     if (is_mirror(material))
       material.roughness = 0.1;
   Scene even = smooth;
-  mark_smooth_metals(smooth);
+  mark_smooth_surfaces(smooth);
   const auto light_of = [](const Scene& scene) {
     return lit_up(scene, coarse()).solution.field.irradiance;
   };
@@ -106,7 +106,7 @@ TEST(SmoothMetalPictures, LampsBehindALobeAreCountedOnce) {
   for (const bool with_lamp : {true, false}) {
     const Scene even = floor_and_wall(with_lamp);
     Scene smooth = even;
-    mark_smooth_metals(smooth);
+    mark_smooth_surfaces(smooth);
     ASSERT_TRUE(is_mirror(smooth.materials[0]) && is_mirror(smooth.materials[1]));
     const double wanted = mean_of(even);
     // What facets spread, a hundredth of the light and less, is in the lobe of the one and even in the other.

@@ -1,6 +1,8 @@
 // The two passes against paths, where light goes by glass and gloss: two programs that share the materials and nothing else.
 #include "raytrace/two_pass.h"
+#include "scenes/smooth_surfaces.h"
 #include "tests/reference/tracing.h"
+#include "tests/support/coats.h"
 #include "tests/support/glass_rooms.h"
 
 #include <gtest/gtest.h>
@@ -82,6 +84,23 @@ TEST(TwoPasses, AgreeWithPathsThroughSolids) {
       scene, {{"through two opposite faces", {0.7, 0.8, 1.9}, {1.1, 0.6, 1.2}},
               {"through two that meet, by total reflection", {0.2, 0.9, 1.9}, {1.2, 0.5, 1.2}},
               {"from above", {0.9, 1.9, 1.3}, {1.0, 1.1, 0.9}}});
+}
+
+TEST(TwoPasses, AgreeWithPathsOverAPolishedFloor) {
+  // The lamp shines on the floor alone, so that all of the ceiling's light comes from there: a tenth of it by the coat.
+  Scene scene;
+  add_room(scene, {0, 0, 0}, {2, 2, 2},
+           {diffuse(0.2), diffuse(0.2), coated(Rgb(0.1, 0.2, 0.4), 0.0), diffuse(0.2), diffuse(0.2),
+            diffuse(0.2)});
+  add_polygon(scene, "lamp", {{0.3, 1.0, 0.7}, {0.6, 1.0, 0.7}, {0.6, 1.0, 1.3}, {0.3, 1.0, 1.3}},
+              diffuse(Rgb(0.0), Rgb(10.0)));
+  mark_smooth_surfaces(scene);
+  ASSERT_TRUE(has_mirror_coat(scene.materials[2]));
+  expect_agreement(scene,
+                   {{"below the lamp", {1.5, 0.8, 1.0}, {0.5, 0.0, 1.0}},
+                    {"the floor far from it", {0.9, 0.9, 1.2}, {1.9, 0.0, 1.2}},
+                    {"the image of the lamp on the ceiling", {1.0, 1.5, 1.0}, {0.3, 2.0, 0.9}},
+                    {"the wall, by grazing light", {1.0, 1.5, 1.0}, {2.0, 0.5, 0.9}}});
 }
 
 TEST(TwoPasses, AgreeWithPathsOnGlossUnderALamp) {

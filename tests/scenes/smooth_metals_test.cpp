@@ -1,5 +1,5 @@
 // Which rough metals pass one takes for mirrors.
-#include "scenes/smooth_metals.h"
+#include "scenes/smooth_surfaces.h"
 #include "tests/support/metals.h"
 #include "tests/support/scene_builder.h"
 
@@ -18,7 +18,7 @@ Scene plate_of(const Material& material) {
 }
 
 bool throws_as_mirror(Scene scene) {
-  mark_smooth_metals(scene);
+  mark_smooth_surfaces(scene);
   return scene.materials[0].throws_as_mirror;
 }
 

@@ -1,0 +1,85 @@
+// The rays of one step of gathering (gather_rays.h), lane by lane of a packet: from the receiver, from where something has shot them, or from mirrors.
+//
+// All say the weight of lane k, its throughput and its world, and all that it carries.
+#pragma once
+
+#include "radiosity/gather_rays.h"
+
+namespace meninas {
+
+/// What a ray carries besides its geometry.
+struct Carried {
+  glm::dvec3 origin, direction;
+  float weight;
+  glm::vec3 throughput;
+  WorldId world;
+  std::uint32_t number;
+  std::uint32_t meetings = 0;
+  int reflections = 0;
+};
+
+/// Rays straight from the receiver are what their packet says, `Weights` of lane k and what the receiver's coat lets in of it.
+template <typename Weights, typename LetIn>
+struct FirstLegs {
+  const RayPacket& packet;
+  Weights weights;
+  LetIn let_in;
+  std::uint32_t first; ///< number of lane 0
+
+  constexpr float weight(std::uint32_t k) const { return weights(k); }
+  constexpr glm::vec3 throughput(std::uint32_t k) const { return let_in(k); }
+  static constexpr WorldId world(std::uint32_t) { return real_world; }
+  Carried carried(std::uint32_t k) const {
+    return {{packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]},
+            {packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]},
+            weight(k),
+            throughput(k),
+            real_world,
+            first + k};
+  }
+};
+
+/// The rays of a net weigh 1, those of a hemicube as much as their cells.
+constexpr auto weights_of(const NetPacket&) {
+  return [](std::uint32_t) { return 1.0F; };
+}
+inline auto weights_of(const HemicubePacket& cells) {
+  return [&cells](std::uint32_t k) { return cells.weight[k]; };
+}
+inline std::size_t ray_count(const DirectionNet& net) { return net.points.size(); }
+inline std::size_t ray_count(const Hemicube& cube) { return cube.cells; }
+
+/// Rays that left with light of their own.
+struct LitLegs {
+  const LitPacket& packet;
+  std::uint32_t first;
+
+  static constexpr float weight(std::uint32_t) { return 1.0F; }
+  const glm::vec3& throughput(std::uint32_t k) const { return packet.light[k]; }
+  static constexpr WorldId world(std::uint32_t) { return real_world; }
+  Carried carried(std::uint32_t k) const {
+    const RayPacket& rays = packet.rays;
+    return {{rays.origin_x[k], rays.origin_y[k], rays.origin_z[k]},
+            {rays.direction_x[k], rays.direction_y[k], rays.direction_z[k]},
+            1.0F,
+            packet.light[k],
+            real_world,
+            first + k};
+  }
+};
+
+/// Rays from mirrors have their record.
+struct MirroredLegs {
+  const MirroredRay* rays;
+
+  float weight(std::uint32_t k) const { return rays[k].weight; }
+  const glm::vec3& throughput(std::uint32_t k) const { return rays[k].throughput; }
+  WorldId world(std::uint32_t k) const { return rays[k].world; }
+  Carried carried(std::uint32_t k) const {
+    const MirroredRay& ray = rays[k];
+    return {ray.origin, ray.direction, ray.weight,   ray.throughput,
+            ray.world,  ray.number,    ray.meetings, ray.reflections};
+  }
+};
+
+} // namespace meninas
