@@ -90,7 +90,7 @@ struct RenderContext {
   std::vector<std::uint32_t> net_x, net_y; ///< stratified points of the pixel, as integers
   const PixelMask* chosen = nullptr;       ///< pixels of the picture to be traced; null: all
   const FilterPlaces* filter = nullptr;    ///< null: the box, whose points are where they are
-  double footprint_samples = 1.0;          ///< that share a pixel in all parts of the picture
+  double footprint_samples = 1.0;          ///< that share a pixel: these and those before
   std::uint32_t first_sample = 0;          ///< number of the first of these points
   std::vector<Bsdf>
       bsdfs; ///< by MaterialId, of those with lobes and without textures; empty where none has lobes

@@ -1,7 +1,6 @@
 #include "raytrace/tiles.h"
 
 #include "raytrace/pixel_samples.h"
-#include "raytrace/sample_choice.h"
 #include "raytrace/specular_paths.h"
 #include "scenes/lobes.h"
 
@@ -68,7 +67,7 @@ static RenderContext context_of(const LightScene& light, const VisibleLight& vis
                         pixel_net(share.samples, 1),
                         share.pixels,
                         settings.filter == PixelFilter::box ? nullptr : &places,
-                        static_cast<double>(first_samples(settings).count),
+                        static_cast<double>(share.samples.first + share.samples.count),
                         static_cast<std::uint32_t>(share.samples.first),
                         {},
                         {},

@@ -34,12 +34,14 @@ Scene floor_with(const Texture& texture, const std::string& name = "floor") {
   return scene;
 }
 
-Image seen(const Scene& scene, const Camera& camera, int size, int samples = 1) {
+Image seen(const Scene& scene, const Camera& camera, int size, int samples = 1,
+           double pixel_error = 0.0) {
   TwoPassSettings settings;
   settings.pass_one.mesh.element_size = 0.5;
   settings.pass_one.form_factors.rays = settings.pass_one.interpolation.rays = 16;
   settings.render.width = settings.render.height = size;
   settings.render.samples = samples;
+  settings.render.pixel_error = pixel_error;
   const auto prepared = prepare_scene(scene, settings.pass_one);
   return two_pass(*prepared, camera, settings).rendering.image;
 }
@@ -84,6 +86,16 @@ TEST(Footprint, MoreSamplesAreSharper) {
   // Between squares of eight texels a look-up rises over one: each axis loses a quarter texel at either side.
   EXPECT_NEAR(contrast(64), std::pow(1.0 - 0.5 / 8.0, 2.0), 0.02);
   EXPECT_GT(contrast(64), contrast(1));
+}
+
+TEST(Footprint, WhereSamplesAreChosenTheLaterOnesAreSharperToo) {
+  // Footprints half a pixel wide, of four samples, blur the squares by 0.17 more than those of 64, and of 16 by 0.07. Of 64 samples in rounds four have the
+  // former and twelve the latter: 0.024 in all. It was 0.17, with the first samples' footprint for all.
+  const Scene scene = floor_with(pattern(16, false));
+  const Image at_once = seen(scene, above(), 16, 64), chosen = seen(scene, above(), 16, 64, 1e-6);
+  for (int y = 1; y < 15; ++y)
+    for (int x = 1; x < 15; ++x)
+      EXPECT_NEAR(chosen.at(x, y).g, at_once.at(x, y).g, 0.03 * reflectance) << x << " " << y;
 }
 
 TEST(Footprint, InAMirrorItIsThatOfTheUnfoldedWay) {
