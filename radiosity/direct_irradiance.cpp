@@ -170,6 +170,17 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
   chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
                 work.lights);
   ArrivingLight sum = images_irradiance(light, receiver, settings, seed, work);
+  if (has_solid_light(light)) {
+    const SolidLight refracted =
+        solid_light(light,
+                    {{&receiver.position, 1},
+                     receiver.normal,
+                     receiver.plane_class,
+                     receiver.tangent,
+                     receiver.coat},
+                    settings.solid_rays, seed, work.shadow_rays, work.solids);
+    sum = sum + ArrivingLight{refracted.total, refracted.mirrored, Rgb(0.0)};
+  }
   if (light.punctual.empty())
     return sum;
   std::vector<PunctualArrival> arrivals;

@@ -4,13 +4,14 @@
 //
 // F is Lambert's closed form for a point and a polygon, V the visible fraction: low-discrepancy points on the clipped image, weighted by
 // the cosines and distance of the form factor they stand for, each tested along every leg of the folded path. Few points where all
-// agree, more in penumbrae; glass and coats on the legs take their part of each. Punctual lights, and their images, add I f cos / d^2 where the one segment to them is free.
+// agree, more in penumbrae; panes and coats on the legs take their part of each, and what emitters send by way of solids is added (solid_light.h). Punctual lights, and their images, add I f cos / d^2 where the one segment to them is free.
 #pragma once
 
 #include "mirror/light_choice.h"
 #include "mirror/punctual_images.h"
 #include "radiosity/form_factors.h"
 #include "radiosity/shadow_legs.h"
+#include "radiosity/solid_light.h"
 
 namespace meninas {
 
@@ -25,6 +26,8 @@ struct DirectSettings {
   int images =
       256; ///< emitter images computed at a point; of more, a choice (mirror/light_choice.h)
   int images_in_element = 32; ///< likewise, at each of an element's many points
+  int solid_rays = 256; ///< to a body of solid glass that fills the hemisphere, at a point (solid_light.h)
+  int solid_rays_in_element = 128; ///< likewise, of all of an element's points together
   std::uint32_t seed = 0;
 };
 
@@ -52,7 +55,8 @@ struct DirectWorkspace {
   SeenWorlds seen;                  ///< for punctual lights
   std::vector<PunctualImage> images;
   std::array<FoldedSegment, 16> folded; ///< sixteen segments at a time
-  std::uint64_t shadow_rays = 0;
+  SolidWorkspace solids;
+  std::uint64_t shadow_rays = 0; ///< those that look for lamps behind solids as well
 };
 
 /// Irradiance, and the parts of it whose last leg came by way of mirrors, and that punctual lights sent.

@@ -34,7 +34,8 @@ ArrivingLight direct_irradiance(const LightScene& light, ElementId element, Cove
                            {.points = settings.points,
                             .most_points = settings.most_points,
                             .images = settings.images_in_element,
-                            .rays = settings.rays_in_element},
+                            .rays = settings.rays_in_element,
+                            .solid_rays = settings.solid_rays_in_element},
                            seed, work);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "radiosity/gather_rays.h"
+#include "radiosity/solid_paths.h"
 
 namespace meninas {
 
@@ -16,6 +17,7 @@ struct Carried {
   std::uint32_t number;
   std::uint32_t meetings = 0;
   int reflections = 0;
+  MaterialId medium = none<MaterialId>;
 };
 
 /// Rays straight from the receiver are what their packet says, `Weights` of lane k and what the receiver's coat lets in of it.
@@ -29,6 +31,7 @@ struct FirstLegs {
   constexpr float weight(std::uint32_t k) const { return weights(k); }
   constexpr glm::vec3 throughput(std::uint32_t k) const { return let_in(k); }
   static constexpr WorldId world(std::uint32_t) { return real_world; }
+  static constexpr MaterialId medium(std::uint32_t) { return none<MaterialId>; }
   Carried carried(std::uint32_t k) const {
     return {{packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]},
             {packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]},
@@ -57,6 +60,7 @@ struct LitLegs {
   static constexpr float weight(std::uint32_t) { return 1.0F; }
   const glm::vec3& throughput(std::uint32_t k) const { return packet.light[k]; }
   static constexpr WorldId world(std::uint32_t) { return real_world; }
+  static constexpr MaterialId medium(std::uint32_t) { return none<MaterialId>; }
   Carried carried(std::uint32_t k) const {
     const RayPacket& rays = packet.rays;
     return {{rays.origin_x[k], rays.origin_y[k], rays.origin_z[k]},
@@ -75,11 +79,23 @@ struct MirroredLegs {
   float weight(std::uint32_t k) const { return rays[k].weight; }
   const glm::vec3& throughput(std::uint32_t k) const { return rays[k].throughput; }
   WorldId world(std::uint32_t k) const { return rays[k].world; }
+  MaterialId medium(std::uint32_t k) const { return rays[k].medium; }
   Carried carried(std::uint32_t k) const {
     const MirroredRay& ray = rays[k];
-    return {ray.origin, ray.direction, ray.weight,   ray.throughput,
-            ray.world,  ray.number,    ray.meetings, ray.reflections};
+    return {ray.origin, ray.direction, ray.weight,      ray.throughput, ray.world,
+            ray.number, ray.meetings,  ray.reflections, ray.medium};
   }
 };
+
+/// What a leg that has ended in lane k leaves of the light on it.
+template <typename Legs>
+glm::vec3 left_on_leg(const LightScene& light, const Legs& legs, const HitPacket& hits,
+                      std::uint32_t k) {
+  const Vec3 direction = legs.carried(k).direction;
+  const double metres =
+      double{hits.distance[k]} * glm::length(direction) / light.rays.frame().scale;
+  return left_by_solid(light, TriangleId{hits.triangle[k]}, hits.front[k] != 0, legs.medium(k),
+                       metres);
+}
 
 } // namespace meninas

@@ -29,6 +29,10 @@ MirrorShares mirror_shares(const LightScene& light, const FaceRecord& face, cons
     return {facet_reflectance(coat_of(light, triangle), cosine), glm::vec3(0.0F)};
   if (!face.glass)
     return {face.reflectance, glm::vec3(0.0F)};
+  if (face.solid) {
+    const Bsdf solid = solid_face(light, triangle, {hits.b1[k], hits.b2[k]}, hits.front[k] != 0);
+    return {facet_reflectance(solid, cosine), facet_transmittance(solid, cosine)};
+  }
   const Bsdf glass =
       is_textured(material_of(light.scene, triangle)) || has_vertex_colors(light.scene, triangle)
           ? glass_at(light.scene, light.textures, triangle, {hits.b1[k], hits.b2[k]})
@@ -55,23 +59,46 @@ Meeting meeting_of(const LightScene& light, const FaceRecord& face, const HitPac
           mirror_shares(light, face, hits, k, cosine)};
 }
 
-/// The ray that goes on: behind a mirror, or one of the two ways from glass, which stays in its world if it is passed.
-MirroredRay going_on(const LightScene& light, const FaceRecord& face, const Carried& from,
-                     const Meeting& at, std::uint32_t seed) {
-  MirroredRay ray{at.position,      from.direction, from.weight,       from.throughput, from.world,
-                  face.plane_class, from.number,    from.meetings + 1, from.reflections};
+WorldId reflected_world(const LightScene& light, const FaceRecord& face, const Carried& from) {
+  if (face.solid)
+    return world_from_solid(from.world, from.meetings == 0, true);
+  return is_by_solids(from.world) ? off_solids : child(light.worlds, from.world, face.mirror);
+}
+
+/// Sends a ray on through a face, straight or as its solid bends it; not if it cannot be.
+bool pass(const LightScene& light, const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
+          const Carried& from, MirroredRay& ray) {
+  if (!face.solid)
+    return true;
+  const TriangleId triangle{hits.triangle[k]};
+  const bool front = hits.front[k] != 0;
+  const auto behind = refracted(light, triangle, front, face.normal, from.direction);
+  if (!behind)
+    return false;
+  ray.direction = *behind;
+  ray.medium = medium_behind(light, triangle, front);
+  ray.world = world_from_solid(from.world, from.meetings == 0, false);
+  return true;
+}
+
+/// The ray that goes on: behind a mirror, or one of the two ways from glass, which stays in its world if it passes a pane.
+MirroredRay going_on(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
+                     std::uint32_t k, const Carried& from, const Meeting& at, std::uint32_t seed) {
+  MirroredRay ray{at.position, from.direction,   from.weight, from.throughput,   from.world,
+                  from.medium, face.plane_class, from.number, from.meetings + 1, from.reflections};
   float chance = 1.0F;
   if (face.glass) {
     const float reflected = largest(at.shares.reflected), passed = largest(at.shares.passed);
     chance = reflected + passed > 0.0F ? reflected / (reflected + passed) : 0.0F;
-    if (sobol4(from.number, hash(seed, from.meetings, 0x91a55))[0] >= chance) {
+    if (sobol4(from.number, hash(seed, from.meetings, 0x91a55))[0] >= chance &&
+        pass(light, face, hits, k, from, ray)) {
       ray.throughput *= at.shares.passed / (1.0F - chance);
       return ray;
     }
   }
   ray.direction = from.direction - 2.0 * at.approach * face.normal;
   ray.throughput *= chance == 1.0F ? at.shares.reflected : at.shares.reflected / chance;
-  ray.world = child(light.worlds, from.world, face.mirror);
+  ray.world = reflected_world(light, face, from);
   ++ray.reflections;
   return ray;
 }
@@ -91,7 +118,8 @@ std::optional<MirroredRay> meet_coat(const LightScene& light, const FaceRecord& 
                      from.direction - 2.0 * at.approach * face.normal,
                      from.weight,
                      from.throughput * at.shares.reflected / chance,
-                     child(light.worlds, from.world, face.mirror),
+                     reflected_world(light, face, from),
+                     from.medium,
                      face.plane_class,
                      from.number,
                      from.meetings + 1,
@@ -127,43 +155,52 @@ void add(const Ends& ends, GatheredRays& result) {
   result.cut_light += ends.cut_light;
 }
 
+RayLanding& note_landing(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
+                         std::uint32_t k, GatherWorkspace& work) {
+  const glm::vec2 uv = landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
+  RayLanding& landing = work.result.landings.emplace_back();
+  landing.element = land(light.landing, face.side, uv).element;
+  return landing;
+}
+
 /// Sorts the hits of a packet into landings, ends and rays that go on behind a mirror. Returns the lanes that met a black back.
 template <typename Legs>
 std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& settings,
                         const Legs& legs, std::uint32_t count, const HitPacket& hits,
                         GatherWorkspace& work) {
   Ends ends;
-  const auto follow = [&](float weight, const MirroredRay& ray) {
+  const auto follow = [&](const FaceRecord& face, float weight, const MirroredRay& ray) {
     if (largest(ray.throughput) >= settings.min_throughput &&
-        ray.reflections <= settings.max_bounces)
+        ray.reflections <= settings.max_bounces && !(face.solid && ray.meetings > most_meetings))
       work.next.push_back(ray);
     else
       ends.stop(weight, ray.throughput);
   };
   for (std::uint32_t k = 0; k < count; ++k) {
     const float weight = legs.weight(k);
-    const glm::vec3 tau = legs.throughput(k);
+    glm::vec3 tau = legs.throughput(k);
     if (hits.triangle[k] == index(none<TriangleId>)) {
       ends.escape(weight, tau);
       continue;
     }
     const FaceRecord& face =
         light.landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
+    if (legs.medium(k) != none<MaterialId> || (face.solid && hits.front[k] == 0))
+      tau *= left_on_leg(light, legs, hits, k);
     if (face.side != FaceRecord::nothing) {
-      const glm::vec2 uv =
-          landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
-      RayLanding& landing = work.result.landings.emplace_back();
-      landing.element = land(light.landing, face.side, uv).element;
-      landing.world = legs.world(k);
-      landing.light = weight * tau;
+      note_landing(light, face, hits, k, work).light = weight * tau;
+      work.result.landings.back().world = legs.world(k);
+      if (work.counts_rays)
+        work.numbers.push_back(legs.carried(k).number);
     }
     if (face.mirrors) {
-      const Carried from = legs.carried(k);
+      Carried from = legs.carried(k);
+      from.throughput = tau;
       const Meeting at = meeting_of(light, face, hits, k, from);
       // What the surface keeps or scatters besides is no loss of the mirror's.
       if (face.side != FaceRecord::nothing)
         ends.mirror_absorbed -= weight * tau * (1.0F - at.shares.reflected - at.shares.passed);
-      follow(weight, going_on(light, face, from, at, work.seed));
+      follow(face, weight, going_on(light, face, hits, k, from, at, work.seed));
       continue;
     }
     if (face.coat) [[unlikely]] {
@@ -172,7 +209,7 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
       if (const auto ray = meet_coat(light, face, hits, k, legs.carried(k), work.seed, landing)) {
         // The surface has all of the light, and what is reflected is on its way.
         ends.mirror_absorbed -= weight * (tau - ray->throughput);
-        follow(weight, *ray);
+        follow(face, weight, *ray);
         continue;
       }
     }
@@ -299,6 +336,29 @@ void follow_light(const LightScene& light, std::span<const LitPacket> packets, s
   }
   follow_mirrors(light, settings, work);
   work.result.mirror_absorbed = glm::vec3(0.0F);
+}
+
+void follow_into(const LightScene& light, std::uint32_t body, std::span<const LitPacket> packets,
+                 std::uint32_t seed, const FormFactorSettings& settings, GatherWorkspace& work) {
+  work.result.clear();
+  work.next.clear();
+  work.numbers.clear();
+  work.counts_rays = true;
+  work.seed = seed;
+  HitPacket hits;
+  for (std::uint32_t n = 0; n < packets.size(); ++n) {
+    const LitPacket& packet = packets[n];
+    closest_hits(light.rays, packet.rays, hits, Backs::absorb, Coherence::coherent);
+    for (std::uint32_t k = 0; k < packet.rays.count; ++k) // what goes elsewhere is not followed
+      if (hits.triangle[k] != index(none<TriangleId>) &&
+          light.solids.body_of_triangle[hits.triangle[k]] != body)
+        hits.triangle[k] = index(none<TriangleId>);
+    const LitLegs legs{packet, n * std::uint32_t{packet_size}};
+    sort_hits(light, settings, legs, packet.rays.count, hits, work);
+    work.result.traced += packet.rays.count;
+  }
+  follow_mirrors(light, settings, work);
+  work.counts_rays = false;
 }
 
 Covered covered_part(const LightScene& light, const DirectionNet& net, const ReceiverArea& receiver,

@@ -4,7 +4,7 @@
 // weights are 1 in the mean, so that `rays` stands for the whole hemisphere in either case.
 //
 // Where glass reflects R and passes T of its light, a ray goes either way: on by reflection with chance p = max R / (max R + max T) and R / p of its
-// light, else straight through with T / (1 - p) of it (max over the channels). So rays remain as many as they were, however many panes there are, and each ends once. The
+// light, else through with T / (1 - p) of it (max over the channels): straight through a pane, bent by the face of a solid (solid_paths.h). So rays remain as many as they were, however many panes there are, and each ends once. The
 // numbers that decide are low-discrepancy over the receiver's rays.
 //
 // On a surface below a coat that is a mirror (scenes/smooth_surfaces.h) a ray lands, with (1 - R) / (1 - R_mean) of its light, since the coat lets out
@@ -15,6 +15,7 @@
 #include "radiosity/form_factors.h"
 #include "radiosity/hemicube.h"
 #include "radiosity/receiver_rays.h"
+#include "radiosity/solid_paths.h"
 
 #include <span>
 #include <utility>
@@ -23,7 +24,7 @@ namespace meninas {
 
 struct RayLanding {
   std::uint32_t element;
-  WorldId world;   ///< none beyond the enumerated worlds
+  WorldId world;   ///< none beyond the enumerated worlds; by way of solids one of solid_paths.h
   glm::vec3 light; ///< weight times tau, the product of the mirrors' reflectances
 };
 
@@ -64,6 +65,7 @@ struct MirroredRay {
   float weight;
   glm::vec3 throughput;
   WorldId world;
+  MaterialId medium = none<MaterialId>; ///< the solid that it was refracted into
   std::uint32_t leaving;
   std::uint32_t number;   ///< among the rays of its receiver
   std::uint32_t meetings; ///< with mirrors and glass, so far
@@ -73,6 +75,8 @@ struct MirroredRay {
 struct GatherWorkspace {
   GatheredRays result;
   std::uint32_t seed = 0; ///< of what glass does with its rays
+  bool counts_rays = false;
+  std::vector<std::uint32_t> numbers; ///< by landing, that of the ray, where they are asked for
   std::vector<std::uint32_t>
       black_lanes; ///< by packet of the net: the rays that met a black back at once
   std::vector<MirroredRay> current, next;
@@ -97,6 +101,11 @@ struct LitPacket {
 /// What mirrors absorb is not counted.
 void follow_light(const LightScene& light, std::span<const LitPacket> packets, std::uint32_t seed,
                   const FormFactorSettings& settings, GatherWorkspace& workspace);
+
+/// The same for those alone of the rays that meet a face of a solid body first; the others count as escaped. Fills `numbers`. All packets but the last are full.
+void follow_into(const LightScene& light, std::uint32_t body, std::span<const LitPacket> packets,
+                 std::uint32_t seed, const FormFactorSettings& settings,
+                 GatherWorkspace& workspace);
 
 /// The part of the receiver on which something stands, by the first legs of the net.
 Covered covered_part(const LightScene& light, const DirectionNet& net, const ReceiverArea& receiver,

@@ -54,6 +54,7 @@ static FaceRecord make_face(const Scene& scene, const SurfaceModel& model, const
 
   face.side = index(mesh.sides_of_patch[index(patch_id)][static_cast<std::size_t>(facing)]);
   face.glass = is_glass(material);
+  face.solid = is_solid_glass(material);
   face.mirrors = is_mirror(material) || face.glass;
   face.coat = has_mirror_coat(material);
   face.mirror = mirrors.mirror_of_surface[index(patch.surface)][static_cast<std::size_t>(facing)];

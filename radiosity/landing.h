@@ -32,6 +32,7 @@ struct FaceRecord {
   glm::vec2 widening{0.0F};       ///< of a bilinear map: (x, y) = (u, v) + u v widening
   glm::vec3 reflectance{1.0F};    ///< of the mirror, where it is not glass
   bool glass = false;
+  bool solid = false; ///< and the surface of a solid
   glm::dvec3 normal{0.0};    ///< towards this face
   double frame_offset = 0.0; ///< of its plane in the frame of the ray scene
 };

@@ -27,15 +27,18 @@ void punctual_arrivals(const LightScene& light, const Receiver& receiver, Direct
            work.images[first + count].position, none<PlaneId>, work.folded[count]);
       ++count;
     }
-    const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
+    // No ray meets what has no extent: solids let it pass straight.
+    const std::uint32_t dark =
+        blocked(light, work.folded, count, work.shadow_rays, nullptr, Solids::sheets);
     for (std::uint32_t k = 0; k < count; ++k) {
       if (((dark >> k) & 1U) != 0)
         continue;
       const PunctualImage& image = work.images[first + k];
-      arrivals.push_back({glm::normalize(image.position - receiver.position),
-                          light.worlds.worlds[index(world)].throughput * image.irradiance *
-                              left_between(light, end_of(receiver), {}, work.folded[k]),
-                          world});
+      arrivals.push_back(
+          {glm::normalize(image.position - receiver.position),
+           light.worlds.worlds[index(world)].throughput * image.irradiance *
+               left_between(light, end_of(receiver), {}, work.folded[k], Solids::sheets),
+           world});
     }
     first += count;
   }
@@ -71,8 +74,7 @@ void emission_samples(const LightScene& light, const Receiver& receiver,
         light.worlds.worlds[index(image.world)].throughput * emitter.radiosity / std::numbers::pi;
     for (std::uint32_t k = 0; k < count; ++k)
       if (((dark >> k) & 1U) == 0)
-        samples[begin + k].radiance =
-            radiance * left_by_angle(light, work.folded[k], Solids::opaque);
+        samples[begin + k].radiance = radiance * left_by_angle(light, work.folded[k]);
   }
 }
 

@@ -94,7 +94,8 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    std::numbers::pi * scene.background,
                    reflecting_by_angle(scene),
                    std::ranges::any_of(scene.materials, is_glass),
-                   cut_out_mirrors(surfaces, rays, mirrors)};
+                   cut_out_mirrors(surfaces, rays, mirrors),
+                   find_solid_bodies(scene, frame)};
   light.from_source.assign(mesh.sides.size(), 0);
 
   double area = 0.0, emitting_area = 0.0;

@@ -9,6 +9,7 @@
 #include "mirror/virtual_lights.h"
 #include "radiosity/element_mesh.h"
 #include "radiosity/landing.h"
+#include "radiosity/solid_bodies.h"
 #include "scenes/lobes.h"
 #include "scenes/ray_scene.h"
 #include "scenes/texture_lookup.h"
@@ -38,6 +39,7 @@ struct LightScene {
       by_angle; ///< by MaterialId, clear glass and coats that are mirrors (scenes/lobes.h), without textures; empty where there are none
   bool has_glass = false;
   std::vector<std::uint8_t> cut_out_mirrors; ///< by MirrorId (mirror_holes.h); empty where there is none
+  SolidBodies solids;
 };
 
 /// Whether mirrors and glass treat all channels alike: transport needs but one band.

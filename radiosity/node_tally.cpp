@@ -93,9 +93,9 @@ std::vector<ExtendedFactor> node_factors_of(const NodeScene& scene,
       values[k] = value;
     }
   for (const auto& [key, values] : by_world) {
-    // Worlds beyond the enumerated ones have no chain to be told by: they are in the total alone.
+    // Worlds beyond the enumerated ones, and what is behind solids, have no chain to be told by: they are in the total alone.
     const auto world = static_cast<WorldId>(key.second);
-    if (world == none<WorldId>)
+    if (world == none<WorldId> || is_by_solids(world))
       continue;
     const Rgb& throughput = scene.worlds.worlds[key.second].throughput;
     factors[key.first].worlds.push_back(

@@ -177,6 +177,13 @@ void warn_of_lights(const Scene& scene, TransportPlan& plan) {
                             "mirror worlds alone: what "
                             "small mirrors or longer chains of mirrors would throw is left out");
   }
+  const auto solids =
+      names_where(materials_where(scene, [](TriangleId) { return true; }), is_solid_glass);
+  if (!scene.lights.empty() && !solids.empty()) {
+    plan.warnings.push_back("solid glass does not bend the light of point, spot and directional "
+                            "lights: to that its faces are sheets, passed straight: " +
+                            quoted(solids));
+  }
 }
 
 void warn_of_materials(const std::vector<const Material*>& materials, TransportPlan& plan) {
@@ -202,11 +209,6 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
   };
   if (const auto names = names_where(materials, is_rough_solid); !names.empty()) {
     plan.warnings.push_back("solid glass is polished, however rough it is said to be: " +
-                            quoted(names));
-  }
-  if (const auto names = names_where(materials, is_solid_glass); !names.empty()) {
-    plan.warnings.push_back("solid glass bends what is seen through it, but not the light that "
-                            "surfaces receive: for that its faces are sheets, passed straight: " +
                             quoted(names));
   }
   const auto is_textured_mirror = [](const Material& m) { return is_mirror(m) && is_textured(m); };
@@ -255,8 +257,8 @@ void describe_lobes(const std::vector<const Material*>& materials,
                      quoted(names));
   }
   if (const auto names = names_where(materials, is_solid_glass); !names.empty()) {
-    stages.push_back("solid glass: refracted in the picture, straight through its faces in pass "
-                     "one: " +
+    stages.push_back("solid glass: refracted by Snell's law in both passes, lamps behind it found "
+                     "by rays of their own: " +
                      quoted(names));
   }
 }

@@ -27,7 +27,7 @@ ArrivingLight landed_light(const PointGathering& gathering, const GatheredRays& 
     if (!owned)
       arrived += Rgb(landing.light) * gathering.reflected[landing.element];
     sum.total += arrived;
-    if (landing.world != real_world)
+    if (landing.world != real_world && landing.world != through_solids)
       sum.mirrored += arrived;
   }
   const Rgb straight = gathering.light.background * gathered.escaped_straight;
@@ -64,7 +64,8 @@ PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosi
                                                                     Rgb(0.0),
                                                                     scene.by_angle,
                                                                     scene.has_glass,
-                                                                    scene.cut_out_mirrors},
+                                                                    scene.cut_out_mirrors,
+                                                                    scene.solids},
       net(make_direction_net(settings.rays)),
       cube(factors.method == FormFactorMethod::hemicube ? make_hemicube(factors.hemicube_resolution)
                                                         : Hemicube{}) {}

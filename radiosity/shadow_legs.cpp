@@ -45,7 +45,7 @@ static std::uint32_t lost_in_holes(const LightScene& light, std::span<const Fold
 
 std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 16>& folded,
                       std::uint32_t count, std::uint64_t& rays,
-                      std::array<LegBlocker, 16>* blockers) {
+                      std::array<LegBlocker, 16>* blockers, Solids solids) {
   const RayFrame& frame = light.rays.frame();
   std::uint32_t result = lost_in_holes(light, std::span(folded).first(count));
   for (std::uint32_t rest = blockers ? result : 0; rest != 0; rest &= rest - 1)
@@ -71,7 +71,7 @@ std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 1
     }
     Blockers triangles;
     const std::uint32_t dark =
-        occluded(light.rays, packet, Coherence::coherent, blockers ? &triangles : nullptr);
+        occluded(light.rays, packet, Coherence::coherent, blockers ? &triangles : nullptr, solids);
     for (std::uint32_t rest = blockers ? dark & ~result : 0; rest != 0; rest &= rest - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(rest));
       (*blockers)[k] = {TriangleId{triangles[k]}, static_cast<std::uint32_t>(step)};
@@ -148,9 +148,9 @@ static Rgb let_through(const LightScene& light, const SegmentEnd& end, const Leg
 }
 
 Rgb left_between(const LightScene& light, const SegmentEnd& receiver, const SegmentEnd& sender,
-                 const FoldedSegment& segment) {
+                 const FoldedSegment& segment, Solids solids) {
   return let_through(light, receiver, segment.legs.front()) *
-         let_through(light, sender, segment.legs.back()) * left_by_angle(light, segment);
+         let_through(light, sender, segment.legs.back()) * left_by_angle(light, segment, solids);
 }
 
 } // namespace meninas

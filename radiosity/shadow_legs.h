@@ -28,17 +28,18 @@ void fold(const LightScene& light, WorldId world, const Point3& x, PlaneId leavi
           PlaneId arriving, FoldedSegment& segment);
 
 /// Tests up to sixteen folded segments, best of about as many legs each; bit k of the result is set where segment k is
-/// blocked, `blockers[k]` by what, or meets a mirror in a hole. Adds to `rays`.
+/// blocked, `blockers[k]` by what, or meets a mirror in a hole. Solids of glass block them: what these bend, rays find (solid_light.h, gather_rays.h); only
+/// for light without extent, which none would meet, each of their faces is a sheet. Adds to `rays`.
 std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 16>& folded,
                       std::uint32_t count, std::uint64_t& rays,
-                      std::array<LegBlocker, 16>* blockers = nullptr);
+                      std::array<LegBlocker, 16>* blockers = nullptr,
+                      Solids solids = Solids::opaque);
 
 /// What glass and coats make of light on a free segment, beside the throughput of its world: the product of what passes each pane at the
 /// angle at which it is crossed, and of what each pane or coat that is a mirror of the world reflects at its angle over the mean that the world's
-/// throughput has for it. 1 where there are none. Solids count as the sheets that their faces are, or, for those whose rays find what is refracted, pass nothing.
-enum class Solids { sheets, opaque };
+/// throughput has for it. 1 where there are none. Solids as in `blocked`.
 Rgb left_by_angle(const LightScene& light, const FoldedSegment& segment,
-                  Solids solids = Solids::sheets);
+                  Solids solids = Solids::opaque);
 
 /// A surface at the end of a segment, and the coat above it where that is a mirror.
 struct SegmentEnd {
@@ -48,6 +49,6 @@ struct SegmentEnd {
 
 /// The same, for light that is sent from below one coat and received below another: each lets through (1 - R(cos)) / (1 - R_mean) (let_out_by_coat).
 Rgb left_between(const LightScene& light, const SegmentEnd& receiver, const SegmentEnd& sender,
-                 const FoldedSegment& segment);
+                 const FoldedSegment& segment, Solids solids = Solids::opaque);
 
 } // namespace meninas

@@ -290,6 +290,17 @@ void add_punctual(const LightScene& light, const Receiver& receiver, PointSum& s
                                      arrival.irradiance};
 }
 
+/// The mean over the points that have been collected, all in the receiver's plane.
+ArrivingLight light_by_solids(const LightScene& light, const Receiver& last, int rays,
+                              std::uint32_t seed, DirectWorkspace& work) {
+  if (!has_solid_light(light))
+    return {};
+  const SolidLight found = solid_light(
+      light, {work.solids.points, last.normal, last.plane_class, last.tangent, last.coat}, rays,
+      seed, work.shadow_rays, work.solids);
+  return {found.total, found.mirrored, Rgb(0.0)};
+}
+
 } // namespace
 
 ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_point,
@@ -298,11 +309,14 @@ ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_p
   work.images.clear();
   work.image_of.clear();
   PointSum sum;
+  auto& solid_points = work.point.solids.points;
+  solid_points.clear();
   Rgb before(0.0);
   int wanted = std::min(settings.points, settings.most_points);
   for (;;) {
     const NumberedPoint next = next_point();
     add_point(light, next, seed, settings, work);
+    solid_points.push_back(next.receiver.position);
     add_punctual(light, next.receiver, sum, work);
     if (++sum.points < wanted)
       continue;
@@ -317,11 +331,13 @@ ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_p
     const bool dark = sum.points >= 2 * settings.points && brightest == 0.0;
     if (settled || dark || sum.points >= settings.most_points) {
       learn(work.images);
+      const ArrivingLight by_solids =
+          light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);
       if (!settings.punctual_everywhere || light.punctual.empty())
-        return mean;
+        return mean + by_solids;
       while (sum.punctual_points < settings.most_points)
         add_punctual(light, next_point().receiver, sum, work);
-      return mean_of(work, sum);
+      return mean_of(work, sum) + by_solids;
     }
     before = mean.total;
     for (ImageSum& image : work.images)

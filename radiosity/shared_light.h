@@ -35,6 +35,7 @@ struct SharedLightSettings {
   int rays = 4;         ///< from each point to an image, to begin with
   int penumbra_rays =
       4; ///< from each of the later points to an image that is seen in part; one goes to others
+  int solid_rays = 256; ///< from all points together to a body of solid glass that fills the hemisphere (solid_light.h)
   double unsure = 0.01;         ///< relative change of the mean by the last doubling
   double unsure_shadow = 0.005; ///< error of the mean by shadow rays, relative
   bool brightest_most =

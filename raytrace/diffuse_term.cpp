@@ -68,6 +68,7 @@ glm::vec3 direct_of_pixel(const LightScene& light, const DiffuseSettings& settin
                                     .images = settings.direct.images,
                                     .rays = settings.shared_shadow_rays,
                                     .penumbra_rays = settings.direct.penumbra_rays,
+                                    .solid_rays = settings.shared_solid_rays,
                                     .unsure = alike,
                                     .unsure_shadow = alike,
                                     .brightest_most = true,

@@ -21,9 +21,11 @@ enum class DiffuseTerm { interpolated, direct, gather };
 
 struct DiffuseSettings {
   DiffuseTerm term = DiffuseTerm::interpolated;
-  DirectSettings direct{.shadow_rays = 16, .penumbra_rays = 64}; ///< at a camera ray's hit
+  DirectSettings direct{
+      .shadow_rays = 16, .penumbra_rays = 64, .solid_rays = 16}; ///< at a camera ray's hit
   /// Where the hits of a pixel share them, to begin with: fewer do, as later hits correct them. A hit by itself believes its first ones.
   int shared_shadow_rays = 16;
+  int shared_solid_rays = 256; ///< of all hits of a pixel together
   FormFactorSettings gather; ///< how the rays of `gather` are followed
   PointGatheringSettings points{.rays = 64, .cluster_shadow_rays = 4}; ///< of `gather`, at a hit
   std::uint32_t draw = 0; ///< another one: other samples at the hits of the same camera rays

@@ -76,7 +76,7 @@ static RenderContext context_of(const LightScene& light, const VisibleLight& vis
   // The rays of a lobe share the pixel: what one of them sees of a shadow, the others see differently.
   context.behind_lobes = settings.diffuse;
   context.behind_lobes.direct.shadow_rays = context.behind_lobes.direct.penumbra_rays = 1;
-  context.behind_lobes.direct.images = 2;
+  context.behind_lobes.direct.images = context.behind_lobes.direct.solid_rays = 2;
   if (std::ranges::any_of(light.scene.materials, has_lobes))
     for (const Material& material : light.scene.materials)
       context.bsdfs.push_back(make_bsdf(material, untextured(material)));

@@ -121,7 +121,7 @@ BsdfSample spread_sample(const Bsdf& bsdf, const Direction& out, const Direction
 
 } // namespace
 
-/// In pass one a solid is taken for two sheets, each of them takes half of what its thickness does.
+/// To the light of punctual lights a solid is two sheets, each of which takes half of what its thickness does.
 static Rgb left_by_half(const Material& material, const MaterialPoint& point) {
   return is_solid_glass(material) ? attenuation(material, 0.5 * point.thickness) : Rgb(1.0);
 }

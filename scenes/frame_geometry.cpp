@@ -72,7 +72,7 @@ FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfac
     const Material& material = material_of(scene, TriangleId{t});
     geometry.facts.push_back({plane, !material.double_sided, sheets[plane],
                               holes && material.alpha_mode == AlphaMode::mask, hidden[t],
-                              is_glass(material)});
+                              is_glass(material), is_solid_glass(material)});
     if (is_glass(material))
       glass.insert(plane);
   }

@@ -13,6 +13,7 @@ struct TriangleFacts {
   bool cut_out = false; ///< it may have holes
   bool hidden = false;  ///< rays meet another one in its place (hidden_copies.h)
   bool glass = false;   ///< it does not occlude
+  bool solid = false;   ///< it is the surface of solid glass
 };
 
 struct FrameNormal {

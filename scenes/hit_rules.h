@@ -48,11 +48,12 @@ inline bool is_hit(const RayRule& rule, const Candidate& candidate) {
   return rule.backs == BackRule::hit || !facts.single_sided || !back;
 }
 
-/// A leg is not blocked by glass, nor in the planes it leaves and arrives at; triangles in whose plane an end lies are left to its contacts.
+/// A leg is not blocked by glass, unless solids are opaque to it, nor in the planes it leaves and arrives at; triangles in whose plane an end lies are left to its contacts.
 struct LegRule {
   const FrameGeometry* geometry = nullptr;
   const RayPacket* packet = nullptr;
   float noise = 0.0F; ///< an end that is not higher than this over a plane lies in it
+  Solids solids = Solids::sheets;
 };
 
 enum class LegHit { blocking, own, touching };
@@ -62,7 +63,8 @@ inline LegHit leg_hit(const LegRule& rule, const Candidate& candidate) {
   const auto plane = facts.plane;
   const auto leaving = rule.packet->leaving[candidate.lane];
   const auto arriving = rule.packet->arriving[candidate.lane];
-  if (plane == leaving || plane == arriving || facts.glass)
+  const bool passed = facts.glass && !(facts.solid && rule.solids == Solids::opaque);
+  if (plane == leaving || plane == arriving || passed)
     return LegHit::own;
 
   // How far the leg climbs from its start to the hit, and from there to its end, over the plane of the triangle

@@ -291,7 +291,7 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
 }
 
 std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence coherence,
-                       Blockers* blockers) {
+                       Blockers* blockers, Solids solids) {
   const auto& impl = rays.impl();
   RTCRay16 traced;
   alignas(64) const auto valid = traceable_lanes(packet);
@@ -301,7 +301,7 @@ std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence 
   rtcInitIntersectContext(&context);
   context.flags = flags_for(coherence);
   context.filter = filter_legs;
-  context.judge = {.rule = {&impl.geometry, &packet, impl.noise}, .blockers = blockers};
+  context.judge = {.rule = {&impl.geometry, &packet, impl.noise, solids}, .blockers = blockers};
   if (blockers)
     blockers->fill(no_index);
   rtcOccluded16(valid.data(), impl.scene.get(), &context, &traced);

@@ -126,8 +126,11 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
 /// The triangle that blocks a ray, by lane: one of those that do; none where what blocks touches an end.
 using Blockers = std::array<std::uint32_t, packet_size>;
 
+/// Whether solids of glass are passed straight, each face like a pane, or let nothing through: for those who find otherwise what they bend.
+enum class Solids { sheets, opaque };
+
 /// Bit k of the result is set where ray k meets something but glass before max_distance.
 std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence coherence,
-                       Blockers* blockers = nullptr);
+                       Blockers* blockers = nullptr, Solids solids = Solids::sheets);
 
 } // namespace meninas

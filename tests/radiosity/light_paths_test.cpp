@@ -134,7 +134,8 @@ INSTANTIATE_TEST_SUITE_P(Gallery, LightPaths,
                          testing::Values(Comparison{"cornell"}, Comparison{"facing-mirrors"},
                                          Comparison{"cornell-mirror", true, 1024, 12},
                                          Comparison{"mirror-spot", true, 4096, 8},
-                                         Comparison{"periscope", true, 1024, 12}),
+                                         Comparison{"periscope", true, 1024, 12},
+                                         Comparison{"glass-solids", true, 1024, 12}),
                          [](const auto& compared) {
                            std::string name = compared.param.scene;
                            std::erase(name, '-');

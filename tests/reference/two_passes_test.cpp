@@ -17,6 +17,7 @@ Rgb seen_by_two_passes(const PreparedScene& prepared, const RadiositySolution& s
   settings.samples = 64;
   settings.glossy_samples = 64;
   settings.diffuse.term = DiffuseTerm::direct;
+  settings.diffuse.shared_solid_rays = 1 << 14;
   return render(field_scene(*prepared.light, solution), solution.field, look_at(eye, target, 1e-4),
                 settings)
       .image.pixels[0];
@@ -101,6 +102,31 @@ TEST(TwoPasses, AgreeWithPathsOverAPolishedFloor) {
                     {"the floor far from it", {0.9, 0.9, 1.2}, {1.9, 0.0, 1.2}},
                     {"the image of the lamp on the ceiling", {1.0, 1.5, 1.0}, {0.3, 2.0, 0.9}},
                     {"the wall, by grazing light", {1.0, 1.5, 1.0}, {2.0, 0.5, 0.9}}});
+}
+
+TEST(TwoPasses, AgreeWithPathsUnderSolids) {
+  // What a prism and a block of glass throw on the floor, where no shadow ray passes them.
+  Scene scene = glazed_room();
+  scene.materials.pop_back();
+  scene.triangles.resize(scene.triangles.size() - 2);
+  Material amber = solid_glass({1.0, 0.9, 0.8});
+  amber.attenuation_color = {0.8, 0.5, 0.2};
+  amber.attenuation_distance = 0.5;
+  add_box(scene, "block", {0.3, 0.1, 0.6}, {0.8, 0.9, 1.1}, amber);
+  const Material clear = solid_glass(Rgb(1.0));
+  const auto at = [](double y, double z, double x) {
+    return Point3(1.2 + 0.4 * x, 0.5 + 0.4 * y, 0.9 + 0.4 * z);
+  };
+  const Point3 a = at(0, 0, 1), b = at(1, 1, 1), c = at(1, 0, 1), d = at(0, 0, 0), e = at(1, 1, 0),
+               f = at(1, 0, 0);
+  add_polygon(scene, "prism", {a, c, b}, clear);
+  add_polygon(scene, "prism", {d, e, f}, clear);
+  add_polygon(scene, "prism", {a, b, e, d}, clear);
+  add_polygon(scene, "prism", {b, c, f, e}, clear);
+  add_polygon(scene, "prism", {c, a, d, f}, clear);
+  expect_agreement(scene, {{"under the block", {1.0, 0.6, 1.9}, {0.55, 0.0, 0.85}},
+                           {"in its shadow", {1.0, 1.2, 1.9}, {0.35, 0.0, 0.5}},
+                           {"under the prism", {1.5, 0.5, 1.9}, {1.45, 0.0, 1.1}}});
 }
 
 TEST(TwoPasses, AgreeWithPathsOnGlossUnderALamp) {
