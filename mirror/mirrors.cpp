@@ -2,9 +2,11 @@
 
 #include "mirror/window.h"
 #include "scenes/lobes.h"
+#include "scenes/smooth_surfaces.h"
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace meninas {
@@ -102,6 +104,10 @@ MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces,
                      return std::pair(b.mirror.is_coat, a.mirror.area) >
                             std::pair(a.mirror.is_coat, b.mirror.area);
                    });
+  const double smallest_coat =
+      least_coat_share *
+      std::accumulate(surfaces.surfaces.begin(), surfaces.surfaces.end(), 0.0,
+                      [](double sum, const Surface& surface) { return sum + surface.area; });
   double total_area = 0.0;
   std::size_t counted = 0;
   for (const auto& candidate : candidates)
@@ -113,8 +119,10 @@ MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces,
   const double least = counted > limit ? settings.smallest_share * total_area : 0.0;
 
   for (auto& candidate : candidates) {
-    const bool too_many = set.mirrors.size() >= limit || candidate.mirror.area < least;
-    if (too_many && !candidate.mirror.is_coat) {
+    const bool is_facet = candidate.mirror.is_coat
+                              ? candidate.mirror.area < smallest_coat
+                              : set.mirrors.size() >= limit || candidate.mirror.area < least;
+    if (is_facet) {
       set.facets += candidate.faces.size();
       continue;
     }

@@ -111,14 +111,16 @@ std::optional<MirroredRay> meet_coat(const LightScene& light, const FaceRecord& 
   if (landing != nullptr)
     landing->light *=
         glm::vec3(let_out_by_coat(coat_of(light, TriangleId{hits.triangle[k]}), at.cosine));
-  const float chance = largest(at.shares.reflected);
+  // Lamps that no closed form owns are met there: by many rays with little light, not by few with all.
+  const WorldId world = reflected_world(light, face, from);
+  const float chance = world == none<WorldId> ? 1.0F : largest(at.shares.reflected);
   if (sobol4(from.number, hash(seed, from.meetings, 0xc0a7))[0] >= chance)
     return std::nullopt;
   return MirroredRay{at.position,
                      from.direction - 2.0 * at.approach * face.normal,
                      from.weight,
                      from.throughput * at.shares.reflected / chance,
-                     reflected_world(light, face, from),
+                     world,
                      from.medium,
                      face.plane_class,
                      from.number,

@@ -8,7 +8,7 @@
 // numbers that decide are low-discrepancy over the receiver's rays.
 //
 // On a surface below a coat that is a mirror (scenes/smooth_surfaces.h) a ray lands, with (1 - R) / (1 - R_mean) of its light, since the coat lets out
-// less at grazing angles, and goes on by reflection with chance max R besides. A coated receiver's own rays leave with as much: F stays reciprocal.
+// less at grazing angles, and goes on by reflection with chance max R besides, beyond the enumerated worlds always and with R of its light. A coated receiver's own rays leave with as much: F stays reciprocal.
 #pragma once
 
 #include "radiosity/covered_cells.h"

@@ -17,7 +17,7 @@ namespace meninas {
 inline constexpr double smooth_metal_roughness = 0.3;
 /// And where the faces of the material lie in more planes than these.
 inline constexpr std::size_t most_smooth_planes = 8;
-/// Of the scene's area, for coats: a table top in a furnished room.
+/// Of the scene's area, for coats, and for each plane of them that is worth mirror worlds: a table top in a furnished room.
 inline constexpr double least_coat_share = 0.005;
 /// Of coats of all materials together, those of the largest areas.
 inline constexpr std::size_t most_coat_planes = 16;

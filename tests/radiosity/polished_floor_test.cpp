@@ -193,5 +193,48 @@ TEST(PolishedFloor, IsLeftToRaysBeyondTheWorlds) {
   expect_alike(by_images, solved(polished_room(), settings));
 }
 
+TEST(PolishedFloor, BringsLittleLightByManyRaysBeyondTheWorlds) {
+  // A lamp that few rays found, each with all of its light, were a blot on the wall.
+  PlanSettings plan;
+  plan.worlds.max_depth = 0;
+  const auto l = lit(polished_room(), coarse().mesh, plan);
+  const DirectionNet net = make_direction_net(256);
+  const std::vector<std::size_t> floor = elements_of(*l, "y0");
+  GatherWorkspace work;
+  double on_floor = 0.0, beyond = 0.0, light = 0.0;
+  for (const std::size_t e : elements_of(*l, "y1")) {
+    gather_rays(*l->light, net, receiver_of(*l->light, static_cast<ElementId>(e)),
+                hash(static_cast<std::uint32_t>(e)), {}, work);
+    for (const RayLanding& landing : work.result.landings) {
+      const bool is_beyond = landing.world == none<WorldId>;
+      beyond += is_beyond ? 1.0 : 0.0;
+      light += is_beyond ? double{landing.light.g} : 0.0;
+      on_floor += !is_beyond && std::ranges::count(floor, landing.element) > 0 ? 1.0 : 0.0;
+    }
+  }
+  // All that meet the floor go on, and end on a wall but for a few on the lamp's black back; R is least straight up.
+  EXPECT_GT(beyond, 0.9 * on_floor);
+  EXPECT_GT(light, 0.04 * beyond);
+  EXPECT_LT(light, 0.15 * beyond);
+}
+
+TEST(PolishedFloor, HasWorldsByLargePlanesAlone) {
+  // A table top of one square metre in a room of 24, and its edges of a fiftieth each.
+  Scene scene = polished_room();
+  add_box(scene, "table", {0.4, 0.5, 0.4}, {1.4, 0.52, 1.4}, diffuse(0.5));
+  const std::size_t table = scene.materials.size() - 6;
+  for (Triangle& triangle : scene.triangles)
+    if (index(triangle.material) > table)
+      triangle.material = static_cast<MaterialId>(table);
+  scene.materials[table] = polished(Rgb(0.4));
+  const auto l = lit(scene, coarse().mesh);
+  // Floor, table top and its lower side.
+  EXPECT_EQ(l->plan.mirrors.mirrors.size(), 3U);
+  EXPECT_EQ(l->plan.mirrors.facets, 4U);
+  // Rays find what the edges throw.
+  const RadiositySolution solution = solve_pass_one(*l->light, coarse());
+  EXPECT_LT(std::abs(solution.energy.imbalance), 0.02);
+}
+
 } // namespace
 } // namespace meninas::test
