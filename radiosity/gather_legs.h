@@ -5,6 +5,7 @@
 
 #include "radiosity/gather_rays.h"
 #include "radiosity/solid_paths.h"
+#include "scenes/lobes.h"
 
 namespace meninas {
 
@@ -41,6 +42,18 @@ struct FirstLegs {
             first + k};
   }
 };
+
+/// What the receiver's coat lets in, by lane.
+inline std::array<glm::vec3, packet_size>
+let_in_by(const Bsdf& coat, const RaySource& source, const RayPacket& packet) {
+  std::array<glm::vec3, packet_size> light{};
+  for (std::uint32_t k = 0; k < packet.count; ++k) {
+    const Vec3 direction(packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]);
+    light[k] = glm::vec3(
+        let_out_by_coat(coat, glm::dot(direction, source.area.normal) / glm::length(direction)));
+  }
+  return light;
+}
 
 /// The rays of a net weigh 1, those of a hemicube as much as their cells.
 constexpr auto weights_of(const NetPacket&) {

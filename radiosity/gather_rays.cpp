@@ -228,18 +228,6 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
   return ends.black_lanes;
 }
 
-/// What the receiver's coat lets in, by lane.
-std::array<glm::vec3, packet_size> let_in_by(const Bsdf& coat, const RaySource& source,
-                                             const RayPacket& packet) {
-  std::array<glm::vec3, packet_size> light{};
-  for (std::uint32_t k = 0; k < packet.count; ++k) {
-    const Vec3 direction(packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]);
-    light[k] = glm::vec3(
-        let_out_by_coat(coat, glm::dot(direction, source.area.normal) / glm::length(direction)));
-  }
-  return light;
-}
-
 /// `Rays`: a DirectionNet or a Hemicube.
 template <typename Rays>
 void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource& source,
