@@ -13,7 +13,8 @@ namespace meninas {
 
 namespace {
 
-/// Surfaces of one plane, one facing and one reflectance are one mirror, of glass and coats those of one material, ideal ones by themselves.
+/// Surfaces of one plane, one facing and one reflectance are one mirror, of glass those of one material, of coats those of one
+/// reflectance by the angle, ideal ones by themselves.
 using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double, MaterialId, bool>;
 
 /// What it reflects in the mean.
@@ -22,6 +23,15 @@ Rgb reflectance_of(const Material& material) {
     return mean_shares(mirror_coat(material)).reflected;
   return is_glass(material) ? mean_shares(clear_glass(material, untextured(material))).reflected
                             : mirror_reflectance(material);
+}
+
+/// The first material whose coat is like that of this one.
+MaterialId first_with_coat_of(const Scene& scene, const Material& material) {
+  const auto alike = std::ranges::find_if(scene.materials, [&](const Material& other) {
+    return has_mirror_coat(other) && other.ior == material.ior &&
+           other.specular == material.specular && other.specular_color == material.specular_color;
+  });
+  return static_cast<MaterialId>(alike - scene.materials.begin());
 }
 
 struct Candidate {
@@ -62,7 +72,9 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
     if (reflectance == Rgb(0.0))
       continue;
     const bool is_coat = has_mirror_coat(material);
-    const MaterialId by_angle = is_glass(material) || is_coat ? surface.material : none<MaterialId>;
+    const MaterialId by_angle = is_coat              ? first_with_coat_of(scene, material)
+                                : is_glass(material) ? surface.material
+                                                     : none<MaterialId>;
     const bool has_width = material.roughness > ideal_mirror_roughness;
     for (int face = 0; face < (material.double_sided ? 2 : 1); ++face) {
       const Plane plane = face == 0 ? surface.plane : flipped(surface.plane);

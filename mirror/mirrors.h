@@ -6,7 +6,7 @@
 //
 // Glass is a mirror on either side whose reflectance depends on the angle (scenes/glass.h), and so is the coat of a polished floor on its front
 // (scenes/smooth_surfaces.h): what is said of them here is the mean over all angles, by which their worlds are judged. Solids have none, rays alone follow
-// what they reflect. What light meets on its way, whoever follows it asks of the glass or the coat itself. Coats come last, and do not count: they are few. Planes of theirs
+// what they reflect. What light meets on its way, whoever follows it asks of the glass or the coat itself. Coats come last, and take no mirror's place. Planes of theirs
 // that are small beside the scene, as the edge of a table top is, are facets.
 #pragma once
 

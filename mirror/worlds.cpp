@@ -87,53 +87,86 @@ std::vector<ConvexPolygon> window_in_world(const MirrorWorld& world, const Mirro
   return window;
 }
 
-WorldTree mirror_worlds(const MirrorSet& mirrors, const WorldSettings& settings) {
+namespace {
+
+struct TreeBuilder {
+  const MirrorSet& mirrors;
+  const WorldSettings& settings;
   WorldTree tree;
-  tree.worlds.emplace_back();
-  OpenParts open(1);
+  OpenParts open;
+
+  bool is_coat(std::size_t m) const { return mirrors.mirrors[m].is_coat; }
+  bool has_coat(WorldId world) const {
+    return std::ranges::any_of(chain_of(tree, world),
+                               [&](MirrorId m) { return is_coat(index(m)); });
+  }
+  void add(MirrorWorld world, std::vector<ConvexPolygon> parts) {
+    tree.worlds.push_back(std::move(world));
+    tree.children.emplace_back(mirrors.mirrors.size(), none<WorldId>);
+    open.push_back(std::move(parts));
+  }
+  void open_child(std::size_t w, std::size_t m, std::size_t most);
+};
+
+/// The world of mirror m in world w, unless it is unseen, faint or the tree has as many as it may.
+void TreeBuilder::open_child(std::size_t w, std::size_t m, std::size_t most) {
+  const MirrorWorld& parent = tree.worlds[w];
+  const Mirror& mirror = mirrors.mirrors[m];
+  if (parent.mirror == static_cast<MirrorId>(m))
+    return;
+  ++tree.considered;
+  const Plane plane = apply(parent.image, mirror.plane);
+  auto window = window_in_world(parent, mirror);
+  auto parts = open_parts(tree, open, static_cast<WorldId>(w), plane, window);
+  if (parts.empty()) {
+    ++tree.pruned_unseen;
+    return;
+  }
+  const Rgb throughput = parent.throughput * mirror.reflectance;
+  const bool faint = largest(throughput) < settings.min_throughput;
+  const bool beyond = parent.depth >= settings.max_depth || tree.worlds.size() > most;
+  if (faint || beyond) {
+    ++(faint ? tree.pruned_throughput : tree.pruned_limit);
+    tree.cut.push_back({static_cast<WorldId>(w), static_cast<MirrorId>(m), throughput});
+    return;
+  }
+  MirrorWorld world{static_cast<WorldId>(w),
+                    static_cast<MirrorId>(m),
+                    parent.depth + 1,
+                    throughput,
+                    compose_reflection(parent.image, mirror.plane),
+                    plane,
+                    std::move(window),
+                    parent.chain};
+  world.chain.push_back(world.mirror);
+  tree.children[w][m] = static_cast<WorldId>(tree.worlds.size());
+  add(std::move(world), std::move(parts));
+}
+
+} // namespace
+
+WorldTree mirror_worlds(const MirrorSet& mirrors, const WorldSettings& settings) {
+  TreeBuilder builder{mirrors, settings, {}, {}};
+  builder.add({}, {});
+  WorldTree& tree = builder.tree;
   const std::size_t mirror_count = mirrors.mirrors.size();
 
   // Breadth first, so that a limit on the number of worlds leaves out the deepest.
-  for (std::size_t w = 0; w < tree.worlds.size(); ++w) {
-    tree.children.emplace_back(mirror_count, none<WorldId>);
-    for (std::size_t m = 0; m < mirror_count; ++m) {
-      const MirrorWorld& parent = tree.worlds[w];
-      const Mirror& mirror = mirrors.mirrors[m];
-      if (parent.mirror == static_cast<MirrorId>(m))
-        continue;
-      ++tree.considered;
+  auto most = static_cast<std::size_t>(settings.max_worlds);
+  for (std::size_t w = 0; w < tree.worlds.size(); ++w)
+    for (std::size_t m = 0; m < mirror_count; ++m)
+      if (!builder.is_coat(m))
+        builder.open_child(w, m, most);
 
-      const Plane plane = apply(parent.image, mirror.plane);
-      auto window = window_in_world(parent, mirror);
-      auto parts = open_parts(tree, open, static_cast<WorldId>(w), plane, window);
-      if (parts.empty()) {
-        ++tree.pruned_unseen;
-        continue;
-      }
-      const Rgb throughput = parent.throughput * mirror.reflectance;
-      const bool faint = largest(throughput) < settings.min_throughput;
-      const bool beyond = parent.depth >= settings.max_depth ||
-                          tree.worlds.size() > static_cast<std::size_t>(settings.max_worlds);
-      if (faint || beyond) {
-        ++(faint ? tree.pruned_throughput : tree.pruned_limit);
-        tree.cut.push_back({static_cast<WorldId>(w), static_cast<MirrorId>(m), throughput});
-        continue;
-      }
-      MirrorWorld world{static_cast<WorldId>(w),
-                        static_cast<MirrorId>(m),
-                        parent.depth + 1,
-                        throughput,
-                        compose_reflection(parent.image, mirror.plane),
-                        plane,
-                        std::move(window),
-                        parent.chain};
-      world.chain.push_back(world.mirror);
-      tree.children[w][m] = static_cast<WorldId>(tree.worlds.size());
-      tree.worlds.push_back(std::move(world));
-      open.push_back(std::move(parts));
-    }
+  // Then those with a coat on their way, which bring less: they take no place from the others.
+  most = tree.worlds.size() - 1 + static_cast<std::size_t>(settings.max_coat_worlds);
+  for (std::size_t w = 0; w < tree.worlds.size(); ++w) {
+    const bool is_new = builder.has_coat(static_cast<WorldId>(w));
+    for (std::size_t m = 0; m < mirror_count; ++m)
+      if (is_new || builder.is_coat(m))
+        builder.open_child(w, m, most);
   }
-  return tree;
+  return std::move(builder.tree);
 }
 
 } // namespace meninas

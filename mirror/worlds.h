@@ -7,7 +7,7 @@
 //
 // The tree holds the worlds worth a closed form. A chain that no straight line can follow through all of its windows is no world. The
 // others are opened breadth first while their throughput is at least `min_throughput`, their depth at most `max_depth` and their
-// number at most `max_worlds`. Those that are not, `cut`, lose nothing: rays go on through mirrors and carry what they throw
+// number at most `max_worlds`; behind them those with a coat in their chain, by a number of their own. Those that are not, `cut`, lose nothing: rays go on through mirrors and carry what they throw
 // (radiosity/world_tail.h says how much that can be).
 #pragma once
 
@@ -25,6 +25,7 @@ struct WorldSettings {
   double min_throughput = 0.01;
   int max_depth = 8;
   int max_worlds = 128;
+  int max_coat_worlds = 32; ///< besides, with a coat in their chain
 };
 
 struct MirrorWorld {

@@ -191,7 +191,8 @@ glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& pack
   const Direction out = local_out(face.normal, glm::normalize(at.direction));
   const bool smooth =
       material_of(context.light.scene, TriangleId{hits.triangle[k]}).throws_as_mirror;
-  // The field stands for what is left out, but it knows nothing of what glass and smooth metals reflect: they are ideal from there on.
+  // The field stands for what is left out, but it knows nothing of what glass, smooth metals and coats that are mirrors reflect: they are ideal from
+  // there on.
   const bool goes_on_ideally = smooth || bsdf.glass > 0.0;
   if (smooth && !has_field)
     bsdf.metal = metal_all_in_lobe(bsdf, out.z);

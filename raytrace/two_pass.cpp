@@ -34,7 +34,9 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
   Stopwatch watch;
 
   // What is there, and which transport it needs; what it does not need is not run.
-  if (settings.form_factors.method == FormFactorMethod::analytic)
+  // Where no mirror is followed, what coats reflect is not lost.
+  if (settings.form_factors.method == FormFactorMethod::analytic ||
+      settings.form_factors.max_bounces == 0)
     spread_coats(prepared->scene);
   prepared->surfaces = find_surfaces(prepared->scene);
   prepared->plan = plan_transport(prepared->scene, prepared->surfaces, settings.plan);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace meninas {
@@ -39,24 +38,38 @@ bool is_same(const Plane& a, const Plane& b, double size) {
          std::abs(a.offset - sign * b.offset) < share * size;
 }
 
-/// What there is of a material.
-struct Extent {
-  std::vector<Plane> planes; ///< one more than the most that are counted
+struct PlaneExtent {
+  Plane plane;
   double area = 0.0;
-  bool colored = false; ///< by vertex colours
 };
 
-/// Of the materials that are marked, and of the whole scene its area.
+/// Adds the area to that of the plane, which may be a new one.
+void add_extent(const Plane& plane, double area, double size, std::vector<PlaneExtent>& planes) {
+  const auto known = std::ranges::find_if(
+      planes, [&](const PlaneExtent& extent) { return is_same(extent.plane, plane, size); });
+  if (known != planes.end())
+    known->area += area;
+  else
+    planes.push_back({plane, area});
+}
+
+/// What there is of a material.
+struct Extent {
+  std::vector<PlaneExtent> planes; ///< one more than the most that are counted
+  bool colored = false;            ///< by vertex colours
+};
+
+/// Of the materials that are marked, and of the whole scene its area and its diameter.
 struct Extents {
   std::vector<Extent> of_material;
-  double area = 0.0;
+  double area = 0.0, size = 0.0;
 };
 
 Extents extents_of(const Scene& scene) {
   const Bounds bounds = bounds_of(scene);
   const Point3 middle = 0.5 * (bounds.low + bounds.high);
-  const double size = glm::distance(bounds.low, bounds.high);
   Extents extents;
+  extents.size = glm::distance(bounds.low, bounds.high);
   extents.of_material.resize(scene.materials.size());
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const auto at = corners(scene, TriangleId{t});
@@ -66,34 +79,35 @@ Extents extents_of(const Scene& scene) {
     if (measure == 0.0 || !material_of(scene, TriangleId{t}).throws_as_mirror)
       continue;
     Extent& extent = extents.of_material[index(scene.triangles[t].material)];
-    extent.area += measure;
     extent.colored = extent.colored || has_vertex_colors(scene, TriangleId{t});
     const Direction normal = area / measure;
-    const Plane plane{normal, glm::dot(normal, at[0] - middle)};
-    const auto is_known = [&](const Plane& known) { return is_same(known, plane, size); };
-    if (extent.planes.size() <= most_smooth_planes && std::ranges::none_of(extent.planes, is_known))
-      extent.planes.push_back(plane);
+    if (extent.planes.size() <= most_smooth_planes)
+      add_extent({normal, glm::dot(normal, at[0] - middle)}, measure, extents.size, extent.planes);
   }
   return extents;
 }
 
-/// Leaves the marks of the coats that cover most, while their planes are few.
+/// Leaves the marks of coats that lie in one of the largest planes of them, whatever is below.
 void keep_large_coats(const Extents& extents, Scene& scene) {
-  std::vector<std::size_t> by_area(scene.materials.size());
-  std::iota(by_area.begin(), by_area.end(), std::size_t{0});
-  std::ranges::stable_sort(by_area, std::ranges::greater(),
-                           [&](std::size_t m) { return extents.of_material[m].area; });
-  std::size_t planes = 0;
-  for (const std::size_t m : by_area) {
-    Material& material = scene.materials[m];
-    if (!has_mirror_coat(material))
-      continue;
-    const Extent& extent = extents.of_material[m];
-    material.throws_as_mirror = extent.area >= least_coat_share * extents.area &&
-                                planes + extent.planes.size() <= most_coat_planes;
-    if (material.throws_as_mirror)
-      planes += extent.planes.size();
-  }
+  std::vector<PlaneExtent> planes;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m)
+    if (has_mirror_coat(scene.materials[m]))
+      for (const PlaneExtent& own : extents.of_material[m].planes)
+        add_extent(own.plane, own.area, extents.size, planes);
+  std::ranges::stable_sort(planes, std::ranges::greater(), &PlaneExtent::area);
+  planes.resize(std::min(planes.size(), most_coat_planes));
+  std::erase_if(planes, [&](const PlaneExtent& plane) {
+    return plane.area < least_coat_share * extents.area;
+  });
+  const auto is_large = [&](const PlaneExtent& own) {
+    return std::ranges::any_of(planes, [&](const PlaneExtent& large) {
+      return is_same(large.plane, own.plane, extents.size);
+    });
+  };
+  for (std::size_t m = 0; m < scene.materials.size(); ++m)
+    if (has_mirror_coat(scene.materials[m]))
+      scene.materials[m].throws_as_mirror =
+          std::ranges::any_of(extents.of_material[m].planes, is_large);
 }
 
 } // namespace

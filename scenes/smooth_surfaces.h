@@ -17,13 +17,13 @@ namespace meninas {
 inline constexpr double smooth_metal_roughness = 0.3;
 /// And where the faces of the material lie in more planes than these.
 inline constexpr std::size_t most_smooth_planes = 8;
-/// Of the scene's area, for coats, and for each plane of them that is worth mirror worlds: a table top in a furnished room.
+/// Of the scene's area, for each plane of coats that is worth mirror worlds, be they of many materials: a table top in a furnished room.
 inline constexpr double least_coat_share = 0.005;
-/// Of coats of all materials together, those of the largest areas.
+/// The largest of them.
 inline constexpr std::size_t most_coat_planes = 16;
 
 /// Sets Material::throws_as_mirror for every material: true of metals rougher than ideal mirrors, but smooth, and of the coats of diffuse
-/// surfaces, where their roughness has no texture and they are flat.
+/// surfaces, where their roughness has no texture, they are flat and, some of them, in a large plane.
 void mark_smooth_surfaces(Scene& scene);
 
 /// Makes coats throw light evenly: for transports that know no reflectance by the angle.
