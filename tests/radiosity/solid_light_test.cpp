@@ -117,7 +117,8 @@ TEST(SolidLight, ASlabIsAPaneOfTwoFacesToDiffuseLight) {
 }
 
 TEST(SolidLight, ABallCollectsLightAndLeavesAShadow) {
-  // A ball of radius r collects parallel light 1.5 r from its middle (n r / (2 (n - 1))), and takes it from the rim of its shadow. Sheets would leave more than 0.8 of it there.
+  // A ball of radius r collects parallel light 1.5 r from its middle (n r / (2 (n - 1))), and takes it from the rim of its shadow. Sheets would leave more than 0.8 of it there:
+  // half of that tells the two apart.
   Scene scene = floor_and_lamp(40.0, 2.0);
   add_ball(scene, "ball", {0, 0.2 * 1.5, 0}, 0.2, 32, solid_glass(Rgb(1.0)));
   const auto room = lit(std::move(scene), {.element_size = 1.0});
