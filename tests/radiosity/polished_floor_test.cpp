@@ -204,7 +204,7 @@ TEST(PolishedFloor, BringsLittleLightByManyRaysBeyondTheWorlds) {
   double on_floor = 0.0, beyond = 0.0, light = 0.0;
   for (const std::size_t e : elements_of(*l, "y1")) {
     gather_rays(*l->light, net, receiver_of(*l->light, static_cast<ElementId>(e)),
-                hash(static_cast<std::uint32_t>(e)), {}, work);
+                hash(static_cast<std::uint32_t>(e), 3), {}, work);
     for (const RayLanding& landing : work.result.landings) {
       const bool is_beyond = landing.world == none<WorldId>;
       beyond += is_beyond ? 1.0 : 0.0;
