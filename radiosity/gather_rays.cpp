@@ -81,6 +81,13 @@ bool pass(const LightScene& light, const FaceRecord& face, const HitPacket& hits
   return true;
 }
 
+/// The number in [0, 1) by which a ray goes one of two ways. Numbers of one dimension, however scrambled, follow one another: behind the first meeting they are random.
+float choice_of(const Carried& from, std::uint32_t seed, std::uint32_t kind) {
+  const std::uint32_t key = hash(seed, from.meetings, kind);
+  return from.meetings == 0 ? sobol4(from.number, key)[0]
+                            : 0x1p-24F * static_cast<float>(hash(from.number, key) >> 8U);
+}
+
 /// The ray that goes on: behind a mirror, or one of the two ways from glass, which stays in its world if it passes a pane.
 MirroredRay going_on(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                      std::uint32_t k, const Carried& from, const Meeting& at, std::uint32_t seed) {
@@ -90,8 +97,7 @@ MirroredRay going_on(const LightScene& light, const FaceRecord& face, const HitP
   if (face.glass) {
     const float reflected = largest(at.shares.reflected), passed = largest(at.shares.passed);
     chance = reflected + passed > 0.0F ? reflected / (reflected + passed) : 0.0F;
-    if (sobol4(from.number, hash(seed, from.meetings, 0x91a55))[0] >= chance &&
-        pass(light, face, hits, k, from, ray)) {
+    if (choice_of(from, seed, 0x91a55) >= chance && pass(light, face, hits, k, from, ray)) {
       ray.throughput *= at.shares.passed / (1.0F - chance);
       return ray;
     }
@@ -114,7 +120,7 @@ std::optional<MirroredRay> meet_coat(const LightScene& light, const FaceRecord& 
   // Lamps that no closed form owns are met there: by many rays with little light, not by few with all.
   const WorldId world = reflected_world(light, face, from);
   const float chance = world == none<WorldId> ? 1.0F : largest(at.shares.reflected);
-  if (sobol4(from.number, hash(seed, from.meetings, 0xc0a7))[0] >= chance)
+  if (choice_of(from, seed, 0xc0a7) >= chance)
     return std::nullopt;
   return MirroredRay{at.position,
                      from.direction - 2.0 * at.approach * face.normal,

@@ -127,8 +127,9 @@ SolidLight mean_of(const BodyRays& rays, std::uint32_t count, std::uint32_t seed
       origin = to_frame(light.rays.frame(), rays.points.positions[point]);
       last = point;
     }
+    // The first pair's dimensions decide which way a ray goes at faces: of the same it would go one way in each direction.
     const PlacedSample sample =
-        place(sobol2(static_cast<std::uint32_t>(k), seed, SobolPair::first), work.density);
+        place(sobol2(static_cast<std::uint32_t>(k), seed, SobolPair::second), work.density);
     add_ray(rays, part, origin, sample,
             static_cast<float>(part.area() / rays.area) / work.density[sample.cell], work);
   }
