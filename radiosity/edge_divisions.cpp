@@ -1,9 +1,10 @@
 #include "radiosity/edge_divisions.h"
 
+#include "scenes/disjoint_sets.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 namespace meninas {
@@ -11,23 +12,6 @@ namespace meninas {
 namespace {
 
 constexpr int largest_division = 4096;
-
-/// Disjoint sets with path halving.
-class DisjointSets {
-public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t x) {
-    while (parent_[x] != x)
-      x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
-
-private:
-  std::vector<std::size_t> parent_;
-};
 
 int wanted(double length, double element_size) {
   return static_cast<int>(
@@ -72,17 +56,17 @@ std::vector<Divisions> divide_edges(const SurfaceModel& surfaces, double element
 
   // Class 2p holds the edges of patch p along u, class 2p + 1 those along v.
   DisjointSets classes(2 * patches.size());
-  std::map<EdgeKey, std::size_t> class_of_edge;
+  std::map<EdgeKey, std::uint32_t> class_of_edge;
   const double cell = std::max(16.0 * surfaces.tolerance, 1e-300);
-  for (std::size_t p = 0; p < patches.size(); ++p) {
+  for (std::uint32_t p = 0; p < patches.size(); ++p) {
     const Patch& patch = patches[p];
     if (surfaces.surfaces[index(patch.surface)].patches.size() < 2)
       continue;
     if (patch.corner_count == 3)
       classes.join(2 * p, 2 * p + 1);
     for (int a = 0; a < patch.corner_count; ++a) {
-      const std::size_t own =
-          2 * p + (patch.corner_count == 4 ? static_cast<std::size_t>(a % 2) : 0);
+      const std::uint32_t own =
+          2 * p + (patch.corner_count == 4 ? static_cast<std::uint32_t>(a % 2) : 0U);
       const auto [entry, is_new] =
           class_of_edge.emplace(edge_key(patch, a, (a + 1) % patch.corner_count, cell), own);
       if (!is_new)
@@ -92,15 +76,15 @@ std::vector<Divisions> divide_edges(const SurfaceModel& surfaces, double element
 
   std::vector<int> largest(2 * patches.size(), 1);
   std::vector<Divisions> divisions(patches.size());
-  for (std::size_t p = 0; p < patches.size(); ++p) {
+  for (std::uint32_t p = 0; p < patches.size(); ++p) {
     divisions[p] = own_divisions(patches[p], element_size);
-    auto& u = largest[classes.find(2 * p)];
+    auto& u = largest[classes.root(2 * p)];
     u = std::max(u, divisions[p].u);
-    auto& v = largest[classes.find(2 * p + 1)];
+    auto& v = largest[classes.root(2 * p + 1)];
     v = std::max(v, divisions[p].v);
   }
-  for (std::size_t p = 0; p < patches.size(); ++p) {
-    const int u = largest[classes.find(2 * p)], v = largest[classes.find(2 * p + 1)];
+  for (std::uint32_t p = 0; p < patches.size(); ++p) {
+    const int u = largest[classes.root(2 * p)], v = largest[classes.root(2 * p + 1)];
     if (patches[p].corner_count == 3) {
       if (u <= 4 * divisions[p].u)
         divisions[p] = {u, u};

@@ -214,7 +214,9 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
     if (face.coat) [[unlikely]] {
       RayLanding* const landing =
           face.side != FaceRecord::nothing ? &work.result.landings.back() : nullptr;
-      if (const auto ray = meet_coat(light, face, hits, k, legs.carried(k), work.seed, landing)) {
+      Carried from = legs.carried(k);
+      from.throughput = tau;
+      if (const auto ray = meet_coat(light, face, hits, k, from, work.seed, landing)) {
         // The surface has all of the light, and what is reflected is on its way.
         ends.mirror_absorbed -= weight * (tau - ray->throughput);
         follow(face, weight, *ray);

@@ -2,6 +2,7 @@
 
 #include "radiosity/element_hemicube.h"
 #include "radiosity/gather_rays.h"
+#include "scenes/disjoint_sets.h"
 #include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -9,37 +10,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 
 namespace meninas {
 
 namespace {
 
-/// Sides that are known to see one another, as a forest; which tree a side is in does not depend on the order of unions.
-class SideParts {
-public:
-  explicit SideParts(std::size_t sides) : parent_(sides) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t root(std::uint32_t side) {
-    while (parent_[side] != side)
-      side = parent_[side] = parent_[parent_[side]];
-    return side;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::uint32_t> parent_;
-};
-
 struct Workspace {
   explicit Workspace(std::size_t sides) : parts(sides) {}
   GatherWorkspace gather;
-  SideParts parts;
+  DisjointSets parts; ///< sides that are known to see one another
   std::uint64_t rays = 0;
 };
 
@@ -50,7 +29,8 @@ bool gathers_emission(const LightScene& light) {
     if (sides[s].emission != Rgb(0.0) && light.from_source[s] == 0)
       return true;
   return !light.emitters.empty() &&
-         std::ranges::any_of(light.landing.faces, [](const FaceRecord& f) { return f.mirrors; });
+         std::ranges::any_of(light.landing.faces,
+                             [](const FaceRecord& f) { return f.mirrors || f.coat; });
 }
 
 void gather_own_rays(const LightScene& light, const DirectionNet& net, std::size_t element,
@@ -79,7 +59,7 @@ void survey_element(const LightScene& light, const DirectionNet& net, std::size_
     const SideId side = light.mesh.side_of_element[landing.element];
     gathered += gathered_emission(light, landing);
     returned += Rgb(landing.light) * light.mesh.reflectance[landing.element];
-    work.parts.unite(own, index(side));
+    work.parts.join(own, index(side));
   }
   survey.gathered[element] = gathered / kept_light(rays);
   survey.returned[element] = returned / kept_light(rays);
@@ -121,11 +101,11 @@ HemisphereSurvey survey_hemispheres(const LightScene& light, const FormFactorSet
       [&](std::size_t e) { survey_element(light, net, e, settings, workspaces.local(), survey); },
       progress);
 
-  SideParts parts(sides);
+  DisjointSets parts(sides);
   for (Workspace& work : workspaces) {
     survey.rays_traced += work.rays;
     for (std::uint32_t s = 0; s < sides; ++s)
-      parts.unite(s, work.parts.root(s));
+      parts.join(s, work.parts.root(s));
   }
   for (std::uint32_t s = 0; s < sides; ++s)
     survey.part.push_back(parts.root(s));

@@ -1,43 +1,22 @@
 #include "radiosity/solid_bodies.h"
 
+#include "scenes/disjoint_sets.h"
 #include "scenes/frame_geometry.h"
 #include "scenes/lobes.h"
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <limits>
-#include <numeric>
+#include <map>
 #include <span>
 
 namespace meninas {
 
 namespace {
 
-/// Things that are known to be one, as a forest whose roots are the first of their trees.
-class Joined {
-public:
-  explicit Joined(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t root(std::uint32_t at) {
-    while (parent_[at] != at)
-      at = parent_[at] = parent_[parent_[at]];
-    return at;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::uint32_t> parent_;
-};
-
 /// The triangles of each body, by their corners' places.
 std::vector<std::vector<TriangleId>> bodies_of(const Scene& scene) {
-  Joined joined(scene.triangles.size());
+  DisjointSets joined(scene.triangles.size());
   std::map<std::array<double, 3>, std::uint32_t> first_at;
   std::vector<TriangleId> solid;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {

@@ -54,8 +54,6 @@ bool passes_mirrors(const TracedScene& traced, const LightImage& image, Point3 x
   return true;
 }
 
-double largest(const Rgb& c) { return std::max({c.r, c.g, c.b}); }
-
 /// Keeps `most_connections` or fewer: those on which equal steps through the sum of what all would bring end.
 void thin_out(std::vector<ImageConnection>& chosen, double u) {
   double sum = 0.0;

@@ -1,33 +1,13 @@
 #include "scenes/shells.h"
 
+#include "scenes/disjoint_sets.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace meninas {
 namespace {
-
-/// Sets that grow together, with paths halved on the way to the root.
-class Groups {
-public:
-  explicit Groups(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t root(std::uint32_t k) {
-    while (parent_[k] != k) {
-      k = parent_[k] = parent_[parent_[k]];
-    }
-    return k;
-  }
-  /// The smaller number stays the root, so that groups are in the order of their first faces.
-  void join(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t first = root(a);
-    const std::uint32_t second = root(b);
-    parent_[std::max(first, second)] = std::min(first, second);
-  }
-
-private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// The bounds, which way the faces look, and the volume if the shell has one.
 void measure(const Scene& scene, Shell& shell) {
@@ -58,7 +38,7 @@ void measure(const Scene& scene, Shell& shell) {
 
 std::vector<Shell> find_shells(const Scene& scene, const Topology& topology) {
   const auto count = static_cast<std::uint32_t>(scene.triangles.size());
-  Groups groups(count);
+  DisjointSets groups(count);
   const auto edges = static_cast<std::uint32_t>(topology.first_use.size() - 1);
   for (std::uint32_t edge = 0; edge < edges; ++edge) {
     if (const auto uses = uses_of(topology, edge); uses.size() == 2) {
@@ -109,9 +89,9 @@ double winding_number(const Scene& scene, const Shell& shell, const Point3& x) {
     const double lb = glm::length(b);
     const double lc = glm::length(c);
     // tan(Omega / 2) = a . (b x c) / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|)
-    angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
-                              la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la +
-                                  glm::dot(c, a) * lb);
+    angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)), la * lb * lc + glm::dot(a, b) * lc +
+                                                                 glm::dot(b, c) * la +
+                                                                 glm::dot(c, a) * lb);
   }
   return angle / (4.0 * std::numbers::pi);
 }

@@ -2,7 +2,7 @@
 #include "radiosity/analytic_transport.h"
 #include "radiosity/node_form_factors.h"
 #include "scenes/errors.h"
-#include "tests/radiosity/lit_scene.h"
+#include "tests/radiosity/solved.h"
 #include "tests/support/glass_rooms.h"
 
 #include <gtest/gtest.h>
@@ -18,29 +18,6 @@ PassOneSettings coarse() {
   settings.interpolation.method = Interpolation::average;
   settings.solver.tolerance = 1e-4;
   return settings;
-}
-
-struct Solved {
-  RadiositySolution solution;
-  std::vector<NodeLight> nodes;
-};
-
-Solved solved(const Scene& scene, const PassOneSettings& settings, bool by_shots = false) {
-  const auto l = lit(scene, settings.mesh, settings.plan);
-  Solved result{by_shots ? shoot_pass_one(*l->light, settings, {}, {})
-                         : solve_pass_one(*l->light, settings),
-                {}};
-  result.nodes = light_by_node(scene, l->light->mesh, result.solution);
-  return result;
-}
-
-void expect_alike(const Solved& a, const Solved& b, double tolerance) {
-  // The lamp has but a few elements.
-  for (std::size_t n = 0; n < a.nodes.size(); ++n)
-    for (int band = 0; band < 3 && a.nodes[n].area > 1.0; ++band)
-      EXPECT_NEAR(a.nodes[n].irradiance[band], b.nodes[n].irradiance[band],
-                  tolerance * a.nodes[n].irradiance[band])
-          << a.nodes[n].name << ' ' << band;
 }
 
 void expect_balance(const RadiositySolution& solution) {

@@ -5,6 +5,7 @@
 #include "scenes/glass.h"
 #include "scenes/sampling.h"
 #include "tests/radiosity/lit_scene.h"
+#include "tests/support/coats.h"
 #include "tests/support/glass_rooms.h"
 #include "tests/support/rooms.h"
 
@@ -56,6 +57,15 @@ Scene floor_and_lamp(double height, double edge) {
   return scene;
 }
 
+/// On the floor's middle, in a scene with elements of that size.
+ArrivingLight arriving_in_the_middle(Scene scene, double element_size, int rays) {
+  const auto room = lit(std::move(scene), {.element_size = element_size});
+  DirectSettings settings;
+  settings.solid_rays = rays;
+  DirectWorkspace work;
+  return direct_irradiance(*room->light, on_floor(*room, {0, 0, 0}), settings, 7, work);
+}
+
 TEST(SolidLight, AThickSlabBringsALampNearer) {
   // Under a slab of thickness d all rays come from an image that is nearer by d - d tan b / tan a, sin a = n sin b: by d (1 - 1 / n) near the normal. Radiance
   // is what it was, but for the faces: H = T E A / (pi h'^2).
@@ -63,12 +73,7 @@ TEST(SolidLight, AThickSlabBringsALampNearer) {
   Scene scene = floor_and_lamp(height, edge);
   // So wide that nothing arrives by total reflection at its sides.
   add_box(scene, "slab", {-60, 0.5, -60}, {60, 0.5 + thickness, 60}, solid_glass(Rgb(1.0), ior));
-  const auto room = lit(std::move(scene), {.element_size = 1.0});
-  DirectSettings settings;
-  settings.solid_rays = 1 << 18;
-  DirectWorkspace work;
-  const ArrivingLight found =
-      direct_irradiance(*room->light, on_floor(*room, {0, 0, 0}), settings, 7, work);
+  const ArrivingLight found = arriving_in_the_middle(std::move(scene), 1.0, 1 << 18);
   const double nearer = height - thickness * (1.0 - 1.0 / ior);
   const double expected = pane_transmittance(ior, 1.0) * edge * edge / (pi * nearer * nearer);
   // Some thousand rays find the lamp; it is seen under 3 degrees to either side, for which the closed form is true to 0.5 %.
@@ -78,18 +83,13 @@ TEST(SolidLight, AThickSlabBringsALampNearer) {
 }
 
 TEST(SolidLight, WhatASolidTakesGoesByTheMetre) {
-  // The lamp covers all that the slab shows from below: H = T a^(d / cos) E, and light is attenuated to a half along the normal.
+  // A small lamp straight above: H goes by a^d, d the thickness of a metre, which leaves a half of red.
   Scene scene = floor_and_lamp(2.0, 0.04);
   Material amber = solid_glass(Rgb(1.0));
   amber.attenuation_color = Rgb(0.5, 0.25, 1.0);
   amber.attenuation_distance = 1.0;
   add_box(scene, "slab", {-60, 0.5, -60}, {60, 1.5, 60}, amber);
-  const auto room = lit(std::move(scene), {.element_size = 1.0});
-  DirectSettings settings;
-  settings.solid_rays = 1 << 16;
-  DirectWorkspace work;
-  const Rgb found =
-      direct_irradiance(*room->light, on_floor(*room, {0, 0, 0}), settings, 7, work).total;
+  const Rgb found = arriving_in_the_middle(std::move(scene), 1.0, 1 << 16).total;
   ASSERT_GT(found.b, 0.0);
   // F^2 of the light passes thrice: 0.0016 of it less beside less attenuation.
   EXPECT_NEAR(found.r / found.b, 0.5, 2e-3);
@@ -100,12 +100,7 @@ TEST(SolidLight, ASlabIsAPaneOfTwoFacesToDiffuseLight) {
   // Wide and thin beside the room, whose ceiling glows: of what comes evenly from above T arrives below, with T the mean of a pane's.
   Scene scene = floor_and_lamp(1.0, 40.0);
   add_box(scene, "slab", {-60, 0.45, -60}, {60, 0.5, 60}, solid_glass(Rgb(1.0)));
-  const auto room = lit(std::move(scene), {.element_size = 20.0});
-  DirectSettings settings;
-  settings.solid_rays = 1 << 17;
-  DirectWorkspace work;
-  const Rgb found =
-      direct_irradiance(*room->light, on_floor(*room, {0, 0, 0}), settings, 7, work).total;
+  const Rgb found = arriving_in_the_middle(std::move(scene), 20.0, 1 << 13).total;
   double passed = 0.0;
   // As far as the lamp reaches: to sin = 20 / sqrt(401).
   constexpr int steps = 4000;
@@ -245,6 +240,24 @@ TEST(SolidLight, ManySolidsAreFewBodies) {
     }
     EXPECT_LT(body.radius / frame.scale, 0.25);
   }
+}
+
+TEST(SolidLight, ACoatInGlassIsTheMirrorThere) {
+  // Of a coat that reflects all: what the glass takes on the way to it is gone, as it is with a mirror.
+  const auto walls_lit = [](const Material& plate) {
+    Scene scene = room_of_solids();
+    // Last, so that the elements of all else have the same numbers.
+    add_polygon(scene, "plate",
+                {{0.35, 0.3, 1.15}, {0.75, 0.3, 1.15}, {0.75, 0.3, 0.65}, {0.35, 0.3, 0.65}},
+                plate);
+    const auto room = lit(std::move(scene), coarse().mesh);
+    const RadiositySolution solution = solve_pass_one(*room->light, coarse());
+    return mean_over(*room, solution.irradiance, "y1").b;
+  };
+  Material coat = polished(Rgb(0.5));
+  coat.ior = 0.0;
+  const double wanted = walls_lit(mirror(1.0));
+  EXPECT_NEAR(walls_lit(coat), wanted, 1e-4 * wanted);
 }
 
 } // namespace
