@@ -24,7 +24,7 @@ struct Candidate {
 /// What the recursion over the blocks needs.
 struct ClusterSearch {
   const ElementMesh& mesh;
-  const std::vector<Rgb>& reflected;
+  const std::vector<Rgb>& sent; ///< by ElementId: the reflected radiosity, over holes too
   double threshold;
   double evenness;
   std::vector<Candidate> found;
@@ -79,11 +79,11 @@ void search(ClusterSearch& context, const Block& block) {
   double low = std::numeric_limits<double>::infinity(), high = 0.0, area = 0.0;
   Rgb sum(0.0);
   for_each_element(context.mesh, block, [&](std::uint32_t element) {
-    const double value = largest(context.reflected[element]);
+    const double value = largest(context.sent[element]);
     low = std::min(low, value);
     high = std::max(high, value);
     area += context.mesh.area[element];
-    sum += context.mesh.area[element] * context.reflected[element];
+    sum += context.mesh.area[element] * context.sent[element];
   });
   if (high < context.threshold || area <= 0.0)
     return;
@@ -133,6 +133,14 @@ Emitter make_emitter(const LightScene& light, const Candidate& candidate) {
   emitter.radiosity = candidate.radiosity;
   emitter.area = glm::length(area_vector(emitter.polygon.span()));
   return emitter;
+}
+
+/// What elements reflect is of their solid part: shadow rays go to the holes of a cluster as well, and nothing there stops them.
+std::vector<Rgb> spread_over_holes(const ElementMesh& mesh, const std::vector<Rgb>& reflected) {
+  std::vector<Rgb> sent(reflected.size());
+  for (std::size_t e = 0; e < sent.size(); ++e)
+    sent[e] = double{mesh.solid[e]} * reflected[e];
+  return sent;
 }
 
 /// Half of the lit area is darker than this. (A mean would follow the few bright elements that are looked for.)
@@ -187,7 +195,8 @@ BrightClusters find_bright_clusters(const LightScene& light, const std::vector<R
   // Of too many the noisiest are kept. Uneven ones would be fewer, but the brightness of a wall beside a point is not that of its mean.
   clusters.worlds = first_worlds(light.worlds, light.mirrors);
   const std::size_t most = settings.most / clusters.worlds.worlds.size();
-  ClusterSearch context{mesh, reflected, settings.contrast * usual, settings.evenness, {}};
+  const std::vector<Rgb> sent = spread_over_holes(mesh, reflected);
+  ClusterSearch context{mesh, sent, settings.contrast * usual, settings.evenness, {}};
   search_sides(context);
   if (context.found.size() > most) {
     std::stable_sort(context.found.begin(), context.found.end(),

@@ -4,6 +4,7 @@
 // An element is bright when its reflected radiosity exceeds `contrast` times the median over the lit area. Bright neighbours of like radiosity
 // on one side are joined into blocks of root cells of a quad, or into cells of the forest. If there are more than `most` clusters
 // those that would be noisiest are kept, and the rest is gathered. No path is in both: `owned` says which elements are taken from the source.
+// An element that is cut out in part shines with its solid share from all of it.
 #pragma once
 
 #include "radiosity/light_scene.h"

@@ -1,4 +1,4 @@
-// Bright elements joined into emitters: alike, whatever their number, and no light is lost or counted twice.
+// Bright elements joined into emitters: alike, whatever their number, no light is lost or counted twice, and holes send none.
 #include "radiosity/bright_clusters.h"
 #include "radiosity/point_form_factor.h"
 #include "radiosity/point_gathering.h"
@@ -73,6 +73,48 @@ TEST(BrightClusters, LightAPointBesideThemAsTheirElementsDo) {
   const PointGathering gathering(*wall.l->light, wall.reflected, {}, {}, {.rays = 4096});
   PointWorkspace work;
   EXPECT_NEAR(indirect_light_at(gathering, point, 5, work).indirect().total.g, exact, 0.02 * exact);
+}
+
+TEST(BrightClusters, HolesOfACutOutSendNoLight) {
+  // A sheet of 3 x 3 elements of 0.4 m with a square hole of 0.6 m, which leaves of them 0, 3/4 and 15/16. At points 2 m away its light is that of the rest as
+  // polygons, by the closed form. Spread evenly over an element it moves by 0.05 m, 0.45 m off the axis: (1 + r^2 / d^2)^-2 changes by
+  // 4 * 0.45 * 0.05 / 2^2 = 2.3 %. From the whole of these elements a fifth more would come.
+  Scene scene;
+  add_polygon(scene, "wall", {{-9, -9, -2}, {9, -9, -2}, {9, 9, -2}, {-9, 9, -2}}, diffuse(0.5));
+  add_polygon(scene, "sheet", {{-0.6, 0.6, 0}, {0.6, 0.6, 0}, {0.6, -0.6, 0}, {-0.6, -0.6, 0}},
+              diffuse(0.5));
+  const auto l = lit(std::move(scene), {.element_size = 0.4});
+  std::vector<Rgb> reflected(element_count(l->mesh), Rgb(0.1));
+  double solid = 0.0;
+  for (const std::size_t e : elements_of(*l, "sheet")) {
+    const Point3 x = centre_of(l->mesh, static_cast<ElementId>(e));
+    const bool beside_x = std::abs(x.x) > 0.2, beside_y = std::abs(x.y) > 0.2;
+    l->mesh.solid[e] = beside_x && beside_y ? 0.9375F : beside_x || beside_y ? 0.75F : 0.0F;
+    reflected[e] = Rgb(l->mesh.solid[e] > 0.0F ? 10.0 : 0.0);
+    solid += l->mesh.area[e] * double{l->mesh.solid[e]};
+  }
+  ASSERT_NEAR(solid, 1.44 - 0.36, 1e-6);
+  double sent = 0.0;
+  for (const Emitter& emitter : find_bright_clusters(*l->light, reflected).emitters)
+    sent += emitter.area * emitter.radiosity.g;
+  EXPECT_NEAR(sent, 10.0 * solid, 1e-6 * sent);
+
+  const MeshSide& side = l->mesh.sides[index(l->mesh.side_of_element[elements_of(*l, "wall")[0]])];
+  const PointGathering gathering(*l->light, reflected, {}, {},
+                                 {.rays = 1024, .cluster_shadow_rays = 64});
+  PointWorkspace work;
+  for (const double x : {0.0, 0.5, 2.0}) {
+    const Receiver point{{x, 0.1, -2.0}, side.normal, side.plane_class, side.tangent};
+    const auto square = [&](double half) {
+      return point_form_factor(point.position, point.normal,
+                               std::array{Point3(-half, half, 0.0), Point3(half, half, 0.0),
+                                          Point3(half, -half, 0.0), Point3(-half, -half, 0.0)});
+    };
+    const double exact = 10.0 * (square(0.6) - square(0.3));
+    EXPECT_NEAR(indirect_light_at(gathering, point, 5, work).indirect().total.g, exact,
+                0.023 * exact)
+        << x;
+  }
 }
 
 } // namespace
