@@ -66,13 +66,30 @@ bool is_divisible(const ElementMesh& mesh, const SurfaceModel& surfaces, const M
   return leaf.area > 64.0 * vertex_grain(mesh, surfaces) * longest;
 }
 
+/// By ElementId, whether any cell of its surface is divided: on others all neighbours are alike.
+std::vector<std::uint8_t> on_divided_surfaces(const PlacedVertices& placed) {
+  const ElementMesh& mesh = placed.mesh;
+  std::vector<std::uint8_t> divided(placed.surfaces.surfaces.size(), 0), on(element_count(mesh));
+  const auto surface_of = [&](const MeshSide& side) {
+    return index(placed.surfaces.patches[index(side.patch)].surface);
+  };
+  for (const MeshSide& side : mesh.sides)
+    if (is_divided(side))
+      divided[surface_of(side)] = 1;
+  for (std::size_t e = 0; e < on.size(); ++e)
+    on[e] = divided[surface_of(mesh.sides[index(mesh.side_of_element[e])])];
+  return on;
+}
+
 /// The elements that have to be divided for the sake of their neighbours; empty when there is none.
 std::vector<std::uint8_t> to_follow(const PlacedVertices& placed) {
   const ElementMesh& mesh = placed.mesh;
+  const std::vector<std::uint8_t> asked = on_divided_surfaces(placed);
   std::vector<std::uint8_t> marked(element_count(mesh), 0);
   for (std::size_t e = 0; e < marked.size(); ++e) {
     const MeshCell& cell = cell_of(mesh, static_cast<ElementId>(e));
-    if (has_much_smaller_neighbour(placed, cell) && is_divisible(mesh, placed.surfaces, cell))
+    if (asked[e] != 0 && has_much_smaller_neighbour(placed, cell) &&
+        is_divisible(mesh, placed.surfaces, cell))
       marked[e] = 1;
   }
   if (std::find(marked.begin(), marked.end(), 1) == marked.end())
@@ -87,8 +104,11 @@ std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed) {
     double edge;
   };
   const ElementMesh& mesh = placed.mesh;
+  const std::vector<std::uint8_t> asked = on_divided_surfaces(placed);
   std::vector<Found> found;
   for (std::size_t e = 0; e < element_count(mesh); ++e) {
+    if (asked[e] == 0)
+      continue;
     const MeshCell& cell = cell_of(mesh, static_cast<ElementId>(e));
     const std::size_t count = corners_of(mesh, cell).size();
     for (std::size_t k = 0; k < count; ++k) {
