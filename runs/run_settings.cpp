@@ -17,10 +17,8 @@ QualityPreset preset_of(Quality quality) {
     return {.target_elements = 2'250,
             .rays = 128,
             .hemicube_resolution = 32,
-            .link_error = 0.05,
+            .link_error = 0.02,
             .penumbra_rays = 32,
-            .source_points = 4,
-            .most_source_points = 64,
             .samples = 16,
             .hit_shadow_rays = 8,
             .shared_shadow_rays = 4,
@@ -32,10 +30,8 @@ QualityPreset preset_of(Quality quality) {
     return {.target_elements = 16'000,
             .rays = 512,
             .hemicube_resolution = 64,
-            .link_error = 0.02,
+            .link_error = 0.01,
             .penumbra_rays = 128,
-            .source_points = 16,
-            .most_source_points = 256,
             .samples = 16,
             .hit_shadow_rays = 16,
             .shared_shadow_rays = 16,
@@ -47,10 +43,8 @@ QualityPreset preset_of(Quality quality) {
     return {.target_elements = 64'000,
             .rays = 2'048,
             .hemicube_resolution = 128,
-            .link_error = 0.01,
+            .link_error = 0.005,
             .penumbra_rays = 512,
-            .source_points = 16,
-            .most_source_points = 256,
             .samples = 64,
             .diffuse = DiffuseTerm::direct,
             .hit_shadow_rays = 16,
@@ -121,10 +115,11 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   pass_one.solver.max_shots = settings.steps;
   pass_one.hierarchical.link_error = settings.link_error.value_or(preset.link_error);
   pass_one.interpolation.method = settings.interpolation.value_or(pass_one.interpolation.method);
-  // Means of elements show nowhere but where they are interpolated; else they light other elements, and many average out.
-  if (pass_one.interpolation.method == Interpolation::gather) {
-    pass_one.direct.points = preset.source_points;
-    pass_one.direct.most_points = preset.most_source_points;
+  // Means of elements show nowhere but where they are interpolated; else they light other elements, and many average out. Few and large ones, between which an
+  // adaptive field gathers, do not.
+  if (pass_one.interpolation.method == Interpolation::gather && !adaptive) {
+    pass_one.direct.points = 4;
+    pass_one.direct.most_points = 64;
   }
   pass_one.interpolation.rays = pass_one.form_factors.rays;
   pass_one.interpolation.bend = settings.bends.value_or(0.0);

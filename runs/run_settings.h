@@ -22,10 +22,8 @@ struct QualityPreset {
   double target_elements = 0.0; ///< about how many elements share the meshed area
   int rays = 0; ///< form-factor rays per element, and per vertex where irradiance is gathered there
   int hemicube_resolution = 0; ///< cells along an edge of the top, where hemicubes are used instead
-  double link_error = 0.0; ///< of the hierarchical solver: variation of the light over a receiver
+  double link_error = 0.0; ///< of the hierarchical solver: how much light may bend where it is interpolated
   int penumbra_rays = 0;   ///< shadow rays from a vertex to an emitter that it sees in part
-  int source_points = 0;   ///< of an element, at which light from emitters is computed for its mean
-  int most_source_points = 0; ///< likewise, where the first ones disagree
   int samples = 0;            ///< camera rays per pixel
   DiffuseTerm diffuse = DiffuseTerm::interpolated; ///< of a hybrid picture
   int hit_shadow_rays = 0;    ///< from a hit to an emitter, where light is computed there
