@@ -1,9 +1,10 @@
 // What meshes cost and what they bring: picture error against number of elements and time, for uniform and adaptive meshes, and uniform ones solved
 // by `--solver hierarchical` (ARCHITECTURE.md has the table).
 //
-//   meshes REFERENCES SCENE.gltf ...
+//   meshes REFERENCES RAYS SCENE.gltf ...
 //
-// REFERENCES is the folder of reference/images. Errors are those of bench/truth.h. Pass two takes many samples a pixel, so that its own does not
+// RAYS of a vertex; 512 are those of `normal`. REFERENCES has NAME.reference.exr, as reference/images. Where meshes differ by less than a per cent, the noise of those with 512 samples a pixel hides it:
+// `render --mode reference --size 96x96 --samples 8192 --float` makes better ones. Errors are those of bench/truth.h. Pass two takes many samples a pixel, so that its own does not
 // either. Time is processor time of pass one, which other programs on the machine disturb less than that of a clock.
 // For every other mesh stands the number of elements, and the time, that uniform meshes take for its error (log-log between the two nearest,
 // beyond the last by their slope).
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,7 +33,8 @@ struct Measured {
   double seconds = 0.0, error = 0.0;
 };
 
-Measured measure(const Scene& scene, const Truth& truth, TwoPassSettings settings) {
+Measured measure(const Scene& scene, const Truth& truth, int rays, TwoPassSettings settings) {
+  settings.pass_one.form_factors.rays = settings.pass_one.interpolation.rays = rays;
   settings.render.width = truth.mean.width;
   settings.render.height = truth.mean.height;
   settings.render.samples = samples;
@@ -55,7 +58,8 @@ double needed(const std::vector<Measured>& uniform, double error, double (*what)
   return what(uniform[k]) * std::pow(error / uniform[k].error, slope);
 }
 
-void measure_scene(const std::filesystem::path& references, const std::filesystem::path& file) {
+void measure_scene(const std::filesystem::path& references, const std::filesystem::path& file,
+                   int rays) {
   const Truth truth = read_truth(references, file);
   const Scene& scene = truth.scene;
   fmt::print("\n{}\n{:>22} {:>9} {:>9} {:>9}   {}\n", file.stem().string(), "mesh", "elements",
@@ -64,13 +68,13 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
   for (const double elements : {500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16000.0, 32000.0}) {
     TwoPassSettings settings = two_pass_settings(RunSettings{});
     settings.pass_one.mesh.target_elements = elements;
-    uniform.push_back(measure(scene, truth, settings));
+    uniform.push_back(measure(scene, truth, rays, settings));
     const Measured& m = uniform.back();
     fmt::print("{:>22} {:9} {:9.2f} {:9.4f}\n", "uniform", m.elements, m.seconds, m.error);
     std::fflush(stdout);
   }
   const auto beside_uniform = [&](const std::string& name, const TwoPassSettings& settings) {
-    const Measured m = measure(scene, truth, settings);
+    const Measured m = measure(scene, truth, rays, settings);
     const double elements =
         needed(uniform, m.error, [](const Measured& u) { return double(u.elements); });
     const double seconds = needed(uniform, m.error, [](const Measured& u) { return u.seconds; });
@@ -85,25 +89,29 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
     run.adaptive_error = bound;
     beside_uniform(fmt::format("adaptive {}", bound), two_pass_settings(run));
   }
-  for (const double elements : {2000.0, 8000.0, 32000.0, 128000.0}) {
+  for (const auto& [elements, bend] :
+       {std::pair(2000.0, 0.02), std::pair(8000.0, 0.02), std::pair(32000.0, 0.02),
+        std::pair(32000.0, 0.01), std::pair(32000.0, 0.005), std::pair(128000.0, 0.005)}) {
     RunSettings run;
     run.solver = SolverMethod::hierarchical;
+    run.link_error = bend;
     TwoPassSettings settings = two_pass_settings(run);
     settings.pass_one.mesh.target_elements = elements;
-    beside_uniform("hierarchical", settings);
+    beside_uniform(fmt::format("hierarchical {}", run.link_error.value()), settings);
   }
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    fmt::print("meshes REFERENCES SCENE.gltf ...\n");
+  const int rays = argc < 4 ? 0 : std::atoi(argv[2]);
+  if (rays < 1) {
+    fmt::print("meshes REFERENCES RAYS SCENE.gltf ...\n");
     return 2;
   }
   try {
-    for (int k = 2; k < argc; ++k)
-      measure_scene(argv[1], argv[k]);
+    for (int k = 3; k < argc; ++k)
+      measure_scene(argv[1], argv[k], rays);
   } catch (const std::exception& error) {
     fmt::print("{}\n", error.what());
     return 3;

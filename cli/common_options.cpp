@@ -183,7 +183,7 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
            })
       ->group(pass_one_group);
   add_text(command, "--link-error", "X",
-           fmt::format("of --solver hierarchical: how much light may vary over a receiver, "
+           fmt::format("of --solver hierarchical: how much interpolated light may bend, "
                        "relative to what is there [{}]",
                        by_preset(&QualityPreset::link_error)),
            [&](const std::string& text) {

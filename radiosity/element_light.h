@@ -14,6 +14,10 @@ namespace meninas {
 ArrivingLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
                                 const DirectSettings& settings, SharedLightWorkspace& workspace);
 
+/// The settings for each of so many elements. Where many have few points each their means are noisy, but what they light takes the mean over them. Facets of curved
+/// surfaces, whose means are seen (facets.h), keep theirs.
+DirectSettings shared_out(DirectSettings settings, std::size_t elements);
+
 struct DirectIrradiance {
   std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element
   std::vector<Rgb>

@@ -1,48 +1,17 @@
 #include "radiosity/gathered_field.h"
 
 #include "radiosity/bends.h"
-#include "radiosity/contact_vertices.h"
 #include "radiosity/facets.h"
-#include "radiosity/gap_vertices.h"
+#include "radiosity/found_field.h"
+#include "radiosity/hierarchical/node_field.h"
 #include "radiosity/mesh_division.h"
-#include "radiosity/vertex_fill.h"
-#include "radiosity/vertex_light.h"
 #include "scenes/sampling.h"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 
 namespace meninas {
-
-using PointWorkspaces = tbb::enumerable_thread_specific<PointWorkspace>;
-
-/// Vertices that do not gather take what the corners of their receiver have gathered, as far as these are not covered.
-static void share_indirect(const VertexShares& shares, std::vector<std::uint8_t>& valid,
-                           DiffuseField& field) {
-  for (std::size_t v = 0; v < valid.size(); ++v) {
-    if (gathers(shares, v))
-      continue;
-    glm::vec3 total(0.0F), mirrored(0.0F);
-    float weights = 0.0F;
-    for (std::size_t c = 0; c < 4; ++c) {
-      const std::uint32_t from = index(shares.from[v][c]);
-      const float weight = valid[from] != 0 ? shares.weight[v][c] : 0.0F;
-      total += weight * field.indirect[from];
-      mirrored += weight * field.indirect_mirrored[from];
-      weights += weight;
-    }
-    if (!(weights > 0.0F)) {
-      valid[v] = 0;
-      continue;
-    }
-    field.indirect[v] = total / weights;
-    field.indirect_mirrored[v] = mirrored / weights;
-    field.irradiance[v] += field.indirect[v];
-    field.mirrored[v] += field.indirect_mirrored[v];
-  }
-}
 
 /// Of each facet's light from the source, and of the rest, what comes by way of mirrors: in the share that a few rays find at its middle.
 static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
@@ -102,127 +71,6 @@ static void average_facets(const LightScene& light, const ElementLight& elements
 
 namespace {
 
-/// What a vertex has.
-enum class VertexState : std::uint8_t { unknown, covered, averaged, gathered };
-
-/// A mesh with the values of vertices as they were found, before contacts are settled; hanging vertices may be unknown.
-struct FoundField {
-  ElementMesh mesh;
-  DiffuseField field;
-  std::vector<VertexState> states; ///< by ElementVertexId
-};
-
-/// What vertices gather from.
-struct VertexSource {
-  const ElementLight& elements;
-  const PointGathering& gathering;
-  const VertexShares* shares;
-  PointWorkspaces& workspaces;
-};
-
-template <typename Change>
-void for_each_array(DiffuseField& field, const Change& change) {
-  for (auto* values :
-       {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored})
-    change(*values);
-}
-
-FoundField unknown_field(ElementMesh mesh) {
-  FoundField found{std::move(mesh), {}, {}};
-  const std::size_t count = found.mesh.vertices.size();
-  found.states.assign(count, VertexState::unknown);
-  for_each_array(found.field, [&](auto& values) { values.assign(count, glm::vec3(0.0F)); });
-  return found;
-}
-
-/// Gathers at the vertices that are unknown and do not hang. `level` tells apart the samples of vertices whose numbers are the same.
-void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundField& found) {
-  constexpr std::size_t chunk_size = 64;
-  const ElementMesh& mesh = found.mesh;
-  const PointGathering& gathering = source.gathering;
-  const std::vector<Receiver> receivers = vertex_receivers(mesh);
-  std::vector<std::uint8_t> hangs(mesh.vertices.size(), 0);
-  for (const HangingVertex& hanging : mesh.hanging)
-    hangs[index(hanging.vertex)] = 1;
-  const auto light_vertex = [&](std::size_t v, PointWorkspace& work) {
-    if (found.states[v] != VertexState::unknown || hangs[v] != 0)
-      return;
-    const double size = size_of(mesh, mesh.element_of_vertex[v]);
-    const std::uint32_t seed =
-        hash(static_cast<std::uint32_t>(v), gathering.form_factors.seed, 0x7e27 + level);
-    const VertexValue value =
-        source.shares == nullptr || gathers(*source.shares, v)
-            ? value_at(gathering, source.elements.irradiance, receivers[v], size, seed, work)
-            : value_from_source(gathering, receivers[v], size, seed, work);
-    found.field.irradiance[v] = glm::vec3(value.irradiance.total);
-    found.field.mirrored[v] = glm::vec3(value.irradiance.mirrored);
-    found.field.indirect[v] = glm::vec3(value.indirect.total);
-    found.field.indirect_mirrored[v] = glm::vec3(value.indirect.mirrored);
-    found.states[v] = value.covered ? VertexState::covered : VertexState::gathered;
-  };
-  tbb::parallel_for(std::size_t{0}, (mesh.vertices.size() + chunk_size - 1) / chunk_size,
-                    [&](std::size_t c) {
-                      PointWorkspace& work = source.workspaces.local();
-                      for (std::size_t v = c * chunk_size;
-                           v < std::min(mesh.vertices.size(), (c + 1) * chunk_size); ++v)
-                        light_vertex(v, work);
-                    });
-}
-
-/// Vertices on which something stands, or at whose side it does, take what is gathered beside it; those of facets keep their means.
-void light_contacts(const VertexSource& source, const FoundField& found,
-                    std::vector<std::uint8_t>& valid, DiffuseField& field) {
-  const ElementMesh& mesh = found.mesh;
-  const PointGathering& gathering = source.gathering;
-  const std::vector<Receiver> receivers = vertex_receivers(mesh);
-  std::vector<std::uint8_t> open = valid;
-  tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t v) {
-    if (open[v] != 0 && found.states[v] != VertexState::averaged &&
-        is_at_foot(gathering.light, receivers[v]))
-      open[v] = 0;
-  });
-  const std::vector<ContactEdge> edges = contact_edges(mesh, open);
-  std::vector<ContactLight> lights(edges.size());
-  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t k) {
-    const auto [covered, exposed] = edges[k];
-    lights[k] = light_at_contact(
-        gathering, source.elements.irradiance, receivers[exposed], receivers[covered].position,
-        size_of(mesh, mesh.element_of_vertex[exposed]),
-        hash(covered, exposed, gathering.form_factors.seed), source.workspaces.local());
-  });
-  extend_to_contacts(edges, lights, valid, field);
-}
-
-/// The corners of elements that are open only in between take what is gathered there.
-void light_gaps(const VertexSource& source, const ElementMesh& mesh,
-                std::vector<std::uint8_t>& valid, DiffuseField& field) {
-  const std::vector<ElementId> covered = covered_elements(mesh, valid);
-  std::vector<std::optional<GapLight>> lights(covered.size());
-  tbb::parallel_for(std::size_t{0}, covered.size(), [&](std::size_t k) {
-    lights[k] = light_in_gap(source.gathering, source.elements.irradiance, mesh, covered[k],
-                             source.workspaces.local());
-  });
-  take_from_gaps(mesh, covered, lights, valid, field);
-}
-
-/// The field with values at all vertices.
-DiffuseField settled(const VertexSource& source, const FoundField& found) {
-  DiffuseField field = found.field;
-  std::vector<std::uint8_t> valid;
-  for (const VertexState state : found.states)
-    valid.push_back(state == VertexState::averaged || state == VertexState::gathered ? 1 : 0);
-  if (source.shares != nullptr)
-    share_indirect(*source.shares, valid, field);
-  for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
-  light_contacts(source, found, valid, field);
-  light_gaps(source, found.mesh, valid, field);
-  for_each_array(field, [&](auto& values) {
-    fill_vertices(found.mesh, valid, values);
-    settle_hanging(found.mesh, values);
-  });
-  return field;
-}
-
 /// The marked elements divided; what was found is kept.
 FoundField divided(const FoundField& before, const SurfaceModel& surfaces,
                    std::span<const std::uint8_t> marked) {
@@ -243,32 +91,16 @@ FoundField divided(const FoundField& before, const SurfaceModel& surfaces,
   return after;
 }
 
-} // namespace
-
-InterpolatedField gathered_field(const LightScene& light, const ElementLight& elements,
-                                 const FormFactorSettings& form_factors,
-                                 const DirectSettings& direct,
-                                 const InterpolationSettings& settings,
-                                 const VertexShares* shares) {
+/// At every vertex, and at those that elements get where the field bends.
+void gather_everywhere(const LightScene& light, const ElementLight& elements,
+                       const VertexGathering& how, FoundField found, PointWorkspaces& workspaces,
+                       InterpolatedField& result) {
   constexpr std::uint32_t most_divisions = 3;
-  const PointGathering gathering(
-      light, elements.reflected, form_factors, direct,
-      {.rays = settings.rays, .cluster_shadow_rays = settings.cluster_shadow_rays});
-  PointWorkspaces workspaces;
-  const VertexSource source{elements, gathering, shares, workspaces};
-
-  FoundField found = unknown_field(light.mesh);
-  const VertexElements facets =
-      elements.from_source.empty() ? VertexElements{} : facets_around(light);
-  if (!facets.elements.empty())
-    average_facets(light, elements, facets, form_factors, workspaces, found.field);
-  for (std::size_t v = 0; v < found.states.size(); ++v)
-    if (is_averaged(facets, v))
-      found.states[v] = VertexState::averaged;
+  const PointGathering gathering = gathering_from(light, elements.reflected, how, 1);
+  const VertexSource source{elements.irradiance, gathering, workspaces};
   gather_at_vertices(source, 0, found);
-
-  InterpolatedField result{.field = settled(source, found)};
-  const double bend = shares == nullptr ? settings.bend : 0.0;
+  result.field = settled(source, found);
+  const double bend = how.interpolation.bend;
   const BendScale scale = bend_scale(light.mesh, elements.reflected);
   for (std::uint32_t level = 1; level <= most_divisions && bend > 0.0; ++level) {
     const auto marked = bent_elements(found.mesh, result.field.indirect, scale, bend);
@@ -279,6 +111,32 @@ InterpolatedField gathered_field(const LightScene& light, const ElementLight& el
     result.field = settled(source, found);
     result.mesh = found.mesh;
   }
+}
+
+} // namespace
+
+InterpolatedField gathered_field(const LightScene& light, const ElementLight& elements,
+                                 const FormFactorSettings& form_factors,
+                                 const DirectSettings& direct,
+                                 const InterpolationSettings& settings,
+                                 const ReceiverNodes* receivers) {
+  PointWorkspaces workspaces;
+  FoundField found = unknown_field(light.mesh);
+  const VertexElements facets =
+      elements.from_source.empty() ? VertexElements{} : facets_around(light);
+  if (!facets.elements.empty())
+    average_facets(light, elements, facets, form_factors, workspaces, found.field);
+  for (std::size_t v = 0; v < found.states.size(); ++v)
+    if (is_averaged(facets, v))
+      found.states[v] = VertexState::averaged;
+
+  InterpolatedField result;
+  if (receivers != nullptr)
+    result.field = field_by_nodes(light, elements, *receivers, {form_factors, direct, settings},
+                                  std::move(found), workspaces);
+  else
+    gather_everywhere(light, elements, {form_factors, direct, settings}, std::move(found),
+                      workspaces, result);
   for (const auto& work : workspaces) {
     result.form_factor_rays += work.rays;
     result.shadow_rays += work.direct.shadow_rays;

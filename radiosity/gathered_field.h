@@ -11,10 +11,11 @@
 
 namespace meninas {
 
-/// As interpolate(). The result has a mesh of its own where any element was divided. With `shares` none is.
+/// As interpolate(). The result has a mesh of its own where any element was divided. With `receivers` none is: indirect light is gathered at the corners of nodes (hierarchical/node_bends.h).
 InterpolatedField gathered_field(const LightScene& light, const ElementLight& elements,
                                  const FormFactorSettings& form_factors,
                                  const DirectSettings& direct,
-                                 const InterpolationSettings& settings, const VertexShares* shares);
+                                 const InterpolationSettings& settings,
+                                 const ReceiverNodes* receivers);
 
 } // namespace meninas

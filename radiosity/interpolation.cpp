@@ -74,12 +74,12 @@ static DiffuseField averaged_field(const ElementMesh& mesh, const ElementLight& 
 
 InterpolatedField interpolate(const LightScene& light, const ElementLight& elements,
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
-                              const InterpolationSettings& settings, const VertexShares* shares) {
+                              const InterpolationSettings& settings, const ReceiverNodes* receivers) {
   if (settings.method == Interpolation::average)
     return {.field = averaged_field(light.mesh, elements)};
   if (settings.adaptive)
     return adaptive_field(light, elements, form_factors, direct, settings);
-  return gathered_field(light, elements, form_factors, direct, settings, shares);
+  return gathered_field(light, elements, form_factors, direct, settings, receivers);
 }
 
 glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv) {

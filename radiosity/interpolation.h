@@ -9,7 +9,7 @@
 #pragma once
 
 #include "radiosity/direct_irradiance.h"
-#include "radiosity/hierarchical/node_vertices.h"
+#include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/solve.h"
 
 #include <optional>
@@ -62,11 +62,11 @@ struct ElementLight {
   std::vector<Rgb> from_source; ///< the part of H found from the source; empty: not known
 };
 
-/// With `shares`, vertices inside of receivers take their indirect light from the corners (hierarchical/node_vertices.h), unless the mesh is adaptive.
+/// With `receivers`, vertices inside of nodes take their indirect light from the corners (hierarchical/node_bends.h), unless the mesh is adaptive.
 InterpolatedField interpolate(const LightScene& light, const ElementLight& elements,
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
                               const InterpolationSettings& settings,
-                              const VertexShares* shares = nullptr);
+                              const ReceiverNodes* receivers = nullptr);
 
 /// The field at a point of a side.
 glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv);

@@ -5,6 +5,7 @@
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/shooting_blocks.h"
 #include "radiosity/surface_colour.h"
+#include "radiosity/vertex_places.h"
 #include "scenes/lobes.h"
 #include "scenes/stopwatch.h"
 
@@ -92,10 +93,23 @@ struct ElementRays {
   std::uint64_t traced = 0;
 };
 
-/// From what was reflected, and the irradiance that elements have sent one another, to the solution with its field and figures.
+/// Elements receive what they make of it themselves: light from the source, and the rest as it is at their corners.
+void take_from_field(const ElementMesh& mesh, const std::vector<Rgb>& from_source,
+                     RadiositySolution& solution) {
+  const std::vector<Rgb> rest = corner_means(mesh, solution.field.indirect);
+  for (std::size_t e = 0; e < rest.size(); ++e) {
+    if (!(solution.exposed[e] > 0.0F))
+      continue;
+    solution.irradiance[e] = from_source[e] + rest[e];
+    solution.radiosity[e] = mesh.emission[e] + mesh.reflectance[e] * solution.irradiance[e];
+  }
+}
+
+/// From what was reflected, and the irradiance that elements have sent one another, to the solution with its field and figures. With `receivers` vertices
+/// gather where these let them (hierarchical/node_field.h), and elements receive what vertices do.
 void complete(const LightScene& light, const PassOneSettings& settings, const FirstLight& first,
               const std::vector<Rgb>& arrived, const ElementRays& rays, RadiositySolution& solution,
-              const VertexShares* shares = nullptr) {
+              const ReceiverNodes* receivers = nullptr) {
   const ElementMesh& mesh = light.mesh;
   Stopwatch watch;
 
@@ -110,13 +124,15 @@ void complete(const LightScene& light, const PassOneSettings& settings, const Fi
 
   const ElementLight elements{std::move(reflected), solution.irradiance, first.from_source};
   auto interpolated = interpolate(light, elements, settings.form_factors, settings.direct,
-                                  settings.interpolation, shares);
+                                  settings.interpolation, receivers);
   solution.field = std::move(interpolated.field);
   solution.interpolation_error = interpolated.error;
   if (interpolated.mesh)
     solution.refined = make_refined_scene(light, std::move(*interpolated.mesh));
   solution.seconds.interpolate = watch.lap();
   solution.exposed = rays.exposed;
+  if (receivers != nullptr)
+    take_from_field(mesh, first.from_source, solution);
 
   solution.closure = closure_error(rays.closure);
   solution.energy = energy_balance(light, solution, rays.closure, first.entering);
@@ -171,15 +187,22 @@ RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings&
 /// Pass one by receivers of many sizes.
 static RadiositySolution link_pass_one(const LightScene& light, const PassOneSettings& settings,
                                        const Progress& progress) {
-  NodeSolution nodes = solve_by_nodes(light, settings.form_factors, settings.direct,
-                                      settings.hierarchical, settings.solver, progress);
+  const bool vertices_gather =
+      settings.interpolation.method == Interpolation::gather && !settings.interpolation.adaptive;
+  DirectSettings direct = settings.direct;
+  if (vertices_gather)
+    direct.points_in_all = points_of_sources;
+  NodeSolution nodes = solve_by_nodes(light, settings.form_factors, direct, settings.hierarchical,
+                                      vertices_gather ? ElementsAre::sources : ElementsAre::seen,
+                                      settings.solver, progress);
   RadiositySolution solution;
   solution.solver = std::move(nodes.solver);
   solution.links = nodes.figures;
   solution.seconds.form_factors = nodes.seconds_gathering;
   solution.seconds.solve = nodes.seconds_solving;
   complete(light, settings, nodes.first, nodes.arrived,
-           {nodes.closure, nodes.exposed, nodes.rays_traced}, solution, &nodes.vertices);
+           {nodes.closure, nodes.exposed, nodes.rays_traced}, solution,
+           vertices_gather ? &nodes.receivers : nullptr);
   return solution;
 }
 

@@ -75,8 +75,7 @@ static bool is_enclosed(const GatheredRays& gathered, const std::vector<Rgb>& ir
 /// Whether any light from the source arrives.
 static bool is_lit(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
                    PointWorkspace& work) {
-  return direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct)
-             .total != Rgb(0.0);
+  return light_from_source(gathering, receiver, seed, work).total != Rgb(0.0);
 }
 
 bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
@@ -110,12 +109,9 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
   return {indirect, indirect, dark || is_under_something(gathering.light, receiver, element_size)};
 }
 
-VertexValue value_from_source(const PointGathering& gathering, const Receiver& receiver,
-                              double element_size, std::uint32_t seed, PointWorkspace& work) {
-  return {
-      direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct),
-      {},
-      is_under_something(gathering.light, receiver, element_size)};
+ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,
+                                std::uint32_t seed, PointWorkspace& work) {
+  return direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);
 }
 
 } // namespace meninas

@@ -21,9 +21,9 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
                               const Receiver& receiver, double element_size, std::uint32_t seed,
                               PointWorkspace& work);
 
-/// The part that comes from the source alone, of points that see no black.
-VertexValue value_from_source(const PointGathering& gathering, const Receiver& receiver,
-                              double element_size, std::uint32_t seed, PointWorkspace& work);
+/// The part that comes from the source alone.
+ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,
+                                std::uint32_t seed, PointWorkspace& work);
 
 /// Whether a wall stands on the surface along a line through this very point. Where nothing is covered the point still sees neither
 /// side of the wall, whose light is brightest beside it: a form factor that is 1/2 on one side of the line is 0 on it.

@@ -2,6 +2,7 @@
 
 #include "radiosity/element_light.h"
 #include "radiosity/facets.h"
+#include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/point_gathering.h"
 #include "radiosity/vertex_places.h"
 #include "raytrace/probes.h"
@@ -51,10 +52,32 @@ PointSeconds point_seconds(const PreparedScene& prepared, const PassOneSettings&
     direct_irradiance(light, receivers[v], settings.direct, seed(v), work.direct);
   });
   SharedLightWorkspace element_work;
+  DirectSettings all = settings.direct;
+  if (settings.solver.method == SolverMethod::hierarchical)
+    all.points_in_all = points_of_sources;
+  const DirectSettings at_element = shared_out(all, element_count(mesh));
   seconds.on_element = seconds_of_one(element_count(mesh), some, [&](std::size_t e) {
-    direct_irradiance(light, static_cast<ElementId>(e), 0, settings.direct, element_work);
+    direct_irradiance(light, static_cast<ElementId>(e), 0, at_element, element_work);
   });
   return seconds;
+}
+
+/// How many of what there will be.
+struct Counts {
+  double rows = 0.0;     ///< of the transport
+  double gathers = 0.0;  ///< by vertices, besides
+  double sources = 0.0;  ///< vertices with light from the source
+  double elements = 0.0; ///< whose light from the source is computed
+};
+
+/// Where light is received by nodes: about twice as many as at first, and a few vertices for each.
+Counts counted_by_nodes(const LightScene& light, Counts all) {
+  constexpr double rows_of_first = 2.0, gathers_of_row = 3.0;
+  const double first =
+      double(first_receivers(light.mesh, make_node_tree(light.mesh, light.surfaces)).size());
+  all.rows = std::min(all.elements, rows_of_first * first);
+  all.gathers = std::min(all.gathers, gathers_of_row * all.rows);
+  return all;
 }
 
 /// Vertices with a value of their own.
@@ -101,17 +124,20 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
   const PassOneSettings& pass_one = two_pass.pass_one;
   const double divided = pass_one.interpolation.adaptive ? 2.0 : 1.0;
   const double elements = double(element_count(prepared.mesh)),
-               vertices = divided * double(gathering_vertices(*prepared.light));
+               vertices = pass_one.interpolation.method == Interpolation::average
+                              ? 0.0
+                              : divided * double(gathering_vertices(*prepared.light));
+  Counts counts{elements, vertices, vertices, elements};
+  if (pass_one.solver.method == SolverMethod::hierarchical)
+    counts = counted_by_nodes(*prepared.light, counts);
   const double share = 1.0 / (busy * threads);
 
   const PointSeconds point = point_seconds(prepared, pass_one);
-  const double at_vertex =
-      pass_one.interpolation.method == Interpolation::average ? 0.0 : point.gather + point.source;
   ExpectedCost cost;
   cost.prepare = started + loading + prepared.seconds.plan + prepared.seconds.mesh;
-  cost.form_factors = share * elements * (point.gather + point.on_element);
-  cost.interpolate = share * vertices * at_vertex;
-  cost.solve = products * entry_seconds * prepared.plan.bands * elements *
+  cost.form_factors = share * (counts.rows * point.gather + counts.elements * point.on_element);
+  cost.interpolate = share * (counts.gathers * point.gather + counts.sources * point.source);
+  cost.solve = products * entry_seconds * prepared.plan.bands * counts.rows *
                std::min<double>(pass_one.form_factors.rays, elements);
   const double pixels = double(size.width) * size.height;
   cost.render =

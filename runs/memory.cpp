@@ -95,11 +95,20 @@ static double row_entries(const RunSettings& settings, double elements) {
   return elements;
 }
 
+/// Rows of the transport, at most: of the hierarchical solver the first receivers, and those that the light asks for, which are hardly more with finer elements.
+static double rows_of(const SceneSizes& scene, const RunSettings& settings, double elements) {
+  if (settings.solver != SolverMethod::hierarchical)
+    return elements;
+  constexpr double of_a_side = 32.0, of_elements = 1.0 / 16.0;
+  return std::min(elements, of_a_side * static_cast<double>(scene.sides) + of_elements * elements);
+}
+
 std::uint64_t solve_memory(const SceneSizes& scene, const RunSettings& settings) {
   const double elements = expected_elements(scene, settings);
   // Column and up to three bands, and room to grow.
   constexpr double per_entry = 20.0, per_element = 600.0;
-  double bytes = elements * (per_entry * row_entries(settings, elements) + per_element);
+  double bytes = rows_of(scene, settings, elements) * per_entry * row_entries(settings, elements) +
+                 elements * per_element;
   if (settings.solver == SolverMethod::direct) {
     bytes +=
         4.0 * sizeof(double) * elements * elements; // the factors of three channels and a matrix

@@ -7,8 +7,9 @@
 namespace meninas {
 
 struct HierarchicalSettings {
-  double link_error =
-      0.02; ///< how much the light may vary over a receiver, relative to what is there
+  /// X, relative to what is there: how much the light may vary over a receiver. Where vertices gather, how much what they interpolate may bend
+  /// (node_bends.h); receivers, which light others by their means, then vary by 20 X.
+  double link_error = 0.01;
 };
 
 struct LinkFigures {

@@ -103,11 +103,10 @@ bool any(const std::vector<std::uint8_t>& marked) {
 
 } // namespace
 
-NodeCut first_cut(const LightScene& light, const NodeTree& tree, const FormFactorSettings& settings,
-                  const Progress& progress) {
-  constexpr std::uint32_t least = 16; // receivers on a side
+std::vector<TreeNodeId> first_receivers(const ElementMesh& mesh, const NodeTree& tree) {
+  constexpr std::uint32_t least = 16; // on a side
   std::vector<TreeNodeId> nodes;
-  std::vector<std::uint32_t> most(light.mesh.sides.size()); // elements of a receiver, by side
+  std::vector<std::uint32_t> most(mesh.sides.size()); // elements of a receiver, by side
   for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
     const TreeNode& node = tree.nodes[n];
     std::uint32_t& limit = most[index(node.side)];
@@ -118,7 +117,13 @@ NodeCut first_cut(const LightScene& light, const NodeTree& tree, const FormFacto
     if (above_is_large && (node.leaf_count <= limit || is_leaf(node)))
       nodes.push_back(static_cast<TreeNodeId>(n));
   }
-  const NodeCut found = gathered_by(light, tree, std::move(nodes), settings, progress);
+  return nodes;
+}
+
+NodeCut first_cut(const LightScene& light, const NodeTree& tree, const FormFactorSettings& settings,
+                  const Progress& progress) {
+  const NodeCut found =
+      gathered_by(light, tree, first_receivers(light.mesh, tree), settings, progress);
   NodeCut cut = merged(tree, {}, {}, found);
   return moved_down(light, tree, std::move(cut),
                     std::vector<std::uint8_t>(found.receivers.size(), 0), settings, progress);

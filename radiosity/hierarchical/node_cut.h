@@ -26,7 +26,10 @@ struct NodeCut {
 /// By ElementId: the cells on which something stands.
 std::vector<CoveredCells> covered_elements(const NodeTree& tree, const NodeCut& cut);
 
-/// Sixteen receivers on every side that has so many elements, and more where something stands on it.
+/// Sixteen nodes on every side that has so many elements.
+std::vector<TreeNodeId> first_receivers(const ElementMesh& mesh, const NodeTree& tree);
+
+/// Those, and smaller ones where something stands on a side.
 NodeCut first_cut(const LightScene& light, const NodeTree& tree, const FormFactorSettings& settings,
                   const Progress& progress);
 

@@ -91,15 +91,20 @@ std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
     area += areas[e];
   }
 
+  // How far the parts of a node are from it, at the most: in the middle of a slope a part is as bright as the whole.
   const std::vector<Rgb> nodes = pulled(tree, cut, areas, gathered);
+  std::vector<double> apart(tree.nodes.size(), 0.0);
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (const TreeNodeId parent = tree.nodes[n].parent; parent != none<TreeNodeId>)
+      apart[index(parent)] =
+          std::max(apart[index(parent)], largest(glm::abs(nodes[n] - nodes[index(parent)])));
   std::vector<std::uint8_t> marked(gathered.size(), 0);
   for (std::size_t c = 0; c < marked.size(); ++c) {
     const TreeNode& node = tree.nodes[index(cut.receivers[c])];
     if (is_leaf(node) || node.parent == none<TreeNodeId>)
       continue;
-    const double apart =
-        largest(reflectance[c] * glm::abs(gathered[c] - nodes[index(node.parent)]));
-    marked[c] = apart > link_error * (largest(radiosity[c]) + light / area) ? 1 : 0;
+    const double varies = largest(reflectance[c]) * apart[index(node.parent)];
+    marked[c] = varies > link_error * (largest(radiosity[c]) + light / area) ? 1 : 0;
   }
   return marked;
 }
@@ -120,12 +125,14 @@ std::uint64_t bytes_of(const Transport& transport) {
 
 NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& form_factors,
                             const DirectSettings& direct, const HierarchicalSettings& settings,
-                            const SolverSettings& solver, const Progress& progress) {
+                            ElementsAre elements, const SolverSettings& solver,
+                            const Progress& progress) {
   NodeSolution result;
   Stopwatch watch;
   const NodeTree tree = make_node_tree(light.mesh, light.surfaces);
   NodeCut cut = first_cut(light, tree, form_factors, progress);
   std::vector<CoveredCells> covered = covered_elements(tree, cut);
+  const double spread = settings.link_error * (elements == ElementsAre::sources ? 20.0 : 1.0);
   DirectIrradiance found = found_light(light, covered, FormFactorMethod::rays, direct, progress);
   std::uint64_t shadow_rays = found.shadow_rays;
 
@@ -142,8 +149,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
     result.first = first_light_of(light, cut, found);
     result.seconds_gathering += watch.lap();
     received = solve_receivers(tree, cut, result.first, areas, solver);
-    const auto marked =
-        to_divide(tree, cut, result.first, areas, received.irradiance, settings.link_error);
+    const auto marked = to_divide(tree, cut, result.first, areas, received.irradiance, spread);
     result.seconds_solving += watch.lap();
     if (std::ranges::find(marked, 1) == marked.end())
       break;
@@ -161,11 +167,11 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
   result.closure = by_element(cut, cut.closure);
   for (std::size_t e = 0; e < covered.size(); ++e)
     result.exposed.push_back(exposed_share(light.mesh, e, covered[e]));
-  result.vertices = vertex_shares(light.mesh, tree, cut);
   result.rays_traced = cut.rays_traced;
   result.figures = {cut.receivers.size(), received.links.columns.size(),
                     tree.nodes.size() * sizeof(TreeNode) + bytes_of(cut.rows) +
                         bytes_of(received.links)};
+  result.receivers = {tree, std::move(cut.receivers), settings.link_error};
   return result;
 }
 

@@ -9,12 +9,15 @@
 // what follows from receivers, over links between nodes (F_cd, c, d). The system of receivers is solved by `cg` (solve.h).
 // Receivers are then divided where
 //
-//   rho |H_c - H_parent| > X (B + B_mean),   X the link error, H with G and what comes from the sky,
+//   rho max_d |H_d - H_parent| > X (B + B_mean),   d over the parts of the receiver's parent, H with G and what comes from the sky,
 //
-// (what a node differs from its parent by, its own parts differ from it by about half of, and B + B_mean is twice what is there), and the larger system is solved, until none is:
+// (what parts differ from the whole by, their own parts differ from them by about half of, and B + B_mean is twice what is there), and the larger system is solved, until none is:
 // links are refined by the power they carry (Hanrahan, Salzman, Aupperle 1991). The factors of links come from the
 // rays of the receivers' rows and not from pairs of nodes: rays follow every mirror to any depth and know what stands between, there
 // is no quadratic beginning, and rows close. Pairs with a closed form and shadow rays, as in the paper, were slower and less accurate (ARCHITECTURE.md).
+//
+// X is the link error where elements are seen as they receive. Where vertices gather what is seen (node_field.h), elements only light others, on average over
+// many, and what is seen of them is as vertices have it (node_field.h): X is twenty link errors, and they share points for light from the source.
 //
 // Cost: first light and pushes are linear in elements; rows as many as receivers, whose number depends on the light and on X, and on
 // elements only while these are larger than X asks for.
@@ -22,7 +25,8 @@
 
 #include "radiosity/first_light.h"
 #include "radiosity/hierarchical/link_figures.h"
-#include "radiosity/hierarchical/node_vertices.h"
+#include "radiosity/hierarchical/node_bends.h"
+#include "radiosity/hierarchical/node_cut.h"
 #include "radiosity/solve.h"
 
 namespace meninas {
@@ -33,14 +37,21 @@ struct NodeSolution {
   FirstLight first;
   std::vector<RowClosure> closure; ///< by ElementId: its receiver's
   std::vector<float> exposed;      ///< by ElementId
-  VertexShares vertices;           ///< which of them have to gather
+  ReceiverNodes receivers;         ///< with the bound for what vertices interpolate
   LinkFigures figures;
   std::uint64_t rays_traced = 0;
   double seconds_gathering = 0.0, seconds_solving = 0.0;
 };
 
+/// At so many points in all, unless elements are seen, light from the source is computed for them (DirectSettings::points_in_all).
+inline constexpr int points_of_sources = 8192;
+
+/// What elements receive is what is seen of them, or it only lights others, and vertices gather what is seen.
+enum class ElementsAre { seen, sources };
+
 NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& form_factors,
                             const DirectSettings& direct, const HierarchicalSettings& settings,
+                            ElementsAre elements,
                             const SolverSettings& solver, const Progress& progress = {});
 
 } // namespace meninas

@@ -13,7 +13,7 @@ constexpr Corners half_square{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(0, 1)};
 
 const Corners& corners_of(bool triangle) { return triangle ? half_square : square; }
 
-/// The element at a corner of the node, and which corner of the element that is.
+/// The vertex at a corner of the node: of the element there, the corner nearest to it.
 ElementVertexId vertex_at(const ElementMesh& mesh, const TreeNode& node, Vec2 corner) {
   // A point within the node, nearer to its corner than any element is wide.
   const Vec2 middle = node.triangle ? Vec2(1.0 / 3.0) : Vec2(0.5);
@@ -38,35 +38,113 @@ std::array<float, 4> weights_at(bool triangle, Vec2 st) {
 
 } // namespace
 
-VertexShares vertex_shares(const ElementMesh& mesh, const NodeTree& tree, const NodeCut& cut) {
-  // Larger receivers first, so that smaller ones have the last word, and corners after all.
-  std::vector<std::uint32_t> order(cut.receivers.size());
-  std::iota(order.begin(), order.end(), 0U);
-  const auto size = [&](std::uint32_t r) { return tree.nodes[index(cut.receivers[r])].leaf_count; };
-  std::ranges::stable_sort(order, std::greater{}, size);
+ElementCorners corners_of(const ElementMesh& mesh, const TreeNode& node) {
+  ElementCorners corners;
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    corners[c] = vertex_at(mesh, node, corners_of(node.triangle)[c]);
+  return corners;
+}
 
+std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
+                                 const TreeNode& node) {
+  constexpr double as_near = 1.0 + 1e-6;
+  const Vec2 middle = node.triangle ? Vec2(1.0 / 3.0) : Vec2(0.5);
+  std::vector<NodeProbe> probes;
+  double nearest = 0.0;
+  for (std::uint32_t k = 0; k < node.child_count; ++k) {
+    const TreeNode& child = tree.nodes[index(node.first_child) + k];
+    for (const Vec2& corner : corners_of(child.triangle)) {
+      const Vec2 st = (child.uv + corner * child.extent - node.uv) / node.extent;
+      const double distance = glm::distance(st, middle);
+      if (probes.empty() || distance * as_near < nearest) {
+        probes.clear();
+        nearest = distance;
+      } else if (distance > nearest * as_near) {
+        continue;
+      }
+      const NodeProbe probe{vertex_at(mesh, child, corner), weights_at(node.triangle, st)};
+      if (std::ranges::find(probes, probe.vertex, &NodeProbe::vertex) == probes.end())
+        probes.push_back(probe);
+    }
+  }
+  return probes;
+}
+
+std::vector<std::uint8_t> wanted_vertices(const ElementMesh& mesh, const NodeTree& tree,
+                                          std::span<const TreeNodeId> nodes) {
+  std::vector<std::uint8_t> wanted(mesh.vertices.size(), 0);
+  for (const TreeNodeId id : nodes) {
+    const TreeNode& node = tree.nodes[index(id)];
+    for (const ElementVertexId corner : corners_of(mesh, node))
+      wanted[index(corner)] = 1;
+    for (const NodeProbe& probe : probes_of(mesh, tree, node))
+      wanted[index(probe.vertex)] = 1;
+  }
+  return wanted;
+}
+
+namespace {
+
+/// A part of a node, or a node that has none, within which vertices take from its corners.
+struct Cell {
+  TreeNodeId node, of;
+};
+
+/// The largest first, so that smaller ones have the last word.
+std::vector<Cell> cells_of(const NodeTree& tree, std::span<const TreeNodeId> nodes) {
+  std::vector<Cell> cells;
+  for (const TreeNodeId id : nodes) {
+    const TreeNode& node = tree.nodes[index(id)];
+    for (std::uint32_t k = 0; k < node.child_count; ++k)
+      cells.push_back({static_cast<TreeNodeId>(index(node.first_child) + k), id});
+    if (is_leaf(node))
+      cells.push_back({id, id});
+  }
+  std::ranges::stable_sort(cells, std::greater{}, [&](const Cell& cell) {
+    return tree.nodes[index(cell.node)].leaf_count;
+  });
+  return cells;
+}
+
+} // namespace
+
+VertexShares vertex_shares(const ElementMesh& mesh, const NodeTree& tree,
+                           std::span<const TreeNodeId> nodes) {
   VertexShares shares;
   shares.from.resize(mesh.vertices.size());
   shares.weight.resize(mesh.vertices.size(), {1.0F, 0.0F, 0.0F, 0.0F});
-  std::vector<std::array<ElementVertexId, 4>> corners(cut.receivers.size());
-  for (const std::uint32_t r : order) {
-    const TreeNode& node = tree.nodes[index(cut.receivers[r])];
-    const Corners& places = corners_of(node.triangle);
-    for (std::size_t c = 0; c < 4; ++c)
-      corners[r][c] = vertex_at(mesh, node, places[c]);
+  shares.between.assign(mesh.vertices.size(), 0);
+  const std::vector<Cell> cells = cells_of(tree, nodes);
+  for (const Cell& cell : cells) {
+    const TreeNode& node = tree.nodes[index(cell.node)];
+    const ElementCorners corners = corners_of(mesh, node);
     const Corners& in_element = corners_of(mesh.sides[index(node.side)].triangle);
-    for (const ElementId element : elements_below(tree, cut.receivers[r]))
+    for (const ElementId element : elements_below(tree, cell.node))
       for (std::size_t c = 0; c < 4; ++c) {
         const std::uint32_t vertex = index(mesh.corners[index(element)][c]);
         const Vec2 uv = patch_uv_of(mesh, cell_of(mesh, element), in_element[c]);
-        shares.from[vertex] = corners[r];
+        shares.from[vertex] = corners;
         shares.weight[vertex] = weights_at(node.triangle, (uv - node.uv) / node.extent);
       }
   }
-  for (const auto& of_receiver : corners)
-    for (const ElementVertexId vertex : of_receiver) {
-      shares.from[index(vertex)].fill(vertex);
-      shares.weight[index(vertex)] = {1.0F, 0.0F, 0.0F, 0.0F};
+  // Of the corners of cells, those that do not gather lie between corners of the node, which do.
+  for (const Cell& cell : cells) {
+    const TreeNode &part = tree.nodes[index(cell.node)], &node = tree.nodes[index(cell.of)];
+    const ElementCorners corners = corners_of(mesh, node), of_part = corners_of(mesh, part);
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Vec2 uv = part.uv + corners_of(part.triangle)[c] * part.extent;
+      const std::uint32_t vertex = index(of_part[c]);
+      shares.from[vertex] = corners;
+      shares.weight[vertex] = weights_at(node.triangle, (uv - node.uv) / node.extent);
+      shares.between[vertex] = 1;
+    }
+  }
+  const std::vector<std::uint8_t> gather = wanted_vertices(mesh, tree, nodes);
+  for (std::uint32_t v = 0; v < gather.size(); ++v)
+    if (gather[v] != 0) {
+      shares.from[v].fill(static_cast<ElementVertexId>(v));
+      shares.weight[v] = {1.0F, 0.0F, 0.0F, 0.0F};
+      shares.between[v] = 0;
     }
   return shares;
 }

@@ -23,7 +23,7 @@ protected:
 
 TEST_F(HierarchicalRuns, FiguresSpeakOfReceiversAndLinks) {
   std::vector<std::size_t> links;
-  for (const char* error : {"0.5", "0.02"}) {
+  for (const char* error : {"0.5", "0.002"}) {
     const Outcome outcome =
         run_program(folder_.path(), {"solve", "room.glb", "-o", "solved.glb", "--quality", "draft",
                                      "--element-size", "0.05", "--solver", "hierarchical",

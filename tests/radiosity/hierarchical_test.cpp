@@ -146,9 +146,13 @@ TEST(Hierarchical, ASmallerLinkErrorIsASmallerError) {
 // The method of images: the elements of the half room receive what they receive in the doubled one. The samples differ: by 0.5 % a row of 1024 rays,
 // besides what receivers leave out.
 TEST(Hierarchical, MirrorRoomIsDoubledRoom) {
-  for (const bool small : {false, true}) {
+  for (const auto& [small, interpolation] : {std::pair(false, Interpolation::average),
+                                             std::pair(true, Interpolation::average),
+                                             std::pair(false, Interpolation::gather),
+                                             std::pair(true, Interpolation::gather)}) {
     const Scene half = small ? half_room_with_small_mirror() : half_room();
-    const PassOneSettings settings = with_fine_direct_light(hierarchical(0.15, 0.01, 1024));
+    PassOneSettings settings = with_fine_direct_light(hierarchical(0.15, 0.01, 1024));
+    settings.interpolation = {.method = interpolation, .rays = 1024};
     const auto a = lit(half, settings.mesh), b = lit(doubled(half), settings.mesh);
     const RadiositySolution mirrored = solve_pass_one(*a->light, settings),
                             whole = solve_pass_one(*b->light, settings);

@@ -1,0 +1,165 @@
+#include "radiosity/found_field.h"
+
+#include "radiosity/contact_vertices.h"
+#include "radiosity/gap_vertices.h"
+#include "radiosity/mesh_division.h"
+#include "radiosity/vertex_fill.h"
+#include "radiosity/vertex_light.h"
+#include "radiosity/vertex_places.h"
+#include "scenes/sampling.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace meninas {
+
+namespace {
+
+template <typename Change>
+void for_each_array(DiffuseField& field, const Change& change) {
+  for (auto* values :
+       {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored})
+    change(*values);
+}
+
+} // namespace
+
+FoundField unknown_field(ElementMesh mesh) {
+  FoundField found{std::move(mesh), {}, {}, {}};
+  found.receivers = vertex_receivers(found.mesh);
+  const std::size_t count = found.mesh.vertices.size();
+  found.states.assign(count, VertexState::unknown);
+  for_each_array(found.field, [&](auto& values) { values.assign(count, glm::vec3(0.0F)); });
+  return found;
+}
+
+PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
+                              const VertexGathering& how, int share) {
+  return {light,
+          std::move(reflected),
+          how.form_factors,
+          how.direct,
+          {.rays = std::max(1, how.interpolation.rays / share),
+           .cluster_shadow_rays = how.interpolation.cluster_shadow_rays}};
+}
+
+namespace {
+
+/// Takes what `value(v, receiver, size, seed, workspace)` finds for the vertices that do not hang and are in one state, as far as they are marked.
+template <typename Value>
+void light_each(const VertexSource& source, VertexState now, VertexState then,
+                std::span<const std::uint8_t> marked, std::uint32_t level, FoundField& found,
+                const Value& value) {
+  constexpr std::size_t chunk_size = 64;
+  const ElementMesh& mesh = found.mesh;
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t v = 0; v < found.states.size(); ++v)
+    if (found.states[v] == now && (marked.empty() || marked[v] != 0))
+      vertices.push_back(v);
+  std::vector<std::uint8_t> hangs(mesh.vertices.size(), 0);
+  for (const HangingVertex& hanging : mesh.hanging)
+    hangs[index(hanging.vertex)] = 1;
+  std::erase_if(vertices, [&](std::uint32_t v) { return hangs[v] != 0; });
+
+  const auto light_vertex = [&](std::uint32_t v, PointWorkspace& work) {
+    const double size = size_of(mesh, mesh.element_of_vertex[v]);
+    const std::uint32_t seed = hash(v, source.gathering.form_factors.seed, 0x7e27 + level);
+    const VertexValue found_here = value(found.receivers[v], size, seed, work);
+    found.field.irradiance[v] += glm::vec3(found_here.irradiance.total);
+    found.field.mirrored[v] += glm::vec3(found_here.irradiance.mirrored);
+    found.field.indirect[v] = glm::vec3(found_here.indirect.total);
+    found.field.indirect_mirrored[v] = glm::vec3(found_here.indirect.mirrored);
+    found.states[v] = found_here.covered ? VertexState::covered : then;
+  };
+  tbb::parallel_for(std::size_t{0}, (vertices.size() + chunk_size - 1) / chunk_size,
+                    [&](std::size_t c) {
+                      PointWorkspace& work = source.workspaces.local();
+                      for (std::size_t k = c * chunk_size;
+                           k < std::min(vertices.size(), (c + 1) * chunk_size); ++k)
+                        light_vertex(vertices[k], work);
+                    });
+}
+
+} // namespace
+
+void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundField& found) {
+  light_each(source, VertexState::unknown, VertexState::gathered, {}, level, found,
+             [&](const Receiver& receiver, double size, std::uint32_t seed, PointWorkspace& work) {
+               return value_at(source.gathering, source.irradiance, receiver, size, seed, work);
+             });
+}
+
+void light_vertices(const VertexSource& source, FoundField& found) {
+  light_each(source, VertexState::unknown, VertexState::lit, {}, 0, found,
+             [&](const Receiver& receiver, double, std::uint32_t seed,
+                 PointWorkspace& work) -> VertexValue {
+               return {light_from_source(source.gathering, receiver, seed, work), {}, false};
+             });
+}
+
+void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> marked,
+                   FoundField& found) {
+  light_each(source, VertexState::lit, VertexState::gathered, marked, 0, found,
+             [&](const Receiver& receiver, double size, std::uint32_t seed, PointWorkspace& work) {
+               return indirect_value_at(source.gathering, source.irradiance, receiver, size, seed,
+                                        work);
+             });
+}
+
+namespace {
+
+/// Vertices on which something stands, or at whose side it does, take what is gathered beside it; those of facets keep their means.
+void light_contacts(const VertexSource& source, const FoundField& found,
+                    std::vector<std::uint8_t>& valid, DiffuseField& field) {
+  const ElementMesh& mesh = found.mesh;
+  const PointGathering& gathering = source.gathering;
+  const std::vector<Receiver>& receivers = found.receivers;
+  std::vector<std::uint8_t> open = valid;
+  tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t v) {
+    if (open[v] != 0 && found.states[v] != VertexState::averaged &&
+        is_at_foot(gathering.light, receivers[v]))
+      open[v] = 0;
+  });
+  const std::vector<ContactEdge> edges = contact_edges(mesh, open);
+  std::vector<ContactLight> lights(edges.size());
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t k) {
+    const auto [covered, exposed] = edges[k];
+    lights[k] = light_at_contact(
+        gathering, source.irradiance, receivers[exposed], receivers[covered].position,
+        size_of(mesh, mesh.element_of_vertex[exposed]),
+        hash(covered, exposed, gathering.form_factors.seed), source.workspaces.local());
+  });
+  extend_to_contacts(edges, lights, valid, field);
+}
+
+/// The corners of elements that are open only in between take what is gathered there.
+void light_gaps(const VertexSource& source, const ElementMesh& mesh,
+                std::vector<std::uint8_t>& valid, DiffuseField& field) {
+  const std::vector<ElementId> covered = covered_elements(mesh, valid);
+  std::vector<std::optional<GapLight>> lights(covered.size());
+  tbb::parallel_for(std::size_t{0}, covered.size(), [&](std::size_t k) {
+    lights[k] = light_in_gap(source.gathering, source.irradiance, mesh, covered[k],
+                             source.workspaces.local());
+  });
+  take_from_gaps(mesh, covered, lights, valid, field);
+}
+
+} // namespace
+
+DiffuseField settled(const VertexSource& source, const FoundField& found) {
+  DiffuseField field = found.field;
+  std::vector<std::uint8_t> valid;
+  for (const VertexState state : found.states)
+    valid.push_back(state == VertexState::averaged || state == VertexState::gathered ? 1 : 0);
+  for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
+  light_contacts(source, found, valid, field);
+  light_gaps(source, found.mesh, valid, field);
+  for_each_array(field, [&](auto& values) {
+    fill_vertices(found.mesh, valid, values);
+    settle_hanging(found.mesh, values);
+  });
+  return field;
+}
+
+} // namespace meninas

@@ -1,0 +1,61 @@
+// A field while it is found: values of vertices one by one, and what is known of each.
+//
+// Light is gathered at vertices (vertex_light.h): that from the source and the rest together, or the rest only where it is asked for. Once all that are to have
+// a value have one, the field is settled: what stands on a surface takes what is gathered beside it (contact_vertices.h, gap_vertices.h), vertices
+// that hang take from their ends, and those that are left from their neighbours (vertex_fill.h).
+#pragma once
+
+#include "radiosity/interpolation.h"
+#include "radiosity/point_gathering.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+namespace meninas {
+
+/// What a vertex has; `lit`: light from the source alone.
+enum class VertexState : std::uint8_t { unknown, covered, averaged, lit, gathered };
+
+/// A mesh with the values of vertices as they were found; hanging vertices may be unknown.
+struct FoundField {
+  ElementMesh mesh;
+  DiffuseField field;
+  std::vector<VertexState> states; ///< by ElementVertexId
+  std::vector<Receiver> receivers; ///< where they gather (vertex_places.h)
+};
+
+using PointWorkspaces = tbb::enumerable_thread_specific<PointWorkspace>;
+
+/// How vertices gather.
+struct VertexGathering {
+  const FormFactorSettings& form_factors;
+  const DirectSettings& direct;
+  const InterpolationSettings& interpolation;
+};
+
+/// From elements of that reflected radiosity, with a share of the rays.
+PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
+                              const VertexGathering& how, int share);
+
+/// What vertices gather from.
+struct VertexSource {
+  const std::vector<Rgb>& irradiance; ///< by ElementId: tells which elements are lit
+  const PointGathering& gathering;
+  PointWorkspaces& workspaces;
+};
+
+FoundField unknown_field(ElementMesh mesh);
+
+/// Gathers at the vertices that are unknown and do not hang. `level` tells apart the samples of vertices whose numbers are the same.
+void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundField& found);
+
+/// Light from the source alone at those vertices.
+void light_vertices(const VertexSource& source, FoundField& found);
+
+/// Adds the rest at those that are lit and marked, by ElementVertexId.
+void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> marked,
+                   FoundField& found);
+
+/// The field with values at all vertices.
+DiffuseField settled(const VertexSource& source, const FoundField& found);
+
+} // namespace meninas

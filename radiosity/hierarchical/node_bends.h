@@ -1,0 +1,40 @@
+// Nodes over which indirect light is interpolated: as large as bilinear interpolation between their corners allows.
+//
+// Receivers are small enough for what they send on; what is seen of them is interpolated, and where light bends it takes more corners. At a vertex p in the
+// middle of a node (node_vertices.h) light is gathered as well; where
+//
+//   rho |I_p - sum of its corners' shares| sqrt(A / A_mean)  >  X (rho H_p + B_mean)
+//
+// the node gives way to its parts, as it does where some of these vertices have light and others are covered. A is the node's area and A_mean that of a receiver: equal squares over equal areas. I is the indirect part of the irradiance H.
+#pragma once
+
+#include "radiosity/bends.h"
+#include "radiosity/hierarchical/node_vertices.h"
+
+namespace meninas {
+
+/// The cut at which light was received.
+struct ReceiverNodes {
+  NodeTree tree;
+  std::vector<TreeNodeId> receivers;
+  double bend = 0.0; ///< X
+};
+
+/// What has been gathered so far, by ElementVertexId.
+struct GatheredVertices {
+  std::span<const std::uint8_t> valid; ///< whether a vertex has a value of its own
+  std::span<const glm::vec3> irradiance, indirect;
+};
+
+struct BendBound {
+  BendScale scale; ///< its area that of a receiver
+  double x = 0.0;
+};
+
+/// The parts of those nodes that are bent; the others are added to `straight`.
+std::vector<TreeNodeId> parts_of_bent(const ElementMesh& mesh, const NodeTree& tree,
+                                      std::span<const TreeNodeId> nodes,
+                                      const GatheredVertices& gathered, const BendBound& bound,
+                                      std::vector<TreeNodeId>& straight);
+
+} // namespace meninas

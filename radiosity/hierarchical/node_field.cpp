@@ -1,0 +1,94 @@
+#include "radiosity/hierarchical/node_field.h"
+
+#include "radiosity/vertex_places.h"
+
+namespace meninas {
+
+namespace {
+
+constexpr int few_rays = 4; // for the first gathering: so many times fewer
+
+bool is_valid(VertexState state) {
+  return state == VertexState::averaged || state == VertexState::gathered;
+}
+
+/// The rest at the corners and in the middle of nodes as small as it asks for, with a bound of X.
+VertexShares gather_at_nodes(const VertexSource& source, const ReceiverNodes& receivers, double x,
+                             FoundField& found) {
+  const ElementMesh& mesh = found.mesh;
+  BendScale scale = bend_scale(mesh, source.gathering.reflected);
+  scale.area *= double(element_count(mesh)) / double(receivers.receivers.size());
+  std::vector<TreeNodeId> nodes = receivers.receivers, straight;
+  while (!nodes.empty()) {
+    gather_at_lit(source, wanted_vertices(mesh, receivers.tree, nodes), found);
+    std::vector<std::uint8_t> valid;
+    for (const VertexState state : found.states)
+      valid.push_back(is_valid(state) ? 1 : 0);
+    nodes =
+        parts_of_bent(mesh, receivers.tree, nodes,
+                      {valid, found.field.irradiance, found.field.indirect}, {scale, x}, straight);
+  }
+  return vertex_shares(mesh, receivers.tree, straight);
+}
+
+/// What a vertex takes from those that its shares name, as far as these have values.
+void take_shares(const VertexShares& shares, std::size_t v, FoundField& found) {
+  DiffuseField& field = found.field;
+  glm::vec3 total(0.0F), mirrored(0.0F);
+  float weights = 0.0F;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const std::uint32_t from = index(shares.from[v][c]);
+    if (!is_valid(found.states[from]))
+      continue;
+    total += shares.weight[v][c] * field.indirect[from];
+    mirrored += shares.weight[v][c] * field.indirect_mirrored[from];
+    weights += shares.weight[v][c];
+  }
+  if (!(weights > 0.0F)) {
+    found.states[v] = VertexState::covered;
+    return;
+  }
+  field.indirect[v] = total / weights;
+  field.indirect_mirrored[v] = mirrored / weights;
+  field.irradiance[v] += field.indirect[v];
+  field.mirrored[v] += field.indirect_mirrored[v];
+  found.states[v] = VertexState::gathered;
+}
+
+/// Gives vertices that are lit the rest of their light: first those between corners of nodes, which others take from.
+void share_out(const VertexShares& shares, FoundField& found) {
+  for (const bool between : {true, false})
+    for (std::size_t v = 0; v < found.states.size(); ++v)
+      if (found.states[v] == VertexState::lit && (shares.between[v] != 0) == between)
+        take_shares(shares, v, found);
+}
+
+/// The radiosity of the elements by the field that they make themselves, found with few rays.
+std::vector<Rgb> reflected_by_field(const ElementMesh& mesh, const VertexSource& few,
+                                    const ReceiverNodes& receivers, const ElementLight& elements,
+                                    FoundField found) {
+  share_out(gather_at_nodes(few, receivers, few_rays * receivers.bend, found), found);
+  const std::vector<Rgb> means = corner_means(mesh, settled(few, found).irradiance);
+  std::vector<Rgb> reflected = elements.reflected;
+  for (std::size_t e = 0; e < means.size(); ++e)
+    if (elements.irradiance[e] != Rgb(0.0))
+      reflected[e] = mesh.reflectance[e] * means[e];
+  return reflected;
+}
+
+} // namespace
+
+DiffuseField field_by_nodes(const LightScene& light, const ElementLight& elements,
+                            const ReceiverNodes& receivers, const VertexGathering& how,
+                            FoundField found, PointWorkspaces& workspaces) {
+  const PointGathering solved = gathering_from(light, elements.reflected, how, few_rays);
+  const VertexSource few{elements.irradiance, solved, workspaces};
+  light_vertices(few, found);
+  const PointGathering seen = gathering_from(
+      light, reflected_by_field(light.mesh, few, receivers, elements, found), how, 1);
+  const VertexSource source{elements.irradiance, seen, workspaces};
+  share_out(gather_at_nodes(source, receivers, receivers.bend, found), found);
+  return settled(source, found);
+}
+
+} // namespace meninas
