@@ -1,7 +1,8 @@
 // Which vertices gather indirect light, and what those between take from them, where nodes stand for many elements.
 //
-// The corners of receivers gather; inside a receiver the light is smooth, and a vertex takes the bilinear mean of the corners, linear in
-// triangles. A vertex on the border of a large and a small receiver takes from the small one, or is a corner of it: every vertex has one value,
+// The corners of a node gather, and a vertex in its middle, which tells whether light is straight between them (node_bends.h). Its parts share that vertex: what else they have
+// for corners, if it does not gather as a corner of another node, lies between corners of this one. A vertex within a part takes the bilinear mean of the part's corners, linear in
+// triangles. One on the border of a large and a small part takes from the small one, or is a corner of it: every vertex has one value,
 // so that there is no crack.
 #pragma once
 
@@ -13,7 +14,7 @@ namespace meninas {
 struct VertexShares {
   std::vector<std::array<ElementVertexId, 4>> from;
   std::vector<std::array<float, 4>> weight; ///< sum 1
-  std::vector<std::uint8_t> between; ///< takes only from those that gather, and others take from it
+  std::vector<std::uint8_t> between; ///< 1: a corner of a part, between corners that gather; others take from it
 };
 
 /// Whether a vertex takes from itself alone.
@@ -38,8 +39,8 @@ std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
 std::vector<std::uint8_t> wanted_vertices(const ElementMesh& mesh, const NodeTree& tree,
                                           std::span<const TreeNodeId> nodes);
 
-/// Of a cut through the tree: no receiver is above another.
+/// Of a cut through the tree: no node is above another.
 VertexShares vertex_shares(const ElementMesh& mesh, const NodeTree& tree,
-                           std::span<const TreeNodeId> receivers);
+                           std::span<const TreeNodeId> nodes);
 
 } // namespace meninas

@@ -101,6 +101,29 @@ TEST(NodeField, NodesGiveWayToBendsOnly) {
   EXPECT_EQ(parts(0.0, 5.0, 1e-4), 0U);
 }
 
+// Something stands on a part of a node where some of its vertices have no light of their own: that part is found. Where none has, there is nothing to find.
+TEST(NodeField, NodesGiveWayToWhatStandsOnAPartOfThem) {
+  Scene scene;
+  add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(0.5));
+  const auto l = lit(scene, {.element_size = 1.0 / 8.0});
+  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  const std::vector<TreeNodeId> top{static_cast<TreeNodeId>(0)};
+  const std::vector<glm::vec3> light(l->mesh.vertices.size(), glm::vec3(1.0F));
+  const auto parts = [&](auto is_covered) {
+    std::vector<std::uint8_t> valid;
+    for (const Point3& at : l->mesh.vertices)
+      valid.push_back(is_covered(at) ? 0 : 1);
+    std::vector<TreeNodeId> straight;
+    return parts_of_bent(l->mesh, tree, top, {valid, light, light}, {{1.0, 0.5}, 0.01}, straight)
+        .size();
+  };
+  EXPECT_EQ(parts([](const Point3&) { return false; }), 0U);
+  EXPECT_EQ(parts([](const Point3& at) { return at.x + at.z < 0.1; }), 4U);
+  EXPECT_EQ(parts([](const Point3& at) { return std::abs(at.x - 0.5) < 0.1; }), 4U);
+  EXPECT_EQ(parts([](const Point3& at) { return at.x < 0.9; }), 4U);
+  EXPECT_EQ(parts([](const Point3&) { return true; }), 0U);
+}
+
 PassOneSettings by_nodes(double element_size, double link_error, int rays) {
   PassOneSettings settings;
   settings.mesh.element_size = element_size;
