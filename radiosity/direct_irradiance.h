@@ -20,7 +20,7 @@ struct DirectSettings {
   int most_points =
       256; ///< doubled up to this while the mean over the element is unsure (near a lamp, at a shadow's edge)
   int points_in_all =
-      0; ///< of more elements than have `points` each together, each has its share, and as much fewer at the most (element_light.h); 0: as many as that makes
+      0; ///< a limit for all elements together, of which each has its share (element_light.h); 0: none
   int shadow_rays =
       16; ///< per emitter image and point where it matters most; images that bring less get fewer
   int penumbra_rays = 128; ///< when the first ones disagree

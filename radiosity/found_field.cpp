@@ -151,7 +151,7 @@ DiffuseField settled(const VertexSource& source, const FoundField& found) {
   DiffuseField field = found.field;
   std::vector<std::uint8_t> valid;
   for (const VertexState state : found.states)
-    valid.push_back(state == VertexState::averaged || state == VertexState::gathered ? 1 : 0);
+    valid.push_back(has_value(state) ? 1 : 0);
   for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
   light_contacts(source, found, valid, field);
   light_gaps(source, found.mesh, valid, field);

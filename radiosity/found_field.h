@@ -15,6 +15,10 @@ namespace meninas {
 /// What a vertex has; `lit`: light from the source alone.
 enum class VertexState : std::uint8_t { unknown, covered, averaged, lit, gathered };
 
+inline bool has_value(VertexState state) {
+  return state == VertexState::averaged || state == VertexState::gathered;
+}
+
 /// A mesh with the values of vertices as they were found; hanging vertices may be unknown.
 struct FoundField {
   ElementMesh mesh;

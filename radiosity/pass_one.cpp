@@ -187,8 +187,7 @@ RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings&
 /// Pass one by receivers of many sizes.
 static RadiositySolution link_pass_one(const LightScene& light, const PassOneSettings& settings,
                                        const Progress& progress) {
-  const bool vertices_gather =
-      settings.interpolation.method == Interpolation::gather && !settings.interpolation.adaptive;
+  const bool vertices_gather = gathers_by_nodes(settings);
   DirectSettings direct = settings.direct;
   if (vertices_gather)
     direct.points_in_all = points_of_sources;
@@ -204,6 +203,11 @@ static RadiositySolution link_pass_one(const LightScene& light, const PassOneSet
            {nodes.closure, nodes.exposed, nodes.rays_traced}, solution,
            vertices_gather ? &nodes.receivers : nullptr);
   return solution;
+}
+
+bool gathers_by_nodes(const PassOneSettings& settings) {
+  return settings.solver.method == SolverMethod::hierarchical &&
+         settings.interpolation.method == Interpolation::gather && !settings.interpolation.adaptive;
 }
 
 bool shoots_rays(const PassOneSettings& settings, std::size_t elements) {

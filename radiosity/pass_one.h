@@ -86,6 +86,9 @@ RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings&
 /// Whether these settings shoot rays instead of assembling a transport.
 bool shoots_rays(const PassOneSettings& settings, std::size_t elements);
 
+/// Whether light is received by nodes, and vertices gather as far as these ask for it (hierarchical/node_field.h).
+bool gathers_by_nodes(const PassOneSettings& settings);
+
 /// Pass one by rays that are shot, whatever the number of elements.
 RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings& settings,
                                  const Progress& progress = {}, const PassOneWatch& watch = {});

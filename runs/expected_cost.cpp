@@ -53,7 +53,7 @@ PointSeconds point_seconds(const PreparedScene& prepared, const PassOneSettings&
   });
   SharedLightWorkspace element_work;
   DirectSettings all = settings.direct;
-  if (settings.solver.method == SolverMethod::hierarchical)
+  if (gathers_by_nodes(settings))
     all.points_in_all = points_of_sources;
   const DirectSettings at_element = shared_out(all, element_count(mesh));
   seconds.on_element = seconds_of_one(element_count(mesh), some, [&](std::size_t e) {
@@ -71,12 +71,13 @@ struct Counts {
 };
 
 /// Where light is received by nodes: about twice as many as at first, and a few vertices for each.
-Counts counted_by_nodes(const LightScene& light, Counts all) {
+Counts counted_by_nodes(const LightScene& light, const PassOneSettings& settings, Counts all) {
   constexpr double rows_of_first = 2.0, gathers_of_row = 3.0;
   const double first =
       double(first_receivers(light.mesh, make_node_tree(light.mesh, light.surfaces)).size());
   all.rows = std::min(all.elements, rows_of_first * first);
-  all.gathers = std::min(all.gathers, gathers_of_row * all.rows);
+  if (gathers_by_nodes(settings))
+    all.gathers = std::min(all.gathers, gathers_of_row * all.rows);
   return all;
 }
 
@@ -129,7 +130,7 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
                               : divided * double(gathering_vertices(*prepared.light));
   Counts counts{elements, vertices, vertices, elements};
   if (pass_one.solver.method == SolverMethod::hierarchical)
-    counts = counted_by_nodes(*prepared.light, counts);
+    counts = counted_by_nodes(*prepared.light, pass_one, counts);
   const double share = 1.0 / (busy * threads);
 
   const PointSeconds point = point_seconds(prepared, pass_one);

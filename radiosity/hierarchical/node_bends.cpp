@@ -7,10 +7,6 @@ namespace meninas {
 
 namespace {
 
-double brightest(const glm::dvec3& light) {
-  return std::max({std::abs(light.r), std::abs(light.g), std::abs(light.b)});
-}
-
 double area_below(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId node) {
   double area = 0.0;
   for (const ElementId element : elements_below(tree, node))
@@ -40,9 +36,9 @@ bool is_bent(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId id,
     glm::vec3 interpolated(0.0F);
     for (std::size_t c = 0; c < corners.size(); ++c)
       interpolated += probe.weight[c] * gathered.indirect[index(corners[c])];
-    const glm::dvec3 rho(mesh.reflectance[index(mesh.element_of_vertex[p])]);
-    const double off = brightest(rho * glm::dvec3(gathered.indirect[p] - interpolated));
-    const double there = brightest(rho * glm::dvec3(gathered.irradiance[p]));
+    const Rgb& rho = mesh.reflectance[index(mesh.element_of_vertex[p])];
+    const double off = largest(rho * glm::abs(Rgb(gathered.indirect[p] - interpolated)));
+    const double there = largest(rho * Rgb(gathered.irradiance[p]));
     return off * weight > bound.x * (there + bound.scale.radiosity);
   });
 }

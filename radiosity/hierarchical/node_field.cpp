@@ -8,10 +8,6 @@ namespace {
 
 constexpr int few_rays = 4; // for the first gathering: so many times fewer
 
-bool is_valid(VertexState state) {
-  return state == VertexState::averaged || state == VertexState::gathered;
-}
-
 /// The rest at the corners and in the middle of nodes as small as it asks for, with a bound of X.
 VertexShares gather_at_nodes(const VertexSource& source, const ReceiverNodes& receivers, double x,
                              FoundField& found) {
@@ -23,7 +19,7 @@ VertexShares gather_at_nodes(const VertexSource& source, const ReceiverNodes& re
     gather_at_lit(source, wanted_vertices(mesh, receivers.tree, nodes), found);
     std::vector<std::uint8_t> valid;
     for (const VertexState state : found.states)
-      valid.push_back(is_valid(state) ? 1 : 0);
+      valid.push_back(has_value(state) ? 1 : 0);
     nodes =
         parts_of_bent(mesh, receivers.tree, nodes,
                       {valid, found.field.irradiance, found.field.indirect}, {scale, x}, straight);
@@ -38,7 +34,7 @@ void take_shares(const VertexShares& shares, std::size_t v, FoundField& found) {
   float weights = 0.0F;
   for (std::size_t c = 0; c < 4; ++c) {
     const std::uint32_t from = index(shares.from[v][c]);
-    if (!is_valid(found.states[from]))
+    if (!has_value(found.states[from]))
       continue;
     total += shares.weight[v][c] * field.indirect[from];
     mirrored += shares.weight[v][c] * field.indirect_mirrored[from];

@@ -129,7 +129,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
                             const Progress& progress) {
   NodeSolution result;
   Stopwatch watch;
-  const NodeTree tree = make_node_tree(light.mesh, light.surfaces);
+  NodeTree tree = make_node_tree(light.mesh, light.surfaces);
   NodeCut cut = first_cut(light, tree, form_factors, progress);
   std::vector<CoveredCells> covered = covered_elements(tree, cut);
   const double spread = settings.link_error * (elements == ElementsAre::sources ? 20.0 : 1.0);
@@ -171,7 +171,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
   result.figures = {cut.receivers.size(), received.links.columns.size(),
                     tree.nodes.size() * sizeof(TreeNode) + bytes_of(cut.rows) +
                         bytes_of(received.links)};
-  result.receivers = {tree, std::move(cut.receivers), settings.link_error};
+  result.receivers = {std::move(tree), std::move(cut.receivers), settings.link_error};
   return result;
 }
 
