@@ -19,8 +19,6 @@ struct DirectSettings {
   int points = 16; ///< receiving points per element to begin with
   int most_points =
       256; ///< doubled up to this while the mean over the element is unsure (near a lamp, at a shadow's edge)
-  int points_in_all =
-      0; ///< a limit for all elements together, of which each has its share (element_light.h); 0: none
   int shadow_rays =
       16; ///< per emitter image and point where it matters most; images that bring less get fewer
   int penumbra_rays = 128; ///< when the first ones disagree

@@ -1,6 +1,5 @@
 #include "radiosity/element_light.h"
 
-#include "radiosity/facets.h"
 #include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -9,17 +8,15 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cmath>
 
 namespace meninas {
 
-ArrivingLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
-                                const DirectSettings& settings, SharedLightWorkspace& work) {
-  constexpr int whole = 64;
-  if (std::popcount(covered) == whole)
-    return {};
-  const ReceiverArea area = receiver_of(light, element);
-  const auto seed = hash(index(element), settings.seed, 0xd17ec7);
+namespace {
+
+/// The mean over the exposed part of an area. `element` is the one it is, if it is one.
+ArrivingLight mean_over(const LightScene& light, const ReceiverArea& area, CoveredCells covered,
+                        ElementId element, std::uint32_t seed, const DirectSettings& settings,
+                        SharedLightWorkspace& work) {
   std::uint32_t next = 0;
   const auto next_point = [&]() -> NumberedPoint {
     for (;;) {
@@ -41,53 +38,67 @@ ArrivingLight direct_irradiance(const LightScene& light, ElementId element, Cove
                            seed, work);
 }
 
-DirectSettings shared_out(DirectSettings settings, std::size_t elements) {
-  const double share = double(settings.points_in_all) / double(std::max<std::size_t>(elements, 1));
-  if (settings.points_in_all == 0 || share >= settings.points)
-    return settings;
-  const auto points = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(share))));
-  // Doubling where the first points disagree darkens the outer half of a penumbra, the more the fewer they are.
-  const double fewer = double(points) / settings.points;
-  settings.most_points = std::max(points, static_cast<int>(settings.most_points * fewer * fewer));
-  settings.points = points;
-  return settings;
+} // namespace
+
+ArrivingLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
+                                const DirectSettings& settings, SharedLightWorkspace& work) {
+  constexpr int whole = 64;
+  if (std::popcount(covered) == whole)
+    return {};
+  return mean_over(light, receiver_of(light, element), covered, element,
+                   hash(index(element), settings.seed, 0xd17ec7), settings, work);
+}
+
+ArrivingLight direct_irradiance(const LightScene& light, const ReceiverArea& area,
+                                std::uint32_t number, const DirectSettings& settings,
+                                SharedLightWorkspace& work) {
+  return mean_over(light, area, 0, none<ElementId>, hash(number, settings.seed, 0xd17a7ea),
+                   settings, work);
+}
+
+MeansOfAreas means_of_areas(
+    std::size_t count,
+    const std::function<ArrivingLight(std::size_t, SharedLightWorkspace&)>& mean,
+    const Progress& progress) {
+  constexpr std::size_t chunk_size = 64;
+  const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
+  MeansOfAreas means;
+  means.light.resize(count);
+  tbb::enumerable_thread_specific<SharedLightWorkspace> workspaces;
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    SharedLightWorkspace& work = workspaces.local();
+    for (std::size_t k = c * chunk_size; k < std::min(count, (c + 1) * chunk_size); ++k)
+      means.light[k] = mean(k, work);
+    if (progress)
+      progress("direct light", static_cast<double>(++done) / static_cast<double>(chunks));
+  });
+  for (const auto& work : workspaces)
+    means.shadow_rays += work.point.shadow_rays;
+  return means;
 }
 
 DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
-                                   const DirectSettings& all, const Progress& progress) {
-  constexpr std::size_t chunk_size = 64;
+                                   const DirectSettings& settings, const Progress& progress) {
   const std::size_t size = element_count(light.mesh);
-  const DirectSettings shared = shared_out(all, size);
   DirectIrradiance result;
   result.irradiance.assign(size, Rgb(0.0));
   if (light.emitters.empty() && light.punctual.empty())
     return result;
   result.punctual.resize(light.punctual.empty() ? 0 : size);
-
-  const std::size_t chunks = (size + chunk_size - 1) / chunk_size;
-  // What facets receive is seen of them.
-  std::vector<std::uint8_t> seen(size, 0);
-  if (shared.points < all.points)
-    if (const VertexElements facets = facets_around(light); !facets.elements.empty())
-      seen = averaged_facets(light.mesh, facets);
-  tbb::enumerable_thread_specific<SharedLightWorkspace> workspaces;
-  std::atomic<std::size_t> done{0};
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    SharedLightWorkspace& work = workspaces.local();
-    const std::size_t end = std::min(size, (c + 1) * chunk_size);
-    for (std::size_t i = c * chunk_size; i < end; ++i) {
-      const ArrivingLight mean =
-          direct_irradiance(light, static_cast<ElementId>(i), covered.empty() ? 0 : covered[i],
-                            seen[i] != 0 ? all : shared, work);
-      result.irradiance[i] = mean.total;
-      if (!result.punctual.empty())
-        result.punctual[i] = mean.punctual;
-    }
-    if (progress)
-      progress("direct light", static_cast<double>(++done) / static_cast<double>(chunks));
-  });
-  for (const auto& work : workspaces)
-    result.shadow_rays += work.point.shadow_rays;
+  const MeansOfAreas means = means_of_areas(
+      size,
+      [&](std::size_t i, SharedLightWorkspace& work) {
+        return direct_irradiance(light, static_cast<ElementId>(i), covered.empty() ? 0 : covered[i],
+                                 settings, work);
+      },
+      progress);
+  for (std::size_t i = 0; i < size; ++i) {
+    result.irradiance[i] = means.light[i].total;
+    if (!result.punctual.empty())
+      result.punctual[i] = means.light[i].punctual;
+  }
+  result.shadow_rays = means.shadow_rays;
   return result;
 }
 

@@ -14,9 +14,20 @@ namespace meninas {
 ArrivingLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
                                 const DirectSettings& settings, SharedLightWorkspace& workspace);
 
-/// The settings for each of so many elements. Where many have few points each their means are noisy, but what they light takes the mean over them. Facets of curved
-/// surfaces, whose means are seen (facets.h), keep theirs.
-DirectSettings shared_out(DirectSettings settings, std::size_t elements);
+/// The mean over an area of several elements, all of it exposed. `number` tells its points from those of others.
+ArrivingLight direct_irradiance(const LightScene& light, const ReceiverArea& area,
+                                std::uint32_t number, const DirectSettings& settings,
+                                SharedLightWorkspace& workspace);
+
+/// `mean(k, workspace)` of so many areas, by all threads, and the shadow rays they took.
+struct MeansOfAreas {
+  std::vector<ArrivingLight> light;
+  std::uint64_t shadow_rays = 0;
+};
+MeansOfAreas means_of_areas(
+    std::size_t count,
+    const std::function<ArrivingLight(std::size_t, SharedLightWorkspace&)>& mean,
+    const Progress& progress);
 
 struct DirectIrradiance {
   std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element

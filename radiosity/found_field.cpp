@@ -41,7 +41,7 @@ PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflecte
           how.form_factors,
           how.direct,
           {.rays = std::max(1, how.interpolation.rays / share),
-           .cluster_shadow_rays = how.interpolation.cluster_shadow_rays}};
+           .cluster_shadow_rays = std::max(1, how.interpolation.cluster_shadow_rays / share)}};
 }
 
 namespace {
@@ -147,11 +147,16 @@ void light_gaps(const VertexSource& source, const ElementMesh& mesh,
 
 } // namespace
 
-DiffuseField settled(const VertexSource& source, const FoundField& found) {
-  DiffuseField field = found.field;
+std::vector<std::uint8_t> with_values(const FoundField& found) {
   std::vector<std::uint8_t> valid;
   for (const VertexState state : found.states)
     valid.push_back(has_value(state) ? 1 : 0);
+  return valid;
+}
+
+DiffuseField settled(const VertexSource& source, const FoundField& found) {
+  DiffuseField field = found.field;
+  std::vector<std::uint8_t> valid = with_values(found);
   for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
   light_contacts(source, found, valid, field);
   light_gaps(source, found.mesh, valid, field);
@@ -160,6 +165,14 @@ DiffuseField settled(const VertexSource& source, const FoundField& found) {
     settle_hanging(found.mesh, values);
   });
   return field;
+}
+
+std::vector<glm::vec3> filled_irradiance(const FoundField& found) {
+  std::vector<glm::vec3> irradiance = found.field.irradiance;
+  settle_hanging(found.mesh, irradiance);
+  fill_vertices(found.mesh, with_values(found), irradiance);
+  settle_hanging(found.mesh, irradiance);
+  return irradiance;
 }
 
 } // namespace meninas

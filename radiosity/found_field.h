@@ -59,7 +59,13 @@ void light_vertices(const VertexSource& source, FoundField& found);
 void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> marked,
                    FoundField& found);
 
+/// By ElementVertexId: 1 where there is a value.
+std::vector<std::uint8_t> with_values(const FoundField& found);
+
 /// The field with values at all vertices.
 DiffuseField settled(const VertexSource& source, const FoundField& found);
+
+/// The irradiance of such a field for those that only gather from it: what has no value, beside contacts too, is as its neighbours are.
+std::vector<glm::vec3> filled_irradiance(const FoundField& found);
 
 } // namespace meninas

@@ -93,14 +93,13 @@ struct ElementRays {
   std::uint64_t traced = 0;
 };
 
-/// Elements receive what they make of it themselves: light from the source, and the rest as it is at their corners.
-void take_from_field(const ElementMesh& mesh, const std::vector<Rgb>& from_source,
-                     RadiositySolution& solution) {
-  const std::vector<Rgb> rest = corner_means(mesh, solution.field.indirect);
-  for (std::size_t e = 0; e < rest.size(); ++e) {
+/// Elements receive what their corners do.
+void take_from_field(const ElementMesh& mesh, RadiositySolution& solution) {
+  const std::vector<Rgb> means = corner_means(mesh, solution.field.irradiance);
+  for (std::size_t e = 0; e < means.size(); ++e) {
     if (!(solution.exposed[e] > 0.0F))
       continue;
-    solution.irradiance[e] = from_source[e] + rest[e];
+    solution.irradiance[e] = means[e];
     solution.radiosity[e] = mesh.emission[e] + mesh.reflectance[e] * solution.irradiance[e];
   }
 }
@@ -132,7 +131,7 @@ void complete(const LightScene& light, const PassOneSettings& settings, const Fi
   solution.seconds.interpolate = watch.lap();
   solution.exposed = rays.exposed;
   if (receivers != nullptr)
-    take_from_field(mesh, first.from_source, solution);
+    take_from_field(mesh, solution);
 
   solution.closure = closure_error(rays.closure);
   solution.energy = energy_balance(light, solution, rays.closure, first.entering);
@@ -188,10 +187,7 @@ RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings&
 static RadiositySolution link_pass_one(const LightScene& light, const PassOneSettings& settings,
                                        const Progress& progress) {
   const bool vertices_gather = gathers_by_nodes(settings);
-  DirectSettings direct = settings.direct;
-  if (vertices_gather)
-    direct.points_in_all = points_of_sources;
-  NodeSolution nodes = solve_by_nodes(light, settings.form_factors, direct, settings.hierarchical,
+  NodeSolution nodes = solve_by_nodes(light, settings.form_factors, settings.direct, settings.hierarchical,
                                       vertices_gather ? ElementsAre::sources : ElementsAre::seen,
                                       settings.solver, progress);
   RadiositySolution solution;

@@ -2,6 +2,7 @@
 
 #include "radiosity/element_light.h"
 #include "radiosity/facets.h"
+#include "radiosity/hierarchical/node_light.h"
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/point_gathering.h"
 #include "radiosity/vertex_places.h"
@@ -52,10 +53,9 @@ PointSeconds point_seconds(const PreparedScene& prepared, const PassOneSettings&
     direct_irradiance(light, receivers[v], settings.direct, seed(v), work.direct);
   });
   SharedLightWorkspace element_work;
-  DirectSettings all = settings.direct;
-  if (gathers_by_nodes(settings))
-    all.points_in_all = points_of_sources;
-  const DirectSettings at_element = shared_out(all, element_count(mesh));
+  const DirectSettings at_element = gathers_by_nodes(settings)
+                                        ? shared_out(settings.direct, element_count(mesh))
+                                        : settings.direct;
   seconds.on_element = seconds_of_one(element_count(mesh), some, [&](std::size_t e) {
     direct_irradiance(light, static_cast<ElementId>(e), 0, at_element, element_work);
   });
@@ -65,6 +65,7 @@ PointSeconds point_seconds(const PreparedScene& prepared, const PassOneSettings&
 /// How many of what there will be.
 struct Counts {
   double rows = 0.0;     ///< of the transport
+  double of_rays = 1.0;  ///< what share of a gathering's rays a row has
   double gathers = 0.0;  ///< by vertices, besides
   double sources = 0.0;  ///< vertices with light from the source
   double elements = 0.0; ///< whose light from the source is computed
@@ -73,11 +74,16 @@ struct Counts {
 /// Where light is received by nodes: about twice as many as at first, and a few vertices for each.
 Counts counted_by_nodes(const LightScene& light, const PassOneSettings& settings, Counts all) {
   constexpr double rows_of_first = 2.0, gathers_of_row = 3.0;
-  const double first =
-      double(first_receivers(light.mesh, make_node_tree(light.mesh, light.surfaces)).size());
-  all.rows = std::min(all.elements, rows_of_first * first);
-  if (gathers_by_nodes(settings))
-    all.gathers = std::min(all.gathers, gathers_of_row * all.rows);
+  const NodeTree tree = make_node_tree(light.mesh, light.surfaces);
+  const std::size_t first = first_receivers(light.mesh, tree).size();
+  all.rows = std::min(all.elements, rows_of_first * double(first));
+  if (!gathers_by_nodes(settings))
+    return all;
+  all.of_rays = double(rays_shared_out(settings.form_factors, first).rays) /
+                double(std::max(1, settings.form_factors.rays));
+  all.gathers = std::min(all.gathers, gathers_of_row * all.rows);
+  const std::vector<std::uint8_t> alone(element_count(light.mesh), 0);
+  all.elements = double(nodes_lit_together(tree, most_lit_together(alone.size()), alone).size());
   return all;
 }
 
@@ -128,7 +134,8 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
                vertices = pass_one.interpolation.method == Interpolation::average
                               ? 0.0
                               : divided * double(gathering_vertices(*prepared.light));
-  Counts counts{elements, vertices, vertices, elements};
+  Counts counts{
+      .rows = elements, .gathers = vertices, .sources = vertices, .elements = elements};
   if (pass_one.solver.method == SolverMethod::hierarchical)
     counts = counted_by_nodes(*prepared.light, pass_one, counts);
   const double share = 1.0 / (busy * threads);
@@ -136,7 +143,7 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
   const PointSeconds point = point_seconds(prepared, pass_one);
   ExpectedCost cost;
   cost.prepare = started + loading + prepared.seconds.plan + prepared.seconds.mesh;
-  cost.form_factors = share * (counts.rows * point.gather + counts.elements * point.on_element);
+  cost.form_factors = share * (counts.rows * counts.of_rays * point.gather + counts.elements * point.on_element);
   cost.interpolate = share * (counts.gathers * point.gather + counts.sources * point.source);
   cost.solve = products * entry_seconds * prepared.plan.bands * counts.rows *
                std::min<double>(pass_one.form_factors.rays, elements);

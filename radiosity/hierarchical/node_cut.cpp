@@ -103,15 +103,27 @@ bool any(const std::vector<std::uint8_t>& marked) {
 
 } // namespace
 
+/// How many receivers a side begins with: the more, the larger a share of all surfaces it is.
+static double first_on_side(double share) {
+  constexpr double in_all = 1024.0, least = 4.0, most = 16.0;
+  return std::clamp(in_all * share, least, most);
+}
+
 std::vector<TreeNodeId> first_receivers(const ElementMesh& mesh, const NodeTree& tree) {
-  constexpr std::uint32_t least = 16; // on a side
+  double all = 0.0;
+  std::vector<double> areas(mesh.sides.size(), 0.0);
+  for (std::size_t e = 0; e < mesh.area.size(); ++e) {
+    areas[index(mesh.side_of_element[e])] += mesh.area[e];
+    all += mesh.area[e];
+  }
   std::vector<TreeNodeId> nodes;
   std::vector<std::uint32_t> most(mesh.sides.size()); // elements of a receiver, by side
   for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
     const TreeNode& node = tree.nodes[n];
     std::uint32_t& limit = most[index(node.side)];
     if (node.parent == none<TreeNodeId>)
-      limit = std::max(1U, node.leaf_count / least);
+      limit = std::max(1U, static_cast<std::uint32_t>(
+                               node.leaf_count / first_on_side(areas[index(node.side)] / all)));
     const bool above_is_large =
         node.parent == none<TreeNodeId> || tree.nodes[index(node.parent)].leaf_count > limit;
     if (above_is_large && (node.leaf_count <= limit || is_leaf(node)))

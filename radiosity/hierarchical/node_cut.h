@@ -26,7 +26,7 @@ struct NodeCut {
 /// By ElementId: the cells on which something stands.
 std::vector<CoveredCells> covered_elements(const NodeTree& tree, const NodeCut& cut);
 
-/// Sixteen nodes on every side that has so many elements.
+/// Four to sixteen nodes on every side that has so many elements: one for each 1/1024 of all there is.
 std::vector<TreeNodeId> first_receivers(const ElementMesh& mesh, const NodeTree& tree);
 
 /// Those, and smaller ones where something stands on a side.

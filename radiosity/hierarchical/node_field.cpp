@@ -17,9 +17,7 @@ VertexShares gather_at_nodes(const VertexSource& source, const ReceiverNodes& re
   std::vector<TreeNodeId> nodes = receivers.receivers, straight;
   while (!nodes.empty()) {
     gather_at_lit(source, wanted_vertices(mesh, receivers.tree, nodes), found);
-    std::vector<std::uint8_t> valid;
-    for (const VertexState state : found.states)
-      valid.push_back(has_value(state) ? 1 : 0);
+    const std::vector<std::uint8_t> valid = with_values(found);
     nodes =
         parts_of_bent(mesh, receivers.tree, nodes,
                       {valid, found.field.irradiance, found.field.indirect}, {scale, x}, straight);
@@ -64,7 +62,7 @@ std::vector<Rgb> reflected_by_field(const ElementMesh& mesh, const VertexSource&
                                     const ReceiverNodes& receivers, const ElementLight& elements,
                                     FoundField found) {
   share_out(gather_at_nodes(few, receivers, few_rays * receivers.bend, found), found);
-  const std::vector<Rgb> means = corner_means(mesh, settled(few, found).irradiance);
+  const std::vector<Rgb> means = corner_means(mesh, filled_irradiance(found));
   std::vector<Rgb> reflected = elements.reflected;
   for (std::size_t e = 0; e < means.size(); ++e)
     if (elements.irradiance[e] != Rgb(0.0))

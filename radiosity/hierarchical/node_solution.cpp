@@ -1,9 +1,11 @@
 #include "radiosity/hierarchical/node_solution.h"
 
+#include "radiosity/hierarchical/node_light.h"
 #include "radiosity/solvers/linear_system.h"
 #include "scenes/stopwatch.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace meninas {
 
@@ -123,6 +125,15 @@ std::uint64_t bytes_of(const Transport& transport) {
 
 } // namespace
 
+FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows) {
+  constexpr double few = 1024.0;
+  constexpr int least = 32;
+  const double share = settings.rays * few / double(std::max<std::size_t>(rows, 1));
+  const auto rays = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(share))));
+  settings.rays = std::min(settings.rays, std::max(least, rays));
+  return settings;
+}
+
 NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& form_factors,
                             const DirectSettings& direct, const HierarchicalSettings& settings,
                             ElementsAre elements, const SolverSettings& solver,
@@ -130,10 +141,18 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
   NodeSolution result;
   Stopwatch watch;
   NodeTree tree = make_node_tree(light.mesh, light.surfaces);
-  NodeCut cut = first_cut(light, tree, form_factors, progress);
+  const FormFactorSettings of_rows =
+      elements == ElementsAre::seen
+          ? form_factors
+          : rays_shared_out(form_factors, first_receivers(light.mesh, tree).size());
+  NodeCut cut = first_cut(light, tree, of_rows, progress);
   std::vector<CoveredCells> covered = covered_elements(tree, cut);
   const double spread = settings.link_error * (elements == ElementsAre::sources ? 20.0 : 1.0);
-  DirectIrradiance found = found_light(light, covered, FormFactorMethod::rays, direct, progress);
+  const auto find_light = [&] {
+    return elements == ElementsAre::seen ? direct_irradiance(light, covered, direct, progress)
+                                         : light_by_nodes(light, tree, covered, direct, progress);
+  };
+  DirectIrradiance found = find_light();
   std::uint64_t shadow_rays = found.shadow_rays;
 
   Received received;
@@ -142,7 +161,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
     // Smaller receivers may find that something stands on elements: then less of them is lit.
     if (std::vector<CoveredCells> now = covered_elements(tree, cut); now != covered) {
       covered = std::move(now);
-      found = found_light(light, covered, FormFactorMethod::rays, direct, progress);
+      found = find_light();
       shadow_rays += found.shadow_rays;
     }
     areas = exposed_areas(light.mesh, covered);
@@ -153,7 +172,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
     result.seconds_solving += watch.lap();
     if (std::ranges::find(marked, 1) == marked.end())
       break;
-    cut = moved_down(light, tree, std::move(cut), marked, form_factors, progress);
+    cut = moved_down(light, tree, std::move(cut), marked, of_rows, progress);
   }
 
   // B = S + rho H, what receivers have pushed down to their elements.

@@ -17,7 +17,8 @@
 // is no quadratic beginning, and rows close. Pairs with a closed form and shadow rays, as in the paper, were slower and less accurate (ARCHITECTURE.md).
 //
 // X is the link error where elements are seen as they receive. Where vertices gather what is seen (node_field.h), elements only light others, on average over
-// many, and what is seen of them is as vertices have it (node_field.h): X is twenty link errors, and they share points for light from the source.
+// many, and what is seen of them is as vertices have it (node_field.h): X is twenty link errors, light from the source is that of nodes (node_light.h), and where there are more than 1,024 receivers their rows
+// share the rays of so many.
 //
 // Cost: first light and pushes are linear in elements; rows as many as receivers, whose number depends on the light and on X, and on
 // elements only while these are larger than X asks for.
@@ -43,8 +44,8 @@ struct NodeSolution {
   double seconds_gathering = 0.0, seconds_solving = 0.0;
 };
 
-/// At so many points in all, unless elements are seen, light from the source is computed for them (DirectSettings::points_in_all).
-inline constexpr int points_of_sources = 8192;
+/// The settings for each row of so many that only light others.
+FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows);
 
 /// What elements receive is what is seen of them, or it only lights others, and vertices gather what is seen.
 enum class ElementsAre { seen, sources };

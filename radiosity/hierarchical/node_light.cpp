@@ -1,0 +1,92 @@
+#include "radiosity/hierarchical/node_light.h"
+
+#include "radiosity/facets.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace meninas {
+
+DirectSettings shared_out(DirectSettings settings, std::size_t nodes) {
+  const double share = double(points_of_sources) / double(std::max<std::size_t>(nodes, 1));
+  if (share >= settings.points)
+    return settings;
+  const auto points = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(share))));
+  // Doubling where the first points disagree darkens the outer half of a penumbra, the more the fewer they are.
+  const double fewer = double(points) / settings.points;
+  settings.most_points = std::max(points, static_cast<int>(settings.most_points * fewer * fewer));
+  settings.points = points;
+  return settings;
+}
+
+std::uint32_t most_lit_together(std::size_t elements) {
+  // Nodes are parted in four: they have from a quarter of the most to that, and there are from N / 2 to 2 N of them.
+  return static_cast<std::uint32_t>(std::max<std::size_t>(1, 2 * elements / points_of_sources));
+}
+
+std::vector<TreeNodeId> nodes_lit_together(const NodeTree& tree, std::uint32_t most_elements,
+                                           std::span<const std::uint8_t> alone) {
+  std::vector<std::uint8_t> apart(tree.nodes.size(), 0); // something below is alone
+  for (std::size_t n = tree.nodes.size(); n-- > 0;) {
+    const TreeNode& node = tree.nodes[n];
+    if (is_leaf(node) && alone[index(node.element)] != 0)
+      apart[n] = 1;
+    if (apart[n] != 0 && node.parent != none<TreeNodeId>)
+      apart[index(node.parent)] = 1;
+  }
+  std::vector<TreeNodeId> nodes;
+  std::vector<std::uint8_t> below(tree.nodes.size(), 0); // of one of them, or below it
+  for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+    const TreeNode& node = tree.nodes[n];
+    if (node.parent != none<TreeNodeId> && below[index(node.parent)] != 0) {
+      below[n] = 1;
+    } else if (is_leaf(node) || (node.leaf_count <= most_elements && apart[n] == 0)) {
+      below[n] = 1;
+      nodes.push_back(static_cast<TreeNodeId>(n));
+    }
+  }
+  return nodes;
+}
+
+DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
+                                std::span<const CoveredCells> covered,
+                                const DirectSettings& settings, const Progress& progress) {
+  const std::size_t size = element_count(light.mesh);
+  DirectIrradiance result;
+  result.irradiance.assign(size, Rgb(0.0));
+  if (light.emitters.empty() && light.punctual.empty())
+    return result;
+  result.punctual.resize(light.punctual.empty() ? 0 : size);
+
+  std::vector<std::uint8_t> seen(size, 0);
+  if (const VertexElements facets = facets_around(light); !facets.elements.empty())
+    seen = averaged_facets(light.mesh, facets);
+  std::vector<std::uint8_t> alone = seen;
+  for (std::size_t e = 0; e < size; ++e)
+    if (covered[e] != 0)
+      alone[e] = 1;
+  const std::vector<TreeNodeId> nodes =
+      nodes_lit_together(tree, most_lit_together(size), alone);
+  const DirectSettings shared = shared_out(settings, nodes.size());
+
+  const auto mean = [&](std::size_t k, SharedLightWorkspace& work) {
+    const TreeNode& node = tree.nodes[index(nodes[k])];
+    if (!is_leaf(node))
+      return direct_irradiance(light, area_of(light, node), index(nodes[k]), shared, work);
+    const std::size_t e = index(node.element);
+    return direct_irradiance(light, node.element, covered[e], seen[e] != 0 ? settings : shared,
+                             work);
+  };
+  const MeansOfAreas means = means_of_areas(nodes.size(), mean, progress);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    for (const ElementId element : elements_below(tree, nodes[k])) {
+      result.irradiance[index(element)] = means.light[k].total;
+      if (!result.punctual.empty())
+        result.punctual[index(element)] = means.light[k].punctual;
+    }
+  result.shadow_rays = means.shadow_rays;
+  return result;
+}
+
+} // namespace meninas
