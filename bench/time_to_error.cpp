@@ -126,24 +126,39 @@ struct PictureKnobs {
   std::optional<double> pixel_error = {};
 };
 
+RunSettings drafted(double area, double elements, int rays, const PictureKnobs& knobs) {
+  RunSettings settings;
+  settings.quality = Quality::draft;
+  settings.element_size = std::sqrt(area / elements);
+  settings.rays = rays;
+  settings.diffuse = knobs.term;
+  settings.samples = knobs.samples;
+  settings.pixel_error = knobs.pixel_error;
+  return settings;
+}
+
+/// The light of lamps left to pixels or not; elements that gather each for itself, or by as few nodes as it takes, where many cost little.
 std::vector<RunSettings> ladder(double area) {
+  const std::vector<PictureKnobs> at_pixels{{DiffuseTerm::direct, 16, 0.04},
+                                            {DiffuseTerm::direct, 64, 0.02},
+                                            {DiffuseTerm::direct, 256, 0.02}},
+      at_vertices{{DiffuseTerm::interpolated, 16, {}}, {DiffuseTerm::interpolated, 64, 0.04}};
   std::vector<RunSettings> all;
-  for (const double elements : {600.0, 1500.0, 4000.0, 10'000.0})
-    for (const int rays : {64, 128, 256})
-      for (const PictureKnobs& knobs : {PictureKnobs{}, PictureKnobs{DiffuseTerm::direct, 16, 0.04},
-                                        PictureKnobs{DiffuseTerm::direct, 64, 0.02},
-                                        PictureKnobs{DiffuseTerm::direct, 256, 0.02}}) {
-        RunSettings settings;
-        settings.quality = Quality::draft;
-        settings.element_size = std::sqrt(area / elements);
-        settings.rays = rays;
-        settings.diffuse = knobs.term;
-        settings.samples = knobs.samples;
-        settings.pixel_error = knobs.pixel_error;
-        if (knobs.term == DiffuseTerm::direct)
-          settings.bends = 0.1; // what is left between vertices are the feet of lit walls
-        all.push_back(settings);
-      }
+  for (const int rays : {64, 128, 256}) {
+    for (const double elements : {600.0, 1500.0, 4000.0, 10'000.0})
+      for (const auto& choices : {at_vertices, at_pixels})
+        for (const PictureKnobs& knobs : choices) {
+          all.push_back(drafted(area, elements, rays, knobs));
+          if (knobs.term == DiffuseTerm::direct)
+            all.back().bends = 0.1; // what is left between vertices are the feet of lit walls
+        }
+    for (const double elements : {4000.0, 10'000.0, 25'000.0, 64'000.0})
+      for (const auto& choices : {at_vertices, at_pixels})
+        for (const PictureKnobs& knobs : choices) {
+          all.push_back(drafted(area, elements, rays, knobs));
+          all.back().solver = SolverMethod::hierarchical;
+        }
+  }
   return all;
 }
 
