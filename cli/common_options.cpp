@@ -255,9 +255,6 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
     throw UsageError("--bends", "looks at what is gathered: it does not go with "
                                 "--interpolation average");
   }
-  if (settings.bends && settings.solver == SolverMethod::hierarchical) {
-    throw UsageError("--bends", "has no effect with --solver hierarchical");
-  }
   if (settings.adaptive == WithAdaptivity::yes &&
       settings.interpolation == Interpolation::average) {
     throw UsageError("--adaptive", "compares what is gathered: it does not go with "

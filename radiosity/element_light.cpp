@@ -56,10 +56,10 @@ ArrivingLight direct_irradiance(const LightScene& light, const ReceiverArea& are
                    settings, work);
 }
 
-MeansOfAreas means_of_areas(
-    std::size_t count,
-    const std::function<ArrivingLight(std::size_t, SharedLightWorkspace&)>& mean,
-    const Progress& progress) {
+MeansOfAreas
+means_of_areas(std::size_t count,
+               const std::function<ArrivingLight(std::size_t, SharedLightWorkspace&)>& mean,
+               const Progress& progress) {
   constexpr std::size_t chunk_size = 64;
   const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
   MeansOfAreas means;

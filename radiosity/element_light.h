@@ -33,6 +33,8 @@ struct DirectIrradiance {
   std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element
   std::vector<Rgb>
       punctual; ///< the part of it that punctual lights sent; empty where there are none
+  std::vector<std::uint8_t>
+      shared; ///< 1 where it is found by fewer points than asked for (hierarchical/node_light.h); empty: nowhere
   std::uint64_t shadow_rays = 0;
 };
 

@@ -40,7 +40,7 @@ PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflecte
           std::move(reflected),
           how.form_factors,
           how.direct,
-          {.rays = std::max(1, how.interpolation.rays / share),
+          {.rays = std::max(std::min(how.interpolation.rays, 128), how.interpolation.rays / share),
            .cluster_shadow_rays = std::max(1, how.interpolation.cluster_shadow_rays / share)}};
 }
 
@@ -167,12 +167,11 @@ DiffuseField settled(const VertexSource& source, const FoundField& found) {
   return field;
 }
 
-std::vector<glm::vec3> filled_irradiance(const FoundField& found) {
-  std::vector<glm::vec3> irradiance = found.field.irradiance;
-  settle_hanging(found.mesh, irradiance);
-  fill_vertices(found.mesh, with_values(found), irradiance);
-  settle_hanging(found.mesh, irradiance);
-  return irradiance;
+std::vector<glm::vec3> filled(const FoundField& found, std::vector<glm::vec3> values) {
+  settle_hanging(found.mesh, values);
+  fill_vertices(found.mesh, with_values(found), values);
+  settle_hanging(found.mesh, values);
+  return values;
 }
 
 } // namespace meninas

@@ -65,7 +65,7 @@ std::vector<std::uint8_t> with_values(const FoundField& found);
 /// The field with values at all vertices.
 DiffuseField settled(const VertexSource& source, const FoundField& found);
 
-/// The irradiance of such a field for those that only gather from it: what has no value, beside contacts too, is as its neighbours are.
-std::vector<glm::vec3> filled_irradiance(const FoundField& found);
+/// Values by ElementVertexId for those that only gather from them: what has none, beside contacts too, is as its neighbours are.
+std::vector<glm::vec3> filled(const FoundField& found, std::vector<glm::vec3> values);
 
 } // namespace meninas

@@ -1,10 +1,8 @@
 #include "radiosity/gathered_field.h"
 
-#include "radiosity/bends.h"
+#include "radiosity/bent_field.h"
 #include "radiosity/facets.h"
-#include "radiosity/found_field.h"
 #include "radiosity/hierarchical/node_field.h"
-#include "radiosity/mesh_division.h"
 #include "scenes/sampling.h"
 
 #include <tbb/parallel_for.h>
@@ -71,46 +69,16 @@ static void average_facets(const LightScene& light, const ElementLight& elements
 
 namespace {
 
-/// The marked elements divided; what was found is kept.
-FoundField divided(const FoundField& before, const SurfaceModel& surfaces,
-                   std::span<const std::uint8_t> marked) {
-  FoundField after = unknown_field(divide_elements(before.mesh, surfaces, marked));
-  const std::vector<CellId> now = same_cells(before.mesh, after.mesh);
-  for (std::size_t e = 0; e < element_count(before.mesh); ++e) {
-    const ElementCorners corners =
-        corners_of(after.mesh, now[index(before.mesh.cell_of_element[e])]);
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-      const std::uint32_t from = index(before.mesh.corners[e][c]), to = index(corners[c]);
-      after.states[to] = before.states[from];
-      after.field.irradiance[to] = before.field.irradiance[from];
-      after.field.mirrored[to] = before.field.mirrored[from];
-      after.field.indirect[to] = before.field.indirect[from];
-      after.field.indirect_mirrored[to] = before.field.indirect_mirrored[from];
-    }
-  }
-  return after;
-}
-
 /// At every vertex, and at those that elements get where the field bends.
 void gather_everywhere(const LightScene& light, const ElementLight& elements,
                        const VertexGathering& how, FoundField found, PointWorkspaces& workspaces,
                        InterpolatedField& result) {
-  constexpr std::uint32_t most_divisions = 3;
   const PointGathering gathering = gathering_from(light, elements.reflected, how, 1);
   const VertexSource source{elements.irradiance, gathering, workspaces};
   gather_at_vertices(source, 0, found);
   result.field = settled(source, found);
-  const double bend = how.interpolation.bend;
-  const BendScale scale = bend_scale(light.mesh, elements.reflected);
-  for (std::uint32_t level = 1; level <= most_divisions && bend > 0.0; ++level) {
-    const auto marked = bent_elements(found.mesh, result.field.indirect, scale, bend);
-    if (std::ranges::find(marked, 1) == marked.end())
-      break;
-    found = divided(found, light.surfaces, marked);
-    gather_at_vertices(source, level, found);
-    result.field = settled(source, found);
-    result.mesh = found.mesh;
-  }
+  divide_bent(light, source, bend_scale(light.mesh, elements.reflected), how.interpolation.bend,
+              std::move(found), result);
 }
 
 } // namespace
@@ -132,8 +100,8 @@ InterpolatedField gathered_field(const LightScene& light, const ElementLight& el
 
   InterpolatedField result;
   if (receivers != nullptr)
-    result.field = field_by_nodes(light, elements, *receivers, {form_factors, direct, settings},
-                                  std::move(found), workspaces);
+    result = field_by_nodes(light, elements, *receivers, {form_factors, direct, settings},
+                            std::move(found), workspaces);
   else
     gather_everywhere(light, elements, {form_factors, direct, settings}, std::move(found),
                       workspaces, result);

@@ -93,13 +93,13 @@ struct ElementRays {
   std::uint64_t traced = 0;
 };
 
-/// Elements receive what their corners do.
-void take_from_field(const ElementMesh& mesh, RadiositySolution& solution) {
-  const std::vector<Rgb> means = corner_means(mesh, solution.field.irradiance);
-  for (std::size_t e = 0; e < means.size(); ++e) {
+/// Elements receive what their corners do, by ElementId; none where it is not they that tell.
+void take_received(const ElementMesh& mesh, const std::vector<Rgb>& received,
+                   RadiositySolution& solution) {
+  for (std::size_t e = 0; e < received.size(); ++e) {
     if (!(solution.exposed[e] > 0.0F))
       continue;
-    solution.irradiance[e] = means[e];
+    solution.irradiance[e] = received[e];
     solution.radiosity[e] = mesh.emission[e] + mesh.reflectance[e] * solution.irradiance[e];
   }
 }
@@ -130,8 +130,7 @@ void complete(const LightScene& light, const PassOneSettings& settings, const Fi
     solution.refined = make_refined_scene(light, std::move(*interpolated.mesh));
   solution.seconds.interpolate = watch.lap();
   solution.exposed = rays.exposed;
-  if (receivers != nullptr)
-    take_from_field(mesh, solution);
+  take_received(mesh, interpolated.received, solution);
 
   solution.closure = closure_error(rays.closure);
   solution.energy = energy_balance(light, solution, rays.closure, first.entering);
@@ -187,9 +186,9 @@ RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings&
 static RadiositySolution link_pass_one(const LightScene& light, const PassOneSettings& settings,
                                        const Progress& progress) {
   const bool vertices_gather = gathers_by_nodes(settings);
-  NodeSolution nodes = solve_by_nodes(light, settings.form_factors, settings.direct, settings.hierarchical,
-                                      vertices_gather ? ElementsAre::sources : ElementsAre::seen,
-                                      settings.solver, progress);
+  NodeSolution nodes = solve_by_nodes(
+      light, settings.form_factors, settings.direct, settings.hierarchical,
+      vertices_gather ? ElementsAre::sources : ElementsAre::seen, settings.solver, progress);
   RadiositySolution solution;
   solution.solver = std::move(nodes.solver);
   solution.links = nodes.figures;

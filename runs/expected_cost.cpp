@@ -134,8 +134,7 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
                vertices = pass_one.interpolation.method == Interpolation::average
                               ? 0.0
                               : divided * double(gathering_vertices(*prepared.light));
-  Counts counts{
-      .rows = elements, .gathers = vertices, .sources = vertices, .elements = elements};
+  Counts counts{.rows = elements, .gathers = vertices, .sources = vertices, .elements = elements};
   if (pass_one.solver.method == SolverMethod::hierarchical)
     counts = counted_by_nodes(*prepared.light, pass_one, counts);
   const double share = 1.0 / (busy * threads);
@@ -143,7 +142,8 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
   const PointSeconds point = point_seconds(prepared, pass_one);
   ExpectedCost cost;
   cost.prepare = started + loading + prepared.seconds.plan + prepared.seconds.mesh;
-  cost.form_factors = share * (counts.rows * counts.of_rays * point.gather + counts.elements * point.on_element);
+  cost.form_factors =
+      share * (counts.rows * counts.of_rays * point.gather + counts.elements * point.on_element);
   cost.interpolate = share * (counts.gathers * point.gather + counts.sources * point.source);
   cost.solve = products * entry_seconds * prepared.plan.bands * counts.rows *
                std::min<double>(pass_one.form_factors.rays, elements);

@@ -73,8 +73,7 @@ RunSettings settings_of(const SteeringRequest& request) {
   // A few small elements at the feet of lit walls cost little, and save dividing all.
   const bool gathers =
       settings.interpolation.value_or(Interpolation::gather) == Interpolation::gather;
-  if (!settings.bends && settings.adaptive == WithAdaptivity::no && gathers &&
-      settings.solver != SolverMethod::hierarchical)
+  if (!settings.bends && settings.adaptive == WithAdaptivity::no && gathers)
     settings.bends = bends_that_show;
   return settings;
 }

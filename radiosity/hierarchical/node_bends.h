@@ -18,6 +18,8 @@ struct ReceiverNodes {
   NodeTree tree;
   std::vector<TreeNodeId> receivers;
   double bend = 0.0; ///< X
+  std::vector<std::uint8_t>
+      share_light; ///< by ElementId, 1: their corners know light from the source better than they do
 };
 
 /// What has been gathered so far, by ElementVertexId.

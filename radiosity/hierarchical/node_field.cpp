@@ -57,24 +57,40 @@ void share_out(const VertexShares& shares, FoundField& found) {
         take_shares(shares, v, found);
 }
 
+/// What elements receive, by their corners: all of it where they share points for light from the source (node_light.h), or the rest. Of a spot of a few elements corners
+/// do not tell the light.
+std::vector<Rgb> received_at_corners(const ElementMesh& mesh, const ElementLight& elements,
+                                     const ReceiverNodes& receivers,
+                                     const std::vector<glm::vec3>& irradiance,
+                                     const std::vector<glm::vec3>& indirect) {
+  std::vector<Rgb> received = corner_means(mesh, irradiance);
+  const std::vector<Rgb> rest = corner_means(mesh, indirect);
+  for (std::size_t e = 0; e < received.size(); ++e)
+    if (receivers.share_light[e] == 0)
+      received[e] = elements.from_source[e] + rest[e];
+  return received;
+}
+
 /// The radiosity of the elements by the field that they make themselves, found with few rays.
 std::vector<Rgb> reflected_by_field(const ElementMesh& mesh, const VertexSource& few,
                                     const ReceiverNodes& receivers, const ElementLight& elements,
                                     FoundField found) {
   share_out(gather_at_nodes(few, receivers, few_rays * receivers.bend, found), found);
-  const std::vector<Rgb> means = corner_means(mesh, filled_irradiance(found));
+  const std::vector<Rgb> received =
+      received_at_corners(mesh, elements, receivers, filled(found, found.field.irradiance),
+                          filled(found, found.field.indirect));
   std::vector<Rgb> reflected = elements.reflected;
-  for (std::size_t e = 0; e < means.size(); ++e)
+  for (std::size_t e = 0; e < received.size(); ++e)
     if (elements.irradiance[e] != Rgb(0.0))
-      reflected[e] = mesh.reflectance[e] * means[e];
+      reflected[e] = mesh.reflectance[e] * received[e];
   return reflected;
 }
 
 } // namespace
 
-DiffuseField field_by_nodes(const LightScene& light, const ElementLight& elements,
-                            const ReceiverNodes& receivers, const VertexGathering& how,
-                            FoundField found, PointWorkspaces& workspaces) {
+InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
+                                 const ReceiverNodes& receivers, const VertexGathering& how,
+                                 FoundField found, PointWorkspaces& workspaces) {
   const PointGathering solved = gathering_from(light, elements.reflected, how, few_rays);
   const VertexSource few{elements.irradiance, solved, workspaces};
   light_vertices(few, found);
@@ -82,7 +98,12 @@ DiffuseField field_by_nodes(const LightScene& light, const ElementLight& element
       light, reflected_by_field(light.mesh, few, receivers, elements, found), how, 1);
   const VertexSource source{elements.irradiance, seen, workspaces};
   share_out(gather_at_nodes(source, receivers, receivers.bend, found), found);
-  return settled(source, found);
+  InterpolatedField result{.field = settled(source, found)};
+  result.received = received_at_corners(light.mesh, elements, receivers, result.field.irradiance,
+                                        result.field.indirect);
+  divide_bent(light, source, bend_scale(light.mesh, elements.reflected), how.interpolation.bend,
+              std::move(found), result);
+  return result;
 }
 
 } // namespace meninas

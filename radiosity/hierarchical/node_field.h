@@ -9,13 +9,13 @@
 // too even: corners of rooms come out too bright.
 #pragma once
 
-#include "radiosity/found_field.h"
+#include "radiosity/bent_field.h"
 
 namespace meninas {
 
-/// `found` has the values of vertices that take means of facets.
-DiffuseField field_by_nodes(const LightScene& light, const ElementLight& elements,
-                            const ReceiverNodes& receivers, const VertexGathering& how,
-                            FoundField found, PointWorkspaces& workspaces);
+/// Where light bends within elements these are divided, as in fields that are gathered everywhere. `found` has the values of vertices that take means of facets.
+InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
+                                 const ReceiverNodes& receivers, const VertexGathering& how,
+                                 FoundField found, PointWorkspaces& workspaces);
 
 } // namespace meninas

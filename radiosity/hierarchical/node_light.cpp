@@ -49,12 +49,51 @@ std::vector<TreeNodeId> nodes_lit_together(const NodeTree& tree, std::uint32_t m
   return nodes;
 }
 
+namespace {
+
+/// The largest node above that has at most so many elements, or the node itself.
+TreeNodeId group_of(const NodeTree& tree, TreeNodeId node, std::uint32_t most_elements) {
+  for (TreeNodeId above = tree.nodes[index(node)].parent;
+       above != none<TreeNodeId> && tree.nodes[index(above)].leaf_count <= most_elements;
+       above = tree.nodes[index(above)].parent)
+    node = above;
+  return node;
+}
+
+/// Of the nodes those, by their place, in groups of nodes that reflect a large part of all light: where a lamp throws a spot, few points would tell how bright it is. Whole groups,
+/// as those of its nodes that were dark by chance lie at its edge.
+std::vector<std::size_t> brightest_nodes(const LightScene& light, const NodeTree& tree,
+                                         std::span<const TreeNodeId> nodes,
+                                         std::span<const ArrivingLight> arriving) {
+  constexpr std::size_t groups = 512;
+  constexpr double large = 1.0 / 256.0;
+  const ElementMesh& mesh = light.mesh;
+  const auto most = static_cast<std::uint32_t>(element_count(mesh) / groups);
+  std::vector<double> power(tree.nodes.size(), 0.0);
+  double all = 0.0;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    for (const ElementId element : elements_below(tree, nodes[k])) {
+      const double reflected =
+          mesh.area[index(element)] * largest(mesh.reflectance[index(element)] * arriving[k].total);
+      power[index(group_of(tree, nodes[k], most))] += reflected;
+      all += reflected;
+    }
+  std::vector<std::size_t> brightest;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (power[index(group_of(tree, nodes[k], most))] > large * all)
+      brightest.push_back(k);
+  return brightest;
+}
+
+} // namespace
+
 DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
                                 std::span<const CoveredCells> covered,
                                 const DirectSettings& settings, const Progress& progress) {
   const std::size_t size = element_count(light.mesh);
   DirectIrradiance result;
   result.irradiance.assign(size, Rgb(0.0));
+  result.shared.assign(size, 0);
   if (light.emitters.empty() && light.punctual.empty())
     return result;
   result.punctual.resize(light.punctual.empty() ? 0 : size);
@@ -66,22 +105,39 @@ DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
   for (std::size_t e = 0; e < size; ++e)
     if (covered[e] != 0)
       alone[e] = 1;
-  const std::vector<TreeNodeId> nodes =
-      nodes_lit_together(tree, most_lit_together(size), alone);
+  const std::vector<TreeNodeId> nodes = nodes_lit_together(tree, most_lit_together(size), alone);
   const DirectSettings shared = shared_out(settings, nodes.size());
 
-  const auto mean = [&](std::size_t k, SharedLightWorkspace& work) {
+  const auto mean = [&](std::size_t k, const DirectSettings& of_node, SharedLightWorkspace& work) {
     const TreeNode& node = tree.nodes[index(nodes[k])];
     if (!is_leaf(node))
-      return direct_irradiance(light, area_of(light, node), index(nodes[k]), shared, work);
+      return direct_irradiance(light, area_of(light, node), index(nodes[k]), of_node, work);
     const std::size_t e = index(node.element);
-    return direct_irradiance(light, node.element, covered[e], seen[e] != 0 ? settings : shared,
+    return direct_irradiance(light, node.element, covered[e], seen[e] != 0 ? settings : of_node,
                              work);
   };
-  const MeansOfAreas means = means_of_areas(nodes.size(), mean, progress);
+  MeansOfAreas means = means_of_areas(
+      nodes.size(),
+      [&](std::size_t k, SharedLightWorkspace& work) { return mean(k, shared, work); }, progress);
+  std::vector<std::uint8_t> few(nodes.size(), shared.points < settings.points ? 1 : 0);
+  if (shared.points < settings.points) {
+    const std::vector<std::size_t> brightest = brightest_nodes(light, tree, nodes, means.light);
+    const MeansOfAreas again = means_of_areas(
+        brightest.size(),
+        [&](std::size_t b, SharedLightWorkspace& work) {
+          return mean(brightest[b], settings, work);
+        },
+        progress);
+    for (std::size_t b = 0; b < brightest.size(); ++b) {
+      means.light[brightest[b]] = again.light[b];
+      few[brightest[b]] = 0;
+    }
+    means.shadow_rays += again.shadow_rays;
+  }
   for (std::size_t k = 0; k < nodes.size(); ++k)
     for (const ElementId element : elements_below(tree, nodes[k])) {
       result.irradiance[index(element)] = means.light[k].total;
+      result.shared[index(element)] = few[k];
       if (!result.punctual.empty())
         result.punctual[index(element)] = means.light[k].punctual;
     }

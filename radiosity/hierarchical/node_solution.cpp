@@ -190,7 +190,8 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
   result.figures = {cut.receivers.size(), received.links.columns.size(),
                     tree.nodes.size() * sizeof(TreeNode) + bytes_of(cut.rows) +
                         bytes_of(received.links)};
-  result.receivers = {std::move(tree), std::move(cut.receivers), settings.link_error};
+  result.receivers = {std::move(tree), std::move(cut.receivers), settings.link_error,
+                      std::move(found.shared)};
   return result;
 }
 

@@ -67,13 +67,11 @@ void turn_mesh(Turner& turner, const TradeScene& scene) {
   }
   if (s.interpolation.value_or(Interpolation::gather) != Interpolation::gather)
     return;
-  if (s.solver != SolverMethod::hierarchical) {
-    if (s.bends)
-      turner.turn("bends", fmt::format("{}", *s.bends), "no", false,
-                  [](RunSettings& r) { r.bends.reset(); });
-    else
-      turner.turn("bends", "no", "0.1", true, [](RunSettings& r) { r.bends = 0.1; });
-  }
+  if (s.bends)
+    turner.turn("bends", fmt::format("{}", *s.bends), "no", false,
+                [](RunSettings& r) { r.bends.reset(); });
+  else
+    turner.turn("bends", "no", "0.1", true, [](RunSettings& r) { r.bends = 0.1; });
   turner.turn("adaptive", "no", "0.03", true, [&](RunSettings& r) {
     r.adaptive = WithAdaptivity::yes;
     r.bends.reset();

@@ -125,8 +125,17 @@ TEST_F(Adaptive, BendsDivideSomeElements) {
   expect_usage_error(
       "--bends: looks at what is gathered: it does not go with --interpolation average",
       {"--bends", "0.1", "--interpolation", "average"});
-  expect_usage_error("--bends: has no effect with --solver hierarchical",
-                     {"--bends", "0.1", "--solver", "hierarchical"});
+}
+
+TEST_F(Adaptive, BendsDivideElementsThatNodesLightToo) {
+  const std::vector<std::string> by_nodes{"--bends", "0.001", "--solver", "hierarchical"};
+  const json figures = stats(by_nodes);
+  EXPECT_GT(figures["mesh"]["elements"], figures["mesh"]["solved_elements"]);
+  const std::vector<std::string> pass_one = with(by_nodes, {"--quality", "draft"});
+  const std::string at_once = bytes("render", "a.exr", with(small, pass_one));
+  bytes("solve", "s.glb", pass_one);
+  EXPECT_TRUE(bytes("render", "b.exr", with(small, {"--solution", "s.glb"})) == at_once);
+  EXPECT_TRUE(bytes("render", "c.exr", with(with(small, pass_one), {"--threads", "1"})) == at_once);
 }
 
 TEST_F(Adaptive, FilesOfCasesAskForItToo) {

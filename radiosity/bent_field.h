@@ -1,0 +1,16 @@
+// A field that is found, made finer where it bends.
+//
+// Elements in which indirect light bends by more than X of the scene's mean (bends.h) are divided, and light is gathered at the vertices that they get, up to
+// three times. What light comes from stays as it was.
+#pragma once
+
+#include "radiosity/bends.h"
+#include "radiosity/found_field.h"
+
+namespace meninas {
+
+/// `result` has the field of what was found, and takes the finer mesh and its field where anything bends. X = 0: nothing does.
+void divide_bent(const LightScene& light, const VertexSource& source, const BendScale& scale,
+                 double x, FoundField found, InterpolatedField& result);
+
+} // namespace meninas
