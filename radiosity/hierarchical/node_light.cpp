@@ -85,6 +85,20 @@ std::vector<std::size_t> brightest_nodes(const LightScene& light, const NodeTree
   return brightest;
 }
 
+/// Means of a few nodes, by their place, take the place of those of few points.
+void find_again(std::span<const std::size_t> nodes,
+                const std::function<ArrivingLight(std::size_t, SharedLightWorkspace&)>& mean,
+                const Progress& progress, MeansOfAreas& means, std::vector<std::uint8_t>& few) {
+  const MeansOfAreas again = means_of_areas(
+      nodes.size(), [&](std::size_t k, SharedLightWorkspace& work) { return mean(nodes[k], work); },
+      progress);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    means.light[nodes[k]] = again.light[k];
+    few[nodes[k]] = 0;
+  }
+  means.shadow_rays += again.shadow_rays;
+}
+
 } // namespace
 
 DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
@@ -120,20 +134,15 @@ DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
       nodes.size(),
       [&](std::size_t k, SharedLightWorkspace& work) { return mean(k, shared, work); }, progress);
   std::vector<std::uint8_t> few(nodes.size(), shared.points < settings.points ? 1 : 0);
-  if (shared.points < settings.points) {
-    const std::vector<std::size_t> brightest = brightest_nodes(light, tree, nodes, means.light);
-    const MeansOfAreas again = means_of_areas(
-        brightest.size(),
-        [&](std::size_t b, SharedLightWorkspace& work) {
-          return mean(brightest[b], settings, work);
-        },
-        progress);
-    for (std::size_t b = 0; b < brightest.size(); ++b) {
-      means.light[brightest[b]] = again.light[b];
-      few[brightest[b]] = 0;
-    }
-    means.shadow_rays += again.shadow_rays;
-  }
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (const TreeNode& node = tree.nodes[index(nodes[k])];
+        is_leaf(node) && seen[index(node.element)] != 0)
+      few[k] = 0;
+  if (shared.points < settings.points)
+    find_again(
+        brightest_nodes(light, tree, nodes, means.light),
+        [&](std::size_t k, SharedLightWorkspace& work) { return mean(k, settings, work); },
+        progress, means, few);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     for (const ElementId element : elements_below(tree, nodes[k])) {
       result.irradiance[index(element)] = means.light[k].total;

@@ -3,9 +3,9 @@
 //   D_j = D_n,   n the largest node above element j with at most 2/N of all elements,   D_n the mean over n (element_light.h)
 //
 // What such elements light takes the mean over many of them, so that what counts is how many points there are in all: N of them, or a few more, are shared
-// out among the nodes. Their means are noisy, but true. Elements of which something covers a part are by themselves, and so are facets of curved
-// surfaces, whose means are seen (facets.h): these have all of their points. So have nodes of groups, a 512th of all elements, that reflect more than a 256th
-// of all light: a spot of the sun is some tens of elements, and all light comes from there.
+// out among the nodes. Their means are noisy, but true. Elements of which something covers a part are nodes by themselves. So are facets of curved surfaces, whose means
+// are seen (facets.h) and which have all of their points. Nodes of groups, a 512th of all elements, that reflect more than a 256th of all light have all of theirs as well:
+// a spot of the sun is some tens of elements, and all light comes from there.
 #pragma once
 
 #include "radiosity/element_light.h"

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace meninas {
 
@@ -128,9 +129,9 @@ std::uint64_t bytes_of(const Transport& transport) {
 FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows) {
   constexpr double few = 1024.0;
   constexpr int least = 32;
-  const double share = settings.rays * few / double(std::max<std::size_t>(rows, 1));
-  const auto rays = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(share))));
-  settings.rays = std::min(settings.rays, std::max(least, rays));
+  const double share = settings.rays * std::min(few / double(std::max<std::size_t>(rows, 1)), 1.0);
+  const auto shared = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(share))));
+  settings.rays = std::min(settings.rays, std::max(least, shared));
   return settings;
 }
 
