@@ -27,8 +27,7 @@ LightScene without_emitters(LightScene light) {
   return light;
 }
 
-} // namespace
-
+/// D alone; what of it is gathered by the form-factor method is left out.
 DirectIrradiance found_light(const LightScene& light, std::span<const std::uint64_t> covered,
                              FormFactorMethod method, const DirectSettings& settings,
                              const Progress& progress) {
@@ -38,6 +37,8 @@ DirectIrradiance found_light(const LightScene& light, std::span<const std::uint6
     return direct_irradiance(without_emitters(light), covered, settings, progress);
   return {};
 }
+
+} // namespace
 
 FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
                        const std::vector<RowClosure>& closure, const DirectIrradiance& direct,

@@ -17,11 +17,6 @@ struct FirstLight {
   std::uint64_t shadow_rays = 0;
 };
 
-/// D alone; what of it is gathered by the form-factor method is left out.
-DirectIrradiance found_light(const LightScene& light, std::span<const std::uint64_t> covered,
-                             FormFactorMethod method, const DirectSettings& settings,
-                             const Progress& progress);
-
 /// D + G of D that has been found.
 FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
                        const std::vector<RowClosure>& closure, const DirectIrradiance& direct,

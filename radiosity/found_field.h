@@ -36,7 +36,7 @@ struct VertexGathering {
   const InterpolationSettings& interpolation;
 };
 
-/// From elements of that reflected radiosity, with a share of the rays.
+/// From elements of that reflected radiosity, with a share of the rays, of 128 at least where there are so many.
 PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
                               const VertexGathering& how, int share);
 

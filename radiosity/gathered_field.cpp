@@ -7,7 +7,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 
 namespace meninas {
 

@@ -11,7 +11,7 @@
 
 namespace meninas {
 
-/// As interpolate(). The result has a mesh of its own where any element was divided. With `receivers` none is: indirect light is gathered at the corners of nodes (hierarchical/node_bends.h).
+/// As interpolate(). The result has a mesh of its own where any element was divided. With `receivers` indirect light is gathered at the corners of nodes (hierarchical/node_field.h).
 InterpolatedField gathered_field(const LightScene& light, const ElementLight& elements,
                                  const FormFactorSettings& form_factors,
                                  const DirectSettings& direct,

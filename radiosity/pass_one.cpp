@@ -5,7 +5,6 @@
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/shooting_blocks.h"
 #include "radiosity/surface_colour.h"
-#include "radiosity/vertex_places.h"
 #include "scenes/lobes.h"
 #include "scenes/stopwatch.h"
 
@@ -105,7 +104,7 @@ void take_received(const ElementMesh& mesh, const std::vector<Rgb>& received,
 }
 
 /// From what was reflected, and the irradiance that elements have sent one another, to the solution with its field and figures. With `receivers` vertices
-/// gather where these let them (hierarchical/node_field.h), and elements receive what vertices do.
+/// gather where these let them (hierarchical/node_field.h), and elements receive what vertices do, but for spots (hierarchical/node_light.h).
 void complete(const LightScene& light, const PassOneSettings& settings, const FirstLight& first,
               const std::vector<Rgb>& arrived, const ElementRays& rays, RadiositySolution& solution,
               const ReceiverNodes* receivers = nullptr) {

@@ -27,6 +27,14 @@ double seconds_of_one(std::size_t all, std::size_t some, const Do& work) {
   return watch.lap() / double(count);
 }
 
+/// How many nodes light from the source is found for; what is covered is not known yet.
+std::size_t lit_together(const LightScene& light, const NodeTree& tree) {
+  std::vector<std::uint8_t> alone(element_count(light.mesh), 0);
+  if (const VertexElements facets = facets_around(light); !facets.elements.empty())
+    alone = averaged_facets(light.mesh, facets);
+  return nodes_lit_together(tree, most_lit_together(alone.size()), alone).size();
+}
+
 /// One gathering, and light from the source at one vertex and on one element; seconds of one thread.
 struct PointSeconds {
   double gather = 0.0, source = 0.0, on_element = 0.0;
@@ -53,9 +61,10 @@ PointSeconds point_seconds(const PreparedScene& prepared, const PassOneSettings&
     direct_irradiance(light, receivers[v], settings.direct, seed(v), work.direct);
   });
   SharedLightWorkspace element_work;
-  const DirectSettings at_element = gathers_by_nodes(settings)
-                                        ? shared_out(settings.direct, element_count(mesh))
-                                        : settings.direct;
+  const DirectSettings at_element =
+      gathers_by_nodes(settings)
+          ? shared_out(settings.direct, lit_together(light, make_node_tree(mesh, light.surfaces)))
+          : settings.direct;
   seconds.on_element = seconds_of_one(element_count(mesh), some, [&](std::size_t e) {
     direct_irradiance(light, static_cast<ElementId>(e), 0, at_element, element_work);
   });
@@ -82,8 +91,7 @@ Counts counted_by_nodes(const LightScene& light, const PassOneSettings& settings
   all.of_rays = double(rays_shared_out(settings.form_factors, first).rays) /
                 double(std::max(1, settings.form_factors.rays));
   all.gathers = std::min(all.gathers, gathers_of_row * all.rows);
-  const std::vector<std::uint8_t> alone(element_count(light.mesh), 0);
-  all.elements = double(nodes_lit_together(tree, most_lit_together(alone.size()), alone).size());
+  all.elements = double(lit_together(light, tree));
   return all;
 }
 

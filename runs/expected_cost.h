@@ -4,7 +4,7 @@
 //
 //   form factors   elements x (one gathering of N rays + some points of light from the source)
 //   interpolate    vertices x (one gathering + one point of light from the source)
-//                  `--solver hierarchical` gathers for nodes instead, of which there are about twice those of its beginning
+//                  `--solver hierarchical` gathers for nodes instead, of which there are about twice those of its beginning, and finds light from the source for nodes
 //   solve          entries of the transport x products with it, at the rate of memory
 //   render         pixels x samples x one camera ray with its diffuse term
 //

@@ -1,6 +1,6 @@
 // The field where light is received by nodes: light from the source at every vertex, the rest at the corners of nodes (node_bends.h).
 //
-// The rest is gathered twice, as in adaptive fields: from the elements as they were solved, with a quarter of the rays and four times the
+// The rest is gathered twice, as in adaptive fields: from the elements as they were solved, with a quarter of the rays, but not fewer than 128, and four times the
 // bound, and then from what that makes of them,
 //
 //   B_j = rho_j (mean of H at its corners).

@@ -64,23 +64,25 @@ TreeNodeId group_of(const NodeTree& tree, TreeNodeId node, std::uint32_t most_el
 /// as those of its nodes that were dark by chance lie at its edge.
 std::vector<std::size_t> brightest_nodes(const LightScene& light, const NodeTree& tree,
                                          std::span<const TreeNodeId> nodes,
-                                         std::span<const ArrivingLight> arriving) {
+                                         std::span<const ArrivingLight> arriving,
+                                         std::span<const std::uint8_t> of_few_points) {
   constexpr std::size_t groups = 512;
   constexpr double large = 1.0 / 256.0;
   const ElementMesh& mesh = light.mesh;
   const auto most = static_cast<std::uint32_t>(element_count(mesh) / groups);
   std::vector<double> power(tree.nodes.size(), 0.0);
   double all = 0.0;
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    for (const ElementId element : elements_below(tree, nodes[k])) {
-      const double reflected =
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    double reflected = 0.0;
+    for (const ElementId element : elements_below(tree, nodes[k]))
+      reflected +=
           mesh.area[index(element)] * largest(mesh.reflectance[index(element)] * arriving[k].total);
-      power[index(group_of(tree, nodes[k], most))] += reflected;
-      all += reflected;
-    }
+    power[index(group_of(tree, nodes[k], most))] += reflected;
+    all += reflected;
+  }
   std::vector<std::size_t> brightest;
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (power[index(group_of(tree, nodes[k], most))] > large * all)
+    if (of_few_points[k] != 0 && power[index(group_of(tree, nodes[k], most))] > large * all)
       brightest.push_back(k);
   return brightest;
 }
@@ -120,7 +122,13 @@ DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
     if (covered[e] != 0)
       alone[e] = 1;
   const std::vector<TreeNodeId> nodes = nodes_lit_together(tree, most_lit_together(size), alone);
-  const DirectSettings shared = shared_out(settings, nodes.size());
+  std::vector<std::uint8_t> few;
+  for (const TreeNodeId id : nodes) {
+    const TreeNode& node = tree.nodes[index(id)];
+    few.push_back(is_leaf(node) && seen[index(node.element)] != 0 ? 0 : 1);
+  }
+  const DirectSettings shared =
+      shared_out(settings, static_cast<std::size_t>(std::ranges::count(few, 1)));
 
   const auto mean = [&](std::size_t k, const DirectSettings& of_node, SharedLightWorkspace& work) {
     const TreeNode& node = tree.nodes[index(nodes[k])];
@@ -133,14 +141,11 @@ DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
   MeansOfAreas means = means_of_areas(
       nodes.size(),
       [&](std::size_t k, SharedLightWorkspace& work) { return mean(k, shared, work); }, progress);
-  std::vector<std::uint8_t> few(nodes.size(), shared.points < settings.points ? 1 : 0);
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (const TreeNode& node = tree.nodes[index(nodes[k])];
-        is_leaf(node) && seen[index(node.element)] != 0)
-      few[k] = 0;
-  if (shared.points < settings.points)
+  if (shared.points == settings.points)
+    std::ranges::fill(few, 0);
+  else
     find_again(
-        brightest_nodes(light, tree, nodes, means.light),
+        brightest_nodes(light, tree, nodes, means.light, few),
         [&](std::size_t k, SharedLightWorkspace& work) { return mean(k, settings, work); },
         progress, means, few);
   for (std::size_t k = 0; k < nodes.size(); ++k)

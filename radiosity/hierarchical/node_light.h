@@ -2,10 +2,10 @@
 //
 //   D_j = D_n,   n the largest node above element j with at most 2/N of all elements,   D_n the mean over n (element_light.h)
 //
-// What such elements light takes the mean over many of them, so that what counts is how many points there are in all: N of them, or a few more, are shared
+// What such elements light takes the mean over many of them, so that what counts is how many points there are in all: N of them, or twice as many, are shared
 // out among the nodes. Their means are noisy, but true. Elements of which something covers a part are nodes by themselves. So are facets of curved surfaces, whose means
 // are seen (facets.h) and which have all of their points. Nodes of groups, a 512th of all elements, that reflect more than a 256th of all light have all of theirs as well:
-// a spot of the sun is some tens of elements, and all light comes from there.
+// a spot of the sun is some tens of elements, and all light comes from there. There are at most 256 such groups, of some tens of nodes.
 #pragma once
 
 #include "radiosity/element_light.h"
@@ -16,7 +16,7 @@ namespace meninas {
 /// N, points in all.
 inline constexpr int points_of_sources = 8192;
 
-/// The settings for each of so many nodes, of N points. Of facets these are the settings as they were.
+/// The settings for each of so many nodes, of N points.
 DirectSettings shared_out(DirectSettings settings, std::size_t nodes);
 
 /// Of so many elements, the most that a node has.

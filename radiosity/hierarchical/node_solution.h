@@ -1,6 +1,6 @@
 // Hierarchical radiosity (`--solver hierarchical`): light is received by nodes as large as it allows, and sent on by the elements below them.
 //
-// What elements have not reflected yet, S = rho (D + G), is found as for every solver (first_light.h), element by element: it has the edges.
+// What elements have not reflected yet, S = rho (D + G), is found as for every solver (first_light.h), element by element, as it has the edges (or as below, where vertices have them).
 // What they send one another is smooth. So with c the receiver of element j (node_cut.h),
 //
 //   B_j = S_j + rho_j H_c,   H_c = sum_j F_cj B_j = s_c + sum_d F_cd rho_d H_d,   s_c = sum_j F_cj S_j,
