@@ -65,7 +65,8 @@ void add_adaptive(CLI::App& command, RunSettings& settings) {
       add_text(
           command, "--adaptive", "[X]",
           fmt::format("divides elements where the light asks for it, until radiosity is within "
-                      "X of itself, in the mean square [{}]",
+                      "X of itself, in the mean square; takes more --rays where their noise is "
+                      "above it [{}]",
                       by_preset(&QualityPreset::adaptive_error)),
           [&](const std::string& text) {
             settings.adaptive = WithAdaptivity::yes;

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <functional>
 
 namespace meninas {
 
@@ -157,6 +159,60 @@ SamplePoint gathered_samples(const PointGathering& gathering, const std::vector<
   };
 }
 
+/// The rays of a sample: those that are asked for, or as many as their noise needs.
+struct SampleRays {
+  int asked = 0;
+  double needed = 0.0; ///< in elements of a size
+  double size = 0.0;
+};
+
+constexpr double noise_order = 0.75; // of rays that are spread evenly, where light is smooth
+
+/// How many rays keep the noise of a vertex within a bound. `first` was sampled with `rays` a vertex, and between vertices twice with a quarter of them, of
+/// whose mean it knows the noise.
+double rays_within(double bound, const SampledField& first, int rays) {
+  return 2.0 * std::max(1, rays / 4) * std::pow(first.noise / bound, 1.0 / noise_order);
+}
+
+/// Samples with as many rays as they need, up to sixteen times those that are asked for. Noise counts with the area that a sample stands for, so that those
+/// of small elements may have more of it.
+class GatheredSamples {
+public:
+  /// Gathers from that scene. The rest must outlive what is made.
+  GatheredSamples(const LightScene& lit, const std::vector<Rgb>& irradiance,
+                  const std::vector<Rgb>& reflected, const Gathering& how, const SampleRays& rays,
+                  tbb::enumerable_thread_specific<PointWorkspace>& workspaces)
+      : rays_(rays) {
+    constexpr int most = 16, step = 4;
+    for (int times = 1; times <= most; times *= step) {
+      counts_.push_back(times * rays.asked);
+      const PointGathering& gathering = gatherings_.emplace_back(
+          lit, reflected, how.form_factors, how.direct,
+          PointGatheringSettings{.rays = counts_.back(),
+                                 .cluster_shadow_rays = how.interpolation.cluster_shadow_rays});
+      samples_.push_back(gathered_samples(gathering, irradiance, workspaces));
+      if (counts_.back() >= rays.needed)
+        break;
+    }
+  }
+
+  PointSample operator()(const Receiver& receiver, double element_size, std::uint32_t seed) const {
+    const double needed = rays_.needed * std::pow(element_size / rays_.size, 1.0 / noise_order);
+    std::size_t k = 0;
+    while (k + 1 < counts_.size() && counts_[k] < needed)
+      ++k;
+    return samples_[k](receiver, element_size, seed);
+  }
+
+  const PointGathering& fewest() const { return gatherings_.front(); }
+
+private:
+  SampleRays rays_;
+  std::deque<PointGathering> gatherings_; // which stay where they are made
+  std::vector<int> counts_;
+  std::vector<SamplePoint> samples_;
+};
+
 /// Light from the elements, twice: with few rays from the elements as they were solved, then from what that makes of them. Where two walls
 /// meet, light changes within an element as much as from one to the next, and comes from near by.
 SampledField gathered_field(const LightScene& light, const ElementLight& elements,
@@ -167,26 +223,26 @@ SampledField gathered_field(const LightScene& light, const ElementLight& element
   refinement.root_points = refinement.points = 0; // smooth: its centre tells what an element hides
   tbb::enumerable_thread_specific<PointWorkspace> workspaces;
   const auto refined = [&](const LightScene& lit, const std::vector<Rgb>& irradiance,
-                           const std::vector<Rgb>& reflected, int rays) {
-    const auto gathering = [&](int share) {
-      return PointGathering(lit, reflected, how.form_factors, how.direct,
-                            {.rays = std::max(1, rays / share),
-                             .cluster_shadow_rays = how.interpolation.cluster_shadow_rays});
-    };
-    const PointGathering whole = gathering(1), quarter = gathering(4);
+                           const std::vector<Rgb>& reflected, const SampleRays& rays) {
+    const GatheredSamples at_vertices(lit, irradiance, reflected, how, rays, workspaces),
+        between(lit, irradiance, reflected, how,
+                {std::max(1, rays.asked / 4), 0.25 * rays.needed, rays.size}, workspaces);
     const FieldSampler sampler{
-        gathered_samples(whole, irradiance, workspaces),
-        mean_of_two(gathered_samples(quarter, irradiance, workspaces)),
+        std::cref(at_vertices), mean_of_two(std::cref(between)),
         [&](const Receiver& receiver, double element_size, std::uint32_t seed) {
-          return is_open(quarter, irradiance, receiver, element_size, seed, workspaces.local());
+          return is_open(between.fewest(), irradiance, receiver, element_size, seed,
+                         workspaces.local());
         }};
     return refine_field(light, sampler, weight, {}, refinement);
   };
-  const SampledField first = refined(light, elements.irradiance, elements.reflected,
-                                     std::max(1, how.interpolation.rays / 4));
+  const int asked = how.interpolation.rays, few = std::max(1, asked / 4);
+  const double size = light.mesh.element_size;
+  const SampledField first =
+      refined(light, elements.irradiance, elements.reflected, {few, double(few), size});
   const Surroundings around = surroundings(light, from_source, first, levels);
   SampledField field =
-      refined(*around.scene->light, around.irradiance, around.reflected, how.interpolation.rays);
+      refined(*around.scene->light, around.irradiance, around.reflected,
+              {asked, rays_within(how.interpolation.adaptive->error, first, few), size});
   for (const auto& work : workspaces) {
     result.form_factor_rays += work.rays;
     result.shadow_rays += work.direct.shadow_rays;

@@ -10,6 +10,9 @@
 //
 // I is gathered twice: with a quarter of the rays from the elements as they were solved, then from D + I as that makes them on a mesh with the cells of
 // both. Otherwise what stands on a floor and the corners of a room would be lit by the mean of a large element where they see its edge.
+//
+// The bound is one for noise as well. The first gathering tells how much there is; in the second, samples take as many rays as keep it within the bound, up to sixteen times
+// those that are asked for: vertices that are few do not average out one another's noise as those of fine meshes do.
 #pragma once
 
 #include "radiosity/interpolation.h"

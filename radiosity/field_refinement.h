@@ -13,7 +13,7 @@
 //
 // Noise: samples with variance sigma^2 are off by H - H~ of variance (1 + 1/4) sigma^2 in the middle of four vertices, however small the
 // element. sigma is estimated relative to H, from points around, and taken off; elements are divided only for what stands out of it.
-// So the bound is one for what elements hide. The noise of the vertices themselves is a matter of how many rays they take.
+// So the bound is one for what elements hide. The noise of the vertices themselves is a matter of how many rays they take (adaptive_field.h).
 //
 // Vertices on which something stands, or at whose side it does, take what is sampled beside it, as on undivided meshes (contact_vertices.h).
 //

@@ -9,7 +9,8 @@
 //   render         pixels x samples x one camera ray with its diffuse term
 //
 // over the threads that work. What is measured is a few thousandths of the work, so that it takes a fraction of a second in any scene. Bytes come from
-// counts (memory.h). Limits: an adaptive field is taken to have twice the elements of its roots; references are not foretold, they end when told.
+// counts (memory.h). Limits: how far an adaptive field divides elements is not known beforehand, it is taken
+// to have as many more as rooms with a lamp have (too few by up to ten times where much is small: figures of many facets); references are not foretold, they end when told.
 #pragma once
 
 #include "raytrace/two_pass.h"
