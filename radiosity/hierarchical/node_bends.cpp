@@ -7,13 +7,6 @@ namespace meninas {
 
 namespace {
 
-double area_below(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId node) {
-  double area = 0.0;
-  for (const ElementId element : elements_below(tree, node))
-    area += mesh.area[index(element)];
-  return area;
-}
-
 /// How many of the corners have values, of four.
 std::ptrdiff_t valid_among(const ElementCorners& corners, const GatheredVertices& gathered) {
   return std::ranges::count_if(

@@ -38,6 +38,13 @@ std::array<float, 4> weights_at(bool triangle, Vec2 st) {
 
 } // namespace
 
+double area_below(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId node) {
+  double area = 0.0;
+  for (const ElementId element : elements_below(tree, node))
+    area += mesh.area[index(element)];
+  return area;
+}
+
 ElementCorners corners_of(const ElementMesh& mesh, const TreeNode& node) {
   ElementCorners corners;
   for (std::size_t c = 0; c < corners.size(); ++c)
@@ -70,15 +77,19 @@ std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
   return probes;
 }
 
-std::vector<std::uint8_t> wanted_vertices(const ElementMesh& mesh, const NodeTree& tree,
-                                          std::span<const TreeNodeId> nodes) {
-  std::vector<std::uint8_t> wanted(mesh.vertices.size(), 0);
+std::vector<double> wanted_vertices(const ElementMesh& mesh, const NodeTree& tree,
+                                    std::span<const TreeNodeId> nodes) {
+  std::vector<double> wanted(mesh.vertices.size(), 0.0);
   for (const TreeNodeId id : nodes) {
     const TreeNode& node = tree.nodes[index(id)];
+    const double area = area_below(mesh, tree, id);
+    const auto want = [&](ElementVertexId vertex) {
+      wanted[index(vertex)] = std::max(wanted[index(vertex)], area);
+    };
     for (const ElementVertexId corner : corners_of(mesh, node))
-      wanted[index(corner)] = 1;
+      want(corner);
     for (const NodeProbe& probe : probes_of(mesh, tree, node))
-      wanted[index(probe.vertex)] = 1;
+      want(probe.vertex);
   }
   return wanted;
 }
@@ -139,9 +150,9 @@ VertexShares vertex_shares(const ElementMesh& mesh, const NodeTree& tree,
       shares.between[vertex] = 1;
     }
   }
-  const std::vector<std::uint8_t> gather = wanted_vertices(mesh, tree, nodes);
+  const std::vector<double> gather = wanted_vertices(mesh, tree, nodes);
   for (std::uint32_t v = 0; v < gather.size(); ++v)
-    if (gather[v] != 0) {
+    if (gather[v] > 0.0) {
       shares.from[v].fill(static_cast<ElementVertexId>(v));
       shares.weight[v] = {1.0F, 0.0F, 0.0F, 0.0F};
       shares.between[v] = 0;

@@ -28,6 +28,8 @@ struct NodeProbe {
   std::array<float, 4> weight; ///< of the corners
 };
 
+double area_below(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId node);
+
 /// The corners of a node; a triangle repeats its third.
 ElementCorners corners_of(const ElementMesh& mesh, const TreeNode& node);
 
@@ -35,9 +37,9 @@ ElementCorners corners_of(const ElementMesh& mesh, const TreeNode& node);
 std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
                                  const TreeNode& node);
 
-/// By ElementVertexId, 1 where the nodes need indirect light: at corners and in the middle.
-std::vector<std::uint8_t> wanted_vertices(const ElementMesh& mesh, const NodeTree& tree,
-                                          std::span<const TreeNodeId> nodes);
+/// By ElementVertexId, where the nodes need indirect light, at corners and in the middle: the area of the largest node that does, elsewhere 0.
+std::vector<double> wanted_vertices(const ElementMesh& mesh, const NodeTree& tree,
+                                    std::span<const TreeNodeId> nodes);
 
 /// Of a cut through the tree: no node is above another.
 VertexShares vertex_shares(const ElementMesh& mesh, const NodeTree& tree,

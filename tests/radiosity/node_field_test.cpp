@@ -78,6 +78,42 @@ TEST(NodeField, SharesEndAtVerticesThatGather) {
   }
 }
 
+// Of a square metre divided into four, one of which is divided again: at (1, 1) / 2 meet parts of 1/4 and of 1/16, and it stands for the larger. What only parts of 1/16 have
+// stands for as much.
+TEST(NodeField, VerticesStandForTheLargestNodeThatWantsThem) {
+  Scene scene;
+  add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(0.5));
+  const auto l = lit(scene, {.element_size = 1.0 / 8.0});
+  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  const auto parts = [&](TreeNodeId id) {
+    std::vector<TreeNodeId> all;
+    for (std::uint32_t c = 0; c < tree.nodes[index(id)].child_count; ++c)
+      all.push_back(static_cast<TreeNodeId>(index(tree.nodes[index(id)].first_child) + c));
+    return all;
+  };
+  std::vector<TreeNodeId> nodes = parts(static_cast<TreeNodeId>(0));
+  ASSERT_EQ(nodes.size(), 4U);
+  const std::vector<TreeNodeId> smaller = parts(nodes.front());
+  nodes.erase(nodes.begin());
+  nodes.insert(nodes.end(), smaller.begin(), smaller.end());
+  const std::vector<double> wanted = wanted_vertices(l->mesh, tree, nodes);
+  const TreeNode& divided = tree.nodes[index(smaller.front())];
+  // Places in the divided part, in quarters of it from its corner at the edge of the floor.
+  const auto at = [&](double s, double t) {
+    const Vec2 corner = glm::round(divided.uv); // of the floor
+    const Vec2 uv = glm::abs(corner - 0.125 * Vec2(s, t));
+    for (std::size_t v = 0; v < wanted.size(); ++v)
+      if (glm::distance(l->mesh.vertices[v],
+                        point_at(l->surfaces.patches[index(l->mesh.sides[0].patch)], uv)) < 1e-9)
+        return wanted[v];
+    return -1.0;
+  };
+  EXPECT_DOUBLE_EQ(at(4, 4), 1.0 / 4.0);
+  EXPECT_DOUBLE_EQ(at(2, 2), 1.0 / 16.0);
+  EXPECT_DOUBLE_EQ(at(1, 1), 1.0 / 16.0); // a middle
+  EXPECT_DOUBLE_EQ(at(1, 2), 0.0);
+}
+
 // A parabola of height h over a node is h off its corners' mean in the middle, a slope is not off at all: the node gives way above X = rho h / (rho H + B_mean).
 TEST(NodeField, NodesGiveWayToBendsOnly) {
   constexpr double height = 0.2, level = 1.0, rho = 0.5;
