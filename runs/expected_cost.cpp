@@ -111,9 +111,7 @@ Counts counted_adaptive(const PassOneSettings& settings, Counts all) {
   constexpr double ordinary = 0.01;                           // the bound that doubles elements
   constexpr double root_sources = 60.0, sources = 20.0;       // ones with many shadow rays for two
   const double x = settings.interpolation.adaptive->error, asked = settings.interpolation.rays;
-  const double rays = settings.form_factors.method == FormFactorMethod::hemicube
-                          ? asked // cells have no noise
-                          : std::clamp(std::pow(of_noise / x, 1.0 / order), asked, most * asked);
+  const double rays = std::clamp(std::pow(of_noise / x, 1.0 / order), asked, most * asked);
   const double roots = all.gathers, elements = roots * (1.0 + ordinary / x);
   all.gathers = 1.5 * (0.25 * roots + std::sqrt(roots * elements) * rays / asked);
   all.sources = root_sources * roots + sources * (elements - roots);
