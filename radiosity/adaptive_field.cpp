@@ -81,20 +81,16 @@ SampledField direct_field(const LightScene& light, std::span<const double> weigh
   constexpr double outline_step = 0.125; // of a root cell
   // At the rim of a penumbra, where the first rays may all agree by chance, points must not say now dark, now bright.
   direct.shadow_rays = std::max(direct.shadow_rays, direct.penumbra_rays / 2);
-  constexpr int black_rays = 32;
-  const DirectionNet net = make_direction_net(black_rays);
   tbb::enumerable_thread_specific<PointWorkspace> workspaces;
   const SamplePoint sample = [&](const Receiver& receiver, double element_size,
                                  std::uint32_t seed) -> PointSample {
     PointWorkspace& work = workspaces.local();
     const ArrivingLight arrived =
         direct_irradiance(light, receiver, direct, hash(seed, direct.seed, 1), work.direct);
-    bool covered = is_under_something(light, receiver, element_size);
-    if (!covered && arrived.total == Rgb(0.0)) {
-      gather_rays(light, net, area_of(receiver), seed, form_factors, work.gather);
-      work.rays += work.gather.result.traced;
-      covered = sees_black(work.gather.result);
-    }
+    const bool covered =
+        arrived.total == Rgb(0.0)
+            ? is_shut_in(light, form_factors, receiver, element_size, seed, work)
+            : is_under_something(light, receiver, element_size);
     return {arrived, covered};
   };
   const IsOpenPoint is_open = [&](const Receiver& receiver, double element_size,

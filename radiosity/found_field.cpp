@@ -41,7 +41,8 @@ PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflecte
           how.form_factors,
           how.direct,
           {.rays = std::max(std::min(how.interpolation.rays, 128), how.interpolation.rays / share),
-           .cluster_shadow_rays = std::max(1, how.interpolation.cluster_shadow_rays / share)}};
+           .cluster_shadow_rays = std::max(1, how.interpolation.cluster_shadow_rays / share),
+           .most_clusters = ClusterSettings{}.most / static_cast<std::size_t>(share)}};
 }
 
 namespace {
@@ -92,9 +93,14 @@ void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundFi
 
 void light_vertices(const VertexSource& source, FoundField& found) {
   light_each(source, VertexState::unknown, VertexState::lit, {}, 0, found,
-             [&](const Receiver& receiver, double, std::uint32_t seed,
+             [&](const Receiver& receiver, double size, std::uint32_t seed,
                  PointWorkspace& work) -> VertexValue {
-               return {light_from_source(source.gathering, receiver, seed, work), {}, false};
+               const PointGathering& from = source.gathering;
+               const ArrivingLight arrived = light_from_source(from, receiver, seed, work);
+               return {arrived,
+                       {},
+                       arrived.total == Rgb(0.0) &&
+                           is_shut_in(from.light, from.form_factors, receiver, size, seed, work)};
              });
 }
 

@@ -36,7 +36,8 @@ struct VertexGathering {
   const InterpolationSettings& interpolation;
 };
 
-/// From elements of that reflected radiosity, with a share of the rays, of 128 at least where there are so many.
+/// From elements of that reflected radiosity, with one `share`th of the rays, of 128 at least where there are so many, and of the bright clusters, whose light takes
+/// longer than 128 rays where they lie in many planes.
 PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
                               const VertexGathering& how, int share);
 
@@ -52,7 +53,7 @@ FoundField unknown_field(ElementMesh mesh);
 /// Gathers at the vertices that are unknown and do not hang. `level` tells apart the samples of vertices whose numbers are the same.
 void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundField& found);
 
-/// Light from the source alone at those vertices.
+/// Light from the source alone at those vertices. Of dark ones it tells which are covered: they may be given no light by their neighbours.
 void light_vertices(const VertexSource& source, FoundField& found);
 
 /// Adds the rest at those that are lit and marked, by ElementVertexId.

@@ -58,9 +58,22 @@ bool is_at_foot(const LightScene& light, const Receiver& receiver) {
   });
 }
 
-bool sees_black(const GatheredRays& gathered) {
+/// Whether nearly all that a point sees is black.
+static bool sees_black(const GatheredRays& gathered) {
   constexpr double most_black = 0.9;
   return gathered.black > most_black * gathered.rays;
+}
+
+bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
+                const Receiver& receiver, double element_size, std::uint32_t seed,
+                PointWorkspace& work) {
+  constexpr int few_rays = 32;
+  static const DirectionNet net = make_direction_net(few_rays);
+  if (is_under_something(light, receiver, element_size))
+    return true;
+  gather_rays(light, net, area_of(receiver), seed, form_factors, work.gather);
+  work.rays += work.gather.result.traced;
+  return sees_black(work.gather.result);
 }
 
 /// Whether what was gathered is that of a point inside something, or behind it, where no light comes.

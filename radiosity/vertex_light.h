@@ -38,11 +38,14 @@ bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance
              const Receiver& receiver, double element_size, std::uint32_t seed,
              PointWorkspace& work);
 
-/// Whether nearly all that a point sees is black: it is inside something that stands on its surface.
-bool sees_black(const GatheredRays& gathered);
-
 /// Whether something lies on the surface here: nearly all of the hemisphere is blocked within a fraction of an element, as under
 /// a box that stands on a floor. What little light there is there must not be interpolated out into the open.
 bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size);
+
+/// Whether a point is under something or, as far as few rays tell, inside something that stands on its surface: nearly all that it sees is black. To be asked
+/// of points to which no light comes from the source.
+bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
+                const Receiver& receiver, double element_size, std::uint32_t seed,
+                PointWorkspace& work);
 
 } // namespace meninas

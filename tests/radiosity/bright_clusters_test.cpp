@@ -70,9 +70,14 @@ TEST(BrightClusters, LightAPointBesideThemAsTheirElementsDo) {
       corners.push_back(wall.l->mesh.vertices[index(corner)]);
     exact += wall.reflected[e].g * point_form_factor(point.position, point.normal, corners);
   }
-  const PointGathering gathering(*wall.l->light, wall.reflected, {}, {}, {.rays = 4096});
-  PointWorkspace work;
-  EXPECT_NEAR(indirect_light_at(gathering, point, 5, work).indirect().total.g, exact, 0.02 * exact);
+  for (const std::size_t most : {1024U, 6U}) {
+    const PointGathering gathering(*wall.l->light, wall.reflected, {}, {},
+                                   {.rays = 4096, .most_clusters = most});
+    EXPECT_LE(gathering.clusters.emitters.size(), most);
+    PointWorkspace work;
+    EXPECT_NEAR(indirect_light_at(gathering, point, 5, work).indirect().total.g, exact,
+                0.02 * exact);
+  }
 }
 
 TEST(BrightClusters, HolesOfACutOutSendNoLight) {

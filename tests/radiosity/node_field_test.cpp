@@ -252,6 +252,27 @@ TEST(NodeField, EdgesOfARoomAreAsDarkAsTheyAre) {
   EXPECT_LT(std::abs(difference(*l, nodes, rows, beside_edges).mean), 0.004);
 }
 
+// A peg stands on one vertex within a node of sixteen elements, where no corner of it and no row meets it. Below it is no light, and what its neighbours have besides that of the source is not
+// all that there is: the light beside it shows, as by rows, to the 2 % of either's samples (4 sigma).
+TEST(NodeField, WhatStandsWithinANodeDarkensNothingBesideIt) {
+  constexpr double size = 1.0 / 64.0, x = 41.0 * size, half = 0.1 * size;
+  Scene scene = plain_room();
+  add_box(scene, "peg", {x - half, 0.0, x - half}, {x + half, half, x + half}, diffuse(0.7));
+  const PassOneSettings settings = by_nodes(size, 0.5, 512);
+  const auto l = lit(std::move(scene), settings.mesh);
+  const RadiositySolution nodes = solve_pass_one(*l->light, settings),
+                          rows = solve_pass_one(*l->light, by_rows(settings, 0));
+  int below = 0;
+  for (std::size_t v = 0; v < l->mesh.vertices.size(); ++v)
+    if (l->mesh.side_of_element[index(l->mesh.element_of_vertex[v])] == static_cast<SideId>(2) &&
+        glm::distance(l->mesh.vertices[v], Point3(x, 0.0, x)) < 1e-9) {
+      ++below;
+      EXPECT_NEAR(nodes.field.irradiance[v].g, rows.field.irradiance[v].g,
+                  0.02F * rows.field.irradiance[v].g);
+    }
+  EXPECT_EQ(below, 1);
+}
+
 /// Of what the indirect light of a and b differs by at vertices, relative to its mean, what all but a fiftieth stay below.
 double nearly_all_within(const RadiositySolution& a, const RadiositySolution& b) {
   std::vector<double> apart;
