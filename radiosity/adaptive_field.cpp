@@ -87,10 +87,9 @@ SampledField direct_field(const LightScene& light, std::span<const double> weigh
     PointWorkspace& work = workspaces.local();
     const ArrivingLight arrived =
         direct_irradiance(light, receiver, direct, hash(seed, direct.seed, 1), work.direct);
-    const bool covered =
-        arrived.total == Rgb(0.0)
-            ? is_shut_in(light, form_factors, receiver, element_size, seed, work)
-            : is_under_something(light, receiver, element_size);
+    const bool covered = arrived.total == Rgb(0.0)
+                             ? is_shut_in(light, form_factors, receiver, element_size, seed, work)
+                             : is_under_something(light, receiver, element_size);
     return {arrived, covered};
   };
   const IsOpenPoint is_open = [&](const Receiver& receiver, double element_size,
