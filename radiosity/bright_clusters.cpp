@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace meninas {
 
@@ -181,6 +182,32 @@ WorldTree first_worlds(const WorldTree& tree, const MirrorSet& mirrors) {
   return first;
 }
 
+/// By ElementId: whether one of the clusters has it.
+std::vector<std::uint8_t> owned_by(const ElementMesh& mesh, const std::vector<Candidate>& found) {
+  std::vector<std::uint8_t> owned(mesh.area.size(), 0);
+  for (const Candidate& candidate : found)
+    for_each_element(mesh, candidate.block, [&](std::uint32_t element) { owned[element] = 1; });
+  return owned;
+}
+
+/// Leaves to rays all but the noisiest, and of these the ones that together add no more than a share to the noise that rays have anyway: the sum of A B^2 over what they find, which
+/// the variance of a mean over directions goes by.
+void keep_noisiest(const ElementMesh& mesh, const std::vector<Rgb>& sent,
+                   const ClusterSettings& settings, std::size_t most,
+                   std::vector<Candidate>& found) {
+  const std::vector<std::uint8_t> owned = owned_by(mesh, found);
+  double of_rays = 0.0, added = 0.0;
+  for (std::size_t e = 0; e < sent.size(); ++e)
+    of_rays += owned[e] != 0 ? 0.0 : mesh.area[e] * std::pow(largest(sent[e]), 2.0);
+  std::ranges::stable_sort(found, std::greater{}, &Candidate::noise);
+  found.resize(std::min(found.size(), most));
+  for (; !found.empty(); found.pop_back()) {
+    added += found.back().noise * found.back().noise;
+    if (added > settings.spared * of_rays)
+      return;
+  }
+}
+
 } // namespace
 
 BrightClusters find_bright_clusters(const LightScene& light, const std::vector<Rgb>& reflected,
@@ -198,16 +225,11 @@ BrightClusters find_bright_clusters(const LightScene& light, const std::vector<R
   const std::vector<Rgb> sent = spread_over_holes(mesh, reflected);
   ClusterSearch context{mesh, sent, settings.contrast * usual, settings.evenness, {}};
   search_sides(context);
-  if (context.found.size() > most) {
-    std::stable_sort(context.found.begin(), context.found.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.noise > b.noise; });
-    context.found.resize(most);
-  }
-  for (const auto& candidate : context.found) {
+  if (context.found.size() > most || settings.spared > 0.0)
+    keep_noisiest(mesh, sent, settings, most, context.found);
+  clusters.owned = owned_by(mesh, context.found);
+  for (const auto& candidate : context.found)
     clusters.emitters.push_back(make_emitter(light, candidate));
-    for_each_element(mesh, candidate.block,
-                     [&](std::uint32_t element) { clusters.owned[element] = 1; });
-  }
   return clusters;
 }
 

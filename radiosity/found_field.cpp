@@ -35,14 +35,14 @@ FoundField unknown_field(ElementMesh mesh) {
 }
 
 PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
-                              const VertexGathering& how, int share) {
+                              const VertexGathering& how, int share, double spared) {
   return {light,
           std::move(reflected),
           how.form_factors,
           how.direct,
           {.rays = std::max(std::min(how.interpolation.rays, 128), how.interpolation.rays / share),
            .cluster_shadow_rays = std::max(1, how.interpolation.cluster_shadow_rays / share),
-           .most_clusters = ClusterSettings{}.most / static_cast<std::size_t>(share)}};
+           .clusters_spared = spared}};
 }
 
 namespace {
@@ -91,17 +91,49 @@ void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundFi
              });
 }
 
+/// Marks the dark vertices in one element with a bright one, or with one that is covered; those once marked no more. Returns whether there are any.
+static bool mark_dark_beside_bright(const FoundField& found, std::vector<std::uint8_t>& marked,
+                                    std::vector<std::uint8_t>& asked) {
+  const auto is_dark = [&](std::size_t v) {
+    return found.states[v] == VertexState::lit && found.field.irradiance[v] == glm::vec3(0.0F);
+  };
+  const auto is_beside = [&](ElementVertexId v) {
+    return found.states[index(v)] == VertexState::covered ||
+           (found.states[index(v)] == VertexState::lit && !is_dark(index(v)));
+  };
+  marked.assign(asked.size(), 0);
+  bool any = false;
+  for (const ElementCorners& corners : found.mesh.corners)
+    if (std::ranges::any_of(corners, is_beside))
+      for (const ElementVertexId v : corners)
+        if (is_dark(index(v)) && asked[index(v)] == 0) {
+          marked[index(v)] = asked[index(v)] = 1;
+          any = true;
+        }
+  return any;
+}
+
+/// Finds the dark vertices that are covered, inwards from where light ends. Deep in the dark, others hurt nobody.
+static void cover_shut_in(const VertexSource& source, FoundField& found) {
+  std::vector<std::uint8_t> marked, asked(found.states.size(), 0);
+  while (mark_dark_beside_bright(found, marked, asked))
+    light_each(source, VertexState::lit, VertexState::lit, marked, 0, found,
+               [&](const Receiver& receiver, double size, std::uint32_t seed,
+                   PointWorkspace& work) -> VertexValue {
+                 return {{},
+                         {},
+                         is_shut_in(source.gathering.light, source.gathering.form_factors, receiver,
+                                    size, seed, work)};
+               });
+}
+
 void light_vertices(const VertexSource& source, FoundField& found) {
   light_each(source, VertexState::unknown, VertexState::lit, {}, 0, found,
-             [&](const Receiver& receiver, double size, std::uint32_t seed,
+             [&](const Receiver& receiver, double, std::uint32_t seed,
                  PointWorkspace& work) -> VertexValue {
-               const PointGathering& from = source.gathering;
-               const ArrivingLight arrived = light_from_source(from, receiver, seed, work);
-               return {arrived,
-                       {},
-                       arrived.total == Rgb(0.0) &&
-                           is_shut_in(from.light, from.form_factors, receiver, size, seed, work)};
+               return {light_from_source(source.gathering, receiver, seed, work), {}, false};
              });
+  cover_shut_in(source, found);
 }
 
 void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> marked,

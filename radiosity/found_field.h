@@ -36,10 +36,10 @@ struct VertexGathering {
   const InterpolationSettings& interpolation;
 };
 
-/// From elements of that reflected radiosity, with one `share`th of the rays, of 128 at least where there are so many, and of the bright clusters, whose light takes
-/// longer than 128 rays where they lie in many planes.
+/// From elements of that reflected radiosity, with one `share`th of the rays, of 128 at least where there are so many. `spared`: bright clusters that add so little to the noise of these are
+/// left to them (bright_clusters.h). Where clusters lie in many planes their light takes longer than 128 rays.
 PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
-                              const VertexGathering& how, int share);
+                              const VertexGathering& how, int share, double spared = 0.0);
 
 /// What vertices gather from.
 struct VertexSource {
@@ -53,7 +53,7 @@ FoundField unknown_field(ElementMesh mesh);
 /// Gathers at the vertices that are unknown and do not hang. `level` tells apart the samples of vertices whose numbers are the same.
 void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundField& found);
 
-/// Light from the source alone at those vertices. Of dark ones it tells which are covered: they may be given no light by their neighbours.
+/// Light from the source alone at those vertices. Of dark ones beside bright ones it tells which are covered: that they get no light but what neighbours have besides would show.
 void light_vertices(const VertexSource& source, FoundField& found);
 
 /// Adds the rest at those that are lit and marked, by ElementVertexId.

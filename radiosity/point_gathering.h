@@ -16,7 +16,7 @@ namespace meninas {
 struct PointGatheringSettings {
   int rays = 512;              ///< over the hemisphere
   int cluster_shadow_rays = 8; ///< per bright cluster, where it matters most; eight times as many for all that are far away together, or an eighth of `rays`
-  std::size_t most_clusters = ClusterSettings{}.most; ///< rays find the light of others
+  double clusters_spared = 0.0; ///< ClusterSettings::spared
   double cluster_theta = ClusterCut{}.theta; ///< which are (cluster_cut.h); 0: none
 };
 

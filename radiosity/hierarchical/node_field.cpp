@@ -7,6 +7,7 @@ namespace meninas {
 namespace {
 
 constexpr int few_rays = 4; // for the first gathering, and for small nodes: so many times fewer
+constexpr double first_spared = 1.0, small_spared = 0.1; // of bright clusters there
 
 /// What nodes gather from: the same light, with many and with few rays.
 struct NodeSource {
@@ -111,13 +112,13 @@ std::vector<Rgb> reflected_by_field(const ElementMesh& mesh, const VertexSource&
 InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
                                  const ReceiverNodes& receivers, const VertexGathering& how,
                                  FoundField found, PointWorkspaces& workspaces) {
-  const PointGathering solved = gathering_from(light, elements.reflected, how, few_rays);
+  const PointGathering solved = gathering_from(light, elements.reflected, how, few_rays, first_spared);
   const VertexSource few{elements.irradiance, solved, workspaces};
   light_vertices(few, found);
   const std::vector<Rgb> reflected =
       reflected_by_field(light.mesh, few, receivers, elements, found);
   const PointGathering seen = gathering_from(light, reflected, how, 1),
-                       seen_by_small = gathering_from(light, reflected, how, few_rays);
+                       seen_by_small = gathering_from(light, reflected, how, few_rays, small_spared);
   const VertexSource source{elements.irradiance, seen, workspaces},
       by_small{elements.irradiance, seen_by_small, workspaces};
   share_out(gather_at_nodes({source, by_small}, receivers, receivers.bend, found), found);
