@@ -1,6 +1,7 @@
 #include "radiosity/adaptive_field.h"
 
 #include "radiosity/field_refinement.h"
+#include "radiosity/gather_noise.h"
 #include "radiosity/mesh_division.h"
 #include "radiosity/vertex_light.h"
 #include "radiosity/vertex_places.h"
@@ -161,8 +162,6 @@ struct SampleRays {
   double size = 0.0;
 };
 
-constexpr double noise_order = 0.75; // of rays that are spread evenly, where light is smooth
-
 /// How many rays keep the noise of a vertex within a bound. `first` was sampled with `rays` a vertex, and between vertices twice with a quarter of them, of
 /// whose mean it knows the noise.
 double rays_within(double bound, const SampledField& first, int rays) {
@@ -178,8 +177,8 @@ public:
                   const std::vector<Rgb>& reflected, const Gathering& how, const SampleRays& rays,
                   tbb::enumerable_thread_specific<PointWorkspace>& workspaces)
       : rays_(rays) {
-    constexpr int most = 16, step = 4;
-    for (int times = 1; times <= most; times *= step) {
+    constexpr int step = 4;
+    for (int times = 1; times <= most_times_asked; times *= step) {
       counts_.push_back(times * rays.asked);
       const PointGathering& gathering = gatherings_.emplace_back(
           lit, reflected, how.form_factors, how.direct,

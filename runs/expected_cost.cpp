@@ -2,6 +2,7 @@
 
 #include "radiosity/element_light.h"
 #include "radiosity/facets.h"
+#include "radiosity/gather_noise.h"
 #include "radiosity/hierarchical/node_light.h"
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/point_gathering.h"
@@ -107,11 +108,12 @@ std::size_t gathering_vertices(const LightScene& light) {
 /// Where the field has a mesh of its own (adaptive_field.h), one that is finer the smaller the bound X is: indirect light is gathered twice, with a quarter of
 /// the rays and with as many as keep its noise within X, and looked at in the middle of elements with half as many; light from the source in more places.
 Counts counted_adaptive(const PassOneSettings& settings, Counts all) {
-  constexpr double of_noise = 0.9, order = 0.75, most = 16.0; // what noise is of N^-order rays
-  constexpr double ordinary = 0.01;                           // the bound that doubles elements
-  constexpr double root_sources = 60.0, sources = 20.0;       // ones with many shadow rays for two
+  constexpr double of_noise = 0.9;  // of one ray, before it falls with their number
+  constexpr double ordinary = 0.01; // the bound that doubles elements
+  constexpr double root_sources = 60.0, sources = 20.0; // ones with many shadow rays for two
   const double x = settings.interpolation.adaptive->error, asked = settings.interpolation.rays;
-  const double rays = std::clamp(std::pow(of_noise / x, 1.0 / order), asked, most * asked);
+  const double rays =
+      std::clamp(std::pow(of_noise / x, 1.0 / noise_order), asked, most_times_asked * asked);
   const double roots = all.gathers, elements = roots * (1.0 + ordinary / x);
   all.gathers = 1.5 * (0.25 * roots + std::sqrt(roots * elements) * rays / asked);
   all.sources = root_sources * roots + sources * (elements - roots);

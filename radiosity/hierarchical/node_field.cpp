@@ -1,6 +1,9 @@
 #include "radiosity/hierarchical/node_field.h"
 
+#include "radiosity/gather_noise.h"
 #include "radiosity/vertex_places.h"
+
+#include <cmath>
 
 namespace meninas {
 
@@ -15,11 +18,11 @@ struct NodeSource {
   const VertexSource& few;
 };
 
-/// The rest at vertices, `wanted` the areas that they stand for. Noise counts with the area, and that of N rays that are spread evenly falls as N^-3/4: in an eighth of a receiver a quarter
-/// of the rays adds no more to the squared error than all do in a receiver.
+/// The rest at vertices, `wanted` the areas that they stand for. Noise counts with the area: in an eighth of a receiver a quarter of the rays adds no more to the
+/// squared error than all do in a receiver (gather_noise.h).
 void gather_at_wanted(const NodeSource& source, const std::vector<double>& wanted, double receiver,
                       FoundField& found) {
-  constexpr double small = 1.0 / 8.0;
+  const double small = std::pow(few_rays, -2.0 * noise_order);
   std::vector<std::uint8_t> large(wanted.size(), 0), rest(wanted.size(), 0);
   for (std::size_t v = 0; v < wanted.size(); ++v) {
     large[v] = wanted[v] > small * receiver ? 1 : 0;
@@ -112,13 +115,15 @@ std::vector<Rgb> reflected_by_field(const ElementMesh& mesh, const VertexSource&
 InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
                                  const ReceiverNodes& receivers, const VertexGathering& how,
                                  FoundField found, PointWorkspaces& workspaces) {
-  const PointGathering solved = gathering_from(light, elements.reflected, how, few_rays, first_spared);
+  const PointGathering solved =
+      gathering_from(light, elements.reflected, how, few_rays, first_spared);
   const VertexSource few{elements.irradiance, solved, workspaces};
   light_vertices(few, found);
   const std::vector<Rgb> reflected =
       reflected_by_field(light.mesh, few, receivers, elements, found);
   const PointGathering seen = gathering_from(light, reflected, how, 1),
-                       seen_by_small = gathering_from(light, reflected, how, few_rays, small_spared);
+                       seen_by_small =
+                           gathering_from(light, reflected, how, few_rays, small_spared);
   const VertexSource source{elements.irradiance, seen, workspaces},
       by_small{elements.irradiance, seen_by_small, workspaces};
   share_out(gather_at_nodes({source, by_small}, receivers, receivers.bend, found), found);
