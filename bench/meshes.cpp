@@ -102,8 +102,8 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
   }
   for (const auto& [elements, bend] :
        {std::pair(2000.0, 0.02), std::pair(8000.0, 0.02), std::pair(32000.0, 0.02),
-        std::pair(32000.0, 0.01), std::pair(32000.0, 0.005), std::pair(128000.0, 0.02),
-        std::pair(128000.0, 0.005)}) {
+        std::pair(32000.0, 0.01), std::pair(32000.0, 0.005), std::pair(64000.0, 0.005),
+        std::pair(128000.0, 0.02), std::pair(128000.0, 0.005)}) {
     RunSettings run;
     run.solver = SolverMethod::hierarchical;
     run.link_error = bend;
