@@ -5,7 +5,7 @@
 //
 // RAYS of a vertex; 512 are those of `normal`. REFERENCES has NAME.reference.exr, as reference/images. Where meshes differ by less than a per cent, the noise of those with 512 samples a pixel hides it:
 // `render --mode reference --size 96x96 --samples 8192 --float` makes better ones. Errors are those of bench/truth.h. Pass two takes many samples a pixel, so that its own does not
-// either. Time is processor time of pass one, which other programs on the machine disturb less than that of a clock, and the shortest of up to five runs.
+// either. Time is processor time of pass one, which other programs on the machine disturb less than that of a clock, and the shortest of up to five runs, which end after 20 s.
 // For every other mesh stands the number of elements, and the time, that uniform meshes take for its error (log-log between the two nearest,
 // beyond the last by their slope).
 #include "bench/truth.h"

@@ -253,7 +253,7 @@ TEST(NodeField, EdgesOfARoomAreAsDarkAsTheyAre) {
 }
 
 // A peg stands on one vertex within a node of sixteen elements, where no corner of it and no row meets it. Below it is no light, and what its neighbours have besides that of the source is not
-// all that there is: the light beside it shows, as by rows, to the 2 % of either's samples (4 sigma).
+// all that there is: the light beside it shows, as by rows. Over six seeds one spreads by 0.17 and the other by 0.24 %: 1.2 % are 4 sigma.
 TEST(NodeField, WhatStandsWithinANodeDarkensNothingBesideIt) {
   constexpr double size = 1.0 / 64.0, x = 41.0 * size, half = 0.1 * size;
   Scene scene = plain_room();
@@ -268,7 +268,7 @@ TEST(NodeField, WhatStandsWithinANodeDarkensNothingBesideIt) {
         glm::distance(l->mesh.vertices[v], Point3(x, 0.0, x)) < 1e-9) {
       ++below;
       EXPECT_NEAR(nodes.field.irradiance[v].g, rows.field.irradiance[v].g,
-                  0.02F * rows.field.irradiance[v].g);
+                  0.012F * rows.field.irradiance[v].g);
     }
   EXPECT_EQ(below, 1);
 }
