@@ -1,5 +1,7 @@
 #include "radiosity/hierarchical/node_bends.h"
 
+#include "radiosity/hierarchical/node_edges.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +15,24 @@ std::ptrdiff_t valid_among(const ElementCorners& corners, const GatheredVertices
       corners, [&](ElementVertexId corner) { return gathered.valid[index(corner)] != 0; });
 }
 
+/// Whether light is off by more than the bound allows on so large a node: rho |difference| beside what is there.
+bool is_beyond(const BendBound& bound, double area, const Rgb& rho, const glm::vec3& difference,
+               const glm::vec3& irradiance) {
+  const double off = largest(rho * glm::abs(Rgb(difference)));
+  const double there = largest(rho * Rgb(irradiance));
+  return off * std::sqrt(area / bound.scale.area) > bound.x * (there + bound.scale.radiosity);
+}
+
+const Rgb& reflectance_at(const ElementMesh& mesh, ElementVertexId vertex) {
+  return mesh.reflectance[index(mesh.element_of_vertex[index(vertex)])];
+}
+
+void add_parts(const NodeTree& tree, TreeNodeId id, std::vector<TreeNodeId>& parts) {
+  const TreeNode& node = tree.nodes[index(id)];
+  for (std::uint32_t c = 0; c < node.child_count; ++c)
+    parts.push_back(static_cast<TreeNodeId>(index(node.first_child) + c));
+}
+
 /// Whether the middle of a node has light that its corners do not tell of, or something stands on a part of it.
 bool is_bent(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId id,
              const GatheredVertices& gathered, const BendBound& bound) {
@@ -21,7 +41,7 @@ bool is_bent(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId id,
     return false;
   const ElementCorners corners = corners_of(mesh, node);
   const std::ptrdiff_t valid = valid_among(corners, gathered);
-  const double weight = std::sqrt(area_below(mesh, tree, id) / bound.scale.area);
+  const double area = area_below(mesh, tree, id);
   return std::ranges::any_of(probes_of(mesh, tree, node), [&](const NodeProbe& probe) {
     const std::size_t p = index(probe.vertex);
     if (valid < 4 || gathered.valid[p] == 0)
@@ -29,10 +49,8 @@ bool is_bent(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId id,
     glm::vec3 interpolated(0.0F);
     for (std::size_t c = 0; c < corners.size(); ++c)
       interpolated += probe.weight[c] * gathered.indirect[index(corners[c])];
-    const Rgb& rho = mesh.reflectance[index(mesh.element_of_vertex[p])];
-    const double off = largest(rho * glm::abs(Rgb(gathered.indirect[p] - interpolated)));
-    const double there = largest(rho * Rgb(gathered.irradiance[p]));
-    return off * weight > bound.x * (there + bound.scale.radiosity);
+    return is_beyond(bound, area, reflectance_at(mesh, probe.vertex),
+                     gathered.indirect[p] - interpolated, gathered.irradiance[p]);
   });
 }
 
@@ -44,14 +62,37 @@ std::vector<TreeNodeId> parts_of_bent(const ElementMesh& mesh, const NodeTree& t
                                       std::vector<TreeNodeId>& straight) {
   std::vector<TreeNodeId> parts;
   for (const TreeNodeId id : nodes) {
-    if (!is_bent(mesh, tree, id, gathered, bound)) {
+    if (is_bent(mesh, tree, id, gathered, bound))
+      add_parts(tree, id, parts);
+    else
       straight.push_back(id);
-      continue;
-    }
-    const TreeNode& node = tree.nodes[index(id)];
-    for (std::uint32_t c = 0; c < node.child_count; ++c)
-      parts.push_back(static_cast<TreeNodeId>(index(node.first_child) + c));
   }
+  return parts;
+}
+
+std::vector<TreeNodeId> parts_at_bent_edges(const ElementMesh& mesh, const NodeTree& tree,
+                                            const GatheredVertices& gathered,
+                                            const BendBound& bound,
+                                            std::vector<TreeNodeId>& straight) {
+  const std::vector<NodeCross> crosses = crosses_of(mesh, tree, straight);
+  const std::vector<glm::vec3> bends =
+      edge_bends(crosses, vertex_shares(mesh, tree, straight), gathered.valid, gathered.indirect);
+  std::vector<TreeNodeId> parts, left;
+  auto cross = crosses.begin();
+  for (const TreeNodeId id : straight) {
+    const bool is_cross = cross != crosses.end() && cross->node == id;
+    const double area = area_below(mesh, tree, id);
+    const bool is_bent = is_cross && std::ranges::any_of(cross->of_edges, [&](ElementVertexId v) {
+                           return is_beyond(bound, area, reflectance_at(mesh, v), bends[index(v)],
+                                            gathered.irradiance[index(cross->middle)]);
+                         });
+    if (is_bent)
+      add_parts(tree, id, parts);
+    else
+      left.push_back(id);
+    cross += is_cross ? 1 : 0;
+  }
+  straight = std::move(left);
   return parts;
 }
 

@@ -6,6 +6,7 @@
 //   rho |I_p - sum of its corners' shares| sqrt(A / A_mean)  >  X (rho H_p + B_mean)
 //
 // the node gives way to its parts, as it does where some of these vertices have light and others are covered. A is the node's area and A_mean that of a receiver: equal squares over equal areas. I is the indirect part of the irradiance H.
+// So do the two nodes on both sides of an edge, if light in the middle of that is as far from the mean of its ends (node_edges.h).
 #pragma once
 
 #include "radiosity/bends.h"
@@ -38,5 +39,11 @@ std::vector<TreeNodeId> parts_of_bent(const ElementMesh& mesh, const NodeTree& t
                                       std::span<const TreeNodeId> nodes,
                                       const GatheredVertices& gathered, const BendBound& bound,
                                       std::vector<TreeNodeId>& straight);
+
+/// The parts of those of the `straight` nodes, taken from these, that have bent edges.
+std::vector<TreeNodeId> parts_at_bent_edges(const ElementMesh& mesh, const NodeTree& tree,
+                                            const GatheredVertices& gathered,
+                                            const BendBound& bound,
+                                            std::vector<TreeNodeId>& straight);
 
 } // namespace meninas

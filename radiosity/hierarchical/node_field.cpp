@@ -1,6 +1,7 @@
 #include "radiosity/hierarchical/node_field.h"
 
 #include "radiosity/gather_noise.h"
+#include "radiosity/hierarchical/node_edges.h"
 #include "radiosity/vertex_places.h"
 
 #include <cmath>
@@ -32,21 +33,35 @@ void gather_at_wanted(const NodeSource& source, const std::vector<double>& wante
   gather_at_lit(source.few, rest, found);
 }
 
-/// The rest at the corners and in the middle of nodes as small as it asks for, with a bound of X.
-VertexShares gather_at_nodes(const NodeSource& source, const ReceiverNodes& receivers, double x,
-                             FoundField& found) {
+/// How vertices take from those that gather.
+struct NodeInterpolation {
+  VertexShares shares;
+  std::vector<NodeCross> crosses;
+};
+
+/// The rest at the corners and in the middle of nodes as small as it asks for, with a bound of X. Middles alone do not see light that bends one way along a node and the other way
+/// across: what edges between nodes tell of that divides once more.
+NodeInterpolation gather_at_nodes(const NodeSource& source, const ReceiverNodes& receivers,
+                                  double x, FoundField& found) {
   const ElementMesh& mesh = found.mesh;
-  BendScale scale = bend_scale(mesh, source.many.gathering.reflected);
-  scale.area *= double(element_count(mesh)) / double(receivers.receivers.size());
-  std::vector<TreeNodeId> nodes = receivers.receivers, straight;
-  while (!nodes.empty()) {
-    gather_at_wanted(source, wanted_vertices(mesh, receivers.tree, nodes), scale.area, found);
-    const std::vector<std::uint8_t> valid = with_values(found);
-    nodes =
-        parts_of_bent(mesh, receivers.tree, nodes,
-                      {valid, found.field.irradiance, found.field.indirect}, {scale, x}, straight);
-  }
-  return vertex_shares(mesh, receivers.tree, straight);
+  const NodeTree& tree = receivers.tree;
+  BendBound bound{bend_scale(mesh, source.many.gathering.reflected), x};
+  bound.scale.area *= double(element_count(mesh)) / double(receivers.receivers.size());
+  std::vector<TreeNodeId> straight;
+  std::vector<std::uint8_t> valid;
+  const auto gathered = [&]() -> GatheredVertices {
+    valid = with_values(found);
+    return {valid, found.field.irradiance, found.field.indirect};
+  };
+  const auto gather_below = [&](std::vector<TreeNodeId> nodes) {
+    while (!nodes.empty()) {
+      gather_at_wanted(source, wanted_vertices(mesh, tree, nodes), bound.scale.area, found);
+      nodes = parts_of_bent(mesh, tree, nodes, gathered(), bound, straight);
+    }
+  };
+  gather_below(receivers.receivers);
+  gather_below(parts_at_bent_edges(mesh, tree, gathered(), bound, straight));
+  return {vertex_shares(mesh, tree, straight), crosses_of(mesh, tree, straight)};
 }
 
 /// What a vertex takes from those that its shares name, as far as these have values.
@@ -73,12 +88,37 @@ void take_shares(const VertexShares& shares, std::size_t v, FoundField& found) {
   found.states[v] = VertexState::gathered;
 }
 
+/// Adds what is curved to vertices between corners, of those that have a value; light is not negative, and the mirrors' part no more than all.
+void bend_between(const NodeInterpolation& by, std::span<const std::uint8_t> valid,
+                  FoundField& found) {
+  DiffuseField& field = found.field;
+  const std::vector<glm::vec3> bends = edge_bends(by.crosses, by.shares, valid, field.indirect),
+                               of_mirrored = edge_bends(by.crosses, by.shares, valid,
+                                                        field.indirect_mirrored);
+  const auto add = [](const glm::vec3& more, glm::vec3& indirect, glm::vec3& all) {
+    const glm::vec3 bent = glm::max(indirect + more, glm::vec3(0.0F));
+    all += bent - indirect;
+    indirect = bent;
+  };
+  for (std::size_t v = 0; v < bends.size(); ++v)
+    if (by.shares.between[v] != 0 && found.states[v] == VertexState::gathered) {
+      add(bends[v], field.indirect[v], field.irradiance[v]);
+      add(glm::min(of_mirrored[v], field.indirect[v] - field.indirect_mirrored[v]),
+          field.indirect_mirrored[v], field.mirrored[v]);
+    }
+}
+
 /// Gives vertices that are lit the rest of their light: first those between corners of nodes, which others take from.
-void share_out(const VertexShares& shares, FoundField& found) {
-  for (const bool between : {true, false})
+void share_out(const NodeInterpolation& by, FoundField& found) {
+  const std::vector<std::uint8_t> valid = with_values(found);
+  const auto take = [&](bool between) {
     for (std::size_t v = 0; v < found.states.size(); ++v)
-      if (found.states[v] == VertexState::lit && (shares.between[v] != 0) == between)
-        take_shares(shares, v, found);
+      if (found.states[v] == VertexState::lit && (by.shares.between[v] != 0) == between)
+        take_shares(by.shares, v, found);
+  };
+  take(true);
+  bend_between(by, valid, found);
+  take(false);
 }
 
 /// What elements receive, by their corners: all of it where they share points for light from the source (node_light.h), or the rest. Of a spot of a few elements corners

@@ -207,8 +207,8 @@ Difference difference(const LitScene& l, const RadiositySolution& a, const Radio
 const auto everywhere = [](const Point3&) { return true; };
 
 // Two routes to one field: gathered at all vertices from all elements, and by nodes. In the middle of a node X allows a bend of X (B + B_mean), which is 2 X H on average; the whole of
-// it is less than half as far off, the samples of either as much as those of another seed. Light that fades towards edges is hollow everywhere, and
-// what is interpolated over it too dark: by half as much again.
+// it is less than half as far off, the samples of either as much as those of another seed. Parabolas over edges (node_edges.h) leave a quarter of what the mean of light that is hollow
+// everywhere would be off: it is too dark by up to 0.27 of the bound along straight ones, by 0.1 with them.
 TEST(NodeField, IsWhatGatheringEverywhereFinds) {
   constexpr double x = 0.01;
   for (const Scene& scene : {plain_room(), half_room_with_small_mirror()}) {
@@ -226,7 +226,7 @@ TEST(NodeField, IsWhatGatheringEverywhereFinds) {
     }
     const double bound = x * all / indirect;
     EXPECT_LT(apart.rms, std::hypot(bound, samples.rms));
-    EXPECT_LT(std::abs(apart.mean), 0.5 * bound);
+    EXPECT_LT(std::abs(apart.mean), 0.25 * bound);
     EXPECT_LT(nodes.form_factor_rays, rows.form_factor_rays / 2);
   }
 }
