@@ -75,8 +75,7 @@ std::vector<TreeNodeId> parts_at_bent_edges(const ElementMesh& mesh, const NodeT
                                             const BendBound& bound,
                                             std::vector<TreeNodeId>& straight) {
   const std::vector<NodeCross> crosses = crosses_of(mesh, tree, straight);
-  const std::vector<glm::vec3> bends =
-      edge_bends(crosses, vertex_shares(mesh, tree, straight), gathered.valid, gathered.indirect);
+  const std::vector<glm::vec3> bends = edge_bends(crosses, gathered.valid, gathered.indirect);
   std::vector<TreeNodeId> parts, left;
   auto cross = crosses.begin();
   for (const TreeNodeId id : straight) {

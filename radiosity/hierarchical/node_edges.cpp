@@ -137,20 +137,19 @@ std::vector<NodeCross> crosses_of(const ElementMesh& mesh, const NodeTree& tree,
   return crosses;
 }
 
-std::vector<glm::vec3> edge_bends(std::span<const NodeCross> crosses, const VertexShares& shares,
-                                  std::span<const std::uint8_t> valid,
+std::vector<glm::vec3> edge_bends(std::span<const NodeCross> crosses,
+                                  std::span<const std::uint8_t> gathered,
                                   std::span<const glm::vec3> values) {
-  const EdgeBends edges(crosses, valid, values);
+  const EdgeBends edges(crosses, gathered, values);
   std::vector<glm::vec3> bends(values.size(), glm::vec3(0.0F));
   std::vector<std::uint8_t> found(values.size(), 0);
-  const auto is_between = [&](ElementVertexId v) { return shares.between[index(v)] != 0; };
 
   // Edges with a node of the same size on both sides.
   std::vector<std::optional<EdgeSide>> first(values.size());
   for (std::uint32_t c = 0; c < crosses.size(); ++c)
     for (std::uint32_t k = 0; k < 4; ++k) {
       const ElementVertexId middle = crosses[c].of_edges[k];
-      if (!is_between(middle) || !edges.is_known(crosses[c]))
+      if (gathered[index(middle)] != 0 || !edges.is_known(crosses[c]))
         continue;
       const EdgeSide side{c, k};
       std::optional<EdgeSide>& other = first[index(middle)];
@@ -168,11 +167,11 @@ std::vector<glm::vec3> edge_bends(std::span<const NodeCross> crosses, const Vert
       const std::size_t middle = index(crosses[c].of_edges[k]);
       const std::uint32_t across = (k + 2) % 4;
       const std::size_t opposite = index(crosses[c].of_edges[across]);
-      if (!is_between(crosses[c].of_edges[k]) || found[middle] != 0 || !edges.is_known(crosses[c]))
+      if (gathered[middle] != 0 || found[middle] != 0 || !edges.is_known(crosses[c]))
         continue;
       if (found[opposite] != 0)
         beside[middle] = bends[opposite];
-      else if (shares.between[opposite] == 0 && valid[opposite] != 0)
+      else if (gathered[opposite] != 0)
         beside[middle] = edges.beyond_line({c, across}, values[opposite]);
     }
   return beside;

@@ -37,10 +37,9 @@ struct NodeCross {
 std::vector<NodeCross> crosses_of(const ElementMesh& mesh, const NodeTree& tree,
                                   std::span<const TreeNodeId> nodes);
 
-/// By ElementVertexId, for vertices in the middle of edges that `shares` has between corners: what `values` have there more than the linear mean of the edge's ends; 0 elsewhere.
-/// `valid`: whether a vertex has gathered.
-std::vector<glm::vec3> edge_bends(std::span<const NodeCross> crosses, const VertexShares& shares,
-                                  std::span<const std::uint8_t> valid,
+/// By ElementVertexId, in the middle of edges that have not gathered: what `values` have there more than the linear mean of the edge's ends; 0 elsewhere. `gathered`: 1 where values are known.
+std::vector<glm::vec3> edge_bends(std::span<const NodeCross> crosses,
+                                  std::span<const std::uint8_t> gathered,
                                   std::span<const glm::vec3> values);
 
 } // namespace meninas

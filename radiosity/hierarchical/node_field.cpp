@@ -92,9 +92,8 @@ void take_shares(const VertexShares& shares, std::size_t v, FoundField& found) {
 void bend_between(const NodeInterpolation& by, std::span<const std::uint8_t> valid,
                   FoundField& found) {
   DiffuseField& field = found.field;
-  const std::vector<glm::vec3> bends = edge_bends(by.crosses, by.shares, valid, field.indirect),
-                               of_mirrored = edge_bends(by.crosses, by.shares, valid,
-                                                        field.indirect_mirrored);
+  const std::vector<glm::vec3> bends = edge_bends(by.crosses, valid, field.indirect),
+                               of_mirrored = edge_bends(by.crosses, valid, field.indirect_mirrored);
   const auto add = [](const glm::vec3& more, glm::vec3& indirect, glm::vec3& all) {
     const glm::vec3 bent = glm::max(indirect + more, glm::vec3(0.0F));
     all += bent - indirect;

@@ -38,6 +38,14 @@ std::vector<TreeNodeId> cut_below(const NodeTree& tree, int levels, bool uneven)
   return nodes;
 }
 
+/// By ElementVertexId, 1 where a vertex gathers.
+std::vector<std::uint8_t> gathering(const VertexShares& shares) {
+  std::vector<std::uint8_t> marks;
+  for (std::size_t v = 0; v < shares.from.size(); ++v)
+    marks.push_back(gathers(shares, v) ? 1 : 0);
+  return marks;
+}
+
 /// Light that is quadratic over the floor, without ever being negative.
 glm::vec3 parabola(const Point3& at) {
   return glm::vec3(
@@ -58,12 +66,11 @@ TEST(NodeEdges, FollowParabolas) {
   const auto l = lit_floor(0.14);
   const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
   const std::vector<glm::vec3> light = parabolas(l->mesh);
-  const std::vector<std::uint8_t> valid(light.size(), 1);
   for (const bool uneven : {false, true}) {
     const std::vector<TreeNodeId> nodes = cut_below(tree, 2, uneven);
     const VertexShares shares = vertex_shares(l->mesh, tree, nodes);
     const std::vector<glm::vec3> bends =
-        edge_bends(crosses_of(l->mesh, tree, nodes), shares, valid, light);
+        edge_bends(crosses_of(l->mesh, tree, nodes), gathering(shares), light);
     float least_bend = 1.0F;
     int between = 0;
     for (std::size_t v = 0; v < light.size(); ++v) {
@@ -89,14 +96,13 @@ TEST(NodeEdges, StayStraightWhereLightIsNotKnown) {
   const auto l = lit_floor(0.14);
   const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
   const std::vector<TreeNodeId> nodes = cut_below(tree, 2, false);
-  const VertexShares shares = vertex_shares(l->mesh, tree, nodes);
   const std::vector<NodeCross> crosses = crosses_of(l->mesh, tree, nodes);
   std::vector<glm::vec3> light = parabolas(l->mesh);
-  std::vector<std::uint8_t> valid(light.size(), 1);
-  const std::vector<glm::vec3> all = edge_bends(crosses, shares, valid, light);
+  std::vector<std::uint8_t> valid = gathering(vertex_shares(l->mesh, tree, nodes));
+  const std::vector<glm::vec3> all = edge_bends(crosses, valid, light);
   valid[index(crosses[0].middle)] = 0;
   light[index(crosses[0].middle)] = glm::vec3(1e6F);
-  const std::vector<glm::vec3> some = edge_bends(crosses, shares, valid, light);
+  const std::vector<glm::vec3> some = edge_bends(crosses, valid, light);
   std::size_t straight = 0;
   for (std::size_t v = 0; v < all.size(); ++v) {
     EXPECT_LT(glm::length(some[v]), 1.0F) << v;
@@ -118,7 +124,8 @@ TEST(NodeEdges, SaddlesDivideNodes) {
   for (const Point3& at : l->mesh.vertices)
     saddle.emplace_back(float(8.0 + c * (at.x * at.x - at.z * at.z)));
   const std::vector<glm::vec3> level(saddle.size(), glm::vec3(8.0F));
-  const std::vector<std::uint8_t> valid(saddle.size(), 1);
+  const std::vector<std::uint8_t> valid =
+      gathering(vertex_shares(l->mesh, tree, cut_below(tree, 1, false)));
   const auto divided = [&](double x) {
     const BendBound bound{{1.0 / 4.0, rho}, x};
     std::vector<TreeNodeId> straight;
