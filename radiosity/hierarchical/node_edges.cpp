@@ -46,7 +46,8 @@ std::optional<NodeCross> cross_of(const ElementMesh& mesh, const NodeTree& tree,
       }
     }
   }
-  return cross;
+  const bool is_whole = cross.middle != unknown && std::ranges::count(cross.of_edges, unknown) == 0;
+  return is_whole ? std::optional(cross) : std::nullopt;
 }
 
 /// What is known of a middle of an edge from one of the nodes beside it.
