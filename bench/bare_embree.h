@@ -1,5 +1,6 @@
-// Bare Embree loops, to compare with: they do what any renderer must (fill a packet of sixteen, trace it, look at the result) with
-// an epsilon instead of planes, and know no sides: behind a transparent back they see nothing.
+// Bare Embree loops, to compare with: they do what any renderer must (fill a packet of sixteen,
+// trace it, look at the result) with an epsilon instead of planes, and know no sides:
+// behind a transparent back they see nothing.
 #pragma once
 
 #include "scenes/frame_geometry.h"

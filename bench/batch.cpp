@@ -1,9 +1,11 @@
-// What a batch of many views costs beside one solve and as many renders, and what a second thread brings.
+// What a batch of many views costs beside one solve and as many renders,
+// and what a second thread brings.
 //
 //   bench/batch [SCENE [VIEWS [WIDTH]]]
 //
-// Each round measures in turn: one solve and all renders one after the other, by all threads; the batch of the same pictures by all threads;
-// the batch by one thread. All of them load the scene, solve, render and write EXRs. The figures are medians of the rounds' ratios.
+// Each round measures in turn: one solve and all renders one after the other, by all threads;
+// the batch of the same pictures by all threads; the batch by one thread. All of them load
+// the scene, solve, render and write EXRs. The figures are medians of the rounds' ratios.
 #include "runs/batch/batch_run.h"
 #include "runs/outputs.h"
 #include "runs/resources.h"
@@ -46,7 +48,8 @@ std::vector<BatchPicture> planned(const Settings& settings) {
                                        .outputs = {"{frame}.exr"}}});
 }
 
-/// Seconds by the clock, and of the processors: what others do on the machine changes the first but hardly the second.
+/// Seconds by the clock, and of the processors:
+/// what others do on the machine changes the first but hardly the second.
 struct Cost {
   double wall = 0.0, processors = 0.0;
 };

@@ -1,10 +1,11 @@
-// What each diffuse term of pass two costs and what it brings: error against the reference and seconds, scene by scene (ARCHITECTURE.md
-// has the table).
+// What each diffuse term of pass two costs and what it brings:
+// error against the reference and seconds, scene by scene (ARCHITECTURE.md has the table).
 //
 //   diffuse_terms REFERENCES SCENE.gltf ...
 //
-// REFERENCES is the folder of reference/images. One solve serves all terms of a scene. Pictures have the reference's size; errors are those of
-// bench/truth.h. Seconds are processor time, of pass one and of each pass two.
+// REFERENCES is the folder of reference/images. One solve serves all terms of a scene.
+// Pictures have the reference's size; errors are those of bench/truth.h.
+// Seconds are processor time, of pass one and of each pass two.
 #include "bench/truth.h"
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"

@@ -1,10 +1,15 @@
-// The cost of direct irradiance: by receiver and mirror world, by number of emitters, and what mirrors cost pass one.
+// The cost of direct irradiance:
+// by receiver and mirror world, by number of emitters, and what mirrors cost pass one.
 //
-// Worlds: a room whose side walls face each other as mirrors, the tree cut at so many worlds; one receiver at a time.
-// Emitters: small lamps all over a ceiling, the same power in all; with the choice of images the time per receiver must not grow in proportion.
-// Elements: the means over the elements of a gallery scene as `--quality normal` finds them: seconds of one thread, and how far off they are (root
-// mean square over the mean, and the worst element) from means over many times as many points.
-// Pass one: the Cornell box with its mirror, and with the mirror painted grey; the ratio of their times is the counter `ratio`.
+// Worlds: a room whose side walls face each other as mirrors, the tree cut at so many worlds;
+// one receiver at a time.
+// Emitters: small lamps all over a ceiling, the same power in all;
+// with the choice of images the time per receiver must not grow in proportion.
+// Elements: the means over the elements of a gallery scene as `--quality normal` finds them:
+// seconds of one thread, and how far off they are (root mean square over the mean,
+// and the worst element) from means over many times as many points.
+// Pass one: the Cornell box with its mirror, and with the mirror painted grey;
+// the ratio of their times is the counter `ratio`.
 #include "radiosity/element_light.h"
 #include "radiosity/pass_one.h"
 #include "raytrace/two_pass.h"
@@ -115,7 +120,8 @@ double pass_one_seconds(const Scene& scene, const PassOneSettings& settings) {
   return processor_seconds() - start;
 }
 
-/// The two scenes take turns, so that a busy machine slows them alike; processor time of one thread.
+/// The two scenes take turns, so that a busy machine slows them alike;
+/// processor time of one thread.
 void PassOneThroughMirrors(benchmark::State& state) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const PassOneSettings settings = two_pass_settings(RunSettings{}).pass_one;

@@ -1,11 +1,14 @@
-// Whether what a picture says about its own error is true: the estimate (raytrace/picture_error.h) beside the error against a reference.
+// Whether what a picture says about its own error is true:
+// the estimate (raytrace/picture_error.h) beside the error against a reference.
 //
 //   error_estimates REFERENCES SCENE.gltf ...
 //
-// REFERENCES holds NAME.reference.exr for every scene, of any size: of the path tracer (reference/images), whose variance is taken off,
-// or of a run of the two passes that is much finer. Every scene is rendered with a coarse and a fine mesh, few and many rays, by interpolation and
-// with light from the source computed at the hit, with few and many camera rays. The last line counts how many estimates are within a factor of two, or
-// below 0.002 like the error, which is as far as the noise of reference/images lets one see.
+// REFERENCES holds NAME.reference.exr for every scene, of any size:
+// of the path tracer (reference/images), whose variance is taken off, or of a run of the two passes
+// that is much finer. Every scene is rendered with a coarse and a fine mesh, few and many rays, by
+// interpolation and with light from the source computed at the hit, with few and many camera rays.
+// The last line counts how many estimates are within a factor of two,
+// or below 0.002 like the error, which is as far as the noise of reference/images lets one see.
 #include "bench/truth.h"
 #include "image/relative_error.h"
 #include "raytrace/picture_error.h"

@@ -1,13 +1,18 @@
-// What meshes cost and what they bring: picture error against number of elements and time, for uniform and adaptive meshes, and uniform ones solved
-// by `--solver hierarchical` (ARCHITECTURE.md has the table).
+// What meshes cost and what they bring:
+// picture error against number of elements and time, for uniform and adaptive meshes,
+// and uniform ones solved by `--solver hierarchical` (ARCHITECTURE.md has the table).
 //
 //   meshes REFERENCES RAYS SCENE.gltf ...
 //
-// RAYS of a vertex; 512 are those of `normal`. REFERENCES has NAME.reference.exr, as reference/images. Where meshes differ by less than a per cent, the noise of those with 512 samples a pixel hides it:
-// `render --mode reference --size 96x96 --samples 8192 --float` makes better ones. Errors are those of bench/truth.h. Pass two takes many samples a pixel, so that its own does not
-// either. Time is processor time of pass one, which other programs on the machine disturb less than that of a clock, and the shortest of up to five runs, which end after 20 s.
-// For every other mesh stands the number of elements, and the time, that uniform meshes take for its error (log-log between the two nearest,
-// beyond the last by their slope).
+// RAYS of a vertex; 512 are those of `normal`. REFERENCES has NAME.reference.exr,
+// as reference/images. Where meshes differ by less than a per cent,
+// the noise of those with 512 samples a pixel hides it:
+// `render --mode reference --size 96x96 --samples 8192 --float` makes better ones.
+// Errors are those of bench/truth.h. Pass two takes many samples a pixel, so that its own
+// does not either. Time is processor time of pass one, which other programs on the machine
+// disturb less than that of a clock, and the shortest of up to five runs, which end after 20 s.
+// For every other mesh stands the number of elements, and the time, that uniform meshes
+// take for its error (log-log between the two nearest, beyond the last by their slope).
 #include "bench/truth.h"
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"
@@ -59,7 +64,8 @@ Measured measure(const Scene& scene, const Truth& truth, int rays, TwoPassSettin
   return {element_count(lit.mesh), seconds, error_of(picture, truth)};
 }
 
-/// What uniform meshes need for an error: their elements or seconds, on the line through the two whose errors are nearest around it.
+/// What uniform meshes need for an error:
+/// their elements or seconds, on the line through the two whose errors are nearest around it.
 double needed(const std::vector<Measured>& uniform, double error, double (*what)(const Measured&)) {
   std::size_t k = 0;
   while (k + 2 < uniform.size() && uniform[k + 1].error > error)

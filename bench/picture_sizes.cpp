@@ -1,13 +1,18 @@
-// Pass two beside a bare Embree loop over the same rays, picture size by picture size, and where the rest of the time goes.
+// Pass two beside a bare Embree loop over the same rays,
+// picture size by picture size, and where the rest of the time goes.
 //
 //   picture_sizes [SCENE.gltf [SAMPLES [LARGEST]]]
 //
-// Square pictures from 64 to LARGEST pixels (4096), of SAMPLES camera rays a pixel (16) with mirrors followed, on one thread, in processor time. Bare
-// loops (Embree's default flags) find the rays ready in packets, and look at nothing but whether they met something. Of the picture's rays some are sure of
-// what they meet and are not traced (raytrace/sure_paths.h); of its time, the others' queries take what our own queries take for as many such rays.
-// The rest finds paths, makes rays, shades what they meet, and adds up pixels. The three take turns, and a share is the median of those of all
-// turns, so that a busy machine, which slows them alike, hardly shows. In a turn each goes over about as many rays: a small picture is made several
-// times, so that it does not alone meet caches that hold what another has left.
+// Square pictures from 64 to LARGEST pixels (4096), of SAMPLES camera rays a pixel (16)
+// with mirrors followed, on one thread, in processor time. Bare loops (Embree's default
+// flags) find the rays ready in packets, and look at nothing but whether they met something.
+// Of the picture's rays some are sure of what they meet and are not traced (raytrace/sure_paths.h);
+// of its time, the others' queries take what our own queries take for as many such rays.
+// The rest finds paths, makes rays, shades what they meet, and adds up pixels.
+// The three take turns, and a share is the median of those of all turns,
+// so that a busy machine, which slows them alike, hardly shows.
+// In a turn each goes over about as many rays: a small picture is made several times,
+// so that it does not alone meet caches that hold what another has left.
 #include "bench/stage_loops.h"
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"

@@ -1,5 +1,5 @@
-// Rates of the ray queries beside bare Embree loops over the same rays: millions of rays a second, and the share of
-// the bare robust loop that is reached.
+// Rates of the ray queries beside bare Embree loops over the same rays:
+// millions of rays a second, and the share of the bare robust loop that is reached.
 // Figures are of one core.
 #include "bench/bare_embree.h"
 #include "scenes/sampling.h"
@@ -190,8 +190,8 @@ struct Rate {
 
 using Loop = std::function<std::uint32_t(const RayPacket&)>;
 
-// Best times of each block of packets, added up. The loops take turns block by block, so that a busy machine slows all of
-// them alike and hardly shows.
+// Best times of each block of packets, added up. The loops take turns block by block,
+// so that a busy machine slows all of them alike and hardly shows.
 std::array<Rate, 3> measure(const std::vector<RayPacket>& packets,
                             const std::array<Loop, 3>& loops) {
   std::array<Rate, 3> rates{};

@@ -1,12 +1,14 @@
-// What solving costs: a sweep beside the memory's bandwidth, one band beside three, the solvers beside one another, and how time and memory
-// grow with the number of elements.
+// What solving costs: a sweep beside the memory's bandwidth, one band beside three,
+// the solvers beside one another, and how time and memory grow with the number of elements.
 //
 //   solvers [SCENE.gltf]          a sweep, bands, and the solvers beside one another
 //   solvers SCENE.gltf growth     time and memory from a thousand elements to a million, with the rays of --quality draft: of nodes, of shots by
-//                                 rays, which keep no form factors, then of rows and the solvers that read them
+//                                 rays, which keep no form factors,
+//                                 then of rows and the solvers that read them
 //
-// A sweep reads every form factor once: its bytes over its time is the rate that counts, beside that of a plain sum over an array of
-// the same size, read by all threads in the same process. The two take turns; rates are medians.
+// A sweep reads every form factor once: its bytes over its time is the rate that counts,
+// beside that of a plain sum over an array of the same size,
+// read by all threads in the same process. The two take turns; rates are medians.
 #include "radiosity/pass_one.h"
 #include "radiosity/solve.h"
 #include "raytrace/two_pass.h"
@@ -103,13 +105,15 @@ void compare_with_memory(const System& system) {
              rate(memory), sum == 0 ? "!" : "", rate(three), rate(three) / rate(memory));
 }
 
-/// Elimination is cubic, and shots of single elements look for the brightest of all: neither is for large systems.
+/// Elimination is cubic, and shots of single elements look for the brightest of all:
+/// neither is for large systems.
 bool takes_seconds(SolverMethod method, const System& system) {
   return system.transport.size <=
          (method == SolverMethod::direct || method == SolverMethod::progressive ? 2500U : ~0U);
 }
 
-/// The same room with grey walls and light, and with the same values in three channels that differ in one place.
+/// The same room with grey walls and light,
+/// and with the same values in three channels that differ in one place.
 void compare_bands(System system) {
   if (system.transport.bands != 1)
     return;

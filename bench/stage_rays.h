@@ -1,5 +1,6 @@
-// The rays of the two ray-bound stages, ready for bare loops: the same rays in the same order and packets as the stages trace
-// them, a share of all that is large enough to be typical and small enough to stay in the caches.
+// The rays of the two ray-bound stages, ready for bare loops:
+// the same rays in the same order and packets as the stages trace them,
+// a share of all that is large enough to be typical and small enough to stay in the caches.
 #pragma once
 
 #include "radiosity/gather_rays.h"

@@ -1,11 +1,13 @@
-// Rates of the two ray-bound stages beside bare Embree loops over the same rays, and the share of the bare loop that is reached.
+// Rates of the two ray-bound stages beside bare Embree loops over the same rays,
+// and the share of the bare loop that is reached.
 //
 //   stages [SCENE.gltf]
 //
-// Form factors: every leg of assemble_transport at quality `normal`. Pass two: camera and specular rays of a 512 x 512 picture with 16
-// samples a pixel. Bare loops trace rays that go on behind mirrors in the same proportion, but find them ready in packets.
-// Figures are of one thread, in processor time. The loops take turns, and a share is the median of those of all turns, so that a busy machine,
-// which slows them alike, hardly shows.
+// Form factors: every leg of assemble_transport at quality `normal`. Pass two:
+// camera and specular rays of a 512 x 512 picture with 16 samples a pixel. Bare loops trace
+// rays that go on behind mirrors in the same proportion, but find them ready in packets.
+// Figures are of one thread, in processor time. The loops take turns, and a share is the median
+// of those of all turns, so that a busy machine, which slows them alike, hardly shows.
 #include "bench/stage_loops.h"
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"

@@ -3,10 +3,13 @@
 //   time_to_error REFERENCES SCENE.gltf ...
 //   time_to_error --presets REFERENCES SCENE.gltf ...      the presets draft, normal and fine instead
 //
-// Every scene is rendered with a ladder of settings. The error is that of a picture of the size of REFERENCES/NAME.reference.exr, its variance taken off
-// (image/relative_error.h), the time that of one of 256 x 256 pixels, in processor seconds of all threads, which other programs on the machine
-// disturb less than a clock; on two idle cores a run takes half of it. For 5, 2 and 1 % stands the fastest setting that reaches it, its split by stage, and
-// what share of it bare Embree loops (bare_embree.h) would take for the rays that were traced: the floor. Starting the program is not in it.
+// Every scene is rendered with a ladder of settings. The error is that of a picture of the size
+// of REFERENCES/NAME.reference.exr, its variance taken off (image/relative_error.h),
+// the time that of one of 256 x 256 pixels, in processor seconds of all threads, which other
+// programs on the machine disturb less than a clock; on two idle cores a run takes half of it.
+// For 5, 2 and 1 % stands the fastest setting that reaches it, its split by stage,
+// and what share of it bare Embree loops (bare_embree.h) would take for the rays that were traced:
+// the floor. Starting the program is not in it.
 #include "bench/bare_embree.h"
 #include "bench/stage_rays.h"
 #include "bench/truth.h"
@@ -79,7 +82,8 @@ struct Known {
   std::vector<std::uint8_t> emits; ///< pixels that show lamps; empty: not yet looked for
 };
 
-/// Stages are timed by the clock; their shares of processor time are the same where all threads work.
+/// Stages are timed by the clock;
+/// their shares of processor time are the same where all threads work.
 Measured measure(Known& known, const RunSettings& settings, std::optional<BareSeconds>& bare) {
   const Truth& truth = known.truth;
   const Scene& scene = truth.scene;
@@ -137,7 +141,8 @@ RunSettings drafted(double area, double elements, int rays, const PictureKnobs& 
   return settings;
 }
 
-/// The light of lamps left to pixels or not; elements that gather each for itself, or by as few nodes as it takes, where many cost little.
+/// The light of lamps left to pixels or not;
+/// elements that gather each for itself, or by as few nodes as it takes, where many cost little.
 std::vector<RunSettings> ladder(double area) {
   const std::vector<PictureKnobs> at_pixels{{DiffuseTerm::direct, 16, 0.04},
                                             {DiffuseTerm::direct, 64, 0.02},

@@ -2,8 +2,9 @@
 //
 //   wanted_errors X REFERENCES SCENE.gltf ...
 //
-// Every scene is rendered for the relative error X, in the size of REFERENCES/NAME.reference.exr, whose variance is taken off. Its true error
-// stands beside the estimate that the run ended with, with the steps and the processor seconds it took.
+// Every scene is rendered for the relative error X, in the size of REFERENCES/NAME.reference.exr,
+// whose variance is taken off. Its true error stands beside the estimate that the run ended with,
+// with the steps and the processor seconds it took.
 #include "bench/truth.h"
 #include "image/relative_error.h"
 #include "raytrace/probes.h"
@@ -61,7 +62,8 @@ double measure_scene(double wanted, const std::filesystem::path& references,
   const double seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   const double error =
       relative_error(view.image, truth.mean, emits, truth.variance ? &*truth.variance : nullptr);
-  // Where the noise of the reference is several times the error, its variance is not known well enough to take it off.
+  // Where the noise of the reference is several times the error,
+  // its variance is not known well enough to take it off.
   const double with_noise = relative_error(view.image, truth.mean, emits, nullptr);
   const double noise = std::sqrt(std::max(with_noise * with_noise - error * error, 0.0));
   const SteeredChoice& choice = *figures.choice;

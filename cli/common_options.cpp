@@ -12,7 +12,8 @@ namespace {
 
 constexpr const char* pass_one_group = "Pass one";
 
-// As of emission in files: its square is still in the range of the floats that pictures are made of.
+// As of emission in files:
+// its square is still in the range of the floats that pictures are made of.
 constexpr double brightest_background = 1e30;
 
 const Choices<Quality> qualities{

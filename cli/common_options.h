@@ -1,4 +1,5 @@
-// Options that several commands share; their help takes defaults from the presets and settings themselves.
+// Options that several commands share;
+// their help takes defaults from the presets and settings themselves.
 #pragma once
 
 #include "runs/run_events.h"

@@ -1,6 +1,7 @@
 // meninas COMMAND SCENE [options]
 //
-// Every error is one line, `meninas: FILE: WHERE: WHAT`, on standard error, and an exit code that says whose fault it is.
+// Every error is one line, `meninas: FILE: WHERE: WHAT`,
+// on standard error, and an exit code that says whose fault it is.
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/values.h"
@@ -71,7 +72,8 @@ const Command* chosen_command(const CLI::App& program, const std::vector<Command
   throw UsageError("", "a command is needed, see meninas -h");
 }
 
-/// What CLI11 is to parse, last one first. An option with a value that may be left out takes what follows only if that is a number:
+/// What CLI11 is to parse, last one first.
+/// An option with a value that may be left out takes what follows only if that is a number:
 /// otherwise it would take the scene.
 std::vector<std::string> arguments_of(int argc, char** argv) {
   const auto is_number = [](const std::string& text) {

@@ -1,4 +1,5 @@
-// Options of `render` about what pixels are: layers, views for those who debug, the filter, adaptive sampling.
+// Options of `render` about what pixels are:
+// layers, views for those who debug, the filter, adaptive sampling.
 #pragma once
 
 #include "runs/run_settings.h"
@@ -18,7 +19,8 @@ void refuse(const CLI::App& command, std::initializer_list<const char*> options,
 
 void add_pixel_options(CLI::App& command, RunSettings& settings, const std::string& group);
 
-/// Throws UsageError when one of them was given that has no effect with the others, or on these pictures.
+/// Throws UsageError when one of them was given that has no effect with the others,
+/// or on these pictures.
 void check_pixel_options(const CLI::App& command, const RunSettings& settings,
                          const std::vector<std::filesystem::path>& pictures);
 

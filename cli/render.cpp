@@ -143,7 +143,8 @@ void add_settings(CLI::App& command, RenderOptions& options) {
   add_run_options(command, options.common);
 }
 
-/// `direct` builds on the light without that of emitters, which means of elements by the analytic method do not tell apart.
+/// `direct` builds on the light without that of emitters,
+/// which means of elements by the analytic method do not tell apart.
 void check_diffuse(const RunSettings& settings) {
   if (settings.diffuse == DiffuseTerm::direct &&
       settings.form_factors == FormFactorMethod::analytic &&

@@ -1,13 +1,15 @@
-// Settings from elsewhere than the command line, such as the cases of `regress`: the same options with the same values, read by the
-// very definitions that read them on the command line.
+// Settings from elsewhere than the command line, such as the cases of `regress`: the same
+// options with the same values, read by the very definitions that read them on the command line.
 #pragma once
 
 #include "runs/setting.h"
 
 namespace meninas {
 
-/// What `meninas render SCENE` with these options would render; outputs, threads and verbosity are not settings.
-/// Throws UsageError "NAME: WHAT" without dashes; unknown names get the nearest known one as a hint.
+/// What `meninas render SCENE` with these options would render;
+/// outputs, threads and verbosity are not settings.
+/// Throws UsageError "NAME: WHAT" without dashes;
+/// unknown names get the nearest known one as a hint.
 RenderRequest parse_render_settings(const std::filesystem::path& scene,
                                     const std::vector<Setting>& settings);
 

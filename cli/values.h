@@ -1,4 +1,5 @@
-// Option values from text. All of them throw UsageError naming the option, what it was given and what it takes.
+// Option values from text.
+// All of them throw UsageError naming the option, what it was given and what it takes.
 #pragma once
 
 #include "runs/preparation.h"

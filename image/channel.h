@@ -26,7 +26,8 @@ using Kernel = std::vector<double>;
 /// exp(-k^2 / (2 deviation^2)) for k = -radius ... radius, not normalised.
 Kernel gaussian(int radius, double deviation);
 
-/// out(x, y) = sum_j along_y[j] sum_i along_x[i] channel(x + i, y + j); beyond the border the channel goes on with its border's values.
+/// out(x, y) = sum_j along_y[j] sum_i along_x[i] channel(x + i, y + j);
+/// beyond the border the channel goes on with its border's values.
 Channel weighted_sums(const Channel& channel, const Kernel& along_x, const Kernel& along_y);
 
 } // namespace meninas

@@ -17,10 +17,12 @@ namespace fs = std::filesystem;
 
 static constexpr const char* module_name = "meninas_decoder.so";
 
-/// The build tree and an installed tree agree on where the module is, seen from a folder above the program:
-/// in LIBDIR/meninas. So nothing but the program's own place is needed to find it, and both trees can be moved.
-/// A program of someone else that links the libraries finds the module where it was configured to be installed,
-/// or on the loader's own path.
+/// The build tree and an installed tree agree on where the module is,
+/// seen from a folder above the program:
+/// in LIBDIR/meninas.
+/// So nothing but the program's own place is needed to find it, and both trees can be moved.
+/// A program of someone else that links the libraries finds the module
+/// where it was configured to be installed, or on the loader's own path.
 static std::vector<fs::path> module_candidates() {
   std::vector<fs::path> candidates;
   std::error_code error;
@@ -38,7 +40,8 @@ static std::vector<fs::path> module_candidates() {
   return candidates;
 }
 
-/// The first candidate decides: a broken module next to the program must not be covered up by an older one elsewhere.
+/// The first candidate decides:
+/// a broken module next to the program must not be covered up by an older one elsewhere.
 /// It stays open to the end of the process, as its library owns threads.
 static const Table* open_module() {
   const auto file = module_candidates().front();
@@ -55,7 +58,8 @@ static const Table* open_module() {
 }
 
 /// Opening always happens on the future's thread, so that `preload` is nothing but the first call.
-/// The future's destructor waits for a module that is still being opened when the program ends early.
+/// The future's destructor waits for a module that
+/// is still being opened when the program ends early.
 static const std::shared_future<const Table*>& opening() {
   static const auto future = std::async(std::launch::async, open_module).share();
   return future;

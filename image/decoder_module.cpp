@@ -30,7 +30,8 @@ struct DecodedStorage {
   std::vector<TextPair> attribute_pointers;
 };
 
-/// What OpenImageIO is told the file is called. Its messages repeat it; whoever reports them knows the right name.
+/// What OpenImageIO is told the file is called.
+/// Its messages repeat it; whoever reports them knows the right name.
 constexpr const char* file_name = "memory";
 
 /// OpenImageIO collects messages of several lines; a user reads one.
@@ -147,7 +148,8 @@ void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) 
     bytes = {reinterpret_cast<const char*>(png.data()), png.size()};
   }
 
-  // Straight alpha, as glTF wants it: colours must not be multiplied where a texture is transparent.
+  // Straight alpha, as glTF wants it:
+  // colours must not be multiplied where a texture is transparent.
   OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
@@ -159,7 +161,8 @@ void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) 
   if (!png.empty())
     check_png_rows(bytes);
 
-  // The buffer is not cleared, so a header that promises more than the file holds costs address space only.
+  // The buffer is not cleared,
+  // so a header that promises more than the file holds costs address space only.
   auto storage = std::make_unique<DecodedStorage>();
   const auto values =
       static_cast<std::size_t>(spec.image_pixels()) * static_cast<std::size_t>(spec.nchannels);
@@ -184,7 +187,8 @@ void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) 
   result.owner = storage.release();
 }
 
-/// OpenEXR decompresses by threads of its own, as many as the machine has unless told otherwise; -1 is none.
+/// OpenEXR decompresses by threads of its own,
+/// as many as the machine has unless told otherwise; -1 is none.
 void use_threads(int count) {
   static std::atomic<int> used{0};
   if (used.exchange(count) != count)

@@ -1,11 +1,14 @@
 // The seam between the program and the shared module that holds OpenImageIO.
 //
-// Linking OpenImageIO maps some 260 shared objects at every start, which takes longer than a draft picture.
-// So one source file uses it, compiled into a module of its own, and the module is opened with the first picture that
-// is read: a texture, a picture to compare with. What is written goes by the small libraries of its formats.
+// Linking OpenImageIO maps some 260 shared objects at every start,
+// which takes longer than a draft picture.
+// So one source file uses it, compiled into a module of its own,
+// and the module is opened with the first picture that is read:
+// a texture, a picture to compare with. What is written goes by the small libraries of its formats.
 //
-// The module only translates encoded bytes in memory to pixels. It opens no file and knows no error class,
-// so what crosses the seam is plain data; an exception is caught on its own side and crosses as one line of text.
+// The module only translates encoded bytes in memory to pixels.
+// It opens no file and knows no error class, so what crosses the seam is plain data;
+// an exception is caught on its own side and crosses as one line of text.
 // Whatever the module hands out stays its own and is given back through the matching `release`.
 #pragma once
 
@@ -22,7 +25,8 @@ struct TextPair {
   const char* value;
 };
 
-/// Either pixels, or no owner and the reason why not. Channels are interleaved, rows from the top, alpha not multiplied in.
+/// Either pixels, or no owner and the reason why not.
+/// Channels are interleaved, rows from the top, alpha not multiplied in.
 struct Decoded {
   void* owner;
   int width, height, channels;

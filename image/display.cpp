@@ -37,8 +37,8 @@ float srgb_decode(float encoded) {
 std::vector<std::uint8_t> display_codes(const Image& picture, double exposure) {
   expects(std::isfinite(exposure), "an exposure is finite");
 
-  // A value rounds to code k or above when it reaches the linear value of k - 1/2, so its code is the number of such
-  // thresholds it reaches: exact rounding without a power for every pixel.
+  // A value rounds to code k or above when it reaches the linear value of k - 1/2, so its code
+  // is the number of such thresholds it reaches: exact rounding without a power for every pixel.
   std::array<double, 255> thresholds{};
   for (std::size_t k = 0; k < thresholds.size(); ++k)
     thresholds[k] = srgb_to_linear((static_cast<double>(k) + 0.5) / 255.0);
@@ -59,19 +59,22 @@ std::vector<std::uint8_t> display_codes(const Image& picture, double exposure) {
 
 // --- Automatic exposure
 //
-// All of it works on a histogram of log2 luminance in bins of 1/16 stop, whose edges scale with the powers of two and
-// whose counts are integers. A factor of 2^k moves every pixel by exactly 16 k bins, and everything below depends only
-// on differences between bins: that makes the result exactly covariant, and the same in any order of the pixels.
+// All of it works on a histogram of log2 luminance in bins of 1/16 stop,
+// whose edges scale with the powers of two and whose counts are integers. A factor of 2^k moves
+// every pixel by exactly 16 k bins, and everything below depends only on differences between bins:
+// that makes the result exactly covariant, and the same in any order of the pixels.
 //
 //   content   the pixels of luminance above 0 and within 20 stops of the 99.5th percentile. The black around a scene
-//             says nothing about its exposure. Neither does what is a million times darker than the bright parts: a
-//             lamp that fills more than 0.5 % of a view lights what is around it far better than that.
+//             says nothing about its exposure.
+//             Neither does what is a million times darker than the bright parts: a lamp that fills
+//             more than 0.5 % of a view lights what is around it far better than that.
 //   middle    the mean log2 luminance between the 40th and the 90th percentile of the content. Lamps and windows are
-//             seen directly, far above what they light, and deep shadow far below: outside the two percentiles how
-//             far does not matter, while a mean over everything would follow them.
+//             seen directly, far above what they light, and deep shadow far below: outside the two
+//             percentiles how far does not matter, while a mean over everything would follow them.
 //   key       middle -> 0.22, a little above photography's 0.18 because the dark 40 % are left out of the middle.
 //   relief    if the 95th percentile would then exceed white, half of the excess is given back, at most one stop.
-//             A pool of light in a dim room keeps some of its form, and a window still cannot darken its room for good.
+//             A pool of light in a dim room keeps some of its form,
+//             and a window still cannot darken its room for good.
 //
 // The highest 5 % may clip: those are the lamps.
 
@@ -123,7 +126,8 @@ static int percentile_bin(const Histogram& histogram, double share) {
   return bin;
 }
 
-/// Mean distance from `origin`, in bins, of the pixels between two shares of the ranking from dark to bright.
+/// Mean distance from `origin`, in bins,
+/// of the pixels between two shares of the ranking from dark to bright.
 static double trimmed_mean_bin(const Histogram& histogram, int origin, double from, double to) {
   const auto first = static_cast<std::int64_t>(from * static_cast<double>(histogram.total));
   const auto last =
@@ -150,7 +154,8 @@ double automatic_exposure(const Image& picture) {
     histogram.counts[static_cast<std::size_t>(bin)] = 0;
   }
 
-  // In stops, relative to the lower edge of the bin `bright`; a pixel is on average in the middle of its bin.
+  // In stops, relative to the lower edge of the bin `bright`;
+  // a pixel is on average in the middle of its bin.
   const double half_bin = 0.5 / bins_per_stop;
   const double middle = half_bin + trimmed_mean_bin(histogram, bright, 0.40, 0.90) / bins_per_stop;
   const double highlights =

@@ -76,8 +76,8 @@ static Imf::Header header_of(const Image& picture, std::span<const Planes> plane
   return header;
 }
 
-/// Some rows of all planes, interleaved, clipped to what the type can hold: an infinity would poison every filter that
-/// touches it later.
+/// Some rows of all planes, interleaved, clipped to what the type can hold:
+/// an infinity would poison every filter that touches it later.
 template <typename Value>
 static std::vector<Value> gather_rows(std::span<const Planes> planes, int first, int last) {
   const auto largest = static_cast<float>(std::numeric_limits<Value>::max());
@@ -113,7 +113,8 @@ static Imf::FrameBuffer frame_of(std::vector<Value>& rows, std::span<const Plane
   return frame;
 }
 
-/// A band of rows at a time keeps the interleaved copy small, and is enough for parallel compression.
+/// A band of rows at a time keeps the interleaved copy small,
+/// and is enough for parallel compression.
 template <typename Value>
 static void write_rows(Imf::OutputFile& file, std::span<const Planes> planes) {
   constexpr int band = 256;

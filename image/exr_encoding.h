@@ -1,4 +1,5 @@
-// Pictures as OpenEXR files, by the format's own library: what writes needs none of the 260 shared objects that OpenImageIO brings.
+// Pictures as OpenEXR files, by the format's own library:
+// what writes needs none of the 260 shared objects that OpenImageIO brings.
 #pragma once
 
 #include "image/image_file.h"
@@ -9,8 +10,10 @@
 
 namespace meninas {
 
-/// The file that `write_exr` writes, of what `write_exr` accepts. The same picture gives the same bytes, by any number of threads.
-/// Rows are compressed by as many threads as oneTBB may use. Throws std::exception where the library cannot go on.
+/// The file that `write_exr` writes, of what `write_exr` accepts.
+/// The same picture gives the same bytes, by any number of threads.
+/// Rows are compressed by as many threads as oneTBB may use.
+/// Throws std::exception where the library cannot go on.
 std::vector<std::byte> encode_exr(const Image& picture, std::span<const Layer> layers,
                                   PixelType type, const Attributes& attributes);
 

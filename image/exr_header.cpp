@@ -97,7 +97,8 @@ static void check_size(const Promised& promised, std::size_t file_size, const Li
         std::to_string(promised.width) + " x " + std::to_string(promised.height) +
         " pixels are too many; a side may have " + std::to_string(limits.side));
 
-  // A tile may be larger than the picture, but no writer makes it larger than both the picture and this.
+  // A tile may be larger than the picture,
+  // but no writer makes it larger than both the picture and this.
   constexpr std::int64_t usual_tile = 1024;
   if (promised.tile_width > std::max(promised.width, usual_tile) ||
       promised.tile_height > std::max(promised.height, usual_tile))

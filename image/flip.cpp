@@ -26,7 +26,8 @@ constexpr glm::dmat3 xyz_from_rgb{
 const Vec3 white = xyz_from_rgb * Vec3(1.0);
 const glm::dmat3 rgb_from_xyz = glm::inverse(xyz_from_rgb);
 
-/// L*a*b* without its cube root, linear in light: achromatic, red-green and blue-yellow (section 4.1).
+/// L*a*b* without its cube root, linear in light:
+/// achromatic, red-green and blue-yellow (section 4.1).
 Vec3 opponents(const Vec3& rgb) {
   const Vec3 t = xyz_from_rgb * rgb / white;
   return {116.0 * t.y - 16.0, 500.0 * (t.x - t.y), 200.0 * (t.y - t.z)};
@@ -69,7 +70,8 @@ Channels opponent_channels(const Image& picture) {
 
 // --- The colour pipeline (section 4.1)
 
-/// One Gaussian of a contrast sensitivity function: a sqrt(pi / b) exp(-pi^2 d^2 / b) at d degrees (eq. 2).
+/// One Gaussian of a contrast sensitivity function:
+/// a sqrt(pi / b) exp(-pi^2 d^2 / b) at d degrees (eq. 2).
 struct Sensitivity {
   double a, b;
 };
@@ -81,7 +83,8 @@ constexpr Sensitivity blue_yellow_wide{13.5, 0.025};
 /// The channel as the eye resolves it: filtered with the normalised sum of the Gaussians.
 Channel as_resolved(const Channel& channel, std::initializer_list<Sensitivity> sensitivities,
                     double pixels_per_degree) {
-  // All filters reach as far as the widest: three of its deviations, sqrt(b / (2 pi^2)) degrees each.
+  // All filters reach as far as the widest:
+  // three of its deviations, sqrt(b / (2 pi^2)) degrees each.
   const int radius = static_cast<int>(
       std::ceil(3.0 * std::sqrt(blue_yellow_narrow.b / (2.0 * pi * pi)) * pixels_per_degree));
   std::vector<double> sums(channel.values.size(), 0.0);
@@ -134,7 +137,8 @@ Kernel balanced(Kernel kernel) {
   return kernel;
 }
 
-/// The lengths of the gradient (edges) and of the second derivatives (points) of a Gaussian-smoothed channel.
+/// The lengths of the gradient (edges) and of the second
+/// derivatives (points) of a Gaussian-smoothed channel.
 struct Features {
   Channel edges, points;
 };

@@ -138,8 +138,8 @@ using DecodedPicture = std::unique_ptr<decoder::Decoded, ReleaseDecoded>;
 /// Where a colour's components are among the channels of a file.
 using Components = std::array<int, 3>;
 
-/// Reads single values of a decoded picture, taking sRGB code values to linear through a table: a texture has millions
-/// of them, but only 256 or 65536 different ones.
+/// Reads single values of a decoded picture, taking sRGB code values to linear through a table:
+/// a texture has millions of them, but only 256 or 65536 different ones.
 class ChannelReader {
 public:
   ChannelReader(const decoder::Decoded& decoded, Encoding encoding) : decoded_(decoded) {
@@ -176,7 +176,8 @@ static DecodedPicture decode(std::span<const std::byte> bytes, const std::string
   return decoded;
 }
 
-/// Channel number by name. Some decoders leave grey pictures unnamed, so one or two channels are grey (and alpha).
+/// Channel number by name.
+/// Some decoders leave grey pictures unnamed, so one or two channels are grey (and alpha).
 static std::map<std::string, int, std::less<>> channel_numbers(const decoder::Decoded& decoded) {
   std::map<std::string, int, std::less<>> numbers;
   for (int channel = 0; channel < decoded.channels; ++channel)

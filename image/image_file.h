@@ -1,9 +1,11 @@
-// Pictures in and out of files. They are written by the libraries of their formats, OpenEXR and libpng, and read, from
-// many formats, by OpenImageIO, in one shared module that is opened with the first picture that is read, because linking
-// OpenImageIO costs more at every start than a draft picture takes.
+// Pictures in and out of files. They are written by the libraries of their formats,
+// OpenEXR and libpng, and read, from many formats, by OpenImageIO,
+// in one shared module that is opened with the first picture that is read,
+// because linking OpenImageIO costs more at every start than a draft picture takes.
 //
-// A file appears whole or not at all: it is encoded in memory, written under a temporary name in the same folder and
-// renamed. Throws OutputError when it cannot be written, InputError when it cannot be read, each naming the file.
+// A file appears whole or not at all: it is encoded in memory,
+// written under a temporary name in the same folder and renamed. Throws OutputError when
+// it cannot be written, InputError when it cannot be read, each naming the file.
 #pragma once
 
 #include "image/image.h"
@@ -21,8 +23,10 @@ namespace meninas {
 
 enum class PixelType { half, float32 };
 
-/// Key and value written into the file's header (program version, settings, samples, ...), as `meninas:KEY`.
-/// Keys are not empty and different from each other; neither part holds a zero byte. Empty values are not written.
+/// Key and value written into the file's header (program version,
+/// settings, samples, ...), as `meninas:KEY`.
+/// Keys are not empty and different from each other;
+/// neither part holds a zero byte. Empty values are not written.
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 inline constexpr std::string_view attribute_prefix = "meninas:";
 
@@ -34,14 +38,16 @@ void preload_picture_reader();
 enum class PictureFormat { exr, png };
 PictureFormat picture_format(const std::filesystem::path& file);
 
-/// Linear EXR of one part: R, G, B of the picture, then NAME.R, NAME.G, NAME.B of each layer, compressed without loss.
-/// Layers have the picture's size and names of their own. No value may be NaN; values beyond the largest of the
-/// type (65504 for half), infinities too, become that largest value.
+/// Linear EXR of one part:
+/// R, G, B of the picture, then NAME.R, NAME.G, NAME.B of each layer, compressed without loss.
+/// Layers have the picture's size and names of their own. No value may be NaN; values beyond
+/// the largest of the type (65504 for half), infinities too, become that largest value.
 void write_exr(const std::filesystem::path& file, const Image& picture,
                std::span<const Layer> layers = {}, PixelType type = PixelType::half,
                const Attributes& attributes = {});
 
-/// sRGB-encoded 8-bit PNG of the picture times 2^exposure, clipped at white and rounded to the nearest code value.
+/// sRGB-encoded 8-bit PNG of the picture times 2^exposure,
+/// clipped at white and rounded to the nearest code value.
 /// No value may be NaN.
 void write_png(const std::filesystem::path& file, const Image& picture, double exposure);
 /// How hard compression tries; the pixels are the same.
@@ -61,11 +67,14 @@ struct ImageFile {
   Encoding encoding = Encoding::linear; ///< of the file; the values here are linear
 };
 /// EXR and HDR as they are; PNG and JPEG decoded from sRGB to linear. Grey becomes R = G = B.
-/// The kind is recognised by the content. Refuses more than 65536 pixels on a side and more than 2^30 values in all.
+/// The kind is recognised by the content.
+/// Refuses more than 65536 pixels on a side and more than 2^30 values in all.
 ImageFile read_image(const std::filesystem::path& file);
 
-/// Decodes an encoded image held in memory; `linear` leaves the values as they are, otherwise sRGB becomes linear.
-/// Fourth component is alpha, 1 where there is none, never multiplied into the colour and never decoded.
+/// Decodes an encoded image held in memory;
+/// `linear` leaves the values as they are, otherwise sRGB becomes linear.
+/// Fourth component is alpha, 1 where there is none,
+/// never multiplied into the colour and never decoded.
 /// `name` is for the message of the InputError.
 struct Bitmap {
   int width = 0, height = 0;
@@ -73,8 +82,8 @@ struct Bitmap {
 };
 Bitmap decode_image(std::span<const std::byte> encoded, Encoding encoding, const std::string& name);
 
-/// Throws OutputError when a picture could not be written there (unknown extension, no such folder, no permission),
-/// so that a long run fails before its work, not after.
+/// Throws OutputError when a picture could not be written there (unknown extension,
+/// no such folder, no permission), so that a long run fails before its work, not after.
 void check_writable_image(const std::filesystem::path& file);
 
 } // namespace meninas

@@ -1,9 +1,11 @@
 // How far a picture is from its reference, in numbers and pixel by pixel.
 //
-// With a the picture, b the reference, means over all pixels and the three channels of linear radiance:
+// With a the picture, b the reference,
+// means over all pixels and the three channels of linear radiance:
 //   rmse     sqrt(mean((a - b)^2))
 //   relmse   mean((a - b)^2 / (b^2 + epsilon)), epsilon = 0.01 (Rousselle, Knaus, Zwicker, "Adaptive rendering with non-local
-//            means filtering", ACM TOG 31(6), 2012); the one metric besides psnr that is not symmetric
+//            means filtering", ACM TOG 31(6), 2012);
+//            the one metric besides psnr that is not symmetric
 //   mae      mean(|a - b|)
 //   max_abs  max(|a - b|)
 //   psnr     20 log10(peak / rmse) in dB, infinite for identical pictures; the peak is 1 for displayed pictures and the
@@ -53,12 +55,14 @@ double value_of(const PictureDifference& difference, Metric metric);
 PictureDifference compare_pictures(const Image& picture, const Image& reference,
                                    const MetricSettings& settings = {});
 
-/// What each pixel adds: the root of the mean square over its channels (rmse, psnr), the mean of its relative squares
-/// (relmse), of its absolute differences (mae), their largest (max_abs), 1 - SSIM, FLIP. 0 where a pixel is right.
+/// What each pixel adds: the root of the mean square over its channels (rmse, psnr),
+/// the mean of its relative squares (relmse), of its absolute differences (mae),
+/// their largest (max_abs), 1 - SSIM, FLIP. 0 where a pixel is right.
 Channel error_map(const PictureDifference& difference, Metric metric, const Image& picture,
                   const Image& reference, const MetricSettings& settings = {});
 
-/// The first pixel with a value that is not finite: "pixel (x, y) is NaN", x from the left, y from the top.
+/// The first pixel with a value that is not finite:
+/// "pixel (x, y) is NaN", x from the left, y from the top.
 std::optional<std::string> first_bad_pixel(const Image& picture);
 
 } // namespace meninas

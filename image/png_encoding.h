@@ -1,4 +1,5 @@
-// Pictures as PNG files, by libpng alone: what writes needs none of the 260 shared objects that OpenImageIO brings.
+// Pictures as PNG files, by libpng alone:
+// what writes needs none of the 260 shared objects that OpenImageIO brings.
 #pragma once
 
 #include "image/image_file.h"

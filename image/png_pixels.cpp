@@ -9,7 +9,8 @@
 
 namespace meninas::decoder {
 
-/// What of the chunks beside the pixels means something for them; of the rest libpng would speak on stderr.
+/// What of the chunks beside the pixels means something for them;
+/// of the rest libpng would speak on stderr.
 static bool belongs(const PngHeader& header, std::string_view type, std::size_t length,
                     std::size_t colours) {
   constexpr std::size_t most_colours = 256;

@@ -62,7 +62,8 @@ struct Rows {
   std::uint64_t bytes = 0; ///< of each, with its filter
 };
 
-/// In the order of the file. Interlaced they come in seven passes, each a coarser picture of its own (PNG specification, 8.2).
+/// In the order of the file. Interlaced they come in seven passes,
+/// each a coarser picture of its own (PNG specification, 8.2).
 std::vector<Rows> rows_of(const PngHeader& header) {
   constexpr std::array<std::uint64_t, 7> channels{1, 0, 3, 1, 2, 0, 4};
   const auto rows = [&](std::uint64_t width, std::uint64_t height) {

@@ -1,4 +1,5 @@
-// The header and the compressed rows of a PNG, looked at before libpng is: what it finds wrong with them it writes on stderr.
+// The header and the compressed rows of a PNG, looked at before libpng is:
+// what it finds wrong with them it writes on stderr.
 //
 // Rows are decompressed for it once more than for the picture.
 #pragma once
@@ -30,7 +31,8 @@ std::uint32_t big_endian(std::string_view four);
 /// The thirteen bytes of an IHDR. Throws std::runtime_error when no PNG has such.
 PngHeader png_header(std::string_view bytes);
 
-/// Throws std::runtime_error unless the chunks IDAT, which are whole, hold every row, with a filter that exists. Takes no memory for the rows.
+/// Throws std::runtime_error unless the chunks IDAT, which are whole,
+/// hold every row, with a filter that exists. Takes no memory for the rows.
 void check_png_rows(std::string_view png);
 
 } // namespace meninas::decoder

@@ -52,8 +52,9 @@ Channel ssim_map(const Image& a, const Image& b) {
   Channel map(a.width, a.height);
   for (std::size_t k = 0; k < map.values.size(); ++k) {
     const double mu_a = mean_a.values[k], mu_b = mean_b.values[k];
-    // Differences of floats in [0, 1] are wrong by 1e-7, which C2 makes an error of 1e-4 at most in SSIM. As variances they have to be of one
-    // distribution, so that equal pictures are equal to the bit.
+    // Differences of floats in [0, 1] are wrong by 1e-7,
+    // which C2 makes an error of 1e-4 at most in SSIM. As variances they have to be
+    // of one distribution, so that equal pictures are equal to the bit.
     const double variance_a = std::max(mean_aa.values[k] - mu_a * mu_a, 0.0);
     const double variance_b = std::max(mean_bb.values[k] - mu_b * mu_b, 0.0);
     const double most = std::sqrt(variance_a * variance_b);

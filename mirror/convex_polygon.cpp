@@ -86,8 +86,8 @@ void clip_in_place(ConvexPolygon& polygon, const Point3& origin, const Vec3& nor
 
 namespace {
 
-/// Corners of a window closer together than this are one: the direction of so short an edge is the rounding of its ends, and a
-/// plane through it would cut anywhere.
+/// Corners of a window closer together than this are one: the direction of so short
+/// an edge is the rounding of its ends, and a plane through it would cut anywhere.
 double shortest_edge(const ConvexPolygon& window, const Point3& apex) {
   double extent = 0.0, magnitude = 0.0;
   for (std::size_t k = 0; k < window.size; ++k) {

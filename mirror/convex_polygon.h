@@ -8,8 +8,9 @@
 
 namespace meninas {
 
-/// Up to `capacity` vertices in order. A clip adds at most one vertex; the (rare) clip that would exceed the capacity is left out, so the
-/// polygon stays convex and errs on the large side: quads through chains of quads are exact up to depth 10 at the least.
+/// Up to `capacity` vertices in order. A clip adds at most one vertex; the (rare) clip that would
+/// exceed the capacity is left out, so the polygon stays convex and errs on the large side:
+/// quads through chains of quads are exact up to depth 10 at the least.
 struct ConvexPolygon {
   static constexpr std::size_t capacity = 48;
   std::array<Point3, capacity> vertices;
@@ -37,12 +38,15 @@ ConvexPolygon clip(const ConvexPolygon& polygon, const Point3& origin, const Vec
 /// The same of a polygon that is not needed whole any more.
 void clip_in_place(ConvexPolygon& polygon, const Point3& origin, const Vec3& normal);
 
-/// The part of the polygon inside the cone from the apex through the window: one clip per edge of the window.
-/// The window may be of either orientation; an apex in the window's plane sees nothing, nor does one that looks through a point.
+/// The part of the polygon inside the cone from the apex through the window:
+/// one clip per edge of the window.
+/// The window may be of either orientation;
+/// an apex in the window's plane sees nothing, nor does one that looks through a point.
 ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
                            const ConvexPolygon& window);
 
-/// Whether all edges are as short as their rounding, as what is left of a polygon that a cone only touches: nothing is seen through it.
+/// Whether all edges are as short as their rounding,
+/// as what is left of a polygon that a cone only touches: nothing is seen through it.
 bool is_point(const ConvexPolygon& polygon, const Point3& apex);
 
 /// Half the sum of the cross products of the edges: its length is the area.

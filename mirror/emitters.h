@@ -1,7 +1,8 @@
 // Emitters, and a tree over them for scenes that have thousands.
 //
-// A node stands for a range of emitters: a sphere around them, their power, and a cone that holds their normals. From any point it says
-// how much of their light can arrive, roughly and never nothing where there is something (Conty Estevez and Kulla 2018).
+// A node stands for a range of emitters: a sphere around them, their power,
+// and a cone that holds their normals. From any point it says how much of their light can arrive,
+// roughly and never nothing where there is something (Conty Estevez and Kulla 2018).
 #pragma once
 
 #include "mirror/convex_polygon.h"

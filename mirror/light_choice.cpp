@@ -18,7 +18,8 @@ struct Chooser {
   LightChoiceWorkspace& work;
   std::vector<VirtualLight>& lights;
 
-  /// Whether a sphere of unfolded space is hidden from x: outside the cones through all openings, or before the last mirror.
+  /// Whether a sphere of unfolded space is hidden from x:
+  /// outside the cones through all openings, or before the last mirror.
   bool is_outside(const SeenWorld& seen, const Point3& centre, double radius) const {
     const MirrorWorld& world = worlds.worlds[index(seen.world)];
     if (world.depth == 0)
@@ -46,8 +47,8 @@ struct Chooser {
     return false;
   }
 
-  /// s: the power of the node, spread over what a sphere of its distance sees of it, with cosines no smaller than any emitter of
-  /// it has. 0 only if none of its light arrives.
+  /// s: the power of the node, spread over what a sphere of its distance sees of it,
+  /// with cosines no smaller than any emitter of it has. 0 only if none of its light arrives.
   double estimate(std::uint32_t at_world, std::uint32_t at_node) const {
     const SeenWorld& seen = work.seen.worlds[at_world];
     const MirrorWorld& world = worlds.worlds[index(seen.world)];
@@ -72,8 +73,8 @@ struct Chooser {
            (std::numbers::pi * reach * reach);
   }
 
-  /// The largest cosine any emitter of the node can have towards x: the angle to the axis, less the spread of the normals and the
-  /// angle at which x sees the sphere.
+  /// The largest cosine any emitter of the node can have towards x: the angle to the axis,
+  /// less the spread of the normals and the angle at which x sees the sphere.
   static double emitting_cosine(const EmitterNode& node, double cos_axis, double distance) {
     if (node.cos_spread <= -1.0)
       return 1.0;
@@ -129,7 +130,8 @@ struct Chooser {
                lights);
   }
 
-  /// Steps lie at the whole numbers; the node spans [begin, begin + q), its children their shares of that.
+  /// Steps lie at the whole numbers;
+  /// the node spans [begin, begin + q), its children their shares of that.
   void descend(std::uint32_t world, std::uint32_t node, double begin, double q) {
     if (is_leaf(node)) {
       if (q >= 1.0 || std::ceil(begin) < begin + q)
@@ -152,7 +154,8 @@ struct Chooser {
   void choose(const LightChoice& choice) {
     refine(2 * choice.most);
 
-    // Emitters that a step would meet for certain are computed; what is left of the budget goes to the others.
+    // Emitters that a step would meet for certain are computed;
+    // what is left of the budget goes to the others.
     double budget = static_cast<double>(choice.most), sum = 0.0;
     for (const auto& node : work.cut)
       sum += node.estimate;

@@ -4,9 +4,11 @@
 //
 //   H ~ sum_chosen h_k / q_k,    q_k = min(1, K s_k / S),   s_k an estimate of h_k, S their sum,
 //
-// which is right on average whatever the estimates are, so that no light is counted twice or left out. Images that bring much have q = 1
-// and are computed without error; the rest is sampled at even steps along the tree of emitters (systematic sampling: Madow 1949), in all
-// mirror worlds together. The estimates come from a cut through the tree, refined where most of the light is: the cost is O(K log n).
+// which is right on average whatever the estimates are, so that no light is counted
+// twice or left out. Images that bring much have q = 1 and are computed without error;
+// the rest is sampled at even steps along the tree of emitters (systematic sampling:
+// Madow 1949), in all mirror worlds together. The estimates come from a cut through the tree,
+// refined where most of the light is: the cost is O(K log n).
 #pragma once
 
 #include "mirror/virtual_lights.h"
@@ -29,7 +31,8 @@ struct LightChoiceWorkspace {
   std::vector<CutNode> open, cut;
 };
 
-/// Like virtual_lights(), with at most about `choice.most` emitters' images, each with its weight 1/q.
+/// Like virtual_lights(), with at most about `choice.most` emitters' images,
+/// each with its weight 1/q.
 void chosen_lights(const WorldTree& worlds, std::span<const Emitter> emitters,
                    const EmitterTree& tree, const Observer& observer, const LightChoice& choice,
                    LightChoiceWorkspace& work, std::vector<VirtualLight>& lights);

@@ -8,8 +8,10 @@
 
 namespace meninas {
 
-/// Puts the half of the members that lie lower along the longest side of the box around their places first: n log n for a tree, never deeper than log n.
-/// `places` by member, with `dimensions` coordinates; equal ones go by number. Returns the size of the first half.
+/// Puts the half of the members that lie lower along the longest side of the box
+/// around their places first: n log n for a tree, never deeper than log n.
+/// `places` by member, with `dimensions` coordinates;
+/// equal ones go by number. Returns the size of the first half.
 template <typename Places>
 std::uint32_t split_at_median(std::span<std::uint32_t> members, const Places& places,
                               int dimensions) {

@@ -13,8 +13,8 @@ namespace meninas {
 
 namespace {
 
-/// Surfaces of one plane, one facing and one reflectance are one mirror, of glass those of one material, of coats those of one
-/// reflectance by the angle, ideal ones by themselves.
+/// Surfaces of one plane, one facing and one reflectance are one mirror, of glass those
+/// of one material, of coats those of one reflectance by the angle, ideal ones by themselves.
 using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double, MaterialId, bool>;
 
 /// What it reflects in the mean.

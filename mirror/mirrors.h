@@ -1,13 +1,17 @@
-// The planar mirrors of a scene: coplanar ideal-mirror surfaces of one reflectance merged into one mirror each.
+// The planar mirrors of a scene:
+// coplanar ideal-mirror surfaces of one reflectance merged into one mirror each.
 //
-// A mirror's window is the set of convex polygons through which its mirror world is seen. The front of a mirror reflects;
-// a double-sided mirror is two mirrors, back to back. Curved mirrors are many small planes: beyond `max_mirrors` planes
-// only large ones are enumerated, the rest are facets, which rays follow exactly all the same but which get no mirror world.
+// A mirror's window is the set of convex polygons through which its mirror world is seen.
+// The front of a mirror reflects; a double-sided mirror is two mirrors, back to back.
+// Curved mirrors are many small planes: beyond `max_mirrors` planes only large ones are enumerated,
+// the rest are facets, which rays follow exactly all the same but which get no mirror world.
 //
-// Glass is a mirror on either side whose reflectance depends on the angle (scenes/glass.h), and so is the coat of a polished floor on its front
-// (scenes/smooth_surfaces.h): what is said of them here is the mean over all angles, by which their worlds are judged. Solids have none, rays alone follow
-// what they reflect. What light meets on its way, whoever follows it asks of the glass or the coat itself. Coats come last, and take no mirror's place. Planes of theirs
-// that are small beside the scene, as the edge of a table top is, are facets.
+// Glass is a mirror on either side whose reflectance depends on the angle (scenes/glass.h),
+// and so is the coat of a polished floor on its front (scenes/smooth_surfaces.h):
+// what is said of them here is the mean over all angles, by which their worlds are judged.
+// Solids have none, rays alone follow what they reflect. What light meets on its way, whoever
+// follows it asks of the glass or the coat itself. Coats come last, and take no mirror's place.
+// Planes of theirs that are small beside the scene, as the edge of a table top is, are facets.
 #pragma once
 
 #include "mirror/convex_polygon.h"

@@ -21,7 +21,8 @@ Sides sides_of(const ConvexPolygon& polygon, const Point3& on_plane, const Vec3&
   return sides;
 }
 
-/// The size of everything that takes part, or that of the rounding of its coordinates where that is more.
+/// The size of everything that takes part,
+/// or that of the rounding of its coordinates where that is more.
 double extent_of(std::initializer_list<const ConvexPolygon*> polygons, const Point3& origin) {
   double extent = 0.0;
   for (const auto* polygon : polygons)
@@ -30,8 +31,8 @@ double extent_of(std::initializer_list<const ConvexPolygon*> polygons, const Poi
   return extent;
 }
 
-/// Cuts the polygon along every plane through an edge of `edges` and a corner of `corners` that holds the two apart, on the side
-/// of `second`, which is one of them.
+/// Cuts the polygon along every plane through an edge of `edges` and a corner
+/// of `corners` that holds the two apart, on the side of `second`, which is one of them.
 ConvexPolygon clip_by_separators(ConvexPolygon polygon, const ConvexPolygon& edges,
                                  const ConvexPolygon& corners, const ConvexPolygon& second) {
   const double extent = extent_of({&polygon, &edges, &corners}, edges.vertices[0]);
@@ -52,7 +53,8 @@ ConvexPolygon clip_by_separators(ConvexPolygon polygon, const ConvexPolygon& edg
       if (-there.low > there.high)
         normal = -normal;
 
-      // The corners' polygon in front, the edges' behind, and both off the plane somewhere: it holds them apart.
+      // The corners' polygon in front, the edges' behind, and both off the plane somewhere:
+      // it holds them apart.
       const Sides front = sides_of(corners, from, normal), behind = sides_of(edges, from, normal);
       if (front.low < -rounding || front.high <= rounding || behind.high > rounding ||
           behind.low >= -rounding)

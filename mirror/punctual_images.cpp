@@ -10,7 +10,8 @@ Point3 inverse(const Isometry& map, const Point3& x) {
   return glm::transpose(map.linear) * (x - map.translation);
 }
 
-/// Whether the line from the apex to y passes the window, of either orientation; its edges belong to it.
+/// Whether the line from the apex to y passes the window, of either orientation;
+/// its edges belong to it.
 bool passes(const ConvexPolygon& window, const Point3& apex, const Point3& y) {
   bool left = true, right = true;
   for (std::size_t k = 0; k < window.size; ++k) {
@@ -42,7 +43,8 @@ void punctual_images(const WorldTree& tree, std::span<const PunctualLight> light
   for (const SeenWorld& at : seen.worlds) {
     const MirrorWorld& world = tree.worlds[index(at.world)];
     for (const PunctualLight& light : lights) {
-      // What shines on the observer's image in the real room shines on the observer from the light's image.
+      // What shines on the observer's image in the real
+      // room shines on the observer from the light's image.
       const PunctualSample real =
           punctual_sample(light, inverse(world.image, observer.position), reach);
       const Point3 position = apply(world.image, real.position);

@@ -1,8 +1,10 @@
 // Punctual lights and their images in the mirror worlds, as seen from one point.
 //
-// The image of a light at y in the world w stands at T_w y and shines as the light does on T_w^-1 x: a reflection keeps lengths and angles.
-// It is seen from x where the segment to it passes the visible part of the last window (virtual_lights.h), behind that mirror. Directional
-// lights stand at a distance beyond the scene. Images beyond the tree are not found: nothing else finds light without extent.
+// The image of a light at y in the world w stands at T_w y and shines
+// as the light does on T_w^-1 x: a reflection keeps lengths and angles.
+// It is seen from x where the segment to it passes the visible part of the last window
+// (virtual_lights.h), behind that mirror. Directional lights stand at a distance beyond the scene.
+// Images beyond the tree are not found: nothing else finds light without extent.
 #pragma once
 
 #include "mirror/virtual_lights.h"
@@ -16,8 +18,8 @@ struct PunctualImage {
   Rgb irradiance{0.0}; ///< at the observer's plane, blockers and mirrors' reflectances aside
 };
 
-/// Clears and fills `images`: those that shine on the observer's side, light by light in every seen world. `reach` as of
-/// punctual_sample().
+/// Clears and fills `images`: those that shine on the observer's side,
+/// light by light in every seen world. `reach` as of punctual_sample().
 void punctual_images(const WorldTree& tree, std::span<const PunctualLight> lights,
                      const SeenWorlds& seen, const Observer& observer, double reach,
                      std::vector<PunctualImage>& images);

@@ -1,7 +1,8 @@
 // Reflection in a plane { x : n.x = d }:  x' = x - 2 (n.x - d) n,  and its composition.
 //
-// A mirror world w = (m1 ... mk) is the room seen by way of m1 first and mk last. Its images lie at T_w y with
-// T_w = R_m1 R_m2 ... R_mk, so that the straight segment from x to T_w y unfolds into the path x, m1, ..., mk, y.
+// A mirror world w = (m1 ... mk) is the room seen by way of m1 first and mk last.
+// Its images lie at T_w y with T_w = R_m1 R_m2 ...
+// R_mk, so that the straight segment from x to T_w y unfolds into the path x, m1, ..., mk, y.
 #pragma once
 
 #include "scenes/surfaces.h"

@@ -74,7 +74,8 @@ struct Classifier {
         reach = std::max(reach, glm::distance(point, origin));
         magnitude = std::max(magnitude, glm::length(point));
       }
-    // Corners of a window that was cut are off by their rounding, which is all that the direction of a very short edge has.
+    // Corners of a window that was cut are off by their rounding,
+    // which is all that the direction of a very short edge has.
     const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * magnitude;
     Seen seen = Seen::whole;
     Point3 from = part.vertices[part.size - 1];
@@ -89,7 +90,8 @@ struct Classifier {
           most = std::max(most, f);
         }
       }
-      // x or y that is off by d changes f by at most |b - a| |y - a| d, a or b by |b - x| |y - x| d.
+      // x or y that is off by d changes f by at most |b - a| |y - a| d,
+      // a or b by |b - x| |y - x| d.
       const double length = glm::distance(a, b);
       const double unsure = 2.0 * reach * (length * margin() + 2.0 * reach * rounding);
       seen = both(seen, length > margin() ? above(least, most, unsure) : Seen::part);

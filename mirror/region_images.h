@@ -1,13 +1,16 @@
-// What all points of a region see alike of the emitters' images, so that it need not be asked again at each.
+// What all points of a region see alike of the emitters' images,
+// so that it need not be asked again at each.
 //
 // A segment from x to y passes the edge from a to b of a window on the side that the sign of
 //
 //   f(x, y) = ((a - x) x (b - x)) . (y - x)
 //
-// tells. f is affine in x and affine in y: over a convex region and a convex image it lies between its values at their corners. So where these agree for
-// all edges of all windows of a chain, and so do the heights over the horizon and the planes of emitter and mirrors, the image is seen
-// whole from all of the region; where one edge of a window has all of them outside, from none of it. Other images are cut point by
-// point, as virtual_lights.h does, and so are the windows that this takes: the lights are the same, to the bit.
+// tells. f is affine in x and affine in y: over a convex region and a convex image it lies between
+// its values at their corners. So where these agree for all edges of all windows of a chain,
+// and so do the heights over the horizon and the planes of emitter and mirrors, the image
+// is seen whole from all of the region; where one edge of a window has all of them outside,
+// from none of it. Other images are cut point by point, as virtual_lights.h does,
+// and so are the windows that this takes: the lights are the same, to the bit.
 #pragma once
 
 #include "mirror/virtual_lights.h"
@@ -42,7 +45,8 @@ struct RegionImages {
 void images_of_region(const WorldTree& tree, std::span<const Emitter> emitters,
                       const ReceivingRegion& region, RegionImages& images);
 
-/// The lights of all_lights() at a point of the region. Clears and fills `lights`; `seen` is storage.
+/// The lights of all_lights() at a point of the region.
+/// Clears and fills `lights`; `seen` is storage.
 void lights_in_region(const WorldTree& tree, std::span<const Emitter> emitters,
                       const RegionImages& images, const Observer& observer, SeenWorlds& seen,
                       std::vector<VirtualLight>& lights);

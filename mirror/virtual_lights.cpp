@@ -65,9 +65,11 @@ void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const 
   if (signed_distance(plane, observer.position) <= observer.tolerance)
     return;
 
-  // The image is cut by the horizon, by the last mirror's plane, and by each visible part of the last window.
+  // The image is cut by the horizon, by the last mirror's plane,
+  // and by each visible part of the last window.
   ConvexPolygon image = image_of(e.polygon, world);
-  // What glows in the plane of the last mirror sends no light to it: the back of a sheet would shine forward through its own front.
+  // What glows in the plane of the last mirror sends no light to it:
+  // the back of a sheet would shine forward through its own front.
   const auto is_in_mirror = [&](const Point3& p) {
     return std::abs(signed_distance(world.plane, p)) <= observer.tolerance;
   };
@@ -119,7 +121,8 @@ void fold_legs(const WorldTree& tree, const MirrorSet& mirrors, WorldId world, c
   legs.clear();
   Leg leg{x, y, leaving, arriving};
   if (world != real_world) {
-    // The first leg ends on m1; behind it the rest of the segment is reflected back into the room, and so on.
+    // The first leg ends on m1;
+    // behind it the rest of the segment is reflected back into the room, and so on.
     for (const MirrorId id : chain_of(tree, world)) {
       const Mirror& mirror = mirrors.mirrors[index(id)];
       const Point3 target = leg.to;

@@ -1,9 +1,11 @@
 // Virtual lights: an emitter and its images in the mirror worlds, as seen from one point.
 //
-// From x, the image T_w e of an emitter counts only where the straight segment to it crosses the windows of m1 ... mk in order. The
-// tree is walked from x: the part of each window that x sees through the part of the window before (polygon clipped to the cone) opens
-// the next world, and an empty part closes the whole branch. An image is then cut by the receiver's horizon, by the last mirror's
-// plane (what pierces a mirror ends there) and by the cone through the visible part of the last window.
+// From x, the image T_w e of an emitter counts only where the straight segment
+// to it crosses the windows of m1 ... mk in order. The tree is walked from x:
+// the part of each window that x sees through the part of the window before (polygon
+// clipped to the cone) opens the next world, and an empty part closes the whole branch.
+// An image is then cut by the receiver's horizon, by the last mirror's plane (what pierces
+// a mirror ends there) and by the cone through the visible part of the last window.
 #pragma once
 
 #include "mirror/emitters.h"
@@ -24,15 +26,16 @@ struct VirtualLight {
   double weight = 1.0; ///< how many times it counts, where it stands for others (light_choice.h)
 };
 
-/// Who looks: a point on a surface. A point within `tolerance` of an emitter's plane sees nothing of it: there, rounding would decide
-/// between nothing and all of the hemisphere.
+/// Who looks: a point on a surface. A point within `tolerance` of an emitter's plane sees
+/// nothing of it: there, rounding would decide between nothing and all of the hemisphere.
 struct Observer {
   Point3 position;
   Direction normal;
   double tolerance = 0.0;
 };
 
-/// The worlds an observer looks into, depth first, each with the visible parts of its window: openings first to last - 1.
+/// The worlds an observer looks into, depth first, each with the visible parts of its window:
+/// openings first to last - 1.
 struct SeenWorld {
   WorldId world = real_world;
   std::uint32_t first = 0, last = 0;
@@ -62,12 +65,14 @@ void add_whole_image(const WorldTree& tree, std::span<const Emitter> emitters, W
 void all_lights(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,
                 const Observer& observer, std::vector<VirtualLight>& lights);
 
-/// All parts of all emitters' images in all worlds of the tree that x sees above the horizon of `normal`, blockers aside.
+/// All parts of all emitters' images in all worlds of the tree
+/// that x sees above the horizon of `normal`, blockers aside.
 /// Clears and fills `lights`, whose storage is reused from call to call.
 void virtual_lights(const WorldTree& tree, std::span<const Emitter> emitters, const Point3& x,
                     const Direction& normal, double tolerance, std::vector<VirtualLight>& lights);
 
-/// Folds the segment from x to the point y of unfolded space in world w back into real legs, first one first.
+/// Folds the segment from x to the point y of unfolded space in world w back into real legs,
+/// first one first.
 /// Every leg names the planes it leaves and reaches; k + 1 legs for a chain of k mirrors.
 void fold_legs(const WorldTree& tree, const MirrorSet& mirrors, WorldId world, const Point3& x,
                PlaneId leaving, const Point3& y, PlaneId arriving, std::vector<Leg>& legs);

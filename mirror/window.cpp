@@ -46,7 +46,8 @@ bool is_convex(const ConvexPolygon& polygon) {
   return polygon.size >= 3;
 }
 
-/// The union across edge i of a and edge j of b, which run along each other in opposite directions; nothing if it is not convex.
+/// The union across edge i of a and edge j of b, which run along each other in opposite directions;
+/// nothing if it is not convex.
 std::optional<ConvexPolygon> merged(const ConvexPolygon& a, std::size_t i, const ConvexPolygon& b,
                                     std::size_t j, double tolerance) {
   std::vector<Point3> corners;
@@ -98,7 +99,8 @@ std::vector<ConvexPolygon> merge_convex(std::vector<ConvexPolygon> polygons, dou
   for (std::size_t p = 0; p < polygons.size(); ++p)
     edges.add(polygons[p], p);
 
-  // Each polygon grows as far as it can, which makes rows or columns of tiles; the next round joins those.
+  // Each polygon grows as far as it can, which makes rows or columns of tiles;
+  // the next round joins those.
   bool changed = true;
   while (changed) {
     changed = false;

@@ -33,11 +33,12 @@ std::vector<ConvexPolygon> in_front(std::span<const ConvexPolygon> window, const
   return front;
 }
 
-/// The parts of windows that lines through the whole chain can meet, by world; kept while the tree grows.
+/// The parts of windows that lines through the whole chain can meet, by world;
+/// kept while the tree grows.
 using OpenParts = std::vector<std::vector<ConvexPolygon>>;
 
-/// The part that lines through some part of `first` and then some part of `second` meet. Where several of them show it, it is not
-/// convex: then all of it is kept.
+/// The part that lines through some part of `first` and then some part of `second` meet.
+/// Where several of them show it, it is not convex: then all of it is kept.
 ConvexPolygon part_behind(const ConvexPolygon& part, std::span<const ConvexPolygon> first,
                           std::span<const ConvexPolygon> second) {
   ConvexPolygon seen;
@@ -53,14 +54,16 @@ ConvexPolygon part_behind(const ConvexPolygon& part, std::span<const ConvexPolyg
   return seen;
 }
 
-/// The parts of a child's window that lines can meet which have crossed all windows before it, first one first.
+/// The parts of a child's window that lines can meet which have crossed all windows before it,
+/// first one first.
 std::vector<ConvexPolygon> open_parts(const WorldTree& tree, const OpenParts& open, WorldId parent,
                                       const Plane& plane,
                                       const std::vector<ConvexPolygon>& window) {
   if (parent == real_world)
     return window;
 
-  // A line on its way to the front of the child's plane crosses every window before it in front of that plane.
+  // A line on its way to the front of the child's plane
+  // crosses every window before it in front of that plane.
   std::vector<ConvexPolygon> parts = window;
   const auto second = in_front(open[index(parent)], plane);
   for (WorldId w = tree.worlds[index(parent)].parent; w != real_world;

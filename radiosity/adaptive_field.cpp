@@ -75,12 +75,14 @@ SamplePoint mean_of_two(const SamplePoint& sample) {
       };
 }
 
-/// Light from the source. A dark point may be inside something that stands on its surface, which a few rays tell.
+/// Light from the source.
+/// A dark point may be inside something that stands on its surface, which a few rays tell.
 SampledField direct_field(const LightScene& light, std::span<const double> weight,
                           const FormFactorSettings& form_factors, DirectSettings direct,
                           const RefinementSettings& refinement, InterpolatedField& result) {
   constexpr double outline_step = 0.125; // of a root cell
-  // At the rim of a penumbra, where the first rays may all agree by chance, points must not say now dark, now bright.
+  // At the rim of a penumbra, where the first rays may all agree by chance,
+  // points must not say now dark, now bright.
   direct.shadow_rays = std::max(direct.shadow_rays, direct.penumbra_rays / 2);
   tbb::enumerable_thread_specific<PointWorkspace> workspaces;
   const SamplePoint sample = [&](const Receiver& receiver, double element_size,
@@ -113,7 +115,8 @@ std::vector<glm::vec3> sum_of(std::vector<glm::vec3> a, const std::vector<glm::v
   return a;
 }
 
-/// What light is gathered from: a mesh with the irradiance and the reflected radiosity of its elements.
+/// What light is gathered from:
+/// a mesh with the irradiance and the reflected radiosity of its elements.
 struct Surroundings {
   std::unique_ptr<RefinedScene> scene;
   std::vector<Rgb> irradiance, reflected;
@@ -144,7 +147,8 @@ struct Gathering {
   const InterpolationSettings& interpolation;
 };
 
-/// Samples of light gathered from `elements` of the mesh of `lit`, with so many rays. The result refers to `gathering` and `workspaces`.
+/// Samples of light gathered from `elements` of the mesh of `lit`, with so many rays.
+/// The result refers to `gathering` and `workspaces`.
 SamplePoint gathered_samples(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
                              tbb::enumerable_thread_specific<PointWorkspace>& workspaces) {
   return [&](const Receiver& receiver, double element_size, std::uint32_t seed) -> PointSample {
@@ -162,14 +166,15 @@ struct SampleRays {
   double size = 0.0;
 };
 
-/// How many rays keep the noise of a vertex within a bound. `first` was sampled with `rays` a vertex, and between vertices twice with a quarter of them, of
-/// whose mean it knows the noise.
+/// How many rays keep the noise of a vertex within a bound. `first` was sampled with `rays`
+/// a vertex, and between vertices twice with a quarter of them, of whose mean it knows the noise.
 double rays_within(double bound, const SampledField& first, int rays) {
   return 2.0 * std::max(1, rays / 4) * std::pow(first.noise / bound, 1.0 / noise_order);
 }
 
-/// Samples with as many rays as they need, up to sixteen times those that are asked for. Noise counts with the area that a sample stands for, so that those
-/// of small elements may have more of it.
+/// Samples with as many rays as they need, up to sixteen times those that are asked for.
+/// Noise counts with the area that a sample stands for,
+/// so that those of small elements may have more of it.
 class GatheredSamples {
 public:
   /// Gathers from that scene. The rest must outlive what is made.
@@ -207,8 +212,9 @@ private:
   std::vector<SamplePoint> samples_;
 };
 
-/// Light from the elements, twice: with few rays from the elements as they were solved, then from what that makes of them. Where two walls
-/// meet, light changes within an element as much as from one to the next, and comes from near by.
+/// Light from the elements, twice: with few rays from the elements as they were solved,
+/// then from what that makes of them. Where two walls meet,
+/// light changes within an element as much as from one to the next, and comes from near by.
 SampledField gathered_field(const LightScene& light, const ElementLight& elements,
                             const SampledField& from_source, const Gathering& how,
                             std::span<const double> weight, RefinementSettings refinement,

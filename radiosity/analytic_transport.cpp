@@ -113,8 +113,8 @@ struct Assembly {
   bool closed = false, depth_capped = false;
 };
 
-/// Whether nothing but black is seen from the middle of the part: something stands on it. What shows itself only to the outside of a closed
-/// scene sees nothing at all.
+/// Whether nothing but black is seen from the middle of the part: something stands on it.
+/// What shows itself only to the outside of a closed scene sees nothing at all.
 bool is_covered(const Assembly& assembly, const Face& part) {
   constexpr double whole = 1.0 - 1e-6;
   WalkSettings real_world;

@@ -27,7 +27,8 @@ double log_potential(const Point3& x, const Point3& q, const Direction& v, doubl
   return tau_ln_r(length - along, h2) + tau_ln_r(along, h2);
 }
 
-/// Where along the edge from p the distance to the other edge has its kinks: nearest points to the other's ends and to its line.
+/// Where along the edge from p the distance to the other edge has its kinks:
+/// nearest points to the other's ends and to its line.
 std::vector<double> breaks(const Point3& p, const Direction& u, double length, const Point3& q0,
                            const Point3& q1) {
   std::vector<double> at{0.0, length};
@@ -42,8 +43,8 @@ std::vector<double> breaks(const Point3& p, const Direction& u, double length, c
   return at;
 }
 
-/// The terms of the logarithmic potential are of the size of the polygons, one, and so is what they round off: an edge much shorter than that
-/// (slivers of clipping) has no digits beyond.
+/// The terms of the logarithmic potential are of the size of the polygons, one, and so is what
+/// they round off: an edge much shorter than that (slivers of clipping) has no digits beyond.
 constexpr double rounding_of_potential = 1e-15;
 
 Estimate edge_pair(const Point3& p0, const Point3& p1, const Point3& q0, const Point3& q1) {
@@ -64,7 +65,8 @@ Estimate edge_pair(const Point3& p0, const Point3& p1, const Point3& q0, const P
   return cosine * sum;
 }
 
-/// 2 pi A_A F_AB by Stokes. Lengths are in units that make the polygons of size one, so that the logarithms are small.
+/// 2 pi A_A F_AB by Stokes.
+/// Lengths are in units that make the polygons of size one, so that the logarithms are small.
 Estimate contour_integral(const ConvexPolygon& a, const ConvexPolygon& b) {
   Estimate sum;
   double magnitude = 0.0;
@@ -79,7 +81,8 @@ Estimate contour_integral(const ConvexPolygon& a, const ConvexPolygon& b) {
   return sum;
 }
 
-/// int_A F(x, B) dA by n x n Gauss points in each triangle of A's fan (Duffy's square onto the triangle).
+/// int_A F(x,
+/// B) dA by n x n Gauss points in each triangle of A's fan (Duffy's square onto the triangle).
 double gauss_integral(const ConvexPolygon& a, const Direction& normal, const ConvexPolygon& b,
                       std::span<const double> nodes, std::span<const double> weights) {
   double sum = 0.0;
@@ -126,8 +129,8 @@ const UnitRule gauss7 = unit_rule<4>({quadrature::kronrod_nodes[1], quadrature::
                                      quadrature::gauss_weights);
 const UnitRule kronrod15 = unit_rule<8>(quadrature::kronrod_nodes, quadrature::kronrod_weights);
 
-/// int_A F(x, B) dA / area by Gauss points, with an error from a coarser rule. Far apart a few points have converged: going from three to
-/// five in each direction multiplies the digits by 5/3.
+/// int_A F(x, B) dA / area by Gauss points, with an error from a coarser rule. Far apart a few
+/// points have converged: going from three to five in each direction multiplies the digits by 5/3.
 Estimate by_gauss_points(const ConvexPolygon& a, const Direction& normal, const ConvexPolygon& b,
                          double area) {
   const auto mean = [&](const UnitRule& rule) {
@@ -158,7 +161,8 @@ Sphere sphere_around(const ConvexPolygon& polygon) {
   return sphere;
 }
 
-/// Least distance of the polygon's vertices from a plane: no point of it is nearer to anything in that plane.
+/// Least distance of the polygon's vertices from a plane:
+/// no point of it is nearer to anything in that plane.
 double least_height(const ConvexPolygon& polygon, const Point3& origin, const Vec3& front) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& vertex : polygon.span())
@@ -190,7 +194,8 @@ Estimate area_form_factor(const ConvexPolygon& a, const ConvexPolygon& b) {
       glm::distance(around_a.centre, around_b.centre) - around_a.radius - around_b.radius;
   const double size = std::max(around_a.radius, around_b.radius);
 
-  // Gauss points see a smooth integrand where the polygons are well apart; thin ones are theirs as well.
+  // Gauss points see a smooth integrand where the polygons are well apart;
+  // thin ones are theirs as well.
   const Estimate by_points = by_gauss_points(lit, front_a / whole_area, seen, whole_area);
   if (gap > size)
     return by_points;

@@ -1,16 +1,19 @@
-// Where a field bends within elements: what interpolation between vertices hides, by second differences.
+// Where a field bends within elements:
+// what interpolation between vertices hides, by second differences.
 //
 // Along two edges that go on from one another, from a by way of v to b, the second derivative is
 //
 //   f'' = 2 ((f_a - f_v) / |a - v| + (f_b - f_v) / |b - v|) / (|a - v| + |b - v|),
 //
-// and linear interpolation over an element of size s is off by e = s^2 |f''| / 8 in its middle: of the irradiance of its corners, the largest, in the
-// brightest channel. An element is bent where
+// and linear interpolation over an element of size s is off by e = s^2 |f''| / 8 in its middle:
+// of the irradiance of its corners, the largest, in the brightest channel. An element is bent where
 //
 //   rho max(e - 3 noise H, 0) sqrt(A / A_mean) / B_mean  >  X.
 //
-// What noise of the values makes of e / H is taken to be its median over all vertices: most of a field is smooth.
-// Limit: borders of a surface have no second difference across them; elements there have it from their inner corners.
+// What noise of the values makes of e / H is taken to be its median over all vertices:
+// most of a field is smooth.
+// Limit: borders of a surface have no second difference across them;
+// elements there have it from their inner corners.
 #pragma once
 
 #include "radiosity/element_mesh.h"

@@ -1,7 +1,8 @@
 // A field that is found, made finer where it bends.
 //
-// Elements in which indirect light bends by more than X of the scene's mean (bends.h) are divided, and light is gathered at the vertices that they get, up to
-// three times. What light comes from stays as it was.
+// Elements in which indirect light bends by more than X of the scene's mean (bends.h) are divided,
+// and light is gathered at the vertices that they get, up to three times.
+// What light comes from stays as it was.
 #pragma once
 
 #include "radiosity/bends.h"
@@ -9,7 +10,8 @@
 
 namespace meninas {
 
-/// `result` has the field of what was found, and takes the finer mesh and its field where anything bends. X = 0: nothing does.
+/// `result` has the field of what was found,
+/// and takes the finer mesh and its field where anything bends. X = 0: nothing does.
 void divide_bent(const LightScene& light, const VertexSource& source, const BendScale& scale,
                  double x, FoundField found, InterpolatedField& result);
 

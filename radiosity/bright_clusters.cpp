@@ -136,7 +136,8 @@ Emitter make_emitter(const LightScene& light, const Candidate& candidate) {
   return emitter;
 }
 
-/// What elements reflect is of their solid part: shadow rays go to the holes of a cluster as well, and nothing there stops them.
+/// What elements reflect is of their solid part:
+/// shadow rays go to the holes of a cluster as well, and nothing there stops them.
 std::vector<Rgb> spread_over_holes(const ElementMesh& mesh, const std::vector<Rgb>& reflected) {
   std::vector<Rgb> sent(reflected.size());
   for (std::size_t e = 0; e < sent.size(); ++e)
@@ -144,7 +145,8 @@ std::vector<Rgb> spread_over_holes(const ElementMesh& mesh, const std::vector<Rg
   return sent;
 }
 
-/// Half of the lit area is darker than this. (A mean would follow the few bright elements that are looked for.)
+/// Half of the lit area is darker than this.
+/// (A mean would follow the few bright elements that are looked for.)
 double area_median(const ElementMesh& mesh, const std::vector<Rgb>& reflected) {
   std::vector<std::pair<double, double>> values; // radiosity and area
   double area = 0.0;
@@ -163,7 +165,8 @@ double area_median(const ElementMesh& mesh, const std::vector<Rgb>& reflected) {
   return 0.0;
 }
 
-/// The real world, and the worlds of single mirrors while they are few, without coats if there are more with them.
+/// The real world, and the worlds of single mirrors while they are few,
+/// without coats if there are more with them.
 WorldTree first_worlds(const WorldTree& tree, const MirrorSet& mirrors) {
   constexpr std::size_t few = 4;
   std::size_t kept = 1, of_mirrors = 1;
@@ -190,8 +193,9 @@ std::vector<std::uint8_t> owned_by(const ElementMesh& mesh, const std::vector<Ca
   return owned;
 }
 
-/// Leaves to rays all but the noisiest, and of these the ones that together add no more than a share to the noise that rays have anyway: the sum of A B^2 over what they find, which
-/// the variance of a mean over directions goes by.
+/// Leaves to rays all but the noisiest,
+/// and of these the ones that together add no more than a share to the noise that rays have anyway:
+/// the sum of A B^2 over what they find, which the variance of a mean over directions goes by.
 void keep_noisiest(const ElementMesh& mesh, const std::vector<Rgb>& sent,
                    const ClusterSettings& settings, std::size_t most,
                    std::vector<Candidate>& found) {
@@ -219,7 +223,8 @@ BrightClusters find_bright_clusters(const LightScene& light, const std::vector<R
   if (usual <= 0.0)
     return clusters;
 
-  // Of too many the noisiest are kept. Uneven ones would be fewer, but the brightness of a wall beside a point is not that of its mean.
+  // Of too many the noisiest are kept. Uneven ones would be fewer,
+  // but the brightness of a wall beside a point is not that of its mean.
   clusters.worlds = first_worlds(light.worlds, light.mirrors);
   const std::size_t most = settings.most / clusters.worlds.worlds.size();
   const std::vector<Rgb> sent = spread_over_holes(mesh, reflected);

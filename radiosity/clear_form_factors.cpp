@@ -26,7 +26,8 @@ bool is_clear(const WorldView& view, const Face& a, const Face& b) {
 
 ClearFormFactors clear_form_factors(const WorldView& view, const std::vector<Face>& from,
                                     std::size_t group_count) {
-  // Beyond this many triples of faces the search for clear pairs would take longer than the points it saves.
+  // Beyond this many triples of faces the search for clear
+  // pairs would take longer than the points it saves.
   constexpr double most_triples = 2e7;
   ClearFormFactors clear;
   clear.known.assign(from.size(), std::vector<std::uint8_t>(view.targets.size(), 0));

@@ -1,4 +1,5 @@
-// Which pairs of faces see all of each other in the real world, and their form factors in closed form (area_form_factor.h).
+// Which pairs of faces see all of each other in the real world,
+// and their form factors in closed form (area_form_factor.h).
 #pragma once
 
 #include "radiosity/point_worlds.h"
@@ -12,7 +13,8 @@ struct ClearFormFactors {
   std::vector<Estimate> factors; ///< by group: the sum over those, weighted by the senders' areas
 };
 
-/// Errs towards "not known": a blocker that no plane is found to hold apart counts as standing between.
+/// Errs towards "not known":
+/// a blocker that no plane is found to hold apart counts as standing between.
 ClearFormFactors clear_form_factors(const WorldView& view, const std::vector<Face>& from,
                                     std::size_t group_count);
 

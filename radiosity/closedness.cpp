@@ -59,7 +59,8 @@ std::vector<VertexId> vertices_along(const Scene& scene, const LooseEdge& edge,
   return vertices;
 }
 
-/// Every loose edge as the pieces the ends of other loose edges divide it into; a piece has one number, whoever has it.
+/// Every loose edge as the pieces the ends of other loose edges divide it into;
+/// a piece has one number, whoever has it.
 std::map<std::uint32_t, std::vector<std::uint32_t>>
 divide_loose_edges(const Scene& scene, const std::vector<LooseEdge>& loose,
                    std::uint32_t first_number, double tolerance) {

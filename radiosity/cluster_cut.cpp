@@ -102,7 +102,8 @@ void cut_plane(const PlaneImage& image, const Observer& observer, ClusterWorkspa
   }
 }
 
-/// Shares `rays` out among the stand-ins by what each would bring, beside what has arrived from the clusters nearby; at most `per_cluster` for each of theirs.
+/// Shares `rays` out among the stand-ins by what each would bring,
+/// beside what has arrived from the clusters nearby; at most `per_cluster` for each of theirs.
 void share_rays(int rays, int per_cluster, const Rgb& arrived, const LightScene& light,
                 const ClusterTree& tree, ClusterWorkspace& work) {
   double all = largest(arrived);

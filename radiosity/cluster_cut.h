@@ -1,20 +1,27 @@
-// The light of bright clusters at a point, those far away together (Barnes and Hut 1986; lightcuts: Walter et al. 2005).
+// The light of bright clusters at a point, those far away together (Barnes and Hut 1986;
+// lightcuts: Walter et al. 2005).
 //
-// A node of the cluster tree that is small for its distance, r <= theta d with r the radius and d the distance of its sphere, stands for its clusters:
+// A node of the cluster tree that is small for its distance,
+// r <= theta d with r the radius and d the distance of its sphere, stands for its clusters:
 //
 //   H ~ tau V sum(B A) cos cos' / (pi d^2)        W/m^2, by channel, from the mean point c of what the clusters send in that channel
 //
-// if all of the sphere lies above the receiver's horizon and, in a mirror world, behind the last mirror and within one visible part of its window.
-// A node that is all outside brings nothing. Others are opened down to clusters, which are computed in closed form (direct_irradiance.h).
+// if all of the sphere lies above the receiver's horizon and, in a mirror world,
+// behind the last mirror and within one visible part of its window.
+// A node that is all outside brings nothing.
+// Others are opened down to clusters, which are computed in closed form (direct_irradiance.h).
 //
-// Error before shadows. Of k(y) = cos cos' / |y - x|^2 in its Taylor series around c the term of first order vanishes, for c is the mean. Along the clusters'
-// plane no second derivative of k is larger than 4.43 / |y - x|^4 (its maximum over all directions to x and normals there), thus
+// Error before shadows. Of k(y) = cos cos' / |y - x|^2 in its Taylor series around c the term
+// of first order vanishes, for c is the mean. Along the clusters' plane no second derivative of k
+// is larger than 4.43 / |y - x|^4 (its maximum over all directions to x and normals there), thus
 //
 //   |H - node| <= 2.22 / pi  sum(B A) s^2 / (d - r)^4,     s^2 the mean square of |y - c|, weighted by what is sent; s <= 2 r
 //
-// V is the share that arrives, by channel, of what shadow rays stand for: they go to points of the clusters spread by what these send, so that clusters of
-// several colours that are seen in part keep their own. All nodes at a point share `rays` of them out by what they would bring, with one at least for each
-// and no more than DirectSettings::shadow_rays for each of its clusters.
+// V is the share that arrives, by channel, of what shadow rays stand for:
+// they go to points of the clusters spread by what these send,
+// so that clusters of several colours that are seen in part keep their own.
+// All nodes at a point share `rays` of them out by what they would bring,
+// with one at least for each and no more than DirectSettings::shadow_rays for each of its clusters.
 #pragma once
 
 #include "radiosity/cluster_tree.h"
@@ -48,7 +55,8 @@ struct ClusterWorkspace {
   std::vector<Rgb> sent, arrived; ///< by stand-in: sums over its rays, and over those that arrive
 };
 
-/// Finds what lights x: nodes that stand for their clusters in `work.stand_ins`, images of all others in `lights`. Clears both.
+/// Finds what lights x: nodes that stand for their clusters in `work.stand_ins`,
+/// images of all others in `lights`. Clears both.
 void cut_clusters(const LightScene& light, const ClusterTree& tree, const Receiver& receiver,
                   double theta, ClusterWorkspace& work, std::vector<VirtualLight>& lights);
 

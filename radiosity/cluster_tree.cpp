@@ -27,7 +27,8 @@ Point3 centre_of(const ConvexPolygon& polygon) {
   return vertices[0] + mean;
 }
 
-/// A place in the clusters' plane in whole steps of a millionth of their extent: ties stay ties wherever the scene lies.
+/// A place in the clusters' plane in whole steps of a millionth of their extent:
+/// ties stay ties wherever the scene lies.
 using Place = glm::vec<2, std::int64_t>;
 
 struct Builder {
@@ -167,7 +168,8 @@ ClusterTree make_cluster_tree(std::span<const Emitter> clusters) {
 }
 
 ClusterPoint point_on(const ClusterTree& tree, const ClusterNode& node, Vec2 sample) {
-  // Of the sums along the order the sample falls between two; what is left of it lies evenly between them.
+  // Of the sums along the order the sample falls between two;
+  // what is left of it lies evenly between them.
   const double* const begin = tree.sent.data() + node.first_triangle;
   const double at = glm::mix(begin[0], begin[node.triangles], sample.x);
   const double* const after = std::upper_bound(begin + 1, begin + node.triangles, at);

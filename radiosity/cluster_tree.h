@@ -1,6 +1,8 @@
-// A tree over bright clusters, plane by plane: each node stands for some clusters of one plane that face one way, below one coat or none.
+// A tree over bright clusters, plane by plane:
+// each node stands for some clusters of one plane that face one way, below one coat or none.
 //
-// Its splits follow the clusters' own plane, not the axes of space: the tree is the same wherever the scene lies and however large it is.
+// Its splits follow the clusters' own plane, not the axes of space:
+// the tree is the same wherever the scene lies and however large it is.
 #pragma once
 
 #include "mirror/emitters.h"
@@ -46,7 +48,8 @@ struct ClusterTree {
 
 ClusterTree make_cluster_tree(std::span<const Emitter> clusters);
 
-/// A point of the clusters of a node, with a density in proportion to the brightest channel of what they send. Neighbours in sample.x are so in space.
+/// A point of the clusters of a node, with a density in proportion to the brightest
+/// channel of what they send. Neighbours in sample.x are so in space.
 struct ClusterPoint {
   Point3 position;
   Rgb colour;

@@ -46,8 +46,9 @@ double contact_place(const Receiver& exposed, const Point3& covered,
     point.position = glm::mix(exposed.position, covered, middle);
     (is_open(point) ? low : high) = middle;
   }
-  // At two thirds of the exposed part: the line through there and the exposed end has the mean of any parabola over it (Radau's rule), and
-  // is not led astray by what is much narrower than an element.
+  // At two thirds of the exposed part:
+  // the line through there and the exposed end has the mean of any parabola over it (Radau's rule),
+  // and is not led astray by what is much narrower than an element.
   return 2.0 / 3.0 * low;
 }
 
@@ -68,8 +69,8 @@ ContactLight light_at_contact(const PointGathering& gathering, const std::vector
 void ContactLines::add(const ArrivingLight& seen, const ArrivingLight& beside, double place) {
   // The closer n and p are, the more of their noise the line carries to v.
   const double weight = place * place, step = std::min((1.0 - place) / place, 2.0);
-  // No light is less than nothing, no part more than the whole. A part is never held to that by itself, so that the whole is what it would be if
-  // what mirrors show were there.
+  // No light is less than nothing, no part more than the whole. A part is never held to that
+  // by itself, so that the whole is what it would be if what mirrors show were there.
   const auto line = [&](const Rgb& n, const Rgb& p) { return p + step * (p - n); };
   const Rgb total = glm::max(line(seen.total, beside.total), 0.0);
   sum_.total += weight * total;

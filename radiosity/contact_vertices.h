@@ -1,15 +1,19 @@
-// Values for vertices on which something stands: what the field has to be there so that it is right where it is seen.
+// Values for vertices on which something stands:
+// what the field has to be there so that it is right where it is seen.
 //
-// Along every edge of an element from such a vertex v to an exposed one n, the place c is found where something begins to stand, and light
-// is gathered at two thirds of the way there, at p. The line through both values is followed under it:
+// Along every edge of an element from such a vertex v to an exposed one n, the place c is found
+// where something begins to stand, and light is gathered at two thirds of the way there, at p.
+// The line through both values is followed under it:
 //
 //   H(v) = H(p) + min(|v - p| / |p - n|, 2) (H(p) - H(n)),  at least 0,
 //
-// for light from the source and for the rest, each with the part of it that comes by way of mirrors.
+// for light from the source and for the rest,
+// each with the part of it that comes by way of mirrors.
 //
-// Over the exposed part, from n to c, the line has the mean of any parabola (Radau's rule). v takes the mean over its edges, each weighed
-// by |p - n|^2, the inverse of its variance. So the foot of a bright wall is bright, and a contact shadow dark. Vertices without such an edge
-// are left to fill_vertices() (vertex_fill.h).
+// Over the exposed part, from n to c, the line has the mean of any parabola (Radau's rule).
+// v takes the mean over its edges, each weighed by |p - n|^2, the inverse of its variance.
+// So the foot of a bright wall is bright, and a contact shadow dark.
+// Vertices without such an edge are left to fill_vertices() (vertex_fill.h).
 #pragma once
 
 #include "radiosity/interpolation.h"
@@ -25,11 +29,13 @@ struct ContactEdge {
   std::uint32_t covered, exposed;
 };
 
-/// `valid` by ElementVertexId: not covered. Hanging vertices take what the ends of their edges have: they are exposed where both are, and never covered.
+/// `valid` by ElementVertexId: not covered. Hanging vertices take what the ends
+/// of their edges have: they are exposed where both are, and never covered.
 std::vector<ContactEdge> contact_edges(const ElementMesh& mesh,
                                        std::span<const std::uint8_t> valid);
 
-/// p, as a share of an edge from its exposed end to the covered one; 0 where nothing on it is open but that end.
+/// p, as a share of an edge from its exposed end to the covered one;
+/// 0 where nothing on it is open but that end.
 double contact_place(const Receiver& exposed, const Point3& covered,
                      const std::function<bool(const Receiver&)>& is_open);
 
@@ -57,7 +63,8 @@ private:
   double weights_ = 0.0;
 };
 
-/// Follows the lines through H(n) and H(p), and marks as valid what has got a value. `lights` by edge.
+/// Follows the lines through H(n) and H(p), and marks as valid what has got a value.
+/// `lights` by edge.
 void extend_to_contacts(std::span<const ContactEdge> edges, std::span<const ContactLight> lights,
                         std::vector<std::uint8_t>& valid, DiffuseField& field);
 

@@ -26,8 +26,9 @@ std::array<Vec2, packet_size> all_round() {
   return directions;
 }
 
-/// Rays along the surface from all over the cell, all the way round, meet nothing but black: the cell is enclosed. The few rays of a cell
-/// may all meet the black back of something that only hangs above; these pass under it.
+/// Rays along the surface from all over the cell, all the way round, meet nothing but black:
+/// the cell is enclosed. The few rays of a cell may all meet the black
+/// back of something that only hangs above; these pass under it.
 bool is_enclosed(const LightScene& light, const RaySource& source, std::uint32_t cell) {
   constexpr double rise = 0.02; // of the rays over the surface
   static const std::array<Vec2, packet_size> round = all_round();
@@ -80,7 +81,8 @@ CellCounts count_cells(const DirectionNet& net, const RaySource& source,
 Covered find_covered(const LightScene& light, const DirectionNet& net, const RaySource& source,
                      std::span<const std::uint32_t> black_lanes) {
   const CellCounts counts = count_cells(net, source, black_lanes);
-  // A few rays leave cells out: what is covered is looked for from cells with black rays on, through those without any.
+  // A few rays leave cells out:
+  // what is covered is looked for from cells with black rays on, through those without any.
   std::array<std::uint32_t, 64> waiting;
   std::size_t count = 0;
   CoveredCells asked = 0;

@@ -9,8 +9,9 @@
 
 namespace meninas {
 
-/// The covered part of a receiver, by cells of 8 x 8 over its (s, t): bit 8 i + j is cell (i, j). Where the rays of a cell, if it has any, meet black
-/// backs at once, and all along the surface do, something stands on that part of it: no light can reach it, and nothing sees it.
+/// The covered part of a receiver, by cells of 8 x 8 over its (s, t): bit 8 i + j is cell (i, j).
+/// Where the rays of a cell, if it has any, meet black backs at once, and all along the surface do,
+/// something stands on that part of it: no light can reach it, and nothing sees it.
 using CoveredCells = std::uint64_t;
 inline std::uint32_t cell_of(double s, double t) {
   return 8U * static_cast<std::uint32_t>(8.0 * s) + static_cast<std::uint32_t>(8.0 * t);

@@ -1,8 +1,11 @@
-// Sides that no light can reach, which therefore need no elements: the outer faces of a double-sided room, say.
+// Sides that no light can reach, which therefore need no elements:
+// the outer faces of a double-sided room, say.
 //
-// A side of a double-sided patch is dark when every one of its probe rays, spread over the side and its hemisphere, escapes the scene, to
-// where there is no background, and no emitter or punctual light in front of it can be seen from any probe point: then neither reflected nor
-// emitted light arrives. Single-sided fronts are not probed: they are there to be lit. Emitting sides are never dark.
+// A side of a double-sided patch is dark when every one of its probe rays,
+// spread over the side and its hemisphere, escapes the scene, to where there is no background,
+// and no emitter or punctual light in front of it can be seen from any probe point:
+// then neither reflected nor emitted light arrives. Single-sided fronts are not probed:
+// they are there to be lit. Emitting sides are never dark.
 #pragma once
 
 #include "scenes/ray_scene.h"

@@ -89,7 +89,8 @@ void order_by_light(const LightScene& light, const Receiver& receiver, DirectWor
                    [&](auto a, auto b) { return work.brought[a] > work.brought[b]; });
 }
 
-/// How much is seen of each of the dim images, by its one sample: sixteen rays together that have as many legs.
+/// How much is seen of each of the dim images, by its one sample:
+/// sixteen rays together that have as many legs.
 void sample_dim_images(const LightScene& light, const Receiver& receiver,
                        std::span<std::uint32_t> dim, std::uint32_t seed, DirectWorkspace& work) {
   const auto depth_of = [&](std::uint32_t k) {
@@ -129,7 +130,8 @@ ArrivingLight images_irradiance(const LightScene& light, const Receiver& receive
                                 DirectWorkspace& work) {
   order_by_light(light, receiver, work);
 
-  // An image is worth shadow rays by its share of what has arrived so far: a bright one that is hidden takes none from the others.
+  // An image is worth shadow rays by its share of what has arrived so far:
+  // a bright one that is hidden takes none from the others.
   ArrivingLight sum;
   const auto add = [&](std::uint32_t k, const Rgb& visible) {
     const VirtualLight& image = work.lights[k];

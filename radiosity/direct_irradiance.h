@@ -1,10 +1,14 @@
-// Direct irradiance: the light of emitters and of their images in the mirror worlds, computed from the source.
+// Direct irradiance:
+// the light of emitters and of their images in the mirror worlds, computed from the source.
 //
 //   D(x) = sum_w tau_w sum_e E_e F(x, T_w e clipped) V(x, w, e)
 //
-// F is Lambert's closed form for a point and a polygon, V the visible fraction: low-discrepancy points on the clipped image, weighted by
-// the cosines and distance of the form factor they stand for, each tested along every leg of the folded path. Few points where all
-// agree, more in penumbrae; panes and coats on the legs take their part of each, and what emitters send by way of solids is added (solid_light.h). Punctual lights, and their images, add I f cos / d^2 where the one segment to them is free.
+// F is Lambert's closed form for a point and a polygon, V the visible fraction:
+// low-discrepancy points on the clipped image, weighted by the cosines and distance
+// of the form factor they stand for, each tested along every leg of the folded path.
+// Few points where all agree, more in penumbrae; panes and coats on the legs take their
+// part of each, and what emitters send by way of solids is added (solid_light.h).
+// Punctual lights, and their images, add I f cos / d^2 where the one segment to them is free.
 #pragma once
 
 #include "mirror/light_choice.h"
@@ -59,7 +63,8 @@ struct DirectWorkspace {
   std::uint64_t shadow_rays = 0; ///< those that look for lamps behind solids as well
 };
 
-/// Irradiance, and the parts of it whose last leg came by way of mirrors, and that punctual lights sent.
+/// Irradiance, and the parts of it whose last leg came by way of mirrors,
+/// and that punctual lights sent.
 struct ArrivingLight {
   Rgb total{0.0}, mirrored{0.0}, punctual{0.0};
 
@@ -68,7 +73,8 @@ struct ArrivingLight {
   }
 };
 
-/// What a point y of an image with that normal adds to the form factor, per area and times pi: both cosines over the square of the distance.
+/// What a point y of an image with that normal adds to the form factor, per area and times pi:
+/// both cosines over the square of the distance.
 double form_factor_share(const Receiver& receiver, const Direction& normal, const Point3& y);
 inline double form_factor_share(const Receiver& receiver, const VirtualLight& image, const Point3& y) {
   return form_factor_share(receiver, image.normal, y);

@@ -1,8 +1,10 @@
-// How many elements each patch has along its edges, so that patches of one surface agree on the edges they share.
+// How many elements each patch has along its edges,
+// so that patches of one surface agree on the edges they share.
 //
-// Opposite edges of a quad have one division, the three edges of a triangle as well, and an edge shared by two patches of one surface
-// joins theirs: each such class takes the largest division any of its members wants, ceil(edge / size). A patch for which
-// that would be more than four times what it needs (slivers beside large patches) keeps its own.
+// Opposite edges of a quad have one division, the three edges of a triangle as well,
+// and an edge shared by two patches of one surface joins theirs: each such class takes
+// the largest division any of its members wants, ceil(edge / size). A patch for which that
+// would be more than four times what it needs (slivers beside large patches) keeps its own.
 #pragma once
 
 #include "scenes/surfaces.h"

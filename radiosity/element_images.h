@@ -1,4 +1,5 @@
-// What elements see of the emitters' images (mirror/region_images.h), kept for those that many points are asked of.
+// What elements see of the emitters' images (mirror/region_images.h),
+// kept for those that many points are asked of.
 #pragma once
 
 #include "mirror/region_images.h"
@@ -18,7 +19,8 @@ struct ElementImages {
   std::vector<Slot> slots; ///< by element, as many as there are places
 };
 
-/// What all points of an element see alike. Finding it takes as long as the images of some points do: null until so many have asked.
+/// What all points of an element see alike.
+/// Finding it takes as long as the images of some points do: null until so many have asked.
 const RegionImages* images_of_element(const LightScene& light, ElementId element,
                                       ElementImages& known);
 

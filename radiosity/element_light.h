@@ -1,8 +1,10 @@
-// Direct irradiance of elements: the mean over an element of what emitters and their images send (direct_irradiance.h),
+// Direct irradiance of elements:
+// the mean over an element of what emitters and their images send (direct_irradiance.h),
 //
 //   D_i = 1/A_i integral over element i of D(x)
 //
-// at the points of a low-discrepancy sequence over the element, which share their shadow rays (shared_light.h).
+// at the points of a low-discrepancy sequence over the element,
+// which share their shadow rays (shared_light.h).
 #pragma once
 
 #include "radiosity/gather_rays.h"
@@ -14,7 +16,8 @@ namespace meninas {
 ArrivingLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
                                 const DirectSettings& settings, SharedLightWorkspace& workspace);
 
-/// The mean over an area of several elements, all of it exposed. `number` tells its points from those of others.
+/// The mean over an area of several elements, all of it exposed.
+/// `number` tells its points from those of others.
 ArrivingLight direct_irradiance(const LightScene& light, const ReceiverArea& area,
                                 std::uint32_t number, const DirectSettings& settings,
                                 SharedLightWorkspace& workspace);
@@ -38,7 +41,8 @@ struct DirectIrradiance {
   std::uint64_t shadow_rays = 0;
 };
 
-/// `covered` by ElementId (gather_rays.h): the mean is over the exposed part. Empty: all is exposed.
+/// `covered` by ElementId (gather_rays.h):
+/// the mean is over the exposed part. Empty: all is exposed.
 DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
                                    const DirectSettings& settings, const Progress& progress = {});
 

@@ -158,7 +158,8 @@ CellPoint locate_root(const MeshSide& side, Vec2 uv) {
     return {side.first_cell + static_cast<std::uint32_t>(j * side.nu + i), {fu - i, fv - j}};
   }
 
-  // Row j holds 2 (n - j) - 1 triangles, so it starts at j (2n - j); beyond the diagonal of its cell a point is in the upper one.
+  // Row j holds 2 (n - j) - 1 triangles, so it starts at j (2n - j);
+  // beyond the diagonal of its cell a point is in the upper one.
   const int n = side.nu;
   const int j = std::min(static_cast<int>(fv), n - 1);
   const int i = std::min(static_cast<int>(fu), n - 1 - j);

@@ -1,11 +1,16 @@
-// The element mesh of pass one: every patch side that can carry radiosity, divided in its own (u, v).
+// The element mesh of pass one:
+// every patch side that can carry radiosity, divided in its own (u, v).
 //
-// A side is the front, or of a double-sided patch also the back, of a patch. A quad side has nu x nv root cells, cell (i, j) covers
-// u in [i, i+1]/nu, v in [j, j+1]/nv; a triangle side has n rows of triangles, n = nu = nv, row j holds 2 (n - j) - 1 of them, lower
-// and upper alternating. Every root cell may be divided, into four by the middles of its edges, and so may its quarters
-// (mesh_division.h): the mesh is a forest of quadtrees, its leaves are the elements. Those of a side are numbered in a row, depth first.
-// So the element of a hit (patch, u, v) is index arithmetic and a descent by halves, and no ray is ever traced against elements.
-// Sides of the same surface share the vertices on their common edge; edges that meet in one surface get the same division into roots.
+// A side is the front, or of a double-sided patch also the back, of a patch.
+// A quad side has nu x nv root cells, cell (i, j) covers u in [i, i+1]/nu, v in [j, j+1]/nv;
+// a triangle side has n rows of triangles, n = nu = nv, row j holds 2 (n - j) - 1 of them,
+// lower and upper alternating. Every root cell may be divided, into four by the middles
+// of its edges, and so may its quarters (mesh_division.h): the mesh is a forest of quadtrees,
+// its leaves are the elements. Those of a side are numbered in a row, depth first.
+// So the element of a hit (patch, u, v) is index arithmetic and a descent by halves,
+// and no ray is ever traced against elements.
+// Sides of the same surface share the vertices on their common edge;
+// edges that meet in one surface get the same division into roots.
 // Ideal mirrors (no diffuse reflectance, no emission) have no side: they are not unknowns.
 #pragma once
 
@@ -51,8 +56,8 @@ struct MeshSide {
   Rgb emission{0.0};     ///< E = pi L, W/m^2, before textures
 };
 
-/// A node of the forest: a leaf is an element, others have four children in a row. At level l it covers, for (s, t) in its own
-/// [0, 1]^2 (triangles: s + t <= 1),
+/// A node of the forest: a leaf is an element, others have four children in a row.
+/// At level l it covers, for (s, t) in its own [0, 1]^2 (triangles: s + t <= 1),
 ///   (u, v) = ((i + s) / nu 2^l, (j + t) / nv 2^l),   flipped ((i - s) / n 2^l, (j - t) / n 2^l).
 struct MeshCell {
   CellId parent = none<CellId>;
@@ -69,11 +74,12 @@ inline constexpr int most_levels = 12;
 
 inline bool is_leaf(const MeshCell& cell) { return cell.first_child == none<CellId>; }
 
-/// Corner vertices in the order of the cell's corners (0,0), (1,0), (1,1), (0,1); a triangle repeats its third.
+/// Corner vertices in the order of the cell's corners (0,0), (1,0), (1,1), (0,1);
+/// a triangle repeats its third.
 using ElementCorners = std::array<ElementVertexId, 4>;
 
-/// A corner of some elements in the middle of the edge of a larger one. The field has no crack there when its value is the mean of
-/// those at the ends of that edge.
+/// A corner of some elements in the middle of the edge of a larger one.
+/// The field has no crack there when its value is the mean of those at the ends of that edge.
 struct HangingVertex {
   ElementVertexId vertex, end_a, end_b;
 };
@@ -104,7 +110,8 @@ inline std::size_t element_count(const ElementMesh& mesh) { return mesh.area.siz
 /// Whether any cell of the side is divided.
 inline bool is_divided(const MeshSide& side) { return side.element_count != side.root_count; }
 
-/// Where in its element a point of a side is: the element and (s, t) in [0, 1]^2 (for triangles s + t <= 1 from corner 0).
+/// Where in its element a point of a side is:
+/// the element and (s, t) in [0, 1]^2 (for triangles s + t <= 1 from corner 0).
 struct ElementPoint {
   ElementId element;
   Vec2 st;

@@ -14,8 +14,8 @@ std::array<std::uint32_t, 2> edge_of(std::uint32_t a, std::uint32_t b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// The corners of an element and the vertices that hang on its edges, in order, one of the latter first if there is one: a fan from it has
-/// no triangle without area.
+/// The corners of an element and the vertices that hang on its edges, in order,
+/// one of the latter first if there is one: a fan from it has no triangle without area.
 std::vector<std::uint32_t> outline_of(const ElementCorners& corners, const EdgeMiddles& middles) {
   const std::size_t count = corners[3] == corners[2] ? 3 : 4;
   std::vector<std::uint32_t> outline;

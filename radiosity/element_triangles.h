@@ -1,4 +1,5 @@
-// The elements as triangles, without cracks: those beside smaller ones are cut at the vertices that hang on their edges.
+// The elements as triangles, without cracks:
+// those beside smaller ones are cut at the vertices that hang on their edges.
 #pragma once
 
 #include "radiosity/element_mesh.h"

@@ -1,8 +1,11 @@
-// The error of a sum of many parts, each with an estimate of its own error and the sign it is likely to have.
+// The error of a sum of many parts,
+// each with an estimate of its own error and the sign it is likely to have.
 //
-// Taken one by one the errors e_r cannot exceed sum |e_r|. Where many parts are as likely too large as too small they nearly cancel:
+// Taken one by one the errors e_r cannot exceed sum |e_r|.
+// Where many parts are as likely too large as too small they nearly cancel:
 //   |sum e_r| <= |sum of what is known to lean one way| + 4 sqrt(sum e_r^2),
-// four standard deviations, each e_r taken for one. The smaller of the two is the estimate: few parts add up, many average out.
+// four standard deviations, each e_r taken for one.
+// The smaller of the two is the estimate: few parts add up, many average out.
 #pragma once
 
 #include <algorithm>

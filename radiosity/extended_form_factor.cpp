@@ -15,7 +15,8 @@ namespace meninas {
 
 namespace {
 
-/// Radon's rule of degree five on a triangle: barycentric weights of its points, and their shares of the area.
+/// Radon's rule of degree five on a triangle:
+/// barycentric weights of its points, and their shares of the area.
 struct TrianglePoint {
   double b0, b1, b2, weight;
 };
@@ -104,7 +105,8 @@ private:
     return sum;
   }
 
-  /// What may be left out at each point: a part of the wanted accuracy, by a first look from a few points.
+  /// What may be left out at each point:
+  /// a part of the wanted accuracy, by a first look from a few points.
   void choose_tail(const std::vector<Region>& regions) {
     constexpr double part = 0.2, first_look = 1e-2, least_factor = 1e-4;
     constexpr std::size_t looks = 8;
@@ -144,13 +146,15 @@ private:
       for (std::size_t r = 0; r < count; ++r)
         combine(regions[first + r].shares);
       points_ += walks.size();
-      // What the points have seen is kept until it is added up: as many at once as memory has room for.
+      // What the points have seen is kept until it is added up:
+      // as many at once as memory has room for.
       batch_ = std::clamp<std::size_t>(most_kept * points_ / (radon.size() * (visits_ + 1)), 1,
                                        most_regions);
     }
   }
 
-  /// What a group's total changed by: as it adds up, and with the near worlds taken one by one, all others together.
+  /// What a group's total changed by:
+  /// as it adds up, and with the near worlds taken one by one, all others together.
   struct Change {
     double error = 0.0, signed_error = 0.0;
   };
@@ -196,7 +200,8 @@ private:
       combine(sum);
       WorldShares changes = difference(sum, parents[p].shares);
 
-      // Splitting halves an error at the least (a jump), so what is left is no more than the change: a quarter of it in each.
+      // Splitting halves an error at the least (a jump),
+      // so what is left is no more than the change: a quarter of it in each.
       for (WalkShare& change : changes)
         change.factor *= 0.25;
       for (std::size_t k = 4 * p; k < 4 * p + 4; ++k) {

@@ -1,13 +1,17 @@
-// The form factor between faces, through mirrors and past blockers, to a requested accuracy (`analytic`).
+// The form factor between faces, through mirrors and past blockers,
+// to a requested accuracy (`analytic`).
 //
 //   F_AB = sum_w tau_w F^w_AB,    F^w_AB = 1/A_A  int_A F^w(x, B) dA     (F^w(x, B): point_worlds.h)
 //
-// F^w is geometric and dimensionless: reciprocity is A_A F^w_AB = A_B F^rev(w)_BA. The total weights each world by tau_w, the mean of the
-// channels of the product of its mirrors' reflectances. Emitting, receiving: the fronts of both.
-// Pairs of faces between which nothing can stand take the closed form (area_form_factor.h), and so do all images where mirrors are whole
-// walls of a convex cell (kaleidoscope.h). The rest is integrated over A: triangles
-// with Radon's seven points of degree five, the one with the largest error split next. A triangle's error is what its factors changed
-// by when its parent was split: sound for smooth parts and for kinks alike. Many errors are added up as in error_sum.h. Deterministic for any number of threads.
+// F^w is geometric and dimensionless: reciprocity is A_A F^w_AB = A_B F^rev(w)_BA.
+// The total weights each world by tau_w, the mean of the channels of the product
+// of its mirrors' reflectances. Emitting, receiving: the fronts of both.
+// Pairs of faces between which nothing can stand take the closed form (area_form_factor.h),
+// and so do all images where mirrors are whole walls of a convex cell (kaleidoscope.h).
+// The rest is integrated over A: triangles with Radon's seven points of degree five,
+// the one with the largest error split next. A triangle's error is what its factors
+// changed by when its parent was split: sound for smooth parts and for kinks alike.
+// Many errors are added up as in error_sum.h. Deterministic for any number of threads.
 #pragma once
 
 #include "radiosity/point_worlds.h"
@@ -25,7 +29,8 @@ struct ExtendedSettings {
   std::size_t max_points = 50'000; ///< of the integration: in a cluttered room some ten seconds
   std::size_t max_visits = 30'000'000; ///< worlds looked at from all points together
   WorldListing listing = WorldListing::worlds;
-  /// By group, the brightness of what is there: the accuracy is wanted of the sum weighted by it as well. Empty: all count alike.
+  /// By group, the brightness of what is there:
+  /// the accuracy is wanted of the sum weighted by it as well. Empty: all count alike.
   std::vector<double> importance;
 };
 

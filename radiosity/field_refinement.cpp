@@ -136,7 +136,8 @@ void sample_contacts(const Refinement& refinement, Growing& growing) {
     growing.contacts[{edges[k].covered, edges[k].exposed}] = samples[k];
 }
 
-/// The samples as a field: covered vertices follow what is beside them, or take their neighbours' values, hanging ones those of their ends.
+/// The samples as a field: covered vertices follow what is beside them,
+/// or take their neighbours' values, hanging ones those of their ends.
 SampledField field_of(const Growing& growing) {
   const ElementMesh& mesh = growing.mesh;
   SampledField field;
@@ -177,7 +178,7 @@ Vec2 point_of(bool triangle, std::uint32_t k, std::uint32_t seed) {
   return triangle && st.x + st.y > 1.0 ? 1.0 - st : st;
 }
 
-/// What one element hides, in so many points besides its centre, and at those of outlines that pass it.
+/// What one element hides: so many points besides its centre, and those of outlines that pass it.
 Found look_at(const Refinement& refinement, const ElementMesh& mesh,
               const std::vector<glm::vec3>& values, ElementId element, int points,
               std::span<const Vec2> on_outline) {
@@ -213,7 +214,8 @@ Found look_at(const Refinement& refinement, const ElementMesh& mesh,
   return {true, open, share * sum.off, share * sum.light, share * sum.sigma};
 }
 
-/// By ElementId, of elements that are still to be looked at closely: a few of the points at which outlines pass them.
+/// By ElementId, of elements that are still to be looked at closely:
+/// a few of the points at which outlines pass them.
 using OutlinesIn = std::map<std::uint32_t, std::vector<Vec2>>;
 OutlinesIn outlines_in(const Refinement& refinement, const Growing& growing) {
   constexpr int outline_levels = 3;
@@ -264,8 +266,8 @@ double variance_of_all(const Growing& growing) {
   return light > 0.0 ? sigma / light : 0.0;
 }
 
-/// The same by ElementId. The variance of one point says little: that of an element leans on that of its root cell, the more the fewer points it
-/// has, and this on that of all.
+/// The same by ElementId. The variance of one point says little: that of an element leans
+/// on that of its root cell, the more the fewer points it has, and this on that of all.
 std::vector<double> variance_of_each(const Refinement& refinement, const Growing& growing) {
   constexpr double leaning = 4.0;
   const ElementMesh& mesh = growing.mesh;
@@ -289,7 +291,8 @@ std::vector<double> variance_of_each(const Refinement& refinement, const Growing
   return variance;
 }
 
-/// What noise alone makes of the integral of (w (H - H~))^2, in the middle of four vertices, by ElementId.
+/// What noise alone makes of the integral of (w (H - H~))^2,
+/// in the middle of four vertices, by ElementId.
 std::vector<double> made_by_noise(const Refinement& refinement, const Growing& growing) {
   std::vector<double> made = variance_of_each(refinement, growing);
   for (std::size_t e = 0; e < made.size(); ++e)
@@ -306,7 +309,7 @@ double area_that_counts(const Refinement& refinement, const ElementMesh& mesh) {
   return area;
 }
 
-/// Elements with more than their share of the error; none when all together have no more than is allowed. `error2` is what all have.
+/// Elements with more than their share of the error; none where `error2`, that of all, is allowed.
 std::vector<std::uint8_t> to_divide(const Refinement& refinement, const Growing& growing,
                                     double allowed, double& error2) {
   constexpr double stands_out = 2.0; // standard deviations

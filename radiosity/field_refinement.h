@@ -1,24 +1,31 @@
-// Finer elements where the field does not tell what lies between its vertices (substructuring: Cohen, Greenberg, Immel, Brock 1986).
+// Finer elements where the field does not tell what lies between its vertices (substructuring:
+// Cohen, Greenberg, Immel, Brock 1986).
 //
-// A field is sampled at the vertices of the root cells. Each element is then looked at in a few more points x_k between: what its vertices
-// say there, H~, against what a sample says, H. The relative error of its radiosity counts with its area,
+// A field is sampled at the vertices of the root cells.
+// Each element is then looked at in a few more points x_k between: what its vertices say there, H~,
+// against what a sample says, H. The relative error of its radiosity counts with its area,
 //
 //   eta_e^2 = A_e mean_k (w |H(x_k) - H~(x_k)|)^2,    w = rho / (B + B_mean)   of the root cell, brightest channel,
 //
 // less what the samples' own noise adds to it (below),
-// and elements are divided whose eta_e^2 is above their share X^2 A / N, until the sum over all of them is below X^2 A: until the
-// radiosity is X right in the mean square, relative to what is there, to the scene's mean where it is darker. So a smooth field gets
-// large elements, and along the edge of a shadow, where the error does not fall with the size, elements become small until their area
-// makes up for it: what an element costs brings the same everywhere.
+// and elements are divided whose eta_e^2 is above their share X^2 A / N,
+// until the sum over all of them is below X^2 A: until the radiosity is X right in the mean square,
+// relative to what is there, to the scene's mean where it is darker. So a smooth field gets large
+// elements, and along the edge of a shadow, where the error does not fall with the size, elements
+// become small until their area makes up for it: what an element costs brings the same everywhere.
 //
-// Noise: samples with variance sigma^2 are off by H - H~ of variance (1 + 1/4) sigma^2 in the middle of four vertices, however small the
-// element. sigma is estimated relative to H, from points around, and taken off; elements are divided only for what stands out of it.
-// So the bound is one for what elements hide. The noise of the vertices themselves is a matter of how many rays they take (adaptive_field.h).
+// Noise: samples with variance sigma^2 are off by H - H~ of variance (1 + 1/4) sigma^2
+// in the middle of four vertices, however small the element. sigma is estimated relative to H,
+// from points around, and taken off; elements are divided only for what stands out of it.
+// So the bound is one for what elements hide.
+// The noise of the vertices themselves is a matter of how many rays they take (adaptive_field.h).
 //
-// Vertices on which something stands, or at whose side it does, take what is sampled beside it, as on undivided meshes (contact_vertices.h).
+// Vertices on which something stands, or at whose side it does,
+// take what is sampled beside it, as on undivided meshes (contact_vertices.h).
 //
-// Limit: what is smaller than the distance of the points in a root cell may be overlooked. Edges of light that mirrors throw are not: they
-// are known (mirror_outlines.h), and elements on them are looked at there too.
+// Limit: what is smaller than the distance of the points in a root cell may be overlooked.
+// Edges of light that mirrors throw are not:
+// they are known (mirror_outlines.h), and elements on them are looked at there too.
 #pragma once
 
 #include "radiosity/direct_irradiance.h"
@@ -36,7 +43,8 @@ struct PointSample {
       0.0; ///< of the brightest channel of all light, as far as it is known: between vertices only
 };
 
-/// The sample at a point in elements of a size. Called from any thread; the same for the same arguments.
+/// The sample at a point in elements of a size.
+/// Called from any thread; the same for the same arguments.
 using SamplePoint =
     std::function<PointSample(const Receiver& receiver, double element_size, std::uint32_t seed)>;
 /// Whether a point is neither covered nor nearly so, under an edge.
@@ -62,8 +70,8 @@ struct SampledField {
   double noise = 0.0;                     ///< sigma / H, the root of its mean square
 };
 
-/// `weight` is w by CellId of the roots of light.mesh, whose elements are looked at first. The settings' error may not be reached: at the limits of levels
-/// and elements refinement ends.
+/// `weight` is w by CellId of the roots of light.mesh, whose elements are looked at first.
+/// The settings' error may not be reached: at the limits of levels and elements refinement ends.
 SampledField refine_field(const LightScene& light, const FieldSampler& sampler,
                           std::span<const double> weight, const MirrorOutlines& outlines,
                           const RefinementSettings& settings);

@@ -3,7 +3,8 @@
 //   D   from emitters and punctual lights, also by way of enumerated mirror worlds, in closed form (element_light.h)
 //   G   emission that the transport's rays have gathered, and the background: pi L for the share of an element's rays that escape
 //
-// The analytic method gathers all emission itself; only punctual lights, which are no surfaces, are left to D then.
+// The analytic method gathers all emission itself;
+// only punctual lights, which are no surfaces, are left to D then.
 #pragma once
 
 #include "radiosity/element_light.h"
@@ -22,7 +23,8 @@ FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
                        const std::vector<RowClosure>& closure, const DirectIrradiance& direct,
                        FormFactorMethod method);
 
-/// `gathered` is the gathered emission; `closure` and `covered` are those of the elements' own rays.
+/// `gathered` is the gathered emission;
+/// `closure` and `covered` are those of the elements' own rays.
 FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
                        const std::vector<RowClosure>& closure,
                        std::span<const std::uint64_t> covered, FormFactorMethod method,

@@ -45,7 +45,8 @@ struct RowAccumulator {
     columns.resize(entries);
     weights.resize(entries);
   }
-  /// Without a branch on what no processor can foresee: whether the element is new. There must be room for it.
+  /// Without a branch on what no processor can foresee:
+  /// whether the element is new. There must be room for it.
   void add(std::uint32_t element, const glm::vec3& weight) {
     const bool fresh = place[element] == 0;
     const std::size_t at = fresh ? used : place[element] - 1;
@@ -84,7 +85,8 @@ Transport empty_transport(std::size_t size, int bands) {
   return transport;
 }
 
-/// Appends the accumulated row to the others as fractions of the light that was not cut, so that a row still closes.
+/// Appends the accumulated row to the others as fractions of the light that was not cut,
+/// so that a row still closes.
 void append_row(const RowAccumulator& row, const Rgb& kept, int bands, RowList& rows) {
   const auto columns = std::span(row.columns).first(row.used);
   rows.lengths.push_back(static_cast<std::uint32_t>(columns.size()));
@@ -110,7 +112,8 @@ void clear(RowChunk& chunk) {
   chunk.rays = 0;
 }
 
-/// Makes room for more without moving what is there again and again: as much as all rows need if they are like those so far.
+/// Makes room for more without moving what is there again and again:
+/// as much as all rows need if they are like those so far.
 template <typename Value>
 void make_room(std::vector<Value>& values, std::size_t more, double share_done) {
   const std::size_t needed = values.size() + more;

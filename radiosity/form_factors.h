@@ -1,17 +1,23 @@
 // Transport between elements: the rows of Eq. 1, by rays over the hemisphere of each element.
 //
 // Row i of the transport is  sum_w tau_w F^w_ij  over all mirror worlds w.
-// `rays`: N cosine-distributed rays from low-discrepancy points spread over element i (Malley's method): F_ij = (rays that land on j) / N.
-// `hemicube`: one hemicube at the centre of element i, F_ij = sum of the delta form factors of its cells that land on j (hemicube.h);
+// `rays`: N cosine-distributed rays from low-discrepancy points spread
+// over element i (Malley's method): F_ij = (rays that land on j) / N.
+// `hemicube`: one hemicube at the centre of element i,
+// F_ij = sum of the delta form factors of its cells that land on j (hemicube.h);
 // what is near is seen as from the centre alone (element_hemicube.h).
-// A ray that meets a mirror is reflected exactly and goes on with the product of reflectances tau, to any depth: it ends when it lands,
-// escapes, meets a black back, when tau falls below `min_throughput`, or after `max_bounces`. So a row closes, exactly by counts of rays, to
-// rounding by delta form factors:
+// A ray that meets a mirror is reflected exactly and goes on with the product of reflectances tau,
+// to any depth: it ends when it lands, escapes, meets a black back,
+// when tau falls below `min_throughput`, or after `max_bounces`.
+// So a row closes, exactly by counts of rays, to rounding by delta form factors:
 //   landed + escaped + black + cut = 1.
-// Where something stands on an element (cells whose every ray meets a black back at once), the row speaks of the exposed rest.
-// Emission is not part of the rows: light that comes straight from an emitter, or by mirrors, is the direct irradiance
-// (direct_irradiance.h), and what no closed form owns (deep worlds, facets, large emitters) is found from the rows (gathered_emission.h).
-// So form factors do not depend on what emits how much, nor on diffuse reflectances, and may be kept for other light (factor_file.h).
+// Where something stands on an element (cells whose every ray meets a black back at once),
+// the row speaks of the exposed rest.
+// Emission is not part of the rows: light that comes straight from an emitter, or by mirrors,
+// is the direct irradiance (direct_irradiance.h), and what no closed form owns (deep worlds,
+// facets, large emitters) is found from the rows (gathered_emission.h).
+// So form factors do not depend on what emits how much,
+// nor on diffuse reflectances, and may be kept for other light (factor_file.h).
 #pragma once
 
 #include "radiosity/light_scene.h"
@@ -45,8 +51,9 @@ struct Transport {
   std::vector<float> weights; ///< entry k, band b at [k * bands + b]: sum_w tau_w F^w
 };
 
-/// What became of the rays of each row, as fractions of all, and of the light they carry: landed + escaped + black + mirror_absorbed
-/// + cut = 1 in either. The light that is cut is shared out among the rest in proportion.
+/// What became of the rays of each row, as fractions of all, and of the light they carry:
+/// landed + escaped + black + mirror_absorbed + cut = 1 in either.
+/// The light that is cut is shared out among the rest in proportion.
 struct RowClosure {
   float landed = 0.0F, escaped = 0.0F, black = 0.0F, cut = 0.0F;
   glm::vec3 mirror_absorbed{0.0F}; ///< sum over rays of 1 - tau at their end
@@ -64,11 +71,13 @@ struct FormFactors {
 
 FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings, const Progress& progress = {});
 
-/// What a row may speak of besides an element: a part of a surface (receiver_rays.h), by row. Called from any thread.
+/// What a row may speak of besides an element:
+/// a part of a surface (receiver_rays.h), by row. Called from any thread.
 using RowReceiver = std::function<ReceiverArea(std::size_t row)>;
 
-/// The same for other receivers, by rays or hemicubes: what is by ElementId there is by row, columns are elements as ever. The exposed
-/// share is that of the receiver's area, whatever is cut out of it.
+/// The same for other receivers, by rays or hemicubes:
+/// what is by ElementId there is by row, columns are elements as ever.
+/// The exposed share is that of the receiver's area, whatever is cut out of it.
 FormFactors assemble_rows(const LightScene& light, std::size_t rows, const RowReceiver& receiver,
                           const FormFactorSettings& settings, const Progress& progress = {});
 

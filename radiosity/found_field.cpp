@@ -47,7 +47,8 @@ PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflecte
 
 namespace {
 
-/// Takes what `value(v, receiver, size, seed, workspace)` finds for the vertices that do not hang and are in one state, as far as they are marked.
+/// Takes what `value(v, receiver, size, seed, workspace)` finds for the vertices
+/// that do not hang and are in one state, as far as they are marked.
 template <typename Value>
 void light_each(const VertexSource& source, VertexState now, VertexState then,
                 std::span<const std::uint8_t> marked, std::uint32_t level, FoundField& found,
@@ -91,7 +92,8 @@ void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundFi
              });
 }
 
-/// Marks the dark vertices in one element with a bright one, or with one that is covered; those once marked no more. Returns whether there are any.
+/// Marks the dark vertices in one element with a bright one, or with one that is covered;
+/// those once marked no more. Returns whether there are any.
 static bool mark_dark_beside_bright(const FoundField& found, std::vector<std::uint8_t>& marked,
                                     std::vector<std::uint8_t>& asked) {
   const auto is_dark = [&](std::size_t v) {
@@ -113,7 +115,8 @@ static bool mark_dark_beside_bright(const FoundField& found, std::vector<std::ui
   return any;
 }
 
-/// Finds the dark vertices that are covered, inwards from where light ends. Deep in the dark, others hurt nobody.
+/// Finds the dark vertices that are covered, inwards from where light ends.
+/// Deep in the dark, others hurt nobody.
 static void cover_shut_in(const VertexSource& source, FoundField& found) {
   std::vector<std::uint8_t> marked, asked(found.states.size(), 0);
   while (mark_dark_beside_bright(found, marked, asked))
@@ -147,7 +150,8 @@ void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> mar
 
 namespace {
 
-/// Vertices on which something stands, or at whose side it does, take what is gathered beside it; those of facets keep their means.
+/// Vertices on which something stands, or at whose side it does, take what is gathered beside it;
+/// those of facets keep their means.
 void light_contacts(const VertexSource& source, const FoundField& found,
                     std::vector<std::uint8_t>& valid, DiffuseField& field) {
   const ElementMesh& mesh = found.mesh;

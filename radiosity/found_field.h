@@ -1,8 +1,11 @@
 // A field while it is found: values of vertices one by one, and what is known of each.
 //
-// Light is gathered at vertices (vertex_light.h): that from the source and the rest together, or the rest only where it is asked for. Once all that are to have
-// a value have one, the field is settled: what stands on a surface takes what is gathered beside it (contact_vertices.h, gap_vertices.h), vertices
-// that hang take from their ends, and those that are left from their neighbours (vertex_fill.h).
+// Light is gathered at vertices (vertex_light.h):
+// that from the source and the rest together, or the rest only where it is asked for.
+// Once all that are to have a value have one, the field is settled:
+// what stands on a surface takes what is gathered beside it (contact_vertices.h,
+// gap_vertices.h), vertices that hang take from their ends,
+// and those that are left from their neighbours (vertex_fill.h).
 #pragma once
 
 #include "radiosity/interpolation.h"
@@ -36,8 +39,10 @@ struct VertexGathering {
   const InterpolationSettings& interpolation;
 };
 
-/// From elements of that reflected radiosity, with one `share`th of the rays, of 128 at least where there are so many. `spared`: bright clusters that add so little to the noise of these are
-/// left to them (bright_clusters.h). Where clusters lie in many planes their light takes longer than 128 rays.
+/// From elements of that reflected radiosity, with one `share`th of the rays,
+/// of 128 at least where there are so many. `spared`:
+/// bright clusters that add so little to the noise of these are left to them (bright_clusters.h).
+/// Where clusters lie in many planes their light takes longer than 128 rays.
 PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
                               const VertexGathering& how, int share, double spared = 0.0);
 
@@ -50,10 +55,12 @@ struct VertexSource {
 
 FoundField unknown_field(ElementMesh mesh);
 
-/// Gathers at the vertices that are unknown and do not hang. `level` tells apart the samples of vertices whose numbers are the same.
+/// Gathers at the vertices that are unknown and do not hang.
+/// `level` tells apart the samples of vertices whose numbers are the same.
 void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundField& found);
 
-/// Light from the source alone at those vertices. Of dark ones beside bright ones it tells which are covered: that they get no light but what neighbours have besides would show.
+/// Light from the source alone at those vertices. Of dark ones beside bright ones it tells
+/// which are covered: that they get no light but what neighbours have besides would show.
 void light_vertices(const VertexSource& source, FoundField& found);
 
 /// Adds the rest at those that are lit and marked, by ElementVertexId.
@@ -66,7 +73,8 @@ std::vector<std::uint8_t> with_values(const FoundField& found);
 /// The field with values at all vertices.
 DiffuseField settled(const VertexSource& source, const FoundField& found);
 
-/// Values by ElementVertexId for those that only gather from them: what has none, beside contacts too, is as its neighbours are.
+/// Values by ElementVertexId for those that only gather from them:
+/// what has none, beside contacts too, is as its neighbours are.
 std::vector<glm::vec3> filled(const FoundField& found, std::vector<glm::vec3> values);
 
 } // namespace meninas

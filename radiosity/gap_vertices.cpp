@@ -30,7 +30,8 @@ struct GapSum {
   }
 };
 
-/// The k-th of the points that stand for an element, by its corners; a triangle has its third twice.
+/// The k-th of the points that stand for an element, by its corners;
+/// a triangle has its third twice.
 Point3 point_in(const ElementMesh& mesh, ElementId element, std::uint32_t k) {
   const auto sample = sobol4(k, 0x6a9);
   const auto at = [&](std::size_t c) {

@@ -1,4 +1,5 @@
-// The rays of one step of gathering (gather_rays.h), lane by lane of a packet: from the receiver, from where something has shot them, or from mirrors.
+// The rays of one step of gathering (gather_rays.h), lane by lane of a packet:
+// from the receiver, from where something has shot them, or from mirrors.
 //
 // All say the weight of lane k, its throughput and its world, and all that it carries.
 #pragma once
@@ -21,7 +22,8 @@ struct Carried {
   MaterialId medium = none<MaterialId>;
 };
 
-/// Rays straight from the receiver are what their packet says, `Weights` of lane k and what the receiver's coat lets in of it.
+/// Rays straight from the receiver are what their packet says,
+/// `Weights` of lane k and what the receiver's coat lets in of it.
 template <typename Weights, typename LetIn>
 struct FirstLegs {
   const RayPacket& packet;

@@ -40,7 +40,7 @@ MirrorShares mirror_shares(const LightScene& light, const FaceRecord& face, cons
   return {facet_reflectance(glass, cosine), facet_transmittance(glass, cosine)};
 }
 
-/// Where a ray meets a mirror, glass or a coat: the point comes from its exact plane, not from the rounded distance.
+/// Where a ray meets a mirror, glass or a coat: on its exact plane, not at the rounded distance.
 struct Meeting {
   glm::dvec3 position;
   double approach; ///< the direction along the normal
@@ -81,14 +81,16 @@ bool pass(const LightScene& light, const FaceRecord& face, const HitPacket& hits
   return true;
 }
 
-/// The number in [0, 1) by which a ray goes one of two ways. Numbers of one dimension, however scrambled, follow one another: behind the first meeting they are random.
+/// The number in [0, 1) by which a ray goes one of two ways. Numbers of one dimension,
+/// however scrambled, follow one another: behind the first meeting they are random.
 float choice_of(const Carried& from, std::uint32_t seed, std::uint32_t kind) {
   const std::uint32_t key = hash(seed, from.meetings, kind);
   return from.meetings == 0 ? sobol4(from.number, key)[0]
                             : 0x1p-24F * static_cast<float>(hash(from.number, key) >> 8U);
 }
 
-/// The ray that goes on: behind a mirror, or one of the two ways from glass, which stays in its world if it passes a pane.
+/// The ray that goes on: behind a mirror, or one of the two ways from glass,
+/// which stays in its world if it passes a pane.
 MirroredRay going_on(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                      std::uint32_t k, const Carried& from, const Meeting& at, std::uint32_t seed) {
   MirroredRay ray{at.position, from.direction,   from.weight, from.throughput,   from.world,
@@ -109,7 +111,7 @@ MirroredRay going_on(const LightScene& light, const FaceRecord& face, const HitP
   return ray;
 }
 
-/// A coat takes its part of what lands below it. Whether the ray is one of those that it reflects, with what light then.
+/// A coat takes its part of what lands below it. The light of a ray that it reflects, if it does.
 std::optional<MirroredRay> meet_coat(const LightScene& light, const FaceRecord& face,
                                      const HitPacket& hits, std::uint32_t k, const Carried& from,
                                      std::uint32_t seed, RayLanding* landing) {
@@ -117,7 +119,7 @@ std::optional<MirroredRay> meet_coat(const LightScene& light, const FaceRecord& 
   if (landing != nullptr)
     landing->light *=
         glm::vec3(let_out_by_coat(coat_of(light, TriangleId{hits.triangle[k]}), at.cosine));
-  // Lamps that no closed form owns are met there: by many rays with little light, not by few with all.
+  // Lamps that no closed form owns are met there by many rays with little light, not few with all.
   const WorldId world = reflected_world(light, face, from);
   const float chance = world == none<WorldId> ? 1.0F : largest(at.shares.reflected);
   if (choice_of(from, seed, 0xc0a7) >= chance)
@@ -171,7 +173,8 @@ RayLanding& note_landing(const LightScene& light, const FaceRecord& face, const 
   return landing;
 }
 
-/// Sorts the hits of a packet into landings, ends and rays that go on behind a mirror. Returns the lanes that met a black back.
+/// Sorts the hits of a packet into landings, ends and rays that go on behind a mirror.
+/// Returns the lanes that met a black back.
 template <typename Legs>
 std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& settings,
                         const Legs& legs, std::uint32_t count, const HitPacket& hits,

@@ -1,14 +1,21 @@
-// The hemisphere of one receiver, followed by rays: where they land, in which mirror world, with what light.
+// The hemisphere of one receiver, followed by rays:
+// where they land, in which mirror world, with what light.
 //
-// The rays are those of a net, which all weigh the same, or the cells of a hemicube, which weigh as much as their delta form factors;
+// The rays are those of a net, which all weigh the same,
+// or the cells of a hemicube, which weigh as much as their delta form factors;
 // weights are 1 in the mean, so that `rays` stands for the whole hemisphere in either case.
 //
-// Where glass reflects R and passes T of its light, a ray goes either way: on by reflection with chance p = max R / (max R + max T) and R / p of its
-// light, else through with T / (1 - p) of it (max over the channels): straight through a pane, bent by the face of a solid (solid_paths.h). So rays remain as many as they were, however many panes there are, and each ends once. The
-// numbers that decide are low-discrepancy over the receiver's rays.
+// Where glass reflects R and passes T of its light, a ray goes either way:
+// on by reflection with chance p = max R / (max R + max T) and R / p of its light,
+// else through with T / (1 - p) of it (max over the channels):
+// straight through a pane, bent by the face of a solid (solid_paths.h).
+// So rays remain as many as they were, however many panes there are, and each ends once.
+// The numbers that decide are low-discrepancy over the receiver's rays.
 //
-// On a surface below a coat that is a mirror (scenes/smooth_surfaces.h) a ray lands, with (1 - R) / (1 - R_mean) of its light, since the coat lets out
-// less at grazing angles, and goes on by reflection with chance max R besides, beyond the enumerated worlds always and with R of its light. A coated receiver's own rays leave with as much: F stays reciprocal.
+// On a surface below a coat that is a mirror (scenes/smooth_surfaces.h) a ray lands,
+// with (1 - R) / (1 - R_mean) of its light, since the coat lets out less at grazing angles,
+// and goes on by reflection with chance max R besides, beyond the enumerated worlds always
+// and with R of its light. A coated receiver's own rays leave with as much: F stays reciprocal.
 #pragma once
 
 #include "radiosity/covered_cells.h"
@@ -28,7 +35,8 @@ struct RayLanding {
   glm::vec3 light; ///< weight times tau, the product of the mirrors' reflectances
 };
 
-/// All rays of one receiver; storage reused from one to the next. A ray with its weight w ends in one place:
+/// All rays of one receiver; storage reused from one to the next.
+/// A ray with its weight w ends in one place:
 ///   landed + escaped + black + cut = rays, exactly where all weigh 1, to rounding otherwise.
 struct GatheredRays {
   std::vector<RayLanding> landings;
@@ -51,7 +59,8 @@ struct GatheredRays {
   }
 };
 
-/// How many rays' light was followed to its end: what is cut is left out, what a mirror has absorbed on the way is not.
+/// How many rays' light was followed to its end:
+/// what is cut is left out, what a mirror has absorbed on the way is not.
 inline Rgb kept_light(const GatheredRays& gathered) {
   return glm::max(Rgb(1.0), gathered.rays - gathered.covered_rays - Rgb(gathered.cut_light));
 }
@@ -97,12 +106,14 @@ struct LitPacket {
   std::array<glm::vec3, packet_size> light; ///< by lane, the brightest channel of all rays about 1
 };
 
-/// Traces them on through mirrors to their ends: landings and ends speak of the light the rays left with times tau.
+/// Traces them on through mirrors to their ends:
+/// landings and ends speak of the light the rays left with times tau.
 /// What mirrors absorb is not counted.
 void follow_light(const LightScene& light, std::span<const LitPacket> packets, std::uint32_t seed,
                   const FormFactorSettings& settings, GatherWorkspace& workspace);
 
-/// The same for those alone of the rays that meet a face of a solid body first; the others count as escaped. Fills `numbers`. All packets but the last are full.
+/// The same for those alone of the rays that meet a face of a solid body first;
+/// the others count as escaped. Fills `numbers`. All packets but the last are full.
 void follow_into(const LightScene& light, std::uint32_t body, std::span<const LitPacket> packets,
                  std::uint32_t seed, const FormFactorSettings& settings,
                  GatherWorkspace& workspace);
@@ -134,8 +145,8 @@ ReceiverArea part_of_side(const LightScene& light, const MeshSide& side, bool tr
   return area;
 }
 
-/// The emission (times weight and throughput) a landed ray brings where no closed form owns it: emitters gathered as a whole,
-/// and the others beyond the enumerated worlds.
+/// The emission (times weight and throughput) a landed ray brings where no closed form owns it:
+/// emitters gathered as a whole, and the others beyond the enumerated worlds.
 inline Rgb gathered_emission(const LightScene& light, const RayLanding& landing) {
   const SideId side = light.mesh.side_of_element[landing.element];
   const bool owned = light.from_source[index(side)] != 0 && landing.world != none<WorldId>;

@@ -26,8 +26,8 @@ ReceiverArea point_on(const Face& face, const Point3& x) {
   return point;
 }
 
-/// Cells of a quad's (u, v), about square and about `count`. Their parts of the area are those of their quads, half the diagonals' cross
-/// product.
+/// Cells of a quad's (u, v), about square and about `count`.
+/// Their parts of the area are those of their quads, half the diagonals' cross product.
 void add_quad(const Face& face, double count, int split, double total_area,
               std::vector<CubePlace>& places) {
   const auto& p = face.polygon.vertices;
@@ -103,13 +103,15 @@ NodeTally tally_of(const NodeScene& scene, const Hemicube& cube,
   return sum;
 }
 
-/// Half a resolution to compare with: twice an odd number, so that cells fall in step neither with those of the whole nor with pieces that
-/// divide an edge by powers of two, whose rays would all graze the same outlines.
+/// Half a resolution to compare with:
+/// twice an odd number, so that cells fall in step neither with those of the whole nor with pieces
+/// that divide an edge by powers of two, whose rays would all graze the same outlines.
 int about_half(int resolution) { return resolution / 8 * 4 + 2; }
 
-/// Values with the cubes asked for; with half the resolution; and with four times as many of these. The error of the cells is of order one or
-/// more: with half the resolution it at least doubles, unless it changes its sign. The error of the pieces is at worst, at kinks, of
-/// order 1/2: halving them takes 0.3 of it away.
+/// Values with the cubes asked for; with half the resolution;
+/// and with four times as many of these. The error of the cells is of order one or more:
+/// with half the resolution it at least doubles, unless it changes its sign.
+/// The error of the pieces is at worst, at kinks, of order 1/2: halving them takes 0.3 of it away.
 Estimate estimate_of(std::span<const double> values, double unseen) {
   const double cells = std::abs(values[0] - values[1]), pieces = std::abs(values[2] - values[1]);
   return {values[0], 2.0 * cells + 4.0 * pieces + unseen};
@@ -128,8 +130,9 @@ std::vector<ExtendedFactor> hemicube_form_factors(const Scene& scene, const Surf
   const Hemicube coarse = make_hemicube(about_half(settings.resolution));
   const std::array tallies{tally_of(node_scene, cube, places), tally_of(node_scene, coarse, places),
                            tally_of(node_scene, coarse, places_of(from, settings.points, 2))};
-  // What no cell has met in n independent cubes may still be as large as 3 / n of the largest cell, at a confidence of 95 % (the rule of
-  // three). Of cubes in rows, which see alike, only one in a row counts.
+  // What no cell has met in n independent cubes may still be as large as 3 / n of the largest cell,
+  // at a confidence of 95 % (the rule of three).
+  // Of cubes in rows, which see alike, only one in a row counts.
   const double largest_cell = 4.0 / (std::numbers::pi * settings.resolution * settings.resolution);
   const double unseen = 3.0 * largest_cell / std::sqrt(static_cast<double>(places.size()));
   return node_factors_of(node_scene, tallies, [unseen](std::span<const double> values) {

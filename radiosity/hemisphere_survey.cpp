@@ -22,7 +22,8 @@ struct Workspace {
   std::uint64_t rays = 0;
 };
 
-/// Whether some emission is not found in closed form: that of emitters gathered as a whole, or beyond the enumerated worlds.
+/// Whether some emission is not found in closed form:
+/// that of emitters gathered as a whole, or beyond the enumerated worlds.
 bool gathers_emission(const LightScene& light) {
   const auto& sides = light.mesh.sides;
   for (std::size_t s = 0; s < sides.size(); ++s)

@@ -1,7 +1,9 @@
-// What the elements' own rays tell without being kept as rows: what shooting has to know of every element, in memory linear in elements.
+// What the elements' own rays tell without being kept as rows:
+// what shooting has to know of every element, in memory linear in elements.
 //
-// The rays are those of the rows of form_factors.h. Where emission is gathered (ARCHITECTURE.md, path table: G) there are as many as rows
-// have, and G is that of the rows; elsewhere a few suffice.
+// The rays are those of the rows of form_factors.h.
+// Where emission is gathered (ARCHITECTURE.md, path table:
+// G) there are as many as rows have, and G is that of the rows; elsewhere a few suffice.
 #pragma once
 
 #include "radiosity/form_factors.h"
@@ -24,7 +26,8 @@ struct HemisphereSurvey {
 HemisphereSurvey survey_hemispheres(const LightScene& light, const FormFactorSettings& settings,
                                     const Progress& progress = {});
 
-/// By ElementId: sum_i F_ji rho_i x_i by the same rays, for a worth x of the light reflected at every element.
+/// By ElementId: sum_i F_ji rho_i x_i by the same rays,
+/// for a worth x of the light reflected at every element.
 struct Returned {
   std::vector<Rgb> share;
   std::uint64_t rays_traced = 0;

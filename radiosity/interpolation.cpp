@@ -11,8 +11,8 @@ namespace meninas {
 
 namespace {
 
-/// Mean of the elements around; at the border of a surface extrapolated from the elements behind: twice the mean at the
-/// vertex less the mean one ring further in.
+/// Mean of the elements around; at the border of a surface extrapolated from the elements behind:
+/// twice the mean at the vertex less the mean one ring further in.
 std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
                                            const std::vector<Rgb>& irradiance) {
   const VertexElements all = elements_around(mesh);
@@ -28,7 +28,8 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
 
   std::vector<glm::vec3> value(mean.begin(), mean.end());
   for (std::size_t v = 0; v < mean.size(); ++v) {
-    // A vertex inside its surface lies at the centre of its elements; on the border they all lie to one side.
+    // A vertex inside its surface lies at the centre of its elements;
+    // on the border they all lie to one side.
     const Vec3 inward = centre[v] - mesh.vertices[v];
     const double reach = glm::length(inward);
     if (reach < 0.2 * size_of(mesh, mesh.element_of_vertex[v]) * 0.5)
@@ -59,7 +60,8 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
 
 } // namespace
 
-/// The means of elements know nothing of mirrors; what emitters send is known where it was found from the source.
+/// The means of elements know nothing of mirrors;
+/// what emitters send is known where it was found from the source.
 static DiffuseField averaged_field(const ElementMesh& mesh, const ElementLight& elements) {
   DiffuseField field;
   field.irradiance = average_at_vertices(mesh, elements.irradiance);

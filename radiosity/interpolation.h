@@ -1,11 +1,16 @@
 // From element values to a continuous field of irradiance over every patch side.
 //
-// `average`: a vertex takes the mean of the elements around it, in its own surface; on the boundary of a surface the mean is extrapolated
-// from the elements behind, never below 0. `gather`: the irradiance is gathered at the vertex itself, direct light by closed form, the
-// rest by rays over the element radiosities (the cells of a hemicube, where form factors are found so): the field is right at its vertices.
-// Vertices of curved surfaces, whose facets are smaller than half an element, take the mean of the facets around instead (facets.h).
-// Vertices that see nothing but the black insides of things that stand on them hold no value of their own (contact_vertices.h, vertex_fill.h).
-// Between vertices the field is bilinear in quads, linear in triangles. It is irradiance, W/m^2: reflectance is applied at the hit.
+// `average`: a vertex takes the mean of the elements around it, in its own surface;
+// on the boundary of a surface the mean is extrapolated from the elements behind, never below 0.
+// `gather`: the irradiance is gathered at the vertex itself, direct light by closed form,
+// the rest by rays over the element radiosities (the cells of a hemicube,
+// where form factors are found so): the field is right at its vertices.
+// Vertices of curved surfaces, whose facets are smaller than half an element,
+// take the mean of the facets around instead (facets.h).
+// Vertices that see nothing but the black insides of things that stand on
+// them hold no value of their own (contact_vertices.h, vertex_fill.h).
+// Between vertices the field is bilinear in quads, linear in triangles.
+// It is irradiance, W/m^2: reflectance is applied at the hit.
 #pragma once
 
 #include "radiosity/direct_irradiance.h"
@@ -41,8 +46,8 @@ struct DiffuseField {
   std::vector<glm::vec3>
       mirrored; ///< the part of it whose last leg came by way of mirrors; empty from `average`
 
-  /// The part without what is computed from the source (direct_irradiance.h), for those who compute that themselves; empty where
-  /// that is not known: from `average` with form factors `analytic`.
+  /// The part without what is computed from the source (direct_irradiance.h), for those who compute
+  /// that themselves; empty where that is not known: from `average` with form factors `analytic`.
   std::vector<glm::vec3> indirect;
   std::vector<glm::vec3> indirect_mirrored; ///< likewise of `mirrored`
 };
@@ -63,7 +68,8 @@ struct ElementLight {
   std::vector<Rgb> from_source; ///< the part of H found from the source; empty: not known
 };
 
-/// With `receivers`, vertices inside of nodes take their indirect light from the corners (hierarchical/node_bends.h), unless the mesh is adaptive.
+/// With `receivers`, vertices inside of nodes take their indirect light from
+/// the corners (hierarchical/node_bends.h), unless the mesh is adaptive.
 InterpolatedField interpolate(const LightScene& light, const ElementLight& elements,
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
                               const InterpolationSettings& settings,

@@ -13,7 +13,8 @@ namespace meninas {
 
 namespace {
 
-/// Reflected an odd number of times, a polygon shows its front with its corners in the opposite order.
+/// Reflected an odd number of times,
+/// a polygon shows its front with its corners in the opposite order.
 ConvexPolygon image_of(const Isometry& map, const ConvexPolygon& polygon) {
   ConvexPolygon image;
   const bool turned = glm::determinant(map.linear) < 0.0;
@@ -40,7 +41,8 @@ public:
 
   /// The image there; `fresh` if there was none.
   std::uint32_t find_or_add(const Point3& x, std::uint32_t fresh) {
-    // Rounding may put a place into the next cell of the grid: a quarter of a cell to either side finds it.
+    // Rounding may put a place into the next cell of the grid:
+    // a quarter of a cell to either side finds it.
     for (int k = 0; k < 8; ++k) {
       const Vec3 shift(k & 1 ? 0.25 : -0.25, k & 2 ? 0.25 : -0.25, k & 4 ? 0.25 : -0.25);
       const auto found = places_.find(key(x / spacing_ + shift));

@@ -1,12 +1,15 @@
-// Form factors in a kaleidoscope, in closed form: faces in a convex cell, some of whose walls are mirrors all over.
+// Form factors in a kaleidoscope, in closed form:
+// faces in a convex cell, some of whose walls are mirrors all over.
 //
-// Where such mirrors meet each other at angles pi/n, and other walls at no more than pi/2, the images of the cell under all chains fill a
-// convex part of space once (Coxeter 1934). So every segment from A to an image T B folds back into a path in the cell by way of
-// mirrors alone, whichever chain the segment follows: the chains that share one image show all of it together,
+// Where such mirrors meet each other at angles pi/n, and other walls at no more than pi/2,
+// the images of the cell under all chains fill a convex part of space once (Coxeter 1934). So
+// every segment from A to an image T B folds back into a path in the cell by way of mirrors alone,
+// whichever chain the segment follows: the chains that share one image show all of it together,
 //   sum_{w : T_w = T} F^w_AB = F(A, T B)        (area_form_factor.h)
-// Rooms and ducts with mirrors for whole walls are such cells, and so are facing mirrors: the images of a duct are a grid, while the chains
-// that lead there grow without bound.
-// Images are visited in the order of what they may bring: tau F(A, wall) of the walls that lead to one bounds all that lies behind them.
+// Rooms and ducts with mirrors for whole walls are such cells, and so are facing mirrors:
+// the images of a duct are a grid, while the chains that lead there grow without bound.
+// Images are visited in the order of what they may bring:
+// tau F(A, wall) of the walls that lead to one bounds all that lies behind them.
 #pragma once
 
 #include "radiosity/extended_form_factor.h"
@@ -27,7 +30,8 @@ struct KaleidoscopeCell {
 std::optional<KaleidoscopeCell> find_kaleidoscope(const WorldView& view,
                                                   const std::vector<Face>& from);
 
-/// As extended_form_factors(); where mirrors meet, an image's factor stands under one of its chains. `points` are images.
+/// As extended_form_factors();
+/// where mirrors meet, an image's factor stands under one of its chains. `points` are images.
 ExtendedFactors kaleidoscope_form_factors(const WorldView& view, const std::vector<Face>& from,
                                           std::size_t group_count, const ExtendedSettings& settings,
                                           const KaleidoscopeCell& cell);

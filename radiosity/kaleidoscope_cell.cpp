@@ -121,7 +121,8 @@ Corner corner_at(const WorldView& view, const Mirror& mirror, const Point3& from
         std::acos(std::clamp(-glm::dot(mirror.plane.normal, other.plane.normal), -1.0, 1.0));
     if (std::abs(between - angle) > rounding)
       continue;
-    // An odd number of sectors has an image with as many reflections in one mirror as in the other, but for one.
+    // An odd number of sectors has an image with as many
+    // reflections in one mirror as in the other, but for one.
     const double sectors = std::numbers::pi / between;
     const double n = std::round(sectors);
     const bool odd = std::fmod(n, 2.0) != 0.0;

@@ -5,8 +5,8 @@
 
 namespace meninas {
 
-/// The widening of a quad along its sides, p(u, v) = corner + u base + v side + u v (w_x base + w_y side). None where they hardly span
-/// its plane, or where the opposite sides nearly vanish.
+/// The widening of a quad along its sides, p(u, v) = corner + u base + v side + u v (w_x base + w_y
+/// side). None where they hardly span its plane, or where the opposite sides nearly vanish.
 static std::optional<Vec2> widening_of(const Patch& patch) {
   constexpr double least = 0.1, most = 4.0; // single precision is good enough between
   const auto& p = patch.corners;

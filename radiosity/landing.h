@@ -1,4 +1,5 @@
-// Where a ray has landed: from the hit (triangle, barycentric, face) to mirror, element and place in the element, by table look-up alone.
+// Where a ray has landed: from the hit (triangle, barycentric,
+// face) to mirror, element and place in the element, by table look-up alone.
 #pragma once
 
 #include "mirror/mirrors.h"
@@ -61,8 +62,8 @@ LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces
 
 /// (u, v) of the point (x, y) of a quad: v is the root of  v (1 + u w_y) = y  with  u (1 + v w_x) = x,  that is of
 ///   w_x v^2 + (1 + w_y x - w_x y) v - y = 0,
-/// at which the polynomial rises. Its slope there is the root of the discriminant, 1 + u w_y + v w_x; with the linear term it
-/// makes 2 (1 + u w_y), which is positive all over the quad.
+/// at which the polynomial rises. Its slope there is the root of the discriminant, 1 + u w_y + v
+/// w_x; with the linear term it makes 2 (1 + u w_y), which is positive all over the quad.
 inline glm::vec2 bilinear_uv(const glm::vec2& w, const glm::vec2& xy) {
   const float linear = 1.0F + w.y * xy.x - w.x * xy.y;
   const float squared = linear * linear + 4.0F * w.x * xy.y;

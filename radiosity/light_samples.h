@@ -1,9 +1,10 @@
-// Points of emitters and of their images in the mirror worlds, as a surface that reflects by a lobe sees them:
+// Points of emitters and of their images in the mirror worlds,
+// as a surface that reflects by a lobe sees them:
 //
 //   L(o) = sum_w tau_w sum_e integral over T_w e of f(o, i) cos_x cos_y / r^2 L_e V dA
 //
-// with V by shadow rays on every leg, and punctual lights and their images one by one. direct_irradiance.h has the same for f = 1 / pi, in closed
-// form.
+// with V by shadow rays on every leg, and punctual lights and their images one by one.
+// direct_irradiance.h has the same for f = 1 / pi, in closed form.
 #pragma once
 
 #include "radiosity/direct_irradiance.h"
@@ -21,7 +22,8 @@ struct PunctualArrival {
 void punctual_arrivals(const LightScene& light, const Receiver& receiver,
                        DirectWorkspace& workspace, std::vector<PunctualArrival>& arrivals);
 
-/// A point of an emitter or of an image of it. What a surface of reflection f sees of it is f cos_receiver cosine / r^2 area radiance.
+/// A point of an emitter or of an image of it.
+/// What a surface of reflection f sees of it is f cos_receiver cosine / r^2 area radiance.
 struct EmissionSample {
   Vec3 towards{0.0};         ///< from the receiver to the point, in unfolded space
   double cosine = 0.0;       ///< at the emitter
@@ -32,8 +34,9 @@ struct EmissionSample {
   WorldId world = real_world; ///< of the image
 };
 
-/// Points `first` to `first + per_image` (at most 16) of the low-discrepancy sequence of `seed` on every image of every emitter that is computed
-/// from the source, of which about `images` are chosen where there are more.
+/// Points `first` to `first + per_image` (at most 16) of the low-discrepancy sequence
+/// of `seed` on every image of every emitter that is computed from the source,
+/// of which about `images` are chosen where there are more.
 struct EmissionSampling {
   int per_image = 4;
   int images = 32;

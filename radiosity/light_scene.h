@@ -1,9 +1,11 @@
-// Everything light is looked up in while it is gathered: geometry, rays, mirrors, mesh, and who computes which emitter.
+// Everything light is looked up in while it is gathered:
+// geometry, rays, mirrors, mesh, and who computes which emitter.
 //
-// Emitters are taken from the source (closed form, direct_irradiance.h) when they are small, as lamps and windows are.
+// Emitters are taken from the source (closed form,
+// direct_irradiance.h) when they are small, as lamps and windows are.
 // However many they are, a point computes a bounded number of them (mirror/light_choice.h).
-// When emitters make up more than half of the meshed area they are gathered by rays like everything else, which is exact
-// where all walls glow. No light path is in both: `from_source` says which.
+// When emitters make up more than half of the meshed area they are gathered by rays like everything
+// else, which is exact where all walls glow. No light path is in both: `from_source` says which.
 #pragma once
 
 #include "mirror/virtual_lights.h"

@@ -88,7 +88,8 @@ void add_root_cells(ElementMesh& mesh) {
     root.side = static_cast<SideId>(s);
     for (int j = 0; j < side.nv; ++j)
       for (int k = 0; k < (side.triangle ? 2 * (side.nu - j) - 1 : side.nu); ++k) {
-        // In a row of triangles every second one is the upper half of its cell, and starts at the far corner.
+        // In a row of triangles every second one is the upper half of its cell,
+        // and starts at the far corner.
         root.flipped = side.triangle && k % 2 == 1;
         root.i = (side.triangle ? k / 2 : k) + (root.flipped ? 1 : 0);
         root.j = j + (root.flipped ? 1 : 0);

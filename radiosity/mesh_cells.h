@@ -17,7 +17,8 @@ void divide_cell(ElementMesh& mesh, std::uint32_t cell);
 /// Points closer than about this are one vertex, metres.
 double vertex_grain(const ElementMesh& mesh, const SurfaceModel& surfaces);
 
-/// Numbers the leaves, depth first, and makes their corners, vertices and areas. Returns the vertices by place.
+/// Numbers the leaves, depth first, and makes their corners, vertices and areas.
+/// Returns the vertices by place.
 VertexWelder add_elements(ElementMesh& mesh, const SurfaceModel& surfaces);
 
 /// The point (s, t) of a cell.

@@ -34,7 +34,8 @@ struct PlacedVertices {
   const SurfaceModel& surfaces;
   const VertexWelder& welder;
 
-  /// The vertex at a share of the way along edge k of an element's cell, not one of its ends; none if there is none.
+  /// The vertex at a share of the way along edge k of an element's cell, not one of its ends;
+  /// none if there is none.
   ElementVertexId on_edge(const MeshCell& cell, std::size_t k, double share) const {
     const auto corners = corners_of(mesh, cell);
     const std::size_t next = (k + 1) % corners.size();
@@ -54,7 +55,8 @@ bool has_much_smaller_neighbour(const PlacedVertices& placed, const MeshCell& ce
   return false;
 }
 
-/// Cells may be divided but for those at the last level, and slivers hardly wider than the distance at which two points are the same.
+/// Cells may be divided but for those at the last level,
+/// and slivers hardly wider than the distance at which two points are the same.
 bool is_divisible(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& leaf) {
   if (leaf.level >= most_levels)
     return false;
@@ -97,7 +99,8 @@ std::vector<std::uint8_t> to_follow(const PlacedVertices& placed) {
   return marked;
 }
 
-/// Larger edges first: the ends of a smaller one may hang on a larger one, never the other way round.
+/// Larger edges first:
+/// the ends of a smaller one may hang on a larger one, never the other way round.
 std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed) {
   struct Found {
     HangingVertex vertex;
@@ -128,7 +131,8 @@ std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed) {
   return hanging;
 }
 
-/// The roots with every cell divided that `is_divided(its number)` names, before its children are asked about.
+/// The roots with every cell divided that `is_divided(its number)` names,
+/// before its children are asked about.
 template <typename Predicate>
 ElementMesh grown(const ElementMesh& mesh, Predicate&& is_divided) {
   ElementMesh result = roots_of(mesh);

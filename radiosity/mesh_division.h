@@ -1,8 +1,11 @@
-// Finer elements where they are wanted: cells of the forest divided, neighbours kept alike, no cracks.
+// Finer elements where they are wanted:
+// cells of the forest divided, neighbours kept alike, no cracks.
 //
-// Elements are divided into four by the middles of their edges. Neighbours differ by one level at most, also across the edges that patches
-// of one surface share: an element on whose edge, at a quarter of its length, there is a vertex is divided as well (a restricted quadtree,
-// Von Herzen and Barr 1987). A vertex left in the middle of a larger element's edge hangs: it takes the mean of the edge's ends.
+// Elements are divided into four by the middles of their edges.
+// Neighbours differ by one level at most, also across the edges that patches of one surface share:
+// an element on whose edge, at a quarter of its length,
+// there is a vertex is divided as well (a restricted quadtree, Von Herzen and Barr 1987). A vertex
+// left in the middle of a larger element's edge hangs: it takes the mean of the edge's ends.
 #pragma once
 
 #include "radiosity/element_mesh.h"
@@ -11,11 +14,13 @@
 
 namespace meninas {
 
-/// The mesh with the elements marked 1 divided, and those that have to follow. `marked` by ElementId.
+/// The mesh with the elements marked 1 divided, and those that have to follow.
+/// `marked` by ElementId.
 ElementMesh divide_elements(const ElementMesh& mesh, const SurfaceModel& surfaces,
                             std::span<const std::uint8_t> marked);
 
-/// The forest as a list: by CellId 1 where the cell is divided, 0 for leaves. It and the roots are all that a mesh is made from.
+/// The forest as a list: by CellId 1 where the cell is divided, 0 for leaves.
+/// It and the roots are all that a mesh is made from.
 std::vector<std::uint8_t> division_of(const ElementMesh& mesh);
 
 /// The mesh of that division. `roots` is the same mesh, divided or not.
@@ -23,13 +28,15 @@ std::vector<std::uint8_t> division_of(const ElementMesh& mesh);
 ElementMesh divided_mesh(const ElementMesh& roots, const SurfaceModel& surfaces,
                          std::span<const std::uint8_t> division);
 
-/// Whether a list fits the roots: one entry for every cell it speaks of, 0 or 1, no deeper than `most_levels`.
+/// Whether a list fits the roots:
+/// one entry for every cell it speaks of, 0 or 1, no deeper than `most_levels`.
 bool is_division_of(const ElementMesh& roots, std::span<const std::uint8_t> division);
 
 /// Every cell that either mesh has. Both have the same roots.
 ElementMesh overlaid(const ElementMesh& a, const ElementMesh& b, const SurfaceModel& surfaces);
 
-/// By CellId of `from`: the same cell in `to`, a mesh of the same roots that has all cells of `from`.
+/// By CellId of `from`:
+/// the same cell in `to`, a mesh of the same roots that has all cells of `from`.
 std::vector<CellId> same_cells(const ElementMesh& from, const ElementMesh& to);
 
 /// The vertices at the corners of any cell.

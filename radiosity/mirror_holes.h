@@ -1,7 +1,8 @@
 // Holes of cut-out mirrors and panes: what meets its mirror in a hole is not reflected.
 //
-// Windows of mirror worlds know nothing of holes, and shadow rays do not find them, as a leg is not blocked in the plane
-// it ends in. So every segment is asked at the points in which its legs end on mirrors.
+// Windows of mirror worlds know nothing of holes, and shadow rays do not find them,
+// as a leg is not blocked in the plane it ends in.
+// So every segment is asked at the points in which its legs end on mirrors.
 #pragma once
 
 #include "radiosity/light_scene.h"

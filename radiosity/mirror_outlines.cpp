@@ -76,7 +76,8 @@ MirrorOutlines mirror_outlines(const LightScene& light, double spacing, std::siz
                    [](const Pair& a, const Pair& b) { return a.power > b.power; });
   pairs.resize(std::min(pairs.size(), most));
 
-  // Every window on the way cuts the light; all of them lie in the unfolded space of the receiver, as the image does.
+  // Every window on the way cuts the light;
+  // all of them lie in the unfolded space of the receiver, as the image does.
   MirrorOutlines outlines;
   for (const Pair& pair : pairs) {
     const Isometry& image = light.worlds.worlds[pair.world].image;

@@ -1,13 +1,16 @@
-// Form factors between the nodes of a scene, in total and per mirror world: the radiosity side of `meninas formfactors`.
+// Form factors between the nodes of a scene, in total and per mirror world:
+// the radiosity side of `meninas formfactors`.
 //
-// From the fronts of all faces of node A that are no mirrors, weighted by area, to the fronts of all faces of node B (nodes of one name
-// are one):
+// From the fronts of all faces of node A that are no mirrors, weighted by area,
+// to the fronts of all faces of node B (nodes of one name are one):
 //   F = sum_w tau_w F^w,  tau_w the mean of the channels of the product of the mirrors' reflectances, F^w geometric.
-// `analytic` is extended_form_factor.h. `rays` follows cosine-distributed rays (gather_rays.h) from points spread over A in sixteen
-// independent replicas: their scatter is the standard error, and the share of one ray the least. `hemicube` sets hemicubes in the middle of
-// equal pieces of A (hemicube.h): its error estimate adds up twice what half the resolution changes, four times what four times as many
-// pieces change, and what no cell may have met. It covers most errors, not those of features of A finer than its pieces, such as the rim of a
-// gap of a thousandth.
+// `analytic` is extended_form_factor.h. `rays` follows cosine-distributed rays
+// (gather_rays.h) from points spread over A in sixteen independent replicas:
+// their scatter is the standard error, and the share of one ray the least.
+// `hemicube` sets hemicubes in the middle of equal pieces of A (hemicube.h):
+// its error estimate adds up twice what half the resolution changes, four times what four
+// times as many pieces change, and what no cell may have met. It covers most errors,
+// not those of features of A finer than its pieces, such as the rim of a gap of a thousandth.
 #pragma once
 
 #include "radiosity/extended_form_factor.h"

@@ -74,7 +74,8 @@ std::vector<ExtendedFactor> node_factors_of(const NodeScene& scene,
   double cut = 0.0;
   for (const NodeTally& tally : tallies)
     cut += tally.cut / static_cast<double>(tallies.size());
-  // What lies beyond the depth asked for is not asked for; all that is missing then is what has grown too faint on the way.
+  // What lies beyond the depth asked for is not asked for;
+  // all that is missing then is what has grown too faint on the way.
   if (scene.settings.max_bounces < FormFactorSettings{}.max_bounces)
     cut = std::min(cut, scene.settings.min_throughput);
   for (std::size_t g = 0; g < factors.size(); ++g) {
@@ -93,7 +94,8 @@ std::vector<ExtendedFactor> node_factors_of(const NodeScene& scene,
       values[k] = value;
     }
   for (const auto& [key, values] : by_world) {
-    // Worlds beyond the enumerated ones, and what is behind solids, have no chain to be told by: they are in the total alone.
+    // Worlds beyond the enumerated ones, and what is behind solids, have no chain to be told by:
+    // they are in the total alone.
     const auto world = static_cast<WorldId>(key.second);
     if (world == none<WorldId> || is_by_solids(world))
       continue;

@@ -1,4 +1,5 @@
-// What the methods of node_form_factors.h that trace rays share: the scene they look light up in, and tallies of landings.
+// What the methods of node_form_factors.h that trace rays share:
+// the scene they look light up in, and tallies of landings.
 #pragma once
 
 #include "radiosity/gather_rays.h"
@@ -9,7 +10,8 @@
 
 namespace meninas {
 
-/// One element for each patch: enough to know whose it is. A mirror's landing is known by its table.
+/// One element for each patch: enough to know whose it is.
+/// A mirror's landing is known by its table.
 struct NodeScene {
   NodeScene(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
             std::span<const NodeId> to, int max_depth);

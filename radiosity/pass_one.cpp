@@ -35,7 +35,8 @@ Rgb passed_on(const LightScene& light, MaterialId id) {
   return mean.reflected + mean.passed;
 }
 
-/// Of the light that elements receive, what the mirror, the glass or the coat that they are as well passes on: rays carry it.
+/// Of the light that elements receive, what the mirror,
+/// the glass or the coat that they are as well passes on: rays carry it.
 std::vector<Rgb> passed_on_by_elements(const LightScene& light) {
   const ElementMesh& mesh = light.mesh;
   std::vector<Rgb> shares(mesh.area.size());
@@ -52,9 +53,11 @@ std::vector<Rgb> passed_on_by_elements(const LightScene& light) {
   return shares;
 }
 
-/// What leaves an element follows the fractions of its own rays; what is absorbed follows what the elements receive. The two agree as
-/// far as the sampled form factors are reciprocal: the imbalance measures that.
-/// Light that enters from outside the surfaces (of punctual lights, of the background) counts as emitted where it first arrives.
+/// What leaves an element follows the fractions of its own rays;
+/// what is absorbed follows what the elements receive.
+/// The two agree as far as the sampled form factors are reciprocal: the imbalance measures that.
+/// Light that enters from outside the surfaces (of punctual lights,
+/// of the background) counts as emitted where it first arrives.
 EnergyBalance energy_balance(const LightScene& light, const RadiositySolution& solution,
                              const std::vector<RowClosure>& rows,
                              const std::vector<Rgb>& entering) {
@@ -103,8 +106,10 @@ void take_received(const ElementMesh& mesh, const std::vector<Rgb>& received,
   }
 }
 
-/// From what was reflected, and the irradiance that elements have sent one another, to the solution with its field and figures. With `receivers` vertices
-/// gather where these let them (hierarchical/node_field.h), and elements receive what vertices do, but for spots (hierarchical/node_light.h).
+/// From what was reflected, and the irradiance that elements have sent one another,
+/// to the solution with its field and figures.
+/// With `receivers` vertices gather where these let them (hierarchical/node_field.h),
+/// and elements receive what vertices do, but for spots (hierarchical/node_light.h).
 void complete(const LightScene& light, const PassOneSettings& settings, const FirstLight& first,
               const std::vector<Rgb>& arrived, const ElementRays& rays, RadiositySolution& solution,
               const ReceiverNodes* receivers = nullptr) {
@@ -231,7 +236,8 @@ RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& fac
   Stopwatch stopwatch;
   const ElementRays own{factors.closure, factors.exposed, factors.rays_traced};
 
-  // Eq. 1, split by who owns the path: direct light from the source, gathered emission, and reflected light by the transport.
+  // Eq. 1, split by who owns the path:
+  // direct light from the source, gathered emission, and reflected light by the transport.
   const FirstLight first =
       first_light(light, gathered_emission(light, factors), factors.closure, factors.covered,
                   settings.form_factors.method, settings.direct, progress);

@@ -55,7 +55,8 @@ inline const LightScene& field_scene(const LightScene& light, const RadiositySol
   return solution.refined ? *solution.refined->light : light;
 }
 
-/// Area means of one node over all of its sides; what is covered by things that stand on it receives nothing.
+/// Area means of one node over all of its sides;
+/// what is covered by things that stand on it receives nothing.
 struct NodeLight {
   std::string name;
   double area = 0.0;
@@ -64,8 +65,8 @@ struct NodeLight {
 std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh,
                                      const RadiositySolution& solution);
 
-/// What shots have brought so far, as a field that averages over elements (interpolation.h), and what the light yet to be shot
-/// may add to it.
+/// What shots have brought so far, as a field that averages over elements (interpolation.h),
+/// and what the light yet to be shot may add to it.
 struct PassOneSoFar {
   int shots = 0;
   DiffuseField field;
@@ -76,9 +77,10 @@ struct PassOneWatch {
   std::function<void(const PassOneSoFar&)> look;
 };
 
-/// `progressive` can be watched. In scenes of more than `most_direct_unknowns` elements it shoots rays, with no transport in memory
-/// (progressive.h), unless the form factors are not by rays; in smaller ones, where they take a few megabytes, blocks shoot by the columns of
-/// the transport that the other solvers have, so that all agree.
+/// `progressive` can be watched. In scenes of more than `most_direct_unknowns` elements it shoots
+/// rays, with no transport in memory (progressive.h), unless the form factors are not by rays;
+/// in smaller ones, where they take a few megabytes,
+/// blocks shoot by the columns of the transport that the other solvers have, so that all agree.
 /// `hierarchical` solves for nodes (hierarchical/node_solution.h), by rays.
 RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,
                                  const Progress& progress = {}, const PassOneWatch& watch = {});
@@ -86,14 +88,16 @@ RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings&
 /// Whether these settings shoot rays instead of assembling a transport.
 bool shoots_rays(const PassOneSettings& settings, std::size_t elements);
 
-/// Whether light is received by nodes, and vertices gather as far as these ask for it (hierarchical/node_field.h).
+/// Whether light is received by nodes,
+/// and vertices gather as far as these ask for it (hierarchical/node_field.h).
 bool gathers_by_nodes(const PassOneSettings& settings);
 
 /// Pass one by rays that are shot, whatever the number of elements.
 RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings& settings,
                                  const Progress& progress = {}, const PassOneWatch& watch = {});
 
-/// The same with form factors that are there already (of an earlier run, under other light): only light is found.
+/// The same with form factors that are there already (of an earlier run, under other light):
+/// only light is found.
 RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& factors,
                                  const PassOneSettings& settings, const Progress& progress = {},
                                  const PassOneWatch& watch = {});

@@ -1,4 +1,5 @@
-// The plan: what the scene contains, and so which transport has to be modelled. What a scene does not need is not run.
+// The plan: what the scene contains, and so which transport has to be modelled.
+// What a scene does not need is not run.
 #pragma once
 
 #include "mirror/worlds.h"

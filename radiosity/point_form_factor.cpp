@@ -13,7 +13,8 @@ double point_form_factor(const Point3& x, const Direction& normal,
     const Vec3 a = polygon[k] - x;
     const Vec3 b = next - x;
 
-    // a x b = a x (b - a): the edge itself is known without the cancellation that b - a would bring for a far polygon.
+    // a x b = a x (b - a):
+    // the edge itself is known without the cancellation that b - a would bring for a far polygon.
     const Vec3 cross = glm::cross(a, next - polygon[k]);
     const double sine = glm::length(cross);
     if (sine == 0.0)

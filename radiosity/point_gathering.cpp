@@ -16,7 +16,8 @@ DirectSettings cluster_settings(DirectSettings direct, int shadow_rays) {
   return direct;
 }
 
-/// What landed rays bring: light reflected by elements, where no cluster owns it, and emission, where no closed form owns that.
+/// What landed rays bring: light reflected by elements,
+/// where no cluster owns it, and emission, where no closed form owns that.
 ArrivingLight landed_light(const PointGathering& gathering, const GatheredRays& gathered) {
   const std::size_t cluster_worlds = gathering.clusters.worlds.worlds.size();
   ArrivingLight sum;

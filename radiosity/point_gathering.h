@@ -1,9 +1,11 @@
-// The light that arrives at one point: from emitters by closed form, from everything else by rays over its hemisphere.
+// The light that arrives at one point:
+// from emitters by closed form, from everything else by rays over its hemisphere.
 //
 //   H(x) = D(x) + 1/N sum over rays of  tau B(landing)  + bright clusters
 //
-// D is the light from the source (direct_irradiance.h). Rays land on elements of known radiosity; elements so bright that rays would find
-// them by chance are taken from the source as well (bright_clusters.h), those far away together (cluster_cut.h). Each path is in one of the three.
+// D is the light from the source (direct_irradiance.h). Rays land on elements of known radiosity;
+// elements so bright that rays would find them by chance are taken from the source as well
+// (bright_clusters.h), those far away together (cluster_cut.h). Each path is in one of the three.
 #pragma once
 
 #include "radiosity/bright_clusters.h"

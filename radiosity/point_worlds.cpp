@@ -167,7 +167,8 @@ private:
         enter(station, static_cast<MirrorId>(m), obstacles);
   }
 
-  /// Whether a sphere of unfolded space may be met by light on this leg: above the horizon, beyond the mirror, in its opening's cone.
+  /// Whether a sphere of unfolded space may be met by light on this leg:
+  /// above the horizon, beyond the mirror, in its opening's cone.
   bool within_reach(const Station& station, const Point3& centre, double radius) const {
     if (glm::dot(point_.normal, centre - point_.x) <= -radius)
       return false;
@@ -193,7 +194,8 @@ private:
     return true;
   }
 
-  /// The scene as it stands on this leg, as far as it can be met, cut off at the mirror the leg leaves.
+  /// The scene as it stands on this leg, as far as it can be met,
+  /// cut off at the mirror the leg leaves.
   std::vector<Obstacle> obstacles_of(const Station& station) const {
     std::vector<Obstacle> obstacles;
     for (const Face& face : view_.blockers) {
@@ -254,7 +256,8 @@ private:
       if (station.depth == 0 && !known_.empty() && known_[t] != 0)
         continue;
       const Face& target = view_.targets[t];
-      // A leg that leaves a plane meets nothing in it, such as the back of the mirror, which its image would show.
+      // A leg that leaves a plane meets nothing in it,
+      // such as the back of the mirror, which its image would show.
       if (target.plane_class == station.plane_class)
         continue;
       if (!within_reach(station, apply(station.image, target.centre), target.radius))
@@ -274,7 +277,8 @@ private:
   /// Goes on behind a mirror, unless nothing that matters can come from there.
   void enter(const Station& station, MirrorId id, const std::vector<Obstacle>& obstacles) {
     const Mirror& mirror = view_.mirrors.mirrors[index(id)];
-    // Nor does it meet a mirror there: two reflections in one plane would let it pass straight through a sheet that mirrors on both sides.
+    // Nor does it meet a mirror there: two reflections in one plane would
+    // let it pass straight through a sheet that mirrors on both sides.
     if (mirror.plane_class == station.plane_class)
       return;
     const Plane plane = apply(station.image, mirror.plane);

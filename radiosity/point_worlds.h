@@ -2,11 +2,14 @@
 //
 //   F^w(x, B) = Lambert's factor (point_form_factor.h) of the parts of the image T_w B that x sees
 //
-// cut by the horizon of x, by the last mirror's plane, by the cones through the visible parts of the windows, and by the cones of all
-// blockers on every leg. On leg k the scene stands where T_k puts it; what lies there between mirror k and the next one blocks.
-// The tree of mirror worlds is walked from x and grows only as far as it can matter: all light of a branch passes the visible parts
-// of its window, so tau_w F(x, window) bounds whatever the branch can bring. The branch with the largest bound grows first, until the
-// bounds of all that is left add up to no more than is asked for: facing mirrors of any reflectance end by that, not by a depth.
+// cut by the horizon of x, by the last mirror's plane, by the cones through the visible
+// parts of the windows, and by the cones of all blockers on every leg. On leg k the scene
+// stands where T_k puts it; what lies there between mirror k and the next one blocks.
+// The tree of mirror worlds is walked from x and grows only as far as it can matter:
+// all light of a branch passes the visible parts of its window, so tau_w F(x,
+// window) bounds whatever the branch can bring. The branch with the largest bound grows first,
+// until the bounds of all that is left add up to no more than is asked for:
+// facing mirrors of any reflectance end by that, not by a depth.
 #pragma once
 
 #include "mirror/mirrors.h"

@@ -1,4 +1,5 @@
-// Adaptive Gauss-Kronrod integration (7, 15 points; Piessens et al. 1983, QUADPACK), with its error estimate.
+// Adaptive Gauss-Kronrod integration (7, 15 points;
+// Piessens et al. 1983, QUADPACK), with its error estimate.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +39,8 @@ inline constexpr std::array<double, 4> gauss_weights{
 
 } // namespace quadrature
 
-/// One Kronrod rule over [a, b], with QUADPACK's estimate from the difference to the embedded Gauss rule.
+/// One Kronrod rule over [a, b],
+/// with QUADPACK's estimate from the difference to the embedded Gauss rule.
 struct KronrodResult {
   Estimate integral;
   double rounding = 0.0; ///< below this the error cannot fall: the rounding of int |f|
@@ -69,7 +71,8 @@ KronrodResult kronrod(const Function& f, double a, double b) {
   return {{by_kronrod * half, std::max(error, rounding)}, rounding};
 }
 
-/// Bisects until the error of every part is within `tolerance` or the rounding of the integrand, at most `depth` times.
+/// Bisects until the error of every part is within `tolerance` or the rounding of the integrand,
+/// at most `depth` times.
 template <typename Function>
 Estimate integrate(const Function& f, double a, double b, double tolerance, int depth = 40) {
   const auto [whole, rounding] = kronrod(f, a, b);

@@ -57,8 +57,8 @@ NodeTally run_replica(const NodeScene& scene, const std::vector<Sender>& senders
   return tally;
 }
 
-/// The mean of the replicas and the standard error of that mean. That all replicas agree, because none of their rays was the odd one out,
-/// is no proof: the share of one ray is the least error.
+/// The mean of the replicas and the standard error of that mean. That all replicas agree, because
+/// none of their rays was the odd one out, is no proof: the share of one ray is the least error.
 Estimate estimate_of(std::span<const double> values, double one_ray) {
   double mean = 0.0, squares = 0.0;
   for (const double value : values)

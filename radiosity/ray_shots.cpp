@@ -41,7 +41,8 @@ void pass_coat(const LightScene& light, std::uint32_t element, const LaneDirecti
     packet.light[k] *= glm::vec3(let_out_by_coat(light.by_angle[index(coat)], local.z[k]));
 }
 
-/// The element's area in the frame of the rays; its source's directions are those of all elements of a side.
+/// The element's area in the frame of the rays;
+/// its source's directions are those of all elements of a side.
 RaySource source_of(const LightScene& light, std::uint32_t element) {
   return ray_source(receiver_of(light, static_cast<ElementId>(element)), light.rays.frame(), 0);
 }
@@ -111,7 +112,8 @@ typename RayShots<Value>::ChunkResult RayShots<Value>::follow(const Shot& shot, 
 
 template <typename Value>
 void RayShots<Value>::shoot(std::size_t block, ShotState<Value>& state) {
-  // Members weigh as much as the largest share of what they have left in all the light of a channel.
+  // Members weigh as much as the largest share of what
+  // they have left in all the light of a channel.
   Shot shot;
   shot.elements = state.shooters.members(block);
   shot.seed = hash(static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(state.shots),

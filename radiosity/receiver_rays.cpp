@@ -8,7 +8,8 @@ namespace meninas {
 
 namespace {
 
-// The loops over lanes are plain enough for the compiler to make them run over several lanes at once.
+// The loops over lanes are plain enough for the compiler
+// to make them run over several lanes at once.
 
 LaneFloats unit_floats(const std::array<std::uint32_t, packet_size>& bits, std::uint32_t shift) {
   LaneFloats floats;
@@ -17,7 +18,8 @@ LaneFloats unit_floats(const std::array<std::uint32_t, packet_size>& bits, std::
   return floats;
 }
 
-/// Sine and cosine for |x| <= pi / 4 to the rounding of floats: minimax polynomials of the Cephes library.
+/// Sine and cosine for |x| <= pi / 4 to the rounding of floats:
+/// minimax polynomials of the Cephes library.
 float near_sine(float x) {
   const float x2 = x * x;
   return x + x * x2 * (-1.6666654611e-1F + x2 * (8.3321608736e-3F - x2 * 1.9515295891e-4F));
@@ -59,7 +61,8 @@ DirectionNet make_direction_net(int rays) {
       net.points[k][d] = static_cast<std::uint32_t>(point[d] * 0x1p32F);
   }
 
-  // Group by the leading bits of the direction: a power-of-two net puts sixteen points into each of its N / 16 cells.
+  // Group by the leading bits of the direction:
+  // a power-of-two net puts sixteen points into each of its N / 16 cells.
   int cells_log2 = 0;
   while ((net.points.size() >> (cells_log2 + 4)) > 1)
     ++cells_log2;
@@ -112,7 +115,8 @@ LaneDirections cosine_hemisphere(const LaneFloats& u, const LaneFloats& v) {
     d.y[k] = wide ? aside : along;
     d.z[k] = 1.0F - radius * radius;
   }
-  // The height on the unit sphere; the floor keeps the direction off the plane where rounding has eaten it.
+  // The height on the unit sphere;
+  // the floor keeps the direction off the plane where rounding has eaten it.
   for (std::size_t k = 0; k < packet_size; ++k)
     d.z[k] = std::sqrt(d.z[k] > 1e-7F ? d.z[k] : 1e-7F);
   return d;

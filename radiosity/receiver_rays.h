@@ -1,7 +1,8 @@
 // The rays that leave one receiver, in packets of sixteen.
 //
-// Directions are cosine-distributed and low-discrepancy: one Sobol net of N points, shifted digit by digit with a hash of the receiver
-// (Kollig and Keller 2002), which keeps it a net. Points 0..15, 16..31, ... share a cell of directions, so packets are coherent.
+// Directions are cosine-distributed and low-discrepancy: one Sobol net of N points, shifted
+// digit by digit with a hash of the receiver (Kollig and Keller 2002), which keeps it a net.
+// Points 0..15, 16..31, ... share a cell of directions, so packets are coherent.
 #pragma once
 
 #include "scenes/ray_scene.h"
@@ -11,7 +12,8 @@
 
 namespace meninas {
 
-/// Sixteen points of a net, lane by lane: two coordinates of the place in the receiver, two of the direction.
+/// Sixteen points of a net, lane by lane:
+/// two coordinates of the place in the receiver, two of the direction.
 struct alignas(64) NetPacket {
   std::array<std::array<std::uint32_t, packet_size>, 4> coordinates{};
 };
@@ -64,7 +66,8 @@ RaySource ray_source(const ReceiverArea& receiver, const RayFrame& frame, std::u
 /// A value per lane.
 using LaneFloats = std::array<float, packet_size>;
 
-/// Where in the receiver, before triangles are folded, the rays of a packet of the net start: s and t in [0, 1).
+/// Where in the receiver, before triangles are folded, the rays of a packet of the net start:
+/// s and t in [0, 1).
 struct alignas(64) LanePlaces {
   LaneFloats s, t;
 };

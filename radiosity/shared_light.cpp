@@ -38,7 +38,8 @@ double brought_by(const ImageSum& image, double form_factor) {
   return form_factor * largest(image.source);
 }
 
-/// Of the images at a point the most that one of them brings, as far as it is not known to be hidden.
+/// Of the images at a point the most that one of them brings,
+/// as far as it is not known to be hidden.
 double most_brought(const SharedLightWorkspace& work) {
   double most = 0.0;
   for (const ImageAtPoint& at : work.at_point) {
@@ -91,7 +92,8 @@ double area_of(std::span<const ConvexPolygon> parts) {
   return sum;
 }
 
-/// A point of polygons that share a plane, with density one over their area: of a part by its share of the area. `last` is the area vector of the last one.
+/// A point of polygons that share a plane, with density one over their area:
+/// of a part by its share of the area. `last` is the area vector of the last one.
 Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& last, Vec2 sample) {
   double before = 0.0;
   for (const ConvexPolygon& part : parts.first(parts.size() - 1)) {
@@ -106,7 +108,8 @@ Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& l
   return point_on(parts.back(), last, Vec2(within, sample.y));
 }
 
-/// Sends the rays of one point towards what it sees of an image, as many as that is worth beside the brightest image.
+/// Sends the rays of one point towards what it sees of an image,
+/// as many as that is worth beside the brightest image.
 void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLight& image,
               const ImageAtPoint& at, double worth, std::uint32_t seed,
               SharedLightWorkspace& work) {
@@ -145,14 +148,16 @@ void find_lights(const LightScene& light, const NumberedPoint& point, std::uint3
                      work.point.lights);
     return;
   }
-  // Where images are chosen, the steps through them begin elsewhere at every point, evenly by the golden section.
+  // Where images are chosen, the steps through them begin elsewhere at every point,
+  // evenly by the golden section.
   constexpr std::uint32_t golden_section = 0x9e3779b9;
   const LightChoice choice{most, 0x1p-32 * (hash(seed, 0xc401ce) + point.number * golden_section)};
   chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice,
                 work.point.choice, work.point.lights);
 }
 
-/// Adds what every image brings to a point past known blockers, and the shadow rays that will tell how much of it arrives.
+/// Adds what every image brings to a point past known blockers,
+/// and the shadow rays that will tell how much of it arrives.
 void add_point(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
                const SharedLightSettings& settings, SharedLightWorkspace& work) {
   const Receiver& receiver = point.receiver;
@@ -190,7 +195,8 @@ void meet_blocker(const LightScene& light, const LegBlocker& by, ImageSum& image
     blockers.met.push_back(*std::move(blocker));
 }
 
-/// Later means know what rays have met. Where that is ever more, as it is of finely divided things, rays alone are better.
+/// Later means know what rays have met.
+/// Where that is ever more, as it is of finely divided things, rays alone are better.
 void learn(std::vector<ImageSum>& images) {
   constexpr std::size_t most_known = 8;
   for (ImageSum& image : images) {
@@ -220,7 +226,8 @@ void order_waiting(SharedLightWorkspace& work) {
     work.order[begin[static_cast<std::size_t>(work.waiting[k].mirrors)]++] = k;
 }
 
-/// Traces the waiting rays, those of as many legs together. They come from points of one surface, as the receiver is.
+/// Traces the waiting rays, those of as many legs together.
+/// They come from points of one surface, as the receiver is.
 void trace_waiting(const LightScene& light, const Receiver& receiver, SharedLightWorkspace& work) {
   order_waiting(work);
   std::array<LegBlocker, 16> blockers;
@@ -321,7 +328,8 @@ ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_p
     if (++sum.points < wanted)
       continue;
 
-    // Between the first half of the points and all of them the mean has moved by about its own error.
+    // Between the first half of the points and all
+    // of them the mean has moved by about its own error.
     trace_waiting(light, next.receiver, work);
     const ArrivingLight mean = mean_of(work, sum);
     const double brightest = largest(mean.total);

@@ -1,20 +1,26 @@
-// Direct irradiance where several points of one plane share their shadow rays: points of an element, or those on which the samples of a pixel land.
+// Direct irradiance where several points of one plane share their shadow rays:
+// points of an element, or those on which the samples of a pixel land.
 //
 //   mean_p D(x_p)  ~  sum_w tau_w sum_e E_e  mean_p F(x_p, T_w e past known blockers)  sum_pk g_pk V_pk / sum_pk g_pk
 //
-// The points on each image that shadow rays go to are one low-discrepancy sequence, counted on from point to point: a few rays from each do what
-// many would from one. g is the share of the form factor a ray stands for, so that a fully visible image comes out as the closed form's mean,
-// without noise. Points are doubled until the mean settles. How many rays a point sends depends on those of earlier points alone, which keeps means
-// true: a point that sent more where its own first rays disagree, and believed them where they agree, would darken the outer half of every
-// penumbra and brighten the inner one. What is left of that is that means may settle on the first points: light or shade that all of their rays have
-// missed.
+// The points on each image that shadow rays go to are one low-discrepancy sequence,
+// counted on from point to point: a few rays from each do what many would from one.
+// g is the share of the form factor a ray stands for, so that a fully visible image comes
+// out as the closed form's mean, without noise. Points are doubled until the mean settles.
+// How many rays a point sends depends on those of earlier points alone, which keeps means true:
+// a point that sent more where its own first rays disagree, and believed them where they agree,
+// would darken the outer half of every penumbra and brighten the inner one. What is left of that
+// is that means may settle on the first points: light or shade that all of their rays have missed.
 //
-// What blocks rays is known to the means that come after, as long as they share a workspace (known_blockers.h). They take the shadows of known blockers
-// out of F exactly and send their rays past them: once all are known V is 1, and a penumbra has no noise. Means are true whatever is known, as it was
-// learned from other rays.
+// What blocks rays is known to the means that come after,
+// as long as they share a workspace (known_blockers.h).
+// They take the shadows of known blockers out of F exactly and send their rays past them:
+// once all are known V is 1, and a penumbra has no noise.
+// Means are true whatever is known, as it was learned from other rays.
 //
-// Shadows of punctual lights have no penumbra: a mean that settles where four points of sixteen agree takes an edge that leaves them on one side for none,
-// always the same way, so that no number of means makes up for it. Where that shows, in pixels, all points ask for these lights.
+// Shadows of punctual lights have no penumbra: a mean that settles where four points of sixteen
+// agree takes an edge that leaves them on one side for none, always the same way, so that no
+// number of means makes up for it. Where that shows, in pixels, all points ask for these lights.
 #pragma once
 
 #include "radiosity/element_images.h"
@@ -98,7 +104,8 @@ struct SharedLightWorkspace {
   std::vector<std::uint32_t> order, first_with; ///< of these
   ElementImages elements;
   std::vector<PunctualArrival> arrivals;
-  /// By world and emitter. Kept from mean to mean until it is cleared: to be done where results are not to depend on what came before.
+  /// By world and emitter. Kept from mean to mean until it is cleared:
+  /// to be done where results are not to depend on what came before.
   std::unordered_map<std::uint64_t, ImageBlockers> blockers_of;
 };
 

@@ -7,7 +7,8 @@ namespace meninas {
 static constexpr int block_edge = 8;
 static constexpr std::size_t most_in_block = 64;
 
-/// Sides of fewer elements than that share blocks: meshes of many small patches have no more than some ten thousand shooters.
+/// Sides of fewer elements than that share blocks:
+/// meshes of many small patches have no more than some ten thousand shooters.
 static std::size_t shared_elements(std::size_t elements) {
   return std::clamp<std::size_t>(elements / 16384, 1, most_in_block);
 }

@@ -1,9 +1,12 @@
-// How much light further shots can bring, and whether they would ever end, from the elements' own rays.
+// How much light further shots can bring,
+// and whether they would ever end, from the elements' own rays.
 //
-// A unit of power that j shoots makes, with all that it becomes, the power h_j = 1 + sum_i F_ji rho_i h_i. So with q_m = (F rho)^m 1,
+// A unit of power that j shoots makes, with all that it becomes,
+// the power h_j = 1 + sum_i F_ji rho_i h_i. So with q_m = (F rho)^m 1,
 //   ||B - B_k|| <= kappa G ||U_k||,   kappa = ||q_1||,   G = ||h|| <= ||q_0 + ... + q_(m-1)|| / (1 - ||q_m||)  for any m
-// in the power norm of what is shot and the maximum norm of the rest: error_bound.h, transposed. m = 1 gives 1 / (1 - kappa). Where some
-// elements see hardly anything but bright walls the rays are traced again for a larger m, until that is no better.
+// in the power norm of what is shot and the maximum norm of the rest: error_bound.h, transposed.
+// m = 1 gives 1 / (1 - kappa). Where some elements see hardly anything but bright
+// walls the rays are traced again for a larger m, until that is no better.
 // Only what may ever shoot counts: elements that reflect, of parts of the scene that have light.
 #pragma once
 

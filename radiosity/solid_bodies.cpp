@@ -60,7 +60,8 @@ struct Group {
   SolidBody sphere;
 };
 
-/// Makes few of many: halves along the axis along which their middles lie furthest apart, each of which becomes its share of `most`.
+/// Makes few of many: halves along the axis along which their middles lie furthest apart,
+/// each of which becomes its share of `most`.
 void unite(std::span<Group> groups, std::size_t most,
            std::vector<std::vector<TriangleId>>& united) {
   if (most == 1 || groups.size() <= 1) {

@@ -1,7 +1,7 @@
 // The solids of glass in a scene, for those who look for the light that they throw.
 //
-// A body is what triangles of solid glass form that share corners, be they several shells; where there are more than `most_bodies`, those that lie together
-// are one. Each has a sphere around it.
+// A body is what triangles of solid glass form that share corners, be they several shells; where
+// there are more than `most_bodies`, those that lie together are one. Each has a sphere around it.
 #pragma once
 
 #include "scenes/bsdf.h"

@@ -20,7 +20,8 @@ struct DiscPart {
   double area() const { return (high - low) * 2.0 * half_width; }
 };
 
-/// Holds all directions above the horizon from the point to the sphere; area 0 where there are none.
+/// Holds all directions above the horizon from the point to the sphere;
+/// area 0 where there are none.
 DiscPart part_towards(const SolidBody& body, const Point3& x, const Direction& normal,
                       const Vec3& tangent) {
   const Vec3 to = body.centre - x;
@@ -110,7 +111,8 @@ void add_ray(const BodyRays& rays, const DiscPart& part, const Point3& origin,
   work.cell_of_ray.push_back(static_cast<std::uint16_t>(sample.cell));
 }
 
-/// The mean by so many rays, spread by the density; points take turns in runs, each of them even. What cells show goes to `work.shown`.
+/// The mean by so many rays, spread by the density;
+/// points take turns in runs, each of them even. What cells show goes to `work.shown`.
 SolidLight mean_of(const BodyRays& rays, std::uint32_t count, std::uint32_t seed,
                    SolidWorkspace& work, std::uint64_t& traced) {
   static const FormFactorSettings settings{.min_throughput = 1e-6};
@@ -127,7 +129,8 @@ SolidLight mean_of(const BodyRays& rays, std::uint32_t count, std::uint32_t seed
       origin = to_frame(light.rays.frame(), rays.points.positions[point]);
       last = point;
     }
-    // The first pair's dimensions decide which way a ray goes at faces: of the same it would go one way in each direction.
+    // The first pair's dimensions decide which way a ray goes at faces:
+    // of the same it would go one way in each direction.
     const PlacedSample sample =
         place(sobol2(static_cast<std::uint32_t>(k), seed, SobolPair::second), work.density);
     add_ray(rays, part, origin, sample,

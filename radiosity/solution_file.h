@@ -1,10 +1,14 @@
-// A solution as a file: a GLB any viewer shows (COLOR_0) that keeps the exact irradiance (_IRRADIANCE) with the settings
-// of its mesh and the hash of its scene, so that one solve serves any number of views.
+// A solution as a file: a GLB any viewer shows (COLOR_0) that keeps the exact irradiance
+// (_IRRADIANCE) with the settings of its mesh and the hash of its scene,
+// so that one solve serves any number of views.
 //
-// One mesh of one primitive holds all element vertices (POSITION, COLOR_0, _IRRADIANCE, and the parts of the field that are known:
-// _IRRADIANCE_MIRRORED, _IRRADIANCE_INDIRECT, _IRRADIANCE_INDIRECT_MIRRORED, see DiffuseField; VEC3 float) and the elements' triangles. COLOR_0 is the radiosity, exposed for display and linear. `extras` of the asset holds {"meninas": {version,
-// scene_hash, data_hash, mesh settings, counts, figures of the solve}}, and where the field has a mesh of its own, `division`, the number of the view of
-// bytes that say which cells of the forest are divided.
+// One mesh of one primitive holds all element vertices (POSITION,
+// COLOR_0, _IRRADIANCE, and the parts of the field that are known:
+// _IRRADIANCE_MIRRORED, _IRRADIANCE_INDIRECT, _IRRADIANCE_INDIRECT_MIRRORED, see DiffuseField;
+// VEC3 float) and the elements' triangles. COLOR_0 is the radiosity, exposed for display
+// and linear. `extras` of the asset holds {"meninas": {version, scene_hash, data_hash,
+// mesh settings, counts, figures of the solve}}, and where the field has a mesh of its own,
+// `division`, the number of the view of bytes that say which cells of the forest are divided.
 #pragma once
 
 #include "radiosity/pass_one.h"
@@ -29,10 +33,12 @@ struct StoredSolution {
   ClosureError closure;
 };
 
-/// Throws InputError when the file is damaged, or belongs to another scene or another version of the program.
+/// Throws InputError when the file is damaged,
+/// or belongs to another scene or another version of the program.
 StoredSolution read_solution(const std::filesystem::path& file, const Scene& scene);
 
-/// The scene on the field's own mesh; null where the field is on that of `light`, which was made with the solution's settings.
+/// The scene on the field's own mesh;
+/// null where the field is on that of `light`, which was made with the solution's settings.
 /// Throws InputError when the solution speaks of another mesh.
 std::unique_ptr<RefinedScene> refined_scene_of(const std::filesystem::path& file,
                                                const StoredSolution& solution,

@@ -1,20 +1,25 @@
 // Solves the radiosity system  B = S + rho T B  (Eq. 1 with the direct light in the source S), knowing no geometry.
 //
-// Input: source in W/m^2, reflectance dimensionless, transport rows T >= 0. Output: B in W/m^2, by ElementId.
+// Input: source in W/m^2, reflectance dimensionless, transport rows T >= 0.
+// Output: B in W/m^2, by ElementId.
 //   direct        dense LU of 1 - rho T, for at most `most_direct_unknowns`: the oracle of the others
 //   jacobi        B_{k+1} = S + rho T B_k: one bounce of light a sweep
 //   gauss-seidel  the same, in 32 steps that use what the steps before have found
 //   cg            a Krylov method that needs neither areas nor symmetry, which sampled form factors lack: BiCGStab (van der
-//                 Vorst 1992). Conjugate gradients on the symmetrised system are no faster (ARCHITECTURE.md).
+//                 Vorst 1992).
+//                 Conjugate gradients on the symmetrised system are no faster (ARCHITECTURE.md).
 //   progressive   shooting by columns, the largest unshot power first (solvers/shooting.h). In large scenes pass one shoots rays instead,
 //                 and stores no transport (progressive.h).
 //   hierarchical  `cg` for nodes that stand for many elements (hierarchical/node_solution.h): it has no rows of elements, and solve() is
 //                 not for it.
-// All stop on one bound of the error (solvers/error_bound.h): with the residual r_k = S + rho T B_k - B_k,
+// All stop on one bound of the error (solvers/error_bound.h):
+// with the residual r_k = S + rho T B_k - B_k,
 //   ||B - B_k|| <= G ||r_k|| <= tolerance ||B_k||    in the maximum norm, for every channel.
-// None returns less than S, and so nothing negative: light only adds to what is there without bounces.
-// Where light enters a closed part of the scene that absorbs nothing there is no solution: that is found out beforehand, B = S is
-// returned and the end says so. Grey systems are solved in one band. Deterministic for any thread count.
+// None returns less than S, and so nothing negative:
+// light only adds to what is there without bounces.
+// Where light enters a closed part of the scene that absorbs nothing there is no solution:
+// that is found out beforehand, B = S is returned and the end says so.
+// Grey systems are solved in one band. Deterministic for any thread count.
 #pragma once
 
 #include "radiosity/form_factors.h"

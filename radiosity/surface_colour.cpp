@@ -50,8 +50,9 @@ struct GlassSum {
   }
 };
 
-/// Points spread evenly over the triangles of a side, as many as its share of the side's elements asks for; `at(k, triangle, barycentric)` with the
-/// place k of their element among those of the side.
+/// Points spread evenly over the triangles of a side,
+/// as many as its share of the side's elements asks for;
+/// `at(k, triangle, barycentric)` with the place k of their element among those of the side.
 template <typename At>
 void for_points_of(const Scene& scene, const SurfaceModel& surfaces, const ElementMesh& mesh,
                    SideId id, At&& at) {
@@ -85,7 +86,8 @@ void average_side(const Scene& scene, const SurfaceModel& surfaces, const Decode
         all.add(colour);
       });
 
-  // An element too thin for any point takes the mean of its side; what is cut out all over has no colour.
+  // An element too thin for any point takes the mean of its side;
+  // what is cut out all over has no colour.
   for (std::size_t k = 0; k < side.element_count; ++k) {
     const ColourSum& sum = of_element[k].points > 0.0 ? of_element[k] : all;
     const std::size_t e = side.first_element + k;

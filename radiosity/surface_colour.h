@@ -1,9 +1,12 @@
-// What a textured surface reflects and emits diffusely: at a point, and as means over the elements of pass one.
+// What a textured surface reflects and emits diffusely:
+// at a point, and as means over the elements of pass one.
 //
 //   rho(x) = what its lobes reflect in the mean (diffuse_reflectance, scenes/bsdf.h),   E(x) = pi L(x)
 //
-// with base colour, metalness, roughness, transmission and emitted radiance L the material's factors times its textures. Pass one knows the means over its elements, pass two looks up the point: the irradiance is interpolated between
-// the elements, the colours are as sharp as their images.
+// with base colour, metalness, roughness,
+// transmission and emitted radiance L the material's factors times its textures.
+// Pass one knows the means over its elements, pass two looks up the point:
+// the irradiance is interpolated between the elements, the colours are as sharp as their images.
 #pragma once
 
 #include "radiosity/element_mesh.h"
@@ -19,7 +22,8 @@ struct SurfaceColour {
   bool hole = false;    ///< nothing is there
 };
 
-/// At the point of a triangle with weights b1, b2 of its second and third corner; its footprint is counted in them as well.
+/// At the point of a triangle with weights b1, b2 of its second and third corner;
+/// its footprint is counted in them as well.
 SurfaceColour surface_colour(const Scene& scene, const DecodedTextures& textures,
                              TriangleId triangle, Vec2 barycentric,
                              const Footprint& footprint = {});
@@ -28,8 +32,9 @@ SurfaceColour surface_colour(const Scene& scene, const DecodedTextures& textures
 Bsdf glass_at(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
               Vec2 barycentric);
 
-/// What the elements of a side of glass pass on, reflected or passed, of light from everywhere: by their place among those of the side. The mean of
-/// a glass of mean tint stands for the mean over its tints.
+/// What the elements of a side of glass pass on, reflected or passed, of light from everywhere:
+/// by their place among those of the side.
+/// The mean of a glass of mean tint stands for the mean over its tints.
 std::vector<Rgb> passed_on_by_glass(const Scene& scene, const SurfaceModel& surfaces,
                                     const DecodedTextures& textures, const ElementMesh& mesh,
                                     SideId side);

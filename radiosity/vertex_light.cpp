@@ -76,7 +76,8 @@ bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
   return sees_black(work.gather.result);
 }
 
-/// Whether what was gathered is that of a point inside something, or behind it, where no light comes.
+/// Whether what was gathered is that of a point inside something,
+/// or behind it, where no light comes.
 static bool is_enclosed(const GatheredRays& gathered, const std::vector<Rgb>& irradiance) {
   const auto lit = [&](const RayLanding& landing) {
     return irradiance[landing.element] != Rgb(0.0);

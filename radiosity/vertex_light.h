@@ -1,4 +1,5 @@
-// What a vertex gathers, and whether that counts: where something stands on a surface there is no light to interpolate.
+// What a vertex gathers, and whether that counts:
+// where something stands on a surface there is no light to interpolate.
 #pragma once
 
 #include "radiosity/point_gathering.h"
@@ -11,7 +12,8 @@ struct VertexValue {
   bool covered;           ///< something stands on it: no value of its own
 };
 
-/// At a point in elements of a size, metres. `irradiance` by ElementId tells which elements are lit.
+/// At a point in elements of a size, metres.
+/// `irradiance` by ElementId tells which elements are lit.
 VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
                      const Receiver& receiver, double element_size, std::uint32_t seed,
                      PointWorkspace& work);
@@ -25,11 +27,13 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
 ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,
                                 std::uint32_t seed, PointWorkspace& work);
 
-/// Whether a wall stands on the surface along a line through this very point. Where nothing is covered the point still sees neither
-/// side of the wall, whose light is brightest beside it: a form factor that is 1/2 on one side of the line is 0 on it.
+/// Whether a wall stands on the surface along a line through this very point.
+/// Where nothing is covered the point still sees neither side of the wall, whose light
+/// is brightest beside it: a form factor that is 1/2 on one side of the line is 0 on it.
 bool is_at_foot(const LightScene& light, const Receiver& receiver);
 
-/// Whether more than half of what a point sees is blocked within a fraction of an element: it is covered or nearly so, under an edge.
+/// Whether more than half of what a point sees is blocked within a fraction of an element:
+/// it is covered or nearly so, under an edge.
 bool is_nearly_under_something(const LightScene& light, const Receiver& receiver,
                                double element_size);
 
@@ -38,12 +42,14 @@ bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance
              const Receiver& receiver, double element_size, std::uint32_t seed,
              PointWorkspace& work);
 
-/// Whether something lies on the surface here: nearly all of the hemisphere is blocked within a fraction of an element, as under
-/// a box that stands on a floor. What little light there is there must not be interpolated out into the open.
+/// Whether something lies on the surface here: nearly all of the hemisphere
+/// is blocked within a fraction of an element, as under a box that stands on a floor.
+/// What little light there is there must not be interpolated out into the open.
 bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size);
 
-/// Whether a point is under something or, as far as few rays tell, inside something that stands on its surface: nearly all that it sees is black. To be asked
-/// of points to which no light comes from the source.
+/// Whether a point is under something or, as far as few rays tell,
+/// inside something that stands on its surface: nearly all that it sees is black.
+/// To be asked of points to which no light comes from the source.
 bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
                 const Receiver& receiver, double element_size, std::uint32_t seed,
                 PointWorkspace& work);

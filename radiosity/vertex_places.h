@@ -1,4 +1,5 @@
-// Vertices of the mesh: the elements around them, where light is gathered for them, and what lies between them.
+// Vertices of the mesh:
+// the elements around them, where light is gathered for them, and what lies between them.
 #pragma once
 
 #include "radiosity/direct_irradiance.h"
@@ -23,14 +24,15 @@ inline std::span<const ElementId> around(const VertexElements& all, std::size_t 
 /// The mean of an element's corners.
 Point3 centre_of(const ElementMesh& mesh, ElementId element);
 
-/// Where every vertex gathers, by ElementVertexId: drawn a little towards the middle of its elements, so that it is inside its own surface
-/// and not in the wall that stands on its edge.
+/// Where every vertex gathers, by ElementVertexId: drawn a little towards the middle of its
+/// elements, so that it is inside its own surface and not in the wall that stands on its edge.
 std::vector<Receiver> vertex_receivers(const ElementMesh& mesh);
 
 /// The mean of the values at its corners, by ElementId.
 std::vector<Rgb> corner_means(const ElementMesh& mesh, std::span<const glm::vec3> values);
 
-/// Between the corners of an element: bilinear in quads, linear in triangles. `values` by ElementVertexId.
+/// Between the corners of an element:
+/// bilinear in quads, linear in triangles. `values` by ElementVertexId.
 inline glm::vec3 value_in(const ElementMesh& mesh, std::span<const glm::vec3> values,
                           const ElementPoint& at) {
   const auto& corners = mesh.corners[index(at.element)];

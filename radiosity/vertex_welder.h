@@ -1,4 +1,5 @@
-// Shared vertices by position: those of one surface side that round to the same place are one vertex.
+// Shared vertices by position:
+// those of one surface side that round to the same place are one vertex.
 #pragma once
 
 #include "radiosity/element_mesh.h"

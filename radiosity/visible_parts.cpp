@@ -101,7 +101,8 @@ Sides sides_of(const ConvexPolygon& polygon, const Point3& origin, const Directi
   return above && below ? Sides::both : above ? Sides::above : below ? Sides::below : Sides::none;
 }
 
-/// Whether a plane through an edge of `a` and a corner of `b` bounds both on one side and has the blocker on the other.
+/// Whether a plane through an edge of `a` and a corner of `b`
+/// bounds both on one side and has the blocker on the other.
 bool bounded_by_edges(const ConvexPolygon& a, const ConvexPolygon& b, const ConvexPolygon& blocker,
                       double tolerance) {
   for (std::size_t k = 0; k < a.size; ++k) {

@@ -1,7 +1,8 @@
 // What a point sees of a convex polygon past opaque convex blockers, exactly.
 //
-// A blocker hides its cone from the point. Convex minus convex is a set of disjoint convex pieces, one for each side of the cone the
-// polygon reaches beyond: subtracting blocker after blocker leaves the visible parts, whose form factors add up.
+// A blocker hides its cone from the point. Convex minus convex is a set of disjoint convex pieces,
+// one for each side of the cone the polygon reaches beyond:
+// subtracting blocker after blocker leaves the visible parts, whose form factors add up.
 // Blockers are to lie between the point and the polygon's plane: cut them there first.
 #pragma once
 
@@ -27,7 +28,8 @@ struct Face {
 /// As few convex faces as joining whole edges gives. Patches of different nodes are not joined.
 std::vector<Face> joined_faces(const SurfaceModel& surfaces);
 
-/// The face cut along the lines where others stand on it: across them what is seen jumps, between them it changes steadily.
+/// The face cut along the lines where others stand on it:
+/// across them what is seen jumps, between them it changes steadily.
 std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others,
                                            double tolerance);
 
@@ -35,7 +37,8 @@ std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<F
 void subtract_cone(std::vector<ConvexPolygon>& parts, const Point3& x,
                    const ConvexPolygon& blocker);
 
-/// Whether no segment between the two polygons can meet the blocker: a plane holds them apart. Errs towards "no".
+/// Whether no segment between the two polygons can meet the blocker:
+/// a plane holds them apart. Errs towards "no".
 bool holds_apart(const ConvexPolygon& a, const ConvexPolygon& b, const ConvexPolygon& blocker,
                  double tolerance);
 

@@ -1,4 +1,5 @@
-// Factors by mirror world and group, gathered from many points: each point knows the worlds it has walked, here they get common names.
+// Factors by mirror world and group, gathered from many points:
+// each point knows the worlds it has walked, here they get common names.
 #pragma once
 
 #include "radiosity/point_worlds.h"

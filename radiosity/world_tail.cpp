@@ -17,7 +17,8 @@ ConvexPolygon facing(const ConvexPolygon& polygon, const Direction& front) {
   return turned;
 }
 
-/// A(window_1) F(window_1, window_k): how much of the light that enters the first window can reach the last.
+/// A(window_1) F(window_1, window_k):
+/// how much of the light that enters the first window can reach the last.
 double passage(const MirrorWorld& first, std::span<const ConvexPolygon> last,
                const Plane& last_plane) {
   double sum = 0.0;

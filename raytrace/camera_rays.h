@@ -1,5 +1,6 @@
-// Camera rays in the frame of the ray scene, single precision, for packets: origin and direction are affine in the
-// picture coordinates, so a ray costs a few multiplications. Directions are not of unit length.
+// Camera rays in the frame of the ray scene, single precision, for packets:
+// origin and direction are affine in the picture coordinates, so a ray costs a few multiplications.
+// Directions are not of unit length.
 #pragma once
 
 #include "scenes/camera.h"

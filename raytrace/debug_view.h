@@ -1,11 +1,13 @@
-// Pictures for those who debug a scene: what the middle of each pixel comes to, followed through ideal mirrors, as a number and as a colour.
+// Pictures for those who debug a scene: what the middle of each pixel comes to,
+// followed through ideal mirrors, as a number and as a colour.
 //
 //   elements      the elements, in colours that tell them apart; the number is their index counted from 1
 //   irradiance    H of the field of pass one, luminance, W/m^2
 //   closure       abs(1 - (landed + escaped + black + cut)), what the element's row of form factors lacks
 //   mirror-depth  how many mirrors the eye looks by way of
 //
-// Numbers other than those of elements are shown in magma from 0 to a top that goes with the picture. What has no number is black, and 0.
+// Numbers other than those of elements are shown in magma from 0 to a top
+// that goes with the picture. What has no number is black, and 0.
 #pragma once
 
 #include "image/channel.h"

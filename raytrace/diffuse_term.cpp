@@ -50,7 +50,8 @@ glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& se
     return field;
   if (gathering)
     return part_of(light_at(*gathering, receiver, seed, work).all(), part);
-  // By the draw that light_at() makes: there and here light from the source is the same, to the bit.
+  // By the draw that light_at() makes:
+  // there and here light from the source is the same, to the bit.
   return field +
          part_of(direct_irradiance(light, receiver, settings.direct, hash(seed, 1), work.direct),
                  part);

@@ -5,7 +5,8 @@
 //                  so that shadows and mirror spots are as sharp as they are
 //   gather         H = D(x) + one gathering over the hemisphere, from elements as bright as the field says
 //
-// D(x) owns the same paths in all three (direct_irradiance.h, point_gathering.h), so that none is counted twice.
+// D(x) owns the same paths in all three (direct_irradiance.h,
+// point_gathering.h), so that none is counted twice.
 #pragma once
 
 #include "radiosity/point_gathering.h"
@@ -23,7 +24,8 @@ struct DiffuseSettings {
   DiffuseTerm term = DiffuseTerm::interpolated;
   DirectSettings direct{
       .shadow_rays = 16, .penumbra_rays = 64, .solid_rays = 16}; ///< at a camera ray's hit
-  /// Where the hits of a pixel share them, to begin with: fewer do, as later hits correct them. A hit by itself believes its first ones.
+  /// Where the hits of a pixel share them, to begin with:
+  /// fewer do, as later hits correct them. A hit by itself believes its first ones.
   int shared_shadow_rays = 16;
   int shared_solid_rays = 256; ///< of all hits of a pixel together
   FormFactorSettings gather; ///< how the rays of `gather` are followed
@@ -31,10 +33,12 @@ struct DiffuseSettings {
   std::uint32_t draw = 0; ///< another one: other samples at the hits of the same camera rays
 };
 
-/// Which values of the field the term builds on; `direct` expects a field that knows its indirect part.
+/// Which values of the field the term builds on;
+/// `direct` expects a field that knows its indirect part.
 FieldContent field_content(const DiffuseField& field, const DiffuseSettings& settings);
 
-/// The reflected radiosity of the elements, as a field says: rho times the mean of H at their corners.
+/// The reflected radiosity of the elements, as a field says:
+/// rho times the mean of H at their corners.
 std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const DiffuseField& field);
 
 /// What the term needs besides the field; for `gather` alone.
@@ -47,7 +51,8 @@ glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& se
                               const glm::vec3& field, const Receiver& receiver, std::uint32_t seed,
                               PointWorkspace& work);
 
-/// The mean of D over points of one plane that one pixel sees, which share their shadow rays: the term `direct`, but for the field.
+/// The mean of D over points of one plane that one pixel sees, which share their shadow rays:
+/// the term `direct`, but for the field.
 glm::vec3 direct_of_pixel(const LightScene& light, const DiffuseSettings& settings,
                           ReflectedPart part, std::span<const NumberedPoint> points, std::uint32_t seed,
                           SharedLightWorkspace& work);

@@ -9,7 +9,8 @@ namespace meninas {
 
 namespace {
 
-/// The mean over the square of 2 reach + 1 pixels around each, as far as it is in the picture; one direction after the other.
+/// The mean over the square of 2 reach + 1 pixels around each, as far as it is in the picture;
+/// one direction after the other.
 Image mean_around(const Image& image, int reach) {
   const auto along = [reach](const Image& from, bool across) {
     Image to(from.width, from.height);
@@ -62,7 +63,8 @@ Image error_map(const LightScene& light, const DiffuseField& field, const Camera
     edges = mean_around(product_about(first, picture_of(source), interpolated), reach_of_edges);
   }
 
-  // What is left of the field's error when that of the edges is taken off is a share of the radiance.
+  // What is left of the field's error when that
+  // of the edges is taken off is a share of the radiance.
   double edges2 = 0.0, radiance2 = 0.0;
   for (std::size_t p = 0; p < picture.pixels.size(); ++p) {
     const glm::dvec3 l(picture.pixels[p]), e(edges.pixels[p]);

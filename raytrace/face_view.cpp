@@ -44,7 +44,8 @@ double least_over(double sign, const AffineForm& form, const PictureBlock& block
   return sign > 0.0 ? range.low : -range.high;
 }
 
-/// Points of space by the rays through them: o + t d = p where (t, t u, t v), or (t, u, v) where d is constant, is rows (p - o).
+/// Points of space by the rays through them:
+/// o + t d = p where (t, t u, t v), or (t, u, v) where d is constant, is rows (p - o).
 struct ToPicture {
   std::array<Vec3, 3> rows;
   bool perspective;
@@ -136,7 +137,8 @@ bool covers(const FaceView& view, const PictureBlock& block, double longest) {
 
 bool is_behind(const FaceView& face, const FaceView& other, const PictureBlock& block) {
   const double sign = sign_over(face.slope, block), theirs = sign_over(other.slope, block);
-  // h' / s' - h / s, times the lengths of both slopes: by more than a margin under the face, and over the other.
+  // h' / s' - h / s, times the lengths of both slopes:
+  // by more than a margin under the face, and over the other.
   const AffineForm farther = other.height * face.slope + (-1.0) * (face.height * other.slope);
   const AffineForm apart = sign * theirs * farther;
   return sign * theirs != 0.0 &&

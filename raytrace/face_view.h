@@ -1,12 +1,14 @@
-// A face as the rays of a picture see it: what a block of pixels asks of it are the signs of affine functions of the place in the picture.
+// A face as the rays of a picture see it:
+// what a block of pixels asks of it are the signs of affine functions of the place in the picture.
 //
-// The ray o + t d through the point (u, v), in pixels of the tile, has o and d affine in (u, v), one of them constant. It meets the plane n . p = c at t = h / s with the
-// height h = c - n . o and the slope s = n . d, and its foot there is over another plane g . p = e by
+// The ray o + t d through the point (u, v), in pixels of the tile, has o and d affine in (u, v),
+// one of them constant. It meets the plane n . p = c at t = h / s with the height h = c - n .
+// o and the slope s = n . d, and its foot there is over another plane g . p = e by
 //
 //   (g . o - e) + t g . d = ((g . o - e) s + h g . d) / s.
 //
-// Of the two factors of each product one is constant, so that all of these are affine, and their least and largest value over a rectangle
-// are at corners.
+// Of the two factors of each product one is constant, so that all of these are affine,
+// and their least and largest value over a rectangle are at corners.
 #pragma once
 
 #include "raytrace/frustum.h"
@@ -71,7 +73,8 @@ inline bool sees_back(const FaceView& view, const PictureBlock& block) {
   return range_over(view.slope, block).low > 0.0;
 }
 
-/// Whether all rays of the block come to the plane of the face before that of the other, far from both.
+/// Whether all rays of the block come to the plane of the face before that of the other,
+/// far from both.
 bool is_behind(const FaceView& face, const FaceView& other, const PictureBlock& block);
 
 } // namespace meninas

@@ -1,14 +1,16 @@
-// Layers that show the scene instead of its light, for compositing and denoising. All of them are samples at the middle of each pixel, of the
-// first surface the eye meets there, a mirror among them; 0 where there is none.
+// Layers that show the scene instead of its light, for compositing and denoising.
+// All of them are samples at the middle of each pixel,
+// of the first surface the eye meets there, a mirror among them; 0 where there is none.
 #pragma once
 
 #include "raytrace/render.h"
 
 namespace meninas {
 
-/// In all channels of the layer: of depth along the view axis, metres; R, G, B = x, y, z of the unit normal towards the eye, in the
-/// world; diffuse reflectance with textures, 0 on mirrors; index of the element counted from 1 (exact up to 2^24), 0 where there is none;
-/// irradiance of the field of pass one, W/m^2.
+/// In all channels of the layer: of depth along the view axis, metres;
+/// R, G, B = x, y, z of the unit normal towards the eye, in the world;
+/// diffuse reflectance with textures, 0 on mirrors; index of the element counted from 1 (exact
+/// up to 2^24), 0 where there is none; irradiance of the field of pass one, W/m^2.
 std::vector<Layer> render_features(const LightScene& light, const DiffuseField& field,
                                    const Camera& camera, const RenderSettings& settings);
 

@@ -21,7 +21,8 @@ struct SideShading {
 /// By SideId.
 std::vector<SideShading> make_side_shading(const ElementMesh& mesh);
 
-/// Which of the light that arrives at a surface is reflected: by its last leg, straight or by way of mirrors.
+/// Which of the light that arrives at a surface is reflected:
+/// by its last leg, straight or by way of mirrors.
 enum class ReflectedPart { all, straight, mirrored, none };
 
 /// What landing points show.
@@ -41,8 +42,8 @@ enum class FieldContent {
 VisibleLight visible_light(const LightScene& light, const DiffuseField& field,
                            FieldContent content);
 
-/// What a field shows, in the parts that add up to it: `emission`, and reflected light by its last leg to the surface, straight
-/// (`diffuse.direct`) or by way of mirrors (`diffuse.mirrored`).
+/// What a field shows, in the parts that add up to it: `emission`, and reflected light by its last
+/// leg to the surface, straight (`diffuse.direct`) or by way of mirrors (`diffuse.mirrored`).
 struct LightPart {
   std::string name;
   VisibleLight light;
@@ -56,7 +57,8 @@ struct PointSums {
   float n = 0.0F, s = 0.0F, t = 0.0F, st = 0.0F;
 };
 
-/// The sum of the irradiances, and of the radiances, at points of an element. Those of a triangle have no sum of s t: its third corner stands for its fourth,
+/// The sum of the irradiances, and of the radiances, at points of an element.
+/// Those of a triangle have no sum of s t: its third corner stands for its fourth,
 /// so that the bilinear form without the product is its linear one.
 inline glm::vec3 field_irradiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
                                   std::uint32_t element, const PointSums& p) {

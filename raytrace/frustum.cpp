@@ -160,7 +160,8 @@ LandingForms landing_forms(const std::array<Point3, 3>& corners, const PictureRa
   const Direction n = area_vector(corners);
   const double slope = glm::dot(n, rays.direction);
   const double height = glm::dot(n, corners[0] - rays.origin);
-  // b = w(o + t d) with t = height / slope, times slope: of its changes with x and y those of o or those of d are zero.
+  // b = w(o + t d) with t = height / slope, times slope:
+  // of its changes with x and y those of o or those of d are zero.
   const auto numerator = [&](const Weight& w) {
     const double here = w.at(rays.origin), along = glm::dot(w.gradient, rays.direction);
     const auto change = [&](const Vec3& o, const Vec3& d) {

@@ -1,6 +1,8 @@
-// Reflection frusta: what the rays of a rectangle of the picture can come near to, straight or behind mirrors.
+// Reflection frusta:
+// what the rays of a rectangle of the picture can come near to, straight or behind mirrors.
 //
-// Four corner rays bound the frustum, the planes between these, and the plane that it leaves. All lengths are in the frame of the ray scene.
+// Four corner rays bound the frustum, the planes between these, and the plane that it leaves.
+// All lengths are in the frame of the ray scene.
 // "Certainly" is by `frustum_margin`, many roundings away from all edges and planes.
 #pragma once
 
@@ -41,11 +43,12 @@ struct FrustumFace {
   bool can_be_sure = true; ///< no holes, no sliver
 };
 
-/// Those that can be met. None where the scene has more triangles than `most`, nor where there is glass, in which rays are attenuated one by one.
+/// Those that can be met. None where the scene has more triangles than `most`,
+/// nor where there is glass, in which rays are attenuated one by one.
 std::vector<FrustumFace> frustum_faces(const LightScene& light, std::size_t most);
 
-/// The unfolded rays o + t d through the points (x, y) of a picture or a tile of it, in pixels; o and d affine in (x, y), one of them constant, behind what
-/// they have left last.
+/// The unfolded rays o + t d through the points (x, y) of a picture or a tile of it, in pixels;
+/// o and d affine in (x, y), one of them constant, behind what they have left last.
 struct PictureRays {
   Point3 origin;
   Vec3 origin_x, origin_y;
@@ -55,7 +58,8 @@ struct PictureRays {
 
 PictureRays reflected(const PictureRays& rays, const HalfSpace& mirror);
 
-/// The rays through the corners of the rectangle from (0, 0) to `to`, and the planes around all of its rays.
+/// The rays through the corners of the rectangle from (0,
+/// 0) to `to`, and the planes around all of its rays.
 struct Frustum {
   std::array<Point3, 4> origin;
   std::array<Vec3, 4> direction;
@@ -69,7 +73,8 @@ bool is_outside(const Frustum& f, const Ball& ball);
 /// The part in the frustum, and a margin more.
 ConvexPolygon clip_to(const Frustum& f, ConvexPolygon polygon);
 
-/// Weights of the second and third corner of a triangle at (x, y): b1 and b2 over the last, each affine, times (1, x, y).
+/// Weights of the second and third corner of a triangle at (x, y):
+/// b1 and b2 over the last, each affine, times (1, x, y).
 struct LandingForms {
   glm::dvec3 b1{0.0}, b2{0.0}, over{1.0, 0.0, 0.0};
 };

@@ -12,7 +12,8 @@ namespace {
 
 Direction mirrored(const Direction& out) { return {-out.x, -out.y, out.z}; }
 
-/// A cell's direction before the weights are brought to their norm: g, and g times the shares of what is no metal.
+/// A cell's direction before the weights are brought to their norm:
+/// g, and g times the shares of what is no metal.
 struct Cell {
   Direction in;
   double visible;
@@ -98,7 +99,8 @@ void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift
       coat_sum += largest(cell->coat);
       cells.push_back(*cell);
     }
-  // A coarse grid at a grazing angle may dip below the surface as a whole: the mirror direction stands for it.
+  // A coarse grid at a grazing angle may dip below the surface as a whole:
+  // the mirror direction stands for it.
   if (cells.empty()) {
     cells.push_back(weighed(bsdf, mirrored(out), out.z, 1.0));
     metal_sum = 1.0;

@@ -91,7 +91,8 @@ struct SquaredErrors {
   double field = 0.0, source = 0.0, vertices = 0.0, tail = 0.0, pixels = 0.0;
 };
 
-/// What one camera ray a pixel shows is off: by two gatherings at the first pixels, and by light from the source at all.
+/// What one camera ray a pixel shows is off:
+/// by two gatherings at the first pixels, and by light from the source at all.
 void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered,
                  SquaredErrors& errors, PictureError& error) {
   const std::span<const glm::ivec2> pixels = choice.pixels;
@@ -102,7 +103,8 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   const auto first = pixels.first(std::min(gathered, pixels.size()));
   if (shown.diffuse.term == DiffuseTerm::gather)
     return; // as good as what it would be compared with
-  // What is computed at the hit is drawn alike in L_k, and is not in the difference: its noise is the pixels'.
+  // What is computed at the hit is drawn alike in L_k, and is not in the difference:
+  // its noise is the pixels'.
   const Radiances l1 = probe(drawn_again(shown, 3), interpolated ? pixels : first);
   const Radiances l2 = interpolated ? l1 : probe(drawn_again(shown, 4), first);
   probe.watch.lap();
@@ -113,7 +115,8 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   const auto off = [&](std::size_t k) { return weight(k) * (g1[k] - l1[k]) * (g2[k] - l2[k]); };
   errors.field = mean_of(first.size(), off);
 
-  // Without light from the source, whose noise is the pixels' or the mesh's, draw 3 and 4 are those of the gathering alone.
+  // Without light from the source, whose noise is the pixels' or the mesh's,
+  // draw 3 and 4 are those of the gathering alone.
   Radiances s1 = l1, s2 = l2;
   if (interpolated && !probe.field.indirect.empty()) {
     RenderSettings source = gathering;

@@ -5,7 +5,8 @@
 
 namespace meninas {
 
-/// visit(x, y, nx, ny) for each pair of neighbours once: to the right of (x, y) and the three below it, row by row.
+/// visit(x, y, nx, ny) for each pair of neighbours once:
+/// to the right of (x, y) and the three below it, row by row.
 template <typename Visit>
 void for_each_neighbours(int width, int height, const Visit& visit) {
   for (int y = 0; y < height; ++y)

@@ -44,7 +44,8 @@ std::uint32_t lanes_equal(const std::uint32_t* values, std::uint32_t value);
 /// Which face of LandingTable the lanes have met; all that have met nothing have the same number.
 LaneIndices faces_of(const HitPacket& hits);
 
-/// The sum of the radiances at the points of some lanes, with one look-up for each element: the bilinear field is linear in the sums of 1, s, t and s t.
+/// The sum of the radiances at the points of some lanes, with one look-up for each element:
+/// the bilinear field is linear in the sums of 1, s, t and s t.
 glm::vec3 quad_radiance(const ElementMesh& mesh, const VisibleLight& visible, std::uint32_t side,
                         const LanePoints& at, std::uint32_t lanes);
 

@@ -1,10 +1,11 @@
-// Pass two: the picture. Camera rays meet the diffuse field or a mirror; mirrors are followed in chains until the path
-// lands on the field, escapes, or its throughput falls below the visible threshold.
+// Pass two: the picture. Camera rays meet the diffuse field or a mirror;
+// mirrors are followed in chains until the path lands on the field,
+// escapes, or its throughput falls below the visible threshold.
 //
 //   L(pixel) = mean over samples of  prod_k rho_s(k) (L_e + rho_d H / pi)   at the landing point
 //
-// Samples are stratified in the pixel, or where its filter is (pixel_filter.h), and seeded by hash(pixel, seed); tiles run in parallel and
-// each writes its own pixels.
+// Samples are stratified in the pixel, or where its filter is (pixel_filter.h),
+// and seeded by hash(pixel, seed); tiles run in parallel and each writes its own pixels.
 #pragma once
 
 #include "image/image.h"
@@ -41,7 +42,8 @@ struct RenderSettings {
       16; ///< directions of a camera ray into the widest and brightest lobes (lobe_grid.h)
   std::uint32_t seed = 0;
   PixelFilter filter = PixelFilter::box;
-  /// Above 0: no more samples than it takes for pixels to be right to this share of themselves or of the mean (sample_choice.h).
+  /// Above 0: no more samples than it takes for pixels to be right
+  /// to this share of themselves or of the mean (sample_choice.h).
   double pixel_error = 0.0;
   WithLayers layers = WithLayers::no; ///< as `render_layers` makes them
   std::vector<Feature> features;      ///< layers after those
@@ -66,11 +68,14 @@ struct Rendering {
 Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera,
                  const RenderSettings& settings, const Progress& progress = {});
 
-/// The same picture as the sum of nine layers, each traced for itself: `emission`, `diffuse.direct` and `diffuse.mirrored` (light
-/// whose last leg to the surface was straight, or by way of mirrors), seen straight, in one mirror (`.mirror`) and by way of
-/// several (`.mirrors`). To the eye a mirror is also what reflects by a lobe, gloss, coats and glass; to a surface ideal metals and glass alone, whose
-/// worlds pass one knows, while it spreads what gloss and coats reflect. The four transport mechanisms: diffuse to diffuse is `diffuse.direct`, specular to diffuse `diffuse.mirrored`,
-/// diffuse to specular what `.mirror` shows, specular to specular what `.mirrors` shows. The field must know its mirrored part.
+/// The same picture as the sum of nine layers, each traced for itself: `emission`, `diffuse.direct`
+/// and `diffuse.mirrored` (light whose last leg to the surface was straight, or by way of mirrors),
+/// seen straight, in one mirror (`.mirror`) and by way of several (`.mirrors`).
+/// To the eye a mirror is also what reflects by a lobe, gloss, coats and glass;
+/// to a surface ideal metals and glass alone, whose worlds pass one knows, while it spreads what
+/// gloss and coats reflect. The four transport mechanisms: diffuse to diffuse is `diffuse.direct`,
+/// specular to diffuse `diffuse.mirrored`, diffuse to specular what `.mirror` shows,
+/// specular to specular what `.mirrors` shows. The field must know its mirrored part.
 Rendering render_layers(const LightScene& light, const DiffuseField& field, const Camera& camera,
                         const RenderSettings& settings, const Progress& progress = {});
 

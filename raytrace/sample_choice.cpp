@@ -66,7 +66,8 @@ PixelMask uncertain_pixels(const Image& picture, const Image& change, double pix
   PixelMask uncertain(picture.pixels.size(), 0);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
-      // An edge goes through three of nine pixels: they share the squares. A pixel's own change is believed as well.
+      // An edge goes through three of nine pixels:
+      // they share the squares. A pixel's own change is believed as well.
       const glm::vec3 error =
           glm::max(glm::abs(change.at(x, y)), glm::sqrt(squares_around(change, x, y) / 3.0F));
       const bool passed = bound.passed_by(error_of_change * error, picture.at(x, y));

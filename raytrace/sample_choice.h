@@ -1,15 +1,20 @@
-// Adaptive pixel sampling: which pixels take how many samples (in rounds, after Kirk and Arvo 1991).
+// Adaptive pixel sampling:
+// which pixels take how many samples (in rounds, after Kirk and Arvo 1991).
 //
-// Every pixel takes its first samples, at least four; every further round makes them four times as many, up to `samples` in at most four rounds,
-// in the pixels that still look to be off by more than `pixel_error` of their radiance or of the picture's mean radiance, whichever is less:
+// Every pixel takes its first samples, at least four; every further round makes them four times
+// as many, up to `samples` in at most four rounds, in the pixels that still look to be off by more
+// than `pixel_error` of their radiance or of the picture's mean radiance, whichever is less:
 //
 //   e > pixel_error min(L + 0.05 mean, mean),       in some channel
 //
-// After the first round e is a quarter of the largest difference from a neighbour: the mean of four samples is off by about 0.14 times the
-// step at an edge, and by 0.4 times what neighbours differ by where all is noise. After a later round, from n / 4 to n samples, e is by what
-// the round has changed the pixel and those around it: that is the error of the n / 4 (times sqrt(4/3)), of which n have a half where all is noise,
-// a third at edges. The choice is made of whole pictures, so that it depends on no tile and no thread, and of the whole light, so that all
-// layers are of the same samples. What the first samples of a pixel and its neighbours have not met is not found.
+// After the first round e is a quarter of the largest difference from a neighbour:
+// the mean of four samples is off by about 0.14 times the step at an edge,
+// and by 0.4 times what neighbours differ by where all is noise. After a later round,
+// from n / 4 to n samples, e is by what the round has changed the pixel and those around it:
+// that is the error of the n / 4 (times sqrt(4/3)), of which n have a half where all is noise,
+// a third at edges. The choice is made of whole pictures, so that it depends on no tile
+// and no thread, and of the whole light, so that all layers are of the same samples.
+// What the first samples of a pixel and its neighbours have not met is not found.
 #pragma once
 
 #include "raytrace/tiles.h"
@@ -30,7 +35,8 @@ struct SampleRound {
 
 using TraceSamples = std::function<void(const SampleShare&, const StorePixel&)>;
 
-/// The rounds of a picture. All but the last are traced to decide, and blended into `picture`; the last one may have no pixels.
+/// The rounds of a picture. All but the last are traced to decide, and blended into `picture`;
+/// the last one may have no pixels.
 std::vector<SampleRound> choose_samples(const RenderSettings& settings, const TraceSamples& trace,
                                         Image& picture);
 
@@ -43,7 +49,8 @@ inline glm::vec3 blended(const SampleRange& round, const glm::vec3& before, cons
                       (mean - before);
 }
 
-/// 1 where pixels look to be off by more than `pixel_error` after the first round, by what neighbours differ by.
+/// 1 where pixels look to be off by more than `pixel_error` after the first round,
+/// by what neighbours differ by.
 PixelMask uncertain_pixels(const Image& picture, double pixel_error);
 
 /// The same after a later round that has changed pixels by `change`.

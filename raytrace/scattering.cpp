@@ -40,7 +40,8 @@ Media media_at(const RenderContext& context, const HitPacket& hits, std::uint32_
   return hits.front[k] != 0 ? Media{before, met} : Media{met, none<MaterialId>};
 }
 
-/// The shift of a grid: spread evenly over the camera rays of a pixel, at random behind another lobe.
+/// The shift of a grid:
+/// spread evenly over the camera rays of a pixel, at random behind another lobe.
 Vec2 shift_of(const SpecularRay& ray, std::uint32_t seed_of_pixel) {
   const auto u = ray.lobes == 0 ? sobol4(ray.number, seed_of_pixel) : sobol4(0, ray.key);
   return {u[0], u[1]};
@@ -191,8 +192,8 @@ glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& pack
   const Direction out = local_out(face.normal, glm::normalize(at.direction));
   const bool smooth =
       material_of(context.light.scene, TriangleId{hits.triangle[k]}).throws_as_mirror;
-  // The field stands for what is left out, but it knows nothing of what glass, smooth metals and coats that are mirrors reflect: they are ideal from
-  // there on.
+  // The field stands for what is left out, but it knows nothing of what glass,
+  // smooth metals and coats that are mirrors reflect: they are ideal from there on.
   const bool goes_on_ideally = smooth || bsdf.glass > 0.0;
   if (smooth && !has_field)
     bsdf.metal = metal_all_in_lobe(bsdf, out.z);

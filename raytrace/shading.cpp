@@ -97,7 +97,8 @@ glm::vec3 shared_irradiance_of(const RenderContext& context, const LaneState& st
              direct_of_pixel(light, diffuse, context.visible.part, work.points, key, work.shared);
 }
 
-/// The sum of H over a run, lane by lane: of the first four, which are spread over the pixel, where they agree.
+/// The sum of H over a run, lane by lane:
+/// of the first four, which are spread over the pixel, where they agree.
 glm::vec3 irradiance_of_each(const RenderContext& context, const LaneState& state,
                              const HitPacket& hits, LaneRun run, TileWorkspace& work) {
   constexpr std::uint32_t few = 4;
@@ -127,7 +128,8 @@ glm::vec3 irradiance_of_run(const RenderContext& context, const LaneState& state
                 : irradiance_of_each(context, state, hits, run, work);
 }
 
-/// From lane k on those that have come to the same side, in the same pixel and by the same way, with light that a run can add up.
+/// From lane k on those that have come to the same side,
+/// in the same pixel and by the same way, with light that a run can add up.
 LaneRun run_from(const RenderContext& context, const RayPacket& packet, const LaneState& state,
                  const HitPacket& hits, const FaceRecord& face, std::uint32_t k) {
   LaneRun run{k, k + 1};

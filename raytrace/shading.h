@@ -1,4 +1,5 @@
-// What rays show of what they have met: the field's radiance, added to their pixels; mirrors queue the rays that go on.
+// What rays show of what they have met:
+// the field's radiance, added to their pixels; mirrors queue the rays that go on.
 #pragma once
 
 #include "raytrace/tile.h"
@@ -9,7 +10,8 @@ namespace meninas {
 Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                      std::uint32_t k);
 
-/// What the surface is like where lane k has landed on it: of a textured one the point itself, in the part that is shown.
+/// What the surface is like where lane k has landed on it:
+/// of a textured one the point itself, in the part that is shown.
 SideShading shading_at(const RenderContext& context, const RayPacket& packet,
                        const LaneState& state, const FaceRecord& face, const HitPacket& hits,
                        std::uint32_t k);

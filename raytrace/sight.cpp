@@ -47,7 +47,8 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
     ray.leaving = static_cast<PlaneId>(face.plane_class);
     if (clear) {
       next = backs;
-      // Where panes meet in an edge the one that was left before is met again, unless the eye goes on: in steps that double.
+      // Where panes meet in an edge the one that was left before is met again,
+      // unless the eye goes on: in steps that double.
       step = hit->distance > step ? 0.0 : std::max(2.0 * step, 1e-15 / light.rays.frame().scale);
       ray.origin += step * ray.direction;
     } else {

@@ -1,5 +1,5 @@
-// What the ray through one point of the picture comes to, followed through ideal mirrors where that is wanted: for layers and views that
-// show the scene instead of its light.
+// What the ray through one point of the picture comes to, followed through ideal mirrors
+// where that is wanted: for layers and views that show the scene instead of its light.
 #pragma once
 
 #include "raytrace/field_shading.h"
@@ -17,8 +17,10 @@ struct Sight {
   int mirrors = 0;                          ///< on the way
 };
 
-/// What is mostly clear glass is looked straight through. The sight through a point of the picture (x and y from 0 to 1, right and down). Backs of single-sided surfaces are looked through by
-/// the eye, not by mirrors. A chain of more than `max_mirrors` ends at the mirror it has come to.
+/// What is mostly clear glass is looked straight through.
+/// The sight through a point of the picture (x and y from 0 to 1, right and down).
+/// Backs of single-sided surfaces are looked through by the eye, not by mirrors.
+/// A chain of more than `max_mirrors` ends at the mirror it has come to.
 Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
            int max_mirrors);
 

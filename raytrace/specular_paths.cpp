@@ -64,8 +64,8 @@ void reflect(const RenderContext& context, const FaceRecord& face, const RayPack
   go_on(context, ray, work);
 }
 
-/// Takes from the rays what the solids keep that they have crossed to where they are: those whose surfaces they meet from inside, or else the ones
-/// they were refracted into.
+/// Takes from the rays what the solids keep that they have crossed to where they are:
+/// those whose surfaces they meet from inside, or else the ones they were refracted into.
 static void attenuate(const RenderContext& context, const RayPacket& packet, const HitPacket& hits,
                       SpecularRay* rays) {
   const Scene& scene = context.light.scene;

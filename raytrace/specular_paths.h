@@ -1,13 +1,15 @@
 // Specular paths: what a mirror sends on, and the tile's rays followed from mirror to mirror.
 //
-// A path ends where it lands on the field, escapes, or when its throughput falls below `RenderSettings::min_throughput`.
+// A path ends where it lands on the field, escapes,
+// or when its throughput falls below `RenderSettings::min_throughput`.
 #pragma once
 
 #include "raytrace/tile.h"
 
 namespace meninas {
 
-/// Where lane k meets the exact plane of the face, in the frame of the ray scene, and along which direction.
+/// Where lane k meets the exact plane of the face,
+/// in the frame of the ray scene, and along which direction.
 struct Meeting {
   glm::dvec3 position, direction;
   double distance; ///< metres, for directions of unit length
@@ -17,7 +19,8 @@ struct Meeting {
 Meeting meeting_of(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
                    const LaneState& state, std::uint32_t k, float distance);
 
-/// The ray of lane k as it leaves that plane, before it is given an origin, a direction, and what it loses there.
+/// The ray of lane k as it leaves that plane,
+/// before it is given an origin, a direction, and what it loses there.
 SpecularRay ray_from(const LaneState& state, std::uint32_t k, std::uint32_t leaving,
                      std::uint32_t seed);
 
@@ -31,7 +34,8 @@ inline bool goes_on(const RenderContext& context, std::int32_t bounces, const gl
 /// Queues a path, unless it is too faint for its share.
 void go_on(const RenderContext& context, const SpecularRay& ray, TileWorkspace& work);
 
-/// Queues the path behind the mirror that lane k has hit, from where it meets the mirror's exact plane.
+/// Queues the path behind the mirror that lane k has hit,
+/// from where it meets the mirror's exact plane.
 void reflect(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
              const LaneState& state, std::uint32_t k, float distance, TileWorkspace& work);
 

@@ -65,7 +65,8 @@ struct Search {
     return add_leg(leg);
   }
 
-  /// Asks a block for its path behind the mirrors of a leg, of which the pieces from `first` to `last` come near it.
+  /// Asks a block for its path behind the mirrors of a leg,
+  /// of which the pieces from `first` to `last` come near it.
   void ask(const Block& block, std::uint32_t leg, std::size_t first, std::size_t last) {
     const PictureBlock seen = picture_block(block);
     const double longest = sure.legs[leg].longest;
@@ -205,7 +206,8 @@ PictureRays rays_of(const CameraFrame& camera, const TileArea& tile,
                    pixel.y * Vec3(camera.direction_y),
                    {}};
   const Vec2 corner(tile.width, tile.height);
-  // All of the picture goes ahead from the plane through its middle ray; of that of a tile's own, not even all of the tile where the view is wide.
+  // All of the picture goes ahead from the plane through its middle ray;
+  // of that of a tile's own, not even all of the tile where the view is wide.
   const Direction n = glm::normalize(Vec3(camera.direction) + 0.5 * Vec3(camera.direction_x) +
                                      0.5 * Vec3(camera.direction_y));
   rays.near = {n, glm::dot(n, rays.origin) + std::min(0.0, corner.x * glm::dot(n, rays.origin_x)) +

@@ -1,12 +1,16 @@
-// Pixels whose camera rays certainly all take the same path, by the same mirrors to the same face: these rays need not be traced.
+// Pixels whose camera rays certainly all take the same path, by the same mirrors to the same face:
+// these rays need not be traced.
 //
-// The rays of a block of pixels are a reflection frustum. Where a face covers it, and whatever else reaches into it lies behind the
-// plane of the face, all rays of the block meet it. If it is a mirror, the frustum is reflected and asked the same behind it. A block that is
-// not sure of its path is divided, down to a few rays, which are traced then. Which faces reach into the frustum of a tile is found once
-// for every leg (frustum.h), with how its rays see them (face_view.h), and each block sorts out those of its parent.
+// The rays of a block of pixels are a reflection frustum. Where a face covers it, and whatever
+// else reaches into it lies behind the plane of the face, all rays of the block meet it.
+// If it is a mirror, the frustum is reflected and asked the same behind it.
+// A block that is not sure of its path is divided, down to a few rays, which are traced then.
+// Which faces reach into the frustum of a tile is found once for every leg (frustum.h),
+// with how its rays see them (face_view.h), and each block sorts out those of its parent.
 //
-// The unfolded ray through the point (x, y) of the picture is o + t d, o and d affine in (x, y), one of them constant. It lands where
-// n . (o + t d) = c, so that the weights of a triangle's corners there are ratios of affine functions of x and y: nothing else is left to compute.
+// The unfolded ray through the point (x, y) of the picture is o + t d, o and d affine in (x, y),
+// one of them constant. It lands where n . (o + t d) = c, so that the weights of a triangle's
+// corners there are ratios of affine functions of x and y: nothing else is left to compute.
 #pragma once
 
 #include "raytrace/face_view.h"
@@ -43,7 +47,8 @@ struct SurePath {
   std::int32_t mirrors = 0;
   glm::vec3 throughput{1.0F}; ///< of the mirrors
   glm::vec2 corner{0.0F};     ///< of the tile in the picture
-  /// Times (1, x - corner.x, y - corner.y): the weights of the triangle's second and third corner, times what the last gives.
+  /// Times (1, x - corner.x, y - corner.y):
+  /// the weights of the triangle's second and third corner, times what the last gives.
   glm::vec3 b1{0.0F}, b2{0.0F}, over{1.0F};
 };
 

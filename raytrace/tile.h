@@ -106,7 +106,8 @@ inline bool is_chosen(const RenderContext& context, int x, int y) {
                                               static_cast<std::size_t>(x)] != 0;
 }
 
-/// Sixteen camera rays behind the mirrors that all of them have met (mirror_beam.h), in the frame of the ray scene.
+/// Sixteen camera rays behind the mirrors that all of them have met (mirror_beam.h),
+/// in the frame of the ray scene.
 struct alignas(64) MirrorBeam {
   double origin_x[packet_size], origin_y[packet_size], origin_z[packet_size];
   double direction_x[packet_size], direction_y[packet_size], direction_z[packet_size];
@@ -116,7 +117,8 @@ struct alignas(64) MirrorBeam {
   std::int32_t bounces = 0; ///< off mirrors
 };
 
-/// What the rays of a packet carry: camera rays their pixel and sample, and what mirrors they have met together; specular rays their record.
+/// What the rays of a packet carry: camera rays their pixel and sample,
+/// and what mirrors they have met together; specular rays their record.
 struct LaneState {
   const std::uint32_t* pixel;
   const SpecularRay* specular; ///< of lane 0; null for camera rays

@@ -73,7 +73,8 @@ static RenderContext context_of(const LightScene& light, const VisibleLight& vis
                         {},
                         blurred_worlds(light),
                         {}};
-  // The rays of a lobe share the pixel: what one of them sees of a shadow, the others see differently.
+  // The rays of a lobe share the pixel:
+  // what one of them sees of a shadow, the others see differently.
   context.behind_lobes = settings.diffuse;
   context.behind_lobes.direct.shadow_rays = context.behind_lobes.direct.penumbra_rays = 1;
   context.behind_lobes.direct.images = context.behind_lobes.direct.solid_rays = 2;
@@ -83,7 +84,8 @@ static RenderContext context_of(const LightScene& light, const VisibleLight& vis
   return context;
 }
 
-/// Beyond so many triangles a tile's rays are traced sooner than it is known what comes near it, or little of that would be certain.
+/// Beyond so many triangles a tile's rays are traced sooner than it is known what comes near it,
+/// or little of that would be certain.
 static std::size_t most_frustum_faces(const RenderSettings& settings, std::size_t samples) {
   constexpr std::size_t pixels = std::size_t{tile_size} * tile_size;
   const std::size_t tiles =

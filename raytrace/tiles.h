@@ -21,13 +21,15 @@ struct SampleShare {
   const PixelMask* pixels = nullptr; ///< null: all
 };
 
-/// The means over those samples of what is visible, pixel by pixel, handed to `store` from any thread.
+/// The means over those samples of what is visible,
+/// pixel by pixel, handed to `store` from any thread.
 RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
                         const PointGathering* gathering, const Camera& camera,
                         const RenderSettings& settings, const SampleShare& share,
                         const Progress& progress, const StorePixel& store);
 
-/// The pixels of a list alone, the same values but for roundings, in its order; `store` is told the place in the list as x.
+/// The pixels of a list alone, the same values but for roundings, in its order;
+/// `store` is told the place in the list as x.
 RayTotals trace_pixels(const LightScene& light, const VisibleLight& visible,
                        const PointGathering* gathering, const Camera& camera,
                        const RenderSettings& settings, std::span<const glm::ivec2> pixels,

@@ -62,7 +62,8 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
 TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera,
                        const TwoPassSettings& settings, const Progress& progress,
                        const PassOneWatch& watch) {
-  // Pass one: diffuse radiosity, with the light that arrives directly and through every mirror world.
+  // Pass one:
+  // diffuse radiosity, with the light that arrives directly and through every mirror world.
   auto solution = solve_pass_one(*prepared.light, settings.pass_one, progress, watch);
 
   // Pass two: specular light, followed from the eye until it lands on the diffuse field.

@@ -54,7 +54,8 @@ bool passes_mirrors(const TracedScene& traced, const LightImage& image, Point3 x
   return true;
 }
 
-/// Keeps `most_connections` or fewer: those on which equal steps through the sum of what all would bring end.
+/// Keeps `most_connections` or fewer:
+/// those on which equal steps through the sum of what all would bring end.
 void thin_out(std::vector<ImageConnection>& chosen, double u) {
   double sum = 0.0;
   for (const ImageConnection& connection : chosen)

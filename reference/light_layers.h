@@ -1,16 +1,22 @@
-// The picture as a sum of nine layers, by the rule of the two passes' layers (raytrace/render.h) but read off the paths themselves:
+// The picture as a sum of nine layers,
+// by the rule of the two passes' layers (raytrace/render.h) but read off the paths themselves:
 //
 //   eye, specular paths, x1, mirrors, x2, ..., light
 //
-// x1 is the first surface that emits or scatters evenly, seen straight, by one reflection (`.mirror`) or by several (`.mirrors`): of ideal mirrors, and of
-// the lobes of glossy metals, coats and glass, however wide (DESIGN 5: what has a direction of its own is a specular path). What x1 emits
-// is `emission`; what it reflects is `diffuse.mirrored` if mirrors are between x1 and x2 (the light itself, when there is nothing between), else
-// `diffuse.direct`. There mirrors are ideal metals, all glass, and the gloss and coats that pass one takes for mirrors (Material::throws_as_mirror); other
-// gloss and coats are x2, as pass one spreads what they reflect. What glass
-// passes, straight, bent or blurred, is no part of the way.
+// x1 is the first surface that emits or scatters evenly, seen straight,
+// by one reflection (`.mirror`) or by several (`.mirrors`):
+// of ideal mirrors, and of the lobes of glossy metals, coats and glass, however wide (DESIGN 5:
+// what has a direction of its own is a specular path). What x1 emits is `emission`;
+// what it reflects is `diffuse.mirrored` if mirrors are between x1 and x2 (the light itself,
+// when there is nothing between), else `diffuse.direct`. There mirrors are ideal metals,
+// all glass, and the gloss and coats that pass one takes for mirrors (Material::throws_as_mirror);
+// other gloss and coats are x2, as pass one spreads what they reflect.
+// What glass passes, straight, bent or blurred, is no part of the way.
 //
-// One path may be of several layers: where a surface reflects f by parts f_even + f_gloss + f_glass, the path goes on for each of them in the
-// share f_part / f of its light, by channel. So the layers add up to what the path brings, whichever lobe its direction was drawn from.
+// One path may be of several layers:
+// where a surface reflects f by parts f_even + f_gloss + f_glass,
+// the path goes on for each of them in the share f_part / f of its light, by channel.
+// So the layers add up to what the path brings, whichever lobe its direction was drawn from.
 #pragma once
 
 #include "scenes/lobes.h"
@@ -34,7 +40,8 @@ std::string layer_name(std::size_t layer);
 using LayerRadiance = std::array<Rgb, layer_count>;
 Rgb sum_of(const LayerRadiance& layers);
 
-/// What of a path, from the eye on, decides about its layer, each possibility with its share of the path's light.
+/// What of a path, from the eye on, decides about its layer,
+/// each possibility with its share of the path's light.
 class LightRoutes {
 public:
   /// Off that many mirrors.
@@ -59,9 +66,11 @@ private:
 /// Mean luminances of the layers of a picture.
 using LayerLuminances = std::array<double, layer_count>;
 
-/// The luminance of some layers over that of others, from independent batches of one picture (at least two):
+/// The luminance of some layers over that of others,
+/// from independent batches of one picture (at least two):
 ///   s = sum p_b / sum w_b,   variance = sum (p_b - s w_b)^2 / (m (m - 1)) / (sum w_b / m)^2,
-/// the linearised variance of a ratio of means (Cochran, Sampling Techniques, section 6.4). 0 where there is no light.
+/// the linearised variance of a ratio of means (Cochran, Sampling Techniques, section 6.4).
+/// 0 where there is no light.
 struct Share {
   double value = 0.0;
   double standard_error = 0.0;

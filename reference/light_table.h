@@ -1,8 +1,11 @@
-// The lights of a scene that have an extent, for next-event estimation: emitting triangles, chosen by their power.
+// The lights of a scene that have an extent, for next-event estimation:
+// emitting triangles, chosen by their power.
 //
-// A point on an emitting triangle is chosen evenly over its area. As a density of directions at x that is
+// A point on an emitting triangle is chosen evenly over its area.
+// As a density of directions at x that is
 //   p(omega) = P(triangle) / area * distance^2 / |cos at the light|,
-// the same number whether the light was chosen or met by chance: both are needed for multiple importance sampling.
+// the same number whether the light was chosen or met by chance:
+// both are needed for multiple importance sampling.
 #pragma once
 
 #include "scenes/ray_scene.h"

@@ -1,12 +1,16 @@
-// Light of emitting surfaces by way of plane mirrors, found from the other end: next-event estimation through chains of ideal mirrors.
+// Light of emitting surfaces by way of plane mirrors, found from the other end:
+// next-event estimation through chains of ideal mirrors.
 //
-// A reflection is an isometry: a path x -> z1 -> ... -> zL -> y over the planes m1 ... mL is the straight line from the image x' of x (reflected
-// in m1, then m2, ...) to y, of the same length and with the same angle at y. Choosing y on a light and each of the L planes evenly among M
-// finds the direction at x with density
+// A reflection is an isometry: a path x -> z1 -> ... -> zL -> y over the planes m1 ...
+// mL is the straight line from the image x' of x (reflected in m1, then m2,
+// ...) to y, of the same length and with the same angle at y. Choosing y on a light
+// and each of the L planes evenly among M finds the direction at x with density
 //   p_l(omega) = P(triangle) / area * |x' - y|^2 / |cos at y| / M^L,
-// and x -> z1 follows from it; the chain counts if it meets exactly those planes. The same path is met by chance with density p_s: both are weighted
-// as for direct light (trace_paths.h), so the estimate stays unbiased. Punctual lights are looked for in light_images.h.
-// Chains are at most `longest_chain` long; light over longer ones, or in scenes with more than `most_mirror_planes` of them (curved mirrors), is only met.
+// and x -> z1 follows from it; the chain counts if it meets exactly those planes. The same path
+// is met by chance with density p_s: both are weighted as for direct light (trace_paths.h),
+// so the estimate stays unbiased. Punctual lights are looked for in light_images.h.
+// Chains are at most `longest_chain` long; light over longer ones,
+// or in scenes with more than `most_mirror_planes` of them (curved mirrors), is only met.
 #pragma once
 
 #include "reference/traced_scene.h"
@@ -18,8 +22,8 @@ namespace meninas::reference {
 inline constexpr std::size_t longest_chain = 2;
 inline constexpr std::size_t most_mirror_planes = 16;
 
-/// The planes on which some metal, pane or coat that pass one takes for a mirror mirrors ideally; without coats, then without panes where there are too
-/// many, none where there still are.
+/// The planes on which some metal, pane or coat that pass one takes for a mirror mirrors ideally;
+/// without coats, then without panes where there are too many, none where there still are.
 std::vector<PlaneId> find_mirror_planes(const Scene& scene, const SurfaceModel& surfaces,
                                         const std::vector<Bsdf>& bsdfs);
 
@@ -37,7 +41,8 @@ std::optional<Chain> choose_chain(const TracedScene& traced, const Point3& x, st
 /// The image of y that x sees: where the path sets out to.
 Point3 first_target(const TracedScene& traced, const Chain& chain, Point3 y);
 
-/// What mirrors (and panes and holes on the way) leave of light from y to x over the chain; 0 where the path is blocked or misses a mirror.
+/// What mirrors (and panes and holes on the way) leave of light from y to x over the chain;
+/// 0 where the path is blocked or misses a mirror.
 Rgb chain_throughput(const TracedScene& traced, const SurfacePoint& x, const Chain& chain,
                      const Point3& y, PlaneId arriving);
 

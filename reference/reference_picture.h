@@ -1,11 +1,15 @@
-// The reference: what is true, as far as samples tell. A picture by path tracing (trace_paths.h) with the variance of every pixel.
+// The reference: what is true, as far as samples tell.
+// A picture by path tracing (trace_paths.h) with the variance of every pixel.
 //
-// Samples come in batches of sixteen per pixel, stratified within a batch and independent between batches. With m batches of means x_b,
+// Samples come in batches of sixteen per pixel,
+// stratified within a batch and independent between batches. With m batches of means x_b,
 //   mean = sum x_b / m,   variance of the mean = sum (x_b - mean)^2 / (m (m - 1)),
-// so that stratification lowers the noise without spoiling its estimate. The pixel is a box, as in pass two.
+// so that stratification lowers the noise without spoiling its estimate.
+// The pixel is a box, as in pass two.
 //
-// Conventions of the two passes hold (sides, backs, ideal mirrors, what counts as diffuse), and what these do not model yet is there: rough
-// metals, dielectric coats, panes, textures, cut-outs, punctual lights. Light of a punctual light is found over chains of at most two mirrors.
+// Conventions of the two passes hold (sides, backs, ideal mirrors, what counts as diffuse),
+// and what these do not model yet is there: rough metals, dielectric coats, panes, textures,
+// cut-outs, punctual lights. Light of a punctual light is found over chains of at most two mirrors.
 #pragma once
 
 #include "image/image.h"
@@ -44,7 +48,8 @@ struct ReferencePicture {
   std::vector<LayerLuminances> batches; ///< each batch's picture alone, for shares and their errors
 };
 
-/// The same bits for any number of threads; a limit of time alone decides about the number of samples by the clock.
+/// The same bits for any number of threads;
+/// a limit of time alone decides about the number of samples by the clock.
 ReferencePicture reference_picture(const TracedScene& traced, const Camera& camera,
                                    const ReferenceSettings& settings,
                                    const Progress& progress = {});

@@ -52,7 +52,8 @@ VertexNumbers vertex_numbers(std::uint32_t path, std::uint32_t bounce, std::uint
   return numbers;
 }
 
-/// The solid that a path has crossed to where it is: that whose surface it meets from inside, or else the one it was refracted into.
+/// The solid that a path has crossed to where it is:
+/// that whose surface it meets from inside, or else the one it was refracted into.
 MaterialId solid_before(const TracedScene& traced, const Path& path) {
   const MaterialId met = traced.scene.triangles[index(path.at.triangle)].material;
   const bool inside = !path.at.front && is_solid_glass(traced.scene.materials[index(met)]);
@@ -144,7 +145,8 @@ LightPoint choose_point(const TracedScene& traced, const Point3& view,
           choosing_density(traced, view, at)};
 }
 
-/// The routes of what is scattered towards `out` from `in`; glass that is passed is no part of them.
+/// The routes of what is scattered towards `out` from `in`;
+/// glass that is passed is no part of them.
 LightRoutes routes_on(const TracedScene& traced, const Path& path, const Direction& out,
                       const Direction& in) {
   if (in.z < 0.0)
@@ -156,7 +158,8 @@ LightRoutes routes_on(const TracedScene& traced, const Path& path, const Directi
   return path.routes.scattered(shares);
 }
 
-/// Light from a chosen point of a light, over a chain of mirrors or none, with the weight of having been chosen.
+/// Light from a chosen point of a light, over a chain of mirrors or none,
+/// with the weight of having been chosen.
 std::optional<Connection> connect(const TracedScene& traced, const Path& path, const Chain& chain,
                                   const std::array<float, 4>& u, LightSearch search) {
   const LightPoint point = choose_point(traced, chain.image, u);

@@ -1,6 +1,7 @@
 // What the reference traces: geometry, materials and lights of a scene, ready to be asked.
 //
-// It shares the scene and its ray queries with the two passes, and nothing else: no mesh, no mirror worlds, no form factors.
+// It shares the scene and its ray queries with the two passes, and nothing else:
+// no mesh, no mirror worlds, no form factors.
 #pragma once
 
 #include "reference/light_images.h"
@@ -43,7 +44,8 @@ struct SurfacePoint {
   bool black = false; ///< the back of a single-sided surface: neither reflects nor emits
 };
 
-/// The point of a triangle with weights b1, b2 of its second and third corner, met on its front or back.
+/// The point of a triangle with weights b1,
+/// b2 of its second and third corner, met on its front or back.
 SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 barycentric,
                            bool front);
 

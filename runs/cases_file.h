@@ -1,11 +1,13 @@
 // The cases of an image regression suite, as a JSON file (schema: docs/regress.schema.json):
 //
-//   {"cases": [{"name": "room", "scene": "room.glb", "settings": {"quality": "draft", "size": "96x96"},
-//               "reference": "images/room.exr", "reference-settings": {"mode": "reference", "float": true, ...},
-//               "limits": {"relmse": 0.01, "z": 4}, "relmse-epsilon": 0.01}]}
+//   {"cases": [{"name": "room", "scene": "room.glb", "settings":
+//   {"quality": "draft", "size": "96x96"},
+//               "reference": "images/room.exr", "reference-settings": {"mode": "reference",
+//               "float": true, ...}, "limits": {"relmse": 0.01, "z": 4}, "relmse-epsilon": 0.01}]}
 //
-// Paths are relative to the file. Settings have the names and values of the options of `meninas render`; those of the reference are
-// the same unless stated. Whatever is unknown, missing or out of range is an InputError with the JSON pointer of its place.
+// Paths are relative to the file. Settings have the names and values of the options
+// of `meninas render`; those of the reference are the same unless stated.
+// Whatever is unknown, missing or out of range is an InputError with the JSON pointer of its place.
 #pragma once
 
 #include "runs/comparison.h"

@@ -1,7 +1,9 @@
-// What a comparison of modes says: figures, pictures of differences, and a page that shows all of it.
+// What a comparison of modes says:
+// figures, pictures of differences, and a page that shows all of it.
 //
-// Every mode is measured (image/metrics.h) against the most accurate one there is: the reference, else the hybrid picture. The share of
-// a layer is its mean luminance over that of the hybrid picture; the nine shares add up to one.
+// Every mode is measured (image/metrics.h) against the most accurate one there is:
+// the reference, else the hybrid picture. The share of a layer is its mean
+// luminance over that of the hybrid picture; the nine shares add up to one.
 #pragma once
 
 #include "image/image.h"
@@ -32,15 +34,18 @@ struct Comparison {
   std::vector<std::pair<std::string, std::string>> settings;
 };
 
-/// {"scene", "camera", "width", "height", "exposure", "modes": [{"id", "seconds", "compared_with", "rmse", ...}], "layers": [{"name",
-/// "share"}], "mirrored_of_diffuse", "seen_in_mirrors", "settings", "version"}; no figure that does not exist. With a reference there is what
-/// its own split says: "reference": {"mirrored_of_diffuse": {"value", "standard_error"}, "seen_in_mirrors": {...}}.
+/// {"scene", "camera", "width", "height", "exposure", "modes":
+/// [{"id", "seconds", "compared_with", "rmse", ...}], "layers":
+/// [{"name", "share"}], "mirrored_of_diffuse", "seen_in_mirrors", "settings", "version"};
+/// no figure that does not exist. With a reference there is what its own split says:
+/// "reference": {"mirrored_of_diffuse": {"value", "standard_error"}, "seen_in_mirrors": {...}}.
 std::string compare_json(const Comparison& comparison);
 
 /// index.html: self-contained.
 std::string compare_page_of(const Comparison& comparison);
 
-/// The signed differences between each mode and the next: ID-minus-ID.png, blue where the first is darker.
+/// The signed differences between each mode and the next:
+/// ID-minus-ID.png, blue where the first is darker.
 struct DifferencePicture {
   std::string name;
   std::string caption;

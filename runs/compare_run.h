@@ -1,4 +1,5 @@
-// `compare`: one view in every mode from one solve, with what the modes differ in, as files and as one page.
+// `compare`: one view in every mode from one solve,
+// with what the modes differ in, as files and as one page.
 #pragma once
 
 #include "runs/run_events.h"
@@ -22,8 +23,9 @@ struct CompareRequest {
   RunSettings settings; ///< its mode is not heeded
 };
 
-/// Writes, for every mode, ID.exr and ID.png (hybrid.exr with its nine layers), ID-minus-ID.png for neighbouring modes, figures.json, and
-/// index.html last. Throws a UserError; every file that is there is whole.
+/// Writes, for every mode, ID.exr and ID.png (hybrid.exr with its nine layers),
+/// ID-minus-ID.png for neighbouring modes, figures.json, and index.html last.
+/// Throws a UserError; every file that is there is whole.
 void compare_run(const CompareRequest& request, const RunEvents& events = {});
 
 } // namespace meninas

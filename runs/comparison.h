@@ -17,8 +17,8 @@ struct ComparedPicture {
   Encoding encoding = Encoding::linear; ///< of the file: sRGB code values are a displayed picture
 };
 
-/// Throws InputError for a file that cannot be read, has no such layer (naming the nearest), or holds a value that is not
-/// finite (naming the pixel).
+/// Throws InputError for a file that cannot be read, has no such layer (naming the nearest),
+/// or holds a value that is not finite (naming the pixel).
 ComparedPicture read_compared(const std::filesystem::path& file,
                               const std::optional<std::string>& layer);
 
@@ -26,8 +26,8 @@ ComparedPicture read_compared(const std::filesystem::path& file,
 void check_same_size(const Image& picture, const std::filesystem::path& picture_file,
                      const Image& reference, const std::filesystem::path& reference_file);
 
-/// How the two are displayed and what their peak is: code values as they are with peak 1, radiance at the automatic exposure of
-/// the reference.
+/// How the two are displayed and what their peak is:
+/// code values as they are with peak 1, radiance at the automatic exposure of the reference.
 MetricSettings metric_settings(const ComparedPicture& reference, std::optional<double> exposure);
 
 struct MetricLimit {
@@ -35,7 +35,8 @@ struct MetricLimit {
   double limit = 0.0; ///< the largest value that passes; the smallest for psnr and ssim
 };
 
-/// "rmse 0.02 exceeds 0.01", a line for each limit that is not held. A value that is NaN holds no limit.
+/// "rmse 0.02 exceeds 0.01", a line for each limit that is not held.
+/// A value that is NaN holds no limit.
 std::vector<std::string> broken_limits(const PictureDifference& difference,
                                        const std::vector<MetricLimit>& limits);
 

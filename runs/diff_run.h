@@ -1,4 +1,5 @@
-// `diff`: how far a picture is from its reference, as a table for people or as JSON, as a heat map, and within limits or not.
+// `diff`: how far a picture is from its reference,
+// as a table for people or as JSON, as a heat map, and within limits or not.
 #pragma once
 
 #include "runs/comparison.h"
@@ -32,7 +33,8 @@ struct DiffResult {
 /// Writes the heat map, whether or not the limits hold.
 DiffResult diff_run(const DiffRequest& request, const RunEvents& events = {});
 
-/// {"rmse","relmse","mae","psnr","max_abs","width","height","ssim","flip","worst_pixel"}; what is infinite is null.
+/// {"rmse","relmse","mae","psnr","max_abs","width","height","ssim","flip","worst_pixel"};
+/// what is infinite is null.
 std::string diff_json(const PictureDifference& difference);
 
 } // namespace meninas

@@ -1,4 +1,5 @@
-// What a run says about the error of its picture: in a line, in its figures, as a layer of the picture.
+// What a run says about the error of its picture:
+// in a line, in its figures, as a layer of the picture.
 #pragma once
 
 #include "raytrace/picture_error.h"
@@ -28,14 +29,16 @@ struct PictureSource {
   const SolverResult& solver;
 };
 
-/// "error about 1.3 % of the mean radiance: mesh 1.2 %, camera rays 0.5 %", the larger parts first, no part that does not matter.
+/// "error about 1.3 % of the mean radiance:
+/// mesh 1.2 %, camera rays 0.5 %", the larger parts first, no part that does not matter.
 std::string describe_error(const PictureError& error);
 
-/// What to turn first where the error can be seen (2 %): the option that makes the largest part smaller, as
-/// "--diffuse direct would help most". Nothing where it cannot.
+/// What to turn first where the error can be seen (2 %): the option that makes the largest
+/// part smaller, as "--diffuse direct would help most". Nothing where it cannot.
 std::optional<std::string> first_turn(const PictureError& error, const TwoPassSettings& settings);
 
-/// Fills in the figures and says the line as a note, with what to turn first; the map is appended to the layers.
+/// Fills in the figures and says the line as a note, with what to turn first;
+/// the map is appended to the layers.
 void report_error(const PictureSource& source, ErrorReport wanted, const SampledPicture& picture,
                   std::vector<Layer>& layers, const RunEvents& events, RunFigures& figures);
 

@@ -36,7 +36,8 @@ std::size_t lit_together(const LightScene& light, const NodeTree& tree) {
   return nodes_lit_together(tree, most_lit_together(alone.size()), alone).size();
 }
 
-/// One gathering, and light from the source at one vertex and on one element; seconds of one thread.
+/// One gathering, and light from the source at one vertex and on one element;
+/// seconds of one thread.
 struct PointSeconds {
   double gather = 0.0, source = 0.0, on_element = 0.0;
 };
@@ -105,8 +106,10 @@ std::size_t gathering_vertices(const LightScene& light) {
   return count;
 }
 
-/// Where the field has a mesh of its own (adaptive_field.h), one that is finer the smaller the bound X is: indirect light is gathered twice, with a quarter of
-/// the rays and with as many as keep its noise within X, and looked at in the middle of elements with half as many; light from the source in more places.
+/// Where the field has a mesh of its own (adaptive_field.h),
+/// one that is finer the smaller the bound X is: indirect light is gathered twice,
+/// with a quarter of the rays and with as many as keep its noise within X,
+/// and looked at in the middle of elements with half as many; light from the source in more places.
 Counts counted_adaptive(const PassOneSettings& settings, Counts all) {
   constexpr double of_noise = 0.9;  // of one ray, before it falls with their number
   constexpr double ordinary = 0.01; // the bound that doubles elements

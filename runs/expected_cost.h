@@ -1,16 +1,20 @@
 // What a run is going to take, before it: seconds on this machine and bytes.
 //
-// Stages are counted in what they do most of, and a few of each are done to see how long one takes here, in this scene:
+// Stages are counted in what they do most of,
+// and a few of each are done to see how long one takes here, in this scene:
 //
 //   form factors   elements x (one gathering of N rays + some points of light from the source)
 //   interpolate    vertices x (one gathering + one point of light from the source)
-//                  `--solver hierarchical` gathers for nodes instead, of which there are about twice those of its beginning, and finds light from the source for nodes
+//                  `--solver hierarchical` gathers for nodes instead, of which there are about
+//                  twice those of its beginning, and finds light from the source for nodes
 //   solve          entries of the transport x products with it, at the rate of memory
 //   render         pixels x samples x one camera ray with its diffuse term
 //
-// over the threads that work. What is measured is a few thousandths of the work, so that it takes a fraction of a second in any scene. Bytes come from
-// counts (memory.h). Limits: how far an adaptive field divides elements is not known beforehand, it is taken
-// to have as many more as rooms with a lamp have (too few by up to ten times where much is small: figures of many facets); references are not foretold, they end when told.
+// over the threads that work. What is measured is a few thousandths of the work,
+// so that it takes a fraction of a second in any scene. Bytes come from counts (memory.h). Limits:
+// how far an adaptive field divides elements is not known beforehand, it is taken to have
+// as many more as rooms with a lamp have (too few by up to ten times where much is small:
+// figures of many facets); references are not foretold, they end when told.
 #pragma once
 
 #include "raytrace/two_pass.h"

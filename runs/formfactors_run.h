@@ -1,4 +1,5 @@
-// `formfactors`: form factors between nodes, as text for people, as JSON, or all of them as a CSV matrix with row sums.
+// `formfactors`: form factors between nodes, as text for people,
+// as JSON, or all of them as a CSV matrix with row sums.
 #pragma once
 
 #include "radiosity/node_form_factors.h"

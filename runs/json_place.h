@@ -1,4 +1,5 @@
-// JSON files that people write: values with the place they stand at, so that every complaint names it.
+// JSON files that people write:
+// values with the place they stand at, so that every complaint names it.
 #pragma once
 
 #include "runs/setting.h"
@@ -33,14 +34,16 @@ Json parse_json_file(const std::filesystem::path& file);
 std::string with_hint(const std::string& what, const std::string& name,
                       const std::vector<std::string>& known);
 
-/// Checks that it is an object with all of the required keys, any of the optional ones, and no others.
+/// Checks that it is an object with all of the required keys,
+/// any of the optional ones, and no others.
 void check_object(const Place& place, const std::vector<std::string>& required,
                   const std::vector<std::string>& optional);
 
 std::string text_at(const Place& place); ///< not empty
 double number_at(const Place& place);    ///< finite
 
-/// An object of options: texts and numbers are values, true is a flag; false and null are options not given.
+/// An object of options: texts and numbers are values, true is a flag;
+/// false and null are options not given.
 std::vector<Setting> settings_at(const Place& place);
 
 /// Says what the parser has found wrong with settings, at the one it is about if it stands here.

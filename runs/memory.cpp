@@ -20,7 +20,8 @@ double expected_elements(const SceneSizes& scene, const RunSettings& settings) {
   const double by_size = mesh.element_size > 0.0
                              ? scene.area / (mesh.element_size * mesh.element_size)
                              : mesh.target_elements;
-  // Cells of a side are never larger than asked for, which rounds their number up: by half where sides are a few elements wide.
+  // Cells of a side are never larger than asked for, which rounds their number up:
+  // by half where sides are a few elements wide.
   return std::min(1.5 * by_size, static_cast<double>(mesh.max_elements)) +
          static_cast<double>(scene.sides);
 }
@@ -67,7 +68,8 @@ SceneSizes sizes_of(const Scene& scene) {
 
 std::uint64_t scene_memory(const SceneSizes& scene, const RunSettings& settings) {
   constexpr double per_vertex = 2 * sizeof(Vertex), per_triangle = 1500.0, per_element = 300.0;
-  // How many an adaptive field has is not known beforehand; it is made to have fewer than a mesh of one size.
+  // How many an adaptive field has is not known beforehand;
+  // it is made to have fewer than a mesh of one size.
   const double field_elements =
       settings.adaptive == WithAdaptivity::yes ? preset_of(settings.quality).target_elements : 0.0;
   return whole(per_vertex * static_cast<double>(scene.vertices) +
@@ -95,7 +97,8 @@ static double row_entries(const RunSettings& settings, double elements) {
   return elements;
 }
 
-/// Rows of the transport, at most: of the hierarchical solver the first receivers, and those that the light asks for, which are hardly more with finer elements.
+/// Rows of the transport, at most: of the hierarchical solver the first receivers,
+/// and those that the light asks for, which are hardly more with finer elements.
 static double rows_of(const SceneSizes& scene, const RunSettings& settings, double elements) {
   if (settings.solver != SolverMethod::hierarchical)
     return elements;

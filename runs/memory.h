@@ -1,7 +1,9 @@
-// How much memory a run may have, how much its parts are going to need, and what it has now. In bytes.
+// How much memory a run may have, how much its parts are going to need, and what it has now.
+// In bytes.
 //
-// Estimates come from counts known before the work (triangles, elements, rays, pixels) times sizes measured (ARCHITECTURE.md); they are
-// meant to be exceeded by nothing that is common, so that a limit holds, and to be within a factor of about two for what is large.
+// Estimates come from counts known before the work (triangles, elements, rays, pixels) times
+// sizes measured (ARCHITECTURE.md); they are meant to be exceeded by nothing that is common,
+// so that a limit holds, and to be within a factor of about two for what is large.
 #pragma once
 
 #include "runs/run_settings.h"
@@ -35,15 +37,17 @@ std::uint64_t solve_memory(const SceneSizes& scene, const RunSettings& settings)
 /// A picture under way and its encoding; a reference needs its own scene too.
 std::uint64_t view_memory(const SceneSizes& scene, const RunSettings& settings, PictureSize size);
 
-/// What one run is likely to have resident at most: solving the scene, and a picture of that size if there is one. 1.4 times what was
-/// measured for an interior of 450,620 elements (1.1 GiB), solved by rays.
+/// What one run is likely to have resident at most:
+/// solving the scene, and a picture of that size if there is one.
+/// 1.4 times what was measured for an interior of 450,620 elements (1.1 GiB), solved by rays.
 std::uint64_t expected_memory(const SceneSizes& scene, const RunSettings& settings,
                               const std::optional<PictureSize>& size);
 
 /// What a run by these settings may have: as asked, else all there is.
 std::uint64_t memory_limit(const RunSettings& settings);
 
-/// Throws OutputError when a run of this scene is expected to take more than it may, before it takes it.
+/// Throws OutputError when a run of this scene is expected to take more than it may,
+/// before it takes it.
 void check_memory(const Scene& scene, const RunSettings& settings,
                   const std::optional<PictureSize>& size);
 

@@ -34,7 +34,8 @@ void check_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::
   }
 }
 
-/// Half floats, where they hold the picture: its brightest value, and those a hundred times darker without loss.
+/// Half floats, where they hold the picture:
+/// its brightest value, and those a hundred times darker without loss.
 PixelType type_for(const Image& picture, std::span<const Layer> layers, PixelType wanted) {
   constexpr float largest_half = 65504.0F, least_normal_half = 0x1p-14F;
   const auto brightest_of = [](const Image& image) {

@@ -17,7 +17,8 @@ struct OutputFiles {
   std::vector<std::filesystem::path> texts;
 };
 
-/// Throws OutputError for a place that cannot be written, UsageError for one that holds an input or is named twice.
+/// Throws OutputError for a place that cannot be written,
+/// UsageError for one that holds an input or is named twice.
 void check_outputs(const OutputFiles& outputs, const std::vector<std::filesystem::path>& inputs);
 
 /// The folder, with those above it, unless it is there; throws OutputError when it cannot be.

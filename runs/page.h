@@ -1,4 +1,5 @@
-// Self-contained HTML pages: a template with one place for data, and pictures inside it, so that a page is one file that needs nothing else.
+// Self-contained HTML pages: a template with one place for data,
+// and pictures inside it, so that a page is one file that needs nothing else.
 #pragma once
 
 #include "image/image_file.h"
@@ -10,7 +11,8 @@
 
 namespace meninas {
 
-/// The template with JSON in place of `@DATA@`, written so that no text in it can end the script element it stands in.
+/// The template with JSON in place of `@DATA@`,
+/// written so that no text in it can end the script element it stands in.
 /// Precondition: the template has that place.
 std::string fill_page(std::string_view page, std::string_view json);
 

@@ -1,4 +1,5 @@
-// The beginning every run has in common: from the scene's file to a prepared scene, with its warnings said.
+// The beginning every run has in common:
+// from the scene's file to a prepared scene, with its warnings said.
 #pragma once
 
 #include "runs/run_events.h"

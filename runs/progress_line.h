@@ -1,4 +1,5 @@
-// How far a run is, on standard error: one line that is written over on a terminal, a plain line now and then in a log.
+// How far a run is, on standard error:
+// one line that is written over on a terminal, a plain line now and then in a log.
 #pragma once
 
 #include <chrono>

@@ -7,8 +7,9 @@
 
 namespace meninas {
 
-/// Enters {"case", "scene", "scene_hash", "command", "samples", "standard_error", "program", "date"} for the case's reference,
-/// which has just been written; entries of other files stay. What the picture's header does not tell is null.
+/// Enters {"case", "scene", "scene_hash", "command", "samples", "standard_error",
+/// "program", "date"} for the case's reference, which has just been written;
+/// entries of other files stay. What the picture's header does not tell is null.
 void enter_reference(const RegressCase& regress_case, const std::filesystem::path& cases_file);
 
 } // namespace meninas

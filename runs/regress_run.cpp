@@ -117,7 +117,8 @@ std::string figures(const RegressCase& regress_case, const Comparison& found) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// Picture, reference and heat map of what failed first; without a map of its own a limit on z or psnr shows relative errors.
+/// Picture, reference and heat map of what failed first;
+/// without a map of its own a limit on z or psnr shows relative errors.
 void leave_evidence(const RegressCase& regress_case, const Comparison& found,
                     const fs::path& picture_file, const fs::path& folder) {
   make_folder(folder);

@@ -1,4 +1,5 @@
-// `regress`: renders cases and compares each with its reference by its own limits, or makes the references anew.
+// `regress`: renders cases and compares each with its reference by its own limits,
+// or makes the references anew.
 #pragma once
 
 #include "runs/cases_file.h"
@@ -35,8 +36,9 @@ struct CaseResult {
   int exit_code = 0; ///< of a broken case: what its error alone would end with
 };
 
-/// In the order of the cases. `done` is called after each. A case that cannot be rendered or compared is broken and does not
-/// keep the others from running. Consecutive cases with one scene and the same settings share the rendering.
+/// In the order of the cases. `done` is called after each.
+/// A case that cannot be rendered or compared is broken and does not keep the others from running.
+/// Consecutive cases with one scene and the same settings share the rendering.
 std::vector<CaseResult> regress_run(const RegressRequest& request,
                                     const std::vector<RegressCase>& cases, const RunEvents& events,
                                     const std::function<void(const CaseResult&)>& done);

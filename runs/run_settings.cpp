@@ -70,7 +70,8 @@ DiffuseTerm diffuse_term(const RunSettings& settings) {
                                                                : DiffuseTerm::interpolated);
 }
 
-/// A pixel's rays are shared out among its samples; where sampling is adaptive, most pixels have few.
+/// A pixel's rays are shared out among its samples;
+/// where sampling is adaptive, most pixels have few.
 static DiffuseSettings diffuse_settings(const RunSettings& settings,
                                         const FormFactorSettings& form_factors, int samples) {
   constexpr int gather_rays = 2048, least = 16; // of a pixel; of a sample
@@ -115,8 +116,8 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   pass_one.solver.max_shots = settings.steps;
   pass_one.hierarchical.link_error = settings.link_error.value_or(preset.link_error);
   pass_one.interpolation.method = settings.interpolation.value_or(pass_one.interpolation.method);
-  // Means of elements show nowhere but where they are interpolated; else they light other elements, and many average out. Few and large ones, between which an
-  // adaptive field gathers, do not.
+  // Means of elements show nowhere but where they are interpolated; else they light other elements,
+  // and many average out. Few and large ones, between which an adaptive field gathers, do not.
   if (pass_one.interpolation.method == Interpolation::gather && !adaptive) {
     pass_one.direct.points = 4;
     pass_one.direct.most_points = 64;

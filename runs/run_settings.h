@@ -82,10 +82,12 @@ struct RunSettings {
   std::uint32_t seed = 0;
 };
 
-/// Whether the field knows the light that does not come from emitters by itself: means of elements by the analytic method do not.
+/// Whether the field knows the light that does not come from emitters by itself:
+/// means of elements by the analytic method do not.
 bool tells_light_apart(const RunSettings& settings);
 
-/// What is asked for, or what the preset has; `interpolated` where the mode or the field knows no other.
+/// What is asked for, or what the preset has;
+/// `interpolated` where the mode or the field knows no other.
 DiffuseTerm diffuse_term(const RunSettings& settings);
 
 /// Numbers of rays and samples are rounded up to powers of two.

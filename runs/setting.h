@@ -18,7 +18,8 @@ struct Setting {
   bool operator==(const Setting&) const = default;
 };
 
-/// Puts settings into a request. Throws UsageError, `NAME: WHAT` where one setting is to blame. The command line's own parser is one.
+/// Puts settings into a request. Throws UsageError, `NAME: WHAT` where one setting is to blame.
+/// The command line's own parser is one.
 using SettingsParser =
     std::function<RenderRequest(const std::filesystem::path& scene, const std::vector<Setting>&)>;
 

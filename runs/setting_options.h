@@ -14,8 +14,8 @@ const char* name_of(DiffuseTerm term);
 const char* name_of(FormFactorMethod method);
 const char* name_of(Interpolation method);
 
-/// {"--quality", "draft", "--rays", "64", ...}: what differs from the defaults, of what makes a picture of the two passes. `render` with these options makes
-/// the same bits.
+/// {"--quality", "draft", "--rays", "64", ...}: what differs from the defaults,
+/// of what makes a picture of the two passes. `render` with these options makes the same bits.
 std::vector<std::string> options_of(const RunSettings& settings);
 
 } // namespace meninas

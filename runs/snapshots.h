@@ -1,8 +1,11 @@
-// Pictures along the way: what the shots of progressive radiosity have brought so far, alone and with the ambient term.
+// Pictures along the way:
+// what the shots of progressive radiosity have brought so far, alone and with the ambient term.
 //
-// FOLDER/shots-NNNNNN.png and shots-NNNNNN-ambient.png (or .exr, the formats of the run's picture) after every so many shots and after the
-// last, each whole or not there. Irradiance is averaged over elements, so that the pictures show what has been shot and no more. All PNGs have one exposure, that of
-// the first picture with ambient light, which comes nearest to the last, unless one is given.
+// FOLDER/shots-NNNNNN.png and shots-NNNNNN-ambient.png (or .exr, the formats of the run's
+// picture) after every so many shots and after the last, each whole or not there.
+// Irradiance is averaged over elements, so that the pictures show what has been shot and no more.
+// All PNGs have one exposure, that of the first picture with ambient light,
+// which comes nearest to the last, unless one is given.
 #pragma once
 
 #include "raytrace/two_pass.h"

@@ -1,4 +1,5 @@
-// The figures of a run, and their JSON (the keys are a promise to users; times in seconds, sizes in bytes).
+// The figures of a run, and their JSON (the keys are a promise to users;
+// times in seconds, sizes in bytes).
 // A figure that does not exist, such as an error bound without convergence, is null.
 #pragma once
 
@@ -32,7 +33,8 @@ struct ReferenceFigures {
   reference::StoppedBy stopped_by = reference::StoppedBy::samples;
 };
 
-/// What became of the mirror worlds that were looked at: considered = kept + unseen + faint + beyond the limits.
+/// What became of the mirror worlds that were looked at:
+/// considered = kept + unseen + faint + beyond the limits.
 struct WorldFigures {
   std::size_t considered = 0, kept = 0, pruned_unseen = 0, pruned_throughput = 0, pruned_limit = 0;
   double tail_bound = 0.0; ///< radiosity/world_tail.h

@@ -141,7 +141,8 @@ double mean_count(const SampleCounts& samples, int everywhere) {
   return std::accumulate(samples.begin(), samples.end(), 0.0) / double(samples.size());
 }
 
-/// Of pixels that would take more samples than they could, than four times as many, and so on. Errors fall with n^-0.6 between noise and edges.
+/// Of pixels that would take more samples than they could, than four times as many, and so on.
+/// Errors fall with n^-0.6 between noise and edges.
 std::array<double, 4> uncertain_shares(const Image& picture, const RenderSettings& render) {
   std::array<double, 4> shares{1.0, 1.0, 1.0, 1.0};
   constexpr double first = 4.0; // samples, of which uncertain_pixels() judges

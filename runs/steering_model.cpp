@@ -15,11 +15,13 @@ namespace {
 constexpr double most_elements = 250'000.0;
 constexpr int most_rays = 4096, least_samples = 4, most_samples = 1024;
 
-// Exponents: of pixels whose light is a smooth function between edges, of light from the source, and of what rays gather.
+// Exponents: of pixels whose light is a smooth function between edges,
+// of light from the source, and of what rays gather.
 constexpr double at_edges = 1.7, of_shadows = 1.4, of_noise = 1.1;
 constexpr double rays_of_a_hit = 64.0; ///< of a hit that gathers, where sampling is adaptive
 
-/// What so many samples of a pixel take, in hits of their own: they share shadow rays (radiosity/shared_light.h).
+/// What so many samples of a pixel take, in hits of their own:
+/// they share shadow rays (radiosity/shared_light.h).
 double hits_of(double samples) { return samples <= 4.0 ? samples : 4.0 + 0.3 * (samples - 4.0); }
 
 /// Samples of a pixel in the mean.
@@ -31,7 +33,8 @@ double samples_a_pixel(const MeasuredRun& run, int samples) {
   return mean;
 }
 
-/// Of the square of what camera rays are off by; nothing is left to gain where no pixel would take more.
+/// Of the square of what camera rays are off by;
+/// nothing is left to gain where no pixel would take more.
 double pixel_decline(const MeasuredRun& run, const Knobs& knobs) {
   const int samples = knobs.samples;
   const double exponent = knobs.term == DiffuseTerm::interpolated ? at_edges
@@ -69,7 +72,8 @@ double pass_two_seconds(const MeasuredRun& run, const Knobs& knobs) {
   return share * run.pass_two_seconds + hits;
 }
 
-/// Samples drawn again to find out, of a pixel that is looked at: as many pixels of each number of samples, more of those of few (raytrace/picture_error.cpp).
+/// Samples drawn again to find out, of a pixel that is looked at:
+/// as many pixels of each number of samples, more of those of few (raytrace/picture_error.cpp).
 double samples_drawn_again(int samples) {
   constexpr int least_drawn = 16, most_rounds = 64; // first samples to last
   double drawn = 0.0, groups = 0.0;
@@ -190,7 +194,8 @@ static double field_error(const MeasuredRun& run, const Knobs& knobs) {
     return square(e.form_factors) / noise_of_interpolated *
            std::pow(run.knobs.rays / rays_of_a_hit, 1.2) / samples_a_pixel(run, knobs.samples);
   }
-  // Edges stay, or become exact. Of what is hardly more than they are, the rest is not known to less than a share of them.
+  // Edges stay, or become exact.
+  // Of what is hardly more than they are, the rest is not known to less than a share of them.
   constexpr double unknown = 0.1;
   const bool edges = knobs.term == run.knobs.term;
   const double direct = square(e.mesh_direct);

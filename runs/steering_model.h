@@ -7,8 +7,9 @@
 //   direct         mesh_direct^2 none, of which the rest of mesh^2 is not known to less than a hundredth; pass two six tenths of what the hits take that were made to find out, as those of a tile share, also with fewer samples, down to four
 //   gather         mesh^2 and form_factors^2 none, but the noise of a hit's own rays, a share in pixels^2; pass two as the hits say
 //   the estimate   as the pixels it looks at, a share of the elements within limits; two thirds of it 128 + rays, a third the samples drawn again, of each number as many pixels
-// The exponents are those of the gallery, roughly; every run is measured again, and only what comes next is foretold. How the mesh's error
-// falls is measured as well, once two meshes have been seen.
+// The exponents are those of the gallery, roughly;
+// every run is measured again, and only what comes next is foretold.
+// How the mesh's error falls is measured as well, once two meshes have been seen.
 #pragma once
 
 #include "raytrace/picture_error.h"
@@ -39,13 +40,15 @@ struct MeasuredRun {
   double pass_one_seconds = 0.0, pass_two_seconds = 0.0, estimate_seconds = 0.0;
   double pixels = 0.0;
   double samples_a_pixel = 4.0; ///< in the mean
-  /// The share of pixels that would take more than 1, 4, 16, 64 times as many samples as `knobs` say.
+  /// The share of pixels that would take more than 1,
+  /// 4, 16, 64 times as many samples as `knobs` say.
   std::array<double, 4> uncertain{1.0, 1.0, 1.0, 1.0};
   double mesh_exponent =
       1.0; ///< e: the mesh's error squared falls with r^-e, what light from the source would not have aside
 };
 
-/// How fast the mesh's error falls, by two runs with meshes of their own; as before where it is nearly all edges.
+/// How fast the mesh's error falls, by two runs with meshes of their own;
+/// as before where it is nearly all edges.
 double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine);
 
 struct Forecast {
@@ -62,8 +65,9 @@ struct NextRun {
   std::string why;
 };
 
-/// Of all combinations of the knobs, from what they are up, that fit into `seconds` the quickest that is foretold to bring the error below `error`, or, where none does, that brings it as low
-/// as any, to a hundredth. The same knobs as before where none lowers it.
+/// Of all combinations of the knobs, from what they are up, that fit into `seconds`
+/// the quickest that is foretold to bring the error below `error`, or, where none does,
+/// that brings it as low as any, to a hundredth. The same knobs as before where none lowers it.
 NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds);
 
 } // namespace meninas

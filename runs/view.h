@@ -1,6 +1,7 @@
 // One view of a scene: the picture, and what it says about itself, whichever command asks for it.
 //
-// Pass one does not know the view: a LitScene serves any number of them, from any number of threads.
+// Pass one does not know the view:
+// a LitScene serves any number of them, from any number of threads.
 #pragma once
 
 #include "image/image_file.h"
@@ -24,18 +25,19 @@ struct LitScene {
   const LightScene& light() const { return refined ? *refined->light : *prepared->light; }
 };
 
-/// Pass one, run now; the figures of its stages are filled in, its warnings said. `kept`, if given, is written: a solution file that
-/// `read_lit_scene` takes.
+/// Pass one, run now; the figures of its stages are filled in, its warnings said.
+/// `kept`, if given, is written: a solution file that `read_lit_scene` takes.
 LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
                          const std::optional<std::filesystem::path>& kept, const RunEvents& events,
                          RunFigures& figures);
 
-/// Pass one of an earlier run, whose figures are repeated. Throws InputError when the file is damaged or belongs to another scene
-/// or version.
+/// Pass one of an earlier run, whose figures are repeated.
+/// Throws InputError when the file is damaged or belongs to another scene or version.
 LitScene read_lit_scene(const std::filesystem::path& solution, Scene scene,
                         PassOneSettings settings, const RunEvents& events, RunFigures& figures);
 
-/// A picture and what it is: the same bits belong to the same attributes, whether pass one was run or read.
+/// A picture and what it is:
+/// the same bits belong to the same attributes, whether pass one was run or read.
 struct ViewPicture {
   Image image;
   SampleCounts samples;
@@ -47,8 +49,8 @@ struct ViewPicture {
 ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettings& settings,
                        Rendering rendering);
 
-/// Pass two, or the view for those who debug. Settings of pass one are not heeded, but by the view `closure`; layers need a field that
-/// knows its mirrored part.
+/// Pass two, or the view for those who debug. Settings of pass one are not heeded,
+/// but by the view `closure`; layers need a field that knows its mirrored part.
 ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize size,
                         const RunSettings& settings, const RunEvents& events, RunFigures& figures);
 

@@ -13,7 +13,8 @@ namespace meninas {
 
 namespace {
 
-/// The coat's Fresnel reflectance for light that meets a facet at this cosine (Schlick 1994), over the whole surface.
+/// The coat's Fresnel reflectance for light that meets a facet at this cosine (Schlick 1994),
+/// over the whole surface.
 Rgb coat_fresnel(const Bsdf& bsdf, double cosine) {
   if (bsdf.coat == 0.0)
     return Rgb(0.0);
@@ -29,7 +30,8 @@ double met_again(const Bsdf& bsdf, double cosine) {
 
 bool has_facets_of_metal(const Bsdf& bsdf) { return bsdf.alpha > 0.0 && bsdf.metal != Rgb(0.0); }
 
-/// What comes out of it in the end: rho^2 E_avg / (1 - rho (1 - E_avg)), as every further meeting reflects rho again.
+/// What comes out of it in the end:
+/// rho^2 E_avg / (1 - rho (1 - E_avg)), as every further meeting reflects rho again.
 Rgb spread_by_facets(const Bsdf& bsdf, double mean_again) {
   return bsdf.metal * bsdf.metal * (1.0 - mean_again) / (1.0 - bsdf.metal * mean_again);
 }
@@ -121,7 +123,8 @@ BsdfSample spread_sample(const Bsdf& bsdf, const Direction& out, const Direction
 
 } // namespace
 
-/// To the light of punctual lights a solid is two sheets, each of which takes half of what its thickness does.
+/// To the light of punctual lights a solid is two sheets,
+/// each of which takes half of what its thickness does.
 static Rgb left_by_half(const Material& material, const MaterialPoint& point) {
   return is_solid_glass(material) ? attenuation(material, 0.5 * point.thickness) : Rgb(1.0);
 }

@@ -1,19 +1,23 @@
-// How a point of a surface scatters light: the bidirectional functions behind the material model (scenes/material.h).
+// How a point of a surface scatters light:
+// the bidirectional functions behind the material model (scenes/material.h).
 //
 // Three lobes, all about the normal +z of a local frame:
 //   diffuse       f = rho_d (1 - e(o)) (1 - e(i)) / (pi (1 - e_avg))
 //   reflection    f = S(o.h) D(h) G2(o, i) / (4 cos_o cos_i),  S = rho_s + coat Fresnel(o.h),  h the half vector
 //   transmission  the reflection lobe folded through the surface, with what glass passes in place of S: a thin pane does not bend light
-// The surface is a mixture by area: metal, dielectric below its coat, and glass, metallic to (1 - metallic) (1 - transmission) to
-// (1 - metallic) transmission.
-// D is GGX of width alpha = roughness^2, G2 Smith's height-correlated masking and shadowing (Walter et al. 2007, Heitz 2014). What
-// facets of metal send to each other, which single scattering loses, comes out spread (Kulla and Conty 2017): a white metal reflects all light,
-// however rough. At roughness `ideal_mirror_roughness` and below reflection and transmission are ideal:
+// The surface is a mixture by area: metal, dielectric below its coat, and glass,
+// metallic to (1 - metallic) (1 - transmission) to (1 - metallic) transmission.
+// D is GGX of width alpha = roughness^2, G2 Smith's height-correlated masking and shadowing (Walter
+// et al. 2007, Heitz 2014). What facets of metal send to each other, which single scattering loses,
+// comes out spread (Kulla and Conty 2017): a white metal reflects all light, however rough.
+// At roughness `ideal_mirror_roughness` and below reflection and transmission are ideal:
 // one direction each, of weight S and T, which only sampling can find.
 //
-// rho_s, the reflectance of metals, is constant (material.h). The Schlick coat F0 + (F90 - F0)(1 - o.h)^5 of dielectrics is there up to
-// `visible_coat_roughness`; rougher ones count as diffuse. What it reflects, e(w) = integral of its lobe, is missing below: the diffuse
-// lobe is coupled as by Kelemen and Szirmay-Kalos 2001, reciprocal, and for rho_d = 1 reflection and diffuse add up to exactly 1.
+// rho_s, the reflectance of metals, is constant (material.h). The Schlick coat
+// F0 + (F90 - F0)(1 - o.h)^5 of dielectrics is there up to `visible_coat_roughness`;
+// rougher ones count as diffuse. What it reflects, e(w) = integral of its lobe, is missing below:
+// the diffuse lobe is coupled as by Kelemen and Szirmay-Kalos 2001,
+// reciprocal, and for rho_d = 1 reflection and diffuse add up to exactly 1.
 //
 // Glass reflects R and passes T at every roughness (glass.h).
 //
@@ -76,7 +80,8 @@ struct BsdfSample {
   Lobe lobe = Lobe::spread;
 };
 
-/// A direction from which light may come, `u` evenly in [0, 1)^3; none where the surface absorbs or the lobe dips below it.
+/// A direction from which light may come, `u` evenly in [0, 1)^3;
+/// none where the surface absorbs or the lobe dips below it.
 std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
                                  const std::array<double, 3>& u);
 

@@ -21,7 +21,8 @@ struct Camera {
   double aspect = 0.0;          ///< width / height the file asks for, 0 when it leaves that to the picture
 };
 
-/// Origin and direction of the ray through a point of the picture; x and y run from 0 to 1, right and down.
+/// Origin and direction of the ray through a point of the picture;
+/// x and y run from 0 to 1, right and down.
 struct CameraRay {
   Point3 origin;
   Direction direction;
@@ -33,7 +34,8 @@ struct Bounds {
   Point3 high{-std::numeric_limits<double>::infinity()};
 };
 
-/// The view a scene without a camera gets: from +X +Y +Z outside the bounds, all of them in the picture.
+/// The view a scene without a camera gets:
+/// from +X +Y +Z outside the bounds, all of them in the picture.
 Camera default_camera(const Bounds& bounds);
 
 } // namespace meninas

@@ -13,7 +13,8 @@ const Contacts& remembered_contacts(const RayScene& rays, ContactMemory& memory,
   return memory.contacts;
 }
 
-/// The contact that blocks what departs from an origin over `extent`: a leg's whole length, or a ray's unit direction.
+/// The contact that blocks what departs from an origin over `extent`:
+/// a leg's whole length, or a ray's unit direction.
 std::optional<ContactTriangle> blocked_at_once(const RayScene& rays, const Contacts& contacts,
                                                const LaneRay& ray, const Vec3& extent) {
   if (contacts.others.empty())
@@ -29,7 +30,8 @@ LaneHit hit_at_once(const LaneRay& ray, const ContactTriangle& wall) {
   return {index(wall.triangle), 0.0F, weights.x, weights.y, front};
 }
 
-/// A back that shares its plane with a front is one side of a sheet, and the side that faces the ray is hit.
+/// A back that shares its plane with a front is one side of a sheet,
+/// and the side that faces the ray is hit.
 LaneHit facing_side(const RayScene& rays, const LaneRay& ray, const LaneHit& back) {
   const auto& geometry = rays.geometry();
   const RayRule rule{.geometry = &geometry,

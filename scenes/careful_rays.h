@@ -1,4 +1,5 @@
-// The rays that a bare query cannot settle, one by one: those that start beside a wall, and those that end on a back.
+// The rays that a bare query cannot settle, one by one:
+// those that start beside a wall, and those that end on a back.
 #pragma once
 
 #include "scenes/hit_rules.h"
@@ -9,7 +10,8 @@ namespace meninas {
 
 LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule);
 
-/// The triangles within reach of a point that leaves a plane, or nearer than `least_reach` if that is further.
+/// The triangles within reach of a point that leaves a plane,
+/// or nearer than `least_reach` if that is further.
 Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving,
                      double least_reach = 0.0);
 

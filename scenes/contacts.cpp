@@ -37,7 +37,8 @@ double own_side(const Contacts& contacts, const ContactTriangle& wall, const Dir
   if (high <= noise && low < -noise)
     return -1.0;
 
-  // A surface that passes through below the wall does not tell: the point does, as far as it can be known.
+  // A surface that passes through below the wall does not tell:
+  // the point does, as far as it can be known.
   const auto height = glm::dot(wall_normal, origin - wall.corners[0]);
   if (std::abs(height) <= noise && wall.sidedness == Sidedness::single)
     return 1.0;
@@ -81,7 +82,8 @@ double distance_to(const std::array<Point3, 3>& corners, const Point3& x) {
 }
 
 bool is_within(const std::array<Point3, 3>& corners, const Point3& x, double reach) {
-  // |n . (x - a)| / |n|, the distance to the plane, is no greater than that to the triangle; what rounding may decide is left to the latter.
+  // |n . (x - a)| / |n|, the distance to the plane, is no greater than that to the triangle;
+  // what rounding may decide is left to the latter.
   constexpr double rounding = 1e-14; // of products of lengths up to 2, generously
   const auto n = area_vector(corners);
   if (std::abs(glm::dot(n, x - corners[0])) > 2.0 * reach * glm::length(n) + rounding)

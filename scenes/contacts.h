@@ -1,8 +1,10 @@
 // What a ray does with the triangles that touch its origin.
 //
-// A point on a surface is only known to the rounding of its coordinates, so near an edge it may lie a hair behind the adjoining wall.
+// A point on a surface is only known to the rounding of its coordinates,
+// so near an edge it may lie a hair behind the adjoining wall.
 // Whether a ray from there meets that wall is not decided by the rounded point but by the surfaces:
-// the point lies on that side of the wall W where its own surface P is, and W stands in the way where it rises above P.
+// the point lies on that side of the wall W where its own surface P is,
+// and W stands in the way where it rises above P.
 // All lengths are in the frame of the ray scene.
 #pragma once
 
@@ -29,7 +31,8 @@ struct Contacts {
   std::vector<ContactTriangle> others;
 };
 
-/// A point that leaves a plane of the given normal along a direction: of unit length for a ray, up to the end for a leg.
+/// A point that leaves a plane of the given normal along a direction:
+/// of unit length for a ray, up to the end for a leg.
 struct Departure {
   Point3 origin;
   Vec3 direction;
@@ -39,7 +42,8 @@ struct Departure {
 /// The weights of the second and third corner of the point of the triangle nearest to x.
 Vec2 nearest_barycentric(const std::array<Point3, 3>& corners, const Point3& x);
 double distance_to(const std::array<Point3, 3>& corners, const Point3& x);
-/// Whether the distance is at most `reach`; soon known where the plane of the triangle is further away.
+/// Whether the distance is at most `reach`;
+/// soon known where the plane of the triangle is further away.
 bool is_within(const std::array<Point3, 3>& corners, const Point3& x, double reach);
 
 /// The touching triangle that a departing ray runs into at once, if any: the one met most squarely.

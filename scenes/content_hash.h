@@ -1,6 +1,7 @@
 // A hash of values, for telling whether things are what they were: not for keeping secrets.
 //
-// 64-bit words are mixed one after another (the constants of splitmix64); their order counts, and so does the division of bytes into texts.
+// 64-bit words are mixed one after another (the constants of splitmix64);
+// their order counts, and so does the division of bytes into texts.
 #pragma once
 
 #include "scenes/types.h"

@@ -1,6 +1,8 @@
-// Things that are known to belong together, as a forest: sets that grow by union, each told by its smallest member.
+// Things that are known to belong together, as a forest:
+// sets that grow by union, each told by its smallest member.
 //
-// Paths are halved on the way to the root (Tarjan, van Leeuwen 1984). Which members a set has, and its root, do not depend on the order of unions.
+// Paths are halved on the way to the root (Tarjan, van Leeuwen 1984).
+// Which members a set has, and its root, do not depend on the order of unions.
 #pragma once
 
 #include <algorithm>

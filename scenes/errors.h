@@ -1,4 +1,5 @@
-// Errors that end a run. Each is one line on stderr, `meninas: FILE: WHERE: WHAT`, and an exit code.
+// Errors that end a run.
+// Each is one line on stderr, `meninas: FILE: WHERE: WHAT`, and an exit code.
 #pragma once
 
 #include <stdexcept>

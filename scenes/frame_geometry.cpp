@@ -10,8 +10,8 @@ namespace meninas {
 
 namespace {
 
-// Floats in [-1, 1] are rounded by at most 3e-8 per coordinate, of the origin and of three vertices alike,
-// and Embree's arithmetic adds as much again.
+// Floats in [-1, 1] are rounded by at most 3e-8 per coordinate,
+// of the origin and of three vertices alike, and Embree's arithmetic adds as much again.
 constexpr double float_noise = 4e-7;
 
 RayFrame frame_of(const Scene& scene) {

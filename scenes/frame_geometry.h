@@ -1,4 +1,5 @@
-// The triangles of a scene in the frame of its ray queries: recentred and rescaled so that the bounds fit into [-1, 1].
+// The triangles of a scene in the frame of its ray queries:
+// recentred and rescaled so that the bounds fit into [-1, 1].
 #pragma once
 
 #include "scenes/ray_scene.h"
@@ -36,7 +37,8 @@ struct FrameGeometry {
 FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfaces,
                                   Holes holes = {});
 
-/// Whether nothing is there at the point of a triangle with these weights of its second and third vertex.
+/// Whether nothing is there at the point of a triangle
+/// with these weights of its second and third vertex.
 inline bool is_hole(const FrameGeometry& geometry, std::uint32_t triangle, Vec2 barycentric) {
   return geometry.facts[triangle].cut_out && geometry.holes(TriangleId{triangle}, barycentric);
 }

@@ -1,17 +1,20 @@
 // Glass: what a pane, or one face of a solid, reflects and passes of light.
 //
-// F is Fresnel's reflectance of a face for unpolarised light, ior to 1, brought to the F0 and F90 of KHR_materials_specular:
+// F is Fresnel's reflectance of a face for unpolarised light,
+// ior to 1, brought to the F0 and F90 of KHR_materials_specular:
 //
 //   F(c) = F0 + (F90 - F0) (f(c) - f(1)) / (1 - f(1)),   f(c) = (r_s^2 + r_p^2) / 2
 //
-// which is f(c) itself unless that extension says otherwise, and 0 at every angle for an ior of 1. (Schlick's approximation is not.)
-// Inside of a pane light goes to and fro between its faces; t is what one way through leaves of it, by the base colour. The sums of all
-// that comes out again are geometric series:
+// which is f(c) itself unless that extension says otherwise, and 0 at every angle for an ior of 1.
+// (Schlick's approximation is not.) Inside of a pane light goes to and fro between its faces;
+// t is what one way through leaves of it, by the base colour.
+// The sums of all that comes out again are geometric series:
 //
 //   both faces   T = (1 - F)^2 t / (1 - F^2 t^2),   R = F + F t T
 //   one face     T = (1 - F) t,                     R = F
 //
-// So R + T = 1 where t = 1: clear glass absorbs nothing. A pane is thin: light leaves it where it enters.
+// So R + T = 1 where t = 1: clear glass absorbs nothing.
+// A pane is thin: light leaves it where it enters.
 #pragma once
 
 #include "scenes/material.h"
@@ -41,11 +44,12 @@ GlassShares glass_shares(const Glass& glass, double cosine);
 /// The means over the hemisphere, weighted by the cosine.
 GlassShares mean_glass_shares(const Glass& glass);
 
-/// Fresnel's reflectance for unpolarised light that comes from outside (ratio = ior) or from inside (ratio = 1 / ior); 1 beyond the angle of total
-/// reflection.
+/// Fresnel's reflectance for unpolarised light that comes from outside (ratio = ior)
+/// or from inside (ratio = 1 / ior); 1 beyond the angle of total reflection.
 double fresnel(double ratio, double cosine);
 
-/// What is left of light after some metres in a solid: attenuation_color^(metres / attenuation_distance).
+/// What is left of light after some metres in a solid:
+/// attenuation_color^(metres / attenuation_distance).
 Rgb attenuation(const Material& material, double metres);
 
 } // namespace meninas

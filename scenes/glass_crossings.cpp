@@ -41,8 +41,9 @@ void glass_crossings(const RayScene& rays, const Leg& leg, std::vector<GlassCros
   LaneRay ray = ray_along(geometry, leg);
   ray.far = 1.0F;
   const RayRule rule{.geometry = &geometry, .leaving = &ray.leaving, .only_glass = true};
-  // A pane that is passed is left as a surface is: nothing in its plane is met again. Where two meet in an edge the way through it crosses
-  // both at one distance, and then goes on, or the first would be met again.
+  // A pane that is passed is left as a surface is: nothing in its plane is met again.
+  // Where two meet in an edge the way through it crosses both at one distance,
+  // and then goes on, or the first would be met again.
   for (float last = -1.0F;; last = ray.near) {
     const LaneHit hit = trace_one(rays, ray, rule);
     if (hit.triangle == no_index)

@@ -14,7 +14,8 @@ struct GlassCrossing {
   double cosine = 1.0; ///< of the angle to its normal
 };
 
-/// The glass between the ends of a leg, in order; not that in whose planes it begins or ends. Clears and fills `crossings`.
+/// The glass between the ends of a leg, in order;
+/// not that in whose planes it begins or ends. Clears and fills `crossings`.
 void glass_crossings(const RayScene& rays, const Leg& leg, std::vector<GlassCrossing>& crossings);
 
 /// The glass in whose plane a leg ends; none where it ends beside it.

@@ -31,7 +31,8 @@ static bool is_read(const std::string& extension) {
   return std::ranges::find(extensions_read, extension) != std::end(extensions_read);
 }
 
-/// Extensions in use anywhere below, declared or not. The nesting was bounded when the text was parsed.
+/// Extensions in use anywhere below, declared or not.
+/// The nesting was bounded when the text was parsed.
 static void collect_extensions(const Json& json, std::set<std::string>& names) {
   if (!json.is_structured())
     return;
@@ -45,8 +46,8 @@ static void collect_extensions(const Json& json, std::set<std::string>& names) {
   }
 }
 
-/// What a file loses without it: the look of its materials, no more. Then a picture is better than none, though the file
-/// calls it required.
+/// What a file loses without it: the look of its materials, no more.
+/// Then a picture is better than none, though the file calls it required.
 static bool is_of_looks_only(const std::string& extension) {
   constexpr std::string_view prefixes[] = {"KHR_materials_", "EXT_materials_", "MSFT_materials_",
                                            "KHR_texture_",   "EXT_texture_",   "MSFT_texture_",

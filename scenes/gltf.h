@@ -1,12 +1,13 @@
 // glTF 2.0 in: .gltf with files or data URIs, and .glb, into a Scene.
 //
-// Read: the default scene (or the one asked for), its node hierarchy with any matrix or TRS, triangles, strips and
-// fans, indexed or not, strided and sparse accessors, metallic-roughness materials with the extensions
-// KHR_materials_emissive_strength, _ior, _specular, _transmission, _volume, KHR_texture_transform, KHR_lights_punctual,
+// Read: the default scene (or the one asked for), its node hierarchy with any matrix or TRS,
+// triangles, strips and fans, indexed or not, strided and sparse accessors,
+// metallic-roughness materials with the extensions KHR_materials_emissive_strength,
+// _ior, _specular, _transmission, _volume, KHR_texture_transform, KHR_lights_punctual,
 // perspective and orthographic cameras. Negative determinants keep the front in front.
 // What is left out is named in Scene::warnings or Scene::ignored.
-// Throws InputError (FILE: WHERE: WHAT) for anything that is not a well-formed file with finite geometry, OutputError for what is over the limit of
-// memory.
+// Throws InputError (FILE: WHERE: WHAT) for anything that is not a well-formed
+// file with finite geometry, OutputError for what is over the limit of memory.
 #pragma once
 
 #include "scenes/scene.h"
@@ -16,7 +17,8 @@
 
 namespace meninas {
 
-/// Which files a glTF file may name: a stranger's file must not make the program read the user's others.
+/// Which files a glTF file may name:
+/// a stranger's file must not make the program read the user's others.
 enum class ExternalFiles { inside_folder, anywhere };
 
 struct GltfSettings {
@@ -29,7 +31,8 @@ struct GltfSettings {
 
 Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings = {});
 
-/// The same of bytes in memory, as if they stood in that file: what they name is looked for beside it.
+/// The same of bytes in memory, as if they stood in that file:
+/// what they name is looked for beside it.
 Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& file,
                 const GltfSettings& settings = {});
 

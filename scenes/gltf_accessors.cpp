@@ -108,7 +108,8 @@ public:
   Component component() const { return component_; }
   bool is_normalised() const { return json_.value("normalized", false); }
 
-  /// Calls read(element, bytes) for every stored element, the dense ones first, then the sparse ones.
+  /// Calls read(element, bytes) for every stored element,
+  /// the dense ones first, then the sparse ones.
   template <typename Read>
   void each(Read read) const {
     if (const auto view = index_at(json_, "bufferView")) {
@@ -151,7 +152,8 @@ private:
                        view, stride, element_size));
     if (count == 0)
       return {};
-    // offset + (count - 1) stride + element_size <= bytes, without a sum or product that could wrap.
+    // offset + (count - 1) stride + element_size <= bytes,
+    // without a sum or product that could wrap.
     const bool fits = offset <= bytes.size() && element_size <= bytes.size() - offset &&
                       count - 1 <= (bytes.size() - offset - element_size) / stride;
     if (!fits)

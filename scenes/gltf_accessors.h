@@ -1,4 +1,5 @@
-// Numbers out of buffers: strided, interleaved, normalised and sparse accessors, every range checked before it is read.
+// Numbers out of buffers:
+// strided, interleaved, normalised and sparse accessors, every range checked before it is read.
 #pragma once
 
 #include "scenes/gltf_document.h"

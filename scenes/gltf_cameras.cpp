@@ -18,7 +18,8 @@ static std::optional<Direction> unit(const Vec3& v) {
   return glm::normalize(v / largest);
 }
 
-/// The orthonormal frame that looks along the node's -z with its y upwards; scale and shear do not matter.
+/// The orthonormal frame that looks along the node's -z with its y upwards;
+/// scale and shear do not matter.
 static bool orient(Camera& camera, const glm::dmat4& world) {
   const auto forward = unit(-Vec3(world[2]));
   if (!forward)
@@ -79,8 +80,9 @@ static Camera read_camera(const Document& document, std::size_t index, Findings&
 
 namespace {
 
-/// From farther away, in scenes, or in a view as wide, nothing is seen of the scene, and the light that comes from there comes from one
-/// direction; but rays would leave the range of Embree's floats.
+/// From farther away, in scenes, or in a view as wide, nothing is seen of the scene,
+/// and the light that comes from there comes from one direction;
+/// but rays would leave the range of Embree's floats.
 constexpr double farthest = 1e12;
 
 struct Reach {

@@ -1,7 +1,9 @@
-// KHR_materials_clearcoat, a layer of lacquer over a material, as far as there is one layer to show it with.
+// KHR_materials_clearcoat, a layer of lacquer over a material,
+// as far as there is one layer to show it with.
 //
-// A dielectric has a coat of its own (material.h), and lacquer has the same index of refraction, 1.5. Over matt paint the lacquer's reflection is the one that
-// is seen: it takes the place of the paint's own, factor by factor. Metals under lacquer have two reflections; they keep their own.
+// A dielectric has a coat of its own (material.h), and lacquer has the same index of refraction,
+// 1.5. Over matt paint the lacquer's reflection is the one that is seen: it takes the place of the
+// paint's own, factor by factor. Metals under lacquer have two reflections; they keep their own.
 #include "scenes/gltf_stages.h"
 
 #include <algorithm>

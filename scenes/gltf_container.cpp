@@ -37,7 +37,8 @@ struct Survey {
 } // namespace
 
 static Survey survey_of(std::span<const unsigned char> text) {
-  // A value in a list; a list, an object or a string by itself; a member of an object with its key. Strings also keep their text.
+  // A value in a list; a list, an object or a string by itself;
+  // a member of an object with its key. Strings also keep their text.
   constexpr double per_value = 2 * sizeof(Json), per_block = 64.0, per_member = 128.0;
   Survey survey;
   int depth = 0;

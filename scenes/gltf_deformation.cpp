@@ -85,7 +85,8 @@ const std::vector<glm::dmat4>& Skins::joints(std::size_t skin) {
   return found->second;
 }
 
-/// The weighted sum of the matrices of one vertex; sums of weights that exporters rounded are made one.
+/// The weighted sum of the matrices of one vertex;
+/// sums of weights that exporters rounded are made one.
 static glm::dmat4 blend(const Document& document, const std::string& where,
                         std::span<const glm::dmat4> joints, std::span<const Vectors> indices,
                         std::span<const Vectors> weights, std::size_t vertex) {

@@ -1,8 +1,10 @@
-// Meshes that can move, as the file has them at rest: morph targets by their default weights, skins by where the joints are.
+// Meshes that can move, as the file has them at rest:
+// morph targets by their default weights, skins by where the joints are.
 //
 //   x = sum_j w_j J_j B_j (x_0 + sum_k m_k d_k)        glTF 2.0, 3.7.2.2 and 3.7.3
 //
-// with J_j the joint's matrix in the world, B_j its inverse bind matrix, m_k the weight and d_k the displacement of target k.
+// with J_j the joint's matrix in the world, B_j its inverse bind matrix,
+// m_k the weight and d_k the displacement of target k.
 // The node of a skinned mesh does not move it: where it is follows from the joints alone.
 #pragma once
 
@@ -12,7 +14,8 @@
 
 namespace meninas::gltf {
 
-/// Adds the targets that have a weight (of the node, or else of the mesh) to the positions of a primitive.
+/// Adds the targets that have a weight (of the node,
+/// or else of the mesh) to the positions of a primitive.
 void apply_morph_targets(const Document& document, const std::string& where, const Json& primitive,
                          std::span<const double> weights, std::vector<Vec3>& positions);
 
@@ -30,7 +33,8 @@ private:
   std::map<std::size_t, std::vector<glm::dmat4>> joints_;
 };
 
-/// Positions of a primitive in the world. False, with nothing moved, when it has no joints and weights.
+/// Positions of a primitive in the world.
+/// False, with nothing moved, when it has no joints and weights.
 bool apply_skin(const Document& document, const std::string& where, const Json& primitive,
                 std::span<const glm::dmat4> joints, std::vector<Vec3>& positions);
 

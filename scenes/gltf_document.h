@@ -1,7 +1,8 @@
 // A glTF file as checked JSON and its buffers: what all stages of the loader read.
 //
-// tinygltf is trusted with bytes (files, data URIs) only. Structure is read from JSON whose types and indices were
-// checked against a table first, because tinygltf 2.7 follows indices, offsets and types of the file unchecked.
+// tinygltf is trusted with bytes (files, data URIs) only.
+// Structure is read from JSON whose types and indices were checked against a table first,
+// because tinygltf 2.7 follows indices, offsets and types of the file unchecked.
 #pragma once
 
 #include "scenes/errors.h"
@@ -37,11 +38,12 @@ struct Document {
   std::vector<Bytes> buffers; ///< empty for a buffer that only an extension could fill
 };
 
-/// Splits a .glb or takes a .gltf, and parses the JSON, unless that would take more memory than the limit. Nothing inside is checked but that
-/// it says it is glTF 2.
+/// Splits a .glb or takes a .gltf, and parses the JSON, unless that would take more
+/// memory than the limit. Nothing inside is checked but that it says it is glTF 2.
 Container parse_container(const std::string& file, Bytes bytes, std::uint64_t memory_limit);
 
-/// Throws InputError unless every property the loader reads has its type, and every index points into its array.
+/// Throws InputError unless every property the loader reads has its type,
+/// and every index points into its array.
 void check_structure(const std::string& file, const Json& root);
 
 /// Splits and checks the bytes of a file and loads its buffers.

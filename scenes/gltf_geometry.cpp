@@ -122,7 +122,8 @@ static std::vector<std::uint32_t> decode_corners(const PrimitivePlace& at, std::
   return corners;
 }
 
-/// glTF 2.0, 3.7.2.1: every second triangle of a strip is turned round, so that all face the same way.
+/// glTF 2.0, 3.7.2.1:
+/// every second triangle of a strip is turned round, so that all face the same way.
 static std::vector<Corners> triangulate(Mode mode, std::span<const std::uint32_t> corners) {
   std::vector<Corners> triangles(triangles_in(mode, corners.size()));
   for (std::size_t k = 0; k < triangles.size(); ++k) {
@@ -176,7 +177,8 @@ static double half_ulp(double x) {
   return x > 0.0 ? std::ldexp(1.0, std::max(std::ilogb(x), -126) - 24) : 0.0;
 }
 
-/// Rounding of local coordinates to floats, stretched by the matrix, and of the product with the matrix in doubles.
+/// Rounding of local coordinates to floats, stretched by the matrix,
+/// and of the product with the matrix in doubles.
 static double position_error(const Part& part, const glm::dmat4& world) {
   double local = 0.0;
   for (const auto& p : part.positions)
@@ -190,7 +192,8 @@ static double position_error(const Part& part, const glm::dmat4& world) {
   return half_ulp(local) * stretch + 4e-16 * (stretch * local + largest_of(Vec3(world[3])));
 }
 
-/// A mirrored node shows its triangles turned round, unless they are turned round once more (glTF 2.0, 3.7.4).
+/// A mirrored node shows its triangles turned round,
+/// unless they are turned round once more (glTF 2.0, 3.7.4).
 static bool is_mirrored(const glm::dmat4& world) {
   const glm::dmat3 linear(world);
   const auto largest =

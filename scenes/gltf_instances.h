@@ -1,4 +1,5 @@
-// One mesh in many places: EXT_mesh_gpu_instancing, whose accessors hold a translation, rotation and scale for each copy.
+// One mesh in many places:
+// EXT_mesh_gpu_instancing, whose accessors hold a translation, rotation and scale for each copy.
 #pragma once
 
 #include "scenes/gltf_stages.h"

@@ -9,7 +9,8 @@
 
 namespace meninas::gltf {
 
-// Above this a colour is a mistake, and its square leaves the range of floats the pictures are made of.
+// Above this a colour is a mistake,
+// and its square leaves the range of floats the pictures are made of.
 static constexpr double brightest_emission = 1e30;
 
 static double fraction(double value, const std::string& name, Findings& findings) {
@@ -45,8 +46,8 @@ static void read_metallic_roughness(const Document& document, const Json& json, 
   material.metallic_roughness_texture =
       read_texture_use(document, model, "metallicRoughnessTexture", name, findings);
 
-  // glTF's default is a rough metal, which nobody means who leaves the whole model out. Exporters that leave out defaults
-  // say a metal by its roughness alone.
+  // glTF's default is a rough metal, which nobody means who leaves the whole model out.
+  // Exporters that leave out defaults say a metal by its roughness alone.
   const bool says_metallic = model.contains("metallicFactor") ||
                              model.contains("roughnessFactor") ||
                              model.contains("metallicRoughnessTexture");

@@ -32,7 +32,8 @@ static glm::dmat4 rotation_of(const Document& document, std::size_t node, const 
   glm::dquat q(numbers[3] / largest, numbers[0] / largest, numbers[1] / largest,
                numbers[2] / largest);
   const auto length = glm::length(q);
-  // Floats in the file are off by 1e-7, sloppy exporters by more; either way the direction is what is meant.
+  // Floats in the file are off by 1e-7, sloppy exporters by more;
+  // either way the direction is what is meant.
   if (std::abs(length * largest - 1.0) > 1e-3)
     findings.about("rotations that are no unit quaternions were normalised",
                    place(document.root, "nodes", node));
@@ -73,7 +74,8 @@ static std::vector<std::size_t> children_of(const Json& root, std::size_t node) 
   return children;
 }
 
-/// The parent of every node, or of none. Refuses nodes with two parents and cycles, so that what is left is a forest.
+/// The parent of every node, or of none.
+/// Refuses nodes with two parents and cycles, so that what is left is a forest.
 static std::vector<std::size_t> parents_of(const Document& document) {
   const auto count = count_of(document.root, "nodes");
   std::vector<std::size_t> parents(count, count);
@@ -87,7 +89,8 @@ static std::vector<std::size_t> parents_of(const Document& document) {
       parents[child] = node;
     }
   }
-  // Where every node has at most one parent, a walk upwards that meets itself is the only kind of cycle.
+  // Where every node has at most one parent,
+  // a walk upwards that meets itself is the only kind of cycle.
   std::vector<std::size_t> walk_of(count, count);
   for (std::size_t start = 0; start < count; ++start) {
     auto at = start;
@@ -142,8 +145,9 @@ static std::vector<bool> below_listed(const Json& root, const std::vector<bool>&
   return below;
 }
 
-/// Where the walk through the chosen scene begins. A scene lists roots alone; exporters also list nodes below them, which stay
-/// where their parents put them and are shown once, and nodes of which no ancestor is listed, which become roots.
+/// Where the walk through the chosen scene begins. A scene lists roots alone;
+/// exporters also list nodes below them, which stay where their parents put them
+/// and are shown once, and nodes of which no ancestor is listed, which become roots.
 static std::vector<std::size_t>
 root_nodes(const Document& document, std::span<const std::size_t> parents, Findings& findings) {
   const auto none = parents.size();

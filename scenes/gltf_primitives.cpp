@@ -86,7 +86,8 @@ static Needs needs_of(const PrimitivePlace& at, double copies, bool is_skinned) 
 }
 
 void check_geometry_size(const Document& document, std::span<const PlacedNode> nodes) {
-  // Primitives with their attributes; each takes a fraction of a microsecond to look at, also where nothing of it is seen.
+  // Primitives with their attributes;
+  // each takes a fraction of a microsecond to look at, also where nothing of it is seen.
   constexpr std::size_t most_looks = 50000000;
   const auto limit = static_cast<double>(document.settings.memory_limit);
   std::size_t looks = 0;

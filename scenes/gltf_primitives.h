@@ -1,4 +1,5 @@
-// The primitives of the meshes that nodes show, and what they need, known before any of them is decoded.
+// The primitives of the meshes that nodes show,
+// and what they need, known before any of them is decoded.
 #pragma once
 
 #include "scenes/gltf_stages.h"
@@ -42,8 +43,8 @@ std::optional<std::size_t> position_accessor(const PrimitivePlace& at);
 
 std::size_t triangles_in(Mode mode, std::uint64_t corners);
 
-/// Throws OutputError when the geometry would take more than the limit of memory, or has more primitives than any scene: instances
-/// multiply, so a small file can ask for any amount of either.
+/// Throws OutputError when the geometry would take more than the limit of memory, or has more
+/// primitives than any scene: instances multiply, so a small file can ask for any amount of either.
 void check_geometry_size(const Document& document, std::span<const PlacedNode> nodes);
 
 } // namespace meninas::gltf

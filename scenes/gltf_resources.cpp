@@ -113,7 +113,8 @@ static bool is_inside(const fs::path& path, const fs::path& folder) {
   return std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first == root.end();
 }
 
-/// Exporters also write names with bare percent signs, and backslashes; the spelling that is there is meant.
+/// Exporters also write names with bare percent signs, and backslashes;
+/// the spelling that is there is meant.
 static fs::path existing_spelling(const fs::path& folder, const std::string& uri,
                                   const std::string& decoded) {
   auto slashes = decoded;

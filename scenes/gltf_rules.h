@@ -1,4 +1,5 @@
-// What the loader reads from a glTF file, as rules: which properties, of which type, pointing where.
+// What the loader reads from a glTF file, as rules:
+// which properties, of which type, pointing where.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,10 @@
-// KHR_materials_pbrSpecularGlossiness, which older exporters write, as a material of the metallic-roughness model.
+// KHR_materials_pbrSpecularGlossiness, which older exporters write,
+// as a material of the metallic-roughness model.
 //
-// Its diffuse reflectance d and specular reflectance s at normal incidence are those of one surface. A dielectric reflects about 4 %
-// and metals, which have no d, more. With c the base colour and m how metallic it is, the model says d = c (1 - m) and
-// s = 0.04 (1 - m) + c m; without c the brightest channels leave a quadratic equation for m.
+// Its diffuse reflectance d and specular reflectance s at normal incidence are those
+// of one surface. A dielectric reflects about 4 % and metals, which have no d, more.
+// With c the base colour and m how metallic it is, the model says d = c (1 - m) and s = 0.04
+// (1 - m) + c m; without c the brightest channels leave a quadratic equation for m.
 #include "scenes/gltf_stages.h"
 
 #include <algorithm>
@@ -34,7 +36,8 @@ void read_specular_glossiness(const Document& document, const Json& model, Mater
       read_texture_use(document, model, "diffuseTexture", material.name, findings);
   findings.about("specular-glossiness materials are read as metallic-roughness", material.name);
 
-  // What is reflected is in the texture, texel by texel; the factor alone, usually 1, would make everything a mirror.
+  // What is reflected is in the texture, texel by texel;
+  // the factor alone, usually 1, would make everything a mirror.
   if (model.contains("specularGlossinessTexture")) {
     findings.about("specular-glossiness textures are left out, materials are matt", material.name);
     material.base_color = diffuse;

@@ -1,4 +1,5 @@
-// The stages of the loader after the document is read: nodes, geometry, materials, cameras and lights.
+// The stages of the loader after the document is read:
+// nodes, geometry, materials, cameras and lights.
 #pragma once
 
 #include "scenes/gltf_document.h"
@@ -19,12 +20,13 @@ std::vector<PlacedNode> place_nodes(const Document& document, Findings& findings
 /// Makes names unique: the first keeps its name, others get the first free suffix .1, .2, ...
 std::vector<std::string> unique_names(const std::vector<std::string>& names);
 
-/// Fills vertices, triangles, nodes and their error bound. Materials of triangles are still indices into the file,
-/// none for a primitive without.
+/// Fills vertices, triangles, nodes and their error bound.
+/// Materials of triangles are still indices into the file, none for a primitive without.
 void read_geometry(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
                    Findings& findings);
 
-/// Replaces the file's material indices by the materials that triangles use, and adds these and their textures.
+/// Replaces the file's material indices by the materials that triangles use,
+/// and adds these and their textures.
 void read_materials(const Document& document, Scene& scene, Findings& findings);
 
 /// Base colour, metallic, roughness and alpha from KHR_materials_pbrSpecularGlossiness.
@@ -34,7 +36,8 @@ void read_specular_glossiness(const Document& document, const Json& model, Mater
 /// The coat of KHR_materials_clearcoat in place of the material's own, where that is rougher.
 void read_clear_coat(const Json& extension, Material& material, Findings& findings);
 
-/// `use.texture` is the file's texture; null when there is no image to be had, which is then in the findings.
+/// `use.texture` is the file's texture;
+/// null when there is no image to be had, which is then in the findings.
 std::optional<TextureUse> read_texture_use(const Document& document, const Json& owner,
                                            std::string_view key, const std::string& material,
                                            Findings& findings);
@@ -42,7 +45,8 @@ std::optional<TextureUse> read_texture_use(const Document& document, const Json&
 /// Which sets of texture coordinates the textures of a material ask for.
 std::set<std::uint64_t> texcoord_sets(const Json& material);
 
-/// Replaces the file's texture indices in the materials by textures of the scene, one per image and wrapping.
+/// Replaces the file's texture indices in the materials by textures of the scene,
+/// one per image and wrapping.
 void read_textures(const Document& document, Scene& scene, Findings& findings);
 
 void read_cameras(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,

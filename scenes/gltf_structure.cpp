@@ -1,4 +1,5 @@
-// The table of what the loader reads from a glTF file: which properties, of which type, pointing where.
+// The table of what the loader reads from a glTF file:
+// which properties, of which type, pointing where.
 #include "scenes/gltf_rules.h"
 
 namespace meninas::gltf {

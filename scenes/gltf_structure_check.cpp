@@ -1,4 +1,5 @@
-// A file held against the table of gltf_structure.cpp: every property of its type, every index into its array.
+// A file held against the table of gltf_structure.cpp:
+// every property of its type, every index into its array.
 #include "scenes/gltf_document.h"
 #include "scenes/gltf_rules.h"
 

@@ -94,7 +94,8 @@ std::set<std::uint64_t> texcoord_sets(const Json& material) {
 
 namespace {
 
-/// glTF 2.0, 5.26. `minFilter` tells a rasteriser how carefully to filter; here the whole footprint of a sample is averaged anyway.
+/// glTF 2.0, 5.26. `minFilter` tells a rasteriser how carefully to filter;
+/// here the whole footprint of a sample is averaged anyway.
 struct Sampler {
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
   TexelFilter magnified = TexelFilter::linear;

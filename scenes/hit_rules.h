@@ -19,8 +19,9 @@ struct Candidate {
 
 enum class BackRule { hit, ignore };
 
-/// A ray hits nothing in the plane it leaves nor in the planes of the triangles that touch its origin, and no backs where they
-/// are ignored. Where only one plane, or only glass, is looked for, it hits nothing else.
+/// A ray hits nothing in the plane it leaves nor in the planes of the triangles
+/// that touch its origin, and no backs where they are ignored.
+/// Where only one plane, or only glass, is looked for, it hits nothing else.
 struct RayRule {
   const FrameGeometry* geometry = nullptr;
   const std::uint32_t* leaving = nullptr; ///< by lane
@@ -48,7 +49,8 @@ inline bool is_hit(const RayRule& rule, const Candidate& candidate) {
   return rule.backs == BackRule::hit || !facts.single_sided || !back;
 }
 
-/// A leg is not blocked by glass, unless solids are opaque to it, nor in the planes it leaves and arrives at; triangles in whose plane an end lies are left to its contacts.
+/// A leg is not blocked by glass, unless solids are opaque to it, nor in the planes it
+/// leaves and arrives at; triangles in whose plane an end lies are left to its contacts.
 struct LegRule {
   const FrameGeometry* geometry = nullptr;
   const RayPacket* packet = nullptr;
@@ -67,7 +69,8 @@ inline LegHit leg_hit(const LegRule& rule, const Candidate& candidate) {
   if (plane == leaving || plane == arriving || passed)
     return LegHit::own;
 
-  // How far the leg climbs from its start to the hit, and from there to its end, over the plane of the triangle
+  // How far the leg climbs from its start to the hit,
+  // and from there to its end, over the plane of the triangle
   const auto slope = glm::dot(candidate.normal, candidate.direction);
   const auto climb = slope * candidate.distance;
   const auto rest = slope * (rule.packet->max_distance[candidate.lane] - candidate.distance);

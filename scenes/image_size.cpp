@@ -37,7 +37,8 @@ std::optional<ImageSize> png_size(Bytes bytes) {
   return ImageSize{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
 }
 
-/// The segments of a JPEG up to its frame header, SOF0 to SOF15 but for the tables DHT, JPG and DAC among them.
+/// The segments of a JPEG up to its frame header,
+/// SOF0 to SOF15 but for the tables DHT, JPG and DAC among them.
 std::optional<ImageSize> jpeg_size(Bytes bytes) {
   for (std::size_t at = 2; at + 9 < bytes.size() && bytes[at] == 0xFF;) {
     const auto marker = bytes[at + 1];

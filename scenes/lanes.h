@@ -1,4 +1,5 @@
-// The lanes of a packet: which are rays, where they really start, and which of them a bare query cannot settle.
+// The lanes of a packet:
+// which are rays, where they really start, and which of them a bare query cannot settle.
 #pragma once
 
 #include "scenes/frame_geometry.h"
@@ -8,8 +9,8 @@ namespace meninas {
 inline constexpr auto no_index = std::numeric_limits<std::uint32_t>::max();
 
 // The frame maps the scene into [-1, 1], where floats are rounded by at most 3e-8 per coordinate.
-// Origins are lifted off the plane they leave by `lift`, a few such roundings, so that the plane is hardly ever hit again;
-// where it is, the query is repeated with a filter that knows the plane.
+// Origins are lifted off the plane they leave by `lift`, a few such roundings, so that the plane
+// is hardly ever hit again; where it is, the query is repeated with a filter that knows the plane.
 inline constexpr float lift = 1e-6F;
 
 struct LaneRay {
@@ -61,7 +62,8 @@ bool leaves_nothing(const RayPacket& packet);
 /// The origins of a packet moved off the planes they leave, towards the side their ray goes to.
 LaneVectors lifted_origins(const FrameGeometry& geometry, const RayPacket& packet);
 
-/// The directions from lifted origins to the ends of legs moved off the planes they arrive at, towards the side they come from.
+/// The directions from lifted origins to the ends of legs moved off the planes they arrive at,
+/// towards the side they come from.
 LaneVectors lifted_directions(const FrameGeometry& geometry, const RayPacket& packet,
                               const LaneVectors& origins);
 
@@ -71,8 +73,9 @@ struct Doubts {
   std::uint32_t through = 0;    ///< lanes that met a transparent back
 };
 
-/// Which lanes a bare query cannot settle: of rays that leave a surface the hits in the plane they leave and those that touch their
-/// origin, and, where the origin may lie a hair behind another surface, the misses and backs; and backs of sheets.
+/// Which lanes a bare query cannot settle: of rays that leave a surface the hits
+/// in the plane they leave and those that touch their origin, and, where the origin
+/// may lie a hair behind another surface, the misses and backs; and backs of sheets.
 Doubts find_doubts(const FrameGeometry& geometry, const RayPacket& packet, const HitPacket& hits,
                    const LaneFlags& valid, const LaneFlags& touching, Backs backs);
 

@@ -2,7 +2,8 @@
 
 namespace meninas {
 
-/// Texels say where it is metal and how smooth: no mirror of one reflectance. Those of glass are read wherever light meets it.
+/// Texels say where it is metal and how smooth: no mirror of one reflectance.
+/// Those of glass are read wherever light meets it.
 static bool has_texels_of_metal(const Material& material) {
   return material.metallic_roughness_texture && !is_glass(material);
 }

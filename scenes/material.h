@@ -1,14 +1,19 @@
-// Materials after glTF's metallic-roughness model, and the reflectances the two passes take from them.
+// Materials after glTF's metallic-roughness model,
+// and the reflectances the two passes take from them.
 //
 //   diffuse reflectance   rho_d = base_color (1 - metallic)
 //   specular reflectance  rho_s = base_color metallic
 //
-// A metal whose roughness is at most `ideal_mirror_roughness`, without a texture of that, is an ideal mirror of constant reflectance rho_s.
-// The lobes of other metals, coats and glass are in bsdf.h. Pass two shows them; pass one spreads those of metals and coats evenly, takes
-// smooth metals, and the coats of large flat surfaces, for ideal mirrors (smooth_surfaces.h) and glass for clear (lobes.h).
+// A metal whose roughness is at most `ideal_mirror_roughness`,
+// without a texture of that, is an ideal mirror of constant reflectance rho_s.
+// The lobes of other metals, coats and glass are in bsdf.h. Pass two shows them;
+// pass one spreads those of metals and coats evenly, takes smooth metals, and the coats
+// of large flat surfaces, for ideal mirrors (smooth_surfaces.h) and glass for clear (lobes.h).
 //
-// Glass (transmission > 0) is there from both sides: the loader makes it double-sided. Without thickness a sheet of it is a whole pane, with
-// both of its faces; with one it is the surface of a solid (KHR_materials_volume). Where a texture of transmission is black it is what is below:
+// Glass (transmission > 0) is there from both sides: the loader makes it double-sided.
+// Without thickness a sheet of it is a whole pane, with both of its faces;
+// with one it is the surface of a solid (KHR_materials_volume).
+// Where a texture of transmission is black it is what is below:
 // an opaque surface, from both sides.
 #pragma once
 
@@ -25,7 +30,8 @@ inline constexpr double ideal_mirror_roughness = 0.01;
 /// The Schlick coat of a dielectric shows up to this roughness; a rougher one counts as diffuse.
 inline constexpr double visible_coat_roughness = 0.2;
 
-/// Which texture, by which texture coordinates, after which affine map of them (KHR_texture_transform).
+/// Which texture, by which texture coordinates,
+/// after which affine map of them (KHR_texture_transform).
 struct TextureUse {
   TextureId texture = none<TextureId>;
   int texcoord_set = 0;
@@ -64,7 +70,8 @@ struct Material {
   std::optional<TextureUse> thickness_texture;    ///< green
 };
 
-/// The reflectance of the material in pass one, which scatters evenly: all that it reflects but the ideal reflection of metals (lobes.h).
+/// The reflectance of the material in pass one, which scatters evenly:
+/// all that it reflects but the ideal reflection of metals (lobes.h).
 Rgb diffuse_reflectance(const Material& material);
 
 /// The reflectance of what is a mirror in pass one; zero for everything that is not one.

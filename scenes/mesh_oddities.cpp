@@ -11,7 +11,8 @@ namespace {
 constexpr double sliver_aspect = 1000.0;
 constexpr std::size_t crowd = 1000; ///< faces at one corner
 
-// Among loose triangles that all cross each other every edge has every corner near it; what is looked at ends there.
+// Among loose triangles that all cross each other every edge has every corner near it;
+// what is looked at ends there.
 constexpr std::size_t most_points_tried = 20'000'000;
 
 NodeId node_of(const Scene& scene, TriangleId triangle) {

@@ -27,7 +27,8 @@ double smith_lambda(double alpha, const Direction& w) {
 }
 
 Direction visible_facet(double alpha, const Direction& out, double u, double v) {
-  // Stretched by 1/alpha the facets are a hemisphere, whose visible part projects to a half disc and a half ellipse.
+  // Stretched by 1/alpha the facets are a hemisphere,
+  // whose visible part projects to a half disc and a half ellipse.
   const Direction o = glm::normalize(Vec3(alpha * out.x, alpha * out.y, out.z));
   const TangentFrame frame = tangent_frame(o);
   // The first tangent lies level, so that the second points up the hemisphere.
@@ -46,7 +47,8 @@ namespace {
 
 constexpr int roughness_steps = 32, cosine_steps = 64;
 
-/// By roughness and by the square root of the cosine, because albedos change fast at grazing angles.
+/// By roughness and by the square root of the cosine,
+/// because albedos change fast at grazing angles.
 struct AlbedoTable {
   std::array<std::array<SchlickAlbedo, cosine_steps + 1>, roughness_steps + 1> at;
   std::array<SchlickAlbedo, roughness_steps + 1> mean;
@@ -87,7 +89,8 @@ SchlickAlbedo mixed(const SchlickAlbedo& a, const SchlickAlbedo& b, double t) {
   return {(1.0 - t) * a.f0 + t * b.f0, (1.0 - t) * a.f90 + t * b.f90};
 }
 
-/// 2 integral of e(c) c dc of what is linear in s = sqrt(c): 4 integral of e(s) s^3 ds, by the midpoints of fine steps.
+/// 2 integral of e(c) c dc of what is linear in s = sqrt(c):
+/// 4 integral of e(s) s^3 ds, by the midpoints of fine steps.
 SchlickAlbedo mean_of(const std::array<SchlickAlbedo, cosine_steps + 1>& row) {
   constexpr int parts = 16;
   SchlickAlbedo mean;

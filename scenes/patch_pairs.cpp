@@ -70,7 +70,8 @@ Candidate join(const Scene& scene, EdgeUse a, EdgeUse b) {
   return candidate;
 }
 
-/// A triangle at an edge can only be paired with one of its region and node that runs along the edge the other way.
+/// A triangle at an edge can only be paired with one of its
+/// region and node that runs along the edge the other way.
 struct Kind {
   std::uint32_t region = 0;
   std::uint32_t node = 0;
@@ -95,8 +96,9 @@ void sort_by_kind(const Scene& scene, const std::vector<std::uint32_t>& region_o
   });
 }
 
-/// The first later triangles that one at an edge can be paired with, in the order of triangles: found without a look at all the others, of
-/// which a pile of copies or a fan of sheets has as many as there are triangles.
+/// The first later triangles that one at an edge can be paired with, in the order of triangles:
+/// found without a look at all the others,
+/// of which a pile of copies or a fan of sheets has as many as there are triangles.
 std::span<const UseOfKind> partners_of(const UseOfKind& one, std::span<const UseOfKind> sorted) {
   Kind kind = one.kind;
   kind.forward = !kind.forward;

@@ -1,4 +1,5 @@
-// Points in a balanced tree of halves (Bentley 1975), for look-ups by boxes of any shape: the grid of neighbour_grid.h is for small ones.
+// Points in a balanced tree of halves (Bentley 1975), for look-ups by boxes of any shape:
+// the grid of neighbour_grid.h is for small ones.
 #pragma once
 
 #include "scenes/camera.h"

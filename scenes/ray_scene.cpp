@@ -214,7 +214,8 @@ void load_legs(const FrameGeometry& geometry, const RayPacket& packet, const Lan
   set_directions(directions.x, directions.y, directions.z, rays);
 }
 
-/// Reads a traced packet; `touching` are the lanes whose hit lies in a plane that their origin lies in as well.
+/// Reads a traced packet;
+/// `touching` are the lanes whose hit lies in a plane that their origin lies in as well.
 void read_hits(const RTCRayHit16& traced, float noise, HitPacket& hits, LaneFlags& touching) {
   const auto& [ray, hit] = traced;
   copy_lanes(hit.primID, hits.triangle);

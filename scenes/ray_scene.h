@@ -1,15 +1,19 @@
 // Ray queries over the input geometry: nearest hit and occlusion. (The only user of Embree.)
 //
-// Sides (DESIGN 3): a single-sided surface reflects, emits and mirrors at its front; its back is an opaque black
-// absorber. Hits say which side they are on. `Backs::transparent` (camera rays) lets rays pass through such backs.
+// Sides (DESIGN 3): a single-sided surface reflects, emits and mirrors at its front;
+// its back is an opaque black absorber. Hits say which side they are on.
+// `Backs::transparent` (camera rays) lets rays pass through such backs.
 // Where two coincident surfaces face opposite ways, the one that faces the ray is hit.
 //
-// A ray that leaves a surface names the plane it leaves (`leaving`): nothing in that plane is hit, so there is no epsilon and no
-// self-hit at any scale. A ray whose rounded origin slipped behind an adjoining wall still meets that wall.
+// A ray that leaves a surface names the plane it leaves (`leaving`):
+// nothing in that plane is hit, so there is no epsilon and no self-hit at any scale.
+// A ray whose rounded origin slipped behind an adjoining wall still meets that wall.
 //
-// Embree works in floats, in a frame recentred and rescaled to the scene: x_frame = (x - centre) * scale, which maps the bounds into
-// [-1, 1]. Packets are given in that frame; single queries in metres. Directions need not be rescaled. Distances in packets
-// are in frame units. All queries are const and safe from any number of threads; the same ray gets the same bits every time.
+// Embree works in floats, in a frame recentred and rescaled to the scene:
+// x_frame = (x - centre) * scale, which maps the bounds into [-1, 1].
+// Packets are given in that frame; single queries in metres. Directions need not be rescaled.
+// Distances in packets are in frame units. All queries are const and safe
+// from any number of threads; the same ray gets the same bits every time.
 #pragma once
 
 #include "scenes/scene.h"
@@ -40,7 +44,8 @@ struct Hit {
   bool front = true;     ///< false: the back of a surface, black if single-sided
 };
 
-/// The straight leg between two points, each on a plane of the scene or free (none). Blocked by either side of what is between, but for glass.
+/// The straight leg between two points, each on a plane of the scene or free (none).
+/// Blocked by either side of what is between, but for glass.
 struct Leg {
   Point3 from;
   Point3 to;
@@ -50,7 +55,8 @@ struct Leg {
 
 inline constexpr std::size_t packet_size = 16;
 
-/// Sixteen rays, structure of arrays, in the frame of the ray scene. Lanes from `count` on are not traced.
+/// Sixteen rays, structure of arrays, in the frame of the ray scene.
+/// Lanes from `count` on are not traced.
 struct alignas(64) RayPacket {
   float origin_x[packet_size], origin_y[packet_size], origin_z[packet_size];
   float direction_x[packet_size], direction_y[packet_size], direction_z[packet_size];
@@ -60,7 +66,8 @@ struct alignas(64) RayPacket {
   std::uint32_t count = 0;
 };
 
-/// Puts a ray into a lane, as far as it goes unless it is said how far. Occlusion also needs `arriving`.
+/// Puts a ray into a lane, as far as it goes unless it is said how far.
+/// Occlusion also needs `arriving`.
 inline void set_ray(RayPacket& packet, std::uint32_t lane, const glm::vec3& origin,
                     const glm::vec3& direction, std::uint32_t leaving,
                     float max_distance = std::numeric_limits<float>::infinity()) {
@@ -91,8 +98,8 @@ struct RayFrame {
 
 struct FrameGeometry;
 
-/// Whether a cut-out material leaves nothing at the point of a triangle with these weights of its second and third vertex. Rays pass
-/// holes; safe from any number of threads.
+/// Whether a cut-out material leaves nothing at the point of a triangle with these weights
+/// of its second and third vertex. Rays pass holes; safe from any number of threads.
 using Holes = std::function<bool(TriangleId, Vec2)>;
 
 class RayScene {
@@ -123,10 +130,12 @@ bool occluded(const RayScene& rays, const Leg& leg);
 void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits, Backs backs,
                   Coherence coherence);
 
-/// The triangle that blocks a ray, by lane: one of those that do; none where what blocks touches an end.
+/// The triangle that blocks a ray, by lane:
+/// one of those that do; none where what blocks touches an end.
 using Blockers = std::array<std::uint32_t, packet_size>;
 
-/// Whether solids of glass are passed straight, each face like a pane, or let nothing through: for those who find otherwise what they bend.
+/// Whether solids of glass are passed straight, each face like a pane, or let nothing through:
+/// for those who find otherwise what they bend.
 enum class Solids { sheets, opaque };
 
 /// Bit k of the result is set where ray k meets something but glass before max_distance.

@@ -16,8 +16,8 @@ constexpr std::uint32_t reversed_bits(std::uint32_t x) {
   return (x >> 16) | (x << 16);
 }
 
-// The second generator matrix of Sobol's sequence is Pascal's triangle modulo 2; it factors into five sparse steps,
-// one per bit of the binomials' arguments (Lucas).
+// The second generator matrix of Sobol's sequence is Pascal's triangle modulo 2;
+// it factors into five sparse steps, one per bit of the binomials' arguments (Lucas).
 constexpr std::uint32_t pascal(std::uint32_t x) {
   x ^= (x & 0xaaaaaaaaU) >> 1;
   x ^= (x & 0xccccccccU) >> 2;
@@ -38,10 +38,11 @@ constexpr std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) {
   return x;
 }
 
-// Dimensions 2 and 3 are the first two after a relabelling of the index by an upper triangular matrix U over GF(2),
-// which keeps every aligned power-of-two block, hence the stratification of the pair. Column m has bit m and lower bits only;
-// they were found by a search that keeps the four-dimensional quality parameter t of the prefixes 2^m low
-// (t = 1 to 3 up to m = 12, column by column).
+// Dimensions 2 and 3 are the first two after a relabelling of the index by an upper
+// triangular matrix U over GF(2), which keeps every aligned power-of-two block,
+// hence the stratification of the pair. Column m has bit m and lower bits only;
+// they were found by a search that keeps the four-dimensional quality parameter
+// t of the prefixes 2^m low (t = 1 to 3 up to m = 12, column by column).
 constexpr std::array<std::uint32_t, 32> relabelling_columns{
     0x00000001U, 0x00000002U, 0x00000005U, 0x0000000bU, 0x00000010U, 0x00000021U, 0x00000043U,
     0x00000086U, 0x00000112U, 0x0000025dU, 0x000006f6U, 0x00000cfeU, 0x00001844U, 0x00003c91U,
@@ -77,7 +78,8 @@ float coordinate(std::uint32_t unscrambled, std::uint32_t seed, std::uint32_t k)
 } // namespace
 
 std::array<float, 4> sobol4(std::uint32_t index, std::uint32_t seed) {
-  // Sobol's integers are bit-reversed, and so is what the scrambling works on: both reversals cancel.
+  // Sobol's integers are bit-reversed, and so is what the scrambling works on:
+  // both reversals cancel.
   const auto second = relabelled(index);
   const std::array<std::uint32_t, 4> unscrambled{index, pascal(index), second, pascal(second)};
 
@@ -109,7 +111,8 @@ glm::vec2 concentric_disc(float u, float v) {
 
 glm::vec3 cosine_hemisphere(float u, float v) {
   const auto p = concentric_disc(u, v);
-  // The height on the unit sphere; the floor keeps the direction off the plane where rounding has eaten it.
+  // The height on the unit sphere;
+  // the floor keeps the direction off the plane where rounding has eaten it.
   const auto z = std::sqrt(std::max(1e-7F, 1.0F - p.x * p.x - p.y * p.y));
   return {p.x, p.y, z};
 }

@@ -1,7 +1,8 @@
 // The scene: what is there, in world space, as plain values. Filled by load_gltf or by hand.
 //
-// Triangles are counter-clockwise seen from the front. Degenerate triangles (no area at the precision of
-// their vertices) are not in the list, only counted. References between objects are indices, never pointers.
+// Triangles are counter-clockwise seen from the front.
+// Degenerate triangles (no area at the precision of their vertices) are not in the list,
+// only counted. References between objects are indices, never pointers.
 #pragma once
 
 #include "scenes/camera.h"
@@ -32,7 +33,8 @@ struct Node {
   std::string name;
 };
 
-/// What an image is beyond its edge: its last texel, itself again, or its mirror image and then itself.
+/// What an image is beyond its edge:
+/// its last texel, itself again, or its mirror image and then itself.
 enum class Wrap { clamp, repeat, mirrored };
 
 /// What is between the texels of an image that is magnified.
@@ -49,7 +51,8 @@ struct Texture {
 
 enum class PunctualKind { point, spot, directional };
 
-/// KHR_lights_punctual. Intensity is W/sr for point and spot, irradiance W/m^2 for directional lights.
+/// KHR_lights_punctual.
+/// Intensity is W/sr for point and spot, irradiance W/m^2 for directional lights.
 struct PunctualLight {
   std::string name;
   PunctualKind kind = PunctualKind::point;
@@ -75,7 +78,8 @@ struct Scene {
   std::vector<std::string> ignored; ///< names of extensions and features that were left out
   std::size_t degenerate_triangles = 0;
 
-  /// Bound on the rounding error of the positions, in metres: floats in the file, moved by the node matrices.
+  /// Bound on the rounding error of the positions, in metres:
+  /// floats in the file, moved by the node matrices.
   /// Geometry is only distinguished above it (coplanar, coincident, degenerate).
   double position_error = 0.0;
 };
@@ -95,7 +99,8 @@ Vec3 area_vector(const std::array<Point3, 3>& corners);
 
 Bounds bounds_of(const Scene& scene);
 
-/// A hash of all that light depends on (geometry, materials, textures, lights), not of cameras and names.
+/// A hash of all that light depends on (geometry,
+/// materials, textures, lights), not of cameras and names.
 /// A solution carries it, so that it can be refused when it belongs to another scene.
 std::uint64_t content_hash(const Scene& scene);
 

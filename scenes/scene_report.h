@@ -1,7 +1,9 @@
-// What is odd about a scene, node by node with counts, in the words of whoever modelled it and with what to do about it.
+// What is odd about a scene, node by node with counts,
+// in the words of whoever modelled it and with what to do about it.
 //
-// Nothing of it stops a run: every scene is rendered as it stands. But a mesh turned inside out is black, a face that is there twice
-// is lit as one of the two, and a scene in millimetres has elements of metres. Where light is right all the same, the line says so.
+// Nothing of it stops a run: every scene is rendered as it stands.
+// But a mesh turned inside out is black, a face that is there twice is lit as one of the two, and a
+// scene in millimetres has elements of metres. Where light is right all the same, the line says so.
 #pragma once
 
 #include "scenes/ray_scene.h"

@@ -1,8 +1,10 @@
-// Closed shells of a scene, and whether they show their fronts or their backs. (Part of report_scene.)
+// Closed shells of a scene, and whether they show their fronts or their backs.
+// (Part of report_scene.)
 //
-// A shell is a set of faces connected by edges that exactly two of them share. It is closed when no edge has less, and oriented when
-// neighbours run along their common edge in opposite directions. The volume sum of a . (b x c) / 6 of a closed oriented shell is positive
-// when its fronts are outside: a solid; and negative when they are inside: a room, or a solid that is inside out.
+// A shell is a set of faces connected by edges that exactly two of them share. It is closed when no
+// edge has less, and oriented when neighbours run along their common edge in opposite directions.
+// The volume sum of a . (b x c) / 6 of a closed oriented shell is positive when its fronts are
+// outside: a solid; and negative when they are inside: a room, or a solid that is inside out.
 #pragma once
 
 #include "scenes/surfaces.h"
@@ -23,8 +25,8 @@ struct Shell {
 
 std::vector<Shell> find_shells(const Scene& scene, const Topology& topology);
 
-/// How often the shell goes round the point, seen from its fronts: 1 inside a solid, -1 inside a room, 0 outside (Van Oosterom and
-/// Strackee 1983, the solid angles of its faces).
+/// How often the shell goes round the point, seen from its fronts: 1 inside a solid,
+/// -1 inside a room, 0 outside (Van Oosterom and Strackee 1983, the solid angles of its faces).
 double winding_number(const Scene& scene, const Shell& shell, const Point3& x);
 
 } // namespace meninas

@@ -1,4 +1,5 @@
-// Queries of one ray in double metres: carried into the frame, asked there, and measured again in double.
+// Queries of one ray in double metres:
+// carried into the frame, asked there, and measured again in double.
 #include "scenes/frame_geometry.h"
 
 #include <algorithm>
@@ -8,7 +9,8 @@ namespace meninas {
 
 namespace {
 
-// The scene lies within sqrt(3) of the frame's origin; what is farther out is clipped before it is rounded to floats.
+// The scene lies within sqrt(3) of the frame's origin;
+// what is farther out is clipped before it is rounded to floats.
 constexpr double far_out = 2.0;
 
 struct Span {

@@ -29,8 +29,8 @@ bool is_smooth_coat(const Material& material) {
          largest(mean_shares(mirror_coat(material)).reflected) >= least_reflectance;
 }
 
-/// Whether the planes may be one, whichever way they face: those of small triangles, whose vertices are floats, are not known well. Facets of
-/// curved surfaces are farther apart.
+/// Whether the planes may be one, whichever way they face: those of small triangles,
+/// whose vertices are floats, are not known well. Facets of curved surfaces are farther apart.
 bool is_same(const Plane& a, const Plane& b, double size) {
   constexpr double angle = 2e-3, share = 2e-3;
   const double sign = glm::dot(a.normal, b.normal) < 0.0 ? -1.0 : 1.0;

@@ -1,29 +1,34 @@
 // Flat surfaces that are nearly mirrors: what they throw on other surfaces has a shape.
 //
-// Pass one reflects evenly or ideally. Of the two, the ideal mirror comes nearer to a lobe of width alpha = roughness^2 while this is narrow
-// beside what is lit. That is so for flat surfaces, whose mirror worlds are few; what curved ones throw would be found by rays alone, by chance,
-// and stays even. Pass two shows the lobe in any case.
+// Pass one reflects evenly or ideally. Of the two, the ideal mirror comes nearer
+// to a lobe of width alpha = roughness^2 while this is narrow beside what is lit.
+// That is so for flat surfaces, whose mirror worlds are few; what curved ones throw would be
+// found by rays alone, by chance, and stays even. Pass two shows the lobe in any case.
 //
-// Metals are mirrors of one reflectance then. Polished dielectrics (floors, table tops, tiles) are diffuse below a coat that is a mirror
-// by Schlick's R(c), a twentieth of the light straight on and all of it at grazing angles: so much is worth mirror worlds where the coat covers
-// a share of the scene that can be seen in the light of other surfaces.
+// Metals are mirrors of one reflectance then. Polished dielectrics (floors, table tops,
+// tiles) are diffuse below a coat that is a mirror by Schlick's R(c), a twentieth of the light
+// straight on and all of it at grazing angles: so much is worth mirror worlds where
+// the coat covers a share of the scene that can be seen in the light of other surfaces.
 #pragma once
 
 #include "scenes/scene.h"
 
 namespace meninas {
 
-/// Beyond this roughness metals throw light evenly; coats show, and throw light, up to visible_coat_roughness (material.h).
+/// Beyond this roughness metals throw light evenly;
+/// coats show, and throw light, up to visible_coat_roughness (material.h).
 inline constexpr double smooth_metal_roughness = 0.3;
 /// And where the faces of the material lie in more planes than these.
 inline constexpr std::size_t most_smooth_planes = 8;
-/// Of the scene's area, for each plane of coats that is worth mirror worlds, be they of many materials: a table top in a furnished room.
+/// Of the scene's area, for each plane of coats that is worth mirror worlds,
+/// be they of many materials: a table top in a furnished room.
 inline constexpr double least_coat_share = 0.005;
 /// The largest of them.
 inline constexpr std::size_t most_coat_planes = 16;
 
-/// Sets Material::throws_as_mirror for every material: true of metals rougher than ideal mirrors, but smooth, and of the coats of diffuse
-/// surfaces, where their roughness has no texture, they are flat and, some of them, in a large plane.
+/// Sets Material::throws_as_mirror for every material:
+/// true of metals rougher than ideal mirrors, but smooth, and of the coats of diffuse surfaces,
+/// where their roughness has no texture, they are flat and, some of them, in a large plane.
 void mark_smooth_surfaces(Scene& scene);
 
 /// Makes coats throw light evenly: for transports that know no reflectance by the angle.

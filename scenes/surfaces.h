@@ -1,12 +1,14 @@
 // Surfaces and patches: the geometry as light sees it, rebuilt from a soup of triangles.
 //
-// A plane class (PlaneId) is a set of triangles in one plane, whichever way they face: a ray that leaves a plane
-// cannot meet that plane again, which is how self-hits are excluded exactly, at any scale.
+// A plane class (PlaneId) is a set of triangles in one plane, whichever way they face:
+// a ray that leaves a plane cannot meet that plane again,
+// which is how self-hits are excluded exactly, at any scale.
 // A surface is a maximal connected coplanar set of triangles with one material and one front.
-// A patch is a quad or a triangle of a surface with its own (u, v): two triangles of one node that share an edge and
-// form a convex quad become one quad patch, the rest stay triangles.
+// A patch is a quad or a triangle of a surface with its own (u, v): two triangles of one node
+// that share an edge and form a convex quad become one quad patch, the rest stay triangles.
 //
-// (u, v) of a quad patch with corners p0..p3 is the bilinear map p(u,v) = (1-u)(1-v) p0 + u(1-v) p1 + uv p2 + (1-u)v p3,
+// (u, v) of a quad patch with corners p0..p3 is the bilinear
+// map p(u,v) = (1-u)(1-v) p0 + u(1-v) p1 + uv p2 + (1-u)v p3,
 // of a triangle patch the affine map p(u,v) = p0 + u (p1 - p0) + v (p2 - p0), u + v <= 1.
 #pragma once
 

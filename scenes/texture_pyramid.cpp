@@ -6,7 +6,8 @@ namespace meninas {
 
 namespace {
 
-/// What a texel of the next level covers of a row: texels from `first` on, by their shares, which add up to one.
+/// What a texel of the next level covers of a row:
+/// texels from `first` on, by their shares, which add up to one.
 struct Cover {
   int first = 0;
   std::vector<float> shares;

@@ -1,7 +1,8 @@
 // Vocabulary of the whole program: vectors, colours, ids and the one check for programmer errors.
 //
 // Lengths are metres, right-handed, +Y up. Colours are linear RGB with Rec.709 primaries.
-// Radiance L is W/m^2/sr, radiosity and irradiance are W/m^2, reflectances and form factors are dimensionless.
+// Radiance L is W/m^2/sr, radiosity and irradiance are W/m^2,
+// reflectances and form factors are dimensionless.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -21,7 +22,8 @@ using Point3 = glm::dvec3;    ///< a position
 using Direction = glm::dvec3; ///< a direction of unit length: a stated precondition wherever it is taken
 using Rgb = glm::dvec3;       ///< linear RGB
 
-/// Ids are indices that cannot be mixed up: a patch cannot index elements. `none<Id>` names nothing.
+/// Ids are indices that cannot be mixed up:
+/// a patch cannot index elements. `none<Id>` names nothing.
 enum class VertexId : std::uint32_t {};
 enum class TriangleId : std::uint32_t {};
 enum class MaterialId : std::uint32_t {};
@@ -46,7 +48,8 @@ constexpr Number largest(const glm::vec<3, Number>& c) {
   return std::max({c.r, c.g, c.b});
 }
 
-/// Throws std::logic_error with the place of the call when a precondition of the code itself is broken.
+/// Throws std::logic_error with the place of the call
+/// when a precondition of the code itself is broken.
 /// Bad user data never comes here: it is an InputError.
 void expects(bool condition, std::string_view message,
              std::source_location where = std::source_location::current());

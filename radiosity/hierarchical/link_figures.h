@@ -7,8 +7,9 @@
 namespace meninas {
 
 struct HierarchicalSettings {
-  /// X, relative to what is there: how much the light may vary over a receiver. Where vertices gather, how much what they interpolate may bend
-  /// (node_bends.h); receivers, which light others by their means, then vary by 20 X.
+  /// X, relative to what is there: how much the light may vary over a receiver.
+  /// Where vertices gather, how much what they interpolate may bend (node_bends.h);
+  /// receivers, which light others by their means, then vary by 20 X.
   double link_error = 0.01;
 };
 

@@ -15,7 +15,8 @@ std::ptrdiff_t valid_among(const ElementCorners& corners, const GatheredVertices
       corners, [&](ElementVertexId corner) { return gathered.valid[index(corner)] != 0; });
 }
 
-/// Whether light is off by more than the bound allows on so large a node: rho |difference| beside what is there.
+/// Whether light is off by more than the bound allows on so large a node:
+/// rho |difference| beside what is there.
 bool is_beyond(const BendBound& bound, double area, const Rgb& rho, const glm::vec3& difference,
                const glm::vec3& irradiance) {
   const double off = largest(rho * glm::abs(Rgb(difference)));
@@ -33,7 +34,8 @@ void add_parts(const NodeTree& tree, TreeNodeId id, std::vector<TreeNodeId>& par
     parts.push_back(static_cast<TreeNodeId>(index(node.first_child) + c));
 }
 
-/// Whether the middle of a node has light that its corners do not tell of, or something stands on a part of it.
+/// Whether the middle of a node has light that its corners do not tell of,
+/// or something stands on a part of it.
 bool is_bent(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId id,
              const GatheredVertices& gathered, const BendBound& bound) {
   const TreeNode& node = tree.nodes[index(id)];

@@ -1,12 +1,17 @@
-// Nodes over which indirect light is interpolated: as large as bilinear interpolation between their corners allows.
+// Nodes over which indirect light is interpolated:
+// as large as bilinear interpolation between their corners allows.
 //
-// Receivers are small enough for what they send on; what is seen of them is interpolated, and where light bends it takes more corners. At a vertex p in the
-// middle of a node (node_vertices.h) light is gathered as well; where
+// Receivers are small enough for what they send on;
+// what is seen of them is interpolated, and where light bends it takes more corners.
+// At a vertex p in the middle of a node (node_vertices.h) light is gathered as well; where
 //
 //   rho |I_p - sum of its corners' shares| sqrt(A / A_mean)  >  X (rho H_p + B_mean)
 //
-// the node gives way to its parts, as it does where some of these vertices have light and others are covered. A is the node's area and A_mean that of a receiver: equal squares over equal areas. I is the indirect part of the irradiance H.
-// So do the two nodes on both sides of an edge, if light in the middle of that is as far from the mean of its ends (node_edges.h).
+// the node gives way to its parts, as it does where some of these vertices have
+// light and others are covered. A is the node's area and A_mean that of a receiver:
+// equal squares over equal areas. I is the indirect part of the irradiance H.
+// So do the two nodes on both sides of an edge,
+// if light in the middle of that is as far from the mean of its ends (node_edges.h).
 #pragma once
 
 #include "radiosity/bends.h"

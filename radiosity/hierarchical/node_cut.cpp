@@ -11,10 +11,12 @@ namespace {
 
 constexpr CoveredCells whole = ~CoveredCells{0};
 
-/// Nodes of a cut and what they have gathered; without `receiver_of_element`, which is of whole cuts.
+/// Nodes of a cut and what they have gathered;
+/// without `receiver_of_element`, which is of whole cuts.
 NodeCut gathered_by(const LightScene& light, const NodeTree& tree, std::vector<TreeNodeId> nodes,
                     FormFactorSettings settings, const Progress& progress) {
-  // Rows are numbered anew from round to round: so that their samples are not the same, each round has its seed.
+  // Rows are numbered anew from round to round:
+  // so that their samples are not the same, each round has its seed.
   settings.seed = hash(settings.seed, nodes.empty() ? 0 : index(nodes.front()), 0x40de);
   const auto receiver = [&](std::size_t row) {
     return area_of(light, tree.nodes[index(nodes[row])]);
@@ -68,8 +70,9 @@ NodeCut merged(const NodeTree& tree, const NodeCut& before, const std::vector<st
   return cut;
 }
 
-/// Receivers on a part of which something stands, or may stand: of those that meet black backs, elements that are covered are found as far as they
-/// are several of the cells that the receiver is looked at in.
+/// Receivers on a part of which something stands, or may stand:
+/// of those that meet black backs, elements that are covered are found as far
+/// as they are several of the cells that the receiver is looked at in.
 std::vector<std::uint8_t> covered_in_part(const NodeTree& tree, const NodeCut& cut) {
   constexpr std::uint32_t most_elements = 16;
   std::vector<std::uint8_t> marked;

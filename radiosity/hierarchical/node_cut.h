@@ -1,11 +1,14 @@
 // The cut through the tree of nodes at which light is received, and what the nodes on it gather.
 //
-// A receiver is a node that gathers for all elements below it: one row of form factors (form_factors.h, `rays` from points all over the node) instead of
-// one for each element. Every element has exactly one receiver, itself or a node above it. So rows are as many as the light asks for, however
-// fine the elements are. Rows are kept when the cut moves down: only nodes that are new to it are traced.
+// A receiver is a node that gathers for all elements below it: one row of form factors
+// (form_factors.h, `rays` from points all over the node) instead of one for each element.
+// Every element has exactly one receiver, itself or a node above it.
+// So rows are as many as the light asks for, however fine the elements are.
+// Rows are kept when the cut moves down: only nodes that are new to it are traced.
 //
-// What stands on a surface is found by the rows too (covered_cells.h): a node of which a part is covered is divided until its parts are free or
-// covered as a whole, or elements; one that meets black backs, which may be those of something small, until it has few elements.
+// What stands on a surface is found by the rows too (covered_cells.h): a node of which
+// a part is covered is divided until its parts are free or covered as a whole, or elements;
+// one that meets black backs, which may be those of something small, until it has few elements.
 #pragma once
 
 #include "radiosity/hierarchical/node_tree.h"
@@ -26,7 +29,8 @@ struct NodeCut {
 /// By ElementId: the cells on which something stands.
 std::vector<CoveredCells> covered_elements(const NodeTree& tree, const NodeCut& cut);
 
-/// Four to sixteen nodes on every side that has so many elements: one for each 1/1024 of all there is.
+/// Four to sixteen nodes on every side that has so many elements:
+/// one for each 1/1024 of all there is.
 std::vector<TreeNodeId> first_receivers(const ElementMesh& mesh, const NodeTree& tree);
 
 /// Those, and smaller ones where something stands on a side.

@@ -19,8 +19,9 @@ struct NodeSource {
   const VertexSource& few;
 };
 
-/// The rest at vertices, `wanted` the areas that they stand for. Noise counts with the area: in an eighth of a receiver a quarter of the rays adds no more to the
-/// squared error than all do in a receiver (gather_noise.h).
+/// The rest at vertices, `wanted` the areas that they stand for.
+/// Noise counts with the area: in an eighth of a receiver a quarter of the rays adds
+/// no more to the squared error than all do in a receiver (gather_noise.h).
 void gather_at_wanted(const NodeSource& source, const std::vector<double>& wanted, double receiver,
                       FoundField& found) {
   const double small = std::pow(few_rays, -2.0 * noise_order);
@@ -39,8 +40,9 @@ struct NodeInterpolation {
   std::vector<NodeCross> crosses;
 };
 
-/// The rest at the corners and in the middle of nodes as small as it asks for, with a bound of X. Middles alone do not see light that bends one way along a node and the other way
-/// across: what edges between nodes tell of that divides once more.
+/// The rest at the corners and in the middle of nodes as small as it asks for, with a bound of X.
+/// Middles alone do not see light that bends one way along a node and the other way across:
+/// what edges between nodes tell of that divides once more.
 NodeInterpolation gather_at_nodes(const NodeSource& source, const ReceiverNodes& receivers,
                                   double x, FoundField& found) {
   const ElementMesh& mesh = found.mesh;
@@ -88,7 +90,8 @@ void take_shares(const VertexShares& shares, std::size_t v, FoundField& found) {
   found.states[v] = VertexState::gathered;
 }
 
-/// Adds what is curved to vertices between corners, of those that have a value; light is not negative, and the mirrors' part no more than all.
+/// Adds what is curved to vertices between corners, of those that have a value;
+/// light is not negative, and the mirrors' part no more than all.
 void bend_between(const NodeInterpolation& by, std::span<const std::uint8_t> valid,
                   FoundField& found) {
   DiffuseField& field = found.field;
@@ -107,7 +110,8 @@ void bend_between(const NodeInterpolation& by, std::span<const std::uint8_t> val
     }
 }
 
-/// Gives vertices that are lit the rest of their light: first those between corners of nodes, which others take from.
+/// Gives vertices that are lit the rest of their light:
+/// first those between corners of nodes, which others take from.
 void share_out(const NodeInterpolation& by, FoundField& found) {
   const std::vector<std::uint8_t> valid = with_values(found);
   const auto take = [&](bool between) {
@@ -120,8 +124,8 @@ void share_out(const NodeInterpolation& by, FoundField& found) {
   take(false);
 }
 
-/// What elements receive, by their corners: all of it where they share points for light from the source (node_light.h), or the rest. Of a spot of a few elements corners
-/// do not tell the light.
+/// What elements receive, by their corners: all of it where they share points for light from the
+/// source (node_light.h), or the rest. Of a spot of a few elements corners do not tell the light.
 std::vector<Rgb> received_at_corners(const ElementMesh& mesh, const ElementLight& elements,
                                      const ReceiverNodes& receivers,
                                      const std::vector<glm::vec3>& irradiance,

@@ -1,19 +1,23 @@
-// The field where light is received by nodes: light from the source at every vertex, the rest at the corners of nodes (node_bends.h).
+// The field where light is received by nodes:
+// light from the source at every vertex, the rest at the corners of nodes (node_bends.h).
 //
-// The rest is gathered twice, as in adaptive fields: from the elements as they were solved, with a quarter of the rays, but not fewer than 128, and four times the
-// bound, and then from what that makes of them,
+// The rest is gathered twice, as in adaptive fields:
+// from the elements as they were solved, with a quarter of the rays,
+// but not fewer than 128, and four times the bound, and then from what that makes of them,
 //
 //   B_j = rho_j (mean of H at its corners).
 //
-// A receiver sends as if all of it received the same. Beside an edge of the room, where a wall lights the other from as near as a receiver is large, that is
-// too even: corners of rooms come out too bright.
+// A receiver sends as if all of it received the same.
+// Beside an edge of the room, where a wall lights the other from as near as a receiver is large,
+// that is too even: corners of rooms come out too bright.
 #pragma once
 
 #include "radiosity/bent_field.h"
 
 namespace meninas {
 
-/// Where light bends within elements these are divided, as in fields that are gathered everywhere. `found` has the values of vertices that take means of facets.
+/// Where light bends within elements these are divided, as in fields that are gathered everywhere.
+/// `found` has the values of vertices that take means of facets.
 InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
                                  const ReceiverNodes& receivers, const VertexGathering& how,
                                  FoundField found, PointWorkspaces& workspaces);

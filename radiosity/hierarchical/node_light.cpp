@@ -13,7 +13,8 @@ DirectSettings shared_out(DirectSettings settings, std::size_t nodes) {
   if (share >= settings.points)
     return settings;
   const auto points = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(share))));
-  // Doubling where the first points disagree darkens the outer half of a penumbra, the more the fewer they are.
+  // Doubling where the first points disagree darkens the outer half of a penumbra,
+  // the more the fewer they are.
   const double fewer = double(points) / settings.points;
   settings.most_points = std::max(points, static_cast<int>(settings.most_points * fewer * fewer));
   settings.points = points;
@@ -21,7 +22,8 @@ DirectSettings shared_out(DirectSettings settings, std::size_t nodes) {
 }
 
 std::uint32_t most_lit_together(std::size_t elements) {
-  // Nodes are parted in four: they have from a quarter of the most to that, and there are from N / 2 to 2 N of them.
+  // Nodes are parted in four:
+  // they have from a quarter of the most to that, and there are from N / 2 to 2 N of them.
   return static_cast<std::uint32_t>(std::max<std::size_t>(1, 2 * elements / points_of_sources));
 }
 
@@ -60,8 +62,9 @@ TreeNodeId group_of(const NodeTree& tree, TreeNodeId node, std::uint32_t most_el
   return node;
 }
 
-/// Of the nodes those, by their place, in groups of nodes that reflect a large part of all light: where a lamp throws a spot, few points would tell how bright it is. Whole groups,
-/// as those of its nodes that were dark by chance lie at its edge.
+/// Of the nodes those, by their place, in groups of nodes that reflect a large part of all light:
+/// where a lamp throws a spot, few points would tell how bright it is.
+/// Whole groups, as those of its nodes that were dark by chance lie at its edge.
 std::vector<std::size_t> brightest_nodes(const LightScene& light, const NodeTree& tree,
                                          std::span<const TreeNodeId> nodes,
                                          std::span<const ArrivingLight> arriving,

@@ -1,11 +1,16 @@
-// Light from the source where elements only light others: they have it from nodes, about as many however fine the elements are.
+// Light from the source where elements only light others:
+// they have it from nodes, about as many however fine the elements are.
 //
 //   D_j = D_n,   n the largest node above element j with at most 2/N of all elements,   D_n the mean over n (element_light.h)
 //
-// What such elements light takes the mean over many of them, so that what counts is how many points there are in all: N of them, or twice as many, are shared
-// out among the nodes. Their means are noisy, but true. Elements of which something covers a part are nodes by themselves. So are facets of curved surfaces, whose means
-// are seen (facets.h) and which have all of their points. Nodes of groups, a 512th of all elements, that reflect more than a 256th of all light have all of theirs as well:
-// a spot of the sun is some tens of elements, and all light comes from there. There are at most 256 such groups, of some tens of nodes.
+// What such elements light takes the mean over many of them,
+// so that what counts is how many points there are in all:
+// N of them, or twice as many, are shared out among the nodes. Their means are noisy, but true.
+// Elements of which something covers a part are nodes by themselves. So are facets of curved
+// surfaces, whose means are seen (facets.h) and which have all of their points. Nodes of groups,
+// a 512th of all elements, that reflect more than a 256th of all light have all of theirs as well:
+// a spot of the sun is some tens of elements, and all light comes from there.
+// There are at most 256 such groups, of some tens of nodes.
 #pragma once
 
 #include "radiosity/element_light.h"
@@ -22,7 +27,8 @@ DirectSettings shared_out(DirectSettings settings, std::size_t nodes);
 /// Of so many elements, the most that a node has.
 std::uint32_t most_lit_together(std::size_t elements);
 
-/// A cut through the tree: nodes of at most that many elements, none of them by itself, and those that are. `alone` by ElementId.
+/// A cut through the tree: nodes of at most that many elements,
+/// none of them by itself, and those that are. `alone` by ElementId.
 std::vector<TreeNodeId> nodes_lit_together(const NodeTree& tree, std::uint32_t most_elements,
                                            std::span<const std::uint8_t> alone);
 

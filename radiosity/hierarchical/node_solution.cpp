@@ -94,7 +94,8 @@ std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
     area += areas[e];
   }
 
-  // How far the parts of a node are from it, at the most: in the middle of a slope a part is as bright as the whole.
+  // How far the parts of a node are from it, at the most:
+  // in the middle of a slope a part is as bright as the whole.
   const std::vector<Rgb> nodes = pulled(tree, cut, areas, gathered);
   std::vector<double> apart(tree.nodes.size(), 0.0);
   for (std::size_t n = 0; n < nodes.size(); ++n)

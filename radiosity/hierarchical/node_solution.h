@@ -1,27 +1,35 @@
-// Hierarchical radiosity (`--solver hierarchical`): light is received by nodes as large as it allows, and sent on by the elements below them.
+// Hierarchical radiosity (`--solver hierarchical`):
+// light is received by nodes as large as it allows, and sent on by the elements below them.
 //
-// What elements have not reflected yet, S = rho (D + G), is found as for every solver (first_light.h), element by element, as it has the edges (or as below, where vertices have them).
+// What elements have not reflected yet, S = rho (D + G), is found as for every solver
+// (first_light.h), element by element, as it has the edges (or as below, where vertices have them).
 // What they send one another is smooth. So with c the receiver of element j (node_cut.h),
 //
 //   B_j = S_j + rho_j H_c,   H_c = sum_j F_cj B_j = s_c + sum_d F_cd rho_d H_d,   s_c = sum_j F_cj S_j,
 //
-// d over the receivers, F_cd the sum of F_cj over the elements j below d, rho_d their mean: first light is gathered from the elements themselves, and
-// what follows from receivers, over links between nodes (F_cd, c, d). The system of receivers is solved by `cg` (solve.h).
+// d over the receivers, F_cd the sum of F_cj over the elements j below d, rho_d their mean:
+// first light is gathered from the elements themselves, and what follows from receivers,
+// over links between nodes (F_cd, c, d). The system of receivers is solved by `cg` (solve.h).
 // Receivers are then divided where
 //
 //   rho max_d |H_d - H_parent| > X (B + B_mean),   d over the parts of the receiver's parent, H with G and what comes from the sky,
 //
-// (what parts differ from the whole by, their own parts differ from them by about half of, and B + B_mean is twice what is there), and the larger system is solved, until none is:
-// links are refined by the power they carry (Hanrahan, Salzman, Aupperle 1991). The factors of links come from the
-// rays of the receivers' rows and not from pairs of nodes: rays follow every mirror to any depth and know what stands between, there
-// is no quadratic beginning, and rows close. Pairs with a closed form and shadow rays, as in the paper, were slower and less accurate (ARCHITECTURE.md).
+// (what parts differ from the whole by, their own parts differ from them by about half of,
+// and B + B_mean is twice what is there), and the larger system is solved, until none is:
+// links are refined by the power they carry (Hanrahan, Salzman, Aupperle 1991).
+// The factors of links come from the rays of the receivers' rows and not from pairs of nodes:
+// rays follow every mirror to any depth and know what stands between,
+// there is no quadratic beginning, and rows close. Pairs with a closed form and shadow rays,
+// as in the paper, were slower and less accurate (ARCHITECTURE.md).
 //
-// X is the link error where elements are seen as they receive. Where vertices gather what is seen (node_field.h), elements only light others, on average over
-// many, and what is seen of them is as vertices have it (node_field.h): X is twenty link errors, light from the source is that of nodes (node_light.h), and where there are more than 1,024 receivers their rows
-// share the rays of so many.
+// X is the link error where elements are seen as they receive.
+// Where vertices gather what is seen (node_field.h), elements only light others,
+// on average over many, and what is seen of them is as vertices have it (node_field.h):
+// X is twenty link errors, light from the source is that of nodes (node_light.h),
+// and where there are more than 1,024 receivers their rows share the rays of so many.
 //
-// Cost: first light and pushes are linear in elements; rows as many as receivers, whose number depends on the light and on X, and on
-// elements only while these are larger than X asks for.
+// Cost: first light and pushes are linear in elements; rows as many as receivers, whose number
+// depends on the light and on X, and on elements only while these are larger than X asks for.
 #pragma once
 
 #include "radiosity/first_light.h"
@@ -47,7 +55,8 @@ struct NodeSolution {
 /// The settings for each row of so many that only light others.
 FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows);
 
-/// What elements receive is what is seen of them, or it only lights others, and vertices gather what is seen.
+/// What elements receive is what is seen of them,
+/// or it only lights others, and vertices gather what is seen.
 enum class ElementsAre { seen, sources };
 
 NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& form_factors,

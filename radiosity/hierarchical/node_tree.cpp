@@ -36,7 +36,8 @@ Piece settled(const MeshSide& side, Piece piece) {
   return piece;
 }
 
-/// Halves of a grid: in both directions unless it is much longer in one, which is `aspect` times as long for every cell.
+/// Halves of a grid: in both directions unless it is much longer in one,
+/// which is `aspect` times as long for every cell.
 std::vector<Piece> halves(const Piece& p, double aspect) {
   constexpr double elongated = 1.5;
   const double ratio = aspect * p.nu / p.nv;

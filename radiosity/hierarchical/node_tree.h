@@ -1,8 +1,10 @@
-// The tree of nodes over the elements (Hanrahan, Salzman, Aupperle 1991): parts of surfaces of any size, between which light goes.
+// The tree of nodes over the elements (Hanrahan, Salzman, Aupperle 1991):
+// parts of surfaces of any size, between which light goes.
 //
-// At the top is one node for each side, at the bottom the elements. A grid of root cells is halved, in the direction in which it is longer
-// or in both; below, a node is a cell of the forest (element_mesh.h). A grid of triangles with n rows is a parallelogram of
-// (n - k) x k pairs and two such grids, of n - k and of k rows, k = n / 2.
+// At the top is one node for each side, at the bottom the elements.
+// A grid of root cells is halved, in the direction in which it is longer or in both;
+// below, a node is a cell of the forest (element_mesh.h). A grid of triangles with n rows
+// is a parallelogram of (n - k) x k pairs and two such grids, of n - k and of k rows, k = n / 2.
 // A node is a part of its patch's (u, v): it covers  uv + (s, t) extent,  triangles s + t <= 1.
 #pragma once
 

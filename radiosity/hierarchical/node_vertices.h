@@ -1,9 +1,12 @@
-// Which vertices gather indirect light, and what those between take from them, where nodes stand for many elements.
+// Which vertices gather indirect light,
+// and what those between take from them, where nodes stand for many elements.
 //
-// The corners of a node gather, and a vertex in its middle, which tells whether light is straight between them (node_bends.h). Its parts share that vertex: what else they have
-// for corners, if it does not gather as a corner of another node, lies between corners of this one. A vertex within a part takes the bilinear mean of the part's corners, linear in
-// triangles. One on the border of a large and a small part takes from the small one, or is a corner of it: every vertex has one value,
-// so that there is no crack.
+// The corners of a node gather, and a vertex in its middle, which tells whether light is straight
+// between them (node_bends.h). Its parts share that vertex: what else they have for corners,
+// if it does not gather as a corner of another node, lies between corners of this one.
+// A vertex within a part takes the bilinear mean of the part's corners, linear in triangles.
+// One on the border of a large and a small part takes from the small one, or is a corner of it:
+// every vertex has one value, so that there is no crack.
 #pragma once
 
 #include "radiosity/hierarchical/node_tree.h"
@@ -33,11 +36,13 @@ double area_below(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId node
 /// The corners of a node; a triangle repeats its third.
 ElementCorners corners_of(const ElementMesh& mesh, const TreeNode& node);
 
-/// Those corners of a node's parts that are nearest to its middle: one, or two where it has two parts. None of an element.
+/// Those corners of a node's parts that are nearest to its middle:
+/// one, or two where it has two parts. None of an element.
 std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
                                  const TreeNode& node);
 
-/// By ElementVertexId, where the nodes need indirect light, at corners and in the middle: the area of the largest node that does, elsewhere 0.
+/// By ElementVertexId, where the nodes need indirect light, at corners and in the middle:
+/// the area of the largest node that does, elsewhere 0.
 std::vector<double> wanted_vertices(const ElementMesh& mesh, const NodeTree& tree,
                                     std::span<const TreeNodeId> nodes);
 

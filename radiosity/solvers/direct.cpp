@@ -11,7 +11,8 @@ namespace {
 
 using Lu = Eigen::PartialPivLU<Eigen::MatrixXd>;
 
-/// 1 - rho T of one channel, and the unit matrix in rows that no light reaches: among those the system may be singular.
+/// 1 - rho T of one channel, and the unit matrix in rows that no light reaches:
+/// among those the system may be singular.
 template <typename Value>
 Eigen::MatrixXd dense(const LinearSystem<Value>& system, const std::vector<Value>& lit, int band) {
   const Transport& transport = system.transport;

@@ -9,7 +9,8 @@ namespace meninas {
 
 namespace {
 
-/// A row that returns all but this of what it gathers absorbs nothing as far as can be told: weights are floats.
+/// A row that returns all but this of what it gathers absorbs nothing as far as can be told:
+/// weights are floats.
 constexpr double closed_rounding = 1.2e-7;
 
 /// By row and channel: 1 where light can still leave or be absorbed.
@@ -40,7 +41,8 @@ bool has_lit_trap(const LinearSystem<Value>& system) {
   const Transport& transport = system.transport;
   Escapes<Value> escapes = rows_that_lose_light(system);
 
-  // A row is open when it loses light or gathers from an open one: light that goes round long enough gets there.
+  // A row is open when it loses light or gathers from an open one:
+  // light that goes round long enough gets there.
   bool changed = !escapes.all;
   while (changed) {
     changed = false;
@@ -53,7 +55,8 @@ bool has_lit_trap(const LinearSystem<Value>& system) {
     }
   }
 
-  // Closed rows gather from closed rows alone: light is among them only where they have some of their own.
+  // Closed rows gather from closed rows alone:
+  // light is among them only where they have some of their own.
   for (std::size_t i = 0; i < transport.size; ++i)
     for (int band = 0; band < channel_count<Value>; ++band)
       if (channel(escapes.open[i], band) == 0.0 && channel(system.source[i], band) > 0.0)

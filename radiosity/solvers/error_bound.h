@@ -1,20 +1,22 @@
-// How far an iterate can be from the solution, from its residual alone; and whether there is a solution.
+// How far an iterate can be from the solution, from its residual alone;
+// and whether there is a solution.
 //
-// The error e = B - B_k solves (1 - rho T) e = r_k, so ||e|| <= G ||r_k|| with the amplification G = ||(1 - rho T)^-1||, in the maximum
-// norm. The inverse 1 + rho T + (rho T)^2 + ... is not negative, so that its norm is that of its row sums, the solution of
-// (1 - rho T) g = 1. For any approximation g_k with the residual q = 1 - (1 - rho T) g_k,
+// The error e = B - B_k solves (1 - rho T) e = r_k, so ||e|| <= G ||r_k|| with the amplification
+// G = ||(1 - rho T)^-1||, in the maximum norm. The inverse 1 + rho T + (rho T)^2 + ...
+// is not negative, so that its norm is that of its row sums, the solution of (1 - rho T) g = 1.
+// For any approximation g_k with the residual q = 1 - (1 - rho T) g_k,
 //   G = ||g_k + (1 - rho T)^-1 q|| <= ||g_k|| + G ||q||,   so   G <= ||g_k|| / (1 - ||q||)   where ||q|| < 1.
 // The bound is sharp, and what is left of it is known: G itself is at least ||g_k|| / (1 + ||q||).
-// Only rows that light reaches count, with 1 = 0 elsewhere: in the others B, B_k and r_k are 0, and g with them. (The inside of a closed white
-// shell would make G infinite, and nobody sees it.)
+// Only rows that light reaches count, with 1 = 0 elsewhere: in the others B, B_k and r_k are 0,
+// and g with them. (The inside of a closed white shell would make G infinite, and nobody sees it.)
 #pragma once
 
 #include "radiosity/solvers/linear_system.h"
 
 namespace meninas {
 
-/// By row and channel: 1 where light arrives, from the source or from rows where it does; 0 elsewhere, where B, its iterates and their residuals
-/// are 0.
+/// By row and channel: 1 where light arrives, from the source or from rows where it does;
+/// 0 elsewhere, where B, its iterates and their residuals are 0.
 template <typename Value>
 std::vector<Value> lit_rows(const LinearSystem<Value>& system);
 
@@ -26,8 +28,9 @@ Value amplification_bound(const LinearSystem<Value>& system);
 template <typename Value>
 Value contraction(const LinearSystem<Value>& system);
 
-/// Whether light enters a part of the scene that it cannot leave and that absorbs nothing: rows that reflect all they gather, all of it
-/// from one another. (Then, and only then, 1 - rho T is singular: a weakly chained diagonally dominant matrix is not.)
+/// Whether light enters a part of the scene that it cannot leave and that absorbs nothing:
+/// rows that reflect all they gather, all of it from one another. (Then, and only then,
+/// 1 - rho T is singular: a weakly chained diagonally dominant matrix is not.)
 template <typename Value>
 bool has_lit_trap(const LinearSystem<Value>& system);
 
@@ -52,7 +55,8 @@ void record_again(Convergence<Value>& convergence, const Value& residual_norm, c
 template <typename Value>
 bool converged(const Convergence<Value>& convergence);
 
-/// The residual is that of rounding; or, where no bound tells what a smaller one would be good for, it is within the tolerance.
+/// The residual is that of rounding;
+/// or, where no bound tells what a smaller one would be good for, it is within the tolerance.
 template <typename Value>
 bool exhausted(const Convergence<Value>& convergence);
 
@@ -62,7 +66,8 @@ bool finished(const Convergence<Value>& convergence) {
          convergence.iterations >= convergence.max_iterations;
 }
 
-/// 1 for every channel that is further from the solution than asked, or 0 for all when there is nothing more to do.
+/// 1 for every channel that is further from the solution than asked,
+/// or 0 for all when there is nothing more to do.
 template <typename Value>
 Value unfinished_channels(const Convergence<Value>& convergence);
 

@@ -20,7 +20,8 @@ void add(std::vector<Value>& a, const Value& factor, const std::vector<Value>& b
     a[i] += factor * b[i];
 }
 
-/// a / b by channel, 0 where that is no number: nothing is left in the channel, or the recurrence has broken down.
+/// a / b by channel, 0 where that is no number:
+/// nothing is left in the channel, or the recurrence has broken down.
 template <typename Value>
 Value coefficient(const Value& a, const Value& b) {
   Value quotient(0.0);

@@ -1,6 +1,8 @@
-// The linear system of radiosity for solvers: x = S + rho T x, for all channels at once (Value = Rgb) or a grey one (Value = double).
+// The linear system of radiosity for solvers:
+// x = S + rho T x, for all channels at once (Value = Rgb) or a grey one (Value = double).
 //
-// Channels never mix: arithmetic on Value is by channel, and so are norms and inner products. Sums run in a fixed order.
+// Channels never mix: arithmetic on Value is by channel, and so are norms and inner products.
+// Sums run in a fixed order.
 #pragma once
 
 #include "radiosity/form_factors.h"

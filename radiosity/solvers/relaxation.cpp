@@ -4,8 +4,8 @@
 
 namespace meninas {
 
-/// Rows of a step are computed from the same values, steps follow one another: Gauss-Seidel between steps, so that the
-/// result does not depend on how many threads share a step.
+/// Rows of a step are computed from the same values, steps follow one another:
+/// Gauss-Seidel between steps, so that the result does not depend on how many threads share a step.
 static std::size_t rows_per_step(Relaxation order, std::size_t rows) {
   constexpr std::size_t gauss_seidel_steps = 32, least = 64;
   return order == Relaxation::jacobi

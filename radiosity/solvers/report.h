@@ -1,4 +1,5 @@
-// Between colours, as scenes have them, and the values a system is solved in; and what a solver says at its end.
+// Between colours, as scenes have them, and the values a system is solved in;
+// and what a solver says at its end.
 #pragma once
 
 #include "radiosity/solve.h"
@@ -35,7 +36,8 @@ std::vector<Rgb> colours_of(const std::vector<Value>& values) {
   return colours;
 }
 
-/// A stopping rule for `shooters` (of sweeps: 1); without a bound of the error there is nothing to iterate for but what light there is.
+/// A stopping rule for `shooters` (of sweeps: 1);
+/// without a bound of the error there is nothing to iterate for but what light there is.
 template <typename Value>
 Convergence<Value> stopping_rule(const SolverSettings& settings, const Value& amplification,
                                  std::size_t shooters);

@@ -1,4 +1,5 @@
-// Who shoots with whom in progressive radiosity, and who looks on (solvers/shooting.h). Knows no geometry.
+// Who shoots with whom in progressive radiosity, and who looks on (solvers/shooting.h).
+// Knows no geometry.
 #pragma once
 
 #include "scenes/types.h"

@@ -1,12 +1,15 @@
-// Progressive radiosity (Cohen, Chen, Wallace, Greenberg 1988): what has most to shoot shoots first, Southwell's order.
+// Progressive radiosity (Cohen, Chen, Wallace, Greenberg 1988):
+// what has most to shoot shoots first, Southwell's order.
 //
-// Every unknown j keeps the radiosity U_j that it has not shot yet, S_j to begin with. A shot of U_j brings the irradiance T_ij U_j to every i,
-// that is a column of T, and makes U_j zero:
+// Every unknown j keeps the radiosity U_j that it has not shot yet, S_j to begin with. A shot
+// of U_j brings the irradiance T_ij U_j to every i, that is a column of T, and makes U_j zero:
 //   B_i += rho_i T_ij U_j,   U_i += rho_i T_ij U_j.
-// So B = S + rho T (B - U) at any time: the residual is rho T U, and no row of T is ever needed. Unknowns may shoot together, as a
-// shooter. The solver knows no geometry: a source of columns carries out the shot.
+// So B = S + rho T (B - U) at any time: the residual is rho T U, and no row of T is ever needed.
+// Unknowns may shoot together, as a shooter.
+// The solver knows no geometry: a source of columns carries out the shot.
 //
-// The shooter of the largest power, the sum of m |U| with the measures m (areas) of its members, is next. Convergence is in one of two norms:
+// The shooter of the largest power, the sum of m |U| with the measures m (areas) of its members,
+// is next. Convergence is in one of two norms:
 //   power    the sum of all m |U|, in which rho T is bounded by its columns: m_j T_ij shares out what j shoots
 //   maximum  the largest |U|, in which rho T is bounded by its rows. When hardly any power is left, small and bright unknowns may still
 //            have some: then the brightest is next.
@@ -66,7 +69,8 @@ template <typename Value>
 ShotState<Value> unshot_state(const Shooters& shooters, const std::vector<Value>& source,
                               const std::vector<Value>& reflectance, ShotNorm norm);
 
-/// Shoots all that the members of a shooter have: makes their U zero (and what the shooter has left), then tells the state what arrives where.
+/// Shoots all that the members of a shooter have:
+/// makes their U zero (and what the shooter has left), then tells the state what arrives where.
 template <typename Source, typename Value>
 concept ColumnSource = requires(Source& source, ShotState<Value>& state, std::size_t shooter) {
   { source.shoot(shooter, state) } -> std::same_as<void>;
@@ -82,7 +86,8 @@ struct LeftToShoot {
 template <typename Value>
 LeftToShoot<Value> left_to_shoot(const ShotState<Value>& state, double little);
 
-/// Adds the present state to the history. Of long histories every second, fourth, ... record is kept, and the last.
+/// Adds the present state to the history.
+/// Of long histories every second, fourth, ... record is kept, and the last.
 template <typename Value>
 class ShotHistory {
 public:
@@ -100,7 +105,8 @@ using AfterShot = std::function<void(const ShotState<Value>&, const Convergence<
 template <typename Value>
 AfterShot<Value> told(const ShotWatch& watch);
 
-/// Shoots until the convergence has finished; its iterations are shots. `kept` is ||rho T||, by channel.
+/// Shoots until the convergence has finished;
+/// its iterations are shots. `kept` is ||rho T||, by channel.
 template <typename Value, ColumnSource<Value> Source>
 void shoot(Source& source, const Value& kept, ShotState<Value>& state,
            Convergence<Value>& convergence, const AfterShot<Value>& after) {

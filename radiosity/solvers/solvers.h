@@ -1,4 +1,5 @@
-// The solvers proper. Each improves x until the convergence has finished, and records every iterate there, the first one included.
+// The solvers proper. Each improves x until the convergence has finished,
+// and records every iterate there, the first one included.
 #pragma once
 
 #include "radiosity/solve.h"
@@ -10,19 +11,22 @@ namespace meninas {
 
 enum class Relaxation { jacobi, gauss_seidel };
 
-/// Sweeps of B_i = S_i + rho_i sum_j T_ij B_j over all rows. A sweep that changes x by d leaves a residual of at most ||rho T|| ||d||, since
-/// every row met values that were at most d away from the last ones: that is what is recorded, at no cost, and the residual itself
-/// when it may have sufficed.
+/// Sweeps of B_i = S_i + rho_i sum_j T_ij B_j over all rows.
+/// A sweep that changes x by d leaves a residual of at most ||rho T|| ||d||,
+/// since every row met values that were at most d away from the last ones:
+/// that is what is recorded, at no cost, and the residual itself when it may have sufficed.
 template <typename Value>
 void relax(const LinearSystem<Value>& system, Relaxation order, std::vector<Value>& x,
            Convergence<Value>& convergence);
 
-/// Told ||r|| and ||x|| of an iterate, answers 1 for every channel that needs more and 0 for the others.
+/// Told ||r|| and ||x|| of an iterate,
+/// answers 1 for every channel that needs more and 0 for the others.
 template <typename Value>
 using Unfinished = std::function<Value(const Value&, const Value&)>;
 
-/// One run of BiCGStab (van der Vorst 1992), every channel with coefficients of its own, from the residual of x until all have finished or
-/// the recurrence breaks down. The residual it goes by is its own: after many iterations rounding sets it apart from that of x.
+/// One run of BiCGStab (van der Vorst 1992), every channel with coefficients of its own,
+/// from the residual of x until all have finished or the recurrence breaks down.
+/// The residual it goes by is its own: after many iterations rounding sets it apart from that of x.
 template <typename Value>
 void bicgstab_run(const LinearSystem<Value>& system, std::vector<Value>& x,
                   const Unfinished<Value>& unfinished);
@@ -32,8 +36,8 @@ template <typename Value>
 void bicgstab(const LinearSystem<Value>& system, std::vector<Value>& x,
               Convergence<Value>& convergence);
 
-/// Progressive radiosity over the columns of T, transposed in storage (shooting.h), in the maximum norm. An iteration is a shot. Begins
-/// with all light unshot, whatever x is.
+/// Progressive radiosity over the columns of T, transposed in storage (shooting.h),
+/// in the maximum norm. An iteration is a shot. Begins with all light unshot, whatever x is.
 template <typename Value>
 void shoot_stored(const LinearSystem<Value>& system, const ShotPlan& plan, std::vector<Value>& x,
                   Convergence<Value>& convergence);

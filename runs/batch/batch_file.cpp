@@ -77,7 +77,8 @@ CameraChoice camera_at(const Place& place) {
   return path;
 }
 
-/// A job's own value, else the default, with the place it stands at; nothing where neither says anything.
+/// A job's own value, else the default, with the place it stands at;
+/// nothing where neither says anything.
 std::optional<Place> chosen(const Place& job, const std::optional<Place>& defaults,
                             const std::string& key) {
   if (job.json.contains(key)) {

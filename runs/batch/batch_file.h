@@ -1,11 +1,15 @@
-// The jobs of a batch, as a JSON file (schema: docs/batch.schema.json, which the program carries and checks against):
+// The jobs of a batch, as a JSON file (schema:
+// docs/batch.schema.json, which the program carries and checks against):
 //
 //   {"defaults": {"settings": {"quality": "draft", "size": "320x240"}},
-//    "jobs": [{"scenes": "rooms/*.glb", "cameras": "*", "modes": ["radiosity", "hybrid"], "outputs": ["{scene}/{camera}-{mode}.png"]},
-//             {"scenes": "hall.glb", "cameras": {"orbit": {"radius": 2}, "frames": 36}, "settings": {"samples": 64}}]}
+//    "jobs": [{"scenes": "rooms/*.glb", "cameras": "*", "modes":
+//    ["radiosity", "hybrid"], "outputs": ["{scene}/{camera}-{mode}.png"]},
+//             {"scenes": "hall.glb", "cameras": {"orbit": {"radius":
+//             2}, "frames": 36}, "settings": {"samples": 64}}]}
 //
-// A job stands for one picture for each of its scenes, cameras (or frames of a path) and modes. What a job leaves out it has from the
-// defaults; settings, which have the names and values of the options of `meninas render`, are merged one by one.
+// A job stands for one picture for each of its scenes, cameras (or frames of a path) and modes.
+// What a job leaves out it has from the defaults; settings,
+// which have the names and values of the options of `meninas render`, are merged one by one.
 #pragma once
 
 #include "runs/batch/camera_path.h"

@@ -1,4 +1,5 @@
-// What a batch keeps beside its pictures, in DIR/.meninas: what is done, who is at work, and the solutions of pass one.
+// What a batch keeps beside its pictures, in DIR/.meninas:
+// what is done, who is at work, and the solutions of pass one.
 //
 //   done/ID.json        one record for each picture that was tried (ID: a hash of its name)
 //   locks/ID.lock       held while a picture is being made
@@ -6,8 +7,10 @@
 //   processes/*.lock    held by every process at work here
 //   session             which run of the batch this is
 //
-// A run that does not resume begins a session, and only records of its own session count as done for it, unless others are at work here:
-// then it joins theirs. A run that resumes takes every record whose key is the picture's and whose files are what was written.
+// A run that does not resume begins a session,
+// and only records of its own session count as done for it, unless others are at work here:
+// then it joins theirs. A run that resumes takes every record
+// whose key is the picture's and whose files are what was written.
 #pragma once
 
 #include "runs/batch/batch_plan.h"
@@ -38,7 +41,8 @@ public:
 
   /// The record of a picture that is done, whoever has done it.
   std::optional<PictureRecord> done(const BatchPicture& picture) const;
-  /// The last record with the picture's key, of any session, also of a failure; its files may have gone since.
+  /// The last record with the picture's key, of any session, also of a failure;
+  /// its files may have gone since.
   std::optional<PictureRecord> record(const BatchPicture& picture) const;
   void keep(const BatchPicture& picture, PictureRecord record) const;
 
@@ -57,7 +61,8 @@ private:
   std::optional<FileLock> at_work_;
 };
 
-/// What a folder says is done already, without touching it: what --dry-run shows and --resume would leave as it is.
+/// What a folder says is done already, without touching it:
+/// what --dry-run shows and --resume would leave as it is.
 bool is_done(const std::filesystem::path& folder, const BatchPicture& picture);
 
 /// Of the files as they are now. Throws InputError where one cannot be read.

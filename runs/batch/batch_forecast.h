@@ -1,7 +1,8 @@
 // How long a batch is going to take from here, judged by how long its tasks took so far.
 //
-// Pictures of a kind (mode, diffuse term, quality) are expected to take equally long for a camera ray, solves equally long each. Tasks side by
-// side share the threads, so these are seconds of tasks, of which as many are expected to pass in a second of the clock as have so far.
+// Pictures of a kind (mode, diffuse term, quality) are expected to take equally long for a camera
+// ray, solves equally long each. Tasks side by side share the threads, so these are seconds
+// of tasks, of which as many are expected to pass in a second of the clock as have so far.
 #pragma once
 
 #include "runs/batch/batch_plan.h"
@@ -37,7 +38,8 @@ public:
   void made(std::size_t picture, double seconds);
   void solved(double seconds);
 
-  /// By the clock, `elapsed` seconds after the batch began. Nothing as long as no picture, or no solve but some are to come, has been seen.
+  /// By the clock, `elapsed` seconds after the batch began.
+  /// Nothing as long as no picture, or no solve but some are to come, has been seen.
   std::optional<double> seconds_left(const TasksUnderWay& now, double elapsed) const;
   /// Camera rays of a picture, as far as its settings say.
   double camera_rays(std::size_t picture) const { return rays_[picture]; }

@@ -132,7 +132,8 @@ void add_settings(ContentHash& hash, std::vector<Setting> settings) {
   }
 }
 
-/// Settings of the picture alone. What is not listed counts for pass one: at worst it is solved once too often.
+/// Settings of the picture alone. What is not listed counts for pass one:
+/// at worst it is solved once too often.
 bool is_of_pass_two(const Setting& setting) {
   constexpr std::array names{"mode",      "diffuse",     "camera",      "size",          "samples",
                              "max-error", "max-seconds", "exposure",    "layers",        "float",

@@ -1,6 +1,8 @@
-// What a batch has to do: its jobs taken apart into single pictures, each with the scene, the camera and the settings it is made of.
+// What a batch has to do: its jobs taken apart into single pictures,
+// each with the scene, the camera and the settings it is made of.
 //
-// Pictures are in the order of jobs, scenes, cameras, frames and modes: the same for every process that reads the same files.
+// Pictures are in the order of jobs, scenes, cameras, frames and modes:
+// the same for every process that reads the same files.
 #pragma once
 
 #include "runs/batch/batch_file.h"
@@ -41,13 +43,14 @@ struct BatchPicture {
   std::optional<BatchProblem> problem; ///< a scene that cannot be read, a camera it does not have
 };
 
-/// Reads every scene once. Throws InputError, at the job's place, when two pictures would be one file.
+/// Reads every scene once.
+/// Throws InputError, at the job's place, when two pictures would be one file.
 std::vector<BatchPicture> plan_batch(const std::filesystem::path& file,
                                      const std::vector<BatchJob>& jobs,
                                      const GltfSettings& gltf = {});
 
-/// Part `number` of `count`: neighbours stay together, so that few parts need the same scene. Numbers may count from 0 or from 1,
-/// `count` being the same as 0.
+/// Part `number` of `count`: neighbours stay together, so that few parts need the same scene.
+/// Numbers may count from 0 or from 1, `count` being the same as 0.
 struct Shard {
   int number = 0, count = 1;
 };

@@ -16,7 +16,8 @@ static std::uint64_t memory_of_view(const BatchPicture& picture) {
 BatchQueue::BatchQueue(std::span<const BatchPicture> pictures, std::span<const std::size_t> to_make,
                        std::uint64_t memory_before, std::uint64_t memory_limit)
     : pictures_(pictures), before_(memory_before), limit_(memory_limit) {
-  // Copies of a scene share their solution by way of the cache: one that vanishes does not take the others with it.
+  // Copies of a scene share their solution by way of the cache:
+  // one that vanishes does not take the others with it.
   std::map<std::pair<std::string, std::filesystem::path>, std::size_t> by_key;
   for (const std::size_t picture : to_make) {
     const bool reference = pictures[picture].solution_key.empty();
@@ -51,7 +52,8 @@ void BatchQueue::add(std::size_t picture, Group& group) {
 }
 
 bool BatchQueue::fits(std::uint64_t bytes, std::uint64_t resident_memory) const {
-  // With nothing under way, what is resident beyond what is expected was freed but not given back, and is there to be used again.
+  // With nothing under way, what is resident beyond what is expected was freed but not given back,
+  // and is there to be used again.
   const std::uint64_t expected = before_ + reserved_;
   const std::uint64_t used = under_way_ == 0 ? expected : std::max(expected, resident_memory);
   return used + bytes <= limit_;

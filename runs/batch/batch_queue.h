@@ -1,9 +1,11 @@
-// Which task of a batch comes next, and whether there is memory for it. Knows no threads: whoever uses it sees to that.
+// Which task of a batch comes next, and whether there is memory for it.
+// Knows no threads: whoever uses it sees to that.
 //
-// Pictures of one scene file that share a solution form a group; a reference is a group of its own. Opening a group finds its light; while
-// it is open its pictures are tasks. Pictures of open groups come first, then the next group. A group is admitted with the memory that its
-// scene needs as long as it is open, and that its solve or the largest of its pictures needs beyond that, so that the group opened last can
-// always go on.
+// Pictures of one scene file that share a solution form a group; a reference is a group of its own.
+// Opening a group finds its light; while it is open its pictures are tasks.
+// Pictures of open groups come first, then the next group. A group is admitted with
+// the memory that its scene needs as long as it is open, and that its solve or the largest
+// of its pictures needs beyond that, so that the group opened last can always go on.
 #pragma once
 
 #include "runs/batch/scene_work.h"
@@ -30,11 +32,13 @@ class BatchQueue {
 public:
   using Clock = std::chrono::steady_clock;
 
-  /// `to_make`: indices of pictures without a problem. `memory_before`: what the process has without any task.
+  /// `to_make`: indices of pictures without a problem.
+  /// `memory_before`: what the process has without any task.
   BatchQueue(std::span<const BatchPicture> pictures, std::span<const std::size_t> to_make,
              std::uint64_t memory_before, std::uint64_t memory_limit);
 
-  /// Nothing when there is no memory, when other processes are at all that is left, or when all has been begun.
+  /// Nothing when there is no memory,
+  /// when other processes are at all that is left, or when all has been begun.
   std::optional<BatchTask> next(Clock::time_point now, std::uint64_t resident_memory);
   /// Pictures found too big by `next` since the last call: they are over.
   std::vector<RefusedPicture> take_refused();

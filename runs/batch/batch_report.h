@@ -1,6 +1,8 @@
-// What is said about a batch at its end: summary.json for programs, index.html (a contact sheet) for people, JUnit XML for servers.
+// What is said about a batch at its end:
+// summary.json for programs, index.html (a contact sheet) for people, JUnit XML for servers.
 //
-// They speak of all pictures of the jobs file, whichever process has made them: whoever ends last says everything.
+// They speak of all pictures of the jobs file, whichever process has made them:
+// whoever ends last says everything.
 #pragma once
 
 #include "runs/batch/batch_work.h"
@@ -23,9 +25,11 @@ struct BatchCounts {
 };
 BatchCounts count(std::span<const PictureResult> results);
 
-/// {"jobs_file", "version", "pictures": [{"name", "status", "job", "scene", "camera", "mode", "frame", "width", "height", "files",
-/// "seconds", "rays", "error"?, "exit_code"?}], "counts": {"pictures", "made", "found", "failed", "open"}, "solves": [{"scene", "key",
-/// "solved", "seconds", "elements", "error_bound", "converged"}], "seconds", "rays", "rays_per_second", "peak_memory_bytes", "threads"}.
+/// {"jobs_file", "version", "pictures": [{"name", "status", "job", "scene", "camera", "mode",
+/// "frame", "width", "height", "files", "seconds", "rays", "error"?, "exit_code"?}], "counts":
+/// {"pictures", "made", "found", "failed", "open"}, "solves":
+/// [{"scene", "key", "solved", "seconds", "elements", "error_bound", "converged"}],
+/// "seconds", "rays", "rays_per_second", "peak_memory_bytes", "threads"}.
 /// `made` by this process, `found` done by others or before; `open` not done yet.
 std::string summary_json(const BatchReport& report);
 

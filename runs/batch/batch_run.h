@@ -1,4 +1,5 @@
-// `batch`: the pictures of a jobs file, made side by side, with nothing lost when the process ends early and nothing done twice.
+// `batch`: the pictures of a jobs file, made side by side,
+// with nothing lost when the process ends early and nothing done twice.
 #pragma once
 
 #include "runs/batch/batch_report.h"
@@ -21,12 +22,14 @@ struct BatchEvents {
   RunEvents run;
   std::function<void(const BatchPicture&, const PictureResult&)> finished;
   std::function<void(const BatchProgress&, double seconds)> progress;
-  /// Called before the process ends by itself: a signal has come, and what runs has not ended within a second.
+  /// Called before the process ends by itself:
+  /// a signal has come, and what runs has not ended within a second.
   std::function<void(const std::string&)> last_words;
 };
 
-/// Makes this process' share of the pictures and writes summary.json and index.html into the folder. Throws a UserError when not even a
-/// beginning can be made; when pictures have failed, with the first one's exit code; and when it was stopped, with 128 + signal.
+/// Makes this process' share of the pictures and writes summary.json and index.html into
+/// the folder. Throws a UserError when not even a beginning can be made; when pictures have failed,
+/// with the first one's exit code; and when it was stopped, with 128 + signal.
 /// A picture that fails does not keep the others from being made.
 BatchReport batch_run(const BatchRequest& request, std::vector<BatchPicture> pictures,
                       const BatchEvents& events = {});

@@ -130,7 +130,8 @@ void BatchWork::Impl::begin_tasks() {
     ++running;
     opening += task->opening ? 1 : 0;
     tasks.run([this, task = *task] {
-      // Waiting for its own rays a thread must not begin another task, which would have to end first.
+      // Waiting for its own rays a thread must not begin another task,
+      // which would have to end first.
       tbb::this_task_arena::isolate([&] { run_task(task); });
       const std::lock_guard lock(mutex);
       --running;

@@ -1,8 +1,9 @@
 // The pictures of a batch, made side by side.
 //
-// At most as many tasks (batch_queue.h) run as there are threads; threads that have no task of their own help with the rays of the tasks
-// that run. So small pictures are made side by side, and a large one, or a solve, has all threads that nothing else needs. What another
-// process is at is left for later.
+// At most as many tasks (batch_queue.h) run as there are threads;
+// threads that have no task of their own help with the rays of the tasks that run.
+// So small pictures are made side by side, and a large one, or a solve,
+// has all threads that nothing else needs. What another process is at is left for later.
 #pragma once
 
 #include "runs/batch/scene_work.h"
@@ -43,7 +44,8 @@ public:
             std::uint64_t memory_limit, BatchWorkEvents events);
   ~BatchWork();
 
-  /// Returns when every picture is done or has failed, or when it was stopped and no task runs any more.
+  /// Returns when every picture is done or has failed,
+  /// or when it was stopped and no task runs any more.
   void run();
 
   /// Begins nothing any more. From any thread.

@@ -81,7 +81,8 @@ Camera looking_at(const Point3& position, const Point3& target, double vertical_
   const Vec3 sight = target - position;
   const double distance = glm::length(sight);
   camera.forward = distance > 0.0 ? sight / distance : Direction(0.0, 0.0, -1.0);
-  // Looking straight up or down there is no upright: the picture's top is where it comes to lie by tilting from a view along -z.
+  // Looking straight up or down there is no upright:
+  // the picture's top is where it comes to lie by tilting from a view along -z.
   Vec3 right = glm::cross(camera.forward, Vec3(0.0, 1.0, 0.0));
   constexpr double upright = 1e-9;
   if (glm::length(right) < upright) {

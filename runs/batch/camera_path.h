@@ -1,8 +1,10 @@
 // Cameras that move: a path by keyframes, and the camera of every frame of it.
 //
-// A walk goes through its poses at their times: position and target are cubic Hermite curves with the tangents of Catmull and Rom 1974
-// for uneven times, m_k = (p_k+1 - p_k-1) / (t_k+1 - t_k-1), one-sided at the ends; the angle of view changes linearly.
-// An orbit is a circle in a horizontal plane: centre + height up + radius (sin a, 0, cos a), looking at the centre.
+// A walk goes through its poses at their times: position and target are cubic Hermite curves with
+// the tangents of Catmull and Rom 1974 for uneven times, m_k = (p_k+1 - p_k-1) / (t_k+1 - t_k-1),
+// one-sided at the ends; the angle of view changes linearly.
+// An orbit is a circle in a horizontal plane:
+// centre + height up + radius (sin a, 0, cos a), looking at the centre.
 #pragma once
 
 #include "scenes/camera.h"
@@ -38,7 +40,8 @@ struct CameraPath {
 /// One camera per frame, all of the path's name.
 std::vector<Camera> cameras_along(const CameraPath& path, const Bounds& scene);
 
-/// At the position, upright, looking at the target; straight up or down, -z (looking down) or +z is up.
+/// At the position, upright, looking at the target;
+/// straight up or down, -z (looking down) or +z is up.
 Camera looking_at(const Point3& position, const Point3& target, double vertical_fov);
 
 } // namespace meninas

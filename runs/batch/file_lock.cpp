@@ -28,7 +28,8 @@ static void say_owner(int descriptor) {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
   const std::string owner = fmt::format("{} {}\n", host.data(), ::getpid());
-  // Not emptied first: file systems that guard against lost contents (ext4) would wait for the disk when it is closed.
+  // Not emptied first:
+  // file systems that guard against lost contents (ext4) would wait for the disk when it is closed.
   const auto written = ::pwrite(descriptor, owner.data(), owner.size(), 0);
   [[maybe_unused]] const int cut = written > 0 ? ::ftruncate(descriptor, written) : 0;
 }

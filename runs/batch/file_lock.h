@@ -1,8 +1,10 @@
 // Locks that processes share by way of a folder.
 //
-// A lock is a file whose descriptor is locked with flock(2), and the file says who holds it. The kernel lets go of it when its process ends,
-// however that happens, so a lock file that is left behind by a killed process is known to be stale and is taken over at once. On network
-// file systems this holds where they carry flock to the server (NFS since Linux 2.6.12, Lustre and BeeGFS when mounted so).
+// A lock is a file whose descriptor is locked with flock(2), and the file says who holds it.
+// The kernel lets go of it when its process ends, however that happens, so a lock file that
+// is left behind by a killed process is known to be stale and is taken over at once.
+// On network file systems this holds where they carry flock to the server (NFS since Linux 2.6.12,
+// Lustre and BeeGFS when mounted so).
 #pragma once
 
 #include <filesystem>
@@ -25,7 +27,8 @@ private:
   int descriptor_;
 };
 
-/// Nothing while anybody else, in this process or another, holds it. Throws OutputError where the folder is not writable or knows no locks.
+/// Nothing while anybody else, in this process or another, holds it.
+/// Throws OutputError where the folder is not writable or knows no locks.
 std::optional<FileLock> try_lock(const std::filesystem::path& file);
 
 /// Waits for the others.

@@ -1,4 +1,5 @@
-// Ctrl-C and its kin (SIGINT, SIGTERM, SIGHUP), as something that happens to a run rather than to a process.
+// Ctrl-C and its kin (SIGINT, SIGTERM, SIGHUP),
+// as something that happens to a run rather than to a process.
 #pragma once
 
 #include <array>
@@ -9,8 +10,9 @@
 
 namespace meninas {
 
-/// While it lives, these signals end up here instead of ending the process. A SIGHUP that is ignored stays so (nohup); jobs that a script has
-/// put into the background ignore SIGINT, but whoever sends it means it. One at a time.
+/// While it lives, these signals end up here instead of ending the process.
+/// A SIGHUP that is ignored stays so (nohup); jobs that a script has put into
+/// the background ignore SIGINT, but whoever sends it means it. One at a time.
 class Interruption {
 public:
   /// `handle` is called on a thread of its own, where it may do anything, once for each signal.

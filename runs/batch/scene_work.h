@@ -17,7 +17,8 @@ struct SceneLight {
   bool solved = false; ///< here and now, not read
 };
 
-/// From the cache, or solved and kept there. Nothing while another process solves it. A damaged entry is warned about and solved again.
+/// From the cache, or solved and kept there. Nothing while another process solves it.
+/// A damaged entry is warned about and solved again.
 /// Throws a UserError, also when the scene is not what it was when the batch was planned.
 std::optional<SceneLight> find_light(const BatchFolder& folder, const BatchPicture& picture,
                                      const RunEvents& events);
@@ -36,8 +37,9 @@ struct PictureResult {
   PictureRecord record;
 };
 
-/// Makes the picture unless it is done or held. `light` is null for a reference. Files are written while `writing` is shared, so that
-/// whoever holds it alone knows that no file is under way. Throws a UserError.
+/// Makes the picture unless it is done or held. `light` is null for a reference.
+/// Files are written while `writing` is shared,
+/// so that whoever holds it alone knows that no file is under way. Throws a UserError.
 PictureResult make_picture(const BatchFolder& folder, const BatchPicture& picture,
                            const LitScene* light, std::shared_timed_mutex& writing,
                            const RunEvents& events);

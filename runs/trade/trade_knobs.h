@@ -1,5 +1,6 @@
-// The knobs a sweep turns, one step each: element size or adaptive bound, rays, form-factor method, solver and tolerance, mirror depth,
-// diffuse term, interpolation, camera rays and their pixel error.
+// The knobs a sweep turns, one step each:
+// element size or adaptive bound, rays, form-factor method, solver and tolerance,
+// mirror depth, diffuse term, interpolation, camera rays and their pixel error.
 #pragma once
 
 #include "runs/trade/trade_point.h"

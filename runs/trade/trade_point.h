@@ -1,4 +1,5 @@
-// A point of the trade between speed and accuracy: settings, with what they take and what they bring.
+// A point of the trade between speed and accuracy:
+// settings, with what they take and what they bring.
 #pragma once
 
 #include "image/image.h"
@@ -34,7 +35,8 @@ double mean_of(const std::vector<double>& values);
 /// The largest less the smallest, over the mean.
 double spread_of(const std::vector<double>& values);
 
-/// Indices of the points than which no other is both faster and more accurate, the fastest first. Equal ones: the first.
+/// Indices of the points than which no other is both faster and more accurate, the fastest first.
+/// Equal ones: the first.
 std::vector<std::size_t> pareto_front(const std::vector<TradePoint>& points);
 
 } // namespace meninas

@@ -71,7 +71,8 @@ Json point_json(const TradeResult& result, std::size_t id, bool on_front) {
   return json;
 }
 
-/// How much accuracy a second buys: the fall of log error less its price, half the rise of log seconds, as samples at random would pay.
+/// How much accuracy a second buys: the fall of log error less its price,
+/// half the rise of log seconds, as samples at random would pay.
 double worth(const KnobWorth& knob) { return -std::log(knob.error) - 0.5 * std::log(knob.seconds); }
 
 std::string conclusion_of(const std::vector<KnobWorth>& knobs) {

@@ -53,7 +53,8 @@ TradeReference read_reference(const fs::path& file, const std::optional<PictureS
   return reference;
 }
 
-/// By path tracing, for a share of the budget: it shares nothing with what it judges, and its noise is known.
+/// By path tracing, for a share of the budget:
+/// it shares nothing with what it judges, and its noise is known.
 TradeReference trace_reference(const Scene& scene, const Camera& camera, PictureSize size,
                                double seconds, std::uint32_t seed, const RunEvents& events) {
   reference::ReferenceSettings limits;
@@ -73,8 +74,8 @@ TradeReference trace_reference(const Scene& scene, const Camera& camera, Picture
   return reference;
 }
 
-/// The root mean square of the noise over the mean, and the least error that can be told from it: a mean of n squares of noise is
-/// unsure by their variance times the root of 2 / n.
+/// The root mean square of the noise over the mean, and the least error that can be told from it:
+/// a mean of n squares of noise is unsure by their variance times the root of 2 / n.
 void find_floor(TradeReference& reference) {
   if (!reference.variance)
     return;

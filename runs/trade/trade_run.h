@@ -1,5 +1,5 @@
-// `trade`: what a second buys, for one scene and view. Settings are swept (trade_sweep.h), each measured for time and for error
-// against one reference, and shown with those no other beats.
+// `trade`: what a second buys, for one scene and view. Settings are swept (trade_sweep.h),
+// each measured for time and for error against one reference, and shown with those no other beats.
 #pragma once
 
 #include "runs/run_events.h"
@@ -22,7 +22,8 @@ struct TradeRequest {
   RunSettings settings;            ///< background, threads and seed are heeded
 };
 
-/// Writes trade.json, trade.csv and last index.html into the folder. Throws a UserError; every file that is there is whole.
+/// Writes trade.json, trade.csv and last index.html into the folder.
+/// Throws a UserError; every file that is there is whole.
 void trade_run(const TradeRequest& request, const RunEvents& events = {});
 
 } // namespace meninas

@@ -38,7 +38,8 @@ struct Sweeping {
   }
 };
 
-/// What share of a picture's squared error a finer turn may take away, or a coarser one touches, by the picture's own estimate of its parts.
+/// What share of a picture's squared error a finer turn may take away,
+/// or a coarser one touches, by the picture's own estimate of its parts.
 double at_stake(const KnobTurn& turn, const PictureError& e) {
   const double all = e.total * e.total;
   if (!(all > 0.0))
@@ -60,7 +61,8 @@ double at_stake(const KnobTurn& turn, const PictureError& e) {
   return 0.0;
 }
 
-/// The finer ones first, those with most at stake before others; then the coarser ones, those with least.
+/// The finer ones first, those with most at stake before others;
+/// then the coarser ones, those with least.
 std::vector<TurnedSettings> ranked_turns(const TradePoint& point, const TradeScene& scene) {
   std::vector<TurnedSettings> turns = turned(point.settings, scene);
   const auto rank = [&](const TurnedSettings& next) {
@@ -71,7 +73,8 @@ std::vector<TurnedSettings> ranked_turns(const TradePoint& point, const TradeSce
   return turns;
 }
 
-/// A turn takes about as long as what it was turned from, a finer one twice as long; gathering at every hit tens of times.
+/// A turn takes about as long as what it was turned from, a finer one twice as long;
+/// gathering at every hit tens of times.
 double expected_seconds(const TradePoint& parent, const TurnedSettings& next) {
   constexpr double longer = 2.5, gathering = 30.0;
   if (next.settings.diffuse == DiffuseTerm::gather &&

@@ -55,7 +55,8 @@ TEST_F(BatchTest, WhatCannotBeWrittenFailsAlone) {
   EXPECT_EQ(summary()["counts"]["made"], 1);
 }
 
-// Files above a size the shell sets cannot be written, as on a full disk: the large picture fails, the small one is there.
+// Files above a size the shell sets cannot be written, as on a full disk:
+// the large picture fails, the small one is there.
 TEST_F(BatchTest, AFullDiskLosesOnlyWhatDoesNotFit) {
   write_jobs({{{"scenes", "room.glb"},
                {"outputs", "large.exr"},

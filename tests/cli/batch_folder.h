@@ -1,4 +1,5 @@
-// A folder with a tiny room and jobs that render it in no time, for tests of `batch` with real processes.
+// A folder with a tiny room and jobs that render it in no time,
+// for tests of `batch` with real processes.
 #pragma once
 
 #include "tests/cli/program.h"

@@ -1,4 +1,5 @@
-// `batch` as several processes, killed and stopped ones among them: nothing is lost, nothing is done twice, all bits are the same.
+// `batch` as several processes, killed and stopped ones among them:
+// nothing is lost, nothing is done twice, all bits are the same.
 #include "image/image_file.h"
 #include "tests/cli/batch_folder.h"
 #include "tests/support/random.h"
@@ -112,7 +113,8 @@ void expect_whole_files(const fs::path& folder) {
 }
 
 TEST_F(BatchTest, KilledAtThirtyMomentsAndResumedItEndsTheSame) {
-  // Pictures take far longer than a process needs to begin, so that most of the moments are amid the work.
+  // Pictures take far longer than a process needs to begin,
+  // so that most of the moments are amid the work.
   std::vector<Json> jobs{view_job(), other_job()};
   for (Json& job : jobs)
     job["settings"]["samples"] = 1024;

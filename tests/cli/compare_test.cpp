@@ -30,7 +30,8 @@ protected:
 
   json figures() { return json::parse(read_file(folder_ / "out/figures.json")); }
 
-  /// The document of a page after its scripts, and then `use`, have run; `use` returns what is reported.
+  /// The document of a page after its scripts, and then `use`, have run;
+  /// `use` returns what is reported.
   json browse(const std::string& page, const std::string& use) {
     std::string html = read_file(page);
     const auto end = html.rfind("</body>");

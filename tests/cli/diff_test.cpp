@@ -161,7 +161,8 @@ TEST_F(Diff, OptionsAreChecked) {
 }
 
 TEST_F(Diff, NotANumberIsNamedByItsPixel) {
-  // A picture of one pixel is too small to be compressed, so its bytes stand in the file as they are.
+  // A picture of one pixel is too small to be compressed,
+  // so its bytes stand in the file as they are.
   const float marker = 12345.678F, nan = std::numeric_limits<float>::quiet_NaN();
   Image picture(1, 1);
   picture.at(0, 0) = {1.0F, marker, 1.0F};

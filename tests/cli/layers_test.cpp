@@ -77,7 +77,8 @@ TEST_F(LayersOption, OfASolutionThatKnowsItsMirroredPart) {
       "render", {"--layers", "--solution", "blind.glb", "-o", "no.exr"});
 }
 
-// `fine` computes light of emitters at the hits where the solution knows the rest by itself, and interpolates where not.
+// `fine` computes light of emitters at the hits where the solution knows the rest by itself,
+// and interpolates where not.
 TEST_F(LayersOption, OfASolutionThatDoesNotTellLightOfEmittersApart) {
   ASSERT_EQ(run("solve", {"--element-size", "0.5", "-o", "mixed.glb", "--form-factors", "analytic",
                           "--interpolation", "average"})

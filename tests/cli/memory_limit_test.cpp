@@ -1,4 +1,5 @@
-// What a run is going to need is known before it takes it: refused above the limit, foretold by `plan`.
+// What a run is going to need is known before it takes it:
+// refused above the limit, foretold by `plan`.
 #include "tests/cli/program.h"
 #include "tests/cli/tiny_room.h"
 

@@ -76,7 +76,8 @@ TEST_F(Outputs, RoundedNumbersAreSaid) {
               "meninas: --rays 100 is rounded up to 128\n");
 }
 
-// Rows by hemicubes close as those by rays do, and light the same room: exposure and energy hold to what both methods leave.
+// Rows by hemicubes close as those by rays do, and light the same room:
+// exposure and energy hold to what both methods leave.
 TEST_F(Outputs, HemicubesLightTheSameRoom) {
   render({"-o", "rays.exr", "--stats", "rays.json"});
   render({"-o", "cubes.exr", "--stats", "cubes.json", "--form-factors", "hemicube",
@@ -264,7 +265,8 @@ TEST_F(Outputs, AReferenceHasItsVarianceAndItsFigures) {
   EXPECT_EQ(stats["reference"]["stopped_by"], "samples");
   EXPECT_EQ(stats["rays"]["camera"], 64 * 40 * 30);
 
-  // The same room as the two passes see it: the means of the pictures differ by the draft's mesh and the noise, each a few per cent.
+  // The same room as the two passes see it:
+  // the means of the pictures differ by the draft's mesh and the noise, each a few per cent.
   render({"-o", "b.exr"});
   const Image hybrid = read_image(folder_ / "b.exr").picture;
   glm::dvec3 traced(0.0), solved(0.0);

@@ -38,7 +38,8 @@ TEST_F(PlannedCost, IsTheSumOfItsStages) {
 }
 
 TEST_F(PlannedCost, GrowsWithWhatIsAskedFor) {
-  // Counts go into it as factors: ten times as many are more, whatever else the machine does meanwhile.
+  // Counts go into it as factors:
+  // ten times as many are more, whatever else the machine does meanwhile.
   const auto stage = [&](const char* name, std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--quality", "draft"});
     return expected(std::move(arguments)).at("seconds").at(name).get<double>();

@@ -1,4 +1,5 @@
-// `--solver progressive` on the command line: steps, pictures along the way, and what has no effect.
+// `--solver progressive` on the command line:
+// steps, pictures along the way, and what has no effect.
 #include "image/image_file.h"
 #include "tests/cli/program.h"
 #include "tests/cli/tiny_room.h"
@@ -77,7 +78,8 @@ TEST_F(ProgressiveRuns, PicturesAlongTheWay) {
                           "shots-000006-ambient.exr", "shots-000006.exr",
                           "shots-000007-ambient.exr", "shots-000007.exr"));
 
-  // Light only arrives; what is expected of the rest shrinks, and was not far from what there is with twice the shots.
+  // Light only arrives; what is expected of the rest shrinks,
+  // and was not far from what there is with twice the shots.
   const double at3 = mean_of("way/there/shots-000003.exr"),
                at6 = mean_of("way/there/shots-000006.exr"),
                expected3 = mean_of("way/there/shots-000003-ambient.exr"),
@@ -112,7 +114,8 @@ TEST_F(ProgressiveRuns, StoredFormFactorsServeItToo) {
   }
 }
 
-// Whatever the form factors are: all that is shot is in the last of the pictures, and nothing is left for the ambient term.
+// Whatever the form factors are:
+// all that is shot is in the last of the pictures, and nothing is left for the ambient term.
 TEST_F(ProgressiveRuns, TheLastPictureHasAllLight) {
   for (const char* method : {"rays", "hemicube"}) {
     const Outcome outcome =

@@ -1,4 +1,5 @@
-// `regress`: cases with references pass, fail with evidence, are made anew; files of cases that say nothing sensible are refused.
+// `regress`: cases with references pass, fail with evidence, are made anew;
+// files of cases that say nothing sensible are refused.
 #include "image/image_file.h"
 #include "tests/cli/program.h"
 #include "tests/cli/tiny_room.h"

@@ -62,7 +62,8 @@ TEST_F(Steering, LeavesWhatWasSet) {
 }
 
 TEST_F(Steering, WarnsOfWhatCannotBeReached) {
-  // One camera ray a pixel, a coarse mesh and light that is interpolated between its vertices: nothing is left to turn.
+  // One camera ray a pixel, a coarse mesh and light that is interpolated between its vertices:
+  // nothing is left to turn.
   const Outcome outcome =
       render({"-o", "out.exr", "--stats", "out.json", "--error", "1e-4", "--rays", "64",
               "--samples", "1", "--element-size", "0.25", "--diffuse", "direct", "--quiet"});
@@ -75,7 +76,8 @@ TEST_F(Steering, KeepsToATime) {
   ASSERT_EQ(render({"-o", "out.exr", "--stats", "out.json", "--time", "1", "--quiet"}).code, 0);
   const json said = figures();
   EXPECT_EQ(said.at("choice").at("wanted_seconds"), 1.0);
-  // How far it comes depends on the machine; there is a picture in any case, the best of those there were.
+  // How far it comes depends on the machine;
+  // there is a picture in any case, the best of those there were.
   const json& choice = said.at("choice");
   ASSERT_GE(choice.at("steps").size(), 1U);
   for (const json& step : choice.at("steps"))

@@ -14,7 +14,8 @@ struct TinyRoom {
   std::vector<std::byte> binary;
 };
 
-/// Five grey walls, the front one open; `lamp` under the ceiling, `mirror` in front of the left wall, `camera` before the room.
+/// Five grey walls, the front one open;
+/// `lamp` under the ceiling, `mirror` in front of the left wall, `camera` before the room.
 TinyRoom tiny_room();
 
 void write_room(const std::filesystem::path& file, const TinyRoom& room);

@@ -1,5 +1,6 @@
-// What libFuzzer throws at the loader: any bytes end as a scene whose numbers are finite and whose indices are in range, or with one
-// UserError of one line. Then the scene's surfaces are found and reported on, as every command does. Anything else is a finding.
+// What libFuzzer throws at the loader: any bytes end as a scene whose numbers are finite
+// and whose indices are in range, or with one UserError of one line. Then the scene's
+// surfaces are found and reported on, as every command does. Anything else is a finding.
 #include "scenes/errors.h"
 #include "scenes/gltf.h"
 #include "scenes/hidden_copies.h"

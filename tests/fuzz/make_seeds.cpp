@@ -1,4 +1,5 @@
-// Writes the files the fuzzer begins with into a folder: small ones that together use all the loader reads, and the words of the format.
+// Writes the files the fuzzer begins with into a folder:
+// small ones that together use all the loader reads, and the words of the format.
 #include "tests/scenes/gltf_samples.h"
 
 #include <filesystem>

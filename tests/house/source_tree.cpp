@@ -16,7 +16,8 @@ constexpr std::size_t longest_file = 400;
 
 /// Which folders a folder may include, besides itself:
 ///   scenes, image <- mirror <- radiosity <- raytrace <- runs <- cli     and     scenes, image <- reference <- runs
-/// The image folder stands beside scenes; all it takes from there are the vocabulary and the errors.
+/// The image folder stands beside scenes;
+/// all it takes from there are the vocabulary and the errors.
 const std::map<std::string, std::set<std::string>, std::less<>> allowed_folders = {
     {"scenes", {}},
     {"image", {}},

@@ -1,5 +1,5 @@
-// Reads a source tree and says where it breaks the rules of the house (ARCHITECTURE.md): include directions, the one
-// user of each wrapped library, file length, and how a header begins.
+// Reads a source tree and says where it breaks the rules of the house (ARCHITECTURE.md):
+// include directions, the one user of each wrapped library, file length, and how a header begins.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-// Files that are no pictures, or not whole, are refused with one line, without crash, noise or a grab for memory.
+// Files that are no pictures, or not whole, are refused with one line,
+// without crash, noise or a grab for memory.
 #include "image/image_file.h"
 #include "scenes/errors.h"
 #include "tests/image/picture_files.h"
@@ -34,7 +35,8 @@ void put_little_endian(std::vector<std::byte>& bytes, std::size_t place, std::in
     bytes.at(place + k) = static_cast<std::byte>(static_cast<std::uint32_t>(value) >> 8 * k);
 }
 
-/// Where the value of a header attribute begins: after its name, its type and the size of the value.
+/// Where the value of a header attribute begins:
+/// after its name, its type and the size of the value.
 std::size_t value_place(const std::vector<std::byte>& exr, std::string_view name,
                         std::string_view type) {
   const std::string_view text(reinterpret_cast<const char*>(exr.data()), exr.size());

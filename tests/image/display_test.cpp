@@ -1,4 +1,5 @@
-// The sRGB curve against its definition, and automatic exposure against what an eye would ask of it.
+// The sRGB curve against its definition,
+// and automatic exposure against what an eye would ask of it.
 #include "image/display.h"
 #include "tests/image/picture_files.h"
 
@@ -49,7 +50,8 @@ TEST(Srgb, MonotonicAndInverse) {
     EXPECT_GT(decoded, decoded_before) << value;
     encoded_before = encoded;
     decoded_before = decoded;
-    // The standard's constants are rounded: the two pieces meet to 4e-8 in linear value only. To that come two roundings.
+    // The standard's constants are rounded:
+    // the two pieces meet to 4e-8 in linear value only. To that come two roundings.
     EXPECT_NEAR(srgb_decode(encoded), value, 2e-7F);
   }
 }
@@ -151,7 +153,8 @@ TEST(AutomaticExposure, SinglePixel) {
 }
 
 TEST(AutomaticExposure, RoomIsWellExposed) {
-  // Dark or bright, its middle is between a dim and a light grey, and its brightest place does not clip by much.
+  // Dark or bright, its middle is between a dim and a light grey,
+  // and its brightest place does not clip by much.
   for (const double brightness : {1e-6, 1.0, 1e6}) {
     const auto picture = picture_of(room(1000, brightness));
     EXPECT_GT(shown(brightness, picture), 0.08);

@@ -26,8 +26,9 @@ Image flat(float r, float g, float b) {
 }
 
 TEST(Flip, FlatPicturesDifferByColourAlone) {
-  // Without features FLIP is the redistributed HyAB distance. White and black: 100 in lightness, none in chroma. Green and blue
-  // have the largest distance of all, Hunt-adjusted (87.73, -75.6, 73.0) and (32.30, 25.6, -34.8), so they give 1.
+  // Without features FLIP is the redistributed HyAB distance. White and black:
+  // 100 in lightness, none in chroma. Green and blue have the largest distance of all,
+  // Hunt-adjusted (87.73, -75.6, 73.0) and (32.30, 25.6, -34.8), so they give 1.
   const double largest = std::pow(203.3, 0.7);
   const double expected = 0.95 + 0.05 * (std::pow(100.0, 0.7) - 0.4 * largest) / (0.6 * largest);
   const Channel white_black = flip_map(flat(1, 1, 1), flat(0, 0, 0));
@@ -38,8 +39,9 @@ TEST(Flip, FlatPicturesDifferByColourAlone) {
 }
 
 TEST(Flip, AsTheAuthorsCompute) {
-  // Means that the authors' C++ implementation (version 1.7, 67 pixels per degree) gives for the same pictures. It works in
-  // floats throughout, which is worth a few 1e-5 where the derivative of the powers is infinite.
+  // Means that the authors' C++ implementation (version 1.7,
+  // 67 pixels per degree) gives for the same pictures. It works in floats throughout,
+  // which is worth a few 1e-5 where the derivative of the powers is infinite.
   const auto waves = [](float gain) {
     return picture_of(96, 70, [=](int x, int y, int c) {
       const double phase = 0.1 * x * (c + 1) + 0.07 * y;

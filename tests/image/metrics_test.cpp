@@ -96,7 +96,8 @@ TEST(Metrics, AllButRelmseAndPsnrAreSymmetric) {
 }
 
 TEST(Metrics, BrighterPicturesDifferAsMuchMore) {
-  // Powers of two scale floats exactly; exposure and epsilon follow the light, so what is seen stays the same.
+  // Powers of two scale floats exactly;
+  // exposure and epsilon follow the light, so what is seen stays the same.
   const Image reference = random_picture(24, 16);
   const Image picture = lit_corner(reference);
   const auto times8 = [](glm::vec3 p) { return 8.0F * p; };

@@ -1,4 +1,5 @@
-// What the tests of picture files share: a folder of their own, pictures without pattern, and files as bytes.
+// What the tests of picture files share:
+// a folder of their own, pictures without pattern, and files as bytes.
 #pragma once
 
 #include "image/image.h"

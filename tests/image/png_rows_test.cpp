@@ -1,4 +1,5 @@
-// PNGs as sloppy and as hostile as they come: pixels or one line, and not a word from libpng on stderr.
+// PNGs as sloppy and as hostile as they come:
+// pixels or one line, and not a word from libpng on stderr.
 #include "image/image_file.h"
 #include "scenes/errors.h"
 

@@ -1,4 +1,5 @@
-// PNG files hold the displayed picture; textures in PNG and JPEG come out linear, with straight alpha.
+// PNG files hold the displayed picture;
+// textures in PNG and JPEG come out linear, with straight alpha.
 #include "image/display.h"
 #include "image/image_file.h"
 #include "tests/image/picture_files.h"
@@ -134,7 +135,8 @@ TEST(DecodeImage, DecodesColourButNotAlpha) {
 TEST(DecodeImage, GreyIsAllThreeChannels) {
   const auto grey = decode_image(as_encoded(grey_jpeg), Encoding::linear, "texture");
   EXPECT_EQ(std::pair(grey.width, grey.height), std::pair(8, 8));
-  // A flat block has only its mean, quantised by the table's first entry, which is 1 here: off by one code at most.
+  // A flat block has only its mean, quantised by the table's first entry, which is 1 here:
+  // off by one code at most.
   for (const auto& pixel : grey.pixels) {
     EXPECT_NEAR(pixel.r, 128.0F / 255.0F, 1.0F / 255.0F + 1e-6F);
     EXPECT_EQ(pixel, glm::vec4(pixel.r, pixel.r, pixel.r, 1.0F));

@@ -194,7 +194,8 @@ TEST_F(WholeFile, UnknownExtension) {
   EXPECT_EQ(entries(), 0U);
 }
 
-/// In a process of its own, whose disk of 16 KiB nobody else sees. Exit code: 0 as expected, 1 not, 2 no such disk here.
+/// In a process of its own, whose disk of 16 KiB nobody else sees.
+/// Exit code: 0 as expected, 1 not, 2 no such disk here.
 [[noreturn]] void fill_small_disk(const fs::path& folder) {
   if (::unshare(CLONE_NEWNS) != 0 ||
       ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||

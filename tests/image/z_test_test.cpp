@@ -1,4 +1,5 @@
-// The per-pixel test against a noisy reference: right pictures pass, biased ones do not; and what a change is called.
+// The per-pixel test against a noisy reference:
+// right pictures pass, biased ones do not; and what a change is called.
 #include "image/changes.h"
 #include "image/z_test.h"
 
@@ -13,7 +14,8 @@ namespace {
 
 constexpr int side = 64;
 
-/// A ramp, and a reference of it with normally distributed noise of 2 % and the variance that belongs to it.
+/// A ramp, and a reference of it with normally distributed
+/// noise of 2 % and the variance that belongs to it.
 struct Noisy {
   Image truth{side, side}, mean{side, side}, variance{side, side};
 };
@@ -41,7 +43,8 @@ Image times(Image picture, float factor) {
 
 TEST(ZTest, TheTruthGivesTheQuantileOfTheNormalDistribution) {
   const Noisy noisy = noisy_ramp();
-  // 3.02 for one value in 400; the quantile of 12,288 values has a standard error of sqrt(p / n) / density = 0.054.
+  // 3.02 for one value in 400;
+  // the quantile of 12,288 values has a standard error of sqrt(p / n) / density = 0.054.
   EXPECT_NEAR(z_figure(noisy.truth, noisy.mean, noisy.variance), 3.02, 4.0 * 0.054);
 }
 

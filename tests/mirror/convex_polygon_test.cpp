@@ -123,7 +123,8 @@ TEST(ClipPolygon, BeyondItsCapacityItErrsOnTheLargeSide) {
   }
   const double exact = tangents * std::tan(std::numbers::pi / tangents);
   EXPECT_GE(area(part), exact - rounding);
-  // A polygon of 47 corners around the disc is 0.2 % larger than the disc; twice that is room enough.
+  // A polygon of 47 corners around the disc is 0.2 % larger than the disc;
+  // twice that is room enough.
   EXPECT_LT(area(part), 1.01 * exact);
 }
 

@@ -6,7 +6,8 @@
 
 namespace meninas::test {
 
-/// A room whose walls all emit but for some mirrors, so that an observer sees light wherever it looks.
+/// A room whose walls all emit but for some mirrors,
+/// so that an observer sees light wherever it looks.
 struct GlowingRoom {
   Scene scene;
   SurfaceModel surfaces;

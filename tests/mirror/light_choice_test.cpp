@@ -148,7 +148,8 @@ TEST(EmitterTree, NodesHoldTheirEmitters) {
   EXPECT_TRUE(make_emitter_tree({}).nodes.empty());
 }
 
-// All offsets of the even steps together give the sum of all images: the choice is right on average, with mirrors and without,
+// All offsets of the even steps together give the sum of all images:
+// the choice is right on average, with mirrors and without,
 // near the lamps, far from them, and where some lie below the horizon.
 TEST(LightChoice, IsRightOnAverageAndNearlyRightEachTime) {
   for (const auto& mirrors :
@@ -162,7 +163,8 @@ TEST(LightChoice, IsRightOnAverageAndNearlyRightEachTime) {
         if (all_light(lamps, observer) == 0.0)
           continue;
         const Spread spread = spread_of(lamps, observer, 64);
-        // The mean over 64 even offsets is an integral of steps: its error is far below the deviation of one.
+        // The mean over 64 even offsets is an integral of steps:
+        // its error is far below the deviation of one.
         EXPECT_NEAR(spread.mean, 1.0, 0.25 * spread.deviation + 1e-9);
         EXPECT_LT(spread.deviation, 0.06);
         EXPECT_LT(spread_of(lamps, observer, 256).deviation, 0.03);

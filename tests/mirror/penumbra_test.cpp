@@ -24,7 +24,8 @@ ConvexPolygon square(double x, double y, double z, double half) {
 
 double area_of(const ConvexPolygon& polygon) { return glm::length(area_vector(polygon.span())); }
 
-// Lines through two unit squares one above the other spread as far behind the second as the squares are apart.
+// Lines through two unit squares one above the other spread
+// as far behind the second as the squares are apart.
 TEST(Penumbra, OfTwoSquares) {
   const ConvexPolygon first = square(0, 0, 0, 0.5), second = square(0, 0, 1, 0.5);
   for (const double z : {1.5, 2.0, 5.0}) {
@@ -40,7 +41,8 @@ TEST(Penumbra, OfAWindowBesideTheOther) {
   EXPECT_NEAR(area_of(clip_to_penumbra(square(6, 0, 2, 10), first, second)), 9.0, slack * 9.0);
 }
 
-// Nothing that a line through both windows can meet is cut off; and what is left is the hull of what lines meet.
+// Nothing that a line through both windows can meet is cut off;
+// and what is left is the hull of what lines meet.
 TEST(Penumbra, HoldsWhatLinesMeetAndNoMore) {
   Random random(3);
   for (int turn = 0; turn < 40; ++turn) {
@@ -71,7 +73,8 @@ TEST(Penumbra, HoldsWhatLinesMeetAndNoMore) {
 }
 
 TEST(Penumbra, WindowsThatTouchCutNothingTheyShouldNot) {
-  // A corner of two windows with a common edge: everything behind the second in front of the first is in sight.
+  // A corner of two windows with a common edge:
+  // everything behind the second in front of the first is in sight.
   const ConvexPolygon first(std::vector<Point3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   const ConvexPolygon second(std::vector<Point3>{{1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}});
   const ConvexPolygon wall(
@@ -106,7 +109,8 @@ bool inside(const ConvexPolygon& window, const Plane& plane, const Point3& x) {
   return true;
 }
 
-/// The mirror that a straight ray can pass next as if nothing else were there: any that it meets from the front.
+/// The mirror that a straight ray can pass next as if nothing else were there:
+/// any that it meets from the front.
 std::vector<std::pair<std::size_t, Point3>> met(const MirrorSet& set, const Point3& x,
                                                 const Direction& d) {
   std::vector<std::pair<std::size_t, Point3>> result;
@@ -120,8 +124,9 @@ std::vector<std::pair<std::size_t, Point3>> met(const MirrorSet& set, const Poin
   return result;
 }
 
-// No ray enters a world that the tree calls unseen. And most worlds of the tree are entered by some ray: the rest shows through
-// slits that chance does not hit (with twenty times as many rays the share rises from 0.72 to 0.79).
+// No ray enters a world that the tree calls unseen.
+// And most worlds of the tree are entered by some ray: the rest shows through slits that chance
+// does not hit (with twenty times as many rays the share rises from 0.72 to 0.79).
 TEST(Penumbra, NoRayEntersAnUnseenWorld) {
   const MirrorSet set = tilted_mirrors(8, 5);
   const WorldTree tree =

@@ -202,8 +202,9 @@ glm::dmat3 random_rotation(Random& random) {
   return {x, glm::cross(z, x), z};
 }
 
-// Where a mirror touches the plane of another with a corner its window is cut there, and an edge is left that is as long as rounding makes it
-// and points anywhere. Turned rooms, or the corner is on the plane exactly.
+// Where a mirror touches the plane of another with a corner its window is cut there,
+// and an edge is left that is as long as rounding makes it and points anywhere.
+// Turned rooms, or the corner is on the plane exactly.
 TEST(RegionImages, AreThoseOfTheirPointsWhereAMirrorTouchesTheNext) {
   const WorldSettings deep{.min_throughput = 0.0, .max_depth = 4, .max_worlds = 100};
   Scene scene = room_with_mirrors({true});
@@ -228,7 +229,8 @@ TEST(RegionImages, AreThoseOfTheirPointsWhereAMirrorTouchesTheNext) {
   }
 }
 
-// Nothing is decided by a length of its own: in rooms of all sizes the same cells see the same wholly.
+// Nothing is decided by a length of its own:
+// in rooms of all sizes the same cells see the same wholly.
 TEST(RegionImages, DoNotDependOnTheScale) {
   const auto counts_at = [](double scale) {
     const GlowingRoom room =

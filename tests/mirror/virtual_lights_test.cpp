@@ -41,8 +41,9 @@ void expect_whole_hemisphere(const GlowingRoom& room, double tolerance) {
   }
 }
 
-// Perfect mirrors in a room that glows everywhere: in whatever direction an observer looks there is light of one
-// radiance, and the parts of all images in all worlds tile the hemisphere without gap or overlap: sum F = 1.
+// Perfect mirrors in a room that glows everywhere:
+// in whatever direction an observer looks there is light of one radiance,
+// and the parts of all images in all worlds tile the hemisphere without gap or overlap: sum F = 1.
 // The tolerance is the rounding of some tens of polygons.
 TEST(VirtualLights, TileTheHemisphereWithoutMirrors) {
   expect_whole_hemisphere(glowing(room_with_mirrors({}), {}), 1e-12);
@@ -58,8 +59,8 @@ TEST(VirtualLights, TileTheHemisphereInACornerOfThreeMirrors) {
                           1e-12);
 }
 
-// Of two facing mirrors, what lies deeper than the last world is missing: beyond 60 m the walls between them, 1.5 m by 2 m,
-// fill a form factor of at most 1.5 * 2 / (60^2 pi) on either side.
+// Of two facing mirrors, what lies deeper than the last world is missing: beyond 60 m the walls
+// between them, 1.5 m by 2 m, fill a form factor of at most 1.5 * 2 / (60^2 pi) on either side.
 TEST(VirtualLights, TileTheHemisphereBetweenFacingMirrors) {
   const WorldSettings deep{.min_throughput = 0.0, .max_depth = 60, .max_worlds = 1000};
   expect_whole_hemisphere(glowing(room_with_mirrors({true, true}), deep),
@@ -72,7 +73,8 @@ TEST(VirtualLights, TileTheHemisphereWithAMirrorInTheMiddleOfAWall) {
 
 TEST(VirtualLights, TileTheHemisphereWithATiltedMirror) {
   GlowingRoom room = glowing(room_with_wedge(), {});
-  // The wedge hides the corner behind it, which virtual lights do not know of: only the reflected part is looked at.
+  // The wedge hides the corner behind it, which virtual lights do not know of:
+  // only the reflected part is looked at.
   Random random(9);
   for (int k = 0; k < 100; ++k) {
     const Point3 x = random.in_box({0.55, 0.05, 0.75}, {0.95, 1.45, 1.95});
@@ -129,8 +131,8 @@ bool inside_window(const Mirror& mirror, const Point3& x, double slack) {
   return false;
 }
 
-// A folded path is as long as the segment it unfolds to, meets the mirrors of its chain in order inside their windows, obeys the
-// law of reflection at each, and ends on the real emitter.
+// A folded path is as long as the segment it unfolds to, meets the mirrors of its chain in order
+// inside their windows, obeys the law of reflection at each, and ends on the real emitter.
 TEST(FoldLegs, ObeyTheLawOfReflection) {
   constexpr double rounding = 1e-11; // chains of six in a room of 2 m lie 12 m away
   const GlowingRoom room = glowing(room_with_mirrors({true, true, true, false, true, false}),

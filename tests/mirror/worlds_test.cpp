@@ -62,7 +62,8 @@ TEST(MirrorWorlds, OneMirrorIsOneWorld) {
   EXPECT_EQ(child(tree, none<WorldId>, MirrorId{0}), none<WorldId>);
 }
 
-// Two facing mirrors: the depth is the largest k with rho^k >= min_throughput, one chain from either mirror.
+// Two facing mirrors:
+// the depth is the largest k with rho^k >= min_throughput, one chain from either mirror.
 TEST(MirrorWorlds, FacingMirrorsAreAsDeepAsTheirThroughput) {
   for (const double rho : {0.3, 0.5, 0.8, 0.9, 0.97}) {
     const Mirrors mirrors = mirror_room({rho, rho, 0, 0, 0, 0});
@@ -78,7 +79,8 @@ TEST(MirrorWorlds, FacingMirrorsAreAsDeepAsTheirThroughput) {
   }
 }
 
-// Mirrors at x = 0 and x = 1 show a point x at 2k + x after an even number of reflections and at 2k - x after an odd one.
+// Mirrors at x = 0 and x = 1 show a point x at 2k + x after
+// an even number of reflections and at 2k - x after an odd one.
 TEST(MirrorWorlds, FacingMirrorsShowTheTextbookImages) {
   const Mirrors mirrors = mirror_room({0.9, 0.9, 0, 0, 0, 0});
   const WorldTree tree =
@@ -150,7 +152,8 @@ TEST(MirrorWorlds, LimitsLeaveOutTheDeepest) {
   EXPECT_EQ(flat.worlds.size(), 1U);
 }
 
-/// Two mirrors at 45 degrees, one above the other, as in a periscope: what comes in at the top goes out at the bottom.
+/// Two mirrors at 45 degrees, one above the other, as in a periscope:
+/// what comes in at the top goes out at the bottom.
 Scene periscope(double height) {
   Scene scene;
   add_polygon(scene, "bottom", {{0, 0, 0}, {0, 1, 1}, {1, 1, 1}, {1, 0, 0}}, mirror(0.9));
@@ -160,7 +163,8 @@ Scene periscope(double height) {
   return scene;
 }
 
-// Between parallel planes there is no end of images; through the windows of a periscope only chains of two can be followed.
+// Between parallel planes there is no end of images;
+// through the windows of a periscope only chains of two can be followed.
 TEST(MirrorWorlds, APeriscopeHasNoDeepWorlds) {
   const WorldTree tree =
       mirror_worlds(mirrors_of(periscope(3.0)).set, {.min_throughput = 0.0, .max_depth = 50});
@@ -170,7 +174,8 @@ TEST(MirrorWorlds, APeriscopeHasNoDeepWorlds) {
   EXPECT_TRUE(tree.cut.empty());
 }
 
-// Whatever was looked at is in the tree or was left out for one reason, and every world left out though light reaches it is named.
+// Whatever was looked at is in the tree or was left out for one reason,
+// and every world left out though light reaches it is named.
 TEST(MirrorWorlds, TheReportAddsUp) {
   for (const auto& walls : {std::array<double, 6>{0.9, 0.9, 0.5, 0, 0, 0},
                             {0.3, 0.1, 0.2, 0.9, 1, 1},

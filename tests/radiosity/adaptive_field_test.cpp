@@ -55,8 +55,8 @@ TEST(AdaptiveField, AFurnaceNeedsNoElements) {
 /// Small and quick, with all kinds of elements that there are.
 Solved divided_room() { return solved(half_room(), {.element_size = 0.4}, adaptive(0.05, 64)); }
 
-// On both sides of an edge the same: its middle, where a vertex hangs, has the mean of its ends in every part of the field. Neighbours'
-// edges are halves of one another at most.
+// On both sides of an edge the same: its middle, where a vertex hangs, has the mean of its
+// ends in every part of the field. Neighbours' edges are halves of one another at most.
 TEST(AdaptiveField, HasNoCracks) {
   const Solved s = divided_room();
   const ElementMesh& mesh = s.solution.refined->mesh;
@@ -105,7 +105,8 @@ TEST(AdaptiveField, TheSameBitsForAnyThreads) {
   EXPECT_EQ(all.solution.interpolation_error, alone.solution.interpolation_error);
 }
 
-// With few rays every centre is far from what its vertices say, and still there is nothing to divide for: the noise is known.
+// With few rays every centre is far from what its vertices say,
+// and still there is nothing to divide for: the noise is known.
 TEST(AdaptiveField, NoiseIsNoReasonToDivide) {
   const Scene room = half_room();
   const Solved few = solved(room, {.element_size = 0.2}, adaptive(0.02, 16)),
@@ -114,7 +115,8 @@ TEST(AdaptiveField, NoiseIsNoReasonToDivide) {
             1.5 * double(element_count(many.solution.refined->mesh)));
 }
 
-/// Where the floor of half_room() is lit by the lamp, by its image in the mirror, or in the shadow of the box of either.
+/// Where the floor of half_room() is lit by the lamp,
+/// by its image in the mirror, or in the shadow of the box of either.
 std::vector<Point3> floor_points() {
   std::vector<Point3> points;
   for (double x = 0.05; x < 2.0; x += 0.1)
@@ -124,8 +126,9 @@ std::vector<Point3> floor_points() {
   return points;
 }
 
-// The bound is one for noise as well: vertices, few as they are, take the rays that it needs. What two seeds find of the light from elements differs by noise: each is
-// off by no more than the bound, in the mean square over all walls. The 32 rays asked for are off by 3 %.
+// The bound is one for noise as well: vertices, few as they are, take the rays that it needs.
+// What two seeds find of the light from elements differs by noise: each is off by no more
+// than the bound, in the mean square over all walls. The 32 rays asked for are off by 3 %.
 TEST(AdaptiveField, VerticesTakeTheRaysThatTheBoundNeeds) {
   constexpr double bound = 0.02;
   PassOneSettings settings = adaptive(bound, 32);
@@ -162,13 +165,15 @@ TEST(AdaptiveField, AgreesWithAFineMeshOfOneSize) {
     coarse_error += std::pow(glm::distance(coarse.at("y0", x), truth), 2.0);
     size += glm::dot(truth, truth);
   }
-  // Both have noise of about a percent, and the bound holds over all walls, of which the floor has the edges.
+  // Both have noise of about a percent,
+  // and the bound holds over all walls, of which the floor has the edges.
   EXPECT_LT(std::sqrt(error / size), 0.04);
   EXPECT_LT(error, 0.25 * coarse_error);
 }
 
-// A spot on the floor lights the ceiling from where it is, however large the element it is in: what gathers looks at the divided mesh, and
-// elements keep their means. The ceiling above a spot near the corner of one large element, by fine elements and by this one.
+// A spot on the floor lights the ceiling from where it is, however large the element it is in:
+// what gathers looks at the divided mesh, and elements keep their means.
+// The ceiling above a spot near the corner of one large element, by fine elements and by this one.
 TEST(AdaptiveField, LightComesFromWhereItIs) {
   Scene scene;
   const Material black = diffuse(0.0);
@@ -199,7 +204,8 @@ TEST(AdaptiveField, LightComesFromWhereItIs) {
 
 class AdaptiveImages : public testing::TestWithParam<bool> {};
 
-// The method of images: with a perfect mirror every point receives what it would receive in the doubled room.
+// The method of images:
+// with a perfect mirror every point receives what it would receive in the doubled room.
 TEST_P(AdaptiveImages, EveryPointReceivesTheSame) {
   const Scene half = GetParam() ? half_room_with_small_mirror() : half_room();
   const PassOneSettings settings = adaptive(0.02, 512);
@@ -211,7 +217,8 @@ TEST_P(AdaptiveImages, EveryPointReceivesTheSame) {
     error += std::pow(glm::distance(mirrored.at("y0", x), truth), 2.0);
     size += glm::dot(truth, truth);
   }
-  // Each is within 0.02 and they are divided in different places, so that they are within 0.02 sqrt(2) of each other.
+  // Each is within 0.02 and they are divided in different places,
+  // so that they are within 0.02 sqrt(2) of each other.
   EXPECT_LT(std::sqrt(error / size), 0.03);
 }
 
@@ -236,7 +243,8 @@ TEST(MirrorOutlines, LieWhereTheLightJumps) {
                              {.shadow_rays = 1, .penumbra_rays = 1}, 1, work)
         .mirrored.g;
   };
-  // The lamp's image is at x = -1: rays through the mirror's lower edge, at 0.8 of 1.8 m, meet the floor 1.8 m out.
+  // The lamp's image is at x = -1:
+  // rays through the mirror's lower edge, at 0.8 of 1.8 m, meet the floor 1.8 m out.
   int jumps = 0, on_floor = 0;
   Point3 centre(0.0);
   for (const OutlinePoint& point : outlines) {

@@ -1,4 +1,5 @@
-// The method of images, element by element: a room with mirrors is the room and its images, and the analytic method finds both.
+// The method of images, element by element:
+// a room with mirrors is the room and its images, and the analytic method finds both.
 #include "radiosity/analytic_transport.h"
 #include "scenes/errors.h"
 #include "tests/radiosity/lit_scene.h"
@@ -125,7 +126,8 @@ TEST(AnalyticMethodOfImages, ACornerOfTwo) {
   expect_same(box_room(mirror(1.0), mirror(1.0)), {{x_axis}, {y_axis}, {x_axis, y_axis}}, 1.0);
 }
 
-// Two mirrors that enclose 60 degrees: five images, and the one behind both is met once, not once for either order.
+// Two mirrors that enclose 60 degrees:
+// five images, and the one behind both is met once, not once for either order.
 TEST(AnalyticMethodOfImages, AWedgeOfSixtyDegrees) {
   const double s = std::sqrt(0.75), h = 0.8;
   const Point3 p{0, 0, 0}, q{1, 0, 0}, r{0.5, s, 0}, up{0, 0, h};
@@ -170,7 +172,8 @@ TEST(AnalyticMethodOfImages, ABlockerBeforeTheMirror) {
   expect_same(room, {{x_axis}}, 2.0);
 }
 
-// Between facing mirrors over black walls: the sum over |k| <= n of rho^|k| times the light of lamp k, with open ends instead of mirrors.
+// Between facing mirrors over black walls:
+// the sum over |k| <= n of rho^|k| times the light of lamp k, with open ends instead of mirrors.
 TEST(AnalyticMethodOfImages, FacingMirrorsToADepth) {
   constexpr int depth = 3;
   const double rho = 0.8;
@@ -186,7 +189,8 @@ TEST(AnalyticMethodOfImages, FacingMirrorsToADepth) {
       parts.push_back({"x1", {{1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}}, mirror(rho)});
     }
     for (int k = mirrors ? 0 : -depth; k <= (mirrors ? 0 : depth); ++k) {
-      // The lamp, a strip of the ceiling, is off the middle: odd images lie on the other side of theirs.
+      // The lamp, a strip of the ceiling, is off the middle:
+      // odd images lie on the other side of theirs.
       const double low = k % 2 == 0 ? 0.2 : 0.5, high = low + 0.3;
       parts.push_back({"lamp" + std::to_string(k),
                        {{k + low, 0, 1}, {k + low, 1, 1}, {k + high, 1, 1}, {k + high, 0, 1}},
@@ -205,8 +209,8 @@ TEST(AnalyticMethodOfImages, FacingMirrorsToADepth) {
   }
 }
 
-// Whatever stands in a closed room, all light ends: on elements, on black backs, in the mirror. An element under the box counts with the part
-// beside it.
+// Whatever stands in a closed room, all light ends: on elements, on black backs, in the mirror.
+// An element under the box counts with the part beside it.
 TEST(AnalyticTransport, RowsClose) {
   Scene scene = scene_of(framed_room(diffuse(0.6), mirror(0.9)));
   add_box(scene, "box", {0.5, 0.4, 0.0}, {0.9, 1.0, 0.5}, diffuse(0.5));

@@ -35,8 +35,8 @@ std::vector<std::uint8_t> bent(const std::function<double(const Point3&)>& f, do
 }
 
 TEST(Bends, AreWhereLightBends) {
-  // The slope changes by 8 from one edge to the next: |f''| = 8 / size, and linear interpolation over an element beside it is off by size,
-  // of which half is reflected.
+  // The slope changes by 8 from one edge to the next: |f''| = 8 / size,
+  // and linear interpolation over an element beside it is off by size, of which half is reflected.
   const auto kink = [](const Point3& x) { return 1.0 + 8.0 * std::max(x.x - 0.5, 0.0); };
   const double off = 0.5 * size;
   const auto above = bent(kink, 0.99 * off), below = bent(kink, 1.01 * off);
@@ -54,7 +54,8 @@ TEST(Bends, AreNotSlopes) {
 }
 
 TEST(Bends, OfWhatIsOrdinaryDoNotCount) {
-  // Checkered noise of 2 % bends by 4 differences of 2 % over a square of edges, in every vertex alike.
+  // Checkered noise of 2 % bends by 4 differences of 2 % over a square of edges,
+  // in every vertex alike.
   const auto noise = [](const Point3& x) {
     return 1.0 + 0.02 * ((std::lround(x.x / size) + std::lround(x.y / size)) % 2 == 0 ? 1.0 : -1.0);
   };

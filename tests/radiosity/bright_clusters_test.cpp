@@ -1,4 +1,5 @@
-// Bright elements joined into emitters: alike, whatever their number, no light is lost or counted twice, and holes send none.
+// Bright elements joined into emitters:
+// alike, whatever their number, no light is lost or counted twice, and holes send none.
 #include "radiosity/bright_clusters.h"
 #include "radiosity/point_form_factor.h"
 #include "radiosity/point_gathering.h"
@@ -14,7 +15,8 @@
 namespace meninas::test {
 namespace {
 
-/// A large dark floor, over it a wall of 2 m in 20 x 20 elements that gets brighter upwards, tenfold, as one is beside a skylight.
+/// A large dark floor, over it a wall of 2 m in 20 x 20 elements that gets brighter upwards,
+/// tenfold, as one is beside a skylight.
 struct BrightWall {
   std::unique_ptr<LitScene> l;
   std::vector<Rgb> reflected;
@@ -57,8 +59,9 @@ TEST(BrightClusters, AreAsEvenHoweverFewThereMayBe) {
 }
 
 TEST(BrightClusters, LightAPointBesideThemAsTheirElementsDo) {
-  // All elements by closed forms, against what is gathered: clusters where there may be some, rays for the rest. Close to the wall its brightness
-  // beside the point decides, not its mean. Rays leave 2 % (4 sigma of 4,096).
+  // All elements by closed forms, against what is gathered: clusters where there may be some,
+  // rays for the rest. Close to the wall its brightness beside the point decides, not its mean.
+  // Rays leave 2 % (4 sigma of 4,096).
   const BrightWall wall;
   const auto floor = static_cast<ElementId>(elements_of(*wall.l, "floor").front());
   const MeshSide& side = wall.l->mesh.sides[index(wall.l->mesh.side_of_element[index(floor)])];
@@ -79,8 +82,9 @@ TEST(BrightClusters, LightAPointBesideThemAsTheirElementsDo) {
   }
 }
 
-// The sum of A B^2 of what no cluster owns grows by no more than it may, and would with the next: the darkest of those that are left. (A cluster's elements
-// differ by half at most, and their mean square from the square of their mean by (1.5 + 1)^2 / (4 * 1.5) = 4.2 %.)
+// The sum of A B^2 of what no cluster owns grows by no more than it may, and would with the next:
+// the darkest of those that are left. (A cluster's elements differ by half at most,
+// and their mean square from the square of their mean by (1.5 + 1)^2 / (4 * 1.5) = 4.2 %.)
 TEST(BrightClusters, AreLeftToRaysWhereTheyAddLittleToTheirNoise) {
   const BrightWall wall;
   const auto clusters_with = [&](double spared) {
@@ -108,9 +112,11 @@ TEST(BrightClusters, AreLeftToRaysWhereTheyAddLittleToTheirNoise) {
 }
 
 TEST(BrightClusters, HolesOfACutOutSendNoLight) {
-  // A sheet of 3 x 3 elements of 0.4 m with a square hole of 0.6 m, which leaves of them 0, 3/4 and 15/16. At points 2 m away its light is that of the rest as
-  // polygons, by the closed form. Spread evenly over an element it moves by 0.05 m, 0.45 m off the axis: (1 + r^2 / d^2)^-2 changes by
-  // 4 * 0.45 * 0.05 / 2^2 = 2.3 %. From the whole of these elements a fifth more would come.
+  // A sheet of 3 x 3 elements of 0.4 m with a square hole of 0.6 m, which leaves of them 0,
+  // 3/4 and 15/16. At points 2 m away its light is that of the rest as polygons,
+  // by the closed form. Spread evenly over an element it moves by 0.05 m, 0.45 m off the axis:
+  // (1 + r^2 / d^2)^-2 changes by 4 * 0.45 * 0.05 / 2^2 = 2.3 %.
+  // From the whole of these elements a fifth more would come.
   Scene scene;
   add_polygon(scene, "wall", {{-9, -9, -2}, {9, -9, -2}, {9, 9, -2}, {-9, 9, -2}}, diffuse(0.5));
   add_polygon(scene, "sheet", {{-0.6, 0.6, 0}, {0.6, 0.6, 0}, {0.6, -0.6, 0}, {-0.6, -0.6, 0}},

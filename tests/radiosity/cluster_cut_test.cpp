@@ -1,4 +1,5 @@
-// Bright clusters far away together: within the stated error of their closed forms, through mirrors as in the doubled room, and nowhere that any of them is cut.
+// Bright clusters far away together: within the stated error of their closed forms,
+// through mirrors as in the doubled room, and nowhere that any of them is cut.
 #include "radiosity/cluster_cut.h"
 #include "radiosity/point_form_factor.h"
 #include "tests/radiosity/lit_scene.h"
@@ -65,7 +66,8 @@ Emitter cluster_of(const std::vector<Point3>& corners, const Rgb& radiosity) {
   return emitter;
 }
 
-/// n x n quads and triangles of any colours on the floor y = 0, as far as `half` from `centre`; every fifth one lacks a channel.
+/// n x n quads and triangles of any colours on the floor y = 0, as far as `half` from `centre`;
+/// every fifth one lacks a channel.
 std::vector<Emitter> floor_clusters(int n, Point3 centre, double half, Random& random) {
   std::vector<Emitter> clusters;
   const double step = 2.0 * half / n;
@@ -91,7 +93,8 @@ Scene open_floor() {
   return scene;
 }
 
-/// 2.22 / pi W s^2 / (d - r)^4 by channel; s by quadrature over the triangles, where three middles of edges are exact for squares.
+/// 2.22 / pi W s^2 / (d - r)^4 by channel;
+/// s by quadrature over the triangles, where three middles of edges are exact for squares.
 Rgb error_bound(const Clustered& scene, const Receiver& x, const ClusterStandIn& part) {
   const ClusterNode& node = scene.tree.nodes[part.node];
   const MirrorWorld& world = scene.light->worlds.worlds[index(part.world)];
@@ -314,7 +317,8 @@ TEST(ClusterCut, IsDarkBehindAPlateAndHalfSeenOverItsEdge) {
   ASSERT_TRUE(lights.empty());
   EXPECT_EQ(half.at(behind, {.theta = 0.2}).total, Rgb(0.0));
 
-  // From above the edge some of the clusters are seen, in their own colours. 0.4 % for nodes as points, and some for rays: many, evenly spread.
+  // From above the edge some of the clusters are seen, in their own colours.
+  // 0.4 % for nodes as points, and some for rays: many, evenly spread.
   const Receiver above{{0, 2, 0}, {0, -1, 0}, none<PlaneId>, {}};
   ASSERT_LT(half.stand_ins(above, 0.1, lights).size(), 50U);
   Rgb exact(0.0);

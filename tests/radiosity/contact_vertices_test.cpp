@@ -1,4 +1,5 @@
-// The field where something stands on a surface: as bright at the foot of a bright wall as it is there, on either side of its lines.
+// The field where something stands on a surface:
+// as bright at the foot of a bright wall as it is there, on either side of its lines.
 #include "radiosity/contact_vertices.h"
 #include "radiosity/mesh_division.h"
 #include "radiosity/point_form_factor.h"
@@ -89,7 +90,8 @@ TEST(ContactVertices, HangingVerticesAreExposedWhereTheirEndsAreAndNeverCovered)
             : 0;
   const ElementMesh mesh = divide_elements(l->mesh, l->surfaces, marked);
   ASSERT_EQ(mesh.hanging.size(), 4U);
-  // All four edges from the middle of the divided element end at hanging vertices; two of these lose an end.
+  // All four edges from the middle of the divided element end at hanging vertices;
+  // two of these lose an end.
   std::vector<std::uint8_t> valid(mesh.vertices.size(), 1);
   const auto cover = [&](const Point3& x) {
     for (std::size_t v = 0; v < valid.size(); ++v)
@@ -119,8 +121,8 @@ Scene glowing_box(double side) {
   return scene;
 }
 
-/// What the floor receives within 0.1 of the foot, where it is 1/2 and falls to 0.38, beside what it receives from the one side of the box
-/// that it sees.
+/// What the floor receives within 0.1 of the foot, where it is 1/2 and falls to 0.38,
+/// beside what it receives from the one side of the box that it sees.
 struct AtFoot {
   double found = 0.0, exact = 0.0; ///< means
   double largest_error = 0.0;
@@ -148,7 +150,8 @@ TEST(ContactVertices, TheFootOfABrightWallIsLit) {
   for (const double side : {0.8, 0.801, 0.799, 0.75, 0.78}) {
     const auto l = lit(glowing_box(side), {.element_size = 0.1});
     const AtFoot foot = at_foot(*l, solve_pass_one(*l->light, {}), side);
-    // Over one cell the factor is straight to (0.1 / 0.4)^3 / 4 of itself; vertices beside each other may share a line.
+    // Over one cell the factor is straight to (0.1 / 0.4)^3 / 4 of itself;
+    // vertices beside each other may share a line.
     EXPECT_NEAR(foot.found, foot.exact, 0.01 * foot.exact) << side;
     EXPECT_LT(foot.largest_error, 0.02) << side;
   }
@@ -167,7 +170,8 @@ TEST(ContactVertices, TheFootOfABrightWallIsLitOnAdaptiveMeshes) {
   }
 }
 
-/// What the floor receives half way between two glowing boxes, this far apart, from the two sides that it sees.
+/// What the floor receives half way between two glowing boxes,
+/// this far apart, from the two sides that it sees.
 struct InGap {
   double found = 0.0, exact = 0.0;
 };
@@ -194,7 +198,8 @@ TEST(GapVertices, TheGroundOfANarrowGapIsLit) {
   for (const double gap : {0.15, 0.05}) {
     const InGap gap_light = in_gap(gap, 0.5);
     EXPECT_GT(gap_light.exact, 0.8) << "what is not seen is the sky above";
-    // A few points across stand for all: the share of the sky, 1/5 and less, differs across the gap by a third of itself.
+    // A few points across stand for all:
+    // the share of the sky, 1/5 and less, differs across the gap by a third of itself.
     EXPECT_NEAR(gap_light.found, gap_light.exact, 0.07 * gap_light.exact) << gap;
   }
 }

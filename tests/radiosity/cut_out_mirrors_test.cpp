@@ -1,5 +1,5 @@
-// Holes of cut-out mirrors and panes throw no light: segments that meet one are lost, and what is left is the light of
-// the same sheet built of polygons.
+// Holes of cut-out mirrors and panes throw no light: segments that meet one are lost,
+// and what is left is the light of the same sheet built of polygons.
 #include "radiosity/cluster_cut.h"
 #include "radiosity/light_samples.h"
 #include "radiosity/mirror_holes.h"
@@ -42,7 +42,8 @@ Material cut_out(Material material) {
   return material;
 }
 
-// --- A sheet at y = 0 with a square hole, under a ceiling at y = 1 that it throws light of a lamp on
+// --- A sheet at y = 0 with a square hole,
+// under a ceiling at y = 1 that it throws light of a lamp on
 
 enum class Sheet { whole, with_hole, of_polygons };
 
@@ -88,8 +89,8 @@ Receiver on_ceiling(const LitScene& l, double x, double z) {
   return {{x, 1.0, z}, {0.0, -1.0, 0.0}, side.plane_class, {}};
 }
 
-/// At points that would see the lamp in the hole, beside it, and in part: the light of the sheet with the hole is that
-/// of polygons, to `tolerance` of the whole sheet's.
+/// At points that would see the lamp in the hole, beside it, and in part:
+/// the light of the sheet with the hole is that of polygons, to `tolerance` of the whole sheet's.
 template <typename LightAt>
 void expect_light_of_polygons(const Material& material, int n, double tolerance,
                               const LightAt& light_at) {
@@ -116,7 +117,8 @@ void expect_light_of_polygons(const Material& material, int n, double tolerance,
 }
 
 TEST(CutOutMirrors, ThrowTheLightOfEmittersAsPolygonsDo) {
-  // Of 1,024 points in a square only those in the 32 cells or so along the hole's edge are by chance.
+  // Of 1,024 points in a square only those in the 32
+  // cells or so along the hole's edge are by chance.
   const DirectSettings settings{.shadow_rays = 64, .penumbra_rays = 1024};
   for (const Material& material : {mirror(rho), glass(Rgb(1.0))})
     expect_light_of_polygons(material, 1, 0.015, [&](const LitScene& l, const Receiver& x) {
@@ -171,7 +173,8 @@ TEST(CutOutMirrors, PassOneFindsTheLightOfPolygons) {
 }
 
 TEST(CutOutMirrors, NoPointOfALampIsSeenInAHole) {
-  // The same points on the same images as without the hole, of which those seen by way of it send nothing.
+  // The same points on the same images as without the hole,
+  // of which those seen by way of it send nothing.
   for (const Material& material : {mirror(rho), glass(Rgb(0.9, 1.0, 0.8))}) {
     const auto whole = lit_sheet(Sheet::whole, material),
                cut = lit_sheet(Sheet::with_hole, material);
@@ -277,7 +280,8 @@ TEST(CutOutMirrors, SegmentsAreLostInTheHolesOfAnyMirrorOfTheirChain) {
 }
 
 TEST(CutOutMirrors, AreAskedForTheirOwnHolesInAPlaneThatOthersShare) {
-  // A cut-out mirror laid on a whole one of another reflectance; far off, where corners are known to 1e-4 m.
+  // A cut-out mirror laid on a whole one of another reflectance;
+  // far off, where corners are known to 1e-4 m.
   for (const Vec3& far : {Vec3(0.0), Vec3(3e3, -2e3, 1e3)}) {
     Scene scene;
     add_polygon(scene, "laid on", facing_up(-0.6, 0.6, -0.6, 0.6, 0.0), cut_out(mirror(rho)));
@@ -293,7 +297,8 @@ TEST(CutOutMirrors, AreAskedForTheirOwnHolesInAPlaneThatOthersShare) {
     const MirrorId laid_on{first_is_below ? 1U : 0U}, below{first_is_below ? 0U : 1U};
     EXPECT_EQ(l->light->cut_out_mirrors[index(laid_on)], 1);
     EXPECT_EQ(l->light->cut_out_mirrors[index(below)], 0);
-    // Its corner, its edge, the line in which its triangles meet, and a height that rounding may leave.
+    // Its corner, its edge, the line in which its triangles meet,
+    // and a height that rounding may leave.
     const Vec3 off(0.0, 0.5 * l->surfaces.tolerance, 0.0);
     for (const Vec3& x : {Vec3(-0.6, 0, 0.6), Vec3(0.6, 0, 0.1), Vec3(0.45, 0, -0.45),
                           Vec3(-0.45, 0, -0.45), Vec3(0.1, 0, 0.35)}) {

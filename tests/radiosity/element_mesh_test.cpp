@@ -42,7 +42,8 @@ TEST(ElementMesh, ElementsAreInsideTheirSidesAndNumberedInARow) {
       EXPECT_LT(index(vertex), m.mesh.vertices.size());
 }
 
-// From element and (s, t) to (u, v) of the patch and back, and the same in the single precision of the inner loops.
+// From element and (s, t) to (u, v) of the patch and back,
+// and the same in the single precision of the inner loops.
 TEST(ElementMesh, LocateInvertsPatchUv) {
   for (const double size : {0.05, 0.31, 10.0}) {
     const Meshed m = meshed(all_shapes(), {.element_size = size});
@@ -113,7 +114,8 @@ TEST(ElementMesh, AGridSharesItsVertices) {
 TEST(ElementMesh, PatchesOfASurfaceConform) {
   const Meshed m = meshed(patched_wall(), {.element_size = 0.13});
   ASSERT_EQ(m.surfaces.surfaces.size(), 1U);
-  // Along the shared edges x = 1 (0 < y < 1) and y = 1, a vertex of either patch is one of the other's.
+  // Along the shared edges x = 1 (0 < y < 1) and y = 1,
+  // a vertex of either patch is one of the other's.
   const auto on = [&m](SideId side, auto&& predicate) {
     std::set<std::uint32_t> found;
     for (std::size_t e = 0; e < element_count(m.mesh); ++e)

@@ -11,7 +11,8 @@
 namespace meninas::test {
 namespace {
 
-// 1e-9 of F, or 1e-14 where polygons of 1e-6 sides make F small: the rounding of the contour terms, which are of size one.
+// 1e-9 of F, or 1e-14 where polygons of 1e-6 sides make F small:
+// the rounding of the contour terms, which are of size one.
 TEST(ExtendedFormFactor, PairsOfPolygonsInClosedForm) {
   for (const auto& c : known_pair_form_factors()) {
     const ExtendedFactor factor = ask(pair_of(c), "a", "b").factor;
@@ -21,8 +22,9 @@ TEST(ExtendedFormFactor, PairsOfPolygonsInClosedForm) {
   }
 }
 
-// Clipping leaves edges of the length of rounding, over which the logarithmic potential has no digits: integrating one that lies on an edge
-// of the other polygon to more took for ever. Without it the polygon is the same to its length.
+// Clipping leaves edges of the length of rounding, over which the logarithmic potential has no
+// digits: integrating one that lies on an edge of the other polygon to more took for ever.
+// Without it the polygon is the same to its length.
 TEST(ExtendedFormFactor, EdgesAsShortAsRounding) {
   const Point3 far{0.31622770107943937, -0.89442672882015972, 0.31622913819267412},
       corner{-0.15811521718146096, 0.44721336441008236, -0.15811378006822624},
@@ -38,7 +40,8 @@ TEST(ExtendedFormFactor, EdgesAsShortAsRounding) {
   EXPECT_NEAR(found.value, expected.value, glm::distance(corner, beside));
 }
 
-// Four standard deviations of 1,000 independent errors hold their sum; errors that all lean one way add up; few never exceed their sum.
+// Four standard deviations of 1,000 independent errors hold their sum;
+// errors that all lean one way add up; few never exceed their sum.
 TEST(ExtendedFormFactor, ErrorsOfManyParts) {
   ErrorSum independent, leaning, few;
   double sum = 0.0;
@@ -90,7 +93,8 @@ double factor_of(const Asked& asked, const std::vector<std::string>& chain, cons
   return 0.0;
 }
 
-// A_i F^w_ij = A_j F^rev(w)_ji. Both sides are within the accuracy of the total, of which each is a part.
+// A_i F^w_ij = A_j F^rev(w)_ji.
+// Both sides are within the accuracy of the total, of which each is a part.
 TEST(ExtendedFormFactor, ReciprocityInEveryWorld) {
   const Scene corner = scene_of(known_scene("corner_mirrors"), 0.8);
   const Asked ab = ask(corner, "A", "B"), ba = ask(corner, "B", "A");
@@ -116,7 +120,8 @@ TEST(ExtendedFormFactor, ReciprocityInEveryWorld) {
                 back.area * factor_of(back, chain, room), 1e-3);
 }
 
-// A perfect mirror hands all light on, so every wall's factors to all walls, the plate and the black back of the mirror add up to one.
+// A perfect mirror hands all light on, so every wall's factors to all walls,
+// the plate and the black back of the mirror add up to one.
 TEST(ExtendedFormFactor, ClosedRoomsClose) {
   Scene scene = room_with_mirror(1.0);
   // The mirror moved onto its wall: what it hides is the wall's own plane.
@@ -144,7 +149,8 @@ TEST(ExtendedFormFactor, ClosedRoomsClose) {
   }
 }
 
-// A rigid motion or a scale changes the rounding alone, and with it at most where an integration stops.
+// A rigid motion or a scale changes the rounding alone,
+// and with it at most where an integration stops.
 TEST(ExtendedFormFactor, ScaleRotationAndTranslation) {
   const Scene scene = room_with_mirror(0.9);
   const double before = ask(scene, "x1", "y0").factor.total.value;
@@ -157,7 +163,8 @@ TEST(ExtendedFormFactor, ScaleRotationAndTranslation) {
   }
 }
 
-// Halves of B share its factor; halves of A average to it. The error of each is within its accuracy.
+// Halves of B share its factor; halves of A average to it.
+// The error of each is within its accuracy.
 TEST(ExtendedFormFactor, SplittingAPatchAddsUp) {
   Scene whole = scene_of(known_scene("one_side_mirror"), 0.7), split;
   add_polygon(split, "A", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, diffuse(0.0));
@@ -172,7 +179,8 @@ TEST(ExtendedFormFactor, SplittingAPatchAddsUp) {
   EXPECT_NEAR(mean, sum, 2e-4 * sum);
 }
 
-// Four standard errors of sixteen replicas: Student's t with fifteen degrees of freedom is beyond that once in 900; seeds are fixed.
+// Four standard errors of sixteen replicas:
+// Student's t with fifteen degrees of freedom is beyond that once in 900; seeds are fixed.
 TEST(ExtendedFormFactor, RaysAgreeWithTheAnalyticMethod) {
   const Scene scene = room_with_mirror(0.9);
   for (const char* to : {"y0", "x0", "plate"}) {

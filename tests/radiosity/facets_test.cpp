@@ -84,7 +84,8 @@ TEST(Facets, LightIsContinuousOverTheCurve) {
   EXPECT_EQ(value_at.size(), 24U * 11U + 2U);
 }
 
-// Two routes: the globe's mean irradiance from its vertices, and from its elements. Corners weigh areas a little differently: 2 %.
+// Two routes: the globe's mean irradiance from its vertices, and from its elements.
+// Corners weigh areas a little differently: 2 %.
 TEST(Facets, KeepTheMeanOfTheElements) {
   const auto l = lit(room_with_globe(), {.element_size = 0.4});
   const RadiositySolution solution = solve_pass_one(*l->light, {});
@@ -94,8 +95,9 @@ TEST(Facets, KeepTheMeanOfTheElements) {
   EXPECT_NEAR(from_vertices, from_elements, 0.02 * from_elements);
 }
 
-// The part that comes by way of the mirror, in the share that 16 rays find at each of 288 facets, against 512 rays there. A share is off by at
-// most 0.5 / sqrt(16) in the mean square, that of all by a 17th of it: four sigma are 3 %.
+// The part that comes by way of the mirror, in the share that 16 rays find at each of 288 facets,
+// against 512 rays there. A share is off by at most 0.5 / sqrt(16) in the mean square,
+// that of all by a 17th of it: four sigma are 3 %.
 TEST(Facets, KnowWhatComesByWayOfMirrors) {
   const auto l = lit(room_with_globe(), {.element_size = 0.4});
   const RadiositySolution solution = solve_pass_one(*l->light, {});

@@ -63,7 +63,8 @@ TEST(FieldRefinement, WhatIsBilinearNeedsNoElements) {
   for (const auto& l : {square_wall(), wall({{0, 0, 0}, {1, 0, 0}, {0.3, 0.9, 0}}, 0.3)}) {
     const SampledField field =
         refined(*l, [](const Point3& x) { return 2.0 + x.x + 3.0 * x.y; }, {.error = 1e-3});
-    // A vertex on the border gathers a fiftieth of an element further in, which a linear function notices.
+    // A vertex on the border gathers a fiftieth of an element further in,
+    // which a linear function notices.
     EXPECT_LT(field.error, 0.05);
     const SampledField even = refined(*l, [](const Point3&) { return 0.7; }, {.error = 1e-6});
     EXPECT_EQ(element_count(even.mesh), element_count(l->mesh));
@@ -85,8 +86,8 @@ TEST(FieldRefinement, ErrorsAreAsEstimatedAndWithinTheBound) {
   }
 }
 
-// A step costs J^2 h over its length, so that h falls with the square of the error, and the elements along it grow as h falls. Elements of
-// one size would have to be as small everywhere.
+// A step costs J^2 h over its length, so that h falls with the square of the error, and the
+// elements along it grow as h falls. Elements of one size would have to be as small everywhere.
 TEST(FieldRefinement, ElementsLieAlongTheStep) {
   const auto l = square_wall();
   const SampledField field = refined(*l, step, {.error = 0.03, .most_levels = 8});
@@ -116,7 +117,8 @@ SamplePoint noisy(double spread) {
   };
 }
 
-// Noise grows no smaller by division. Samples that tell their variance are divided for nothing, those that keep it to themselves for ever.
+// Noise grows no smaller by division. Samples that tell their variance are divided for nothing,
+// those that keep it to themselves for ever.
 TEST(FieldRefinement, NoiseIsKnownAndNoReasonToDivide) {
   const auto l = square_wall();
   constexpr double spread = 0.1;
@@ -134,7 +136,8 @@ TEST(FieldRefinement, NoiseIsKnownAndNoReasonToDivide) {
                          refine_field(*l->light, {whole, whole, everywhere}, weight, {}, settings);
   EXPECT_LT(element_count(field.mesh), 2 * element_count(l->mesh));
   EXPECT_GT(element_count(blind.mesh), 100 * element_count(l->mesh));
-  // Even over [-s, s]: the mean square is s^2 / 3; light is 1.5 on average, its root mean square 1.53.
+  // Even over [-s, s]: the mean square is s^2 / 3;
+  // light is 1.5 on average, its root mean square 1.53.
   EXPECT_NEAR(field.noise, spread / std::sqrt(3.0) / 1.53, 0.005);
 }
 

@@ -16,7 +16,8 @@ double area_of(const std::vector<Point3>& corners) {
   return glm::length(area_vector(std::span(corners)));
 }
 
-/// Binomial: each of N rays arrives with probability F. Rays through mirrors of less than 1 weigh less, so this is an upper bound.
+/// Binomial: each of N rays arrives with probability F.
+/// Rays through mirrors of less than 1 weigh less, so this is an upper bound.
 double sigma(double form_factor, double samples) {
   return std::sqrt(std::max(form_factor * (1.0 - form_factor), 0.0) / samples);
 }
@@ -36,8 +37,10 @@ struct Tally {
   double rms() const { return std::sqrt(sum_of_squares / count); }
 };
 
-// 4 sigma: one of 16,000 honest results is further off. Less than one hit is no more than chance either way.
-// The net of rays is low-discrepancy, so all results together are nearer than random ones would be: rms < 1 sigma.
+// 4 sigma: one of 16,000 honest results is further off.
+// Less than one hit is no more than chance either way.
+// The net of rays is low-discrepancy, so all results together are nearer than random ones would be:
+// rms < 1 sigma.
 TEST(FormFactors, PairsOfPolygons) {
   Tally tally;
   for (const auto& c : known_pair_form_factors()) {
@@ -106,7 +109,8 @@ std::vector<Scene> sample_rooms() {
 void expect_closed_rows(const FormFactors& factors) {
   const Transport& t = factors.transport;
   for (std::size_t i = 0; i < t.size; ++i) {
-    // Every ray ends in one place: fractions of at most 256 rays, or delta form factors of 768 cells, added in floats.
+    // Every ray ends in one place:
+    // fractions of at most 256 rays, or delta form factors of 768 cells, added in floats.
     const RowClosure& row = factors.closure[i];
     EXPECT_NEAR(row.landed + row.escaped + row.black + row.cut, 1.0F, 1e-6F);
     // And so does the light of all rays; the light of cut rays is shared out among the rest.
@@ -131,15 +135,17 @@ TEST(FormFactors, RowsClose) {
   }
 }
 
-// A lamp whose black back hides most of the ceiling from every point of a cell: light comes in under its edge, so nothing is covered.
+// A lamp whose black back hides most of the ceiling from every point of a cell:
+// light comes in under its edge, so nothing is covered.
 TEST(FormFactors, WhatHangsAboveDoesNotCover) {
   for (const int net : {16, 64, 128, 512}) {
     const auto l = lit(half_room(), {.element_size = 0.05});
     const FormFactors factors = assemble_transport(*l->light, {.rays = net});
     for (const auto e : elements_of(*l, "y1"))
       EXPECT_EQ(factors.exposed[e], 1.0F);
-    // Under the box, 0.6 m x 0.7 m on the floor, nothing is exposed. Cells of an eighth of an element that its edges divide count as
-    // exposed, and what is too little for a ray to start there.
+    // Under the box, 0.6 m x 0.7 m on the floor, nothing is exposed.
+    // Cells of an eighth of an element that its edges divide count as exposed,
+    // and what is too little for a ray to start there.
     double covered = 0.0;
     for (const auto e : elements_of(*l, "y0"))
       covered += l->mesh.area[e] * (1.0 - double{factors.exposed[e]});

@@ -35,7 +35,8 @@ WorstElement worst_element(const Scene& scene, double reflectance, double tolera
   return worst;
 }
 
-// A closed room of uniform emission E and reflectance rho, of any shape and with any of its walls perfect mirrors: B = E / (1 - rho).
+// A closed room of uniform emission E and reflectance rho,
+// of any shape and with any of its walls perfect mirrors: B = E / (1 - rho).
 // Rows close exactly, so all that is left is the solver's tolerance of 1e-4.
 struct Furnace {
   const char* name;
@@ -54,7 +55,8 @@ TEST_P(FurnaceTest, EveryElement) {
   }
 }
 
-// Delta form factors add up to one, so the furnace does not notice how few the cells are, nor that they look from centres alone.
+// Delta form factors add up to one, so the furnace does not notice how few the cells are,
+// nor that they look from centres alone.
 TEST_P(FurnaceTest, ByHemicubes) {
   const double rho = 0.9;
   const WorstElement worst = worst_element(furnace(rho, GetParam().mirrors, GetParam().size), rho,
@@ -79,7 +81,8 @@ TEST(Furnace, ReflectanceNearOne) {
   EXPECT_LT(worst.error, 1e-3);
 }
 
-// A closure error of 1e-4 a bounce would leave 1 % of the light at rho = 1 - 1e-6. Sweeps alone cannot get there: that is reported.
+// A closure error of 1e-4 a bounce would leave 1 % of the light at rho = 1 - 1e-6.
+// Sweeps alone cannot get there: that is reported.
 TEST(Furnace, ReflectanceAMillionthBelowOneIsRightOrReported) {
   const double rho = 1.0 - 1e-6;
   const WorstElement worst = worst_element(furnace(rho, {}), rho);

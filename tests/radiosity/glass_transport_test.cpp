@@ -1,4 +1,5 @@
-// Panes in every transport of pass one: rows close, energy is accounted for, and all of them find the same light.
+// Panes in every transport of pass one:
+// rows close, energy is accounted for, and all of them find the same light.
 #include "radiosity/analytic_transport.h"
 #include "radiosity/node_form_factors.h"
 #include "scenes/errors.h"
@@ -53,7 +54,8 @@ TEST(GlassTransport, ShotsAndNodesFindWhatRowsFind) {
 }
 
 TEST(GlassTransport, PanesInARowKeepTheirRaysFew) {
-  // Ten panes between a lamp and the wall: each ray still ends in one place, and is traced once for each pane it meets.
+  // Ten panes between a lamp and the wall:
+  // each ray still ends in one place, and is traced once for each pane it meets.
   Scene scene = glazed_room();
   for (int k = 1; k < 10; ++k) {
     const double z = 0.8 - 0.05 * k;

@@ -1,4 +1,5 @@
-// Hemicubes: their delta form factors, what they see from a point, and how one at the centre stands for an element.
+// Hemicubes: their delta form factors, what they see from a point,
+// and how one at the centre stands for an element.
 #include "mirror/convex_polygon.h"
 #include "radiosity/area_form_factor.h"
 #include "radiosity/element_hemicube.h"
@@ -47,7 +48,8 @@ TEST(Hemicube, DeltaFormFactorsSumToOne) {
   }
 }
 
-// The top is a square of half side 1 at distance 1: 4/(2 pi) 2/sqrt(2) atan(1/sqrt(2)); the sides share the rest.
+// The top is a square of half side 1 at distance 1:
+// 4/(2 pi) 2/sqrt(2) atan(1/sqrt(2)); the sides share the rest.
 TEST(Hemicube, FacesHaveTheirClosedForms) {
   const double top = 4.0 / (std::sqrt(2.0) * pi) * std::atan(1.0 / std::sqrt(2.0));
   EXPECT_NEAR(4.0 * top_corner_integral(1.0, 1.0), top, 1e-15);
@@ -65,8 +67,9 @@ TEST(Hemicube, FacesHaveTheirClosedForms) {
     EXPECT_NEAR(sums[side], 0.25 * (1.0 - top), 1e-7);
 }
 
-// Two routes to one number: antiderivatives, and Lambert's formula for the cell as a polygon. Relative: a float's rounding, and 1e-16 that
-// corners of size 0.1 lose against cells of 1e-4 or more.
+// Two routes to one number:
+// antiderivatives, and Lambert's formula for the cell as a polygon. Relative:
+// a float's rounding, and 1e-16 that corners of size 0.1 lose against cells of 1e-4 or more.
 TEST(Hemicube, EveryCellIsLambertsFormula) {
   constexpr int resolution = 20;
   for (const CubeCell& cell : cells_of(make_hemicube(resolution))) {
@@ -106,7 +109,8 @@ TEST(Hemicube, IsSymmetric) {
   }
 }
 
-/// What a hemicube at the origin, normal +z, first edge +x, sees of a polygon that is alone in the world.
+/// What a hemicube at the origin, normal +z, first edge +x,
+/// sees of a polygon that is alone in the world.
 double seen_by_cube(const std::vector<Point3>& polygon, int resolution) {
   Scene scene;
   add_polygon(scene, "polygon", polygon, double_sided(diffuse(0.5)));
@@ -120,7 +124,8 @@ double seen_by_cube(const std::vector<Point3>& polygon, int resolution) {
   return work.result.landed / work.result.rays;
 }
 
-// Outlines in general position: cells along them, some R of them, err by up to half of their 1/R^2 each, independently: R^(-3/2).
+// Outlines in general position:
+// cells along them, some R of them, err by up to half of their 1/R^2 each, independently: R^(-3/2).
 TEST(Hemicube, ConvergesToThePointFormFactorWithOrderThreeHalves) {
   Random random(7);
   std::array<double, 3> squares{};
@@ -144,7 +149,8 @@ TEST(Hemicube, ConvergesToThePointFormFactorWithOrderThreeHalves) {
   }
 }
 
-// Outlines along the rows of cells: all cells of an edge err alike, by up to half of the 4 / (pi R^2) of a cell at the pole. No better.
+// Outlines along the rows of cells: all cells of an edge err alike,
+// by up to half of the 4 / (pi R^2) of a cell at the pole. No better.
 TEST(Hemicube, OutlinesAlongTheCellsConvergeWithOrderOne) {
   Random random(8);
   for (const int resolution : {16, 64, 256}) {
@@ -206,7 +212,8 @@ TEST(ElementHemicube, SeesFromTheCentreAlone) {
   EXPECT_LT(centre_error, -0.009); // a twentieth of the form factor
   for (const int resolution : {64, 256, 512})
     EXPECT_NEAR(corner_error(1, resolution), centre_error, 0.1 / resolution) << resolution;
-  // The rule of midpoints: the square of the element's size, but for the corners of the common edge, where light changes at once.
+  // The rule of midpoints: the square of the element's size,
+  // but for the corners of the common edge, where light changes at once.
   const double two = std::abs(corner_error(2, 256)), four = std::abs(corner_error(4, 256)),
                eight = std::abs(corner_error(8, 256));
   EXPECT_LT(two, 0.45 * std::abs(centre_error));

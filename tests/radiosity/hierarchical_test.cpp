@@ -1,4 +1,5 @@
-// Hierarchical radiosity: against closed forms, against solutions by rows, and by what trees and cuts keep.
+// Hierarchical radiosity:
+// against closed forms, against solutions by rows, and by what trees and cuts keep.
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/vertex_places.h"
 #include "scenes/gltf.h"
@@ -42,7 +43,8 @@ Scene gallery(const std::string& name) {
   return load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/" + name + ".gltf");
 }
 
-/// Root mean square and mean of what two solutions differ by, relative to the mean irradiance; `local`: the former relative to that and what is there.
+/// Root mean square and mean of what two solutions differ by, relative to the mean irradiance;
+/// `local`: the former relative to that and what is there.
 struct Agreement {
   double rms = 0.0, mean = 0.0, local = 0.0;
 };
@@ -64,7 +66,8 @@ Agreement agreement(const LitScene& l, const RadiositySolution& a, const Radiosi
   return {std::sqrt(result.rms), std::abs(result.mean), std::sqrt(result.local)};
 }
 
-// All walls glow with E = 1: B = 1 / (1 - rho) everywhere. Rows of receivers close as those of elements do, so that nothing is left but the tolerance.
+// All walls glow with E = 1: B = 1 / (1 - rho) everywhere.
+// Rows of receivers close as those of elements do, so that nothing is left but the tolerance.
 TEST(Hierarchical, Furnaces) {
   for (const bool with_mirrors : {false, true})
     for (const double rho : {0.0, 0.5, 0.9}) {
@@ -81,8 +84,8 @@ TEST(Hierarchical, Furnaces) {
     }
 }
 
-// Two parallel unit squares at distance 1, F = 0.199824895698387383 (C-11); one emits E = 1: B1 = E / (1 - rho^2 F^2), B2 = rho F B1. A net of N
-// rays is about N^(-3/4) off: 2e-3 F.
+// Two parallel unit squares at distance 1, F = 0.199824895698387383 (C-11); one emits E = 1:
+// B1 = E / (1 - rho^2 F^2), B2 = rho F B1. A net of N rays is about N^(-3/4) off: 2e-3 F.
 TEST(Hierarchical, ParallelPlates) {
   constexpr double rho = 0.8, factor = 0.199824895698387383;
   Scene scene;
@@ -97,8 +100,9 @@ TEST(Hierarchical, ParallelPlates) {
   EXPECT_LT(std::abs(solution.energy.imbalance), 1e-3);
 }
 
-// Two routes to the same light: rows of receivers, and of all elements. Within a receiver light differs by about X / 2 of B + B_mean, the samples of
-// rows by as much as those of another seed; and so does the mean over the room.
+// Two routes to the same light: rows of receivers, and of all elements.
+// Within a receiver light differs by about X / 2 of B + B_mean,
+// the samples of rows by as much as those of another seed; and so does the mean over the room.
 TEST(Hierarchical, AgreesWithRowsInGalleryScenes) {
   constexpr double link_error = 0.02;
   for (const char* name : {"cornell", "mirror-spot", "sunbeam", "facing-mirrors"}) {
@@ -126,7 +130,8 @@ Scene plain_room() {
   return scene;
 }
 
-// What X bounds falls with X: half of a difference from parent to child is what is left within the child.
+// What X bounds falls with X:
+// half of a difference from parent to child is what is left within the child.
 TEST(Hierarchical, ASmallerLinkErrorIsASmallerError) {
   PassOneSettings settings = hierarchical(1.0 / 24.0, 0.2, 2048);
   const auto l = lit(plain_room(), settings.mesh);
@@ -143,8 +148,8 @@ TEST(Hierarchical, ASmallerLinkErrorIsASmallerError) {
   EXPECT_GT(receivers[1], 2 * receivers[0]);
 }
 
-// The method of images: the elements of the half room receive what they receive in the doubled one. The samples differ: by 0.5 % a row of 1024 rays,
-// besides what receivers leave out.
+// The method of images: the elements of the half room receive what they receive in the doubled one.
+// The samples differ: by 0.5 % a row of 1024 rays, besides what receivers leave out.
 TEST(Hierarchical, MirrorRoomIsDoubledRoom) {
   for (const auto& [small, interpolation] : {std::pair(false, Interpolation::average),
                                              std::pair(true, Interpolation::average),
@@ -189,7 +194,8 @@ TEST(Hierarchical, FinerElementsNeedNoMoreRays) {
   EXPECT_LT(double(rays[1]), 1.3 * double(rays[0]));
 }
 
-// Every node's elements are those of its children, every element has one receiver, and the areas of cells are those of the sides.
+// Every node's elements are those of its children,
+// every element has one receiver, and the areas of cells are those of the sides.
 TEST(Hierarchical, TreesAndCutsAreWhole) {
   for (const Scene& scene : {half_room(), gallery("meninas")}) {
     const auto l = lit(scene, {.element_size = 0.3});
@@ -200,7 +206,8 @@ TEST(Hierarchical, TreesAndCutsAreWhole) {
       for (const ElementId element : elements_below(tree, static_cast<TreeNodeId>(n)))
         below += l->mesh.area[index(element)];
       const ReceiverArea area = area_of(*l->light, node);
-      // Half the product of the diagonals, or of two edges of a triangle; as far as the floats of a file make them planar.
+      // Half the product of the diagonals, or of two edges of a triangle;
+      // as far as the floats of a file make them planar.
       const Vec3 opposite = area.edge_u + area.edge_v + area.edge_uv;
       const double own =
           0.5 * glm::length(area.triangle ? glm::cross(area.edge_u, area.edge_v)
@@ -233,7 +240,8 @@ TEST(Hierarchical, TreesAndCutsAreWhole) {
   }
 }
 
-// A box that covers 2 x 2 of 16 x 16 elements of a floor: receivers are divided until what is covered is known as for elements.
+// A box that covers 2 x 2 of 16 x 16 elements of a floor:
+// receivers are divided until what is covered is known as for elements.
 TEST(Hierarchical, WhatStandsOnAFloorIsFound) {
   Scene scene;
   const Material wall = diffuse(0.5);
@@ -264,8 +272,9 @@ TEST(Hierarchical, SameBitsForAnyNumberOfThreads) {
   }
 }
 
-// Light that no surface emits is in the first light alone: black walls receive the same by receivers and by rows but for the share of the sky, which
-// either counts by its rays; grey ones to the link error.
+// Light that no surface emits is in the first light alone:
+// black walls receive the same by receivers and by rows but for the share of the sky,
+// which either counts by its rays; grey ones to the link error.
 TEST(Hierarchical, LightFromOutsideIsCountedOnce) {
   for (const double rho : {0.0, 0.5}) {
     Scene scene;

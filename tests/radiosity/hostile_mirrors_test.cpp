@@ -1,4 +1,5 @@
-// Mirrors that break careless code: slivers, sheets seen edge-on, lamps that touch or pierce a mirror, tiles, holes, and hundreds of tilts.
+// Mirrors that break careless code: slivers, sheets seen edge-on,
+// lamps that touch or pierce a mirror, tiles, holes, and hundreds of tilts.
 #include "radiosity/element_light.h"
 #include "radiosity/gathered_emission.h"
 #include "tests/radiosity/lit_scene.h"
@@ -41,8 +42,9 @@ std::vector<double> direct_on(const Scene& scene, const std::string& node,
   return values;
 }
 
-/// Rays alone against the closed form and what it leaves to rays, on the mean of every wall. Some hundreds of thousands of rays leave a
-/// wall; the error is that of the number of those that meet the lamp of 10 W/m^2.
+/// Rays alone against the closed form and what it leaves to rays, on the mean of every wall.
+/// Some hundreds of thousands of rays leave a wall;
+/// the error is that of the number of those that meet the lamp of 10 W/m^2.
 void expect_source_and_rays_agree(const Scene& scene, double element_size = 0.25) {
   const auto l = lit(scene, {.element_size = element_size});
   const FormFactorSettings settings{.rays = 4096};
@@ -82,7 +84,8 @@ TEST(HostileMirrors, ASliver) {
 }
 
 TEST(HostileMirrors, ASheetSeenEdgeOn) {
-  // It hangs in the middle of the room, in the plane of elements' edges, and reflects on both sides or one.
+  // It hangs in the middle of the room,
+  // in the plane of elements' edges, and reflects on both sides or one.
   for (const bool both : {false, true}) {
     Scene scene = black_room();
     add_polygon(scene, "sheet", upright(0.5, 0.5, 0.5, 1.5, 1.5),
@@ -100,7 +103,8 @@ TEST(HostileMirrors, AnEmitterThatTouchesItsMirror) {
   add_polygon(half, "lamp", {{0, 0.9, 0.3}, {0.3, 0.9, 0.3}, {0.3, 0.9, 0.6}, {0, 0.9, 0.6}}, glow);
   add_polygon(whole, "lamp", {{-0.3, 0.9, 0.3}, {0.3, 0.9, 0.3}, {0.3, 0.9, 0.6}, {-0.3, 0.9, 0.6}},
               glow);
-  // The wall opposite has the same elements in either room, with other points in them; nothing stands in the way.
+  // The wall opposite has the same elements in either room, with other points in them;
+  // nothing stands in the way.
   const DirectSettings fine{.points = 512, .most_points = 512};
   const auto mirrored = direct_on(half, "x1", fine), real = direct_on(whole, "x1", fine);
   ASSERT_EQ(mirrored.size(), real.size());
@@ -108,7 +112,8 @@ TEST(HostileMirrors, AnEmitterThatTouchesItsMirror) {
     EXPECT_NEAR(mirrored[e], real[e], 2e-3 * real[e]) << e;
 }
 
-// What pierces a mirror is cut by it: the half of the lamp before it is mirrored, the half behind is not.
+// What pierces a mirror is cut by it:
+// the half of the lamp before it is mirrored, the half behind is not.
 TEST(HostileMirrors, AnEmitterThatCrossesTheMirror) {
   Scene scene = black_room();
   add_polygon(scene, "sheet", upright(1.0, 0.3, 0.3, 1.95, 1.7), mirror(1.0));
@@ -129,8 +134,9 @@ std::vector<double> mirrored_light(const std::vector<std::vector<Point3>>& piece
   return light;
 }
 
-// A frame around a hole and what fills the hole, and the two parts of an L, are together one rectangle: nothing obstructs, so the closed
-// form adds up to rounding (the pieces lie a centimetre before the wall).
+// A frame around a hole and what fills the hole, and the two parts of an L,
+// are together one rectangle: nothing obstructs,
+// so the closed form adds up to rounding (the pieces lie a centimetre before the wall).
 TEST(HostileMirrors, HoledAndNonConvexMirrorsAddUp) {
   const std::vector<std::vector<Point3>> frame{
       upright(0.01, 0.4, 0.4, 0.8, 1.6), upright(0.01, 1.2, 0.4, 1.6, 1.6),
@@ -143,7 +149,8 @@ TEST(HostileMirrors, HoledAndNonConvexMirrorsAddUp) {
   double sum = 0.0;
   for (std::size_t e = 0; e < whole.size(); ++e) {
     sum += whole[e];
-    // Elements whose points were doubled until they settled may have taken different numbers of them.
+    // Elements whose points were doubled until they
+    // settled may have taken different numbers of them.
     const double tolerance = 0.02 * whole[e] + 1e-3;
     EXPECT_NEAR(around[e] + middle[e], whole[e], tolerance) << e;
     EXPECT_NEAR(l_shape[e] + rest[e] + middle[e], whole[e], tolerance) << e;

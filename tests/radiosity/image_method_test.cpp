@@ -76,8 +76,9 @@ protected:
   Scene half() const { return GetParam() ? half_room_with_small_mirror() : half_room(); }
 };
 
-// The method of images: with a perfect mirror every element receives what it would receive from the doubled room. Direct light is
-// sampled finely, so that the edges of shadows, where few shadow rays decide, are as good as the rest.
+// The method of images: with a perfect mirror every element receives what
+// it would receive from the doubled room. Direct light is sampled finely,
+// so that the edges of shadows, where few shadow rays decide, are as good as the rest.
 TEST_P(ImageMethod, EveryElementReceivesTheSame) {
   EnergyBalance energy;
   PassOneSettings settings = settings_of(512, 0.125);
@@ -92,7 +93,8 @@ TEST_P(ImageMethod, EveryElementReceivesTheSame) {
   EXPECT_LT(std::abs(d.mean), 2e-4);
 }
 
-// As it comes, with the defaults: a thirtieth of the elements lie at edges of shadows and may differ by more than 1 %.
+// As it comes, with the defaults:
+// a thirtieth of the elements lie at edges of shadows and may differ by more than 1 %.
 TEST_P(ImageMethod, DefaultSettings) {
   EnergyBalance energy;
   const PassOneSettings settings = settings_of(FormFactorSettings{}.rays, 0.08);
@@ -116,14 +118,18 @@ TEST_P(ImageMethod, TheDifferenceIsSamplingErrorThatFallsWithTheRays) {
                                     irradiance_field(doubled(half()), settings, energy));
     rms.push_back(d.rms);
   }
-  // Random sampling would gain a factor of 2.8 from eight times as many rays, and of 2 from four times.
+  // Random sampling would gain a factor of 2.8 from eight times as many rays,
+  // and of 2 from four times.
   EXPECT_LT(rms[1], 0.5 * rms[0]);
   EXPECT_LT(rms[2], 0.6 * rms[1]);
 }
 
-// The same cells look into the mirror and through the opening: what differs is the rounding of rays at edges, and shadow rays as above.
-// 70 cells, not 64: from centres of elements of a quarter of a metre, rays of a power of two meet borders of elements exactly. What cells at edges get wrong falls with their
-// size: with 30, 34, 46, 70 and 134 the mean is off by 3.2, 2.0, 1.1, 0.8 and 0.7e-4, so that with 34 it was a processor's roundings that decided.
+// The same cells look into the mirror and through the opening:
+// what differs is the rounding of rays at edges, and shadow rays as above.
+// 70 cells, not 64: from centres of elements of a quarter of a metre, rays of a power of two meet
+// borders of elements exactly. What cells at edges get wrong falls with their size:
+// with 30, 34, 46, 70 and 134 the mean is off by 3.2, 2.0, 1.1,
+// 0.8 and 0.7e-4, so that with 34 it was a processor's roundings that decided.
 TEST_P(ImageMethod, ByHemicubes) {
   EnergyBalance energy;
   PassOneSettings settings = settings_of(1, 0.25);
@@ -143,7 +149,8 @@ INSTANTIATE_TEST_SUITE_P(Mirrors, ImageMethod, testing::Values(false, true), [](
   return which.param ? "PartOfTheWall" : "WholeWall";
 });
 
-// A lamp between two facing mirrors over a black floor: the irradiance is the series sum_k rho^k of its images, each by Lambert's formula.
+// A lamp between two facing mirrors over a black floor:
+// the irradiance is the series sum_k rho^k of its images, each by Lambert's formula.
 TEST(FacingMirrors, IrradianceIsTheSeriesOfImages) {
   for (const double rho : {0.5, 0.9, 0.99}) {
     const auto l = lit(facing_mirrors(Rgb(rho)), {.element_size = 0.1});
@@ -159,7 +166,8 @@ TEST(FacingMirrors, IrradianceIsTheSeriesOfImages) {
       for (int j = 0; j < n; ++j) {
         const Point3 x{(i + 0.5) / n, 0.0, (j + 0.5) / n};
         for (int k = -400; k <= 400; ++k) {
-          // The lamp is symmetric about z = 1/2: its images lie at every k + 1/2, reached by |k| reflections.
+          // The lamp is symmetric about z = 1/2:
+          // its images lie at every k + 1/2, reached by |k| reflections.
           const std::array<Point3, 4> lamp{Point3(0.4, 0.99, k + 0.4),
                                            {0.6, 0.99, k + 0.4},
                                            {0.6, 0.99, k + 0.6},
@@ -168,13 +176,15 @@ TEST(FacingMirrors, IrradianceIsTheSeriesOfImages) {
                     point_form_factor(x, {0, 1, 0}, lamp) / (n * n);
         }
       }
-    // The floor's mean has 100 elements with at least 4 points each; images beyond the enumerated worlds are found by rays.
+    // The floor's mean has 100 elements with at least 4 points each;
+    // images beyond the enumerated worlds are found by rays.
     EXPECT_NEAR(floor, series, 2e-3 * series) << rho;
   }
 }
 
-// What the lamp emits is absorbed by walls, by mirrors, by black backs, or leaves: in closed and open rooms, behind grey and coloured
-// mirrors. The sampled rows are reciprocal up to their noise, which is what the imbalance measures.
+// What the lamp emits is absorbed by walls, by mirrors, by black backs, or leaves:
+// in closed and open rooms, behind grey and coloured mirrors.
+// The sampled rows are reciprocal up to their noise, which is what the imbalance measures.
 TEST(EnergyBalance, NothingIsLostOrCounted) {
   std::vector<Scene> scenes{half_room(), half_room_with_small_mirror(),
                             doubled(half_room_with_small_mirror()),

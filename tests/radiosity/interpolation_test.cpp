@@ -57,8 +57,8 @@ Wall wall_with(const std::vector<Point3>& corners, Function&& value) {
   return wall;
 }
 
-// An inner vertex lies at the mean of the centres of its elements, so their mean is exact for what is linear. On the border the
-// extrapolation is exact along the way inward.
+// An inner vertex lies at the mean of the centres of its elements, so their mean is exact
+// for what is linear. On the border the extrapolation is exact along the way inward.
 TEST(Interpolation, AverageIsExactForLinearLight) {
   const auto linear = [](const Point3& x) { return Rgb(3.0 + x.x + 2.0 * x.y); };
   const std::vector<Point3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
@@ -102,7 +102,8 @@ TEST(Interpolation, FieldMeetsItsVerticesAndIsContinuous) {
   for (std::uint32_t s = 0; s < l->mesh.sides.size(); ++s) {
     const MeshSide& side = l->mesh.sides[s];
     const Patch& patch = l->surfaces.patches[index(side.patch)];
-    // The field that is the position itself: bilinear between vertices of a parallelogram, so exact everywhere.
+    // The field that is the position itself:
+    // bilinear between vertices of a parallelogram, so exact everywhere.
     for (const Vec2 uv : {Vec2(0.0), Vec2(1.0, 0.0), Vec2(0.37, 0.11), Vec2(0.5, 0.5),
                           Vec2(0.2, 1.0), Vec2(1.0, 1.0)}) {
       if (side.triangle && uv.x + uv.y > 1.0)
@@ -114,7 +115,8 @@ TEST(Interpolation, FieldMeetsItsVerticesAndIsContinuous) {
   }
 }
 
-// A box stands on the floor, and covers vertices. Just outside of it the floor is as bright as the elements there are: no dark fringe.
+// A box stands on the floor, and covers vertices.
+// Just outside of it the floor is as bright as the elements there are: no dark fringe.
 TEST(Interpolation, NoDarkFringeAtAThingThatStandsOnTheFloor) {
   Scene scene;
   const Material grey = diffuse(0.5);
@@ -124,7 +126,8 @@ TEST(Interpolation, NoDarkFringeAtAThingThatStandsOnTheFloor) {
   const RadiositySolution solution = solve_pass_one(*l->light, {});
   const auto side = l->mesh.side_of_element[elements_of(*l, "y0")[0]];
   const Patch& patch = l->surfaces.patches[index(l->mesh.sides[index(side)].patch)];
-  // At 2 cm from a box 5 cm high some light is hidden, up to F = 1/2 (1 - cos(atan(5/2))) = 0.31, and the box shines back.
+  // At 2 cm from a box 5 cm high some light is hidden,
+  // up to F = 1/2 (1 - cos(atan(5/2))) = 0.31, and the box shines back.
   const auto at = [&](double x, double z) {
     return irradiance_at(l->mesh, solution.field, side, uv_at(patch, {x, 0.0, z})).g;
   };

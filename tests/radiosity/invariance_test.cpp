@@ -75,8 +75,9 @@ Change change(const std::vector<Rgb>& before, const std::vector<Rgb>& after) {
   return c;
 }
 
-// Scale, place and orientation change nothing but roundings: samples are counted from the surfaces. A rounding may move a ray that grazes
-// an edge, or lands at the border of an element, to the other side: one of 512 gather rays, which alone is less than 1 %.
+// Scale, place and orientation change nothing but roundings: samples are counted from the surfaces.
+// A rounding may move a ray that grazes an edge, or lands at the border of an element,
+// to the other side: one of 512 gather rays, which alone is less than 1 %.
 TEST(Invariance, ScalePlaceAndOrientation) {
   const Scene scene = half_room_with_small_mirror();
   const auto before = solved(scene, settings_of(0.125, 512));

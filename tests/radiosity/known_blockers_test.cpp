@@ -1,4 +1,5 @@
-// Shadows of blockers that rays have met: what is left of an image in closed form, without noise once they are known, and true before.
+// Shadows of blockers that rays have met:
+// what is left of an image in closed form, without noise once they are known, and true before.
 #include "radiosity/known_blockers.h"
 #include "radiosity/point_form_factor.h"
 #include "radiosity/shared_light.h"
@@ -63,7 +64,8 @@ double factor(const Receiver& receiver, const std::vector<Point3>& polygon) {
   return point_form_factor(receiver.position, receiver.normal, polygon);
 }
 
-// The shadow of a plate at half the lamp's height, on the lamp, is twice as large and mirrored about the point.
+// The shadow of a plate at half the lamp's height,
+// on the lamp, is twice as large and mirrored about the point.
 struct Plate {
   double x0 = 0.1, x1 = 0.4, z0 = -0.2, z1 = 0.3;
 
@@ -87,7 +89,8 @@ TEST(KnownBlockers, LeaveTheClosedFormOfWhatTheyDoNotHide) {
         emitted * (factor(receiver, lamp) - factor(receiver, plate.shadow(receiver)));
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
       const auto means = means_at(*room, receiver, 8, seed);
-      // The first one only has its rays; that the last one knows the plate takes a ray that has met it, of a hundred.
+      // The first one only has its rays;
+      // that the last one knows the plate takes a ray that has met it, of a hundred.
       EXPECT_NEAR(means.back(), exact, 1e-12 * exact) << x << " " << z;
       EXPECT_GT(std::abs(means.front() - exact), 1e-9 * exact) << "or else nothing is learned";
     }
@@ -102,7 +105,8 @@ std::vector<Point3> behind_mirror(const std::vector<Point3>& polygon) {
 }
 
 TEST(KnownBlockers, StandWhereMirrorsShowThem) {
-  // A plate in front of the mirror, on both legs of the path by way of it, and one on the way from the mirror to the lamp.
+  // A plate in front of the mirror, on both legs of the path by way of it,
+  // and one on the way from the mirror to the lamp.
   const auto lamp = facing_down(-1, 1, -1, 1, 2);
   for (const auto& [x, low, high] : {std::tuple(-3.5, 0.2, 0.9), {-1.5, 1.2, 1.7}}) {
     const std::vector<Point3> plate{{x, low, -0.3}, {x, low, 0.4}, {x, high, 0.4}, {x, high, -0.3}};
@@ -127,7 +131,8 @@ TEST(KnownBlockers, StandWhereMirrorsShowThem) {
 }
 
 TEST(KnownBlockers, MeansAreTrueWhetherTheyAreKnownOrNot) {
-  // Slats of which no ray knows all: the mean over many seeds is that of the slats' shadows, of the first that a workspace takes, which knows none, and of the second and third, which know some.
+  // Slats of which no ray knows all: the mean over many seeds is that of the slats' shadows, of the
+  // first that a workspace takes, which knows none, and of the second and third, which know some.
   std::vector<std::vector<Point3>> slats;
   const Receiver origin{{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
   double open = factor(origin, facing_down(-1, 1, -1, 1, 2));

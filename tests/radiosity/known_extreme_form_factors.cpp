@@ -1,4 +1,5 @@
-// Form factors at the extremes of size and distance, of strips without end, of polygons for discs, and of closed solids.
+// Form factors at the extremes of size and distance,
+// of strips without end, of polygons for discs, and of closed solids.
 #include "tests/radiosity/known_form_factors.h"
 
 #include <algorithm>
@@ -86,8 +87,8 @@ namespace {
 
 enum class Strips { parallel, perpendicular, wedge };
 
-/// Hottel's crossed strings. Parallel strips of width 1 at a distance, perpendicular ones of width 1 and another, or two of width 1
-/// that enclose an angle in degrees.
+/// Hottel's crossed strings. Parallel strips of width 1 at a distance,
+/// perpendicular ones of width 1 and another, or two of width 1 that enclose an angle in degrees.
 struct StripCase {
   const char* name;
   Strips strips;
@@ -169,7 +170,8 @@ std::vector<ScenePolygon> strip_polygons(const StripCase& c) {
   const bool wedge = c.strips == Strips::wedge;
   const double angle = wedge ? c.parameter * std::numbers::pi / 180.0 : 0.5 * std::numbers::pi;
   const double width = wedge ? 1.0 : c.parameter;
-  // The strips' cross-sections p q and r s in the plane y = 0, and that of the space between them; mirrors at y = 0 and y = length.
+  // The strips' cross-sections p q and r s in the plane y = 0, and that of the space between them;
+  // mirrors at y = 0 and y = length.
   const double length = std::max(1.0, wedge ? 1.0 : c.parameter);
   using Section = Vec2;
   const Section p{0, 0}, q{1, 0};

@@ -24,7 +24,8 @@ std::vector<PointCase> known_point_form_factors() {
     {"d_sq.perp_h1", {-0.5, 0.0, -1.0}, {1.0, 0.0, 0.0}, {{-0.5, 0.5, 0.0}, {0.5, 0.5, 0.0}, {0.5, -0.5, 0.0}, {-0.5, -0.5, 0.0}}, 0.0710934390469455055},
     {"d_sq.perp_h10", {-0.5, 0.0, -10.0}, {1.0, 0.0, 0.0}, {{-0.5, 0.5, 0.0}, {0.5, 0.5, 0.0}, {0.5, -0.5, 0.0}, {-0.5, -0.5, 0.0}}, 1.57318403522418931e-4},
     {"d_sq.horizon45", {0.0, 0.0, -0.25}, {0.7071067811865476, 0.0, 0.7071067811865476}, {{-0.5, 0.5, 0.0}, {0.5, 0.5, 0.0}, {0.5, -0.5, 0.0}, {-0.5, -0.5, 0.0}}, 0.609107078948144089},
-    // CIE 171:2006, case 5.6: a reflecting floor of 4 m x 4 m seen from wall and ceiling, in percent.
+    // CIE 171:2006, case 5.6:
+    // a reflecting floor of 4 m x 4 m seen from wall and ceiling, in percent.
     {"cie171.5.6s2.B", {2.0, 0.0, 0.75}, {0.0, 1.0, 0.0}, {{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {4.0, 4.0, 0.0}, {0.0, 4.0, 0.0}}, 35.9005048090226201 / 100.0},
     {"cie171.5.6s2.C", {2.0, 0.0, 1.25}, {0.0, 1.0, 0.0}, {{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {4.0, 4.0, 0.0}, {0.0, 4.0, 0.0}}, 27.9916238682411125 / 100.0},
     {"cie171.5.6s2.D", {2.0, 0.0, 1.75}, {0.0, 1.0, 0.0}, {{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {4.0, 4.0, 0.0}, {0.0, 4.0, 0.0}}, 21.6385110744672745 / 100.0},
@@ -37,8 +38,9 @@ std::vector<PointCase> known_point_form_factors() {
   };
 }
 
-// Left out: features below 1e-5 of the size of the scene, which rays in single precision cannot resolve (a slit of 1e-3 between plates of
-// 1000, strips of 1e-6 by 1), and factors below 1e-3, which would take more rays than a test has time for.
+// Left out: features below 1e-5 of the size of the scene, which rays in single precision
+// cannot resolve (a slit of 1e-3 between plates of 1000, strips of 1e-6 by 1),
+// and factors below 1e-3, which would take more rays than a test has time for.
 std::vector<PairCase> known_pair_form_factors() {
   return {
     {"par_sq.gap_1e-6", "Howell C-11, X=Y=1/gap",

@@ -8,7 +8,8 @@
 
 namespace meninas::test {
 
-/// Point to polygon: Lambert 1760, (1/2pi) sum Theta_k (n . Gamma_k), after clipping to the horizon.
+/// Point to polygon: Lambert 1760, (1/2pi) sum Theta_k (n .
+/// Gamma_k), after clipping to the horizon.
 struct PointCase {
   const char* name;
   Point3 point;

@@ -36,8 +36,9 @@ struct CubeCase {
   std::vector<std::pair<const char*, double>> radiosity;
 };
 
-// Every row is a net of 65536 points, for which a form factor near 0.2 has a random error below 1.6e-3; a net of that many
-// low-discrepancy points does ten times better, and light that goes round many times is wrong by its share only: 1e-3 of the value.
+// Every row is a net of 65536 points, for which a form factor near 0.2 has a random
+// error below 1.6e-3; a net of that many low-discrepancy points does ten times better,
+// and light that goes round many times is wrong by its share only: 1e-3 of the value.
 void expect_radiosities(const CubeCase& c) {
   const PassOneSettings settings = one_patch_settings();
   const auto l = lit(lit_cube(c.reflectance, c.mirror_reflectance), settings.mesh);
@@ -48,7 +49,8 @@ void expect_radiosities(const CubeCase& c) {
         << node << ' ' << c.reflectance << ' ' << c.mirror_reflectance;
 }
 
-// Six one-patch faces, F between opposite faces 0.199824895698387383 (C-11), between neighbours 0.200043776075403154 (C-14);
+// Six one-patch faces, F between opposite faces 0.199824895698387383 (C-11),
+// between neighbours 0.200043776075403154 (C-14);
 // the 3 x 3 system of floor, walls and ceiling solved in higher precision.
 TEST(KnownRadiosities, CubeOfSixPatches) {
   expect_radiosities({0.2,
@@ -74,7 +76,8 @@ TEST(KnownRadiosities, CubeOfSixPatches) {
        {{"y0", 17.3622704725972643}, {"x0", 16.5275760999202657}, {"y1", 16.527425127721673}}});
 }
 
-// The wall x = 1 a mirror: form factors of the doubled box 2 x 1 x 1. A black mirror is an opening in effect.
+// The wall x = 1 a mirror: form factors of the doubled box 2 x 1 x 1.
+// A black mirror is an opening in effect.
 TEST(KnownRadiosities, CubeWithAMirror) {
   expect_radiosities({0.5,
                       1.0,
@@ -126,7 +129,8 @@ TEST(KnownRadiosities, TwoOpenSquares) {
   }
 }
 
-// Area means at the limit of fine meshes, known to 2e-5. Elements of 1/16 are within 1e-3 of that limit, as is their noise.
+// Area means at the limit of fine meshes, known to 2e-5.
+// Elements of 1/16 are within 1e-3 of that limit, as is their noise.
 TEST(KnownRadiosities, CubesOfManyElements) {
   const auto expect = [](const CubeCase& c) {
     PassOneSettings settings;
@@ -143,8 +147,9 @@ TEST(KnownRadiosities, CubesOfManyElements) {
   expect({0.5, 1.0, {{"y0", 1.120367}, {"y1", 0.230121}, {"z0", 0.218565}, {"x0", 0.212379}}});
 }
 
-// CIE 171:2006, case 5.8: in a closed room of uniform reflectance the area mean of the indirect irradiance is rho Phi / ((1 - rho) S), however
-// the light is spread. With Phi the power of a lamp that stands against no wall: here Phi = E A of a floor of the cube.
+// CIE 171:2006, case 5.8: in a closed room of uniform reflectance the area mean
+// of the indirect irradiance is rho Phi / ((1 - rho) S), however the light is spread.
+// With Phi the power of a lamp that stands against no wall: here Phi = E A of a floor of the cube.
 TEST(KnownRadiosities, MeanIndirectLightOfAClosedRoom) {
   for (const double rho : {0.2, 0.5, 0.9}) {
     PassOneSettings settings;

@@ -8,7 +8,8 @@
 namespace meninas {
 namespace {
 
-/// The landing table of one quad in a tilted plane: its corners in the order given, in metres along two directions.
+/// The landing table of one quad in a tilted plane:
+/// its corners in the order given, in metres along two directions.
 struct QuadWorld {
   Scene scene;
   SurfaceModel surfaces;
@@ -45,7 +46,8 @@ double largest_error(const QuadWorld& world) {
   return error;
 }
 
-// The product of the conditions that widening_of asks for, 1 / 0.1 and 4, times a few roundings of floats
+// The product of the conditions that widening_of asks for,
+// 1 / 0.1 and 4, times a few roundings of floats
 constexpr double float_error = 10.0 * 4.0 * 6e-8 * 4.0;
 
 TEST(Landing, ParallelogramsAreAffine) {

@@ -1,5 +1,6 @@
-// The sum over terms equals the rays-only answer: direct light from the source and its images (D), gathered emission (G) and the
-// transport (T) against a solution in which no closed form owns anything, so that rays alone find every path.
+// The sum over terms equals the rays-only answer:
+// direct light from the source and its images (D), gathered emission (G) and the transport (T)
+// against a solution in which no closed form owns anything, so that rays alone find every path.
 #include "scenes/gltf.h"
 #include "scenes/sampling.h"
 #include "tests/radiosity/lit_scene.h"
@@ -24,8 +25,8 @@ LightScene by_rays_alone(const LightScene& light) {
   return rays;
 }
 
-/// What is compared, and how finely it is sampled. Where few rays meet the lamp, so that an element's error is not known, the means
-/// over nodes are.
+/// What is compared, and how finely it is sampled.
+/// Where few rays meet the lamp, so that an element's error is not known, the means over nodes are.
 struct Comparison {
   std::string scene;
   bool by_node = false;
@@ -85,7 +86,8 @@ struct Agreement {
   double square = 0.0; ///< mean square: about 1
 };
 
-/// With 32 solutions the standard error of their mean is known to an eighth: of a thousand values one is beyond 3.6 of them.
+/// With 32 solutions the standard error of their mean is known to an eighth:
+/// of a thousand values one is beyond 3.6 of them.
 Agreement agreement(const LightScene& light, const Comparison& how) {
   const Replicas source = solve_again_and_again(light, how, 1),
                  rays = solve_again_and_again(by_rays_alone(light), how, 2);

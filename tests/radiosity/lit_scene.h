@@ -19,7 +19,8 @@ struct LitScene {
 };
 std::unique_ptr<LitScene> lit(Scene scene, const MeshSettings& mesh, const PlanSettings& plan = {});
 
-/// Area mean over the elements of node `from` of the sums of their rows over the elements of node `to`.
+/// Area mean over the elements of node `from` of the sums
+/// of their rows over the elements of node `to`.
 double form_factor(const LitScene& lit, const Transport& transport, const std::string& from,
                    const std::string& to);
 

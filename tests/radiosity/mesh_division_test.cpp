@@ -106,7 +106,8 @@ TEST(MeshDivision, CellsFollowTheirParentsAndSumThem) {
   }
 }
 
-// From element and (s, t) to (u, v) of the patch and back, and the same in the single precision of the inner loops.
+// From element and (s, t) to (u, v) of the patch and back,
+// and the same in the single precision of the inner loops.
 TEST(MeshDivision, LocateFindsEveryElement) {
   for (const Scene& scene : scenes()) {
     const Meshed m = meshed(scene, {.target_elements = 100});
@@ -184,7 +185,8 @@ TEST(MeshDivision, TheFieldIsContinuousAcrossPatches) {
   }
 }
 
-// Two elements that share a part of an edge are of like size: a vertex lies on an edge at its middle or not at all.
+// Two elements that share a part of an edge are of like size:
+// a vertex lies on an edge at its middle or not at all.
 TEST(MeshDivision, NeighboursDifferByOneLevel) {
   const Meshed m = meshed(patched_wall(), {.element_size = 0.5});
   ElementMesh mesh = m.mesh;

@@ -1,4 +1,5 @@
-// Light in the middle of edges between nodes: parabolas are followed, and what bends edges divides nodes.
+// Light in the middle of edges between nodes:
+// parabolas are followed, and what bends edges divides nodes.
 #include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/hierarchical/node_edges.h"
 #include "tests/radiosity/lit_scene.h"
@@ -18,7 +19,8 @@ std::unique_ptr<LitScene> lit_floor(double element_size) {
   return lit(scene, {.element_size = element_size});
 }
 
-/// The parts of nodes, as often; of the first of those nodes its parts once more, if that is asked for.
+/// The parts of nodes, as often;
+/// of the first of those nodes its parts once more, if that is asked for.
 std::vector<TreeNodeId> cut_below(const NodeTree& tree, int levels, bool uneven) {
   std::vector<TreeNodeId> nodes{static_cast<TreeNodeId>(0)};
   const auto parts = [&](std::span<const TreeNodeId> of) {
@@ -60,8 +62,9 @@ std::vector<glm::vec3> parabolas(const ElementMesh& mesh) {
   return light;
 }
 
-// Both unknowns of a parabola are determined, however nodes are halved: vertices between corners have its value, to the floats it is kept in, as those without a node of the same size
-// beside take the bend of the edge opposite. On the line between their ends they are 0.01 to 0.1 off.
+// Both unknowns of a parabola are determined, however nodes are halved: vertices between corners
+// have its value, to the floats it is kept in, as those without a node of the same size beside
+// take the bend of the edge opposite. On the line between their ends they are 0.01 to 0.1 off.
 TEST(NodeEdges, FollowParabolas) {
   const auto l = lit_floor(0.14);
   const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
@@ -91,7 +94,8 @@ TEST(NodeEdges, FollowParabolas) {
   }
 }
 
-// Where the middle of a node or one of its corners has no light of its own, its edges stay straight; others do not change.
+// Where the middle of a node or one of its corners has no light of its own,
+// its edges stay straight; others do not change.
 TEST(NodeEdges, StayStraightWhereLightIsNotKnown) {
   const auto l = lit_floor(0.14);
   const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
@@ -112,8 +116,9 @@ TEST(NodeEdges, StayStraightWhereLightIsNotKnown) {
   EXPECT_LE(straight, 4U);
 }
 
-// Light that is hollow along nodes and full across them, c (x^2 - z^2), is in their middle the mean of the corners: nodes of half a metre would not be divided. In the middle of
-// edges it is c / 16 off, and that, by the same measure as of middles, divides them.
+// Light that is hollow along nodes and full across them, c (x^2 - z^2),
+// is in their middle the mean of the corners: nodes of half a metre would not be divided. In
+// the middle of edges it is c / 16 off, and that, by the same measure as of middles, divides them.
 TEST(NodeEdges, SaddlesDivideNodes) {
   constexpr double c = 4.0, rho = 0.5;
   Scene scene;

@@ -1,4 +1,5 @@
-// The field of the hierarchical solver: what vertices take from the corners of nodes, and that it is what gathering everywhere finds.
+// The field of the hierarchical solver:
+// what vertices take from the corners of nodes, and that it is what gathering everywhere finds.
 #include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/hierarchical/node_cut.h"
 #include "radiosity/hierarchical/node_light.h"
@@ -35,7 +36,8 @@ std::vector<Scene> rooms_and_figures() {
   return {half_room(), load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/meninas.gltf")};
 }
 
-// Where a vertex is is linear over its patch: interpolated, positions are what they are, to the floats that weights are kept in. Weights are those of means.
+// Where a vertex is is linear over its patch: interpolated, positions are what they are,
+// to the floats that weights are kept in. Weights are those of means.
 TEST(NodeField, SharesOfPositionsArePositions) {
   for (const Scene& scene : rooms_and_figures()) {
     const auto l = lit(scene, {.element_size = 0.15});
@@ -78,8 +80,8 @@ TEST(NodeField, SharesEndAtVerticesThatGather) {
   }
 }
 
-// Of a square metre divided into four, one of which is divided again: at (1, 1) / 2 meet parts of 1/4 and of 1/16, and it stands for the larger. What only parts of 1/16 have
-// stands for as much.
+// Of a square metre divided into four, one of which is divided again: at (1, 1) / 2 meet parts of
+// 1/4 and of 1/16, and it stands for the larger. What only parts of 1/16 have stands for as much.
 TEST(NodeField, VerticesStandForTheLargestNodeThatWantsThem) {
   Scene scene;
   add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(0.5));
@@ -114,7 +116,8 @@ TEST(NodeField, VerticesStandForTheLargestNodeThatWantsThem) {
   EXPECT_DOUBLE_EQ(at(1, 2), 0.0);
 }
 
-// A parabola of height h over a node is h off its corners' mean in the middle, a slope is not off at all: the node gives way above X = rho h / (rho H + B_mean).
+// A parabola of height h over a node is h off its corners' mean in the middle,
+// a slope is not off at all: the node gives way above X = rho h / (rho H + B_mean).
 TEST(NodeField, NodesGiveWayToBendsOnly) {
   constexpr double height = 0.2, level = 1.0, rho = 0.5;
   Scene scene;
@@ -139,7 +142,8 @@ TEST(NodeField, NodesGiveWayToBendsOnly) {
   EXPECT_EQ(parts(0.0, 5.0, 1e-4), 0U);
 }
 
-// Something stands on a part of a node where some of its vertices have no light of their own: that part is found. Where none has, there is nothing to find.
+// Something stands on a part of a node where some of its vertices have no light of their own:
+// that part is found. Where none has, there is nothing to find.
 TEST(NodeField, NodesGiveWayToWhatStandsOnAPartOfThem) {
   Scene scene;
   add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(0.5));
@@ -185,7 +189,8 @@ Scene plain_room() {
   return scene;
 }
 
-/// Over vertices that are asked for: root mean square of what two fields differ by, and the mean difference, relative to the mean.
+/// Over vertices that are asked for:
+/// root mean square of what two fields differ by, and the mean difference, relative to the mean.
 struct Difference {
   double rms = 0.0, mean = 0.0;
 };
@@ -206,9 +211,12 @@ Difference difference(const LitScene& l, const RadiositySolution& a, const Radio
 }
 const auto everywhere = [](const Point3&) { return true; };
 
-// Two routes to one field: gathered at all vertices from all elements, and by nodes. In the middle of a node X allows a bend of X (B + B_mean), which is 2 X H on average; the whole of
-// it is less than half as far off, the samples of either as much as those of another seed. Parabolas over edges (node_edges.h) leave a quarter of what the mean of light that is hollow
-// everywhere would be off: it is too dark by up to 0.27 of the bound along straight ones, by 0.1 with them.
+// Two routes to one field: gathered at all vertices from all elements, and by nodes.
+// In the middle of a node X allows a bend of X (B + B_mean), which is 2 X H on average;
+// the whole of it is less than half as far off,
+// the samples of either as much as those of another seed. Parabolas over edges (node_edges.h)
+// leave a quarter of what the mean of light that is hollow everywhere would be off:
+// it is too dark by up to 0.27 of the bound along straight ones, by 0.1 with them.
 TEST(NodeField, IsWhatGatheringEverywhereFinds) {
   constexpr double x = 0.01;
   for (const Scene& scene : {plain_room(), half_room_with_small_mirror()}) {
@@ -231,8 +239,10 @@ TEST(NodeField, IsWhatGatheringEverywhereFinds) {
   }
 }
 
-// Beside the edges of a room receivers light one another from as near as they are large. What they send is seen as it varies over them: the light there is that of
-// gathering from elements to the noise of its mean: 2 % at each of some hundred vertices, 0.4 % being four standard deviations. (Sent evenly it is 2 % too bright.)
+// Beside the edges of a room receivers light one another from as near as they are large.
+// What they send is seen as it varies over them:
+// the light there is that of gathering from elements to the noise of its mean: 2 % at each of some
+// hundred vertices, 0.4 % being four standard deviations. (Sent evenly it is 2 % too bright.)
 TEST(NodeField, EdgesOfARoomAreAsDarkAsTheyAre) {
   PassOneSettings settings = by_nodes(0.0, 0.01, 512);
   settings.mesh.target_elements = 6000;
@@ -252,8 +262,10 @@ TEST(NodeField, EdgesOfARoomAreAsDarkAsTheyAre) {
   EXPECT_LT(std::abs(difference(*l, nodes, rows, beside_edges).mean), 0.004);
 }
 
-// A peg stands on one vertex within a node of sixteen elements, where no corner of it and no row meets it. Below it is no light, and what its neighbours have besides that of the source is not
-// all that there is: the light beside it shows, as by rows. Over six seeds one spreads by 0.17 and the other by 0.24 %: 1.2 % are 4 sigma.
+// A peg stands on one vertex within a node of sixteen elements,
+// where no corner of it and no row meets it. Below it is no light, and what its neighbours have
+// besides that of the source is not all that there is: the light beside it shows, as by rows.
+// Over six seeds one spreads by 0.17 and the other by 0.24 %: 1.2 % are 4 sigma.
 TEST(NodeField, WhatStandsWithinANodeDarkensNothingBesideIt) {
   constexpr double size = 1.0 / 64.0, x = 41.0 * size, half = 0.1 * size;
   Scene scene = plain_room();
@@ -273,7 +285,8 @@ TEST(NodeField, WhatStandsWithinANodeDarkensNothingBesideIt) {
   EXPECT_EQ(below, 1);
 }
 
-/// Of what the indirect light of a and b differs by at vertices, relative to its mean, what all but a fiftieth stay below.
+/// Of what the indirect light of a and b differs by at vertices,
+/// relative to its mean, what all but a fiftieth stay below.
 double nearly_all_within(const RadiositySolution& a, const RadiositySolution& b) {
   std::vector<double> apart;
   double mean = 0.0;
@@ -286,8 +299,11 @@ double nearly_all_within(const RadiositySolution& a, const RadiositySolution& b)
   return *place / mean;
 }
 
-// The sun shines on some tens of elements, from which all light comes: a few points, or their corners, would not tell how much. Nearly all vertices differ from gathering from elements by
-// hardly more than those of another seed do: half as much again, for X and what is at the feet of things the sun shines on. (By the light of corners it is 2.4 times as much.)
+// The sun shines on some tens of elements, from which all light comes:
+// a few points, or their corners, would not tell how much. Nearly all vertices
+// differ from gathering from elements by hardly more than those of another seed do:
+// half as much again, for X and what is at the feet of things the sun shines on.
+// (By the light of corners it is 2.4 times as much.)
 TEST(NodeField, SpotsOfTheSunSendWhatTheyReceive) {
   PassOneSettings settings = by_nodes(0.0, 0.01, 256);
   settings.mesh.target_elements = 9000;
@@ -299,7 +315,8 @@ TEST(NodeField, SpotsOfTheSunSendWhatTheyReceive) {
   EXPECT_LT(nearly_all_within(nodes, rows), 1.5 * nearly_all_within(other, rows));
 }
 
-// Where light bends within elements these are divided by nodes as by rows, and what elements send and receive stays as it was.
+// Where light bends within elements these are divided by nodes as by rows,
+// and what elements send and receive stays as it was.
 TEST(NodeField, ElementsAreDividedWhereLightBends) {
   PassOneSettings settings = by_nodes(1.0 / 8.0, 0.01, 256);
   const auto l = lit(half_room_with_small_mirror(), settings.mesh);
@@ -312,7 +329,8 @@ TEST(NodeField, ElementsAreDividedWhereLightBends) {
   ASSERT_NE(rows.refined, nullptr);
   const double divided = double(element_count(nodes.refined->mesh) - element_count(l->mesh)),
                as_rows = double(element_count(rows.refined->mesh) - element_count(l->mesh));
-  // Bends are found in the noise of 256 rays, which is another: by as much as a quarter of those that are near the bound.
+  // Bends are found in the noise of 256 rays, which is another:
+  // by as much as a quarter of those that are near the bound.
   EXPECT_NEAR(divided, as_rows, 0.25 * as_rows);
   EXPECT_EQ(nodes.radiosity, whole.radiosity);
   EXPECT_EQ(nodes.irradiance, whole.irradiance);
@@ -336,8 +354,9 @@ TEST(NodeField, ElementsReceiveWhatTheirVerticesDo) {
   EXPECT_LT(std::abs(nodes.energy.imbalance), 0.01);
 }
 
-// Four times the elements: those of vertices grow as there are more of these, those of elements, which share them, do not, and rays of the rest hardly. Where vertices
-// take more rays, in penumbrae, there are as many more of them, to the rows of an element along the edges of these.
+// Four times the elements: those of vertices grow as there are more of these, those of elements,
+// which share them, do not, and rays of the rest hardly. Where vertices take more rays,
+// in penumbrae, there are as many more of them, to the rows of an element along the edges of these.
 TEST(NodeField, FinerElementsTakeLittleMore) {
   std::vector<double> rays, shadow_rays, vertices;
   double of_elements = 0.0;

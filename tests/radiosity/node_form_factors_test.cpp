@@ -72,8 +72,8 @@ const std::vector<Family> families{
 
 class KnownFactors : public testing::TestWithParam<Family> {};
 
-// Without mirrors 1e-6 of the value, with them 1e-4; the error estimate covers the error, and the method says that it got there. 1e-14 is
-// the rounding of contour terms of size one.
+// Without mirrors 1e-6 of the value, with them 1e-4; the error estimate covers the error,
+// and the method says that it got there. 1e-14 is the rounding of contour terms of size one.
 TEST_P(KnownFactors, Analytic) {
   for (const Question& q : GetParam().questions()) {
     const double accuracy = q.mirrors ? 1e-4 : 1e-6;
@@ -85,7 +85,8 @@ TEST_P(KnownFactors, Analytic) {
   }
 }
 
-// All light that enters a duct of perfect mirrors leaves it, which takes thousands of images; and they are visited up to a tail of 1e-3.
+// All light that enters a duct of perfect mirrors leaves it, which takes thousands of images;
+// and they are visited up to a tail of 1e-3.
 TEST(KnownFactorsInDucts, APerfectDuctPassesEverything) {
   std::vector<ScenePolygon> duct = known_scene("duct_L10");
   for (ScenePolygon& polygon : duct)
@@ -98,12 +99,14 @@ TEST(KnownFactorsInDucts, APerfectDuctPassesEverything) {
   EXPECT_GT(asked.factor.worlds.size(), 1000U);
 }
 
-/// A millionth of the scene, the width of a slit or a strip, is below what rays in single precision resolve.
+/// A millionth of the scene, the width of a slit or a strip,
+/// is below what rays in single precision resolve.
 bool too_small_for_rays(const Question& q) {
   return q.name.starts_with("par_rect.1000x1_gap_1e-3") || q.name.starts_with("perp.w1e-6_h1e-6");
 }
 
-// Four standard errors; what the method itself estimates is no more than what independent rays would have.
+// Four standard errors;
+// what the method itself estimates is no more than what independent rays would have.
 TEST_P(KnownFactors, Rays) {
   constexpr int rays = 1 << 16;
   for (const Question& q : GetParam().questions()) {
@@ -118,9 +121,10 @@ TEST_P(KnownFactors, Rays) {
   }
 }
 
-// The estimate is no bound, for it knows no more than what two resolutions and two numbers of pieces give: features finer than the pieces,
-// such as the rims of narrow gaps, are not seen. It covers nine in ten, and is of use: with cubes as
-// coarse as these it is below a fifth of the factor for half of all.
+// The estimate is no bound, for it knows no more than what two resolutions and two numbers
+// of pieces give: features finer than the pieces, such as the rims of narrow gaps, are not seen.
+// It covers nine in ten, and is of use:
+// with cubes as coarse as these it is below a fifth of the factor for half of all.
 TEST(KnownFactorsByHemicubes, MostErrorsAreWithinTheirEstimates) {
   int asked_count = 0, covered = 0, useful = 0;
   for (const Family& family : families)
@@ -142,8 +146,8 @@ TEST(KnownFactorsByHemicubes, MostErrorsAreWithinTheirEstimates) {
   EXPECT_GE(useful, 0.5 * asked_count);
 }
 
-// A sheet that stands in a closed room and mirrors on both sides takes nothing and lets nothing through: every wall sees all of the walls,
-// and one that it faces sees itself in it.
+// A sheet that stands in a closed room and mirrors on both sides takes nothing and lets
+// nothing through: every wall sees all of the walls, and one that it faces sees itself in it.
 TEST(FactorsBesideASheetOfMirror, AddUpToOne) {
   Scene scene;
   const Material wall = diffuse(0.5);

@@ -1,4 +1,5 @@
-// Light from the source on nodes: points shared out among them bring what their elements light, all together, the light that they receive.
+// Light from the source on nodes: points shared out among them bring what their elements light,
+// all together, the light that they receive.
 #include "radiosity/hierarchical/node_light.h"
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
@@ -72,8 +73,9 @@ DirectIrradiance by_nodes(const LitScene& l, std::uint32_t seed = 0) {
                         {.seed = seed}, {});
 }
 
-// F = 0.199824895698387383 (C-11). Of 64 x 64 nodes on the ceiling each has a point, whatever the elements are: the light differs by 0.2 a metre, by 1.3e-3 within a node, their
-// mean by a 64th of that, 2e-5.
+// F = 0.199824895698387383 (C-11).
+// Of 64 x 64 nodes on the ceiling each has a point, whatever the elements are:
+// the light differs by 0.2 a metre, by 1.3e-3 within a node, their mean by a 64th of that, 2e-5.
 TEST(NodeLight, OnePointInEachOfManyNodesIsEnough) {
   for (const double elements : {64.0, 128.0, 256.0}) {
     const auto l = lit(plates(), {.element_size = 1.0 / elements});
@@ -82,7 +84,8 @@ TEST(NodeLight, OnePointInEachOfManyNodesIsEnough) {
   }
 }
 
-// In the penumbra, half of the ceiling, single points are off by a third of what is there, the mean over 2,000 of them by 0.2 x 0.33 / 64 = 1e-3.
+// In the penumbra, half of the ceiling, single points are off by a third of what is there,
+// the mean over 2,000 of them by 0.2 x 0.33 / 64 = 1e-3.
 TEST(NodeLight, PenumbraeAreNeitherDarkerNorBrighter) {
   const auto coarse = lit(plates_with_one_between(), {.element_size = 1.0 / 32.0});
   const double many =
@@ -98,8 +101,10 @@ TEST(NodeLight, PenumbraeAreNeitherDarkerNorBrighter) {
   }
 }
 
-// The sun through a window of 0.33 x 0.33 m2 onto a floor of 8 x 8 m2 in elements of 1/16 m: 5.3 x 5.3 of 16,384, which have all of the light, E = 1. At an edge an element is found lit to
-// a 64th, and the error of 22 of them is 22^1/2 / 8 / 28: 2 % of the light at the most. With a point for each it is off by 8 %, by which edges are lit by chance.
+// The sun through a window of 0.33 x 0.33 m2 onto a floor of 8 x 8 m2 in elements of 1/16 m:
+// 5.3 x 5.3 of 16,384, which have all of the light, E = 1. At an edge an element is found lit
+// to a 64th, and the error of 22 of them is 22^1/2 / 8 / 28: 2 % of the light at the most.
+// With a point for each it is off by 8 %, by which edges are lit by chance.
 TEST(NodeLight, SpotsHaveTheLightThatTheyReceive) {
   constexpr double side = 0.33, low = 3.0 + 1.0 / 37.0, high = low + side;
   Scene scene;
@@ -135,7 +140,8 @@ TEST(NodeLight, FinerElementsTakeNoMoreShadowRays) {
   EXPECT_LT(most, 2.0 * fewest);
 }
 
-// What stands on a floor has its own elements there: what is open of them is as bright as it is by itself, and what is covered is dark.
+// What stands on a floor has its own elements there:
+// what is open of them is as bright as it is by itself, and what is covered is dark.
 TEST(NodeLight, ElementsThatAreCoveredInPartAreByThemselves) {
   const auto l = lit(plates(), {.element_size = 1.0 / 128.0});
   const NodeTree tree = make_node_tree(l->mesh, l->surfaces);

@@ -49,7 +49,8 @@ TEST(PunctualLight, ItsImageInAMirrorIsOneMoreLight) {
   int through = 0, beside = 0;
   for (double x = 0.2; x < 4.0; x += 0.05) {
     const Point3 at{x, 0.0, -0.2};
-    // The line from the image crosses x = 0 at the height 2.5 x / (1 + x): the window is from 1 to 2.
+    // The line from the image crosses x = 0 at the height 2.5 x / (1 + x):
+    // the window is from 1 to 2.
     const double height = 2.5 * x / (1.0 + x);
     if (std::abs(height - 1.0) < 1e-6 || std::abs(height - 2.0) < 1e-6)
       continue; // on the window's edge rounding decides
@@ -72,7 +73,8 @@ TEST(PunctualLight, EveryLegCanBeBlocked) {
   scene.lights = {point_light(lamp, 1.0)};
   const double straight = closed_form(1.0, lamp, at);
   const double both = straight + rho * closed_form(1.0, {-1.0, 2.5, 0.3}, at);
-  // The path by the mirror turns at height 1.5; blades across its legs, low before and high behind the mirror.
+  // The path by the mirror turns at height 1.5;
+  // blades across its legs, low before and high behind the mirror.
   constexpr double x = 0.5; // both legs fall at 45 degrees
   for (const double height : {1.0, 2.0}) {
     Scene blocked = scene;
@@ -107,7 +109,8 @@ TEST(PunctualLight, ASpotFallsFromItsInnerToItsOuterCone) {
 }
 
 TEST(PunctualLight, DirectionalLightComesOffAMirrorAsADirection) {
-  // Light that falls towards -x at 45 degrees meets the mirror and comes back towards +x: a band of the floor has both.
+  // Light that falls towards -x at 45 degrees meets the mirror and comes back towards +x:
+  // a band of the floor has both.
   Scene scene = floor_and_mirror();
   PunctualLight sun;
   sun.kind = PunctualKind::directional;
@@ -178,7 +181,8 @@ TEST(Background, HalfOfItMayComeByWayOfAMirror) {
 }
 
 TEST(GlowingMirrors, SendNothingByWayOfThemselves) {
-  // A sheet that glows and mirrors on both sides, upright over the floor: of its light a point gets that of the side that it sees.
+  // A sheet that glows and mirrors on both sides, upright over the floor:
+  // of its light a point gets that of the side that it sees.
   Scene scene;
   add_polygon(scene, "floor", {{0.1, 0, 3}, {4, 0, 3}, {4, 0, -3}, {0.1, 0, -3}}, diffuse(0.5));
   Material sheet = double_sided(mirror(rho));

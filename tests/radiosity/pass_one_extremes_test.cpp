@@ -1,5 +1,5 @@
-// Scenes at the extremes through the whole of pass one, with every solver: finite, and as elimination in long double solves for the same
-// form factors and sources.
+// Scenes at the extremes through the whole of pass one, with every solver:
+// finite, and as elimination in long double solves for the same form factors and sources.
 #include "tests/radiosity/lit_system.h"
 #include "tests/support/rooms.h"
 
@@ -39,7 +39,8 @@ protected:
     for (std::size_t e = 0; e < reflected.size(); ++e)
       reflected[e] -= l->mesh.sides[index(l->mesh.side_of_element[e])].emission;
     const auto exact = exact_solution(system_of(*l, settings.form_factors, settings.direct));
-    // Taking off emissions that are brighter by far costs digits of doubles, which the tolerance does not notice.
+    // Taking off emissions that are brighter by far costs digits of doubles,
+    // which the tolerance does not notice.
     EXPECT_LT(true_error(exact, reflected), tolerance);
     EXPECT_TRUE(std::ranges::all_of(solution.field.irradiance, finite));
     EXPECT_TRUE(std::isfinite(solution.energy.imbalance));
@@ -66,7 +67,8 @@ Scene lit_room(double reflectance, double emission) {
   return scene;
 }
 
-// A metre long and a micrometre wide: one stands in the room, another is the seam between two halves of a table.
+// A metre long and a micrometre wide:
+// one stands in the room, another is the seam between two halves of a table.
 TEST_P(Extremes, SliversOfAMillion) {
   Scene scene = lit_room(0.8, 1.0);
   const Material grey = double_sided(diffuse(0.5));
@@ -109,8 +111,9 @@ TEST_P(Extremes, EmissionsFromAMillionthOfAMillionthToAMillionMillions) {
   expect_the_exact_light(scene, 0.3);
 }
 
-// Thousands of elements on every wall and one on each face of a die: too many to eliminate in long double. The residual, found in long
-// double, times the bound 1 / (1 - rho) of what rows with rho < 1 make of it.
+// Thousands of elements on every wall and one on each face of a die:
+// too many to eliminate in long double. The residual, found in long double,
+// times the bound 1 / (1 - rho) of what rows with rho < 1 make of it.
 TEST(ManyElements, ThousandsOnOnePatchAndOneOnAnother) {
   constexpr double rho = 0.6;
   Scene scene = lit_room(rho, 1.0);

@@ -16,7 +16,8 @@ double clipped_form_factor(const Point3& x, const Direction& n, std::span<const 
   return point_form_factor(x, n, clip(ConvexPolygon(polygon), x, n).span());
 }
 
-// The header promises 1e-12; below 1e-3 m in front of the centre of a square the terms cancel to 1e-15 of 1, no more.
+// The header promises 1e-12;
+// below 1e-3 m in front of the centre of a square the terms cancel to 1e-15 of 1, no more.
 TEST(PointFormFactor, KnownValues) {
   for (const auto& c : known_point_form_factors())
     EXPECT_NEAR(clipped_form_factor(c.point, glm::normalize(c.normal), c.polygon), c.form_factor,
@@ -40,7 +41,8 @@ TEST(PointFormFactor, ParallelRectangleAboveItsCorner) {
   }
 }
 
-// A point on the wall x = 0 at the end of a floor a x b that starts at height h below it: with X = a/b, Y = h/b,
+// A point on the wall x = 0 at the end of a floor a x b that starts at height h below it:
+// with X = a/b, Y = h/b,
 //   F = 1/(2 pi) (atan(1/Y) - Y/sqrt(X^2+Y^2) atan(1/sqrt(X^2+Y^2))).
 TEST(PointFormFactor, PerpendicularRectangle) {
   Random random(2);

@@ -1,4 +1,5 @@
-// Coats that are mirrors to the light of surfaces: R(cos) of it over what is scattered below, in every transport of pass one.
+// Coats that are mirrors to the light of surfaces:
+// R(cos) of it over what is scattered below, in every transport of pass one.
 #include "radiosity/hemisphere_survey.h"
 #include "tests/radiosity/solved.h"
 #include "tests/support/coats.h"
@@ -114,7 +115,8 @@ TEST(PolishedFloor, IsAMirrorWhereTheCoatReflectsEverything) {
 }
 
 TEST(PolishedFloor, IsWhiteUnderAWhiteSky) {
-  // What the coat reflects and what comes from below it add up to the sky, from wherever it is seen, and the floor below a plate as well.
+  // What the coat reflects and what comes from below it add up to the sky,
+  // from wherever it is seen, and the floor below a plate as well.
   Scene scene;
   add_polygon(scene, "floor", {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}}, polished(Rgb(1.0)));
   for (int k = 0; k < 3; ++k) // upright, and seen by none of the floor's rays but a few
@@ -127,7 +129,8 @@ TEST(PolishedFloor, IsWhiteUnderAWhiteSky) {
   settings.form_factors.rays = 4096;
   const auto l = lit(scene, settings.mesh);
   const RadiositySolution solution = solve_pass_one(*l->light, settings);
-  // Half of the sky, and the floor. Which of 4096 rays are reflected is left to chance, for a part R of them.
+  // Half of the sky, and the floor.
+  // Which of 4096 rays are reflected is left to chance, for a part R of them.
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(mean_over(*l, solution.irradiance, "post" + std::to_string(k)).g / std::numbers::pi,
                 1.0, 0.005);
@@ -175,7 +178,8 @@ TEST(PolishedFloor, IsLeftToRaysBeyondTheWorlds) {
   settings.solver.method = SolverMethod::progressive;
   expect_alike(by_images, solved(polished_room(), settings, true), sampling);
 
-  // What the survey for shots finds of emission by way of coats is worth all of the rays that are asked for.
+  // What the survey for shots finds of emission by way
+  // of coats is worth all of the rays that are asked for.
   const auto l = lit(polished_room(), settings.mesh, settings.plan);
   const HemisphereSurvey survey = survey_hemispheres(*l->light, settings.form_factors, {});
   EXPECT_GE(survey.rays_traced, 2048 * element_count(l->mesh));
@@ -200,7 +204,8 @@ TEST(PolishedFloor, BringsLittleLightByManyRaysBeyondTheWorlds) {
       on_floor += !is_beyond && std::ranges::count(floor, landing.element) > 0 ? 1.0 : 0.0;
     }
   }
-  // All that meet the floor go on, and end on a wall but for a few on the lamp's black back; R is least straight up.
+  // All that meet the floor go on, and end on a wall but for a few on the lamp's black back;
+  // R is least straight up.
   EXPECT_GT(beyond, 0.9 * on_floor);
   EXPECT_GT(light, 0.04 * beyond);
   EXPECT_LT(light, 0.15 * beyond);

@@ -1,4 +1,5 @@
-// Progressive radiosity by shots: against closed forms, against solutions by rows, and by what holds after any shot.
+// Progressive radiosity by shots:
+// against closed forms, against solutions by rows, and by what holds after any shot.
 #include "radiosity/element_light.h"
 #include "radiosity/progressive.h"
 #include "radiosity/ray_shots.h"
@@ -39,8 +40,9 @@ double power_of(const LitScene& l, const std::vector<Rgb>& values) {
   return power_of(l, values, std::vector<float>(values.size(), 1.0F));
 }
 
-// All walls glow with E = 1: B = 1 / (1 - rho) everywhere. Power is shot without loss, whatever the rays: its sum is right to the
-// tolerance. An element is met by some 256 / (1 - rho) rays; its error is a few times the inverse root of that of the reflected light.
+// All walls glow with E = 1: B = 1 / (1 - rho) everywhere. Power is shot without loss, whatever
+// the rays: its sum is right to the tolerance. An element is met by some 256 / (1 - rho) rays;
+// its error is a few times the inverse root of that of the reflected light.
 TEST(Progressive, Furnaces) {
   for (const bool with_mirrors : {false, true})
     for (const double rho : {0.0, 0.5, 0.9}) {
@@ -60,8 +62,8 @@ TEST(Progressive, Furnaces) {
     }
 }
 
-// Two independent routes to the same light: shots, and rows. Means over nodes differ by the noise of either, which is that of some ten
-// thousand rays.
+// Two independent routes to the same light: shots, and rows.
+// Means over nodes differ by the noise of either, which is that of some ten thousand rays.
 TEST(Progressive, AgreesWithRowsInGalleryScenes) {
   for (const char* name : {"cornell", "cornell-mirror", "facing-mirrors", "periscope"}) {
     PassOneSettings settings = shooting(0.0, 256);
@@ -86,7 +88,8 @@ TEST(Progressive, AgreesWithRowsInGalleryScenes) {
   }
 }
 
-// The unit cube of six one-patch faces, known_radiosities_test.cpp: reflectance 0.5, the floor emits. One element is one block.
+// The unit cube of six one-patch faces, known_radiosities_test.cpp:
+// reflectance 0.5, the floor emits. One element is one block.
 TEST(Progressive, CubeOfSixPatches) {
   Scene scene;
   const Material wall = diffuse(0.5);
@@ -154,7 +157,8 @@ double ambient_of(const Watched& w, const ShotsSoFar& state) {
   return ambient_irradiance(blocks.measure, w.survey.closure, state.unshot, w.reflectance).g;
 }
 
-// In a closed room of one reflectance the power with the ambient term is that of the solution after every shot.
+// In a closed room of one reflectance the power with
+// the ambient term is that of the solution after every shot.
 TEST(Progressive, AmbientPowerIsThatOfTheSolution) {
   Scene scene;
   const Material wall = diffuse(0.7);
@@ -174,7 +178,8 @@ TEST(Progressive, AmbientPowerIsThatOfTheSolution) {
   EXPECT_GT(ambient_of(w, w.states.front()), 1e3 * ambient_of(w, w.states.back()));
 }
 
-// Mirrors and openings swallow light: the ambient term knows, and is nearer to the end than what has arrived alone.
+// Mirrors and openings swallow light:
+// the ambient term knows, and is nearer to the end than what has arrived alone.
 TEST(Progressive, AmbientTermWithMirrorsAndOpenings) {
   const Watched w =
       watched(facing_mirrors(Rgb(0.8)), 0.2, 128, {SolverMethod::progressive, 1e-6}, 1);
@@ -201,7 +206,8 @@ TEST(Progressive, AmbientTermWithMirrorsAndOpenings) {
   }
 }
 
-// ||B - B_k|| <= kappa / (1 - kappa) ||U_k||: the power that is still to come, of a run that goes on with the very same shots.
+// ||B - B_k|| <= kappa / (1 - kappa) ||U_k||:
+// the power that is still to come, of a run that goes on with the very same shots.
 TEST(Progressive, TheBoundBoundsWhatIsToCome) {
   SolverSettings long_run{SolverMethod::progressive, 1e-9};
   const Watched end = watched(half_room(), 0.25, 64, long_run, 0);
@@ -294,7 +300,8 @@ void add_ceiling(Scene& scene, const std::string& name, double x0, double z0, do
   add_polygon(scene, name, {{x0, 1, z0}, {x1, 1, z0}, {x1, 1, z1}, {x0, 1, z1}}, material);
 }
 
-// Reflectance one, with a way out: a black window in the ceiling, which rays of many elements miss. All of the light of the floor ends there.
+// Reflectance one, with a way out: a black window in the ceiling, which rays of many elements miss.
+// All of the light of the floor ends there.
 TEST(Progressive, PerfectWallsOfAnOpenBox) {
   for (const double half : {0.5, 0.1}) {
     Scene scene;
@@ -320,7 +327,8 @@ TEST(Progressive, PerfectWallsOfAnOpenBox) {
   }
 }
 
-// Emission over 24 orders, also between the channels; sizes over 12. The same rays carry the same shares.
+// Emission over 24 orders, also between the channels;
+// sizes over 12. The same rays carry the same shares.
 TEST(Progressive, EmissionAndSizeMakeNoDifference) {
   const auto solved = [](double scale, const Rgb& emission) {
     Scene scene = transformed(half_room(), glm::dmat3(1.0), scale, Vec3(0.0));

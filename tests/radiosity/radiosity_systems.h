@@ -20,7 +20,8 @@ Transport transport_of(const std::vector<Eigen::MatrixXd>& bands);
 System random_system(Random& random, int size, int bands, double highest_reflectance,
                      double emission = 1.0);
 
-/// Reciprocal: A_i F_ij = A_j F_ji, rows that sum to at most `closure`, areas over `orders` orders of magnitude.
+/// Reciprocal: A_i F_ij = A_j F_ji, rows that sum to at most `closure`,
+/// areas over `orders` orders of magnitude.
 struct ReciprocalSystem {
   System system;
   std::vector<double> area;

@@ -56,7 +56,8 @@ TEST_P(ReceiverRaysOf, RaysStartInTheReceiverAndLeaveIt) {
       const Vec3 origin{packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]};
       const Vec3 direction{packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]};
       const Vec3 h = origin / frame.scale + frame.centre - area.corner;
-      // Coordinates of size 1 in the frame are rounded by 6e-8, a quarter of that in metres times 4.
+      // Coordinates of size 1 in the frame are rounded by 6e-8,
+      // a quarter of that in metres times 4.
       EXPECT_NEAR(glm::dot(h, area.normal), 0.0, 1e-6);
       const double s = h.x / area.edge_u.x, t = h.y / area.edge_v.y;
       EXPECT_GE(s, -1e-6);
@@ -68,7 +69,8 @@ TEST_P(ReceiverRaysOf, RaysStartInTheReceiverAndLeaveIt) {
       mean += direction / 64.0;
     }
   }
-  // The mean of cosine-distributed directions is 2/3 of the normal; 64 points of a net come within a few hundredths.
+  // The mean of cosine-distributed directions is 2/3 of the normal;
+  // 64 points of a net come within a few hundredths.
   EXPECT_LT(glm::length(mean - 2.0 / 3.0 * area.normal), 0.05);
 }
 

@@ -29,7 +29,8 @@ TEST(ShootingBlocks, CoverEveryElementOnce) {
   EXPECT_EQ(std::ranges::count(met, 1), std::ssize(met));
 }
 
-// A floor of 190 x 190 tiles, each a patch of one element: a shooter each would take longer to choose than to shoot.
+// A floor of 190 x 190 tiles, each a patch of one element:
+// a shooter each would take longer to choose than to shoot.
 TEST(ShootingBlocks, AreSharedBySmallPatches) {
   constexpr int tiles = 190;
   Scene scene;

@@ -1,4 +1,5 @@
-// Light through solids of glass in pass one: bent by closed forms, owned once, closed, and never without an end.
+// Light through solids of glass in pass one:
+// bent by closed forms, owned once, closed, and never without an end.
 #include "radiosity/node_form_factors.h"
 #include "radiosity/pass_one.h"
 #include "radiosity/solid_light.h"
@@ -46,7 +47,8 @@ Receiver on_floor(const LitScene& lit, const Point3& x) {
   return {x, floor.normal, floor.plane_class};
 }
 
-/// A black floor, wide enough that the lamp is less than half of all, and a lamp of `edge` metres that glows with E = 1, `height` above its origin.
+/// A black floor, wide enough that the lamp is less than half of all,
+/// and a lamp of `edge` metres that glows with E = 1, `height` above its origin.
 Scene floor_and_lamp(double height, double edge) {
   Scene scene;
   const double w = 3.0 + edge;
@@ -67,8 +69,9 @@ ArrivingLight arriving_in_the_middle(Scene scene, double element_size, int rays)
 }
 
 TEST(SolidLight, AThickSlabBringsALampNearer) {
-  // Under a slab of thickness d all rays come from an image that is nearer by d - d tan b / tan a, sin a = n sin b: by d (1 - 1 / n) near the normal. Radiance
-  // is what it was, but for the faces: H = T E A / (pi h'^2).
+  // Under a slab of thickness d all rays come from an image that is nearer by d - d tan b / tan a,
+  // sin a = n sin b: by d (1 - 1 / n) near the normal.
+  // Radiance is what it was, but for the faces: H = T E A / (pi h'^2).
   constexpr double height = 2.0, thickness = 1.0, ior = 1.5, edge = 0.2;
   Scene scene = floor_and_lamp(height, edge);
   // So wide that nothing arrives by total reflection at its sides.
@@ -76,14 +79,16 @@ TEST(SolidLight, AThickSlabBringsALampNearer) {
   const ArrivingLight found = arriving_in_the_middle(std::move(scene), 1.0, 1 << 18);
   const double nearer = height - thickness * (1.0 - 1.0 / ior);
   const double expected = pane_transmittance(ior, 1.0) * edge * edge / (pi * nearer * nearer);
-  // Some thousand rays find the lamp; it is seen under 3 degrees to either side, for which the closed form is true to 0.5 %.
+  // Some thousand rays find the lamp;
+  // it is seen under 3 degrees to either side, for which the closed form is true to 0.5 %.
   EXPECT_NEAR(found.total.g, expected, 0.02 * expected);
   // What goes to and fro between the faces before it comes out is some F^2 of it.
   EXPECT_LT(found.mirrored.g, 0.02 * expected);
 }
 
 TEST(SolidLight, WhatASolidTakesGoesByTheMetre) {
-  // A small lamp straight above: H goes by a^d, d the thickness of a metre, which leaves a half of red.
+  // A small lamp straight above:
+  // H goes by a^d, d the thickness of a metre, which leaves a half of red.
   Scene scene = floor_and_lamp(2.0, 0.04);
   Material amber = solid_glass(Rgb(1.0));
   amber.attenuation_color = Rgb(0.5, 0.25, 1.0);
@@ -97,7 +102,8 @@ TEST(SolidLight, WhatASolidTakesGoesByTheMetre) {
 }
 
 TEST(SolidLight, ASlabIsAPaneOfTwoFacesToDiffuseLight) {
-  // Wide and thin beside the room, whose ceiling glows: of what comes evenly from above T arrives below, with T the mean of a pane's.
+  // Wide and thin beside the room, whose ceiling glows:
+  // of what comes evenly from above T arrives below, with T the mean of a pane's.
   Scene scene = floor_and_lamp(1.0, 40.0);
   add_box(scene, "slab", {-60, 0.45, -60}, {60, 0.5, 60}, solid_glass(Rgb(1.0)));
   const Rgb found = arriving_in_the_middle(std::move(scene), 20.0, 1 << 13).total;
@@ -112,8 +118,10 @@ TEST(SolidLight, ASlabIsAPaneOfTwoFacesToDiffuseLight) {
   EXPECT_NEAR(found.g, passed, 0.01 * passed);
 }
 
-/// The share of parallel light from above that reaches the plane a distance h below the middle of a ball of glass between the rings of radii a and b: rays that enter
-/// at r sin t are turned towards the axis by 2 (t - t'), n sin t' = sin t, and lose what is reflected on the way in and out (Fresnel).
+/// The share of parallel light from above that reaches the plane a distance
+/// h below the middle of a ball of glass between the rings of radii a and b:
+/// rays that enter at r sin t are turned towards the axis by 2 (t - t'),
+/// n sin t' = sin t, and lose what is reflected on the way in and out (Fresnel).
 double through_ball(double r, double h, double a, double b) {
   constexpr int steps = 200'000;
   constexpr double n = 1.5;
@@ -131,8 +139,10 @@ double through_ball(double r, double h, double a, double b) {
   return power * r * r / (b * b - a * a);
 }
 
-// A ball of glass collects light 1.5 r from its middle (n r / (2 (n - 1))) and takes it from its shadow, where a tenth is left: light that is turned far. (Sheets would leave more than
-// 0.8.) The lamp is small and far away: some 170 of the million rays find it, so that the mean over the ring is 8 % off.
+// A ball of glass collects light 1.5 r from its middle (n r / (2 (n - 1)))
+// and takes it from its shadow, where a tenth is left: light that is turned far.
+// (Sheets would leave more than 0.8.) The lamp is small and far away:
+// some 170 of the million rays find it, so that the mean over the ring is 8 % off.
 TEST(SolidLight, ABallCollectsLightAndLeavesAShadow) {
   constexpr double r = 0.2, h = 0.3, inner = 0.12, outer = 0.185;
   Scene scene = floor_and_lamp(40.0, 2.0);
@@ -214,7 +224,8 @@ TEST(SolidLight, AWhiteFurnaceStaysWhite) {
 
 TEST(SolidLight, OpenNestedAndTrappingSolidsEnd) {
   Scene scene = room_of_solids();
-  // A sheet that is the surface of nothing, a block in the block, and a wall from which light enters a solid that it cannot leave but by chance.
+  // A sheet that is the surface of nothing, a block in the block,
+  // and a wall from which light enters a solid that it cannot leave but by chance.
   add_polygon(scene, "open", {{0.1, 0.3, 1.6}, {1.9, 0.3, 1.6}, {1.9, 1.6, 1.7}, {0.1, 1.6, 1.7}},
               solid_glass(Rgb(1.0)));
   add_box(scene, "inner", {0.4, 0.2, 0.7}, {0.7, 0.7, 1.0}, solid_glass(Rgb(1.0), 2.0));
@@ -274,7 +285,8 @@ TEST(SolidLight, ManySolidsAreFewBodies) {
 }
 
 TEST(SolidLight, ACoatInGlassIsTheMirrorThere) {
-  // Of a coat that reflects all: what the glass takes on the way to it is gone, as it is with a mirror.
+  // Of a coat that reflects all:
+  // what the glass takes on the way to it is gone, as it is with a mirror.
   const auto walls_lit = [](const Material& plate) {
     Scene scene = room_of_solids();
     // Last, so that the elements of all else have the same numbers.

@@ -42,8 +42,9 @@ double mean_of(const LitScene& lit, const std::vector<Rgb>& values, const std::s
   return mean_over(lit, values, node).g;
 }
 
-// Two plates of reflectance rho between four perfect mirrors are infinite: B1 = E / (1 - rho^2), B2 = rho B1. Rays bring the light of
-// worlds that are not enumerated, with an error of a percent of that small part; of the 129 enumerated ones all count at every point.
+// Two plates of reflectance rho between four perfect mirrors are infinite:
+// B1 = E / (1 - rho^2), B2 = rho B1. Rays bring the light of worlds that are not enumerated, with
+// an error of a percent of that small part; of the 129 enumerated ones all count at every point.
 TEST(SolverAgreement, InfinitePlatesBetweenMirrors) {
   for (const double rho : {0.3, 0.9, 0.99}) {
     Scene scene;
@@ -66,7 +67,8 @@ TEST(SolverAgreement, InfinitePlatesBetweenMirrors) {
   }
 }
 
-// B = E / (1 - rho) with rho = 1 - 1e-6. Rows are counts of 2^8 rays: they close without any rounding.
+// B = E / (1 - rho) with rho = 1 - 1e-6.
+// Rows are counts of 2^8 rays: they close without any rounding.
 TEST(SolverAgreement, FurnaceOfAMillionBounces) {
   const double rho = 1.0 - 1e-6;
   for (const bool with_mirrors : {false, true}) {

@@ -64,7 +64,8 @@ TEST_P(Solvers, AreasEmissionsAndReflectancesOverManyOrders) {
   }
 }
 
-// Channels have coefficients and histories of their own: one that is 1e24 times dimmer is solved as well.
+// Channels have coefficients and histories of their own:
+// one that is 1e24 times dimmer is solved as well.
 TEST_P(Solvers, DimChannelsAreSolvedAsWell) {
   Random random(13);
   System system = random_system(random, 50, 3, 0.95);
@@ -93,8 +94,9 @@ TEST_P(Solvers, LinearInEmission) {
   EXPECT_LT(true_error(expected, xs), 3e-8); // of three solutions
 }
 
-// A_i / rho_i (1 - rho T) is symmetric where form factors are reciprocal, and so is its inverse: the light of rho_i / A_i at i makes as
-// bright an element j as the light of rho_j / A_j at j makes element i.
+// A_i / rho_i (1 - rho T) is symmetric where form factors are reciprocal, and so is its inverse:
+// the light of rho_i / A_i at i makes as bright an element
+// j as the light of rho_j / A_j at j makes element i.
 TEST_P(Solvers, LightGoesBothWays) {
   Random random(15);
   const auto [base, area] = reciprocal_system(random, 30, 2.0, 0.9);
@@ -158,8 +160,9 @@ TEST_P(Solvers, AMillionBounces) {
   }
 }
 
-// A long white corridor that light leaves at its ends alone: a bound of the error would take as many iterations as there are patches. Where none can be
-// had, iterating ends when the residual is small, and nothing else is claimed.
+// A long white corridor that light leaves at its ends alone:
+// a bound of the error would take as many iterations as there are patches.
+// Where none can be had, iterating ends when the residual is small, and nothing else is claimed.
 TEST(SolverStop, WithoutABoundTheResidualDecides) {
   constexpr std::size_t size = 3000;
   Transport transport{.size = size, .bands = 1, .row_begin = {0}, .columns = {}, .weights = {}};
@@ -192,14 +195,16 @@ TEST_P(Solvers, AClosedRoomOfReflectanceOneHasNoSolution) {
   EXPECT_EQ(result.radiosity, system.source);
 }
 
-// Two rooms without a connection, the second a trap: only light inside it makes the system unsolvable.
+// Two rooms without a connection, the second a trap:
+// only light inside it makes the system unsolvable.
 TEST_P(Solvers, ATrapMattersWhereThereIsLightInIt) {
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(4, 4);
   m.topLeftCorner(2, 2).setConstant(0.4);
   m.bottomRightCorner(2, 2).setConstant(0.5);
   System system{transport_of({m}), std::vector<Rgb>(4, Rgb(0.0)), std::vector<Rgb>(4, Rgb(1.0))};
   system.source[0] = Rgb(1.0, 0.0, 0.0);
-  // In the first room B_0 = S + 0.4 (B_0 + B_1), B_1 = 0.4 (B_0 + B_1); nobody asks how light would grow in the other.
+  // In the first room B_0 = S + 0.4 (B_0 + B_1), B_1 = 0.4 (B_0 + B_1);
+  // nobody asks how light would grow in the other.
   const SolverResult lit = run(system);
   EXPECT_TRUE(lit.converged);
   EXPECT_LT(lit.error_bound, 1e-8);
@@ -214,7 +219,8 @@ TEST_P(Solvers, ATrapMattersWhereThereIsLightInIt) {
   EXPECT_NE(run(system, 1e-4, 50).end, SolverEnd::unsolvable);
 }
 
-// Reflectance one, but every patch sees a hole in the end: patch k sees k + 1, the last one the sky.
+// Reflectance one, but every patch sees a hole in the end:
+// patch k sees k + 1, the last one the sky.
 TEST_P(Solvers, ReflectanceOneWithAWayOut) {
   constexpr int size = 12;
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(size, size);
@@ -273,7 +279,8 @@ TEST_P(Solvers, BelowRoundingNothingRunsForEver) {
   EXPECT_LT(true_error(exact_solution(system), result.radiosity), 1e-12);
 }
 
-// The amplification 1 / (1 - rho) grows tenfold from room to room. Iterations of a Krylov method need grow no faster than its root, sqrt(10):
+// The amplification 1 / (1 - rho) grows tenfold from room to room.
+// Iterations of a Krylov method need grow no faster than its root, sqrt(10):
 // here the light is even after a few bounces, and they hardly grow at all. Sweeps grow tenfold.
 TEST(KrylovSolver, IterationsGrowSlowlyTowardsReflectanceOne) {
   std::vector<int> iterations;

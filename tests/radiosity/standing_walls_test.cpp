@@ -45,7 +45,8 @@ Scene two_rooms(Wall wall) {
   return scene;
 }
 
-/// The mean irradiance of what is right of the wall, and the largest radiosity left of it, lamps aside.
+/// The mean irradiance of what is right of the wall,
+/// and the largest radiosity left of it, lamps aside.
 struct BothSides {
   double dark = 0.0, lit = 0.0;
 };
@@ -76,7 +77,8 @@ BothSides light_of(Wall wall, double size, bool divide) {
   return light;
 }
 
-/// The largest irradiance a dark room has where w (h - w) / h <= h / 4 of every metre of the wall's outline leaks, and all is absorbed there in the end.
+/// The largest irradiance a dark room has where w (h - w) / h <= h / 4 of every
+/// metre of the wall's outline leaks, and all is absorbed there in the end.
 double leak_bound(double h, double radiosity) {
   const double outline = 2.0 * (room_size.y + room_size.z),
                area = 2.0 * room_size.y * room_size.z + outline * (room_size.x - wall_x);
@@ -101,7 +103,8 @@ constexpr Point3 foot(0.017, 0.0, 0.023); ///< of the sheet
 Vec3 along(double angle) { return {std::cos(angle), 0.0, std::sin(angle)}; }
 Vec3 across(double angle) { return {-std::sin(angle), 0.0, std::cos(angle)}; }
 
-/// A floor of 2 x 2 m, as a quad or as a triangle of that height, and a sheet through its middle, turned about the vertical.
+/// A floor of 2 x 2 m, as a quad or as a triangle of that height,
+/// and a sheet through its middle, turned about the vertical.
 Scene floor_and_sheet(bool triangle, double angle) {
   Scene scene;
   std::vector<Point3> floor{{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
@@ -113,7 +116,8 @@ Scene floor_and_sheet(bool triangle, double angle) {
   return scene;
 }
 
-/// sum A f (1 - f) over the floor, f the share of an element on one side of the sheet: what of its area leaks.
+/// sum A f (1 - f) over the floor, f the share of an element on one side of the sheet:
+/// what of its area leaks.
 double leaking_area(const ElementMesh& mesh, const SurfaceModel& surfaces, double angle) {
   constexpr int n = 48;
   double leaking = 0.0;
@@ -150,7 +154,8 @@ double length_on_floor(const LitScene& l, double angle) {
 }
 
 TEST(StandingWalls, AreFollowedWhicheverWayTheyRun) {
-  // No more leaks of a metre than w (h - w) / h <= h / 4 of the smallest elements, but for a fifth where corners are cut off.
+  // No more leaks of a metre than w (h - w) / h <= h / 4 of the smallest elements,
+  // but for a fifth where corners are cut off.
   constexpr double size = 0.25, smallest = size / 8.0;
   for (const bool triangle : {false, true})
     for (const double angle : {0.0, 0.3, 0.785, 1.2, 1.571}) {

@@ -43,8 +43,9 @@ Tail tail_of(Scene scene, const WorldSettings& worlds, int rays) {
   return tail;
 }
 
-// Two routes to what lies beyond the tree: where the rays of all elements land, and the bound from the windows alone. Between facing
-// mirrors over a whole wall each, bound and truth differ by the throughput of the deeper worlds and by the few lines that miss the rest.
+// Two routes to what lies beyond the tree: where the rays of all elements land,
+// and the bound from the windows alone. Between facing mirrors over a whole wall each, bound
+// and truth differ by the throughput of the deeper worlds and by the few lines that miss the rest.
 TEST(WorldTail, BoundsWhatRaysBringFromBeyondTheTree) {
   for (const double rho : {0.5, 0.9, 0.99, 1.0})
     for (const int depth : {0, 1, 2, 4, 8}) {
@@ -63,7 +64,8 @@ TEST(WorldTail, HoldsForThroughputToo) {
   EXPECT_GT(tail.bound, 0.0);
 }
 
-// Perfect mirrors: the throughput never falls, the form factor of the windows does, like 1/k^2 for k >> 1.
+// Perfect mirrors:
+// the throughput never falls, the form factor of the windows does, like 1/k^2 for k >> 1.
 TEST(WorldTail, FallsWithTheSquareOfTheDepthBetweenPerfectMirrors) {
   const Scene scene = facing_mirrors(Rgb(1.0));
   const SurfaceModel surfaces = find_surfaces(scene);
@@ -74,13 +76,14 @@ TEST(WorldTail, FallsWithTheSquareOfTheDepthBetweenPerfectMirrors) {
         mirror_worlds(mirrors, {.min_throughput = 0.0, .max_depth = depth, .max_worlds = 10'000});
     return world_tail_bound(tree, mirrors, area);
   };
-  // Between squares k sides apart F = 1/(pi k^2) (1 - O(1/k^2)): depth k ends at windows k sides away, on two sides.
+  // Between squares k sides apart F = 1/(pi k^2) (1 - O(1/k^2)):
+  // depth k ends at windows k sides away, on two sides.
   EXPECT_NEAR(bound(32) / bound(64), 4.0, 0.01);
   EXPECT_NEAR(bound(64) * area, 2.0 / (std::numbers::pi * 64 * 64), 1e-3 * bound(64) * area);
 }
 
-// What rays lose between facing mirrors: below 0.99 what is left of a ray at a throughput of 1e-4, at 1 what is still under way after
-// 10,000 bounces.
+// What rays lose between facing mirrors: below 0.99 what is left of a ray at a throughput of 1e-4,
+// at 1 what is still under way after 10,000 bounces.
 TEST(WorldTail, LittleIsLost) {
   EXPECT_LT(tail_of(facing_mirrors(Rgb(0.99)), {}, 512).cut, 1e-4);
   EXPECT_LT(tail_of(facing_mirrors(Rgb(1.0)), {}, 512).cut, 1e-4);

@@ -39,7 +39,8 @@ double mean_of(const Image& image) {
   return sum / (3.0 * double(image.pixels.size()));
 }
 
-/// Only the floor scatters: its light is that of the lamp and of the lamp's image behind the mirror x = 0.
+/// Only the floor scatters:
+/// its light is that of the lamp and of the lamp's image behind the mirror x = 0.
 struct LampAndImage {
   static constexpr double reflectance = 0.6, rho = 0.9, emitted = 10.0;
   std::vector<Point3> lamp{{1, 1, -0.5}, {1.5, 1, -0.5}, {1.5, 1, 0.5}, {1, 1, 0.5}};
@@ -64,8 +65,8 @@ struct LampAndImage {
 };
 
 TEST(DiffuseTerm, DirectIsTheClosedFormAnywhereOnAnElement) {
-  // Elements are a metre wide and the light changes by a factor over each: what is interpolated is far off, what is computed at the
-  // hit is right to the rounding of the hit's place.
+  // Elements are a metre wide and the light changes by a factor over each: what is interpolated
+  // is far off, what is computed at the hit is right to the rounding of the hit's place.
   for (const Point3 seen : {Point3(1.23, 0.0, 0.31), Point3(0.55, 0.0, -0.45)}) {
     const LampAndImage room(seen);
     const double exact = room.exact(seen);
@@ -81,7 +82,8 @@ TEST(DiffuseTerm, DirectIsTheClosedFormAnywhereOnAnElement) {
   }
 }
 
-/// A wall in the sun, of radiance 1, and the slanting edge of a screen's shadow on it: from row to row, of sixteen, a sixteenth of the pixel more is lit.
+/// A wall in the sun, of radiance 1, and the slanting edge of a screen's shadow on it:
+/// from row to row, of sixteen, a sixteenth of the pixel more is lit.
 Scene edge_of_a_shadow() {
   Scene scene;
   add_polygon(scene, "wall", {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, diffuse(0.5));
@@ -96,7 +98,8 @@ Scene edge_of_a_shadow() {
 }
 
 TEST(DiffuseTerm, ShadowsOfPunctualLightsEndWithinPixels) {
-  // Where four of a pixel's samples agree the others do not: pixels lit by five sixths would be lit all over.
+  // Where four of a pixel's samples agree the others do not:
+  // pixels lit by five sixths would be lit all over.
   TwoPassSettings settings = quick(1, 16, DiffuseTerm::direct);
   settings.render.samples = 64;
   const Image image = rendering_of(edge_of_a_shadow(), settings).image;
@@ -105,7 +108,8 @@ TEST(DiffuseTerm, ShadowsOfPunctualLightsEndWithinPixels) {
 }
 
 TEST(DiffuseTerm, AllAgreeInAFurnace) {
-  // E = 1, rho = 1/2: B = 2 and L = 2 / pi. Emitters are all there is, so they are gathered: no path may come twice.
+  // E = 1, rho = 1/2: B = 2 and L = 2 / pi.
+  // Emitters are all there is, so they are gathered: no path may come twice.
   for (const DiffuseTerm term : all_terms) {
     TwoPassSettings settings = quick(8, 8, term);
     settings.pass_one.solver.tolerance = 1e-6;
@@ -117,8 +121,9 @@ TEST(DiffuseTerm, AllAgreeInAFurnace) {
 }
 
 TEST(DiffuseTerm, AllShowTheSameLight) {
-  // In the mean over the picture what sharper shadows give to one pixel they take from another: one per cent is the error of elements
-  // of a quarter of a metre; a path counted twice would be tens of per cent.
+  // In the mean over the picture what sharper shadows give to one pixel they take from another:
+  // one per cent is the error of elements of a quarter of a metre;
+  // a path counted twice would be tens of per cent.
   Scene scene = half_room_with_small_mirror();
   scene.cameras = {look_at({1.8, 1.1, 2.8}, {0.4, 0.6, 1.0}, 1.4)};
   const double interpolated =
@@ -142,7 +147,8 @@ TEST(DiffuseTerm, LayersAddUpWhateverTheTerm) {
       for (const Layer& layer : layered.layers)
         sum += layer.image.pixels[p];
       ASSERT_EQ(sum, layered.image.pixels[p]) << "exactly, in their order";
-      // Four samples may settle in one of the two and go on in the other (shading.cpp: half a per cent).
+      // Four samples may settle in one of the two and go on in the other (shading.cpp:
+      // half a per cent).
       for (int band = 0; band < 3; ++band)
         ASSERT_NEAR(sum[band], whole.pixels[p][band], 0.01 * whole.pixels[p][band]);
     }
@@ -150,7 +156,8 @@ TEST(DiffuseTerm, LayersAddUpWhateverTheTerm) {
 }
 
 TEST(DiffuseTerm, DirectShadowsHaveTheWidthOfTheirPenumbra) {
-  // A lamp of a millimetre two metres up, and a blade half way: the shadow's edge is a millimetre wide, the elements are a metre.
+  // A lamp of a millimetre two metres up, and a blade half way:
+  // the shadow's edge is a millimetre wide, the elements are a metre.
   Scene scene;
   add_polygon(scene, "floor", {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}}, diffuse(0.5));
   add_polygon(scene, "lamp",
@@ -172,7 +179,8 @@ TEST(DiffuseTerm, DirectShadowsHaveTheWidthOfTheirPenumbra) {
 }
 
 TEST(DiffuseTerm, DirectPenumbraeAreRightInTheMean) {
-  // A lamp of 0.2 m two metres up, and a blade half way, whose edge is x = 0: from x on the floor the lamp is seen where its x' < -x.
+  // A lamp of 0.2 m two metres up, and a blade half way, whose edge is x = 0:
+  // from x on the floor the lamp is seen where its x' < -x.
   constexpr double emitted = 100.0, half = 0.1;
   const auto lamp = [](double right) {
     return std::vector<Point3>{
@@ -202,8 +210,9 @@ TEST(DiffuseTerm, DirectPenumbraeAreRightInTheMean) {
       for (int y = 0; y < rows; ++y)
         mean[static_cast<std::size_t>(x)] += image.at(x, y).g / (draws * rows);
   }
-  // 64 rays or more a pixel are off by 0.05 of the full light; 256 pixels together by 0.003, of which four are 0.012. To believe eight rays of a
-  // point where they agree, and to send more where not, would be off by 0.02 at both ends of the penumbra.
+  // 64 rays or more a pixel are off by 0.05 of the full light; 256 pixels together by 0.003,
+  // of which four are 0.012. To believe eight rays of a point where they agree,
+  // and to send more where not, would be off by 0.02 at both ends of the penumbra.
   const double full = emitted * point_form_factor({-half, 0, 0}, {0, 1, 0}, lamp(half));
   for (int x = 0; x < width; ++x) {
     const double at = (x + 0.5 - width / 2) * 0.4 / width;
@@ -217,7 +226,8 @@ TEST(DiffuseTerm, DirectPenumbraeAreRightInTheMean) {
 }
 
 TEST(DiffuseTerm, DirectHasNoNoiseInThePenumbraOfAPlate) {
-  // A plate under a lamp, and half of its shadow's edge in the picture: no pixel is all lit or all dark.
+  // A plate under a lamp, and half of its shadow's edge in the picture:
+  // no pixel is all lit or all dark.
   Scene scene;
   add_polygon(scene, "floor", {{-2, 0, -2}, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}}, diffuse(0.5));
   add_polygon(scene, "lamp", {{-0.5, 2, -0.5}, {0.5, 2, -0.5}, {0.5, 2, 0.5}, {-0.5, 2, 0.5}},
@@ -230,8 +240,8 @@ TEST(DiffuseTerm, DirectHasNoNoiseInThePenumbraOfAPlate) {
   settings.render.seed = 1;
   const Image other = rendering_of(scene, settings).image;
 
-  // Means settle to half a per cent (direct_of_pixel), nine of ten to a fifth of that. By rays to the lamp alone they would be off by several
-  // times as much, as the first pixels of a tile are.
+  // Means settle to half a per cent (direct_of_pixel), nine of ten to a fifth of that. By rays to
+  // the lamp alone they would be off by several times as much, as the first pixels of a tile are.
   std::vector<double> apart;
   for (std::size_t p = 0; p < one.pixels.size(); ++p)
     apart.push_back(std::abs(one.pixels[p].g / other.pixels[p].g - 1.0));

@@ -21,7 +21,8 @@ Texture pattern(int n, bool striped) {
   return {.name = "pattern", .encoded = encode_png(image, 0.0)};
 }
 
-/// The unit square in y = 0 under a sky of radiance 1, so that its radiance is its reflectance. Textures run along x and z.
+/// The unit square in y = 0 under a sky of radiance 1, so that its radiance is its reflectance.
+/// Textures run along x and z.
 Scene floor_with(const Texture& texture, const std::string& name = "floor") {
   Scene scene;
   scene.textures = {texture};
@@ -64,7 +65,8 @@ Spread spread_of(const Image& image, int border) {
 Camera above() { return look_at({0.0, 10.0, 1e-3}, {0.0, 0.0, 0.0}, 2.0 * std::atan(0.05)); }
 
 TEST(Footprint, SquaresFarAwayAreTheirMean) {
-  // One sample stands for 8 by 8 squares and a third, off their grid: unfiltered it would be black or white.
+  // One sample stands for 8 by 8 squares and a third, off their grid:
+  // unfiltered it would be black or white.
   const Spread spread = spread_of(seen(floor_with(pattern(64, false)), above(), 15), 1);
   EXPECT_NEAR(spread.low, 0.5 * reflectance, 0.02 * reflectance);
   EXPECT_NEAR(spread.high, 0.5 * reflectance, 0.02 * reflectance);
@@ -78,19 +80,22 @@ TEST(Footprint, SquaresLargerThanPixelsAreAsTheyAre) {
 }
 
 TEST(Footprint, MoreSamplesAreSharper) {
-  // A square is a pixel. Of one sample a pixel, level and texels blur into the neighbours; of 64 almost none do.
+  // A square is a pixel. Of one sample a pixel, level and texels blur into the neighbours;
+  // of 64 almost none do.
   const auto contrast = [](int samples) {
     const Spread spread = spread_of(seen(floor_with(pattern(16, false)), above(), 16, samples), 1);
     return (spread.high - spread.low) / reflectance;
   };
-  // Between squares of eight texels a look-up rises over one: each axis loses a quarter texel at either side.
+  // Between squares of eight texels a look-up rises over one:
+  // each axis loses a quarter texel at either side.
   EXPECT_NEAR(contrast(64), std::pow(1.0 - 0.5 / 8.0, 2.0), 0.02);
   EXPECT_GT(contrast(64), contrast(1));
 }
 
 TEST(Footprint, WhereSamplesAreChosenTheLaterOnesAreSharperToo) {
-  // Footprints half a pixel wide, of four samples, blur the squares by 0.17 more than those of 64, and of 16 by 0.07. Of 64 samples in rounds four have the
-  // former and twelve the latter: 0.024 in all. It was 0.17, with the first samples' footprint for all.
+  // Footprints half a pixel wide, of four samples, blur the squares by 0.17 more than those of 64,
+  // and of 16 by 0.07. Of 64 samples in rounds four have the former and twelve the latter:
+  // 0.024 in all. It was 0.17, with the first samples' footprint for all.
   const Scene scene = floor_with(pattern(16, false));
   const Image at_once = seen(scene, above(), 16, 64), chosen = seen(scene, above(), 16, 64, 1e-6);
   for (int y = 1; y < 15; ++y)
@@ -123,7 +128,8 @@ TEST(Footprint, OfAnOrthographicCameraToo) {
 }
 
 TEST(Footprint, AtGrazingAnglesItIsLongNotWide) {
-  // Stripes that run away from the eye, 16 to the floor; the footprint is ten times as long as wide. Filtered as wide as long, they would be grey.
+  // Stripes that run away from the eye, 16 to the floor;
+  // the footprint is ten times as long as wide. Filtered as wide as long, they would be grey.
   const double height = 0.2, away = 2.0;
   const Camera camera = look_at({0.0, height, away}, {0.0, 0.0, 0.0}, 0.02);
   Image image = seen(floor_with(pattern(16, true)), camera, 16, 4);

@@ -1,4 +1,5 @@
-// Panes and polished coats in both passes: what they pass and reflect, by closed forms and by what may not change.
+// Panes and polished coats in both passes:
+// what they pass and reflect, by closed forms and by what may not change.
 #include "tests/raytrace/glass_pictures.h"
 #include "tests/support/glass_rooms.h"
 #include "tests/support/rooms.h"
@@ -67,8 +68,9 @@ TEST(GlassPasses, ALampThroughAPaneAsWithoutItTimesWhatPasses) {
 }
 
 TEST(GlassPasses, APaneThrowsALampOnTheWall) {
-  // The lamp shines down alone, and the wall stands above it: only the pane below throws light up. Of its image at y = -1, 4 m2 of radiance 1,
-  // every point of which is about as far and as oblique.
+  // The lamp shines down alone, and the wall stands above it:
+  // only the pane below throws light up. Of its image at y = -1,
+  // 4 m2 of radiance 1, every point of which is about as far and as oblique.
   constexpr double rho = 1e-5;
   Scene scene;
   add_pane(scene, 0.0, glass(Rgb(1.0)));
@@ -111,7 +113,8 @@ TEST(GlassPasses, TheEyeSeesThroughAndByReflection) {
   EXPECT_EQ(straight.b, 0.0);
 }
 
-/// Two rooms of glowing walls side by side, joined by a window in which a pane stands that loses nothing.
+/// Two rooms of glowing walls side by side,
+/// joined by a window in which a pane stands that loses nothing.
 TEST(GlassPasses, AFurnaceWithAPaneIsAFurnace) {
   Scene scene = furnace(0.5, {false, false, false, false, false, false});
   add_polygon(scene, "pane", {{0.1, 0.1, 0.5}, {0.9, 0.1, 0.5}, {0.9, 0.9, 0.5}, {0.1, 0.9, 0.5}},
@@ -132,7 +135,8 @@ TEST(GlassPasses, AFurnaceWithAPaneIsAFurnace) {
 TEST(GlassPasses, EnergyIsAccountedFor) {
   const Taken taken = lit_up(glazed_room(), coarse());
   const EnergyBalance& energy = taken.solution.energy;
-  // What is sampled from two ends agrees within the noise of 256 rays; panes count by the mean over angles.
+  // What is sampled from two ends agrees within the noise of 256 rays;
+  // panes count by the mean over angles.
   EXPECT_LT(std::abs(energy.imbalance), 0.02);
   EXPECT_LT(taken.solution.closure.max_error, 1e-6);
   // The pane takes more red than green, and it alone.
@@ -179,7 +183,8 @@ TEST(GlassPasses, APaneOfAirChangesNothing) {
   const Material air = glass(Rgb(1.0), 1.0);
   const PictureChange change =
       change_inside(room_with(nullptr), room_with(&air), std::vector<bool>(24 * 24, false));
-  // The same rays but for their rounding where they pass the pane, which decides about elements at their edges.
+  // The same rays but for their rounding where they pass the pane,
+  // which decides about elements at their edges.
   EXPECT_LT(change.rms, 2e-4);
   EXPECT_LT(change.worst, 5e-3);
 }

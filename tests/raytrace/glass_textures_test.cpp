@@ -21,7 +21,8 @@ void add_bulb(Scene& scene, Point3 at) {
   scene.lights = {light};
 }
 
-/// A pane over the floor, opaque where x < 0 and glass where x > 0: roughness keeps the opaque half without a coat, and pass one takes glass for clear.
+/// A pane over the floor, opaque where x < 0 and glass where x > 0:
+/// roughness keeps the opaque half without a coat, and pass one takes glass for clear.
 void add_half_pane(Scene& scene, Rgb tint) {
   scene.textures = {half_black()};
   Material material = glass(tint);
@@ -54,7 +55,8 @@ TEST(GlassTextures, ABulbShinesThroughTheGlassAlone) {
 }
 
 TEST(GlassTextures, TheEyeSeesThroughTheGlassAlone) {
-  // A floor that glows below the pane, nothing above: a black pane's opaque half is black, a clear one's shows what passes.
+  // A floor that glows below the pane, nothing above:
+  // a black pane's opaque half is black, a clear one's shows what passes.
   Scene scene;
   add_polygon(scene, "floor", {{-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}}, diffuse(0.0, pi));
   add_half_pane(scene, Rgb(1.0));
@@ -68,7 +70,8 @@ TEST(GlassTextures, TheEyeSeesThroughTheGlassAlone) {
 }
 
 TEST(GlassTextures, ThePaneThrowsABulbFromItsGlassAlone) {
-  // Black glass reflects at its first face. The wall sees the bulb by way of the half of the pane on its own side.
+  // Black glass reflects at its first face.
+  // The wall sees the bulb by way of the half of the pane on its own side.
   constexpr double rho = 1e-5;
   for (const double side : {1.0, -1.0}) {
     Scene scene;
@@ -97,7 +100,8 @@ TEST(GlassTextures, ThePaneThrowsABulbFromItsGlassAlone) {
 }
 
 TEST(GlassTextures, APaneOfTwoHalvesIsTwoPanes) {
-  // Elements of which the border of the halves is one as well: where they straddle it they are a mean of both.
+  // Elements of which the border of the halves is one as well:
+  // where they straddle it they are a mean of both.
   PassOneSettings settings = coarse();
   settings.mesh.element_size = 0.1;
   const Taken textured = lit_up(half_glazed_room(Halves::by_texture), settings);
@@ -119,7 +123,8 @@ TEST(GlassTextures, APaneOfTwoHalvesIsTwoPanes) {
   const PictureChange change =
       change_inside(picture(separate, camera, small), picture(textured, camera, small),
                     std::vector<bool>(24 * 24, false));
-  // Elements and their samples are others: they differ about as a picture and its like by other samples do.
+  // Elements and their samples are others:
+  // they differ about as a picture and its like by other samples do.
   RenderSettings other = small;
   other.seed = 1;
   const PictureChange by_chance =
@@ -149,7 +154,8 @@ TEST(GlassTextures, ElementsKnowHowMuchIsOpaque) {
 }
 
 TEST(GlassTextures, ThicknessSaysWhatASheetOfASolidTakes) {
-  // Pass one takes a solid for two sheets, each of which takes half of what its thickness does: a texture of it is a factor there.
+  // Pass one takes a solid for two sheets, each of which takes half of what its thickness does:
+  // a texture of it is a factor there.
   constexpr double rho = 1e-5;
   const auto lit_through = [&](bool textured, double x) {
     Scene scene;

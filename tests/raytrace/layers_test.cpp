@@ -132,8 +132,9 @@ TEST(Layers, ALampInFacingMirrorsIsSeenInOneAndInSeveral) {
 }
 
 TEST(Layers, WhatTheMirrorThrowsOnTheFloorIsTheImageOfTheLamp) {
-  // Only the floor scatters, so that its light is the lamp's alone: straight, and from the image behind the mirror x = 0. The pixel looks
-  // at a vertex of the field, where the field is the closed form.
+  // Only the floor scatters, so that its light is the lamp's alone:
+  // straight, and from the image behind the mirror x = 0.
+  // The pixel looks at a vertex of the field, where the field is the closed form.
   constexpr double reflectance = 0.6, rho = 0.9, emitted = 10.0;
   const std::vector<Point3> lamp{{1, 2, -0.5}, {2, 2, -0.5}, {2, 2, 0.5}, {1, 2, 0.5}};
   Scene scene;

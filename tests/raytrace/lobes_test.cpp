@@ -1,4 +1,4 @@
-// Glossy metals and coats: the grid over a lobe against its integral, what it leaves of even light, and both in pictures.
+// Glossy metals and coats: lobes' grids against integrals, what they leave of even light, pictures.
 #include "raytrace/lobe_grid.h"
 #include "tests/raytrace/pictures.h"
 #include "tests/support/metals.h"
@@ -101,7 +101,8 @@ TEST(LobeGrid, SmootherAndFainterLobesTakeFewerRays) {
   EXPECT_EQ(n(plastic(0.5, 0.1), 64.0), 1);
 }
 
-/// Integral of f(o, i) L(i) cos i over directions i, by midpoints in the two angles. Nothing of the grid's map is in it.
+/// Integral of f(o, i) L(i) cos i over directions i, by midpoints in the two angles.
+/// Nothing of the grid's map is in it.
 double convolution(const Bsdf& bsdf, const Direction& out,
                    const std::function<double(const Direction&)>& light) {
   constexpr int rings = 512, spokes = 1024;
@@ -141,7 +142,8 @@ TEST(LobeGrid, ConvergesToTheConvolution) {
     const double even = convolution(bsdf, out, [](const Direction&) { return 1.0; });
     const double exact_smooth = convolution(bsdf, out, smooth),
                  exact_step = convolution(bsdf, out, step);
-    // Midpoints of n^2 cells err by about 1 / n^2, at an edge by 1 / n^(3/2); the norm comes from a table good to 1e-3.
+    // Midpoints of n^2 cells err by about 1 / n^2, at an edge by 1 / n^(3/2);
+    // the norm comes from a table good to 1e-3.
     for (const int n : {4, 16, 64}) {
       EXPECT_NEAR(by_grid(bsdf, out, n, smooth), exact_smooth, 1.5e-3 + 1.0 / (n * n)) << n;
       EXPECT_NEAR(by_grid(bsdf, out, n, step), exact_step, 1.5e-3 + std::pow(n, -1.5)) << n;
@@ -199,7 +201,7 @@ glm::vec3 seen(const Scene& scene, const RenderSettings& settings) {
 }
 
 TEST(Lobes, ALampInALobeIsItsConvolution) {
-  // A lamp of radiance 1 across the plate's horizon. What is reflected twice between them is nothing: it is black.
+  // A black lamp of radiance 1 across the plate's horizon: nothing is reflected twice between them.
   Material plate_metal = metal({0.9, 0.6, 0.3}, 0.5);
   Scene scene = plate(plate_metal);
   add_polygon(scene, "lamp", {{-1, 0.4, -2}, {1, 0.4, -2}, {1, 1.8, -2}, {-1, 1.8, -2}},
@@ -224,7 +226,7 @@ TEST(Lobes, ALampInALobeIsItsConvolution) {
 }
 
 TEST(Lobes, MoreGlossySamplesConvergeToTheConvolution) {
-  // A wall of radiance 1 that glows on more than half of all that is there: rays alone find it. One camera ray.
+  // A wall of radiance 1 that glows on most of all there is: rays alone find it. One camera ray.
   constexpr double roughness = 0.5, rho = 0.9;
   Scene scene = plate(metal(Rgb(rho), roughness), 0.5);
   add_polygon(scene, "wall", {{-1, 0.4, -2}, {1, 0.4, -2}, {1, 1.8, -2}, {-1, 1.8, -2}},
@@ -251,7 +253,8 @@ TEST(Lobes, MoreGlossySamplesConvergeToTheConvolution) {
     // Some of them lie below the plate.
     EXPECT_LE(double(made.specular_rays), cells) << samples;
     EXPECT_GE(double(made.specular_rays), 0.85 * cells) << samples;
-    // n^2 cells at an edge err by n^(-3/2) of the lobe; the wall sends at most as much as fills the hemisphere to what is spread evenly.
+    // n^2 cells at an edge err by n^(-3/2) of the lobe;
+    // the wall sends at most as much as fills the hemisphere to what is spread evenly.
     EXPECT_NEAR(made.image.pixels[0].g, lobe, rho * std::pow(cells, -0.75) + even + 2e-3)
         << samples;
   }
@@ -263,7 +266,8 @@ double lamp_form_factor(const Point3& centre, double half) {
   return cosine * cosine / r2 * 4.0 * half * half / pi;
 }
 
-/// The lobe's share of what a lamp of radiance 1, a square of side 2 `half` that faces down at `centre`, sends to the origin towards the eye.
+/// The lobe's share of what a lamp of radiance 1,
+/// a square of side 2 `half` that faces down at `centre`, sends to the origin towards the eye.
 double lamp_in_lobe(const Bsdf& bsdf, const Point3& centre, double half) {
   constexpr int cells = 400;
   const Direction normal{0, 1, 0};
@@ -281,7 +285,8 @@ double lamp_in_lobe(const Bsdf& bsdf, const Point3& centre, double half) {
 }
 
 TEST(Lobes, ASmallLampIsFoundByRaysAndByPoints) {
-  // 256 directions and 64 points a pixel. Rays alone would miss the lamp or meet it once or twice, points alone miss the narrow lobes.
+  // 256 directions and 64 points a pixel.
+  // Rays alone would miss the lamp or meet it once or twice, points alone miss the narrow lobes.
   for (const double roughness : {0.05, 0.15, 0.4})
     for (const Point3 centre : {Point3(0.0, 1.2, -1.8), Point3(0.6, 1.2, -1.2)}) {
       Scene scene = plate(metal(Rgb(0.8), roughness));
@@ -301,7 +306,8 @@ TEST(Lobes, ASmallLampIsFoundByRaysAndByPoints) {
 }
 
 TEST(Lobes, ALampInALobeByWayOfAMirror) {
-  // The lamp faces away from the plate, towards a mirror above it, whose image of it is the lamp of the test before.
+  // The lamp faces away from the plate, towards a mirror above it,
+  // whose image of it is the lamp of the test before.
   for (const double roughness : {0.15, 0.4}) {
     Scene scene = plate(metal(Rgb(0.8), roughness));
     const Point3 image(0.0, 1.2, -1.8);
@@ -340,7 +346,7 @@ TEST(Lobes, APointLightShinesInALobe) {
 }
 
 TEST(Lobes, ARoomOfWhiteGlossIsAFurnace) {
-  // Every wall reflects 0.5 and glows with E = 1: L = (1 / pi) / (1 - 0.5), by whatever lobe half of the light is reflected.
+  // Every wall reflects 0.5, by whatever lobe, and glows with E = 1: L = (1 / pi) / (1 - 0.5).
   Material wall = metal(Rgb(0.5), 0.3);
   wall.emission = Rgb(1.0 / pi);
   const double reflectance = diffuse_reflectance(wall).g;
@@ -348,7 +354,8 @@ TEST(Lobes, ARoomOfWhiteGlossIsAFurnace) {
   std::array<Material, 6> walls;
   walls.fill(wall);
   add_room(scene, Point3(0.0), Point3(1.0), walls);
-  // Lobes seen in lobes are sampled: at 64 camera rays of 4 directions each the largest of 64 pixels is off by 0.006.
+  // Lobes seen in lobes are sampled:
+  // at 64 camera rays of 4 directions each the largest of 64 pixels is off by 0.006.
   RenderSettings settings = one_pixel(64);
   settings.width = settings.height = 8;
   const Image image =
@@ -367,7 +374,8 @@ TEST(Lobes, ACoatedFloorShowsTheLampByFresnelAndKeepsTheRest) {
   };
   const double cosine = glm::normalize(eye).y;
   const double fresnel = 0.04 + 0.96 * std::pow(1.0 - cosine, 5.0);
-  // From the centre of the floor the lamp fills all but its far edges: F = 0.9 or so, which pass one finds, whatever the floor.
+  // From the centre of the floor the lamp fills all but its far edges:
+  // F = 0.9 or so, which pass one finds, whatever the floor.
   const Camera camera = look_at(eye, Point3(0.0), 1e-4);
   const auto shown = [&](const Material& floor) {
     return picture(lit_up(under_lamp(floor), coarse()), camera, one_pixel(16)).pixels[0].g;

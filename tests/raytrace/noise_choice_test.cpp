@@ -1,4 +1,5 @@
-// Which pixels are drawn again: as many as wanted, each at most once, where the picture has edges; and sums stay what they are.
+// Which pixels are drawn again:
+// as many as wanted, each at most once, where the picture has edges; and sums stay what they are.
 #include "raytrace/noise_choice.h"
 #include "scenes/sampling.h"
 
@@ -34,7 +35,8 @@ double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// A bright disc on a dark wall, a pixel's share of it being what is bright, and what another draw changes of it: at the rim alone.
+/// A bright disc on a dark wall, a pixel's share of it being what is bright,
+/// and what another draw changes of it: at the rim alone.
 struct Disc {
   static constexpr int size = 64;
   Image picture{size, size};
@@ -94,13 +96,15 @@ TEST(NoiseChoice, ChancesAreThoseOfSoManyPixels) {
 }
 
 TEST(NoiseChoice, ChancesAreHalfEvenHalfByContrast) {
-  // None is certain: 4 of 8 with a contrast of 1 beside 0 have (1/8 + 1/4) / 2 of the chances of two.
+  // None is certain:
+  // 4 of 8 with a contrast of 1 beside 0 have (1/8 + 1/4) / 2 of the chances of two.
   const std::vector<double> chances = chances_by(std::vector<double>{0, 1, 0, 1, 1, 0, 1, 0}, 2);
   for (const std::size_t k : {1U, 3U, 4U, 6U})
     EXPECT_NEAR(chances[k], 0.375, 1e-12);
   for (const std::size_t k : {0U, 2U, 5U, 7U})
     EXPECT_NEAR(chances[k], 0.125, 1e-12);
-  // One has all the contrast and would be drawn 4 (1/8 + 1) / 2 = 2.25 times: it is certain, and the seven others share three.
+  // One has all the contrast and would be drawn 4 (1/8 + 1) / 2 = 2.25 times:
+  // it is certain, and the seven others share three.
   const std::vector<double> one = chances_by(std::vector<double>{0, 0, 0, 9, 0, 0, 0, 0}, 4);
   for (std::size_t k = 0; k < one.size(); ++k)
     EXPECT_NEAR(one[k], k == 3 ? 1.0 : 3.0 / 7.0, 1e-12);
@@ -136,7 +140,8 @@ TEST(NoiseChoice, DrawsEachWithItsChance) {
 }
 
 TEST(NoiseChoice, DrawsAreSpreadOverTheList) {
-  // Up to any place as many as the chances there sum to, rounded up or down; other seeds draw others.
+  // Up to any place as many as the chances there sum to, rounded up or down;
+  // other seeds draw others.
   const std::vector<double> chances = chances_by(few_high(500), 100);
   for (std::uint32_t seed = 0; seed < 64; ++seed) {
     const std::vector<std::size_t> drawn = drawn_by(chances, seed);
@@ -158,7 +163,8 @@ TEST(NoiseChoice, KeepsMeans) {
     EXPECT_NEAR(found.mean, disc.mean(), 4.0 * found.sigma / 32.0) << wanted;
     EXPECT_LT(found.sigma / 32.0, 0.05 * disc.mean()) << "or else nothing is tested";
   }
-  // Also where contrasts tell nothing of what is looked for, or wrongly: drawn alike, one of sixty-four has twice the variance at most.
+  // Also where contrasts tell nothing of what is looked for, or wrongly:
+  // drawn alike, one of sixty-four has twice the variance at most.
   std::vector<double> wrong(disc.squares.size());
   for (std::size_t p = 0; p < wrong.size(); ++p)
     wrong[p] = disc.squares[p] > 0.0 ? 0.0 : even(p, 19);
@@ -167,7 +173,8 @@ TEST(NoiseChoice, KeepsMeans) {
 }
 
 TEST(NoiseChoice, IsNearlyCertainWhereTheNoiseIsAtAnEdge) {
-  // Some fifty pixels of 4096 have all of the noise; one in sixty-four drawn alike is less than one of them.
+  // Some fifty pixels of 4096 have all of the noise;
+  // one in sixty-four drawn alike is less than one of them.
   const Disc disc;
   const std::vector<double> none(disc.squares.size(), 0.0);
   const double alike = disc.found(none, 64).sigma;

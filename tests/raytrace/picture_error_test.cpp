@@ -62,8 +62,8 @@ RenderSettings gathered(RenderSettings settings) {
 }
 
 TEST(Probes, AreThePixelsOfThePicture) {
-  // With a pixel filter all rays are traced, by a picture as by probes, but in other packets: mirrors reflect those together that meet them
-  // together. That is the last bit.
+  // With a pixel filter all rays are traced, by a picture as by probes, but in other packets:
+  // mirrors reflect those together that meet them together. That is the last bit.
   TwoPassSettings settings = quick();
   settings.render.width = 24;
   settings.render.height = 20;
@@ -96,8 +96,8 @@ TEST(Probes, AreAlmostThoseOfAPictureThatIsSureOfItsPaths) {
     ASSERT_EQ(probed.radiance.size(), pixels.size());
     for (std::size_t k = 0; k < pixels.size(); ++k)
       if (term == DiffuseTerm::interpolated) {
-        // The rays of a probe are traced, those of a picture's tile may be sure without: the same but for the rounding of (u, v), times some
-        // tens of such steps across an element.
+        // The rays of a probe are traced, those of a picture's tile may be sure without:
+        // the same but for the rounding of (u, v), times some tens of such steps across an element.
         const glm::vec3 seen = picture.at(pixels[k].x, pixels[k].y);
         EXPECT_LT(glm::length(probed.radiance[k] - seen), 1e-5F * glm::length(seen)) << k;
       } else // samples at hits are drawn by the pixel's number in its tile: the same light, other noise
@@ -108,7 +108,8 @@ TEST(Probes, AreAlmostThoseOfAPictureThatIsSureOfItsPaths) {
 }
 
 TEST(Probes, AnotherDrawKeepsTheCameraRays) {
-  // What is interpolated depends on camera rays alone; what is gathered on the samples at their hits too.
+  // What is interpolated depends on camera rays alone;
+  // what is gathered on the samples at their hits too.
   TwoPassSettings settings = quick();
   settings.render.samples = 1;
   const Lit lit(lit_room(), settings);
@@ -140,8 +141,9 @@ TEST(EmitterPixels, AreThoseOfTheLampAndTheirNeighbours) {
 }
 
 TEST(PictureError, IsThatOfTheField) {
-  // The truth is the light gathered from the same field at every hit with many samples; camera rays are the same, so that
-  // only the field is off. 1,024 of 1,600 pixels leave sampling errors of some per cent.
+  // The truth is the light gathered from the same field at every hit with many samples;
+  // camera rays are the same, so that only the field is off.
+  // 1,024 of 1,600 pixels leave sampling errors of some per cent.
   TwoPassSettings settings = quick();
   const Lit lit(lit_room(), settings);
   const Image picture = lit.picture(settings.render);
@@ -154,7 +156,8 @@ TEST(PictureError, IsThatOfTheField) {
 }
 
 TEST(PictureError, OfFormFactorsIsNotThatOfShadowRays) {
-  // One shadow ray a hit makes light from the source noisy, that of elements as it was. Few pixels leave some per cent.
+  // One shadow ray a hit makes light from the source noisy, that of elements as it was.
+  // Few pixels leave some per cent.
   TwoPassSettings settings = quick();
   const Lit lit(lit_room(), settings);
   const Image picture = lit.picture(settings.render);
@@ -177,7 +180,8 @@ TEST(PictureError, OfCameraRaysIsWhatFewOfThemMiss) {
 }
 
 TEST(PictureError, OfAdaptiveCameraRaysIsThatOfThePixelsThatHaveMany) {
-  // Few pixels have many samples. Drawn by their share of the picture only a handful of them would be looked at.
+  // Few pixels have many samples.
+  // Drawn by their share of the picture only a handful of them would be looked at.
   TwoPassSettings settings = quick();
   const Lit lit(lit_room(), settings);
   settings.render.samples = 64;
@@ -196,7 +200,8 @@ TEST(PictureError, OfAdaptiveCameraRaysIsThatOfThePixelsThatHaveMany) {
 }
 
 TEST(PictureError, OfCameraRaysIsThatOfAllPixelsFromAFew) {
-  // 64 pixels four times, as they have four samples, of 1,600; over the seeds of the choice their mean square is that of all.
+  // 64 pixels four times, as they have four samples, of 1,600;
+  // over the seeds of the choice their mean square is that of all.
   TwoPassSettings settings = quick();
   const Lit lit(lit_room(), settings);
   settings.render.samples = 4;
@@ -280,7 +285,8 @@ TEST(PictureError, OfABlackPictureIsNone) {
 }
 
 TEST(ErrorMap, IsLargeWhereThePictureIsOff) {
-  // Its mean square is that of the error within a factor of two, and the half of the pixels it names worst hold most of the squares.
+  // Its mean square is that of the error within a factor of two,
+  // and the half of the pixels it names worst hold most of the squares.
   TwoPassSettings settings = quick();
   const Lit lit(lit_room(), settings);
   const Image picture = lit.picture(settings.render),

@@ -38,7 +38,8 @@ PictureChange change_inside(const Image& before, const Image& after,
 }
 
 std::vector<bool> edges(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
-  // Every material but mirrors glows in a colour of its own and reflects nothing, so that a picture is a map of surfaces.
+  // Every material but mirrors glows in a colour of its own and reflects nothing,
+  // so that a picture is a map of surfaces.
   Scene map = scene;
   for (std::size_t m = 0; m < map.materials.size(); ++m) {
     Material& material = map.materials[m];

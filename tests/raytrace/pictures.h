@@ -25,8 +25,9 @@ struct PictureChange {
 PictureChange change_inside(const Image& before, const Image& after,
                             const std::vector<bool>& left_out);
 
-/// Marks the pixels whose samples do not all land on one surface in one mirror world, and their neighbours: there a rounding or a filter
-/// decides. Found by rendering the scene with a flat colour of its own for each surface.
+/// Marks the pixels whose samples do not all land on one surface in one mirror world,
+/// and their neighbours: there a rounding or a filter decides.
+/// Found by rendering the scene with a flat colour of its own for each surface.
 std::vector<bool> edges(const Scene& scene, const Camera& camera, const RenderSettings& settings);
 
 } // namespace meninas::test

@@ -34,8 +34,9 @@ TEST(Pictures, SameBitsForAnyThreadCountAndRun) {
   EXPECT_EQ(images[0].pixels, images[2].pixels);
 }
 
-// With the mirror, the picture of the half room is that of the doubled room, in which the images are really there. Left out are pixels at
-// edges, by the rule of edges(): mirror edges are among them, where the sample grid decides which pixels are mirror.
+// With the mirror, the picture of the half room is that of the doubled room,
+// in which the images are really there. Left out are pixels at edges, by the rule of edges():
+// mirror edges are among them, where the sample grid decides which pixels are mirror.
 class PictureOfImages : public testing::TestWithParam<bool> {
 protected:
   Scene half = GetParam() ? half_room_with_small_mirror() : half_room();
@@ -62,8 +63,8 @@ TEST_P(PictureOfImages, PixelByPixel) {
   EXPECT_LT(c.rms, 0.002);
 }
 
-// Lamps without extent under a sky: the image of a lamp is another lamp, behind an opening where the mirror is. What is computed at the
-// hit is exact; the field beneath is sampled.
+// Lamps without extent under a sky: the image of a lamp is another lamp, behind an opening
+// where the mirror is. What is computed at the hit is exact; the field beneath is sampled.
 TEST_P(PictureOfImages, LampsAndSky) {
   half.lights = {{.name = "bulb", .intensity = Rgb(3.0, 2.0, 1.0), .position = {1.7, 2.0, 2.6}},
                  {.name = "spot",
@@ -100,7 +101,8 @@ INSTANTIATE_TEST_SUITE_P(Mirrors, PictureOfImages, testing::Values(false, true),
                            return which.param ? "PartOfTheWall" : "WholeWall";
                          });
 
-// Scale, place and orientation change nothing but roundings, which decide only where a sample meets an edge: no other pixel changes by 1 %.
+// Scale, place and orientation change nothing but roundings,
+// which decide only where a sample meets an edge: no other pixel changes by 1 %.
 TEST(Pictures, ScalePlaceAndOrientation) {
   const Scene scene = half_room_with_small_mirror();
   const Image before =

@@ -63,7 +63,8 @@ TEST(PixelFilter, WeightsSumToOneAndPlacesFollowThem) {
 }
 
 TEST(PixelFilter, AnEdgeComesOutAsTheFiltersIntegral) {
-  // A lamp covers the left half of the picture: pixels at distance x from its edge show the integral of the filter beyond.
+  // A lamp covers the left half of the picture:
+  // pixels at distance x from its edge show the integral of the filter beyond.
   Scene scene;
   add_polygon(scene, "lamp", {{-9, -9, 0}, {0, -9, 0}, {0, 9, 0}, {-9, 9, 0}},
               diffuse(0.0, std::numbers::pi));
@@ -133,7 +134,8 @@ TEST(SampleChoice, NeighboursThatDifferAreBothUncertain) {
 }
 
 TEST(SampleChoice, BrightPixelsAreHeldAgainstTheMean) {
-  // A step of a tenth, where all is a hundred times the mean, is of more weight than the same step where all is the mean.
+  // A step of a tenth, where all is a hundred times the mean,
+  // is of more weight than the same step where all is the mean.
   Image picture(20, 20);
   for (glm::vec3& pixel : picture.pixels)
     pixel = glm::vec3(1.0F);
@@ -193,7 +195,8 @@ TEST(SampleChoice, PixelsAreRightToWhatIsAskedFor) {
         square += relative * relative / double(3 * all.image.pixels.size());
       }
     }
-    // The bound is one of single pixels: most are far better, and what four samples and those around have missed is rare.
+    // The bound is one of single pixels:
+    // most are far better, and what four samples and those around have missed is rare.
     EXPECT_LT(std::sqrt(square), 0.25 * error);
     EXPECT_LE(off, all.image.pixels.size() / 500) << error;
   }
@@ -213,7 +216,8 @@ TEST(SampleChoice, TheSameBitsForAnyThreads) {
 }
 
 TEST(SpecularDepth, TheHundredthImageIsRhoToTheHundredth) {
-  // Mirrors at z = 0 and z = 1; the k-th image of a wall of radiance 1 is centred k heights up, 20 away.
+  // Mirrors at z = 0 and z = 1;
+  // the k-th image of a wall of radiance 1 is centred k heights up, 20 away.
   constexpr double rho = 0.99;
   Scene scene;
   add_polygon(scene, "low", {{-4, -50, 0}, {4, -50, 0}, {4, 50, 0}, {-4, 50, 0}}, mirror(rho));

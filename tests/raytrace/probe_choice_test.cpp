@@ -1,4 +1,5 @@
-// Which pixels tell the error: means stay what they are, and where a field changes much is looked at.
+// Which pixels tell the error:
+// means stay what they are, and where a field changes much is looked at.
 #include "raytrace/picture_error.h"
 #include "raytrace/probe_choice.h"
 #include "tests/support/rooms.h"
@@ -82,7 +83,8 @@ double mean_change() {
 }
 
 TEST(ProbeChoice, KeepsMeans) {
-  // Over many draws the weighted mean is that of the picture, for what is even and for what sits in a few pixels.
+  // Over many draws the weighted mean is that of the picture,
+  // for what is even and for what sits in a few pixels.
   constexpr std::uint32_t draws = 256;
   double sum = 0.0, squares = 0.0, weights = 0.0;
   for (std::uint32_t seed = 0; seed < draws; ++seed) {
@@ -131,7 +133,8 @@ TEST(ProbeChoice, IsEvenWhereNothingChanges) {
 }
 
 TEST(PictureError, IsCertainWhereAFewPixelsHoldIt) {
-  // One vertex in a thousand is wrong. Sixty-four pixels drawn evenly would miss it two times out of three, and say far too much else.
+  // One vertex in a thousand is wrong.
+  // Sixty-four pixels drawn evenly would miss it two times out of three, and say far too much else.
   const double mean_radiance = [] {
     double sum = 0.0, count = 0.0;
     const auto emits = room().emits();

@@ -128,7 +128,8 @@ TEST(Radiance, RowsRunFromTheTop) {
 }
 
 TEST(Radiance, OrthographicSeesTrueSizes) {
-  // A square of 1 m in a picture 4 m high and 8 m wide: exactly 1/4 of the height, 1/8 of the width, however far away.
+  // A square of 1 m in a picture 4 m high and 8 m wide:
+  // exactly 1/4 of the height, 1/8 of the width, however far away.
   Scene scene;
   for (const double z : {0.0, -100.0}) {
     const double x = z == 0.0 ? 0.0 : 2.0;
@@ -146,12 +147,14 @@ TEST(Radiance, OrthographicSeesTrueSizes) {
     }
 }
 
-// The k-th image of a lamp between facing mirrors is seen through k reflections: its radiance is rho^k L, and nothing else.
+// The k-th image of a lamp between facing mirrors is seen through k reflections:
+// its radiance is rho^k L, and nothing else.
 TEST(RadianceBetweenMirrors, TheKthImageHasReflectanceToTheKth) {
   const Rgb rho(0.98, 0.9, 0.7);
   const Taken scene = lit_up(facing_mirrors(rho), coarse());
   for (int k = -30; k <= 30; ++k) {
-    // Lamps at z = k + 1/2 of unfolded space; the corridor between the mirrors has no walls across it.
+    // Lamps at z = k + 1/2 of unfolded space;
+    // the corridor between the mirrors has no walls across it.
     const Point3 eye{0.5, 0.3, 0.5};
     const Camera camera = look_at(eye, {0.5, 0.99, k + 0.5 + 1e-9}, 1e-4);
     RenderSettings settings = size(3, 3, 4);
@@ -172,7 +175,8 @@ TEST(RadianceBetweenMirrors, TheKthImageHasReflectanceToTheKth) {
 
 TEST(RadianceBetweenMirrors, PathsEndBelowTheVisibleThreshold) {
   const Taken scene = lit_up(facing_mirrors(Rgb(1.0)), coarse());
-  // Straight into perfect mirrors a ray never ends by itself: the picture is black there, and finished.
+  // Straight into perfect mirrors a ray never ends by itself:
+  // the picture is black there, and finished.
   Camera camera = look_at({0.5, 0.3, 0.5}, {0.5, 0.3, 0.0}, 1e-7);
   const Image image = picture(scene, camera, size(2, 2, 1));
   for (const auto& pixel : image.pixels)

@@ -100,8 +100,9 @@ TEST(Render, MirrorsAreBlackInRadiosityMode) {
 }
 
 TEST(Render, TheKthImageBetweenFacingMirrorsIsRhoToTheKth) {
-  // Between mirrors at z = 0 and z = 1 a path at slope s climbs s per leg, so that pixel rows see the lamp, which spans 0.25 of height
-  // on the far wall x = 2, after a number of reflections that follows from the straight line of the unfolded path.
+  // Between mirrors at z = 0 and z = 1 a path at slope s climbs s per leg,
+  // so that pixel rows see the lamp, which spans 0.25 of height on the far wall x = 2,
+  // after a number of reflections that follows from the straight line of the unfolded path.
   constexpr double rho = 0.8;
   Scene scene;
   add_polygon(scene, "low", {{-4, -50, 0}, {4, -50, 0}, {4, 50, 0}, {-4, 50, 0}}, mirror(rho));
@@ -163,8 +164,9 @@ double moved_pixels(const Image& a, const Image& b, double part = 0.01) {
 }
 
 TEST(Render, ScaleAndPlaceDoNotMatter) {
-  // The frame of the rays is scaled and centred with the scene; what is left is rounding, which moves no pixel by a hundredth
-  // except where one of its samples lies within rounding of an edge: none here.
+  // The frame of the rays is scaled and centred with the scene;
+  // what is left is rounding, which moves no pixel by a hundredth except
+  // where one of its samples lies within rounding of an edge: none here.
   const Scene scene = mirror_room();
   const auto settings = quick(48, 40, 16);
   const Image image = picture_of(scene, settings);
@@ -174,8 +176,9 @@ TEST(Render, ScaleAndPlaceDoNotMatter) {
 }
 
 TEST(Render, ARotatedSceneGivesTheSamePicture) {
-  // The tangent frames turn with the surfaces' coordinates, not with the scene: other gather rays, so the noise of 2048 of them (half a per
-  // cent at a vertex) is what may differ. Three of its standard deviations leave a few pixels in a thousand.
+  // The tangent frames turn with the surfaces' coordinates, not with the scene: other gather rays,
+  // so the noise of 2048 of them (half a per cent at a vertex) is what may differ.
+  // Three of its standard deviations leave a few pixels in a thousand.
   auto settings = quick(48, 40, 16);
   settings.pass_one.form_factors.rays = settings.pass_one.interpolation.rays = 2048;
   settings.pass_one.direct.penumbra_rays = 1024;
@@ -187,8 +190,9 @@ TEST(Render, ARotatedSceneGivesTheSamePicture) {
 }
 
 TEST(Render, AMirrorRoomLooksLikeTheDoubledRoom) {
-  // The image room is meshed and sampled on its own, so that pictures differ by the noise of both: 3 sigma of 1024 rays at a vertex are
-  // about two per cent. Silhouettes and the edge of the mirror differ by the rounding of where they fall within a pixel.
+  // The image room is meshed and sampled on its own, so that pictures differ by the noise of both:
+  // 3 sigma of 1024 rays at a vertex are about two per cent. Silhouettes and the edge
+  // of the mirror differ by the rounding of where they fall within a pixel.
   auto settings = quick(64, 48, 16);
   settings.pass_one.mesh.element_size = 0.2;
   settings.pass_one.form_factors.rays = settings.pass_one.interpolation.rays = 1024;

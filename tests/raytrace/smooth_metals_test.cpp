@@ -63,11 +63,13 @@ TEST(SmoothMetalPictures, NoLightIsLostFromLobeToLobe) {
   add_polygon(scene, "high", {{-1, 0.3, -1}, {1, 0.3, -1}, {1, 0.3, 1}, {-1, 0.3, 1}},
               metal(Rgb(1.0), 0.25));
   const Camera camera = look_at({0, 0.15, 3}, {0, 0, 0.7}, 0.02);
-  // Of 64 times 256 paths, whose weights scatter by a tenth or so; what is followed no further is below 1/1024.
+  // Of 64 times 256 paths, whose weights scatter by a tenth or so;
+  // what is followed no further is below 1/1024.
   EXPECT_NEAR(mean_under_sky(scene, camera, 256), 1.0, 0.01);
 }
 
-/// A gloss floor before a wall of smooth metal, with a lamp that the floor's lobes find by way of the wall alone, or a bulb.
+/// A gloss floor before a wall of smooth metal,
+/// with a lamp that the floor's lobes find by way of the wall alone, or a bulb.
 Scene floor_and_wall(bool with_lamp) {
   Scene scene;
   add_polygon(scene, "floor", {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}},
@@ -90,7 +92,8 @@ Scene floor_and_wall(bool with_lamp) {
 }
 
 TEST(SmoothMetalPictures, LampsBehindALobeAreCountedOnce) {
-  // Nothing reflects but lobes: whatever pass one takes the wall for, the picture of the floor is the same.
+  // Nothing reflects but lobes:
+  // whatever pass one takes the wall for, the picture of the floor is the same.
   RenderSettings settings;
   settings.width = settings.height = 12;
   settings.samples = 256;
@@ -109,7 +112,8 @@ TEST(SmoothMetalPictures, LampsBehindALobeAreCountedOnce) {
     mark_smooth_surfaces(smooth);
     ASSERT_TRUE(is_mirror(smooth.materials[0]) && is_mirror(smooth.materials[1]));
     const double wanted = mean_of(even);
-    // What facets spread, a hundredth of the light and less, is in the lobe of the one and even in the other.
+    // What facets spread, a hundredth of the light and less,
+    // is in the lobe of the one and even in the other.
     EXPECT_NEAR(mean_of(smooth), wanted, 0.02 * wanted) << with_lamp;
   }
 }

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A wall of radiance 1 in the plane z = -1 to the right of `edge`, and one of a tenth of it to the left, both far wider than what is seen.
+/// A wall of radiance 1 in the plane z = -1 to the right of `edge`,
+/// and one of a tenth of it to the left, both far wider than what is seen.
 Scene walls_with_edge(double edge) {
   Scene scene;
   add_polygon(scene, "right", {{edge, -9, -1}, {9, -9, -1}, {9, 9, -1}, {edge, 9, -1}},
@@ -34,7 +35,8 @@ double seen(const Scene& scene, Point3 eye, Point3 target) {
 }
 
 TEST(SolidGlass, ASlabShiftsWhatIsSeenThroughIt) {
-  // Seen at an angle a, a slab of thickness t between parallel faces moves the line of sight by d across it (glass_test.cpp), along the wall by d / cos a.
+  // Seen at an angle a, a slab of thickness t between parallel faces moves the line
+  // of sight by d across it (glass_test.cpp), along the wall by d / cos a.
   constexpr double ior = 1.5, thickness = 0.4;
   const double a = 0.8, b = std::asin(std::sin(a) / ior);
   const double shift = thickness * std::sin(a) * (1.0 - std::cos(a) / (ior * std::cos(b)));
@@ -70,8 +72,9 @@ TEST(SolidGlass, TakesItsPartByTheMetre) {
 }
 
 TEST(SolidGlass, APrismReflectsAllOfIt) {
-  // In through one leg, onto the face that is slanted by 45 degrees, beyond the 41.8 of total reflection, and out through the other leg. The prism is
-  // that over the triangle (0, 0), (1, 0), (1, 1) of the plane of y and z.
+  // In through one leg, onto the face that is slanted by 45 degrees,
+  // beyond the 41.8 of total reflection, and out through the other leg.
+  // The prism is that over the triangle (0, 0), (1, 0), (1, 1) of the plane of y and z.
   const auto at = [](double y, double z, double x) { return Point3(x, y, z); };
   Scene scene;
   add_polygon(scene, "wall", {at(3, -4, -4), at(3, -4, 4), at(3, 4, 4), at(3, 4, -4)},

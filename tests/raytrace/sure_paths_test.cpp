@@ -75,7 +75,8 @@ TEST(SurePaths, FollowFacingMirrors) {
 }
 
 TEST(SurePaths, OfVeryWideViewsAreTheSame) {
-  // The first tile goes far beyond the middle of the picture: its last rays go back from the plane across its own middle.
+  // The first tile goes far beyond the middle of the picture:
+  // its last rays go back from the plane across its own middle.
   for (const double vertical_fov : {2.4, 2.6, 3.0})
     expect_same(half_room(), look_at({1.7, 1.6, 2.7}, {0.2, 1.0, 0.8}, vertical_fov), 0.2, 40);
 }
@@ -94,7 +95,8 @@ TEST(SurePaths, LookThroughBacksFromOutside) {
 
 TEST(SurePaths, MissNoThinBarsNorSheetsNorHoles) {
   Scene scene = half_room();
-  // Thinner than a pixel; in front of a wall by less than a margin; two sides of a sheet; a plate across the mirror.
+  // Thinner than a pixel; in front of a wall by less than a margin;
+  // two sides of a sheet; a plate across the mirror.
   add_polygon(scene, "bar",
               {{0.5, 0.0, 1.0}, {0.501, 0.0, 1.0}, {0.501, 2.4, 1.0}, {0.5, 2.4, 1.0}},
               double_sided(diffuse(0.3, 2.0)));
@@ -112,7 +114,8 @@ TEST(SurePaths, MissNoThinBarsNorSheetsNorHoles) {
 }
 
 TEST(SurePaths, EdgeOnFromTheCornerOfATileIsNoDivisionByZero) {
-  // The eye is as high as the box: the middle of the picture, where four tiles meet, sees its lid edge on.
+  // The eye is as high as the box:
+  // the middle of the picture, where four tiles meet, sees its lid edge on.
   Scene scene;
   add_room(
       scene, {-1, -1, -1}, {1, 1, 1},

@@ -1,4 +1,5 @@
-// Textures in both passes: means over the elements, the image itself at every hit, and light by what glows in patterns.
+// Textures in both passes:
+// means over the elements, the image itself at every hit, and light by what glows in patterns.
 #include "image/image_file.h"
 #include "radiosity/surface_colour.h"
 #include "raytrace/two_pass.h"
@@ -26,7 +27,8 @@ Texture chessboard(int n, int cell) {
   return {.name = "chessboard", .encoded = encode_png(image, 0.0)};
 }
 
-/// The unit square about the origin in the plane y = `height`, facing up or down, with texture coordinates (x, z) + 1/2.
+/// The unit square about the origin in the plane y = `height`,
+/// facing up or down, with texture coordinates (x, z) + 1/2.
 void add_square(Scene& scene, const std::string& name, double height, bool up, Material material,
                 double half = 0.5) {
   std::vector<Point3> corners{
@@ -57,8 +59,9 @@ TwoPassSettings quick(double element_size) {
 }
 
 TEST(Textures, ElementsKnowTheMeanOverThemselves) {
-  // Two by two elements on four by four squares: half of each is white. On the squares themselves they are black or white, but for the texels
-  // at the borders, which are interpolated: 1/16 of a square, to either side alike.
+  // Two by two elements on four by four squares: half of each is white.
+  // On the squares themselves they are black or white, but for the texels at the borders,
+  // which are interpolated: 1/16 of a square, to either side alike.
   Scene scene;
   scene.textures = {chessboard(4, 16)};
   add_square(scene, "floor", 0.0, true, painted(0.8));
@@ -81,7 +84,8 @@ TEST(Textures, ElementsKnowTheMeanOverThemselves) {
 }
 
 TEST(Textures, APictureShowsTheImageUnderEvenLight) {
-  // Under a sky of radiance 1 the floor shows its own reflectance. Cameras look at the middles of squares and at a border.
+  // Under a sky of radiance 1 the floor shows its own reflectance.
+  // Cameras look at the middles of squares and at a border.
   Scene scene;
   scene.textures = {chessboard(4, 16)};
   add_square(scene, "floor", 0.0, true, painted(0.8));
@@ -136,7 +140,8 @@ TEST(Textures, AreAsSharpInAMirror) {
   scene.background = Rgb(1.0);
   TwoPassSettings settings = quick(0.25);
   settings.render.width = settings.render.height = 24;
-  // A camera behind the mirror looks past its back, and sees what the mirror shows, left and right exchanged.
+  // A camera behind the mirror looks past its back,
+  // and sees what the mirror shows, left and right exchanged.
   const auto prepared = prepare_scene(scene, settings.pass_one);
   const auto solution = solve_pass_one(*prepared->light, settings.pass_one);
   const auto seen = [&](const Point3& from, const Point3& at) {
@@ -162,7 +167,8 @@ TEST(Textures, AreAsSharpInAMirror) {
 }
 
 TEST(Textures, WhereSmoothMetalIsNoneItIsDiffuse) {
-  // Metal where x > 0, and all of it smooth; a bulb, which no ideal mirror shows but in its own direction.
+  // Metal where x > 0, and all of it smooth;
+  // a bulb, which no ideal mirror shows but in its own direction.
   Scene scene;
   scene.textures = {half_black()};
   Material metal = mirror(0.8);
@@ -248,7 +254,8 @@ constexpr unsigned char half_there[] = {
     0x9c, 0x63, 0xf8, 0x0f, 0x01, 0x0c, 0x00, 0x22, 0xe6, 0x06, 0xfa, 0x08, 0xfa, 0x02,
     0x27, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
-/// A black screen at height 1/2 over the half x < 0 of a floor under the sky: as it is, or a whole one with its other half cut out.
+/// A black screen at height 1/2 over the half x < 0 of a floor under the sky:
+/// as it is, or a whole one with its other half cut out.
 Scene under_a_screen(bool cut_out) {
   Scene scene;
   const auto bytes = std::as_bytes(std::span(half_there));
@@ -273,7 +280,8 @@ Scene under_a_screen(bool cut_out) {
 }
 
 TEST(CutOuts, EveryRayPassesTheirHoles) {
-  // Camera rays, shadow rays and the rays of form factors: the same picture, but for the line of pixels where the screen ends.
+  // Camera rays, shadow rays and the rays of form factors:
+  // the same picture, but for the line of pixels where the screen ends.
   TwoPassSettings settings = quick(0.25);
   settings.pass_one.form_factors.rays = settings.pass_one.interpolation.rays = 1024;
   settings.render.width = settings.render.height = 32;
@@ -310,8 +318,8 @@ TEST(CutOuts, WhatIsCutOutNeitherEmitsNorReflects) {
 }
 
 TEST(Textures, OfMirrorsColourWhatIsSeenInThem) {
-  // A sky seen in a mirror painted with 2 x 2 squares, half of them black; the camera looks at the middle of the first, which is white, and at the
-  // next.
+  // A sky seen in a mirror painted with 2 x 2 squares, half of them black;
+  // the camera looks at the middle of the first, which is white, and at the next.
   Scene scene;
   scene.background = Rgb(1.0);
   scene.textures = {chessboard(2, 8)};

@@ -1,4 +1,5 @@
-// Layers where gloss, coats and glass are seen: what has a direction of its own is a mirror to the eye, in the reference as in the two passes.
+// Layers where gloss, coats and glass are seen:
+// what has a direction of its own is a mirror to the eye, in the reference as in the two passes.
 #include "raytrace/two_pass.h"
 #include "scenes/lobes.h"
 #include "tests/reference/tracing.h"
@@ -59,7 +60,8 @@ std::map<std::string, double> hybrid_layers(const Scene& scene, const Camera& ca
   return means;
 }
 
-/// Each layer of some kind within four standard errors of the paths and the error of the field, that of 10 cm elements; those named have light.
+/// Each layer of some kind within four standard errors of the paths and the error of the field,
+/// that of 10 cm elements; those named have light.
 void expect_same_layers(const Scene& scene, const Camera& camera,
                         std::initializer_list<const char*> lit, std::string_view kind = "") {
   constexpr int size = 16;
@@ -97,7 +99,8 @@ Scene mirror_room(const Material& floor, const Material& others) {
 const Camera over_the_floor = look_at({1.8, 1.2, 0.3}, {0.5, 0.2, 1.2}, 1.0);
 
 TEST(LayersByLobes, UnderEvenLightGlossShowsWhatItsFacetsDoNotSpread) {
-  // Black walls of radiance 1: a white metal shows 1, of which what its facets spread is even and the rest its lobe's.
+  // Black walls of radiance 1:
+  // a white metal shows 1, of which what its facets spread is even and the rest its lobe's.
   Scene scene;
   std::array<Material, 6> walls;
   walls.fill(diffuse(0.0, std::numbers::pi));
@@ -114,15 +117,17 @@ TEST(LayersByLobes, UnderEvenLightGlossShowsWhatItsFacetsDoNotSpread) {
                                             {"emission.mirror", 1.0 - even}};
   for (const auto& [name, mean] : layers) {
     const double expected = exact.contains(name) ? exact.at(name) : 0.0;
-    // Rays of even light are all alike, but chosen by chance for either part. The table of albedos is good to 1e-3 (microfacets_test).
+    // Rays of even light are all alike, but chosen by chance for either part.
+    // The table of albedos is good to 1e-3 (microfacets_test).
     EXPECT_LE(mean.error, 0.002) << name;
     EXPECT_NEAR(mean.value, expected, 4.0 * mean.error + 1e-3 * (expected > 0.0)) << name;
   }
 }
 
 TEST(LayersByLobes, AgreeOnAGlossyMetal) {
-  // Walls are black, so that what the metal throws on them, which pass one spreads evenly, does not come back. What its facets spread depends
-  // on where light comes from, which the field does not know: of these, the diffuse layers, only the mean over all light is the same.
+  // Walls are black, so that what the metal throws on them, which pass one spreads evenly,
+  // does not come back. What its facets spread depends on where light comes from, which the field
+  // does not know: of these, the diffuse layers, only the mean over all light is the same.
   for (const double roughness : {0.15, 0.4}) {
     SCOPED_TRACE(roughness);
     Material metal = diffuse(Rgb(0.9, 0.7, 0.4));

@@ -1,4 +1,5 @@
-// The reference's own split of its picture: closed forms, and the two passes as the other route to the same shares.
+// The reference's own split of its picture:
+// closed forms, and the two passes as the other route to the same shares.
 #include "raytrace/two_pass.h"
 #include "tests/reference/tracing.h"
 #include "tests/support/rooms.h"
@@ -105,7 +106,8 @@ TEST(ReferenceLayers, ALampInFacingMirrorsIsSeenInOneAndInSeveral) {
   }
 }
 
-/// The factor from a point of the floor to a rectangle over it, one corner straight above (Siegel and Howell, B-4).
+/// The factor from a point of the floor to a rectangle over it,
+/// one corner straight above (Siegel and Howell, B-4).
 double corner_factor(double a, double b) {
   constexpr double h = 2.0;
   const double x = a / h, y = b / h, rx = std::sqrt(1.0 + x * x), ry = std::sqrt(1.0 + y * y);
@@ -113,7 +115,8 @@ double corner_factor(double a, double b) {
 }
 
 TEST(ReferenceLayers, WhatTheMirrorThrowsOnTheFloorIsTheImageOfTheLamp) {
-  // The lamp over the floor reaches from 0.5 m left of the point to 0.5 m right of it; its image behind x = 0 from 2.5 to 3.5 m left.
+  // The lamp over the floor reaches from 0.5 m left of the point to 0.5 m right of it;
+  // its image behind x = 0 from 2.5 to 3.5 m left.
   constexpr double reflectance = 0.6, rho = 0.9, emitted = 10.0;
   Scene scene;
   add_polygon(scene, "floor", {{0.5, 0, -1}, {0.5, 0, 1}, {2.5, 0, 1}, {2.5, 0, -1}},
@@ -141,7 +144,8 @@ TEST(ReferenceLayers, WhatTheMirrorThrowsOnTheFloorIsTheImageOfTheLamp) {
 }
 
 TEST(ReferenceLayers, ARatioKnowsItsError) {
-  // Parts 1, 2, 3 of wholes 2, 4, 6 are one half for certain; parts 1, 3 of wholes 4, 4 are 1/2 +- 1/4.
+  // Parts 1, 2, 3 of wholes 2, 4, 6 are one half for certain;
+  // parts 1, 3 of wholes 4, 4 are 1/2 +- 1/4.
   const auto batch = [](double emission, double direct) {
     LayerLuminances luminances{};
     luminances[0] = emission;
@@ -190,7 +194,8 @@ TEST(ReferenceLayers, TheTwoPassesFindTheSameShares) {
     const double found = share_of({hybrid, hybrid}, figure.part, figure.whole).value;
     EXPECT_GT(truth.value, 0.02) << figure.name;
     EXPECT_LT(truth.standard_error, 0.005 * truth.value) << figure.name;
-    // Light between vertices 10 cm apart is linear, and 256 rays a vertex leave a percent of noise that varies over the few in view.
+    // Light between vertices 10 cm apart is linear,
+    // and 256 rays a vertex leave a percent of noise that varies over the few in view.
     EXPECT_NEAR(found, truth.value, 4.0 * truth.standard_error + 0.01 * truth.value) << figure.name;
   }
 }

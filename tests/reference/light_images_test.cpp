@@ -1,4 +1,5 @@
-// Punctual lights are all asked for, whichever is the strongest, and thinned out without bias where they are too many.
+// Punctual lights are all asked for, whichever is the strongest,
+// and thinned out without bias where they are too many.
 #include "reference/light_images.h"
 #include "tests/reference/tracing.h"
 

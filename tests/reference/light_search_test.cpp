@@ -1,4 +1,5 @@
-// Light is found by choosing it, by meeting it, or by both with weights: all three have the same expectation.
+// Light is found by choosing it, by meeting it, or by both with weights:
+// all three have the same expectation.
 #include "tests/reference/tracing.h"
 #include "tests/support/rooms.h"
 
@@ -53,7 +54,8 @@ TEST(LightSearch, LightByWayOfMirrorsIsFoundInEveryWay) {
   expect_same(both, by(LightSearch::meeting, scene, camera, 1024));
 }
 
-/// Two mirrors at a right angle, so that chains of two and more matter, in a room with a large lamp.
+/// Two mirrors at a right angle,
+/// so that chains of two and more matter, in a room with a large lamp.
 TEST(LightSearch, ChainsOfMirrorsAreFoundInEveryWay) {
   Scene scene;
   add_room(scene, {0, 0, 0}, {3, 2.5, 4},

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// An encoded picture of a white texel on the left and a black one on the right, which does not repeat.
+/// An encoded picture of a white texel on the left and a black one on the right,
+/// which does not repeat.
 Texture white_and_black() {
   Image image(2, 1);
   image.at(0, 0) = glm::vec3(1.0F);
@@ -67,7 +68,8 @@ TEST(ReferenceMaterials, ATexturedEmitter) {
   expect_radiance(radiance_seen(scene, {-0.8, 0.5, 0.1}, {-0.8, 1, 0}, 32), Rgb(2.0));
   expect_radiance(radiance_seen(scene, {0, 0.5, 0.1}, {0, 1, 0}, 32), Rgb(1.0));
   EXPECT_EQ(radiance_seen(scene, {0.8, 0.5, 0.1}, {0.8, 1, 0}, 32).mean, Rgb(0.0));
-  // Places left and right of the middle add up to white: under it there is half the light of the plain lamp.
+  // Places left and right of the middle add up to white:
+  // under it there is half the light of the plain lamp.
   const MeanRadiance full = radiance_seen(plain, {4, 0.15, 1}, Point3(0.0), 1024);
   expect_radiance(radiance_seen(scene, {4, 0.15, 1}, Point3(0.0), 1024), 0.5 * full.mean);
 }
@@ -126,7 +128,8 @@ TEST(ReferenceMaterials, APaneTintsAndReflects) {
   Material glass = diffuse(Rgb(0.5, 1.0, 1.0));
   glass.roughness = 0.0;
   glass.transmission = 1.0;
-  // Light falls straight through it, but for 4 % at either face, of which some comes back to the other one.
+  // Light falls straight through it, but for 4 % at either face,
+  // of which some comes back to the other one.
   const Rgb passed(0.96 * 0.96 * 0.5 / (1.0 - 0.02 * 0.02), 0.96 / 1.04, 0.96 / 1.04);
   expect_radiance(radiance_seen(screened(glass), {0.5, 0.5, 0.5}, Point3(0.0), 32),
                   passed * (floor_reflectance / pi));
@@ -161,7 +164,8 @@ TEST(ReferenceMaterials, ALampBehindAPaneIsFoundInEveryWay) {
 }
 
 TEST(ReferenceMaterials, RoughWhiteMetalInAFurnaceIsInvisible) {
-  // A white metal reflects all it receives: in a room of even radiance it is as bright as the walls, however rough.
+  // A white metal reflects all it receives:
+  // in a room of even radiance it is as bright as the walls, however rough.
   for (const double roughness : {0.05, 0.4, 1.0}) {
     Scene scene = furnace(0.5, {});
     Material metal = mirror(1.0);

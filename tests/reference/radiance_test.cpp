@@ -12,7 +12,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Radiance in a furnace of emitted radiosity 1: E / (1 - rho) / pi, wherever one looks, whichever walls are perfect mirrors.
+/// Radiance in a furnace of emitted radiosity 1:
+/// E / (1 - rho) / pi, wherever one looks, whichever walls are perfect mirrors.
 class ReferenceFurnace : public testing::TestWithParam<std::pair<double, std::array<bool, 6>>> {};
 
 TEST_P(ReferenceFurnace, IsEvenlyBright) {
@@ -31,7 +32,8 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair(0.5, std::array{true, true, false, false, false, false}),
                     std::pair(0.7, std::array{true, false, true, false, true, false})));
 
-/// The factor from a point to a parallel rectangle over it, one of whose corners is a height h straight above: a classic, e.g.
+/// The factor from a point to a parallel rectangle over it,
+/// one of whose corners is a height h straight above: a classic, e.g.
 /// Siegel and Howell, configuration B-4.
 double corner_factor(double a, double b, double h) {
   const double x = a / h, y = b / h, rx = std::sqrt(1.0 + x * x), ry = std::sqrt(1.0 + y * y);
@@ -140,11 +142,13 @@ TEST(ReferenceRadiance, APointLightByWayOfAMirror) {
                    .kind = PunctualKind::point,
                    .intensity = Rgb(3, 2, 1),
                    .position = {0, 2, 0}}};
-  // Past the shield the floor at x = 4 sees the light, distance^2 20, and its image at y = 4, distance^2 32.
+  // Past the shield the floor at x = 4 sees the light,
+  // distance^2 20, and its image at y = 4, distance^2 32.
   const double direct = 2.0 / std::sqrt(20.0) / 20.0, image = std::sqrt(0.5) / 32.0;
   const Rgb lit = Rgb(3, 2, 1) * ((direct + 0.8 * image) * rho / pi);
   expect_radiance(radiance_seen(scene, {6, 1, 1}, {4, 0, 0}, 32), lit);
-  // From x = 1.5 the shield hides the light, passed at x = 0.75, but not the image, passed at x = 1.125.
+  // From x = 1.5 the shield hides the light,
+  // passed at x = 0.75, but not the image, passed at x = 1.125.
   const double near = 4.0 / std::pow(1.5 * 1.5 + 16.0, 1.5);
   expect_radiance(radiance_seen(scene, {1.6, 0.5, 0.1}, {1.5, 0, 0}, 32),
                   Rgb(3, 2, 1) * (0.8 * near * rho / pi));

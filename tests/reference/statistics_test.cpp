@@ -44,7 +44,8 @@ TEST(ReferenceStatistics, IndependentPicturesDifferByTheirVariance) {
     ++count;
   }
   ASSERT_GT(count, 400.0);
-  // The mean of so many z is known to 1 / sqrt(n), their mean square to sqrt(2 / n), both times four; 32 batches make the latter 1.07.
+  // The mean of so many z is known to 1 / sqrt(n), their mean square to sqrt(2 / n),
+  // both times four; 32 batches make the latter 1.07.
   EXPECT_NEAR(sum / count, 0.0, 4.0 / std::sqrt(count));
   EXPECT_NEAR(squares / count, 1.07, 4.0 * std::sqrt(2.0 / count));
 }

@@ -22,7 +22,8 @@ MeanRadiance mean_radiance(const reference::ReferencePicture& picture);
 /// A pixel's worth of what a narrow view sees: the radiance at `target` towards `eye`.
 MeanRadiance radiance_seen(const Scene& scene, Point3 eye, Point3 target, int samples);
 
-/// Within four standard errors, and these at most a hundredth of it: a test that is too noisy to say anything fails.
+/// Within four standard errors, and these at most a hundredth of it:
+/// a test that is too noisy to say anything fails.
 void expect_radiance(const MeanRadiance& measured, const Rgb& exact, double most_error = 0.01);
 
 } // namespace meninas::test

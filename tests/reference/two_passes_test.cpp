@@ -1,4 +1,5 @@
-// The two passes against paths, where light goes by glass and gloss: two programs that share the materials and nothing else.
+// The two passes against paths, where light goes by glass and gloss:
+// two programs that share the materials and nothing else.
 #include "raytrace/two_pass.h"
 #include "scenes/smooth_surfaces.h"
 #include "tests/reference/tracing.h"
@@ -28,7 +29,8 @@ struct Sight {
   Point3 eye, target;
 };
 
-/// Radiances agree within four standard errors of the paths and the error of the field, which is that of 10 cm elements.
+/// Radiances agree within four standard errors of the paths and the error of the field,
+/// which is that of 10 cm elements.
 void expect_agreement(const Scene& scene, std::initializer_list<Sight> sights) {
   PassOneSettings settings;
   settings.mesh.element_size = 0.1;
@@ -88,7 +90,8 @@ TEST(TwoPasses, AgreeWithPathsThroughSolids) {
 }
 
 TEST(TwoPasses, AgreeWithPathsOverAPolishedFloor) {
-  // The lamp shines on the floor alone, so that all of the ceiling's light comes from there: a tenth of it by the coat.
+  // The lamp shines on the floor alone, so that all of the ceiling's light comes from there:
+  // a tenth of it by the coat.
   Scene scene;
   add_room(scene, {0, 0, 0}, {2, 2, 2},
            {diffuse(0.2), diffuse(0.2), coated(Rgb(0.1, 0.2, 0.4), 0.0), diffuse(0.2), diffuse(0.2),

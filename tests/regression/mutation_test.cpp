@@ -1,4 +1,5 @@
-// The suite can fail: small changes of a scene are caught by the limits of its committed case, and the scene as it is passes.
+// The suite can fail: small changes of a scene are caught by the limits of its committed case,
+// and the scene as it is passes.
 #include "tests/cli/program.h"
 
 #include <gmock/gmock.h>

@@ -57,7 +57,8 @@ TEST(BatchForecast, KindsOfPicturesHaveTheirOwnPace) {
 TEST(BatchForecast, PicturesUnderWayCount) {
   BatchForecast forecast = all_waiting();
   forecast.waits_no_more(2);
-  // A quarter of a reference in ten seconds: thirty more, forty for the other one; all else is expected to be like it, as nothing else is known.
+  // A quarter of a reference in ten seconds: thirty more, forty for the other one;
+  // all else is expected to be like it, as nothing else is known.
   const TasksUnderWay now{.pictures = {{2, 10.0, 0.25}}, .solves = {}};
   EXPECT_DOUBLE_EQ(forecast.seconds_left(now, 10.0).value(), 30.0 + 40.0 + 4.0 * 40.0);
 }

@@ -1,4 +1,5 @@
-// The order of tasks, and the memory they may have, without threads and scenes: light is a value like any other here.
+// The order of tasks, and the memory they may have, without threads and scenes:
+// light is a value like any other here.
 #include "runs/batch/batch_queue.h"
 #include "runs/memory.h"
 
@@ -118,7 +119,8 @@ TEST(BatchQueue, AGroupThatCannotBeSolvedIsRefused) {
   EXPECT_TRUE(batch.queue->is_over());
 }
 
-// Whatever the order in which tasks end, and whatever freed memory the process keeps: the limit holds, and everything gets made.
+// Whatever the order in which tasks end, and whatever freed memory the process keeps:
+// the limit holds, and everything gets made.
 TEST(BatchQueue, TheLimitHoldsAndNothingStarves) {
   std::mt19937 random(7);
   for (int round = 0; round < 50; ++round) {

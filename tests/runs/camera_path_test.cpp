@@ -103,7 +103,8 @@ TEST(CameraPath, VelocityDoesNotJumpAtAPose) {
   const auto cameras = cameras_along(path, {});
   const Vec3 before = cameras[1000].position - cameras[999].position,
              after = cameras[1001].position - cameras[1000].position;
-  // Over a thousandth of a unit of time the velocity, about two, changes by the acceleration, less than ten.
+  // Over a thousandth of a unit of time the velocity,
+  // about two, changes by the acceleration, less than ten.
   EXPECT_LT(glm::length(after - before), 1e-3 * 1e-3 * 10.0);
   EXPECT_GT(glm::length(after), 1e-3);
 }

@@ -32,7 +32,8 @@ TEST(DiffuseTerm, IsWhatIsAskedFor) {
   EXPECT_EQ(diffuse_term(settings), DiffuseTerm::gather);
 }
 
-// Pass one alone is Gouraud shading, and a field that does not tell light of emitters apart knows nothing else.
+// Pass one alone is Gouraud shading,
+// and a field that does not tell light of emitters apart knows nothing else.
 TEST(DiffuseTerm, IsInterpolatedWherePassOneIsAllThereIs) {
   RunSettings settings = with_quality(Quality::fine);
   settings.mode = PictureMode::radiosity;

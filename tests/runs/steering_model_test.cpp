@@ -56,7 +56,8 @@ TEST(Forecast, OfFindingOutIsWhatItsPixelsAndTheirSamplesTake) {
 }
 
 TEST(Forecast, DoesNotTakeWhatIsUnknownForNothing) {
-  // Nearly all of the mesh's error is edges, as far as these are known: exact ones may leave a tenth of it.
+  // Nearly all of the mesh's error is edges, as far as these are known:
+  // exact ones may leave a tenth of it.
   const MeasuredRun run = run_with(0.09, 0.09, 0.0, 0.0);
   Knobs direct = run.knobs;
   direct.term = DiffuseTerm::direct;
@@ -79,7 +80,8 @@ TEST(NextRun, TurnsTheKnobOfTheLargestPart) {
   EXPECT_GT(smooth.knobs.elements, Knobs{}.elements);
 }
 
-// 64 samples were next to nothing by interpolation; with light computed at every hit fewer are enough for what is wanted.
+// 64 samples were next to nothing by interpolation;
+// with light computed at every hit fewer are enough for what is wanted.
 TEST(NextRun, TakesFewerCameraRaysWhereEachComputesLight) {
   MeasuredRun run = run_with(0.026, 0.026, 0.001, 0.001);
   run.knobs.samples = 64;
@@ -94,7 +96,8 @@ TEST(NextRun, TakesFewerCameraRaysWhereEachComputesLight) {
   EXPECT_EQ(kept.knobs.samples, 64);
 }
 
-// Interpolated, camera rays cost next to nothing: as many as there can be must not keep light from the source, which needs few, out of the time.
+// Interpolated, camera rays cost next to nothing:
+// as many as there can be must not keep light from the source, which needs few, out of the time.
 TEST(NextRun, ComputesLightAtHitsOfFewCameraRaysWhereTheTimeIsShort) {
   MeasuredRun run = run_with(0.089, 0.089, 0.01, 0.017);
   run.error.direct_seconds = 2e-5; // four hits a pixel take 5.2 s
@@ -106,7 +109,8 @@ TEST(NextRun, ComputesLightAtHitsOfFewCameraRaysWhereTheTimeIsShort) {
 }
 
 TEST(NextRun, GoesBackWithWhatHardlyMattersWhereTheTimeIsShort) {
-  // Edges that no time is left to compute: a thousand camera rays would take off next to nothing else.
+  // Edges that no time is left to compute:
+  // a thousand camera rays would take off next to nothing else.
   MeasuredRun run = run_with(0.2, 0.2, 0.001, 0.002);
   run.error.direct_seconds = 1.0;
   const NextRun next = next_run(run, {}, 0.014, 1.0);
@@ -149,7 +153,8 @@ TEST(NextRun, GathersWhereMeshesDoNotHelp) {
 }
 
 TEST(NextRun, SamplesCostWhatTheUncertainPixelsTake) {
-  // One pixel in twenty would take sixteen samples instead of four, and one in fifty 64 instead of those.
+  // One pixel in twenty would take sixteen samples instead of four,
+  // and one in fifty 64 instead of those.
   MeasuredRun run = run_with(0.001, 0.0, 0.001, 0.1);
   run.uncertain = {0.05, 0.02, 0.0, 0.0};
   Knobs more = run.knobs;

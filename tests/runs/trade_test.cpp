@@ -1,4 +1,5 @@
-// Fronts, turns of knobs, and how a sweep spends its budget, on a scene whose times and errors are made up.
+// Fronts, turns of knobs, and how a sweep spends its budget,
+// on a scene whose times and errors are made up.
 #include "runs/setting_options.h"
 #include "runs/trade/trade_sweep.h"
 
@@ -109,7 +110,8 @@ TEST(Knobs, OptionsSayWhatDiffersFromTheDefaults) {
                           "--adaptive", "0.03", "--rays", "64", "--diffuse", "direct"));
 }
 
-/// A clock that only measuring moves: more elements, rays and samples take longer and are more accurate.
+/// A clock that only measuring moves:
+/// more elements, rays and samples take longer and are more accurate.
 struct MadeUp {
   double clock = 0.0;
 

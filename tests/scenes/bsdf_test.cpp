@@ -1,4 +1,5 @@
-// Laws that every way to scatter light obeys: energy, reciprocity, and samples that follow their density.
+// Laws that every way to scatter light obeys:
+// energy, reciprocity, and samples that follow their density.
 #include "scenes/bsdf.h"
 #include "scenes/microfacets.h"
 #include "scenes/sampling.h"
@@ -65,7 +66,8 @@ protected:
   const Bsdf bsdf = bsdf_of(GetParam().material);
 };
 
-/// What is reflected and transmitted of light from one direction, by sampling: the mean of the weights.
+/// What is reflected and transmitted of light from one direction, by sampling:
+/// the mean of the weights.
 Rgb sampled_albedo(const Bsdf& bsdf, const Direction& out, bool ideal_too = true) {
   constexpr std::uint32_t points = 1 << 14;
   Rgb sum(0.0);
@@ -78,8 +80,8 @@ Rgb sampled_albedo(const Bsdf& bsdf, const Direction& out, bool ideal_too = true
   return sum;
 }
 
-/// Calls visit(direction, solid angle) for steps over the whole sphere, even in the azimuth and in s with |z| = 1 - s^2, which
-/// makes them about as narrow at the pole as elsewhere.
+/// Calls visit(direction, solid angle) for steps over the whole sphere, even in the azimuth
+/// and in s with |z| = 1 - s^2, which makes them about as narrow at the pole as elsewhere.
 template <typename Visit>
 void over_sphere(int steps, Visit visit) {
   for (const double side : {-1.0, 1.0})
@@ -131,7 +133,8 @@ TEST_P(BsdfLaws, WeightsAreTheFunctionOverTheDensity) {
 }
 
 TEST_P(BsdfLaws, SamplesAddUpToTheIntegral) {
-  // Two routes to the albedo: sampling, and even steps over all directions. Lobes narrower than the steps need the former.
+  // Two routes to the albedo: sampling, and even steps over all directions.
+  // Lobes narrower than the steps need the former.
   if (bsdf.alpha > 0.0 && bsdf.alpha < 0.02)
     GTEST_SKIP() << "too narrow for the steps";
   for (const double degrees : {0.0, 45.0, 75.0}) {
@@ -251,7 +254,8 @@ TEST(Microfacets, NormalsFillTheProjectedHemisphere) {
 }
 
 TEST(Microfacets, TheRoughestLobeInClosedForm) {
-  // At alpha = 1 and normal incidence the lobe integrates to integral_0^1 c / (1 + c) dc = 1 - ln 2.
+  // At alpha = 1 and normal incidence the lobe integrates
+  // to integral_0^1 c / (1 + c) dc = 1 - ln 2.
   const SchlickAlbedo e = schlick_albedo(1.0, 1.0);
   EXPECT_NEAR(e.f0 + e.f90, 1.0 - std::log(2.0), 1e-3);
 }

@@ -9,8 +9,8 @@
 namespace meninas::test {
 namespace {
 
-// The plane's distance is a bound only: the answer is that of the distance to the triangle, also for slivers, on the plane beside
-// the triangle, and within rounding of the reach.
+// The plane's distance is a bound only: the answer is that of the distance to the triangle,
+// also for slivers, on the plane beside the triangle, and within rounding of the reach.
 TEST(Contacts, WithinReachIsByTheDistance) {
   Random random(11);
   int within = 0, beyond = 0;

@@ -1,4 +1,5 @@
-// The gallery: its files are what the generator writes, they load without complaint, and they are what they claim.
+// The gallery: its files are what the generator writes,
+// they load without complaint, and they are what they claim.
 #include "scenes/gallery/generator/gltf_text.h"
 #include "scenes/gallery/generator/stages.h"
 #include "scenes/gltf.h"
@@ -67,7 +68,8 @@ TEST(Gallery, MirrorsAreWhereTheNamesSay) {
   }
 }
 
-/// Edges between consecutive corners, from the smaller to the larger one, with how often each direction occurs.
+/// Edges between consecutive corners, from the smaller to the larger one,
+/// with how often each direction occurs.
 using Corner = std::array<double, 3>;
 static std::map<std::pair<Corner, Corner>, int> edge_balance(const Scene& scene) {
   const auto key = [](const Point3& p) { return Corner{p.x, p.y, p.z}; };
@@ -103,8 +105,9 @@ static Vec3 sum_of_area_vectors(const Scene& scene) {
 }
 
 TEST(Gallery, RoomsThatEncloseEverythingHaveFrontsThatCancel) {
-  // Boxes leave out the face they stand on, so only the horizontal components cancel for every closed room; positions
-  // are floats of a few metres, 1e-7 of them times some hundred square metres is below 1e-4.
+  // Boxes leave out the face they stand on, so only the horizontal components
+  // cancel for every closed room; positions are floats of a few metres,
+  // 1e-7 of them times some hundred square metres is below 1e-4.
   for (const auto* name : {"doubled-room", "facing-mirrors", "no-mirror", "periscope"}) {
     const auto sum = sum_of_area_vectors(load(name));
     EXPECT_NEAR(sum.x, 0.0, 1e-4) << name;
@@ -114,7 +117,8 @@ TEST(Gallery, RoomsThatEncloseEverythingHaveFrontsThatCancel) {
       << "the Cornell box is open in front";
 }
 
-/// The corners of a triangle from the smallest one on, so that equal triangles with the same front compare equal.
+/// The corners of a triangle from the smallest one on,
+/// so that equal triangles with the same front compare equal.
 static std::array<Corner, 3> canonical(const std::array<Point3, 3>& points, double sign_of_x) {
   std::array<Corner, 3> result;
   for (std::size_t k = 0; k < 3; ++k)

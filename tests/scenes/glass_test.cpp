@@ -1,4 +1,5 @@
-// Glass by closed forms: Fresnel's law, the sum of what goes to and fro in a pane, and what crosses a leg.
+// Glass by closed forms:
+// Fresnel's law, the sum of what goes to and fro in a pane, and what crosses a leg.
 #include "scenes/glass.h"
 #include "scenes/glass_crossings.h"
 #include "scenes/lobes.h"
@@ -74,7 +75,8 @@ TEST(Glass, TheMeanOverAllAngles) {
   EXPECT_NEAR(mean_glass_shares(face).reflected.g, 0.0918, 1e-4);
 }
 
-/// A solid's face: light that leaves it towards `out`, a unit vector above the normal, has come along this direction (which points back).
+/// A solid's face: light that leaves it towards `out`,
+/// a unit vector above the normal, has come along this direction (which points back).
 std::optional<Direction> refracted(const Direction& out, const Direction& normal, double ior) {
   Glass face{.ior = ior};
   face.faces = GlassFaces::one;

@@ -1,4 +1,5 @@
-// What exporters write beyond plain meshes: poses, copies, old material models, names of files, and lists with mistakes in them.
+// What exporters write beyond plain meshes:
+// poses, copies, old material models, names of files, and lists with mistakes in them.
 #include "tests/scenes/gltf_samples.h"
 
 #include <gmock/gmock.h>
@@ -91,7 +92,8 @@ TEST(GltfExporters, InstancesAreCopies) {
   EXPECT_TRUE(warns(load(none), {"without an instance", "'Nowhere'"}));
 }
 
-// A file as an exporter of buildings writes it: thousands of nodes and materials, some without names, many with the same.
+// A file as an exporter of buildings writes it:
+// thousands of nodes and materials, some without names, many with the same.
 TEST(GltfExporters, ThousandsOfNodesAndMaterials) {
   constexpr int nodes = 5000, materials = 2000;
   auto file = square();

@@ -1,4 +1,5 @@
-// Small glTF files written by hand for tests: JSON and bytes put together, saved in a folder of their own, loaded.
+// Small glTF files written by hand for tests:
+// JSON and bytes put together, saved in a folder of their own, loaded.
 #pragma once
 
 #include "scenes/errors.h"
@@ -58,7 +59,8 @@ std::string data_uri(const Bytes& bytes);
 
 Scene load(const GltfFile& file, const GltfSettings& settings = {});
 
-/// The line of the UserError that loading ends with, without the folder; `no error` when it does not.
+/// The line of the UserError that loading ends with, without the folder;
+/// `no error` when it does not.
 std::string error_of(const GltfFile& file, const GltfSettings& settings = {});
 std::string error_of(const std::filesystem::path& file, const GltfSettings& settings = {});
 

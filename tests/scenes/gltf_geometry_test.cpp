@@ -193,7 +193,8 @@ TEST(GltfGeometry, SaysTheSameFromAGlbAndFromFiles) {
 
 TEST(GltfGeometry, DropsAndCountsDegenerateTriangles) {
   auto file = square();
-  // Two good ones, a repeated vertex, three points in a line, and a sliver lower than half a float step at 1.
+  // Two good ones, a repeated vertex, three points in a line,
+  // and a sliver lower than half a float step at 1.
   square_primitive(file)["attributes"]["POSITION"] = file.add_accessor<float>(
       {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5f, 0.5f, 0, 0.5f, 2e-8f, 0}, "VEC3");
   square_primitive(file)["indices"] =
@@ -207,7 +208,8 @@ TEST(GltfGeometry, DropsAndCountsDegenerateTriangles) {
 }
 
 TEST(GltfGeometry, BoundsTheErrorOfPositions) {
-  // Half the distance between floats at 1 is 2^-24 (at numbers in [1, 2)); doubles add 4e-16 of the size.
+  // Half the distance between floats at 1 is 2^-24 (at numbers in [1, 2));
+  // doubles add 4e-16 of the size.
   const auto plain = load(square());
   EXPECT_DOUBLE_EQ(plain.position_error, std::ldexp(1.0, -24) + 4e-16);
 

@@ -132,7 +132,8 @@ TEST(GltfMaterials, WithoutMetallicFactorItIsNotMetallic) {
 }
 
 TEST(GltfMaterials, RoughnessAloneMeansTheMetalOfTheSpecification) {
-  // Blender leaves out a metallicFactor of 1, glTF's default, and writes the roughness of its mirrors.
+  // Blender leaves out a metallicFactor of 1,
+  // glTF's default, and writes the roughness of its mirrors.
   const auto mirror = load(with_material({{"pbrMetallicRoughness", {{"roughnessFactor", 0.0}}}}));
   EXPECT_TRUE(is_mirror(mirror.materials.at(0)));
   EXPECT_TRUE(mirror.warnings.empty());

@@ -1,4 +1,5 @@
-// Broken on purpose in thousands of ways: a file either becomes a scene with finite numbers or ends with a UserError.
+// Broken on purpose in thousands of ways:
+// a file either becomes a scene with finite numbers or ends with a UserError.
 #include "tests/scenes/gltf_samples.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +47,8 @@ public:
     ++tried_;
     const auto file = folder_.write(name, bytes);
     try {
-      // Big enough for every honest reading of these files, small enough for a quick refusal of all others.
+      // Big enough for every honest reading of these files,
+      // small enough for a quick refusal of all others.
       const auto scene = load_gltf(file, {.memory_limit = 1 << 24});
       ++loaded_;
       EXPECT_TRUE(all_finite(scene)) << story;

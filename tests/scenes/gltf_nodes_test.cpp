@@ -27,7 +27,8 @@ static std::vector<std::string> names_of(const auto& things) {
 
 TEST(GltfNodes, ComposesTranslationRotationAndScale) {
   auto file = square();
-  // Scale 2 along x, a quarter turn about z, then 10 along x: (1, 0, 0) -> (2, 0, 0) -> (0, 2, 0) -> (10, 2, 0).
+  // Scale 2 along x, a quarter turn about z, then 10 along x:
+  // (1, 0, 0) -> (2, 0, 0) -> (0, 2, 0) -> (10, 2, 0).
   file.json["nodes"][0]["translation"] = {10.0, 0.0, 0.0};
   file.json["nodes"][0]["rotation"] = {0.0, 0.0, std::sqrt(0.5), std::sqrt(0.5)};
   file.json["nodes"][0]["scale"] = {2.0, 1.0, 1.0};

@@ -5,7 +5,8 @@
 
 namespace meninas::test {
 
-/// Sparse and strided accessors, strips, textures with their transform, cameras, a light, extensions of materials, a tree of nodes.
+/// Sparse and strided accessors, strips, textures with their transform,
+/// cameras, a light, extensions of materials, a tree of nodes.
 GltfFile everything();
 
 /// The square, all of it following joint 1 of two, whose node is node 2.

@@ -55,7 +55,8 @@ TEST(NearPlanes, WhatIsOffAllElseTouchesNothing) {
     for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
       const auto corners = corners_of(geometry, t);
       for (int n = 0; n < 200; ++n) {
-        // Near an edge as often as anywhere: at all distances from it down to the rounding of floats.
+        // Near an edge as often as anywhere:
+        // at all distances from it down to the rounding of floats.
         const double from_edge = std::pow(10.0, random.between(-8.0, 0.0));
         const double along = random.between(0.0, 1.0);
         const Point3 edge = glm::mix(corners[0], corners[1], along);

@@ -1,4 +1,5 @@
-// Rays between the walls of closed rooms: none escapes, none meets a back, none meets the wall it leaves, none is blocked.
+// Rays between the walls of closed rooms:
+// none escapes, none meets a back, none meets the wall it leaves, none is blocked.
 #include "scenes/ray_scene.h"
 #include "scenes/sampling.h"
 #include "tests/support/scene_builder.h"
@@ -137,7 +138,8 @@ TEST_P(ClosedRoom, NoRayEscapesOrMeetsABackOrItsOwnWall) {
     ASSERT_TRUE(hit) << "ray " << n;
     ASSERT_TRUE(hit->front) << "ray " << n;
     ASSERT_NE(surfaces_.plane_of_triangle[index(hit->triangle)], from.plane) << "ray " << n;
-    // Rays that graze a wall beside their origin may be taken to start on it, 1e-6 away at the most.
+    // Rays that graze a wall beside their origin may be taken to start on it,
+    // 1e-6 away at the most.
     if (std::abs(hit->distance / placement.scale - analytic_distance(from, direction)) > 1e-5)
       ++wrong_distances;
   }

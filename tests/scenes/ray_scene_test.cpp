@@ -122,7 +122,8 @@ TEST(ClosestHit, FarCamerasSeeAsSharplyAsNearOnes) {
 }
 
 TEST(ClosestHit, TheSideOfASheetThatFacesTheRayIsHit) {
-  // Two coincident surfaces with different diagonals, at arbitrary places: however Embree rounds, never the back
+  // Two coincident surfaces with different diagonals, at arbitrary places:
+  // however Embree rounds, never the back
   for (const double scale : {1.0, 1e-4, 1e4})
     for (const auto& offset : {Vec3(0.0), Vec3(3.7, -1.3, 11.9)}) {
       Scene sheet;
@@ -147,7 +148,8 @@ TEST(ClosestHit, TheSideOfASheetThatFacesTheRayIsHit) {
     }
 }
 
-// The corners of the copy begin elsewhere, and its quad is cut along the same diagonal: Embree's distances to the two differ by rounding, from ray to ray.
+// The corners of the copy begin elsewhere, and its quad is cut along the same diagonal:
+// Embree's distances to the two differ by rounding, from ray to ray.
 TEST(ClosestHit, OneOfTwoFacesInOnePlaceIsMetByAllRays) {
   const auto seen = [](const Material& first, const Material& second) {
     Scene scene;
@@ -294,7 +296,8 @@ TEST(Packets, AgreeWithSingleRaysAndLeaveOtherLanesAlone) {
           continue;
         expected |= 1U << k;
         EXPECT_EQ(hits.front[k] != 0, hit->front);
-        // Rounded to floats in a frame of size 1: a few times 6e-8, and hits that are met at an angle
+        // Rounded to floats in a frame of size 1:
+        // a few times 6e-8, and hits that are met at an angle
         EXPECT_NEAR(hits.distance[k] / frame.scale, hit->distance, 1e-5);
         EXPECT_NEAR(hits.b1[k], hit->barycentric.x, 1e-5);
         EXPECT_NEAR(hits.b2[k], hit->barycentric.y, 1e-5);

@@ -76,7 +76,8 @@ TEST(Sobol, PairsAreThoseOfThePoint) {
 }
 
 TEST(Sobol, SeedsGiveUnrelatedPoints) {
-  // The mean of the same index over seeds is 1/2 with deviation sqrt(1/12/n); six deviations happen once in 5e8 tests.
+  // The mean of the same index over seeds is 1/2 with deviation sqrt(1/12/n);
+  // six deviations happen once in 5e8 tests.
   constexpr std::uint32_t count = 1U << 14;
   for (const std::uint32_t n : {0U, 1U, 1000U}) {
     std::array<double, 4> sum{};
@@ -164,7 +165,8 @@ TEST(CosineHemisphere, CornersOfTheSquareStayAboveThePlane) {
 }
 
 TEST(ConcentricDisc, KeepsAreaFractions) {
-  // The inner square of half the width, a quarter of the area, becomes the inner disc of half the radius.
+  // The inner square of half the width, a quarter of the area,
+  // becomes the inner disc of half the radius.
   constexpr std::uint32_t count = 1U << 14;
   int inside = 0;
   for (std::uint32_t n = 0; n < count; ++n) {

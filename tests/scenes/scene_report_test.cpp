@@ -1,4 +1,5 @@
-// What is odd about scenes, each made odd in one way: it is found, counted and named, and what is meant is not.
+// What is odd about scenes, each made odd in one way:
+// it is found, counted and named, and what is meant is not.
 #include "scenes/scene_report.h"
 #include "scenes/shells.h"
 #include "tests/support/rooms.h"

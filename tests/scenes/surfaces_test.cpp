@@ -301,7 +301,8 @@ TEST(Surfaces, VerticesThatNoTriangleUsesDoNotMatter) {
 }
 
 TEST(Surfaces, HopelessNumbersNeitherHangNorCrash) {
-  // Areas overflow, vanish or are not numbers; such triangles have no plane, but everything has a patch.
+  // Areas overflow, vanish or are not numbers;
+  // such triangles have no plane, but everything has a patch.
   const double huge = 1e200, nan = std::numeric_limits<double>::quiet_NaN();
   Scene scene = empty_soup();
   add_quad(scene, {Point3(0.0), {huge, 0, 0}, {huge, huge, 0}, {0, huge, 0}});

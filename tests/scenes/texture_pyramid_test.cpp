@@ -1,4 +1,5 @@
-// Textures over footprints: means in the pyramid, and look-ups that average as much as they are told and no more.
+// Textures over footprints:
+// means in the pyramid, and look-ups that average as much as they are told and no more.
 #include "scenes/texture_pyramid.h"
 
 #include <gtest/gtest.h>

@@ -11,7 +11,8 @@ class Random {
 public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
 
-  /// In [low, high); built from the engine's bits because the standard's distributions differ between libraries.
+  /// In [low, high);
+  /// built from the engine's bits because the standard's distributions differ between libraries.
   double between(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_()) * 0x1p-32);
   }

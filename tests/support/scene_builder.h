@@ -13,7 +13,8 @@ Material diffuse(Rgb reflectance, Rgb emitted_radiosity = Rgb(0.0));
 Material mirror(double reflectance);
 Material double_sided(Material material);
 
-/// Adds a polygon of three or four corners, counter-clockwise seen from the front, as a node of its own.
+/// Adds a polygon of three or four corners,
+/// counter-clockwise seen from the front, as a node of its own.
 NodeId add_polygon(Scene& scene, const std::string& name, const std::vector<Point3>& corners,
                    const Material& material);
 

@@ -1,10 +1,12 @@
 // ThreadSanitizer sees how oneTBB orders threads.
 //
-// Debian's libtbb is not instrumented, so what a thread has written before it spawns a task seems to race with the task that reads it on
-// another thread, and what tasks have written with whoever waited for them. Suppressing that would suppress every race inside a
-// parallel loop. Instead the three calls through which the headers hand tasks to the library are made here first, in thread-sanitized builds
-// alone, and the order that the library keeps is told: a task begins after its spawn, and a wait ends after the tasks waited for. Memory of
-// tasks comes from the heap, whose reuse ThreadSanitizer knows, instead of pools that threads hand to each other.
+// Debian's libtbb is not instrumented, so what a thread has written before it spawns a task
+// seems to race with the task that reads it on another thread, and what tasks have written with
+// whoever waited for them. Suppressing that would suppress every race inside a parallel loop.
+// Instead the three calls through which the headers hand tasks to the library are made here first,
+// in thread-sanitized builds alone, and the order that the library keeps is told: a task begins
+// after its spawn, and a wait ends after the tasks waited for. Memory of tasks comes from the heap,
+// whose reuse ThreadSanitizer knows, instead of pools that threads hand to each other.
 #include <oneapi/tbb/detail/_small_object_pool.h>
 #include <oneapi/tbb/detail/_task.h>
 #include <sanitizer/tsan_interface.h>

@@ -1,5 +1,6 @@
-// The Cornell box (Goral et al. 1984; measured by Cornell's Program of Computer Graphics), ten times as large, so that
-// it is a room of 5.5 m; its walls are made straight and parallel. Fronts only, open towards the camera.
+// The Cornell box (Goral et al. 1984; measured by Cornell's Program of Computer Graphics),
+// ten times as large, so that it is a room of 5.5 m;
+// its walls are made straight and parallel. Fronts only, open towards the camera.
 #include "scenes/gallery/generator/shapes.h"
 #include "scenes/gallery/generator/stages.h"
 
@@ -43,7 +44,8 @@ Stage cornell() {
 Stage cornell_mirror() {
   auto stage = common_box("cornell-mirror");
 
-  // The mirror is let into the left wall: high enough to throw the lamp's light across the floor in front.
+  // The mirror is let into the left wall:
+  // high enough to throw the lamp's light across the floor in front.
   const Sheet left{{high.x, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, 1.0, 0.0}};
   const Rect opening{{0.8, 0.9}, {4.6, 4.1}};
   stage.add("left", red, wall(left, {{0.0, 0.0}, {high.z, high.y}}, std::array{opening}));

@@ -5,7 +5,8 @@
 
 namespace meninas::gallery {
 
-/// The six walls of a closed room, named floor, ceiling, left (x0), right (x1), back (z0) and front (z1), without `open`.
+/// The six walls of a closed room, named floor, ceiling, left (x0),
+/// right (x1), back (z0) and front (z1), without `open`.
 void add_room(Stage& stage, const Point3& low, const Point3& high, const Paint& paint,
               const Paint& floor, std::span<const Face> open = {});
 
@@ -14,7 +15,8 @@ Mesh table(const Point3& low, const Point3& high, double thickness, double leg);
 
 Mesh ball(const Point3& centre, double radius, int sides);
 
-/// A slab about `centre` with the face towards -x left out, for a mirror; both are turned about z by `degrees`.
+/// A slab about `centre` with the face towards -x left out, for a mirror;
+/// both are turned about z by `degrees`.
 struct TiltedMirror {
   Point3 centre;
   double half_length = 0.4;

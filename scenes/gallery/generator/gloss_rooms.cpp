@@ -88,7 +88,8 @@ Stage roughness_sweep() {
   add_room(stage, low, high, plaster, stone, std::array{Face::y1});
   add_ceiling(stage, high, {{1.4, 1.6}, {2.6, 2.4}}, light("lamp", {9.0, 8.4, 7.5}));
 
-  // Bars on the wall, and strips before them that blur their reflections the more the further away they are.
+  // Bars on the wall,
+  // and strips before them that blur their reflections the more the further away they are.
   add_bars(stage, 1.1);
   const std::array roughness{0.0, 0.1, 0.2, 0.35, 0.6};
   for (std::size_t k = 0; k < roughness.size(); ++k) {

@@ -1,5 +1,6 @@
-// The same light twice, by the method of images: a room whose plane x = 0 is a perfect mirror, and the room made of
-// it and its image, without the mirror. Where x > 0, both have the same radiosity and look the same.
+// The same light twice, by the method of images: a room whose plane x = 0 is a perfect mirror,
+// and the room made of it and its image, without the mirror.
+// Where x > 0, both have the same radiosity and look the same.
 #include "scenes/gallery/generator/furniture.h"
 #include "scenes/gallery/generator/stages.h"
 

@@ -1,4 +1,5 @@
-// Scenes about one path of light each: a mirror that throws it, two in a chain, and two that face each other.
+// Scenes about one path of light each:
+// a mirror that throws it, two in a chain, and two that face each other.
 #include "scenes/gallery/generator/furniture.h"
 #include "scenes/gallery/generator/stages.h"
 
@@ -11,7 +12,8 @@ static const Paint red = diffuse("red", {0.6, 0.12, 0.08});
 static const Paint blue = diffuse("blue", {0.1, 0.2, 0.55});
 static const Paint ochre = diffuse("ochre", {0.65, 0.45, 0.15});
 
-/// A square tube along x, open at its far end, and a small lamp at the near end: a beam that nothing else gets.
+/// A square tube along x, open at its far end, and a small lamp at the near end:
+/// a beam that nothing else gets.
 /// It is black inside, so that its own glow does not blur the beam.
 static void add_shaded_lamp(Stage& stage) {
   const Point3 low{0.4, 2.18, 1.48};
@@ -70,7 +72,8 @@ Stage periscope() {
   stage.add("partition", plaster,
             box({2.95, 0.0, 0.0}, {3.05, 2.4, 3.0}, std::array{Face::y0, Face::z0, Face::z1}));
 
-  // Light comes over the partition along -x, is turned down, and along -x again below the partition's top.
+  // Light comes over the partition along -x, is turned down,
+  // and along -x again below the partition's top.
   const auto glass = mirror("mirror", Rgb(0.95));
   add_tilted_mirror(stage, "upper-mirror", {{2.0, 2.85, 1.5}, 0.4, 0.5, 135.0}, glass, iron);
   add_tilted_mirror(stage, "lower-mirror", {{2.0, 1.0, 1.5}, 0.4, 0.5, -45.0}, glass, iron);

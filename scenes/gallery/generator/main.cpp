@@ -1,4 +1,5 @@
-// meninas_gallery [FOLDER]: writes every scene of the gallery as FOLDER/NAME.gltf (default: the current folder).
+// meninas_gallery [FOLDER]:
+// writes every scene of the gallery as FOLDER/NAME.gltf (default: the current folder).
 #include "scenes/gallery/generator/gltf_text.h"
 #include "scenes/gallery/generator/stages.h"
 

@@ -36,7 +36,8 @@ void add_figure(Stage& stage, const Figure& figure) {
   stage.add(name + ".gown", diffuse(name + ".gown", gown),
             scaled(lathe(foot, profile, 10), foot, flat));
 
-  // Heads grow less than bodies do. The hair is a larger shell, set back far enough for the face to stand out of it.
+  // Heads grow less than bodies do.
+  // The hair is a larger shell, set back far enough for the face to stand out of it.
   const auto size = 0.6 + 0.25 * height;
   const auto top = height - neck.y;
   const Point3 throat = foot + Vec3(0.0, neck.y, 0.0);

@@ -1,4 +1,5 @@
-// The people of the painter's room: low-poly turned shapes in coloured gowns, meant to be read at a distance.
+// The people of the painter's room:
+// low-poly turned shapes in coloured gowns, meant to be read at a distance.
 #pragma once
 
 #include "scenes/gallery/generator/shapes.h"

@@ -1,6 +1,7 @@
-// The painter's room, after the painting (Velazquez, 1656): a deep room seen from where the royal couple stands, the
-// couple only in the plane mirror on the back wall, a bright door, windows in deep reveals on the right, the back of a
-// large canvas on the left. A low sun comes in behind the viewer; a silver tray throws it onto the back wall.
+// The painter's room, after the painting (Velazquez, 1656): a deep room seen from
+// where the royal couple stands, the couple only in the plane mirror on the back wall,
+// a bright door, windows in deep reveals on the right, the back of a large canvas on the left.
+// A low sun comes in behind the viewer; a silver tray throws it onto the back wall.
 #include "scenes/gallery/generator/furniture.h"
 #include "scenes/gallery/generator/meninas_figures.h"
 #include "scenes/gallery/generator/stages.h"
@@ -45,7 +46,8 @@ static void add_shell(Stage& stage) {
   stage.add("left", plaster, room_wall(low, high, Face::x0));
   stage.add("rear", plaster, room_wall(low, high, Face::z1));
 
-  // What hangs on the wall or opens it is cut out of it: no part of the wall lies hidden behind a frame.
+  // What hangs on the wall or opens it is cut out of it:
+  // no part of the wall lies hidden behind a frame.
   const std::array holes{grown(mirror_rect, frame_width), grown(left_picture, frame_width),
                          grown(right_picture, frame_width), door};
   stage.add("back", plaster, wall(back_wall, {{left_x, 0.0}, {right_x, height}}, holes));
@@ -141,7 +143,8 @@ static void add_passage(Stage& stage) {
   stage.add("door", wood, turned(leaf, hinge, {0.0, 1.0, 0.0}, -14.0));
 }
 
-/// The canvas from behind: cloth between stretcher bars, the painted side away from the viewer, on an easel.
+/// The canvas from behind:
+/// cloth between stretcher bars, the painted side away from the viewer, on an easel.
 static void add_canvas(Stage& stage) {
   constexpr Point3 left{-2.9, 0.45, 3.3}, right{-1.45, 0.45, 2.4};
   const auto u = glm::normalize(right - left);

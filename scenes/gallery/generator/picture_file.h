@@ -1,4 +1,5 @@
-// A picture as the bytes of a PNG file, the same on every system: indexed colours, stored without compression.
+// A picture as the bytes of a PNG file, the same on every system:
+// indexed colours, stored without compression.
 #pragma once
 
 #include "scenes/gallery/generator/stage.h"

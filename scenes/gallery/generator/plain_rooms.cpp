@@ -1,4 +1,5 @@
-// Rooms without mirrors: an ordinary furnished one, and the furnace whose solution is known in closed form.
+// Rooms without mirrors:
+// an ordinary furnished one, and the furnace whose solution is known in closed form.
 #include "scenes/gallery/generator/furniture.h"
 #include "scenes/gallery/generator/stages.h"
 

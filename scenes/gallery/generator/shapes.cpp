@@ -61,7 +61,8 @@ Mesh wall(const Sheet& sheet, const Rect& extent, std::span<const Rect> openings
   return mesh;
 }
 
-/// The four corners of a rectangle, counter-clockwise, at two distances from the sheet: a band of four quads.
+/// The four corners of a rectangle, counter-clockwise, at two distances from the sheet:
+/// a band of four quads.
 /// It faces away from the middle when `from` is nearer to the sheet than `to`, else towards it.
 static Mesh band(const Sheet& sheet, const Rect& first, double from, const Rect& second,
                  double to) {
@@ -153,7 +154,8 @@ Mesh standing_prism(std::span<const Vec2> base, double bottom, double top) {
     twice_area += a.x * b.y - a.y * b.x;
   }
 
-  // Seen from above, x runs right and z towards the viewer, so a positive area in (x, z) runs clockwise.
+  // Seen from above, x runs right and z towards the viewer,
+  // so a positive area in (x, z) runs clockwise.
   std::vector<Vec2> ring(base.begin(), base.end());
   if (twice_area > 0.0)
     std::ranges::reverse(ring);

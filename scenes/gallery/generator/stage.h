@@ -1,6 +1,7 @@
 // A stage: one sample scene before it is written as glTF. Named parts with a paint, and views.
 //
-// Metres, +Y up, right-handed; triangles are counter-clockwise seen from the front, and walls face into the room.
+// Metres, +Y up, right-handed;
+// triangles are counter-clockwise seen from the front, and walls face into the room.
 #pragma once
 
 #include "scenes/types.h"
@@ -29,7 +30,8 @@ struct Picture {
   bool operator==(const Picture&) const = default;
 };
 
-/// A material by name: `color` is the diffuse reflectance, the specular one of a metal, or the tint of glass.
+/// A material by name:
+/// `color` is the diffuse reflectance, the specular one of a metal, or the tint of glass.
 struct Paint {
   std::string name;
   Rgb color{0.0};
@@ -88,7 +90,8 @@ struct View {
   double aspect = 1.0;        ///< width / height
 };
 
-/// A lamp without extent, as of KHR_lights_punctual; of a sun only the direction from `eye` to `target` counts.
+/// A lamp without extent, as of KHR_lights_punctual;
+/// of a sun only the direction from `eye` to `target` counts.
 struct Lamp {
   std::string name;
   std::string type;   ///< "point", "spot" or "directional"

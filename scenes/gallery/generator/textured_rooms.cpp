@@ -1,4 +1,5 @@
-// A room of textures: tiles that run away into a mirror, a paper on the wall, and a screen cut out of a sheet, before the sun.
+// A room of textures: tiles that run away into a mirror,
+// a paper on the wall, and a screen cut out of a sheet, before the sun.
 #include "scenes/gallery/generator/furniture.h"
 #include "scenes/gallery/generator/stages.h"
 
