@@ -21,7 +21,7 @@ struct Console::State {
 
   void say(const std::string& prefix, const std::string& text) {
     line.clear();
-    fmt::print(stderr, "meninas: {}{}\n", prefix, one_line(text));
+    tell(stderr, fmt::format("meninas: {}{}\n", prefix, one_line(text)));
   }
 
   Verbosity verbosity;

@@ -5,9 +5,12 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/values.h"
+#include "runs/progress_line.h"
 #include "scenes/version.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <new>
@@ -15,8 +18,20 @@
 namespace meninas {
 namespace {
 
+/// Where standard error is closed the next file that is opened would take its place,
+/// and messages would be written into it.
+void keep_standard_error_taken() {
+  if (fcntl(STDERR_FILENO, F_GETFD) != -1)
+    return;
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere == -1 || nowhere == STDERR_FILENO)
+    return;
+  dup2(nowhere, STDERR_FILENO);
+  close(nowhere);
+}
+
 int fail(ExitCode code, const std::string& line) {
-  fmt::print(stderr, "meninas: {}\n", one_line(line));
+  tell(stderr, fmt::format("meninas: {}\n", one_line(line)));
   return static_cast<int>(code);
 }
 
@@ -138,6 +153,7 @@ int guarded_main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using meninas::ExitCode;
+  meninas::keep_standard_error_taken();
   try {
     return meninas::guarded_main(argc, argv);
   } catch (const meninas::UserError& error) {

@@ -7,6 +7,10 @@
 
 namespace meninas {
 
+void tell(std::FILE* stream, const std::string& text) {
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stream));
+}
+
 ProgressStyle progress_style(std::FILE* stream) {
   return isatty(fileno(stream)) != 0 ? ProgressStyle::terminal : ProgressStyle::log;
 }
@@ -67,18 +71,18 @@ std::string ProgressLine::line_for(double fraction) const {
 
 void ProgressLine::show(const std::string& line) {
   if (style_ == ProgressStyle::terminal) {
-    fmt::print(stream_, "\r{}\x1b[K", line);
+    tell(stream_, fmt::format("\r{}\x1b[K", line));
     std::fflush(stream_);
     visible_ = true;
   } else {
-    fmt::print(stream_, "meninas: {}\n", line);
+    tell(stream_, fmt::format("meninas: {}\n", line));
   }
 }
 
 void ProgressLine::clear() {
   const std::lock_guard lock(mutex_);
   if (visible_) {
-    fmt::print(stream_, "\r\x1b[K");
+    tell(stream_, "\r\x1b[K");
     std::fflush(stream_);
     visible_ = false;
   }

@@ -12,6 +12,10 @@ namespace meninas {
 
 enum class ProgressStyle { none, terminal, log };
 
+/// What people are told. Where it cannot be written, on a full disk or a closed stream,
+/// it is lost: nobody's picture is, for want of a reader.
+void tell(std::FILE* stream, const std::string& text);
+
 /// A terminal where the stream is one, a log otherwise.
 ProgressStyle progress_style(std::FILE* stream);
 

@@ -147,5 +147,24 @@ TEST_F(Errors, SolutionsOfOtherScenesAreRefused) {
       {"render", "room.glb", "--solution", "room.solution.glb", "-o", "out.exr", "--rays", "64"});
 }
 
+// On a full disk or a closed stream nobody reads what is said: pictures and exit codes are the same,
+// and no picture has messages in it.
+TEST_F(Errors, NothingHangsOnStandardError) {
+  const auto silently = [&](const std::string& arguments, const std::string& redirection) {
+    return run_other_program("/bin/sh", folder_.path(),
+                             {"-c", "'" MENINAS_PROGRAM "' " + arguments + redirection});
+  };
+  const std::string render = "render room.glb --quality draft --size 8x8 -o ";
+  ASSERT_THAT(silently(render + "said.png", "").err, testing::HasSubstr("exposure"));
+  int k = 0;
+  for (const std::string unheard : {" 2>/dev/full", " 2>&-"}) {
+    const std::string name = std::to_string(++k);
+    EXPECT_EQ(silently(render + name + ".png", unheard).code, 0) << unheard;
+    EXPECT_EQ(read_file(folder_ / (name + ".png")), read_file(folder_ / "said.png")) << unheard;
+    EXPECT_EQ(silently("plan nowhere.glb", unheard).code, 3) << unheard;
+    EXPECT_EQ(silently("render --unknown", unheard).code, 2) << unheard;
+  }
+}
+
 } // namespace
 } // namespace meninas::test
