@@ -71,7 +71,7 @@ SamplePoint mean_of_two(const SamplePoint& sample) {
                           b = sample(receiver, element_size, ~seed);
         const ArrivingLight sum = a.light + b.light;
         const double apart = 0.5 * largest(glm::abs(a.light.total - b.light.total));
-        return {{0.5 * sum.total, 0.5 * sum.mirrored}, a.covered && b.covered, apart * apart};
+        return {{0.5 * sum.total, 0.5 * sum.mirrored}, std::min(a.cover, b.cover), apart * apart};
       };
 }
 
@@ -90,15 +90,14 @@ SampledField direct_field(const LightScene& light, std::span<const double> weigh
     PointWorkspace& work = workspaces.local();
     const ArrivingLight arrived =
         direct_irradiance(light, receiver, direct, hash(seed, direct.seed, 1), work.direct);
-    const bool covered = arrived.total == Rgb(0.0)
-                             ? is_shut_in(light, form_factors, receiver, element_size, seed, work)
-                             : is_under_something(light, receiver, element_size);
-    return {arrived, covered};
+    if (arrived.total == Rgb(0.0))
+      return {arrived, cover_in_the_dark(light, form_factors, receiver, element_size, seed, work)};
+    return {arrived, is_under_something(light, receiver, element_size) ? Cover::low : Cover::open};
   };
   const IsOpenPoint is_open = [&](const Receiver& receiver, double element_size,
                                   std::uint32_t seed) {
     return !is_nearly_under_something(light, receiver, element_size) &&
-           !sample(receiver, element_size, seed).covered;
+           sample(receiver, element_size, seed).cover == Cover::open;
   };
   const auto outlines = mirror_outlines(light, outline_step * light.mesh.element_size);
   SampledField field =
@@ -155,7 +154,7 @@ SamplePoint gathered_samples(const PointGathering& gathering, const std::vector<
     const VertexValue value =
         indirect_value_at(gathering, irradiance, receiver, element_size,
                           hash(seed, gathering.form_factors.seed, 0x7e27), workspaces.local());
-    return {value.indirect, value.covered};
+    return {value.indirect, value.cover};
   };
 }
 

@@ -63,7 +63,7 @@ ContactLight light_at_contact(const PointGathering& gathering, const std::vector
   Receiver point = exposed;
   point.position = glm::mix(exposed.position, covered, place);
   const VertexValue value = value_at(gathering, irradiance, point, element_size, seed, work);
-  return {value.covered ? 0.0 : place, value};
+  return {value.cover == Cover::open ? place : 0.0, value};
 }
 
 void ContactLines::add(const ArrivingLight& seen, const ArrivingLight& beside, double place) {

@@ -1,15 +1,13 @@
 #include "radiosity/field_refinement.h"
 
-#include "radiosity/contact_vertices.h"
+#include "radiosity/field_samples.h"
 #include "radiosity/mesh_division.h"
-#include "radiosity/vertex_fill.h"
 #include "radiosity/vertex_places.h"
 #include "scenes/sampling.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 
@@ -26,24 +24,11 @@ struct Found {
   double sigma = 0.0; ///< x = sigma, the standard deviation of a sample
 };
 
-/// What is known of a vertex.
-enum class VertexState : std::uint8_t { unknown, covered, at_foot, exposed };
-
-/// What is sampled on an edge beside a contact.
-struct ContactSample {
-  double place = 0.0; ///< as a share of the edge (contact_vertices.h); 0: there is none
-  ArrivingLight light = {};
-};
-/// By the covered end of the edge, then by the other.
-using ContactSamples = std::map<std::pair<std::uint32_t, std::uint32_t>, ContactSample>;
-
 /// A mesh with what is known of the field on it.
 struct Growing {
   ElementMesh mesh;
-  std::vector<PointSample> samples; ///< by ElementVertexId
-  std::vector<VertexState> known;   ///< by ElementVertexId
-  std::vector<Found> found;         ///< by ElementId
-  ContactSamples contacts;
+  FieldSamples samples;
+  std::vector<Found> found; ///< by ElementId
 };
 
 /// What does not change from round to round.
@@ -64,111 +49,6 @@ void for_each_in_parallel(std::size_t count, Body&& body) {
   });
 }
 
-/// Depends on the place and not on the numbers of a mesh that is still growing.
-std::uint32_t seed_of(SideId side, Vec2 uv) {
-  return hash(index(side), std::bit_cast<std::uint32_t>(static_cast<float>(uv.x)),
-              std::bit_cast<std::uint32_t>(static_cast<float>(uv.y)));
-}
-
-std::vector<std::uint8_t> hanging_in(const ElementMesh& mesh) {
-  std::vector<std::uint8_t> hanging(mesh.vertices.size(), 0);
-  for (const HangingVertex& h : mesh.hanging)
-    hanging[index(h.vertex)] = 1;
-  return hanging;
-}
-
-/// Samples the vertices that have no sample; those that hang need none.
-void sample_vertices(const Refinement& refinement, Growing& growing) {
-  const ElementMesh& mesh = growing.mesh;
-  const std::vector<std::uint8_t> hanging = hanging_in(mesh);
-  const std::vector<Receiver> receivers = vertex_receivers(mesh);
-  for_each_in_parallel(mesh.vertices.size(), [&](std::size_t v) {
-    if (growing.known[v] != VertexState::unknown || hanging[v] != 0)
-      return;
-    const ElementId element = mesh.element_of_vertex[v];
-    const SideId side = mesh.side_of_element[index(element)];
-    const Patch& patch = refinement.light.surfaces.patches[index(mesh.sides[index(side)].patch)];
-    growing.samples[v] = refinement.sampler.at_vertices(
-        receivers[v], size_of(mesh, element), seed_of(side, uv_at(patch, mesh.vertices[v])));
-    growing.known[v] = growing.samples[v].covered                   ? VertexState::covered
-                       : is_at_foot(refinement.light, receivers[v]) ? VertexState::at_foot
-                                                                    : VertexState::exposed;
-  });
-}
-
-/// Samples the edges between exposed vertices and others that have not been.
-void sample_contacts(const Refinement& refinement, Growing& growing) {
-  const ElementMesh& mesh = growing.mesh;
-  const FieldSampler& sampler = refinement.sampler;
-  std::vector<std::uint8_t> exposed;
-  for (const VertexState known : growing.known)
-    exposed.push_back(known == VertexState::exposed ? 1 : 0);
-  const std::vector<ContactEdge> edges = contact_edges(mesh, exposed);
-  const std::vector<Receiver> receivers = vertex_receivers(mesh);
-  std::vector<ContactSample> samples(edges.size());
-  for_each_in_parallel(edges.size(), [&](std::size_t k) {
-    const auto [covered, open] = edges[k];
-    if (const auto before = growing.contacts.find({covered, open});
-        before != growing.contacts.end()) {
-      samples[k] = before->second;
-      return;
-    }
-    const ElementId element = mesh.element_of_vertex[open];
-    const double size = size_of(mesh, element);
-    const SideId side = mesh.side_of_element[index(element)];
-    const Patch& patch = refinement.light.surfaces.patches[index(mesh.sides[index(side)].patch)];
-    const Point3& end = mesh.vertices[covered];
-    const std::uint32_t seed =
-        hash(seed_of(side, uv_at(patch, mesh.vertices[open])), seed_of(side, uv_at(patch, end)));
-    Receiver point = receivers[open];
-    const double place = contact_place(point, end, [&](const Receiver& receiver) {
-      return sampler.is_open(receiver, size, seed);
-    });
-    if (place == 0.0)
-      return;
-    point.position = glm::mix(point.position, end, place);
-    const PointSample sample = sampler.at_vertices(point, size, seed);
-    if (!sample.covered)
-      samples[k] = {place, sample.light};
-  });
-  growing.contacts.clear();
-  for (std::size_t k = 0; k < edges.size(); ++k)
-    growing.contacts[{edges[k].covered, edges[k].exposed}] = samples[k];
-}
-
-/// The samples as a field: covered vertices follow what is beside them,
-/// or take their neighbours' values, hanging ones those of their ends.
-SampledField field_of(const Growing& growing) {
-  const ElementMesh& mesh = growing.mesh;
-  SampledField field;
-  std::vector<std::uint8_t> valid(mesh.vertices.size(), 1);
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    field.total.emplace_back(growing.samples[v].light.total);
-    field.mirrored.emplace_back(growing.samples[v].light.mirrored);
-    valid[v] = growing.known[v] == VertexState::exposed || growing.known[v] == VertexState::at_foot
-                   ? 1
-                   : 0;
-  }
-  for (auto* values : {&field.total, &field.mirrored})
-    settle_hanging(mesh, *values);
-  std::map<std::uint32_t, ContactLines> lines_to;
-  for (const auto& [ends, contact] : growing.contacts)
-    if (contact.place > 0.0)
-      lines_to[ends.first].add({Rgb(field.total[ends.second]), Rgb(field.mirrored[ends.second])},
-                               contact.light, contact.place);
-  for (const auto& [v, lines] : lines_to) {
-    const ArrivingLight light = lines.mean();
-    field.total[v] = glm::vec3(light.total);
-    field.mirrored[v] = glm::vec3(light.mirrored);
-    valid[v] = 1;
-  }
-  for (auto* values : {&field.total, &field.mirrored}) {
-    fill_vertices(mesh, valid, *values);
-    settle_hanging(mesh, *values);
-  }
-  return field;
-}
-
 /// Number k of the points an element is looked at in; the first is its centre.
 Vec2 point_of(bool triangle, std::uint32_t k, std::uint32_t seed) {
   if (k == 0)
@@ -179,9 +59,10 @@ Vec2 point_of(bool triangle, std::uint32_t k, std::uint32_t seed) {
 }
 
 /// What one element hides: so many points besides its centre, and those of outlines that pass it.
-Found look_at(const Refinement& refinement, const ElementMesh& mesh,
+Found look_at(const Refinement& refinement, const Growing& growing,
               const std::vector<glm::vec3>& values, ElementId element, int points,
               std::span<const Vec2> on_outline) {
+  const ElementMesh& mesh = growing.mesh;
   const MeshCell& cell = cell_of(mesh, element);
   const MeshSide& side = mesh.sides[index(cell.side)];
   const Patch& patch = refinement.light.surfaces.patches[index(side.patch)];
@@ -190,11 +71,12 @@ Found look_at(const Refinement& refinement, const ElementMesh& mesh,
   if (weight <= 0.0)
     return sum;
   int open = 0;
+  const bool low = is_low(mesh, growing.samples, element);
   const auto look = [&](Vec2 uv, Vec2 st) {
     const PointSample sample = refinement.sampler.between(
         {point_at(patch, uv), side.normal, side.plane_class, side.tangent, side.coat},
         size_of(mesh, element), seed_of(cell.side, uv));
-    if (sample.covered)
+    if (sample.cover == Cover::shut || (sample.cover == Cover::low && !low))
       return;
     ++open;
     const glm::vec3 light(sample.light.total);
@@ -251,7 +133,7 @@ void look_at_elements(const Refinement& refinement, const SampledField& field, G
     const bool passed = outlines != outlined.end();
     const bool closely = cell_of(mesh, element).level == 0 || passed;
     growing.found[e] = look_at(
-        refinement, mesh, field.total, element, closely ? settings.root_points : settings.points,
+        refinement, growing, field.total, element, closely ? settings.root_points : settings.points,
         passed ? std::span<const Vec2>(outlines->second) : std::span<const Vec2>{});
   });
 }
@@ -339,50 +221,29 @@ Growing divided(const Refinement& refinement, const Growing& before,
                 const std::vector<std::uint8_t>& marked) {
   Growing after;
   after.mesh = divide_elements(before.mesh, refinement.light.surfaces, marked);
-  after.samples.resize(after.mesh.vertices.size());
-  after.known.resize(after.mesh.vertices.size(), VertexState::unknown);
+  after.samples = carried(before.mesh, before.samples, after.mesh);
   after.found.resize(element_count(after.mesh));
-  std::vector<std::uint32_t> vertex_now(before.mesh.vertices.size(), 0);
   const std::vector<CellId> now = same_cells(before.mesh, after.mesh);
-  for (std::size_t e = 0; e < element_count(before.mesh); ++e) {
-    const CellId cell = now[index(before.mesh.cell_of_element[e])];
-    const ElementCorners corners = corners_of(after.mesh, cell);
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-      const std::uint32_t from = index(before.mesh.corners[e][c]), to = index(corners[c]);
-      vertex_now[from] = to;
-      after.samples[to] = before.samples[from];
-      after.known[to] = before.known[from];
-    }
-    if (is_leaf(after.mesh.cells[index(cell)]))
-      after.found[after.mesh.cells[index(cell)].first_element] = before.found[e];
-  }
-  for (const auto& [ends, contact] : before.contacts)
-    after.contacts[{vertex_now[ends.first], vertex_now[ends.second]}] = contact;
+  for (std::size_t e = 0; e < element_count(before.mesh); ++e)
+    if (const MeshCell& cell = after.mesh.cells[index(now[index(before.mesh.cell_of_element[e])])];
+        is_leaf(cell))
+      after.found[cell.first_element] = before.found[e];
   return after;
 }
 
 } // namespace
 
-static Growing undivided(const ElementMesh& mesh) {
-  Growing growing;
-  growing.mesh = mesh;
-  growing.samples.resize(mesh.vertices.size());
-  growing.known.resize(mesh.vertices.size(), VertexState::unknown);
-  growing.found.resize(element_count(mesh));
-  return growing;
-}
-
 SampledField refine_field(const LightScene& light, const FieldSampler& sampler,
                           std::span<const double> weight, const MirrorOutlines& outlines,
                           const RefinementSettings& settings) {
   const Refinement refinement{light, sampler, weight, outlines, settings};
-  Growing growing = undivided(light.mesh);
+  Growing growing{light.mesh, no_samples(light.mesh),
+                  std::vector<Found>(element_count(light.mesh))};
   const double area = area_that_counts(refinement, light.mesh);
   const double allowed = settings.error * settings.error * area;
   for (;;) {
-    sample_vertices(refinement, growing);
-    sample_contacts(refinement, growing);
-    SampledField field = field_of(growing);
+    sample_field(light, sampler, growing.mesh, growing.samples);
+    SampledField field = field_of(growing.mesh, growing.samples);
     look_at_elements(refinement, field, growing);
     double error2 = 0.0;
     const auto marked = to_divide(refinement, growing, allowed, error2);

@@ -28,17 +28,18 @@
 // they are known (mirror_outlines.h), and elements on them are looked at there too.
 #pragma once
 
-#include "radiosity/direct_irradiance.h"
 #include "radiosity/mirror_outlines.h"
+#include "radiosity/vertex_light.h"
 
 #include <functional>
 
 namespace meninas {
 
-/// What arrives at a point; nothing that counts where something stands on it.
+/// What arrives at a point; it counts where nothing is over it,
+/// and under a low cover where nothing around is open.
 struct PointSample {
   ArrivingLight light;
-  bool covered = false;
+  Cover cover = Cover::open;
   double variance =
       0.0; ///< of the brightest channel of all light, as far as it is known: between vertices only
 };

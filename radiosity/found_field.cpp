@@ -5,7 +5,6 @@
 #include "radiosity/mesh_division.h"
 #include "radiosity/vertex_fill.h"
 #include "radiosity/vertex_light.h"
-#include "radiosity/vertex_places.h"
 #include "scenes/sampling.h"
 
 #include <tbb/parallel_for.h>
@@ -26,8 +25,10 @@ void for_each_array(DiffuseField& field, const Change& change) {
 } // namespace
 
 FoundField unknown_field(ElementMesh mesh) {
-  FoundField found{std::move(mesh), {}, {}, {}};
+  FoundField found;
+  found.mesh = std::move(mesh);
   found.receivers = vertex_receivers(found.mesh);
+  found.around = elements_around(found.mesh);
   const std::size_t count = found.mesh.vertices.size();
   found.states.assign(count, VertexState::unknown);
   for_each_array(found.field, [&](auto& values) { values.assign(count, glm::vec3(0.0F)); });
@@ -46,6 +47,47 @@ PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflecte
 }
 
 namespace {
+
+/// What is over a vertex that has not been asked what is, as few rays tell.
+Cover cover_at(const VertexSource& source, const FoundField& found, std::uint32_t v) {
+  const PointGathering& gathering = source.gathering;
+  return cover_in_the_dark(gathering.light, gathering.form_factors, found.receivers[v],
+                           size_of(found.mesh, found.mesh.element_of_vertex[v]),
+                           hash(v, gathering.form_factors.seed, 0xc07e), source.workspaces.local());
+}
+
+/// Whether any corner of the elements around a vertex is open. Those that hang do not count.
+bool has_open_beside(const VertexSource& source, const FoundField& found, std::uint32_t vertex) {
+  const auto is_open = [&](ElementVertexId v) {
+    switch (found.states[index(v)]) {
+    case VertexState::averaged:
+    case VertexState::gathered:
+      return true;
+    case VertexState::lit:
+      return cover_at(source, found, index(v)) == Cover::open;
+    default:
+      return false;
+    }
+  };
+  return std::ranges::any_of(around(found.around, vertex), [&](ElementId element) {
+    return std::ranges::any_of(found.mesh.corners[index(element)], is_open);
+  });
+}
+
+/// Of vertices under a low cover those beside something open are covered.
+void cover_low(const VertexSource& source, FoundField& found) {
+  std::vector<std::uint32_t> low;
+  for (std::uint32_t v = 0; v < found.states.size(); ++v)
+    if (found.states[v] == VertexState::low)
+      low.push_back(v);
+  std::vector<std::uint8_t> beside_open(low.size(), 0);
+  tbb::parallel_for(std::size_t{0}, low.size(), [&](std::size_t k) {
+    beside_open[k] = has_open_beside(source, found, low[k]) ? 1 : 0;
+  });
+  for (std::size_t k = 0; k < low.size(); ++k)
+    if (beside_open[k] != 0)
+      found.states[low[k]] = VertexState::covered;
+}
 
 /// Takes what `value(v, receiver, size, seed, workspace)` finds for the vertices
 /// that do not hang and are in one state, as far as they are marked.
@@ -72,7 +114,9 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
     found.field.mirrored[v] += glm::vec3(found_here.irradiance.mirrored);
     found.field.indirect[v] = glm::vec3(found_here.indirect.total);
     found.field.indirect_mirrored[v] = glm::vec3(found_here.indirect.mirrored);
-    found.states[v] = found_here.covered ? VertexState::covered : then;
+    found.states[v] = found_here.cover == Cover::open  ? then
+                      : found_here.cover == Cover::low ? VertexState::low
+                                                       : VertexState::covered;
   };
   tbb::parallel_for(std::size_t{0}, (vertices.size() + chunk_size - 1) / chunk_size,
                     [&](std::size_t c) {
@@ -81,6 +125,7 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
                            k < std::min(vertices.size(), (c + 1) * chunk_size); ++k)
                         light_vertex(vertices[k], work);
                     });
+  cover_low(source, found);
 }
 
 } // namespace
@@ -125,16 +170,18 @@ static void cover_shut_in(const VertexSource& source, FoundField& found) {
                    PointWorkspace& work) -> VertexValue {
                  return {{},
                          {},
-                         is_shut_in(source.gathering.light, source.gathering.form_factors, receiver,
-                                    size, seed, work)};
+                         cover_in_the_dark(source.gathering.light, source.gathering.form_factors,
+                                           receiver, size, seed, work)};
                });
+  // Under a low cover that goes on all around the rest of the light is still to be gathered.
+  std::ranges::replace(found.states, VertexState::low, VertexState::lit);
 }
 
 void light_vertices(const VertexSource& source, FoundField& found) {
   light_each(source, VertexState::unknown, VertexState::lit, {}, 0, found,
              [&](const Receiver& receiver, double, std::uint32_t seed,
                  PointWorkspace& work) -> VertexValue {
-               return {light_from_source(source.gathering, receiver, seed, work), {}, false};
+               return {light_from_source(source.gathering, receiver, seed, work), {}};
              });
   cover_shut_in(source, found);
 }
@@ -159,8 +206,8 @@ void light_contacts(const VertexSource& source, const FoundField& found,
   const std::vector<Receiver>& receivers = found.receivers;
   std::vector<std::uint8_t> open = valid;
   tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t v) {
-    if (open[v] != 0 && found.states[v] != VertexState::averaged &&
-        is_at_foot(gathering.light, receivers[v]))
+    if (found.states[v] == VertexState::low ||
+        (found.states[v] == VertexState::gathered && is_at_foot(gathering.light, receivers[v])))
       open[v] = 0;
   });
   const std::vector<ContactEdge> edges = contact_edges(mesh, open);

@@ -10,16 +10,19 @@
 
 #include "radiosity/interpolation.h"
 #include "radiosity/point_gathering.h"
+#include "radiosity/vertex_places.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
 namespace meninas {
 
-/// What a vertex has; `lit`: light from the source alone.
-enum class VertexState : std::uint8_t { unknown, covered, averaged, lit, gathered };
+/// What a vertex has; `lit`: light from the source alone;
+/// `low`: all light, under a low cover that goes on all around (vertex_light.h).
+enum class VertexState : std::uint8_t { unknown, covered, averaged, lit, low, gathered };
 
 inline bool has_value(VertexState state) {
-  return state == VertexState::averaged || state == VertexState::gathered;
+  return state == VertexState::averaged || state == VertexState::low ||
+         state == VertexState::gathered;
 }
 
 /// A mesh with the values of vertices as they were found; hanging vertices may be unknown.
@@ -28,6 +31,7 @@ struct FoundField {
   DiffuseField field;
   std::vector<VertexState> states; ///< by ElementVertexId
   std::vector<Receiver> receivers; ///< where they gather (vertex_places.h)
+  VertexElements around;
 };
 
 using PointWorkspaces = tbb::enumerable_thread_specific<PointWorkspace>;

@@ -81,22 +81,24 @@ std::optional<GapLight> light_in_gap(const PointGathering& gathering,
                                      ElementId element, PointWorkspace& work) {
   const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(element)])];
   const double size = size_of(mesh, element);
-  GapSum sum;
+  GapSum open, low;
   for (std::uint32_t lit = points_that_see_light(gathering, irradiance, mesh, element, work);
-       lit != 0 && sum.count < most_points; lit &= lit - 1) {
+       lit != 0 && open.count < most_points; lit &= lit - 1) {
     const auto k = static_cast<std::uint32_t>(std::countr_zero(lit));
     const Receiver receiver{point_in(mesh, element, k), side.normal, side.plane_class, side.tangent,
                             side.coat};
-    if (is_under_something(gathering.light, receiver, size))
+    if (low.count >= most_points && is_under_something(gathering.light, receiver, size))
       continue;
     const std::uint32_t seed = hash(index(element), k, gathering.form_factors.seed);
     const VertexValue value = value_at(gathering, irradiance, receiver, size, seed, work);
     // Where the one arrives at nothing but the void, so do the others.
     if (value.irradiance.total == Rgb(0.0))
       break;
-    if (!value.covered)
-      sum.add({value.irradiance, value.indirect});
+    if (value.cover != Cover::shut)
+      (value.cover == Cover::open ? open : low).add({value.irradiance, value.indirect});
   }
+  // What is under a low cover counts where nothing is open.
+  const GapSum& sum = open.count > 0.0 ? open : low;
   return sum.count > 0.0 ? std::optional(sum.mean()) : std::nullopt;
 }
 

@@ -64,16 +64,22 @@ static bool sees_black(const GatheredRays& gathered) {
   return gathered.black > most_black * gathered.rays;
 }
 
-bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
-                const Receiver& receiver, double element_size, std::uint32_t seed,
-                PointWorkspace& work) {
+/// What is over a point, by what it sees.
+static Cover cover_of(bool is_shut, const LightScene& light, const Receiver& receiver,
+                      double element_size) {
+  if (is_shut)
+    return Cover::shut;
+  return is_under_something(light, receiver, element_size) ? Cover::low : Cover::open;
+}
+
+Cover cover_in_the_dark(const LightScene& light, const FormFactorSettings& form_factors,
+                        const Receiver& receiver, double element_size, std::uint32_t seed,
+                        PointWorkspace& work) {
   constexpr int few_rays = 32;
   static const DirectionNet net = make_direction_net(few_rays);
-  if (is_under_something(light, receiver, element_size))
-    return true;
   gather_rays(light, net, area_of(receiver), seed, form_factors, work.gather);
   work.rays += work.gather.result.traced;
-  return sees_black(work.gather.result);
+  return cover_of(sees_black(work.gather.result), light, receiver, element_size);
 }
 
 /// Whether what was gathered is that of a point inside something,
@@ -108,19 +114,19 @@ VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& ir
                      const Receiver& receiver, double element_size, std::uint32_t seed,
                      PointWorkspace& work) {
   const PointLight arrived = light_at(gathering, receiver, seed, work);
-  const bool covered =
-      (is_enclosed(work.gather.result, irradiance) && arrived.from_source.total == Rgb(0.0)) ||
-      is_under_something(gathering.light, receiver, element_size);
-  return {arrived.all(), arrived.indirect(), covered};
+  const bool shut =
+      is_enclosed(work.gather.result, irradiance) && arrived.from_source.total == Rgb(0.0);
+  return {arrived.all(), arrived.indirect(),
+          cover_of(shut, gathering.light, receiver, element_size)};
 }
 
 VertexValue indirect_value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
                               const Receiver& receiver, double element_size, std::uint32_t seed,
                               PointWorkspace& work) {
   const ArrivingLight indirect = indirect_light_at(gathering, receiver, seed, work).indirect();
-  const bool dark =
+  const bool shut =
       is_enclosed(work.gather.result, irradiance) && !is_lit(gathering, receiver, seed, work);
-  return {indirect, indirect, dark || is_under_something(gathering.light, receiver, element_size)};
+  return {indirect, indirect, cover_of(shut, gathering.light, receiver, element_size)};
 }
 
 ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,

@@ -6,10 +6,19 @@
 
 namespace meninas {
 
+/// What is over a point: nothing near, something within a fraction of an element,
+/// or something that stands on it and leaves no way for light.
+///
+/// What little light there is under a low cover must not be interpolated out into the open.
+/// But where a space is low all around, as in the corner of a wedge or where elements are larger
+/// than the room, there is no open to spoil, and what arrives is what the surface shows:
+/// the points around tell.
+enum class Cover : std::uint8_t { open, low, shut };
+
 struct VertexValue {
   ArrivingLight irradiance;
   ArrivingLight indirect; ///< the part of it that does not come from the source
-  bool covered;           ///< something stands on it: no value of its own
+  Cover cover = Cover::open;
 };
 
 /// At a point in elements of a size, metres.
@@ -37,20 +46,18 @@ bool is_at_foot(const LightScene& light, const Receiver& receiver);
 bool is_nearly_under_something(const LightScene& light, const Receiver& receiver,
                                double element_size);
 
-/// Whether a point is neither covered nor nearly so, as far as few rays tell.
+/// Whether nothing is or nearly is over a point, as far as few rays tell.
 bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
              const Receiver& receiver, double element_size, std::uint32_t seed,
              PointWorkspace& work);
 
 /// Whether something lies on the surface here: nearly all of the hemisphere
 /// is blocked within a fraction of an element, as under a box that stands on a floor.
-/// What little light there is there must not be interpolated out into the open.
 bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size);
 
-/// Whether a point is under something or, as far as few rays tell,
-/// inside something that stands on its surface: nearly all that it sees is black.
-/// To be asked of points to which no light comes from the source.
-bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
+/// What is over a point to which no light comes from the source, as far as few rays tell:
+/// `shut` where nearly all that it sees is black, as inside something that stands on its surface.
+Cover cover_in_the_dark(const LightScene& light, const FormFactorSettings& form_factors,
                 const Receiver& receiver, double element_size, std::uint32_t seed,
                 PointWorkspace& work);
 

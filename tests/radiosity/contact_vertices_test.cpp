@@ -17,7 +17,7 @@ ContactLight light_of(double place, double direct) {
   return {place,
           {.irradiance = {Rgb(direct + 1.0), Rgb(1.0)},
            .indirect = {Rgb(1.0), Rgb(1.0)},
-           .covered = false}};
+           .cover = Cover::open}};
 }
 
 TEST(ContactVertices, FollowTheLineThroughWhatIsSeen) {
@@ -60,7 +60,7 @@ TEST(ContactVertices, TheWholeDoesNotDependOnItsParts) {
     const ArrivingLight arrived{Rgb(4.0), Rgb(mirrors ? 3.0 : 0.0)};
     std::vector<std::uint8_t> valid{1, 0};
     extend_to_contacts(std::vector<ContactEdge>{{1, 0}},
-                       std::vector<ContactLight>{{0.4, {arrived, {}, false}}}, valid, field);
+                       std::vector<ContactLight>{{0.4, {arrived, {}}}}, valid, field);
   }
   EXPECT_EQ(fields[0].irradiance[1].g, fields[1].irradiance[1].g);
 }

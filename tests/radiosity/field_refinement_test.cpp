@@ -21,7 +21,7 @@ bool everywhere(const Receiver&, double, std::uint32_t) { return true; }
 
 FieldSampler sampled(const Function& f) {
   const SamplePoint sample = [f](const Receiver& receiver, double, std::uint32_t) -> PointSample {
-    return {{Rgb(f(receiver.position)), Rgb(0.0)}, false};
+    return {{Rgb(f(receiver.position)), Rgb(0.0)}};
   };
   return {sample, sample, everywhere};
 }
@@ -113,7 +113,7 @@ TEST(FieldRefinement, WhatDoesNotShowIsLeftAlone) {
 SamplePoint noisy(double spread) {
   return [spread](const Receiver& receiver, double, std::uint32_t seed) -> PointSample {
     const double off = spread * (0x1p-31 * hash(seed, 5, 6) - 1.0);
-    return {{Rgb(1.0 + receiver.position.x + off), Rgb(0.0)}, false};
+    return {{Rgb(1.0 + receiver.position.x + off), Rgb(0.0)}};
   };
 }
 
@@ -126,7 +126,7 @@ TEST(FieldRefinement, NoiseIsKnownAndNoReasonToDivide) {
   const SamplePoint told = [half](const Receiver& receiver, double size, std::uint32_t seed) {
     const double a = half(receiver, size, seed).light.total.g,
                  b = half(receiver, size, ~seed).light.total.g;
-    return PointSample{{Rgb(0.5 * (a + b)), Rgb(0.0)}, false, 0.25 * (a - b) * (a - b)};
+    return PointSample{{Rgb(0.5 * (a + b)), Rgb(0.0)}, Cover::open, 0.25 * (a - b) * (a - b)};
   };
   const std::vector<double> weight(element_count(l->mesh), 1.0);
   const RefinementSettings settings{.error = 0.01, .most_levels = 4};
