@@ -4,6 +4,7 @@
 #include "radiosity/hierarchical/node_edges.h"
 #include "radiosity/vertex_places.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meninas {
@@ -124,17 +125,48 @@ void share_out(const NodeInterpolation& by, FoundField& found) {
   take(false);
 }
 
+/// Elements with a covered corner, by ElementId.
+std::vector<std::uint8_t> covered_elements(const FoundField& found) {
+  std::vector<std::uint8_t> covered;
+  for (const ElementCorners& corners : found.mesh.corners)
+    covered.push_back(std::ranges::any_of(corners, [&](ElementVertexId v) {
+      return found.states[index(v)] == VertexState::covered;
+    }));
+  return covered;
+}
+
+/// Of what receivers have received, elements with a covered corner keep what the others leave.
+/// Covered corners have the light of the open, continued: as if nothing shaded the wall
+/// behind what hangs before it.
+void leave_the_rest(const ReceiverNodes& receivers, const FoundField& found,
+                    const std::vector<Rgb>& solved, std::vector<Rgb>& received) {
+  const std::vector<std::uint8_t> covered = covered_elements(found);
+  for (const TreeNodeId receiver : receivers.receivers) {
+    Rgb rest(0.0);
+    double area = 0.0;
+    for (const ElementId element : elements_below(receivers.tree, receiver)) {
+      const std::size_t e = index(element);
+      rest += found.mesh.area[e] * (solved[e] - (covered[e] != 0 ? Rgb(0.0) : received[e]));
+      area += covered[e] != 0 ? found.mesh.area[e] : 0.0;
+    }
+    for (const ElementId element : elements_below(receivers.tree, receiver))
+      if (covered[index(element)] != 0)
+        received[index(element)] = glm::max(rest, 0.0) / area;
+  }
+}
+
 /// What elements receive, by their corners: all of it where they share points for light from the
 /// source (node_light.h), or the rest. Of a spot of a few elements corners do not tell the light.
-std::vector<Rgb> received_at_corners(const ElementMesh& mesh, const ElementLight& elements,
-                                     const ReceiverNodes& receivers,
+std::vector<Rgb> received_at_corners(const ElementLight& elements, const ReceiverNodes& receivers,
+                                     const FoundField& found,
                                      const std::vector<glm::vec3>& irradiance,
                                      const std::vector<glm::vec3>& indirect) {
-  std::vector<Rgb> received = corner_means(mesh, irradiance);
-  const std::vector<Rgb> rest = corner_means(mesh, indirect);
+  std::vector<Rgb> received = corner_means(found.mesh, irradiance);
+  const std::vector<Rgb> rest = corner_means(found.mesh, indirect);
   for (std::size_t e = 0; e < received.size(); ++e)
     if (receivers.share_light[e] == 0)
       received[e] = elements.from_source[e] + rest[e];
+  leave_the_rest(receivers, found, elements.irradiance, received);
   return received;
 }
 
@@ -144,7 +176,7 @@ std::vector<Rgb> reflected_by_field(const ElementMesh& mesh, const VertexSource&
                                     FoundField found) {
   share_out(gather_at_nodes({few, few}, receivers, few_rays * receivers.bend, found), found);
   const std::vector<Rgb> received =
-      received_at_corners(mesh, elements, receivers, filled(found, found.field.irradiance),
+      received_at_corners(elements, receivers, found, filled(found, found.field.irradiance),
                           filled(found, found.field.indirect));
   std::vector<Rgb> reflected = elements.reflected;
   for (std::size_t e = 0; e < received.size(); ++e)
@@ -171,7 +203,7 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
       by_small{elements.irradiance, seen_by_small, workspaces};
   share_out(gather_at_nodes({source, by_small}, receivers, receivers.bend, found), found);
   InterpolatedField result{.field = settled(source, found)};
-  result.received = received_at_corners(light.mesh, elements, receivers, result.field.irradiance,
+  result.received = received_at_corners(elements, receivers, found, result.field.irradiance,
                                         result.field.indirect);
   divide_bent(light, source, bend_scale(light.mesh, elements.reflected), how.interpolation.bend,
               std::move(found), result);
