@@ -2,8 +2,9 @@
 // open in between, as the floor is between two boxes closer together than its elements are wide.
 //
 // Of sixteen points of such an element those are open whose ray along the normal comes to light:
-// a few of them gather, first those under no low cover, and the corners take the means of their elements. Under what stands
-// there nothing is seen of that, and contact_vertices.h goes before: its edges have an open end.
+// a few of them gather, first those under no low cover, and the corners take
+// the means of their elements. Under what stands there nothing is seen of that,
+// and contact_vertices.h goes before: its edges have an open end.
 #pragma once
 
 #include "radiosity/interpolation.h"

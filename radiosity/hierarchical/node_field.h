@@ -7,8 +7,8 @@
 //
 //   B_j = rho_j (mean of H at its corners).
 //
-// and elements with a covered corner, whose value is that of the open, share what the other elements
-// of their receiver leave of its light.
+// and elements with a covered corner, whose value is that of the open,
+// share what the other elements of their receiver leave of its light.
 //
 // A receiver sends as if all of it received the same.
 // Beside an edge of the room, where a wall lights the other from as near as a receiver is large,
