@@ -27,8 +27,8 @@ void for_each_array(DiffuseField& field, const Change& change) {
 FoundField unknown_field(ElementMesh mesh) {
   FoundField found;
   found.mesh = std::move(mesh);
-  found.receivers = vertex_receivers(found.mesh);
   found.around = elements_around(found.mesh);
+  found.receivers = vertex_receivers(found.mesh, found.around);
   const std::size_t count = found.mesh.vertices.size();
   found.states.assign(count, VertexState::unknown);
   for_each_array(found.field, [&](auto& values) { values.assign(count, glm::vec3(0.0F)); });
@@ -48,12 +48,16 @@ PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflecte
 
 namespace {
 
-/// What is over a vertex that has not been asked what is, as few rays tell.
-Cover cover_at(const VertexSource& source, const FoundField& found, std::uint32_t v) {
+/// Whether a vertex is open that has light from the source alone, as few rays tell.
+bool is_open_so_far(const VertexSource& source, const FoundField& found, std::uint32_t v) {
   const PointGathering& gathering = source.gathering;
-  return cover_in_the_dark(gathering.light, gathering.form_factors, found.receivers[v],
-                           size_of(found.mesh, found.mesh.element_of_vertex[v]),
-                           hash(v, gathering.form_factors.seed, 0xc07e), source.workspaces.local());
+  const Receiver& receiver = found.receivers[v];
+  const double size = size_of(found.mesh, found.mesh.element_of_vertex[v]);
+  if (found.field.irradiance[v] != glm::vec3(0.0F))
+    return !is_under_something(gathering.light, receiver, size);
+  return cover_in_the_dark(gathering.light, gathering.form_factors, receiver, size,
+                           hash(v, gathering.form_factors.seed, 0xc07e),
+                           source.workspaces.local()) == Cover::open;
 }
 
 /// Whether any corner of the elements around a vertex is open. Those that hang do not count.
@@ -64,7 +68,7 @@ bool has_open_beside(const VertexSource& source, const FoundField& found, std::u
     case VertexState::gathered:
       return true;
     case VertexState::lit:
-      return cover_at(source, found, index(v)) == Cover::open;
+      return is_open_so_far(source, found, index(v));
     default:
       return false;
     }

@@ -92,7 +92,7 @@ std::optional<GapLight> light_in_gap(const PointGathering& gathering,
     const std::uint32_t seed = hash(index(element), k, gathering.form_factors.seed);
     const VertexValue value = value_at(gathering, irradiance, receiver, size, seed, work);
     // Where the one arrives at nothing but the void, so do the others.
-    if (value.irradiance.total == Rgb(0.0))
+    if (value.irradiance.total == Rgb(0.0) && value.cover != Cover::low)
       break;
     if (value.cover != Cover::shut)
       (value.cover == Cover::open ? open : low).add({value.irradiance, value.indirect});

@@ -58,7 +58,7 @@ bool is_under_something(const LightScene& light, const Receiver& receiver, doubl
 /// What is over a point to which no light comes from the source, as far as few rays tell:
 /// `shut` where nearly all that it sees is black, as inside something that stands on its surface.
 Cover cover_in_the_dark(const LightScene& light, const FormFactorSettings& form_factors,
-                const Receiver& receiver, double element_size, std::uint32_t seed,
-                PointWorkspace& work);
+                        const Receiver& receiver, double element_size, std::uint32_t seed,
+                        PointWorkspace& work);
 
 } // namespace meninas

@@ -81,7 +81,10 @@ static Point3 gathering_point(const ElementMesh& mesh, const VertexElements& all
 }
 
 std::vector<Receiver> vertex_receivers(const ElementMesh& mesh) {
-  const VertexElements all = elements_around(mesh);
+  return vertex_receivers(mesh, elements_around(mesh));
+}
+
+std::vector<Receiver> vertex_receivers(const ElementMesh& mesh, const VertexElements& all) {
   std::vector<Receiver> receivers;
   receivers.reserve(mesh.vertices.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {

@@ -27,6 +27,8 @@ Point3 centre_of(const ElementMesh& mesh, ElementId element);
 /// Where every vertex gathers, by ElementVertexId: drawn a little towards the middle of its
 /// elements, so that it is inside its own surface and not in the wall that stands on its edge.
 std::vector<Receiver> vertex_receivers(const ElementMesh& mesh);
+/// The same where the elements around are at hand.
+std::vector<Receiver> vertex_receivers(const ElementMesh& mesh, const VertexElements& all);
 
 /// The mean of the values at its corners, by ElementId.
 std::vector<Rgb> corner_means(const ElementMesh& mesh, std::span<const glm::vec3> values);

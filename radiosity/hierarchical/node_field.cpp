@@ -126,7 +126,7 @@ void share_out(const NodeInterpolation& by, FoundField& found) {
 }
 
 /// Elements with a covered corner, by ElementId.
-std::vector<std::uint8_t> covered_elements(const FoundField& found) {
+std::vector<std::uint8_t> with_covered_corner(const FoundField& found) {
   std::vector<std::uint8_t> covered;
   for (const ElementCorners& corners : found.mesh.corners)
     covered.push_back(std::ranges::any_of(corners, [&](ElementVertexId v) {
@@ -140,7 +140,7 @@ std::vector<std::uint8_t> covered_elements(const FoundField& found) {
 /// behind what hangs before it.
 void leave_the_rest(const ReceiverNodes& receivers, const FoundField& found,
                     const std::vector<Rgb>& solved, std::vector<Rgb>& received) {
-  const std::vector<std::uint8_t> covered = covered_elements(found);
+  const std::vector<std::uint8_t> covered = with_covered_corner(found);
   for (const TreeNodeId receiver : receivers.receivers) {
     Rgb rest(0.0);
     double area = 0.0;
