@@ -19,6 +19,7 @@ namespace meninas {
 namespace {
 
 /// w = rho / (B + B_mean) of every root cell: what an error of irradiance there is to the eye.
+/// B_mean is over the area that counts.
 std::vector<double> weights(const ElementMesh& mesh, const std::vector<Rgb>& irradiance) {
   const std::size_t roots =
       mesh.sides.empty() ? 0 : mesh.sides.back().first_cell + mesh.sides.back().root_count;
@@ -33,7 +34,7 @@ std::vector<double> weights(const ElementMesh& mesh, const std::vector<Rgb>& irr
   double sum = 0.0, area = 0.0;
   for (std::uint32_t root = 0; root < roots; ++root) {
     sum += mesh.cells[root].area * reflected(root);
-    area += mesh.cells[root].area;
+    area += counted_area(mesh, mesh.cells[root]);
   }
   if (!(sum > 0.0))
     return weight;
@@ -195,7 +196,8 @@ public:
   }
 
   PointSample operator()(const Receiver& receiver, double element_size, std::uint32_t seed) const {
-    const double needed = rays_.needed * std::pow(element_size / rays_.size, 1.0 / noise_order);
+    const double needed =
+        rays_.needed * std::pow(std::min(1.0, element_size / rays_.size), 1.0 / noise_order);
     std::size_t k = 0;
     while (k + 1 < counts_.size() && counts_[k] < needed)
       ++k;

@@ -52,7 +52,8 @@ EdgeKey edge_key(const Patch& patch, int a, int b, double cell) {
 
 } // namespace
 
-std::vector<Divisions> divide_edges(const SurfaceModel& surfaces, double element_size) {
+std::vector<Divisions> divide_edges(const SurfaceModel& surfaces,
+                                    std::span<const double> element_size) {
   const auto& patches = surfaces.patches;
 
   // Class 2p holds the edges of patch p along u, class 2p + 1 those along v.
@@ -78,7 +79,7 @@ std::vector<Divisions> divide_edges(const SurfaceModel& surfaces, double element
   std::vector<int> largest(2 * patches.size(), 1);
   std::vector<Divisions> divisions(patches.size());
   for (std::uint32_t p = 0; p < patches.size(); ++p) {
-    divisions[p] = own_divisions(patches[p], element_size);
+    divisions[p] = own_divisions(patches[p], element_size[index(patches[p].surface)]);
     auto& u = largest[classes.root(2 * p)];
     u = std::max(u, divisions[p].u);
     auto& v = largest[classes.root(2 * p + 1)];

@@ -9,6 +9,7 @@
 
 #include "scenes/surfaces.h"
 
+#include <span>
 #include <vector>
 
 namespace meninas {
@@ -17,7 +18,8 @@ struct Divisions {
   int u = 1, v = 1;
 };
 
-/// By PatchId, for the wanted edge length in metres.
-std::vector<Divisions> divide_edges(const SurfaceModel& surfaces, double element_size);
+/// By PatchId, for the wanted edge lengths by SurfaceId, in metres.
+std::vector<Divisions> divide_edges(const SurfaceModel& surfaces,
+                                    std::span<const double> element_size);
 
 } // namespace meninas

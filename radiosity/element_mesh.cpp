@@ -2,6 +2,7 @@
 
 #include "radiosity/cell_children.h"
 #include "radiosity/edge_divisions.h"
+#include "radiosity/element_sizes.h"
 #include "radiosity/mesh_cells.h"
 #include "scenes/errors.h"
 #include "scenes/texture_lookup.h"
@@ -15,18 +16,6 @@
 namespace meninas {
 
 namespace {
-
-bool carries_radiosity(const Material& material) {
-  if (is_emitter(material) || !(is_mirror(material) || is_glass(material)))
-    return true;
-  // Where its texture of transmission is black glass is opaque.
-  if (material.transmission_texture)
-    return true;
-  // And where its texture of metalness is, it is no metal.
-  if (material.metallic_roughness_texture && material.transmission < 1.0)
-    return true;
-  return glm::any(glm::greaterThan(diffuse_reflectance(material), Rgb(0.0)));
-}
 
 std::uint32_t elements_of(int nu, int nv, bool triangle) {
   return static_cast<std::uint32_t>(nu) * static_cast<std::uint32_t>(triangle ? nu : nv);
@@ -84,15 +73,10 @@ void add_sides(ElementMesh& mesh, const Scene& scene, const SurfaceModel& model,
   }
 }
 
-/// Area of all sides that carry radiosity, and the number of elements a size would make of them.
-struct Extent {
-  double area = 0.0;
+/// The number of elements that divisions make.
+std::uint64_t elements_of(const Scene& scene, const SurfaceModel& model,
+                          const std::vector<Divisions>& divisions, const DarkSides& dark) {
   std::uint64_t elements = 0;
-};
-
-Extent extent_of(const Scene& scene, const SurfaceModel& model,
-                 const std::vector<Divisions>& divisions, const DarkSides& dark) {
-  Extent extent;
   for (std::size_t p = 0; p < model.patches.size(); ++p) {
     const Patch& patch = model.patches[p];
     const Material& material = scene.materials[index(patch.material)];
@@ -100,29 +84,34 @@ Extent extent_of(const Scene& scene, const SurfaceModel& model,
       continue;
     const unsigned dark_sides = dark.empty() ? 0U : static_cast<unsigned>(dark[p][0] + dark[p][1]);
     const unsigned sides = (material.double_sided ? 2U : 1U) - dark_sides;
-    extent.area += sides * patch.area;
-    if (!divisions.empty())
-      extent.elements += sides * static_cast<std::uint64_t>(elements_of(
-                                     divisions[p].u, divisions[p].v, patch.corner_count == 3));
+    elements += sides * static_cast<std::uint64_t>(
+                            elements_of(divisions[p].u, divisions[p].v, patch.corner_count == 3));
   }
-  return extent;
+  return elements;
+}
+
+/// What is asked for, of each surface.
+ElementSizes sizes_of(const Scene& scene, const SurfaceModel& surfaces,
+                      const MeshSettings& settings, const DarkSides& dark) {
+  ElementSizes sizes{settings.element_size, {}};
+  if (settings.element_size <= 0.0)
+    sizes = share_elements(meshed_areas(scene, surfaces, dark), settings.target_elements);
+  if (sizes.element_size <= 0.0)
+    sizes.element_size = 1.0;
+  if (sizes.of_surface.empty() || settings.element_size > 0.0)
+    sizes.of_surface.assign(surfaces.surfaces.size(), sizes.element_size);
+  return sizes;
 }
 
 } // namespace
 
 ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces,
                               const MeshSettings& settings, const DarkSides& dark) {
-  ElementMesh mesh;
-  mesh.element_size = settings.element_size;
-  if (mesh.element_size <= 0.0)
-    mesh.element_size = std::sqrt(extent_of(scene, surfaces, {}, dark).area /
-                                  std::max(settings.target_elements, 1.0));
-  if (mesh.element_size <= 0.0)
-    mesh.element_size = 1.0;
+  ElementSizes sizes = sizes_of(scene, surfaces, settings, dark);
 
   // A derived size grows until the mesh fits; a chosen one is the user's word.
-  auto divisions = divide_edges(surfaces, mesh.element_size);
-  auto elements = extent_of(scene, surfaces, divisions, dark).elements;
+  auto divisions = divide_edges(surfaces, sizes.of_surface);
+  auto elements = elements_of(scene, surfaces, divisions, dark);
   while (elements > settings.max_elements) {
     if (settings.element_size > 0.0)
       throw UsageError("--element-size",
@@ -130,12 +119,18 @@ ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces,
                                    elements, settings.max_elements));
     if (elements <= 2 * surfaces.patches.size())
       break; // one element a side is the least there is
-    mesh.element_size *= 1.4;
-    divisions = divide_edges(surfaces, mesh.element_size);
-    elements = extent_of(scene, surfaces, divisions, dark).elements;
+    sizes.element_size *= 1.4;
+    for (double& size : sizes.of_surface)
+      size *= 1.4;
+    divisions = divide_edges(surfaces, sizes.of_surface);
+    elements = elements_of(scene, surfaces, divisions, dark);
   }
 
+  ElementMesh mesh;
+  mesh.element_size = sizes.element_size;
   add_sides(mesh, scene, surfaces, divisions, dark);
+  for (MeshSide& side : mesh.sides)
+    side.element_size = sizes.of_surface[index(surfaces.patches[index(side.patch)].surface)];
   add_root_cells(mesh);
   add_elements(mesh, surfaces);
   return mesh;

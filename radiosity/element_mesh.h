@@ -30,8 +30,7 @@ enum class Facing : std::uint8_t { front = 0, back = 1 };
 
 struct MeshSettings {
   double element_size = 0.0; ///< wanted edge length in metres; 0: from `target_elements`
-  double target_elements =
-      16000; ///< about how many elements share the meshed area when element_size is 0
+  double target_elements = 16000; ///< about how many, when element_size is 0 (element_sizes.h)
   std::size_t max_elements = 4'000'000; ///< a chosen size that needs more is refused (UsageError)
 };
 
@@ -45,6 +44,7 @@ struct MeshSide {
   MaterialId material = none<MaterialId>;
   MaterialId coat = none<MaterialId>; ///< the same, where its coat is a mirror
   NodeId node = none<NodeId>;
+  double element_size = 0.0; ///< wanted edge of its roots, metres
   int nu = 1, nv = 1;
   bool triangle = false;
   std::uint32_t first_element = 0;
@@ -98,7 +98,7 @@ struct ElementMesh {
   std::vector<Point3> vertices;             ///< by ElementVertexId
   std::vector<ElementId> element_of_vertex; ///< one of the elements that share it
   std::vector<HangingVertex> hanging; ///< those whose ends hang themselves after these
-  double element_size = 0.0;          ///< what was used for the roots, metres
+  double element_size = 0.0; ///< of the roots, metres; a surface may have larger ones
 };
 
 /// Sides marked in `dark` get no elements; empty: all are meshed. No cell is divided.
@@ -125,9 +125,18 @@ inline const MeshCell& cell_of(const ElementMesh& mesh, ElementId element) {
   return mesh.cells[index(mesh.cell_of_element[index(element)])];
 }
 
+/// The area of a cell that bounds on all of the scene are relative to:
+/// of a surface with larger elements than the others, as much as so many of theirs would have.
+/// A room is not to be judged by the ground on which it stands (element_sizes.h).
+inline double counted_area(const ElementMesh& mesh, const MeshCell& cell) {
+  const double larger = mesh.sides[index(cell.side)].element_size / mesh.element_size;
+  return cell.area / (larger * larger);
+}
+
 /// The wanted edge length at the element's level.
 inline double size_of(const ElementMesh& mesh, ElementId element) {
-  return mesh.element_size / static_cast<double>(1U << cell_of(mesh, element).level);
+  const MeshCell& cell = cell_of(mesh, element);
+  return mesh.sides[index(cell.side)].element_size / static_cast<double>(1U << cell.level);
 }
 
 } // namespace meninas

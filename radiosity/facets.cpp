@@ -14,7 +14,7 @@ namespace {
 bool is_facet(const ElementMesh& mesh, const MeshSide& side) {
   constexpr double largest = 0.25; // of an element
   return side.element_count == 1 &&
-         mesh.area[side.first_element] <= largest * mesh.element_size * mesh.element_size;
+         mesh.area[side.first_element] <= largest * side.element_size * side.element_size;
 }
 
 const MeshSide& side_of(const ElementMesh& mesh, ElementId element) {

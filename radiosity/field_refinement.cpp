@@ -182,12 +182,12 @@ std::vector<double> made_by_noise(const Refinement& refinement, const Growing& g
   return made;
 }
 
-/// Area of what reflects.
+/// Area of what reflects, as it counts.
 double area_that_counts(const Refinement& refinement, const ElementMesh& mesh) {
   double area = 0.0;
   for (std::size_t e = 0; e < element_count(mesh); ++e)
     if (refinement.weight[index(root_of(mesh, static_cast<ElementId>(e)))] > 0.0)
-      area += mesh.area[e];
+      area += counted_area(mesh, cell_of(mesh, static_cast<ElementId>(e)));
   return area;
 }
 

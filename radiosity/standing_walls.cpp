@@ -90,7 +90,7 @@ std::vector<Obstacle> obstacles_on(const Walls& walls, const ElementMesh& mesh, 
   const MeshSide& side = mesh.sides[index(id)];
   std::vector<Obstacle> found;
   const double cell = walls.surfaces.patches[index(side.patch)].area / side.root_count;
-  if (cell < least_size * least_size * mesh.element_size * mesh.element_size)
+  if (cell < least_size * least_size * side.element_size * side.element_size)
     return found;
   for (const bool along_u : {true, false}) {
     const int count = lines_a_cell * (along_u ? side.nv : side.nu);
@@ -99,7 +99,7 @@ std::vector<Obstacle> obstacles_on(const Walls& walls, const ElementMesh& mesh, 
       const auto at = [&](double along) {
         return along_u ? Vec2(along, across) : Vec2(across, along);
       };
-      follow(walls, side, lifted * mesh.element_size,
+      follow(walls, side, lifted * side.element_size,
              {id, along_u, static_cast<std::uint32_t>(k), at(0.0), at(end)}, found);
     }
   }
