@@ -19,7 +19,7 @@ namespace meninas {
 namespace {
 
 /// w = rho / (B + B_mean) of every root cell: what an error of irradiance there is to the eye.
-/// B_mean is over the area that counts.
+/// B_mean is a mean over the area that counts.
 std::vector<double> weights(const ElementMesh& mesh, const std::vector<Rgb>& irradiance) {
   const std::size_t roots =
       mesh.sides.empty() ? 0 : mesh.sides.back().first_cell + mesh.sides.back().root_count;
@@ -33,8 +33,9 @@ std::vector<double> weights(const ElementMesh& mesh, const std::vector<Rgb>& irr
   };
   double sum = 0.0, area = 0.0;
   for (std::uint32_t root = 0; root < roots; ++root) {
-    sum += mesh.cells[root].area * reflected(root);
-    area += counted_area(mesh, mesh.cells[root]);
+    const double counted = counted_area(mesh, mesh.cells[root]);
+    sum += counted * reflected(root);
+    area += counted;
   }
   if (!(sum > 0.0))
     return weight;

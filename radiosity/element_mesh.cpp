@@ -77,30 +77,23 @@ void add_sides(ElementMesh& mesh, const Scene& scene, const SurfaceModel& model,
 std::uint64_t elements_of(const Scene& scene, const SurfaceModel& model,
                           const std::vector<Divisions>& divisions, const DarkSides& dark) {
   std::uint64_t elements = 0;
-  for (std::size_t p = 0; p < model.patches.size(); ++p) {
-    const Patch& patch = model.patches[p];
-    const Material& material = scene.materials[index(patch.material)];
-    if (!carries_radiosity(material))
-      continue;
-    const unsigned dark_sides = dark.empty() ? 0U : static_cast<unsigned>(dark[p][0] + dark[p][1]);
-    const unsigned sides = (material.double_sided ? 2U : 1U) - dark_sides;
-    elements += sides * static_cast<std::uint64_t>(
-                            elements_of(divisions[p].u, divisions[p].v, patch.corner_count == 3));
-  }
+  for (std::size_t p = 0; p < model.patches.size(); ++p)
+    elements += std::uint64_t{meshed_sides(scene, model, static_cast<PatchId>(p), dark)} *
+                elements_of(divisions[p].u, divisions[p].v, model.patches[p].corner_count == 3);
   return elements;
 }
 
 /// What is asked for, of each surface.
 ElementSizes sizes_of(const Scene& scene, const SurfaceModel& surfaces,
                       const MeshSettings& settings, const DarkSides& dark) {
-  ElementSizes sizes{settings.element_size, {}};
-  if (settings.element_size <= 0.0)
-    sizes = share_elements(meshed_areas(scene, surfaces, dark), settings.target_elements);
-  if (sizes.element_size <= 0.0)
-    sizes.element_size = 1.0;
-  if (sizes.of_surface.empty() || settings.element_size > 0.0)
-    sizes.of_surface.assign(surfaces.surfaces.size(), sizes.element_size);
-  return sizes;
+  if (settings.element_size <= 0.0) {
+    const ElementSizes shared =
+        share_elements(meshed_areas(scene, surfaces, dark), settings.target_elements);
+    if (shared.element_size > 0.0)
+      return shared;
+  }
+  const double size = settings.element_size > 0.0 ? settings.element_size : 1.0;
+  return {size, std::vector<double>(surfaces.surfaces.size(), size)};
 }
 
 } // namespace

@@ -18,16 +18,22 @@ bool carries_radiosity(const Material& material) {
   return glm::any(glm::greaterThan(diffuse_reflectance(material), Rgb(0.0)));
 }
 
+unsigned meshed_sides(const Scene& scene, const SurfaceModel& surfaces, PatchId patch,
+                      const DarkSides& dark) {
+  const Material& material = scene.materials[index(surfaces.patches[index(patch)].material)];
+  if (!carries_radiosity(material))
+    return 0;
+  const unsigned sides = material.double_sided ? 2 : 1;
+  return dark.empty() ? sides : sides - dark[index(patch)][0] - dark[index(patch)][1];
+}
+
 std::vector<double> meshed_areas(const Scene& scene, const SurfaceModel& surfaces,
                                  const DarkSides& dark) {
   std::vector<double> areas(surfaces.surfaces.size(), 0.0);
   for (std::size_t p = 0; p < surfaces.patches.size(); ++p) {
     const Patch& patch = surfaces.patches[p];
-    const Material& material = scene.materials[index(patch.material)];
-    if (!carries_radiosity(material))
-      continue;
-    const int dark_sides = dark.empty() ? 0 : dark[p][0] + dark[p][1];
-    areas[index(patch.surface)] += ((material.double_sided ? 2 : 1) - dark_sides) * patch.area;
+    areas[index(patch.surface)] +=
+        meshed_sides(scene, surfaces, static_cast<PatchId>(p), dark) * patch.area;
   }
   return areas;
 }

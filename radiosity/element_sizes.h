@@ -17,13 +17,17 @@
 
 namespace meninas {
 
-/// Of each surface, by SurfaceId, the area of its sides that carry radiosity and are not `dark`, m^2.
-std::vector<double> meshed_areas(const Scene& scene, const SurfaceModel& surfaces,
-                                 const DarkSides& dark = {});
+/// How many sides of a patch are in the mesh: those that carry radiosity and are not `dark`.
+/// Ideal mirrors and clear glass have none.
+unsigned meshed_sides(const Scene& scene, const SurfaceModel& surfaces, PatchId patch,
+                      const DarkSides& dark = {});
 
 /// Whether a patch of this material has sides in the mesh.
-/// Ideal mirrors and clear glass have none.
 bool carries_radiosity(const Material& material);
+
+/// By SurfaceId, the area of these sides, m^2.
+std::vector<double> meshed_areas(const Scene& scene, const SurfaceModel& surfaces,
+                                 const DarkSides& dark = {});
 
 struct ElementSizes {
   double element_size = 0.0;      ///< h, metres; 0 where there is no area

@@ -13,6 +13,7 @@
 // relative to what is there, to the scene's mean where it is darker. So a smooth field gets large
 // elements, and along the edge of a shadow, where the error does not fall with the size, elements
 // become small until their area makes up for it: what an element costs brings the same everywhere.
+// A, and the scene's mean, count no more of a wide ground than counted_area() does (element_mesh.h).
 //
 // Noise: samples with variance sigma^2 are off by H - H~ of variance (1 + 1/4) sigma^2
 // in the middle of four vertices, however small the element. sigma is estimated relative to H,

@@ -58,6 +58,7 @@ struct LowFurnace {
   const char* name;
   Scene scene;
   double reflectance;
+  MeshSettings mesh = {.target_elements = 2000};
 };
 
 class LowFurnaceTest : public testing::TestWithParam<std::tuple<std::size_t, By>> {};
@@ -70,8 +71,10 @@ LowFurnace low_furnace(std::size_t which) {
     return {"wedge of 1 degree", wedge(1.0, 0.9), 0.9};
   case 2:
     return {"wedge of 0.1 degrees", wedge(0.1, 0.9), 0.9};
+  case 3: // which leaves one element a wall
+    return {"on a ground", furnace_on_ground(0.95, 200.0), 0.95, {.element_size = 4.5}};
   default:
-    return {"on a ground", furnace_on_ground(0.95, 200.0), 0.95};
+    return {"on a ground that leaves it elements", furnace_on_ground(0.95, 200.0), 0.95};
   }
 }
 
@@ -80,7 +83,7 @@ LowFurnace low_furnace(std::size_t which) {
 TEST_P(LowFurnaceTest, EveryVertex) {
   const auto [which, by] = GetParam();
   const LowFurnace room = low_furnace(which);
-  const auto l = lit(room.scene, {.target_elements = 2000});
+  const auto l = lit(room.scene, room.mesh);
   const RadiositySolution solution = solve_by(by, *l->light);
   EXPECT_TRUE(solution.solver.converged);
   const ElementMesh& mesh = field_scene(*l->light, solution).mesh;
@@ -100,7 +103,7 @@ TEST_P(LowFurnaceTest, EveryVertex) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LowFurnaceTest,
-                         testing::Combine(testing::Values(0, 1, 2, 3),
+                         testing::Combine(testing::Values(0, 1, 2, 3, 4),
                                           testing::Values(By::rows, By::nodes, By::adaptive)));
 
 /// A room of 4 x 3 x 5 m with a lamp in the middle of it, whose walls are one element each.
