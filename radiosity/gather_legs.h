@@ -7,8 +7,18 @@
 #include "radiosity/gather_rays.h"
 #include "radiosity/solid_paths.h"
 #include "scenes/lobes.h"
+#include "scenes/sampling.h"
+
+#include <bit>
 
 namespace meninas {
+
+/// The point's own.
+inline std::uint32_t seed_of(const Point3& point) {
+  const glm::vec3 rounded(point);
+  return hash(std::bit_cast<std::uint32_t>(rounded.x), std::bit_cast<std::uint32_t>(rounded.y),
+              std::bit_cast<std::uint32_t>(rounded.z));
+}
 
 /// What a ray carries besides its geometry.
 struct Carried {

@@ -6,7 +6,6 @@
 #include "scenes/sampling.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -168,8 +167,11 @@ void add(const Ends& ends, GatheredRays& result) {
 RayLanding& note_landing(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                          std::uint32_t k, GatherWorkspace& work) {
   const glm::vec2 uv = landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
+  const Landing at = land(light.landing, face.side, uv);
+  if (work.keeps_places)
+    work.places.push_back(at.st);
   RayLanding& landing = work.result.landings.emplace_back();
-  landing.element = land(light.landing, face.side, uv).element;
+  landing.element = at.element;
   return landing;
 }
 
@@ -245,6 +247,7 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
                       const FormFactorSettings& settings, GatherWorkspace& work) {
   work.result.clear();
   work.result.rays = static_cast<double>(ray_count(rays));
+  work.places.clear();
   work.next.clear();
   work.black_lanes.clear();
   RayPacket packet;
@@ -288,13 +291,6 @@ void follow_mirrors(const LightScene& light, const FormFactorSettings& settings,
     }
     work.result.traced += work.current.size();
   }
-}
-
-/// The point's own.
-std::uint32_t seed_of(const Point3& point) {
-  const glm::vec3 rounded(point);
-  return hash(std::bit_cast<std::uint32_t>(rounded.x), std::bit_cast<std::uint32_t>(rounded.y),
-              std::bit_cast<std::uint32_t>(rounded.z));
 }
 
 } // namespace

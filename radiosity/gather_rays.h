@@ -86,6 +86,8 @@ struct GatherWorkspace {
   std::uint32_t seed = 0; ///< of what glass does with its rays
   bool counts_rays = false;
   std::vector<std::uint32_t> numbers; ///< by landing, that of the ray, where they are asked for
+  bool keeps_places = false;
+  std::vector<glm::vec2> places; ///< by landing, (s, t) in the element, where they are asked for
   std::vector<std::uint32_t>
       black_lanes; ///< by packet of the net: the rays that met a black back at once
   std::vector<MirroredRay> current, next;

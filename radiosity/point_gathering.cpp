@@ -105,4 +105,49 @@ PointLight light_at(const PointGathering& gathering, const Receiver& receiver, s
   return light;
 }
 
+/// A point of an element.
+static Receiver point_of(const ElementMesh& mesh, const SurfaceModel& surfaces, ElementId element,
+                         const glm::vec2& st) {
+  const MeshCell& cell = cell_of(mesh, element);
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  const Patch& patch = surfaces.patches[index(side.patch)];
+  return {point_at(patch, patch_uv_of(mesh, cell, Vec2(st))), side.normal, side.plane_class,
+          side.tangent, side.coat};
+}
+
+ArrivingLight one_more_bounce(const PointGathering& gathering, const Receiver& receiver, int places,
+                              std::uint32_t seed, PointWorkspace& work) {
+  GatherWorkspace& rays = work.gather;
+  rays.keeps_places = true;
+  gather_rays(gathering.light, gathering.net, area_of(receiver), seed, gathering.form_factors,
+              rays);
+  rays.keeps_places = false;
+  work.rays += rays.result.traced;
+  const Rgb kept = kept_light(rays.result);
+  const std::size_t landed = rays.result.landings.size(),
+                    some = std::min(landed, static_cast<std::size_t>(places));
+  // Landings stand in the order of directions: every so many-th are spread over the hemisphere.
+  std::vector<std::pair<RayLanding, glm::vec2>> chosen;
+  for (std::uint32_t k = 0; k < some; ++k) {
+    const double within = 0x1p-32 * hash(seed, 0xb0ce, k);
+    const auto at = static_cast<std::size_t>((k + within) * double(landed) / double(some));
+    chosen.emplace_back(rays.result.landings[at], rays.places[at]);
+  }
+  const ElementMesh& mesh = gathering.light.mesh;
+  ArrivingLight change;
+  for (std::uint32_t k = 0; k < some; ++k) {
+    const auto& [landing, place] = chosen[k];
+    const Receiver point =
+        point_of(mesh, gathering.light.surfaces, ElementId{landing.element}, place);
+    const Rgb gathered = light_at(gathering, point, hash(seed, 0xb0cf, k), work).all().total;
+    const Rgb told = mesh.reflectance[landing.element] * gathered;
+    const Rgb more = Rgb(landing.light) / kept * (told - gathering.reflected[landing.element]) *
+                     (double(landed) / double(some));
+    change.total += more;
+    if (landing.world != real_world && landing.world != through_solids)
+      change.mirrored += more;
+  }
+  return change;
+}
+
 } // namespace meninas

@@ -64,7 +64,13 @@ ReceiverArea area_of(const Receiver& point);
 PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
                     PointWorkspace& work);
 
-/// The same without light from the source.
+/// What the light at the receiver would change by if elements reflected in every point what is
+/// gathered there, in place of `reflected`: by so many of the places where its rays land.
+/// Light of clusters and of landed rays is told alike. Rays are those of the net.
+ArrivingLight one_more_bounce(const PointGathering& gathering, const Receiver& receiver, int places,
+                              std::uint32_t seed, PointWorkspace& work);
+
+/// light_at() without light from the source.
 PointLight indirect_light_at(const PointGathering& gathering, const Receiver& receiver,
                              std::uint32_t seed, PointWorkspace& work);
 

@@ -48,8 +48,13 @@ glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& se
                               PointWorkspace& work) {
   if (part == ReflectedPart::none || settings.term == DiffuseTerm::interpolated)
     return field;
-  if (gathering)
-    return part_of(light_at(*gathering, receiver, seed, work).all(), part);
+  if (gathering) {
+    const ArrivingLight arrived = light_at(*gathering, receiver, seed, work).all();
+    return part_of(settings.places == 0 ? arrived
+                                        : arrived + one_more_bounce(*gathering, receiver,
+                                                                    settings.places, seed, work),
+                   part);
+  }
   // By the draw that light_at() makes:
   // there and here light from the source is the same, to the bit.
   return field +

@@ -30,6 +30,9 @@ struct DiffuseSettings {
   int shared_solid_rays = 256; ///< of all hits of a pixel together
   FormFactorSettings gather; ///< how the rays of `gather` are followed
   PointGatheringSettings points{.rays = 64, .cluster_shadow_rays = 4}; ///< of `gather`, at a hit
+  /// Of `gather`: in so many of the places where the rays of a hit land light is gathered once
+  /// more, in place of what elements there reflect; 0: what they reflect is believed.
+  int places = 0;
   std::uint32_t draw = 0; ///< another one: other samples at the hits of the same camera rays
 };
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 
@@ -91,6 +92,26 @@ struct SquaredErrors {
   double field = 0.0, source = 0.0, vertices = 0.0, tail = 0.0, pixels = 0.0;
 };
 
+/// What gathered light is off by, squared, because of what it is gathered from.
+/// The gatherings that are compared are the same but for that.
+double believed_error(Probing& probe, std::span<const glm::ivec2> pixels,
+                      std::span<const double> weight) {
+  constexpr int places = 16;
+  RenderSettings shown = probe.settings.render;
+  shown.samples = 1;
+  RenderSettings again = shown;
+  again.diffuse.places = places;
+  const auto change = [&](std::uint32_t draw) {
+    Radiances more = probe(drawn_again(again, draw), pixels);
+    const Radiances as_shown = probe(drawn_again(shown, draw), pixels);
+    std::ranges::transform(more, as_shown, more.begin(), std::minus<>{});
+    return more;
+  };
+  const Radiances c1 = change(3), c2 = change(4);
+  return mean_of(pixels.size(),
+                 [&](std::size_t k) { return static_cast<float>(weight[k]) * c1[k] * c2[k]; });
+}
+
 /// What one camera ray a pixel shows is off:
 /// by two gatherings at the first pixels, and by light from the source at all.
 void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered,
@@ -101,8 +122,10 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   shown.samples = 1;
   const bool interpolated = shown.diffuse.term == DiffuseTerm::interpolated;
   const auto first = pixels.first(std::min(gathered, pixels.size()));
-  if (shown.diffuse.term == DiffuseTerm::gather)
-    return; // as good as what it would be compared with
+  if (shown.diffuse.term == DiffuseTerm::gather) {
+    errors.field = believed_error(probe, first, choice.weight);
+    return;
+  }
   // What is computed at the hit is drawn alike in L_k, and is not in the difference:
   // its noise is the pixels'.
   const Radiances l1 = probe(drawn_again(shown, 3), interpolated ? pixels : first);

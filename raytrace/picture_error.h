@@ -24,6 +24,10 @@
 // and of those rather at edges (noise_choice.h). solver is the solver's bound,
 // for the brightest reflected radiosity, an upper bound; the others are estimates.
 //
+// Of a picture that gathers at every hit the field's error is that of what it is gathered from:
+// L_1 - L and L_2 - L are what changes where at some of the places where its rays land
+// light is gathered once more, in place of what elements there reflect (one_more_bounce()).
+//
 // Limits: gathered light comes from the picture's own field.
 // An error that all of the field has alike is seen as what one more bounce changes, which
 // is divided by the share of light that a bounce loses. Light that no draw has met is not known.

@@ -155,6 +155,24 @@ TEST(PictureError, IsThatOfTheField) {
   EXPECT_NEAR(estimate.total, std::hypot(field, estimate.pixels, estimate.solver), 1e-9);
 }
 
+TEST(PictureError, OfGatheredLightIsThatOfWhatItIsGatheredFrom) {
+  // Elements of 1.2 m, which cannot be right; the truth is gathered from some of 0.15 m.
+  // One more bounce does not tell what those after it would change:
+  // walls reflect about a half, and after a bounce light has the most of its unevenness behind it.
+  TwoPassSettings settings = quick();
+  settings.render = gathered(settings.render);
+  settings.pass_one.mesh.element_size = 0.15;
+  const Lit fine(lit_room(), settings);
+  const Image truth = fine.picture(settings.render);
+  EXPECT_LT(fine.error(settings, truth).mesh, 0.01);
+  settings.pass_one.mesh.element_size = 1.2;
+  const Lit coarse(lit_room(), settings);
+  const Image picture = coarse.picture(settings.render);
+  const double error = coarse.off(settings, picture, truth);
+  EXPECT_GT(error, 0.03) << "or else nothing is tested";
+  EXPECT_NEAR(coarse.error(settings, picture).mesh, error, 0.4 * error);
+}
+
 TEST(PictureError, OfFormFactorsIsNotThatOfShadowRays) {
   // One shadow ray a hit makes light from the source noisy, that of elements as it was.
   // Few pixels leave some per cent.
