@@ -131,10 +131,20 @@ void add_quality(CLI::App& command, CommonOptions& options) {
 void add_mesh_options(CLI::App& command, CommonOptions& options) {
   RunSettings& settings = options.settings;
   add_text(command, "--element-size", "METRES",
-           fmt::format("wanted edge of the elements [about as many as: {}]",
-                       by_preset(&QualityPreset::target_elements)),
+           "wanted edge of the elements, of all surfaces [by --elements]",
            [&](const std::string& text) {
              settings.element_size = parse_number("--element-size", text, Sign::positive);
+           })
+      ->group(pass_one_group);
+  add_text(command, "--elements", "N",
+           fmt::format("about how many elements share the surfaces, a very large one with no more "
+                       "than three quarters of them; with --adaptive undivided ones [{}; with "
+                       "--adaptive {}]",
+                       by_preset(&QualityPreset::target_elements),
+                       by_preset(&QualityPreset::root_elements)),
+           [&](const std::string& text) {
+             settings.elements = static_cast<int>(
+                 parse_integer("--elements", text, 1, std::int64_t{MeshSettings{}.max_elements}));
            })
       ->group(pass_one_group);
   add_text(command, "--mirror-depth", "N",
@@ -232,6 +242,10 @@ CLI::Option* add_file(CLI::App& command, const std::string& option,
 }
 
 void check_pass_one_options(const CLI::App& command, const RunSettings& settings) {
+  if (settings.elements && settings.element_size) {
+    throw UsageError("--elements",
+                     "does not go with --element-size, which says how many there are");
+  }
   const bool by_cubes = settings.form_factors == FormFactorMethod::hemicube;
   if (by_cubes && command.count("--rays") > 0) {
     throw UsageError("--rays", "has no effect with --form-factors hemicube: choose "
@@ -266,9 +280,9 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
 
 void refuse_pass_one_options(const CLI::App& command, const std::string& reason) {
   constexpr std::array options{
-      "--element-size",  "--form-factors", "--rays",        "--hemicube-resolution",
-      "--solver",        "--tolerance",    "--steps",       "--link-error",
-      "--interpolation", "--adaptive",     "--no-adaptive", "--bends"};
+      "--element-size", "--elements",    "--form-factors", "--rays",       "--hemicube-resolution",
+      "--solver",       "--tolerance",   "--steps",        "--link-error", "--interpolation",
+      "--adaptive",     "--no-adaptive", "--bends"};
   for (const char* option : options) {
     if (command.count(option) > 0) {
       throw UsageError(option, reason);

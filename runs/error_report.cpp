@@ -40,9 +40,10 @@ std::optional<std::string> first_turn(const PictureError& error, const TwoPassSe
       std::sqrt(std::max(0.0, error.mesh * error.mesh - error.mesh_direct * error.mesh_direct));
   const bool edges =
       settings.render.diffuse.term == DiffuseTerm::interpolated && without_edges < 0.7 * error.mesh;
-  const char* mesh = edges                                      ? "--diffuse direct"
-                     : settings.pass_one.interpolation.adaptive ? "a smaller bound of --adaptive"
-                                                                : "a smaller --element-size";
+  const char* mesh = edges                                       ? "--diffuse direct"
+                     : settings.pass_one.interpolation.adaptive  ? "a smaller bound of --adaptive"
+                     : settings.pass_one.mesh.element_size > 0.0 ? "a smaller --element-size"
+                                                                 : "more --elements";
   const bool cells = settings.pass_one.form_factors.method == FormFactorMethod::hemicube;
   struct Turn {
     const char* option;

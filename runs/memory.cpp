@@ -69,9 +69,12 @@ SceneSizes sizes_of(const Scene& scene) {
 std::uint64_t scene_memory(const SceneSizes& scene, const RunSettings& settings) {
   constexpr double per_vertex = 2 * sizeof(Vertex), per_triangle = 1500.0, per_element = 300.0;
   // How many an adaptive field has is not known beforehand;
-  // it is made to have fewer than a mesh of one size.
-  const double field_elements =
-      settings.adaptive == WithAdaptivity::yes ? preset_of(settings.quality).target_elements : 0.0;
+  // it is made to have fewer than a mesh of one size, and more where it begins with more.
+  const QualityPreset preset = preset_of(settings.quality);
+  const double roots = settings.elements ? *settings.elements : preset.root_elements;
+  const double field_elements = settings.adaptive == WithAdaptivity::yes
+                                    ? preset.target_elements * roots / preset.root_elements
+                                    : 0.0;
   return whole(per_vertex * static_cast<double>(scene.vertices) +
                per_triangle * static_cast<double>(scene.triangles) +
                per_element * (expected_elements(scene, settings) + field_elements)) +

@@ -104,6 +104,9 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   if (settings.form_factors == FormFactorMethod::analytic) {
     pass_one.mesh.target_elements = std::min(pass_one.mesh.target_elements, few_elements);
   }
+  if (settings.elements) {
+    pass_one.mesh.target_elements = *settings.elements;
+  }
   pass_one.form_factors.method = settings.form_factors;
   pass_one.form_factors.rays = power_of_two(settings.rays.value_or(preset.rays));
   pass_one.form_factors.hemicube_resolution =

@@ -51,7 +51,8 @@ enum class PictureMode {
 struct RunSettings {
   GltfSettings gltf; ///< how the scene's file is read
   Quality quality = Quality::normal;
-  std::optional<double> element_size; ///< metres
+  std::optional<double> element_size; ///< metres, of all surfaces
+  std::optional<int> elements;        ///< or about so many, shared over them (element_sizes.h)
   WithAdaptivity adaptive = WithAdaptivity::no;
   std::optional<double> adaptive_error;
   std::optional<double> bends; ///< of the mean: elements in which light bends by more are divided

@@ -63,6 +63,7 @@ std::vector<std::string> options_of(const RunSettings& settings) {
     add("--background", fmt::format("{},{},{}", settings.background->r, settings.background->g,
                                     settings.background->b));
   add_given("--element-size", settings.element_size);
+  add_given("--elements", settings.elements);
   if (settings.adaptive == WithAdaptivity::yes)
     add("--adaptive", settings.adaptive_error ? fmt::format("{}", *settings.adaptive_error) : "");
   add_given("--bends", settings.bends);

@@ -365,14 +365,14 @@ TEST_F(Outputs, TheCameraDecidesTheShapeOfThePicture) {
 TEST(Help, ListsEveryOptionOfItsCommand) {
   const TemporaryFolder folder;
   const std::vector<std::string> pass_one{
-      "--element-size", "--form-factors", "--rays",          "--solver",
-      "--tolerance",    "--mirror-depth", "--interpolation", "--quality",
-      "--threads",      "--seed",         "--quiet",         "--stats",
-      "--output",       "--adaptive",     "--no-adaptive",   "--bends"};
+      "--elements",    "--element-size", "--form-factors",  "--rays",    "--solver",
+      "--tolerance",   "--mirror-depth", "--interpolation", "--quality", "--threads",
+      "--seed",        "--quiet",        "--stats",         "--output",  "--adaptive",
+      "--no-adaptive", "--bends"};
   std::map<std::string, std::vector<std::string>> options{
       {"render", pass_one},
       {"solve", pass_one},
-      {"plan", {"--json", "--quality", "--element-size"}}};
+      {"plan", {"--json", "--quality", "--element-size", "--elements"}}};
   for (const char* option :
        {"--samples", "--size", "--camera", "--exposure", "--mode", "--layers", "--solution"}) {
     options["render"].emplace_back(option);

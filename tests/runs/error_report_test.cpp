@@ -33,8 +33,8 @@ TEST(FirstTurn, TakesLightFromTheSourceWhereEdgesWithinElementsAreMostOfTheMesh)
   const PictureError edges{.mesh = 0.1, .mesh_direct = 0.09, .total = 0.1},
       smooth{.mesh = 0.1, .mesh_direct = 0.05, .total = 0.1};
   EXPECT_THAT(first_turn(edges, interpolated), Optional(HasSubstr("--diffuse direct")));
-  EXPECT_THAT(first_turn(smooth, interpolated), Optional(HasSubstr("--element-size")));
-  EXPECT_THAT(first_turn(edges, direct), Optional(HasSubstr("--element-size")));
+  EXPECT_THAT(first_turn(smooth, interpolated), Optional(HasSubstr("more --elements")));
+  EXPECT_THAT(first_turn(edges, direct), Optional(HasSubstr("more --elements")));
 }
 
 TEST(FirstTurn, NamesTheOptionThatTheRunListensTo) {
@@ -44,6 +44,10 @@ TEST(FirstTurn, NamesTheOptionThatTheRunListensTo) {
   EXPECT_THAT(first_turn({.form_factors = 0.05, .total = 0.05}, other),
               Optional(HasSubstr("--hemicube-resolution")));
   EXPECT_THAT(first_turn({.mesh = 0.05, .total = 0.05}, other), Optional(HasSubstr("--adaptive")));
+  TwoPassSettings sized = direct;
+  sized.pass_one.mesh.element_size = 0.1;
+  EXPECT_THAT(first_turn({.mesh = 0.05, .total = 0.05}, sized),
+              Optional(HasSubstr("a smaller --element-size")));
 }
 
 TEST(FirstTurn, IsNotAskedForWhereTheErrorIsHardToSee) {

@@ -46,6 +46,23 @@ TEST(DiffuseTerm, IsInterpolatedWherePassOneIsAllThereIs) {
   EXPECT_EQ(diffuse_term(settings), DiffuseTerm::interpolated);
 }
 
+TEST(Elements, AreThePresetsUnlessTheyAreAskedFor) {
+  const auto wanted = [](const RunSettings& settings) {
+    return two_pass_settings(settings).pass_one.mesh.target_elements;
+  };
+  RunSettings settings = with_quality(Quality::draft);
+  EXPECT_EQ(wanted(settings), 2250.0);
+  settings.elements = 5000;
+  EXPECT_EQ(wanted(settings), 5000.0);
+  settings.form_factors = FormFactorMethod::analytic;
+  EXPECT_EQ(wanted(settings), 5000.0) << "the user's word, however long it takes";
+  settings = with_quality(Quality::draft);
+  settings.adaptive = WithAdaptivity::yes;
+  EXPECT_EQ(wanted(settings), 600.0);
+  settings.elements = 900;
+  EXPECT_EQ(wanted(settings), 900.0) << "undivided ones";
+}
+
 // The options of a run are those that differ from what its preset does.
 TEST(OptionsOf, SayTheDiffuseTermWhereThePresetDoesNot) {
   const auto said = [](const RunSettings& settings) {
