@@ -14,7 +14,6 @@
 #include "bench/stage_rays.h"
 #include "bench/truth.h"
 #include "image/relative_error.h"
-#include "radiosity/world_tail.h"
 #include "raytrace/probes.h"
 #include "runs/run_settings.h"
 #include "runs/setting_options.h"
@@ -24,7 +23,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <optional>
@@ -130,10 +128,10 @@ struct PictureKnobs {
   std::optional<double> pixel_error = {};
 };
 
-RunSettings drafted(double area, double elements, int rays, const PictureKnobs& knobs) {
+RunSettings drafted(int elements, int rays, const PictureKnobs& knobs) {
   RunSettings settings;
   settings.quality = Quality::draft;
-  settings.element_size = std::sqrt(area / elements);
+  settings.elements = elements;
   settings.rays = rays;
   settings.diffuse = knobs.term;
   settings.samples = knobs.samples;
@@ -143,24 +141,24 @@ RunSettings drafted(double area, double elements, int rays, const PictureKnobs& 
 
 /// The light of lamps left to pixels or not;
 /// elements that gather each for itself, or by as few nodes as it takes, where many cost little.
-std::vector<RunSettings> ladder(double area) {
+std::vector<RunSettings> ladder() {
   const std::vector<PictureKnobs> at_pixels{{DiffuseTerm::direct, 16, 0.04},
                                             {DiffuseTerm::direct, 64, 0.02},
                                             {DiffuseTerm::direct, 256, 0.02}},
       at_vertices{{DiffuseTerm::interpolated, 16, {}}, {DiffuseTerm::interpolated, 64, 0.04}};
   std::vector<RunSettings> all;
   for (const int rays : {64, 128, 256}) {
-    for (const double elements : {600.0, 1500.0, 4000.0, 10'000.0})
+    for (const int elements : {600, 1500, 4000, 10'000})
       for (const auto& choices : {at_vertices, at_pixels})
         for (const PictureKnobs& knobs : choices) {
-          all.push_back(drafted(area, elements, rays, knobs));
+          all.push_back(drafted(elements, rays, knobs));
           if (knobs.term == DiffuseTerm::direct)
             all.back().bends = 0.1; // what is left between vertices are the feet of lit walls
         }
-    for (const double elements : {4000.0, 10'000.0, 25'000.0, 64'000.0})
+    for (const int elements : {4000, 10'000, 25'000, 64'000})
       for (const auto& choices : {at_vertices, at_pixels})
         for (const PictureKnobs& knobs : choices) {
-          all.push_back(drafted(area, elements, rays, knobs));
+          all.push_back(drafted(elements, rays, knobs));
           all.back().solver = SolverMethod::hierarchical;
         }
   }
@@ -187,9 +185,8 @@ void measure_presets(const std::string& name, Known& known) {
 
 void measure_ladder(const std::string& name, Known& known) {
   std::optional<BareSeconds> bare;
-  const Scene& scene = known.truth.scene;
   std::vector<Measured> all;
-  for (const RunSettings& settings : ladder(receiving_area(scene, find_surfaces(scene))))
+  for (const RunSettings& settings : ladder())
     all.push_back(measure(known, settings, bare));
   for (const double wanted : {0.05, 0.02, 0.01}) {
     const Measured* best = nullptr;

@@ -1,6 +1,5 @@
 #include "runs/steering.h"
 
-#include "radiosity/world_tail.h"
 #include "raytrace/sample_choice.h"
 #include "runs/error_report.h"
 #include "runs/preparation.h"
@@ -24,18 +23,11 @@ struct OutOfTime {};
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-/// Three digits are enough for an edge of an element, and read well.
-double rounded(double x) {
-  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2.0);
-  return std::stod(fmt::format("{:.10g}", std::round(x / unit) * unit));
-}
-
 /// The settings as they are with these knobs.
-RunSettings with_knobs(RunSettings settings, const FreeKnobs& free, const Knobs& knobs,
-                       double area) {
+RunSettings with_knobs(RunSettings settings, const FreeKnobs& free, const Knobs& knobs) {
   settings.quality = Quality::draft;
   if (free.elements)
-    settings.element_size = rounded(std::sqrt(area / knobs.elements));
+    settings.elements = static_cast<int>(knobs.elements);
   if (free.rays)
     settings.rays = knobs.rays;
   if (free.samples)
@@ -45,7 +37,8 @@ RunSettings with_knobs(RunSettings settings, const FreeKnobs& free, const Knobs&
 }
 
 FreeKnobs free_knobs(const RunSettings& settings) {
-  return {.elements = !settings.element_size && settings.adaptive == WithAdaptivity::no,
+  return {.elements = !settings.element_size && !settings.elements &&
+                      settings.adaptive == WithAdaptivity::no,
           .rays = !settings.rays && settings.form_factors == FormFactorMethod::rays,
           .samples = !settings.samples,
           .term = !settings.diffuse && settings.mode == PictureMode::hybrid &&
@@ -57,6 +50,8 @@ Knobs first_knobs(const RunSettings& settings) {
   const QualityPreset draft = preset_of(Quality::draft);
   if (settings.element_size || settings.adaptive == WithAdaptivity::yes)
     knobs.elements = draft.target_elements;
+  if (settings.elements)
+    knobs.elements = *settings.elements;
   knobs.rays = settings.rays.value_or(settings.form_factors == FormFactorMethod::rays ? knobs.rays
                                                                                       : draft.rays);
   knobs.samples = settings.samples.value_or(knobs.samples);
@@ -84,7 +79,6 @@ struct Steering {
   const RunEvents& events;
   RunSettings settings; ///< that knobs are turned of
   FreeKnobs free;
-  double area;
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
   std::optional<LitScene> lit = {};
   RunFigures figures = {}; ///< of `lit`
@@ -160,8 +154,7 @@ std::array<double, 4> uncertain_shares(const Image& picture, const RenderSetting
 
 SteeredRun run_with(Steering& steering, const Knobs& knobs, bool may_end) {
   const SteeringRequest& request = steering.request;
-  const RunSettings settings =
-      with_knobs(steering.settings, free_knobs(steering.settings), knobs, steering.area);
+  const RunSettings settings = with_knobs(steering.settings, free_knobs(steering.settings), knobs);
   TwoPassSettings two_pass = two_pass_settings(settings);
   two_pass.render.width = request.size.width;
   two_pass.render.height = request.size.height;
@@ -190,6 +183,7 @@ SteeredRun run_with(Steering& steering, const Knobs& knobs, bool may_end) {
                   seconds.render,
                   seconds.estimate,
                   double(request.size.width) * request.size.height,
+                  double(run.figures.solved_elements),
                   mean_count(run.picture.samples, knobs.samples),
                   uncertain_shares(run.picture.image, two_pass.render)};
   return run;
@@ -240,9 +234,11 @@ void leave_alone(FreeKnobs& free, const Knobs& before, const Knobs& turned) {
   free.term = free.term && (turned.term == before.term || turned.term != DiffuseTerm::gather);
 }
 
-/// How the mesh's error falls, if two meshes have been seen.
+bool gathers(const MeasuredRun& run) { return run.knobs.term == DiffuseTerm::gather; }
+
+/// How the mesh's error falls, if two meshes have been seen by the same light.
 double mesh_exponent(const MeasuredRun& before, const MeasuredRun& now) {
-  if (before.knobs.elements == now.knobs.elements)
+  if (before.knobs.elements == now.knobs.elements || gathers(before) != gathers(now))
     return before.mesh_exponent;
   return before.knobs.elements < now.knobs.elements ? measured_mesh_exponent(before, now)
                                                     : measured_mesh_exponent(now, before);
@@ -276,10 +272,16 @@ struct Search {
                             next.knobs.samples, next.knobs.term, watch.lap(), error,
                             next.forecast.error, next.why});
     note(events, describe_step(choice.steps.back(), choice.steps.size()));
-    const double exponent = best ? mesh_exponent(best->measured, run->measured) : 1.0;
+    double exponent = best ? mesh_exponent(best->measured, run->measured) : 1.0;
     if (best && error >= worthwhile * this->error())
       leave_alone(steering.free, best->measured.knobs, next.knobs);
     if (!best || error < this->error()) {
+      if (best && gathers(run->measured) && !gathers(best->measured)) {
+        // What elements reflect may well be known better by finer ones,
+        // whatever they did to what is between vertices.
+        steering.free.elements = free_knobs(steering.settings).elements;
+        exponent = MeasuredRun{}.mesh_exponent;
+      }
       best = std::move(run);
       choice.kept = choice.steps.size() - 1;
     }
@@ -298,8 +300,7 @@ ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFi
   constexpr double at_once =
       0.125; // of the error: parts so much smaller are not known well enough to be met yet
   const RunSettings settings = settings_of(request);
-  const double area = receiving_area(request.scene, find_surfaces(request.scene));
-  Steering steering{request, events, settings, free_knobs(settings), area};
+  Steering steering{request, events, settings, free_knobs(settings)};
   const double wanted = request.goal.error.value_or(0.0);
 
   Search search{steering, events};
@@ -320,8 +321,7 @@ ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFi
     note(events, fmt::format("next, because of {}", next.why));
   }
   SteeredRun& best = *search.best;
-  choice.options =
-      options_of(with_knobs(settings, free_knobs(settings), best.measured.knobs, area));
+  choice.options = options_of(with_knobs(settings, free_knobs(settings), best.measured.knobs));
   say_end(choice, events);
   const int threads = figures.threads;
   search.seconds.load = figures.seconds.load;

@@ -167,6 +167,14 @@ std::string reasons(const MeasuredRun& run, const Knobs& next) {
 
 } // namespace
 
+/// Whether elements were divided about as often as they were wanted to be. Small surfaces are
+/// elements as they are, and to ask for twice as many may divide next to nothing.
+static bool tells_of_division(const MeasuredRun& coarse, const MeasuredRun& fine) {
+  constexpr double share = 0.5; // of the growth that was wanted, in logarithms
+  return std::log(fine.divided / coarse.divided) >=
+         share * std::log(fine.knobs.elements / coarse.knobs.elements);
+}
+
 double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine) {
   const auto square = [](double x) { return x * x; };
   const auto rest = [&](const MeasuredRun& run) {
@@ -177,7 +185,9 @@ double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine
   for (const MeasuredRun* run : {&coarse, &fine})
     if (!(rest(*run) > known * square(run->error.mesh)))
       return coarse.mesh_exponent;
-  const double growth = std::log(fine.knobs.elements / coarse.knobs.elements);
+  if (!tells_of_division(coarse, fine))
+    return coarse.mesh_exponent;
+  const double growth = std::log(fine.divided / coarse.divided);
   return std::clamp(std::log(rest(coarse) / rest(fine)) / growth, 0.0, 1.0);
 }
 
@@ -189,7 +199,7 @@ static double field_error(const MeasuredRun& run, const Knobs& knobs) {
                rays = double(knobs.rays) / run.knobs.rays;
   if (knobs.term == DiffuseTerm::gather) {
     if (run.knobs.term == DiffuseTerm::gather)
-      return 0.0;
+      return square(e.mesh) * std::pow(elements, -run.mesh_exponent);
     constexpr double noise_of_interpolated = 4.0 / 9.0; // of a vertex's: raytrace/picture_error.h
     return square(e.form_factors) / noise_of_interpolated *
            std::pow(run.knobs.rays / rays_of_a_hit, 1.2) / samples_a_pixel(run, knobs.samples);

@@ -6,6 +6,7 @@
 //   samples x 4    pixels^2 4^-1.7 (stratified samples at edges), 4^-1.4 with light from the source at hits, 4^-1.1 where they gather; pass two as the pixels that would take them
 //   direct         mesh_direct^2 none, of which the rest of mesh^2 is not known to less than a hundredth; pass two six tenths of what the hits take that were made to find out, as those of a tile share, also with fewer samples, down to four
 //   gather         mesh^2 and form_factors^2 none, but the noise of a hit's own rays, a share in pixels^2; pass two as the hits say
+//                  and once light is gathered, mesh^2 is what it is gathered from, and falls with r^-e
 //   the estimate   as the pixels it looks at, a share of the elements within limits; two thirds of it 128 + rays, a third the samples drawn again, of each number as many pixels
 // The exponents are those of the gallery, roughly;
 // every run is measured again, and only what comes next is foretold.
@@ -39,6 +40,7 @@ struct MeasuredRun {
   PictureError error;
   double pass_one_seconds = 0.0, pass_two_seconds = 0.0, estimate_seconds = 0.0;
   double pixels = 0.0;
+  double divided = 0.0; ///< into so many elements, before the light had any divided further
   double samples_a_pixel = 4.0; ///< in the mean
   /// The share of pixels that would take more than 1,
   /// 4, 16, 64 times as many samples as `knobs` say.
@@ -48,7 +50,8 @@ struct MeasuredRun {
 };
 
 /// How fast the mesh's error falls, by two runs with meshes of their own;
-/// as before where it is nearly all edges.
+/// as before where it is nearly all edges, or where hardly more elements were made than before:
+/// what is not divided tells nothing of what division does.
 double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine);
 
 struct Forecast {

@@ -4,22 +4,14 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace meninas {
 
 namespace {
 
-/// Three digits: short to write and as good.
-double rounded(double x) {
-  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2.0);
-  return std::stod(fmt::format("{:.10g}", std::round(x / unit) * unit));
-}
-
-RunSettings preset(const RunSettings& base, Quality quality, const TradeScene& scene) {
+RunSettings preset(const RunSettings& base, Quality quality) {
   RunSettings settings = base;
   settings.quality = quality;
-  return spelled_out(settings, scene);
+  return spelled_out(settings);
 }
 
 /// Collects turns of one setting.
@@ -47,7 +39,7 @@ struct Turner {
   }
 };
 
-void turn_mesh(Turner& turner, const TradeScene& scene) {
+void turn_mesh(Turner& turner) {
   const RunSettings& s = turner.from;
   if (s.adaptive == WithAdaptivity::yes) {
     const double bound = s.adaptive_error.value_or(preset_of(s.quality).adaptive_error);
@@ -57,14 +49,7 @@ void turn_mesh(Turner& turner, const TradeScene& scene) {
                 [&](RunSettings& r) { r.adaptive_error = bound * 2.0; });
     return;
   }
-  const double size = *s.element_size;
-  const double coarsest = std::sqrt(scene.area / 100.0), finest = std::sqrt(scene.area / 2e5);
-  for (const double factor : {std::sqrt(0.5), std::sqrt(2.0)}) {
-    const double next = rounded(size * factor);
-    if (next < coarsest && next > finest)
-      turner.turn("element-size", fmt::format("{}", size), fmt::format("{}", next), factor < 1.0,
-                  [&](RunSettings& r) { r.element_size = next; });
-  }
+  turner.steps<int>("elements", *s.elements, 2, 100, 200'000, &RunSettings::elements);
   if (s.interpolation.value_or(Interpolation::gather) != Interpolation::gather)
     return;
   if (s.bends)
@@ -76,7 +61,7 @@ void turn_mesh(Turner& turner, const TradeScene& scene) {
     r.adaptive = WithAdaptivity::yes;
     r.bends.reset();
     r.adaptive_error = 0.03;
-    r.element_size = rounded(2.0 * size);
+    r.elements = *s.elements / 4;
   });
 }
 
@@ -146,11 +131,12 @@ void turn_picture(Turner& turner) {
 
 } // namespace
 
-RunSettings spelled_out(const RunSettings& settings, const TradeScene& scene) {
+RunSettings spelled_out(const RunSettings& settings) {
   RunSettings result = settings;
   const QualityPreset preset = preset_of(settings.quality);
-  if (!result.element_size)
-    result.element_size = rounded(std::sqrt(scene.area / preset.target_elements));
+  if (!result.elements)
+    result.elements = static_cast<int>(
+        settings.adaptive == WithAdaptivity::yes ? preset.root_elements : preset.target_elements);
   if (!result.rays)
     result.rays = preset.rays;
   if (!result.samples)
@@ -159,18 +145,18 @@ RunSettings spelled_out(const RunSettings& settings, const TradeScene& scene) {
   return result;
 }
 
-std::vector<RunSettings> first_settings(const RunSettings& base, const TradeScene& scene) {
+std::vector<RunSettings> first_settings(const RunSettings& base) {
   RunSettings look = base;
   look.quality = Quality::draft;
-  look.element_size = rounded(std::sqrt(scene.area / 600.0));
+  look.elements = 600;
   look.rays = 64;
   look.samples = 4;
-  return {look, preset(base, Quality::draft, scene), preset(base, Quality::normal, scene)};
+  return {look, preset(base, Quality::draft), preset(base, Quality::normal)};
 }
 
 std::vector<TurnedSettings> turned(const RunSettings& settings, const TradeScene& scene) {
   Turner turner{settings};
-  turn_mesh(turner, scene);
+  turn_mesh(turner);
   turn_transport(turner, scene);
   turn_picture(turner);
   return std::move(turner.all);

@@ -1,5 +1,5 @@
 // The knobs a sweep turns, one step each:
-// element size or adaptive bound, rays, form-factor method, solver and tolerance,
+// elements or adaptive bound, rays, form-factor method, solver and tolerance,
 // mirror depth, diffuse term, interpolation, camera rays and their pixel error.
 #pragma once
 
@@ -11,15 +11,14 @@ namespace meninas {
 
 /// What a sweep is about; what the scene does not have is not turned.
 struct TradeScene {
-  double area = 0.0;    ///< m^2 of all that receives light
   bool mirrors = false; ///< or their depth does not matter
 };
 
-/// Settings with all numbers of the knobs spelled out: element size, rays, samples.
-RunSettings spelled_out(const RunSettings& settings, const TradeScene& scene);
+/// Settings with all numbers of the knobs spelled out: elements, rays, samples.
+RunSettings spelled_out(const RunSettings& settings);
 
 /// Where a sweep begins: a quick look, and the presets draft and normal.
-std::vector<RunSettings> first_settings(const RunSettings& base, const TradeScene& scene);
+std::vector<RunSettings> first_settings(const RunSettings& base);
 
 struct TurnedSettings {
   RunSettings settings;

@@ -157,7 +157,9 @@ TradeScene look_at_scene(const Scene& scene, const RunEvents& events) {
   const TransportPlan plan = plan_transport(scene, surfaces, PlanSettings{});
   for (const std::string& warning : plan.warnings)
     warn(events, warning);
-  return {receiving_area(scene, surfaces), !plan.mirror_list.empty()};
+  if (!(receiving_area(scene, surfaces) > 0.0))
+    throw InputError(scene.file, "", "has no surface that light could be found on");
+  return {!plan.mirror_list.empty()};
 }
 
 } // namespace
@@ -175,8 +177,6 @@ void trade_run(const TradeRequest& request, const RunEvents& events) {
   const Scene scene = load_scene(request.scene, request.settings);
   const Camera camera = choose_camera(scene, request.camera, events);
   const TradeScene facts = look_at_scene(scene, events);
-  if (!(facts.area > 0.0))
-    throw InputError(request.scene.string(), "", "has no surface that light could be found on");
 
   TradeResult result;
   result.reference =

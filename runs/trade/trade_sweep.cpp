@@ -45,7 +45,7 @@ double at_stake(const KnobTurn& turn, const PictureError& e) {
   if (!(all > 0.0))
     return 0.0;
   const auto share = [&](double part, double of_it) { return of_it * part * part / all; };
-  if (turn.knob == "element-size")
+  if (turn.knob == "elements")
     return share(e.mesh, 0.4);
   if (turn.knob == "adaptive")
     return share(e.mesh, 0.6);
@@ -152,7 +152,7 @@ std::vector<TradePoint> sweep(const RunSettings& base, const TradeScene& scene,
                               const MeasurePoint& measure, const SweepSettings& settings) {
   constexpr double for_knobs = 0.5, for_gaps = 0.8;
   Sweeping sweeping{base, scene, measure, settings};
-  for (const RunSettings& first : first_settings(base, scene)) {
+  for (const RunSettings& first : first_settings(base)) {
     // A preset has four to eight times the elements of the one before, and as many times the rays.
     constexpr double longer = 25.0;
     if (sweeping.points.size() < 2 ||

@@ -135,8 +135,11 @@ TEST(NextRun, DividesNoFurtherAtOnceThanIsKnown) {
 
 TEST(NextRun, GathersWhereMeshesDoNotHelp) {
   // 8 % that four times the elements have taken a tenth of the square off: 0.9 = 4^-0.076.
-  MeasuredRun coarse = run_with(0.08, 0.0, 0.005, 0.001), fine = coarse;
+  MeasuredRun coarse = run_with(0.08, 0.0, 0.005, 0.001);
+  coarse.divided = 700.0;
+  MeasuredRun fine = coarse;
   fine.knobs.elements *= 4.0;
+  fine.divided *= 4.0;
   fine.error.mesh *= std::sqrt(0.9);
   EXPECT_NEAR(measured_mesh_exponent(coarse, fine), 0.076, 0.001);
   MeasuredRun edges = coarse;
@@ -150,6 +153,29 @@ TEST(NextRun, GathersWhereMeshesDoNotHelp) {
   EXPECT_EQ(gathered.knobs.term, DiffuseTerm::gather);
   EXPECT_LE(gathered.forecast.error, 0.02);
   EXPECT_THAT(gathered.why, HasSubstr("gathered at every hit"));
+}
+
+// Asked for four times as many a scene of small surfaces has a tenth more:
+// its error is what it was, and that tells nothing.
+TEST(NextRun, DoesNotTakeWhatWasNotDividedForWhatDivisionDoesNotHelp) {
+  MeasuredRun coarse = run_with(0.08, 0.0, 0.005, 0.001);
+  coarse.divided = 1000.0;
+  MeasuredRun fine = coarse;
+  fine.knobs.elements *= 4.0;
+  fine.divided = 1100.0;
+  EXPECT_EQ(measured_mesh_exponent(coarse, fine), coarse.mesh_exponent);
+  fine.divided = 4000.0;
+  EXPECT_EQ(measured_mesh_exponent(coarse, fine), 0.0);
+}
+
+// Light that is gathered everywhere may come from elements that are wrong: finer ones may not be.
+TEST(NextRun, DividesWhatIsGatheredFrom) {
+  MeasuredRun run = run_with(0.15, 0.0, 0.0, 0.005);
+  run.knobs.term = DiffuseTerm::gather;
+  const NextRun next = next_run(run, {}, 0.05, for_ever);
+  EXPECT_GE(next.knobs.elements, 9.0 * run.knobs.elements) << "the square falls with their number";
+  EXPECT_EQ(next.knobs.term, DiffuseTerm::gather);
+  EXPECT_THAT(next.why, HasSubstr("mesh 15 %"));
 }
 
 TEST(NextRun, SamplesCostWhatTheUncertainPixelsTake) {

@@ -39,30 +39,47 @@ TEST(ParetoFront, SpreadIsRelativeToTheMean) {
   EXPECT_DOUBLE_EQ(spread_of({}), 0.0);
 }
 
-const TradeScene room{.area = 100.0, .mirrors = true};
+const TradeScene room{.mirrors = true};
 
 std::set<std::string> knobs_of(const RunSettings& settings, const TradeScene& scene) {
   std::set<std::string> knobs;
-  for (const TurnedSettings& next : turned(spelled_out(settings, scene), scene))
+  for (const TurnedSettings& next : turned(spelled_out(settings), scene))
     knobs.insert(next.turn.knob);
   return knobs;
 }
 
 TEST(Knobs, AreAllTurned) {
   EXPECT_THAT(knobs_of({}, room),
-              ElementsAre("adaptive", "bends", "diffuse", "element-size", "form-factors",
+              ElementsAre("adaptive", "bends", "diffuse", "elements", "form-factors",
                           "interpolation", "mirror-depth", "pixel-error", "rays", "samples",
                           "solver", "tolerance"));
-  EXPECT_FALSE(knobs_of({}, {.area = 100.0, .mirrors = false}).contains("mirror-depth"));
+  EXPECT_FALSE(knobs_of({}, {.mirrors = false}).contains("mirror-depth"));
 }
 
 TEST(Knobs, EveryTurnIsAnotherSettingAndSaysWhichValueItTook) {
-  const RunSettings settings = spelled_out({}, room);
+  const RunSettings settings = spelled_out({});
   std::set<std::vector<std::string>> all{options_of(settings)};
   for (const TurnedSettings& next : turned(settings, room)) {
     EXPECT_TRUE(all.insert(options_of(next.settings)).second) << next.turn.knob;
     EXPECT_NE(next.turn.from, next.turn.to);
   }
+}
+
+TEST(Knobs, ElementsAreDoubledAndHalvedWithinLimits) {
+  const auto elements = [](int from) {
+    RunSettings settings = spelled_out({});
+    settings.elements = from;
+    std::vector<std::pair<int, bool>> all;
+    for (const TurnedSettings& next : turned(settings, room))
+      if (next.turn.knob == "elements")
+        all.emplace_back(*next.settings.elements, next.finer);
+    return all;
+  };
+  using Turns = std::vector<std::pair<int, bool>>;
+  EXPECT_EQ(*spelled_out({}).elements, 16'000);
+  EXPECT_EQ(elements(2250), (Turns{{4500, true}, {1125, false}}));
+  EXPECT_EQ(elements(150), (Turns{{300, true}}));
+  EXPECT_EQ(elements(150'000), (Turns{{75'000, false}}));
 }
 
 TEST(Knobs, ManySamplesCanBeMadeAdaptiveAndThenMoreOrLessSo) {
@@ -74,7 +91,7 @@ TEST(Knobs, ManySamplesCanBeMadeAdaptiveAndThenMoreOrLessSo) {
     return all;
   };
   using Turns = std::set<std::pair<std::string, bool>>;
-  RunSettings settings = spelled_out({}, room);
+  RunSettings settings = spelled_out({});
   settings.samples = 4;
   EXPECT_EQ(pixel_errors(settings), Turns{});
   settings.samples = 16;
@@ -85,7 +102,7 @@ TEST(Knobs, ManySamplesCanBeMadeAdaptiveAndThenMoreOrLessSo) {
 
 TEST(Knobs, LightThatIsNotToldApartIsNotComputedAtHits) {
   const auto turns_diffuse = [](const RunSettings& settings) {
-    return std::ranges::any_of(turned(spelled_out(settings, room), room),
+    return std::ranges::any_of(turned(spelled_out(settings), room),
                                [](const auto& next) { return next.turn.knob == "diffuse"; });
   };
   RunSettings settings;
@@ -108,6 +125,9 @@ TEST(Knobs, OptionsSayWhatDiffersFromTheDefaults) {
   EXPECT_THAT(options_of(settings),
               ElementsAre("--quality", "draft", "--background", "0.5,0,1", "--element-size", "0.1",
                           "--adaptive", "0.03", "--rays", "64", "--diffuse", "direct"));
+  settings = {};
+  settings.elements = 4'000'000;
+  EXPECT_THAT(options_of(settings), ElementsAre("--elements", "4000000"));
 }
 
 /// A clock that only measuring moves:
@@ -117,8 +137,7 @@ struct MadeUp {
 
   void measure(TradePoint& point) {
     const RunSettings& s = point.settings;
-    const double elements = room.area / std::pow(*s.element_size, 2.0), rays = s.rays.value_or(256),
-                 samples = *s.samples;
+    const double elements = *s.elements, rays = s.rays.value_or(256), samples = *s.samples;
     const double seconds = 1e-7 * elements * (rays + 128.0) + 2e-3 * samples;
     point.seconds.push_back(seconds);
     point.processor_seconds.push_back(2.0 * seconds);
