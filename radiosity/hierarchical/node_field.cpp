@@ -137,21 +137,28 @@ std::vector<std::uint8_t> with_covered_corner(const FoundField& found) {
 
 /// Of what receivers have received, elements with a covered corner keep what the others leave.
 /// Covered corners have the light of the open, continued: as if nothing shaded the wall
-/// behind what hangs before it.
+/// behind what hangs before it. So there is no more than that.
+/// What is left of a receiver A is off by some e = 2 % of all it has, which on elements A_c
+/// is e A / A_c, the light that goes on by up to some b = 30 %: each counts by its inverse square.
 void leave_the_rest(const ReceiverNodes& receivers, const FoundField& found,
                     const std::vector<Rgb>& solved, std::vector<Rgb>& received) {
+  constexpr double e_by_b = 0.02 / 0.3;
   const std::vector<std::uint8_t> covered = with_covered_corner(found);
   for (const TreeNodeId receiver : receivers.receivers) {
     Rgb rest(0.0);
-    double area = 0.0;
+    double area = 0.0, all = 0.0;
     for (const ElementId element : elements_below(receivers.tree, receiver)) {
       const std::size_t e = index(element);
       rest += found.mesh.area[e] * (solved[e] - (covered[e] != 0 ? Rgb(0.0) : received[e]));
       area += covered[e] != 0 ? found.mesh.area[e] : 0.0;
+      all += found.mesh.area[e];
     }
+    if (!(area > 0.0))
+      continue;
+    const double share = 1.0 / (1.0 + std::pow(e_by_b * all / area, 2.0));
     for (const ElementId element : elements_below(receivers.tree, receiver))
-      if (covered[index(element)] != 0)
-        received[index(element)] = glm::max(rest, 0.0) / area;
+      if (Rgb& light = received[index(element)]; covered[index(element)] != 0)
+        light = glm::mix(light, glm::clamp(rest / area, Rgb(0.0), light), share);
   }
 }
 
