@@ -1,8 +1,8 @@
 #include "radiosity/adaptive_field.h"
 
-#include "radiosity/field_refinement.h"
 #include "radiosity/gather_noise.h"
 #include "radiosity/mesh_division.h"
+#include "radiosity/source_field.h"
 #include "radiosity/vertex_light.h"
 #include "radiosity/vertex_places.h"
 #include "scenes/sampling.h"
@@ -18,33 +18,6 @@ namespace meninas {
 
 namespace {
 
-/// w = rho / (B + B_mean) of every root cell: what an error of irradiance there is to the eye.
-/// B_mean is a mean over the area that counts.
-std::vector<double> weights(const ElementMesh& mesh, const std::vector<Rgb>& irradiance) {
-  const std::size_t roots =
-      mesh.sides.empty() ? 0 : mesh.sides.back().first_cell + mesh.sides.back().root_count;
-  std::vector<double> weight(roots, 0.0);
-  const auto reflected = [&](std::uint32_t root) {
-    const MeshCell& cell = mesh.cells[root];
-    Rgb sum(0.0);
-    for (std::uint32_t e = cell.first_element; e < cell.first_element + cell.element_count; ++e)
-      sum += mesh.area[e] * irradiance[e];
-    return largest(mesh.sides[index(cell.side)].reflectance * sum) / cell.area;
-  };
-  double sum = 0.0, area = 0.0;
-  for (std::uint32_t root = 0; root < roots; ++root) {
-    const double counted = counted_area(mesh, mesh.cells[root]);
-    sum += counted * reflected(root);
-    area += counted;
-  }
-  if (!(sum > 0.0))
-    return weight;
-  for (std::uint32_t root = 0; root < roots; ++root)
-    weight[root] = largest(mesh.sides[index(mesh.cells[root].side)].reflectance) /
-                   (reflected(root) + sum / area);
-  return weight;
-}
-
 /// The values of a field at the vertices of a mesh that has all of its cells.
 std::vector<glm::vec3> carried(const ElementMesh& mesh, const std::vector<glm::vec3>& values,
                                const ElementMesh& finer, const SurfaceModel& surfaces) {
@@ -56,59 +29,6 @@ std::vector<glm::vec3> carried(const ElementMesh& mesh, const std::vector<glm::v
     result.push_back(value_in(mesh, values, locate(mesh, side, uv_at(patch, finer.vertices[v]))));
   }
   return result;
-}
-
-RefinementSettings refinement_of(const AdaptiveSettings& adaptive, double share) {
-  RefinementSettings refinement;
-  refinement.error = share * adaptive.error;
-  refinement.max_elements = adaptive.max_elements;
-  return refinement;
-}
-
-/// The mean of two samples, whose difference tells its variance.
-SamplePoint mean_of_two(const SamplePoint& sample) {
-  return
-      [sample](const Receiver& receiver, double element_size, std::uint32_t seed) -> PointSample {
-        const PointSample a = sample(receiver, element_size, seed),
-                          b = sample(receiver, element_size, ~seed);
-        const ArrivingLight sum = a.light + b.light;
-        const double apart = 0.5 * largest(glm::abs(a.light.total - b.light.total));
-        return {{0.5 * sum.total, 0.5 * sum.mirrored}, std::min(a.cover, b.cover), apart * apart};
-      };
-}
-
-/// Light from the source.
-/// A dark point may be inside something that stands on its surface, which a few rays tell.
-SampledField direct_field(const LightScene& light, std::span<const double> weight,
-                          const FormFactorSettings& form_factors, DirectSettings direct,
-                          const RefinementSettings& refinement, InterpolatedField& result) {
-  constexpr double outline_step = 0.125; // of a root cell
-  // At the rim of a penumbra, where the first rays may all agree by chance,
-  // points must not say now dark, now bright.
-  direct.shadow_rays = std::max(direct.shadow_rays, direct.penumbra_rays / 2);
-  tbb::enumerable_thread_specific<PointWorkspace> workspaces;
-  const SamplePoint sample = [&](const Receiver& receiver, double element_size,
-                                 std::uint32_t seed) -> PointSample {
-    PointWorkspace& work = workspaces.local();
-    const ArrivingLight arrived =
-        direct_irradiance(light, receiver, direct, hash(seed, direct.seed, 1), work.direct);
-    if (arrived.total == Rgb(0.0))
-      return {arrived, cover_in_the_dark(light, form_factors, receiver, element_size, seed, work)};
-    return {arrived, is_under_something(light, receiver, element_size) ? Cover::low : Cover::open};
-  };
-  const IsOpenPoint is_open = [&](const Receiver& receiver, double element_size,
-                                  std::uint32_t seed) {
-    return !is_nearly_under_something(light, receiver, element_size) &&
-           sample(receiver, element_size, seed).cover == Cover::open;
-  };
-  const auto outlines = mirror_outlines(light, outline_step * light.mesh.element_size);
-  SampledField field =
-      refine_field(light, {sample, mean_of_two(sample), is_open}, weight, outlines, refinement);
-  for (const auto& work : workspaces) {
-    result.form_factor_rays += work.rays;
-    result.shadow_rays += work.direct.shadow_rays;
-  }
-  return field;
 }
 
 std::vector<glm::vec3> sum_of(std::vector<glm::vec3> a, const std::vector<glm::vec3>& b) {
@@ -259,10 +179,13 @@ InterpolatedField adaptive_field(const LightScene& light, const ElementLight& el
                                  const DirectSettings& direct,
                                  const InterpolationSettings& settings) {
   constexpr double direct_share = 0.8, gathered_share = 0.6;
-  const std::vector<double> weight = weights(light.mesh, elements.irradiance);
+  const std::vector<double> weight = error_weights(light.mesh, elements.irradiance);
+  const SourceField source = field_from_source(light, weight, form_factors, direct,
+                                               refinement_of(*settings.adaptive, direct_share));
+  const SampledField& from_source = source.field;
   InterpolatedField result;
-  const SampledField from_source = direct_field(
-      light, weight, form_factors, direct, refinement_of(*settings.adaptive, direct_share), result);
+  result.form_factor_rays = source.form_factor_rays;
+  result.shadow_rays = source.shadow_rays;
   const SampledField gathered =
       gathered_field(light, elements, from_source, {form_factors, direct, settings}, weight,
                      refinement_of(*settings.adaptive, gathered_share), result);

@@ -18,6 +18,7 @@ namespace {
 /// Integrals over an element, as its points tell; each of (w x)^2.
 struct Found {
   bool known = false;
+  bool quick = false; ///< by quick samples, of unknown variance
   int points = 0;     ///< that count
   double off = 0.0;   ///< x = H - H~
   double light = 0.0; ///< x = H
@@ -58,43 +59,58 @@ Vec2 point_of(bool triangle, std::uint32_t k, std::uint32_t seed) {
   return triangle && st.x + st.y > 1.0 ? 1.0 - st : st;
 }
 
-/// What one element hides: so many points besides its centre, and those of outlines that pass it.
-Found look_at(const Refinement& refinement, const Growing& growing,
-              const std::vector<glm::vec3>& values, ElementId element, int points,
-              std::span<const Vec2> on_outline) {
-  const ElementMesh& mesh = growing.mesh;
-  const MeshCell& cell = cell_of(mesh, element);
-  const MeshSide& side = mesh.sides[index(cell.side)];
-  const Patch& patch = refinement.light.surfaces.patches[index(side.patch)];
-  const double weight = refinement.weight[index(root_of(mesh, element))];
-  Found sum{.known = true};
-  if (weight <= 0.0)
-    return sum;
-  int open = 0;
-  const bool low = is_low(mesh, growing.samples, element);
-  const auto look = [&](Vec2 uv, Vec2 st) {
-    const PointSample sample = refinement.sampler.between(
-        {point_at(patch, uv), side.normal, side.plane_class, side.tangent, side.coat},
-        size_of(mesh, element), seed_of(cell.side, uv));
-    if (sample.cover == Cover::shut || (sample.cover == Cover::low && !low))
-      return;
-    ++open;
-    const glm::vec3 light(sample.light.total);
-    sum.off +=
-        std::pow(weight * largest(glm::abs(light - value_in(mesh, values, {element, st}))), 2.0);
-    sum.light += std::pow(weight * largest(light), 2.0);
-    sum.sigma += weight * weight * sample.variance;
-  };
-  const std::uint32_t own_seed = seed_of(cell.side, patch_uv_of(mesh, cell, Vec2(0.25)));
-  for (std::uint32_t k = 0; k <= static_cast<std::uint32_t>(points); ++k) {
-    const Vec2 st = point_of(side.triangle, k, own_seed);
-    look(patch_uv_of(mesh, cell, st), st);
+/// An element that is looked at, against what its vertices say.
+class Look {
+public:
+  Look(const Refinement& refinement, const Growing& growing, const std::vector<glm::vec3>& values,
+       ElementId element)
+      : refinement_(refinement), mesh_(growing.mesh), values_(values), element_(element),
+        cell_(cell_of(mesh_, element)), side_(mesh_.sides[index(cell_.side)]),
+        patch_(refinement.light.surfaces.patches[index(side_.patch)]),
+        weight_(refinement.weight[index(root_of(mesh_, element))]),
+        low_(is_low(mesh_, growing.samples, element)) {}
+
+  /// So many points besides the centre, and those of outlines that pass it.
+  Found at(const SamplePoint& sample, int points, std::span<const Vec2> on_outline) const {
+    Found sum{.known = true};
+    if (weight_ <= 0.0)
+      return sum;
+    const std::uint32_t own_seed = seed_of(cell_.side, patch_uv_of(mesh_, cell_, Vec2(0.25)));
+    for (std::uint32_t k = 0; k <= static_cast<std::uint32_t>(points); ++k) {
+      const Vec2 st = point_of(side_.triangle, k, own_seed);
+      add(sample, patch_uv_of(mesh_, cell_, st), st, sum);
+    }
+    for (const Vec2 uv : on_outline)
+      add(sample, uv, locate(mesh_, cell_.side, uv).st, sum);
+    const double share = sum.points > 0 ? mesh_.area[index(element_)] / sum.points : 0.0;
+    return {true, false, sum.points, share * sum.off, share * sum.light, share * sum.sigma};
   }
-  for (const Vec2 uv : on_outline)
-    look(uv, locate(mesh, cell.side, uv).st);
-  const double share = open > 0 ? mesh.area[index(element)] / open : 0.0;
-  return {true, open, share * sum.off, share * sum.light, share * sum.sigma};
-}
+
+private:
+  void add(const SamplePoint& at, Vec2 uv, Vec2 st, Found& sum) const {
+    const PointSample sample =
+        at({point_at(patch_, uv), side_.normal, side_.plane_class, side_.tangent, side_.coat},
+           size_of(mesh_, element_), seed_of(cell_.side, uv));
+    if (sample.cover == Cover::shut || (sample.cover == Cover::low && !low_))
+      return;
+    ++sum.points;
+    const glm::vec3 light(sample.light.total);
+    sum.off += std::pow(
+        weight_ * largest(glm::abs(light - value_in(mesh_, values_, {element_, st}))), 2.0);
+    sum.light += std::pow(weight_ * largest(light), 2.0);
+    sum.sigma += weight_ * weight_ * sample.variance;
+  }
+
+  const Refinement& refinement_;
+  const ElementMesh& mesh_;
+  const std::vector<glm::vec3>& values_;
+  ElementId element_;
+  const MeshCell& cell_;
+  const MeshSide& side_;
+  const Patch& patch_;
+  double weight_;
+  bool low_;
+};
 
 /// By ElementId, of elements that are still to be looked at closely:
 /// a few of the points at which outlines pass them.
@@ -120,21 +136,31 @@ OutlinesIn outlines_in(const Refinement& refinement, const Growing& growing) {
   return in;
 }
 
-/// Looks at the elements that have not been.
-void look_at_elements(const Refinement& refinement, const SampledField& field, Growing& growing) {
+/// Looks at the elements that have not been. `share` is what each may hide.
+void look_at_elements(const Refinement& refinement, const SampledField& field, double share,
+                      Growing& growing) {
+  constexpr double next_to_nothing = 1.0 / 16.0; // of squares: a quarter of the error
   const ElementMesh& mesh = growing.mesh;
   const RefinementSettings& settings = refinement.settings;
+  const FieldSampler& sampler = refinement.sampler;
   const OutlinesIn outlined = outlines_in(refinement, growing);
   for_each_in_parallel(element_count(mesh), [&](std::size_t e) {
-    if (growing.found[e].known)
+    Found& found = growing.found[e];
+    if (found.known)
       return;
-    const auto element = static_cast<ElementId>(e);
+    const Look look(refinement, growing, field.total, static_cast<ElementId>(e));
     const auto outlines = outlined.find(static_cast<std::uint32_t>(e));
-    const bool passed = outlines != outlined.end();
-    const bool closely = cell_of(mesh, element).level == 0 || passed;
-    growing.found[e] = look_at(
-        refinement, growing, field.total, element, closely ? settings.root_points : settings.points,
-        passed ? std::span<const Vec2>(outlines->second) : std::span<const Vec2>{});
+    const bool passed = outlines != outlined.end(),
+               closely = cell_of(mesh, static_cast<ElementId>(e)).level == 0 || passed;
+    const int points = closely ? settings.root_points : settings.points;
+    const std::span<const Vec2> on_outline =
+        passed ? std::span<const Vec2>(outlines->second) : std::span<const Vec2>{};
+    if (sampler.quick) {
+      found = look.at(sampler.quick, points, on_outline);
+      found.quick = true;
+    }
+    if (!sampler.quick || found.off > next_to_nothing * share)
+      found = look.at(sampler.between, points, on_outline);
   });
 }
 
@@ -174,11 +200,11 @@ std::vector<double> variance_of_each(const Refinement& refinement, const Growing
 }
 
 /// What noise alone makes of the integral of (w (H - H~))^2,
-/// in the middle of four vertices, by ElementId.
+/// in the middle of four vertices, by ElementId; nothing where quick samples have shown none.
 std::vector<double> made_by_noise(const Refinement& refinement, const Growing& growing) {
   std::vector<double> made = variance_of_each(refinement, growing);
   for (std::size_t e = 0; e < made.size(); ++e)
-    made[e] *= 1.25 * growing.found[e].light;
+    made[e] *= growing.found[e].quick ? 0.0 : 1.25 * growing.found[e].light;
   return made;
 }
 
@@ -244,7 +270,7 @@ SampledField refine_field(const LightScene& light, const FieldSampler& sampler,
   for (;;) {
     sample_field(light, sampler, growing.mesh, growing.samples);
     SampledField field = field_of(growing.mesh, growing.samples);
-    look_at_elements(refinement, field, growing);
+    look_at_elements(refinement, field, allowed / double(element_count(growing.mesh)), growing);
     double error2 = 0.0;
     const auto marked = to_divide(refinement, growing, allowed, error2);
     const auto count = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));

@@ -21,6 +21,9 @@
 // So the bound is one for what elements hide.
 // The noise of the vertices themselves is a matter of how many rays they take (adaptive_field.h).
 //
+// Most elements are plain: quick samples show next to nothing in all of their points.
+// Only the others are looked at with samples whose noise is known.
+//
 // Vertices on which something stands, or at whose side it does,
 // take what is sampled beside it, as on undivided meshes (contact_vertices.h).
 //
@@ -55,6 +58,8 @@ using IsOpenPoint =
 struct FieldSampler {
   SamplePoint at_vertices, between;
   IsOpenPoint is_open;
+  SamplePoint quick =
+      {}; ///< between vertices, for less, of unknown variance; none: nothing is quicker
 };
 
 struct RefinementSettings {

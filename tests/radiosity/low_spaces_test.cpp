@@ -169,13 +169,17 @@ TEST(LowSpaces, NodesDoNotLightTheFootOfABoxByTheirNoise) {
                      {.element_size = 0.0857});
   const RadiositySolution rows = solve_by(By::rows, *l->light),
                           nodes = solve_by(By::nodes, *l->light);
-  for (const std::size_t e : elements_of(*l, "floor"))
-    if (rows.exposed[e] > 0.1F && nodes.exposed[e] > 0.1F)
+  for (const std::size_t e : elements_of(*l, "floor")) {
+    if (rows.exposed[e] > 0.1F && nodes.exposed[e] > 0.1F) {
       EXPECT_LT(std::abs(std::log(nodes.irradiance[e].g / rows.irradiance[e].g)), std::log(2.5));
+    }
+  }
   for (const std::size_t e : elements_of(*l, "short-block"))
-    for (const ElementVertexId v : l->mesh.corners[e])
-      if (rows.field.irradiance[index(v)].g > 0.01F)
+    for (const ElementVertexId v : l->mesh.corners[e]) {
+      if (rows.field.irradiance[index(v)].g > 0.01F) {
         EXPECT_LT(nodes.field.indirect[index(v)].g, 2.0F * rows.field.indirect[index(v)].g);
+      }
+    }
 }
 
 } // namespace
