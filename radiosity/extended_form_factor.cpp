@@ -3,6 +3,7 @@
 #include "radiosity/clear_form_factors.h"
 #include "radiosity/error_sum.h"
 #include "radiosity/kaleidoscope.h"
+#include "radiosity/shadow_lines.h"
 #include "radiosity/world_shares.h"
 
 #include <tbb/parallel_for.h>
@@ -67,20 +68,26 @@ public:
   }
 
 private:
+  bool uses_mirrors() const { return !view_.mirrors.mirrors.empty() && settings_.max_depth > 0; }
+
   bool needs_points(std::size_t face) const {
-    if (!view_.mirrors.mirrors.empty() && settings_.max_depth > 0)
+    if (uses_mirrors())
       return true;
     const auto& known = clear_.known[face];
     return std::any_of(known.begin(), known.end(), [](std::uint8_t k) { return k == 0; });
   }
 
   std::vector<Region> first_regions() const {
+    constexpr std::size_t most_lines = 10'000'000; // some tenths of a second
+    const std::vector<BlockerEdge> edges = edges_of(view_.blockers);
     std::vector<Region> regions;
     for (std::size_t f = 0; f < from_.size(); ++f) {
       if (!needs_points(f))
         continue;
-      for (const ConvexPolygon& polygon :
-           cut_at_contacts(from_[f], view_.blockers, view_.tolerance))
+      std::vector<ConvexPolygon> parts = cut_at_contacts(from_[f], view_.blockers, view_.tolerance);
+      cut_at_shadows(parts, from_[f], view_, edges, clear_.known[f], uses_mirrors(),
+                     most_lines / from_.size());
+      for (const ConvexPolygon& polygon : parts)
         for (std::size_t k = 2; k < polygon.size; ++k) {
           Region region;
           region.corners = {polygon.vertices[0], polygon.vertices[k - 1], polygon.vertices[k]};

@@ -128,27 +128,6 @@ bool bounded_by_edges(const ConvexPolygon& a, const ConvexPolygon& b, const Conv
   return false;
 }
 
-/// Splits the parts that the segment runs through, along the line it is on.
-void cut_along(std::vector<ConvexPolygon>& parts, const Point3& from, const Point3& to,
-               const Direction& front, double tolerance) {
-  const Vec3 edge = to - from;
-  const Vec3 across = glm::cross(front, edge);
-  const double length = glm::length(across);
-  if (length <= tolerance)
-    return;
-  const std::size_t count = parts.size();
-  for (std::size_t p = 0; p < count; ++p) {
-    const ConvexPolygon beside = clip(clip(parts[p], from, edge), to, -edge);
-    if (beside.empty() || sides_of(beside, from, across / length, tolerance) != Sides::both)
-      continue;
-    const ConvexPolygon left = clip(parts[p], from, across), right = clip(parts[p], from, -across);
-    if (left.empty() || right.empty())
-      continue;
-    parts[p] = left;
-    parts.push_back(right);
-  }
-}
-
 } // namespace
 
 std::vector<Face> joined_faces(const SurfaceModel& surfaces) {
@@ -185,6 +164,26 @@ std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<F
     }
   }
   return parts;
+}
+
+void cut_along(std::vector<ConvexPolygon>& parts, const Point3& from, const Point3& to,
+               const Direction& front, double tolerance) {
+  const Vec3 edge = to - from;
+  const Vec3 across = glm::cross(front, edge);
+  const double length = glm::length(across);
+  if (length <= tolerance)
+    return;
+  const std::size_t count = parts.size();
+  for (std::size_t p = 0; p < count; ++p) {
+    const ConvexPolygon beside = clip(clip(parts[p], from, edge), to, -edge);
+    if (beside.empty() || sides_of(beside, from, across / length, tolerance) != Sides::both)
+      continue;
+    const ConvexPolygon left = clip(parts[p], from, across), right = clip(parts[p], from, -across);
+    if (left.empty() || right.empty())
+      continue;
+    parts[p] = left;
+    parts.push_back(right);
+  }
 }
 
 void subtract_cone(std::vector<ConvexPolygon>& parts, const Point3& x,

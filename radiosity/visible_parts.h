@@ -33,6 +33,10 @@ std::vector<Face> joined_faces(const SurfaceModel& surfaces);
 std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others,
                                            double tolerance);
 
+/// Splits the parts that the segment runs through, along the line it is on.
+void cut_along(std::vector<ConvexPolygon>& parts, const Point3& from, const Point3& to,
+               const Direction& front, double tolerance);
+
 /// Takes the cone from x over the blocker out of every part. A blocker seen edge-on hides nothing.
 void subtract_cone(std::vector<ConvexPolygon>& parts, const Point3& x,
                    const ConvexPolygon& blocker);
