@@ -8,7 +8,8 @@
 // of its mirrors' reflectances. Emitting, receiving: the fronts of both.
 // Pairs of faces between which nothing can stand take the closed form (area_form_factor.h),
 // and so do all images where mirrors are whole walls of a convex cell (kaleidoscope.h).
-// The rest is integrated over A: triangles with Radon's seven points of degree five,
+// The rest is integrated over A, cut where others stand on it and where shadows begin suddenly
+// (shadow_lines.h): triangles with Radon's seven points of degree five,
 // the one with the largest error split next. A triangle's error is what its factors
 // changed by when its parent was split: sound for smooth parts and for kinks alike.
 // Many errors are added up as in error_sum.h. Deterministic for any number of threads.
