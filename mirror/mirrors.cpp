@@ -139,9 +139,12 @@ MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces,
       continue;
     }
     const auto id = static_cast<MirrorId>(set.mirrors.size());
-    for (const auto& [surface, face] : candidate.faces)
+    double tolerance = 0.0;
+    for (const auto& [surface, face] : candidate.faces) {
       set.mirror_of_surface[index(surface)][static_cast<std::size_t>(face)] = id;
-    candidate.mirror.window = merge_convex(std::move(candidate.mirror.window), surfaces.tolerance);
+      tolerance = std::max(tolerance, surfaces.surfaces[index(surface)].tolerance);
+    }
+    candidate.mirror.window = merge_convex(std::move(candidate.mirror.window), tolerance);
     set.mirrors.push_back(std::move(candidate.mirror));
   }
   return set;

@@ -139,7 +139,7 @@ std::vector<Face> joined_faces(const SurfaceModel& surfaces) {
       by_node[patch.node].emplace_back(polygon_of(patch));
     }
     for (auto& [node, polygons] : by_node)
-      for (const auto& polygon : merge_convex(std::move(polygons), surfaces.tolerance))
+      for (const auto& polygon : merge_convex(std::move(polygons), surface.tolerance))
         faces.push_back(make_face(surfaces, surface, node, polygon));
   }
   return faces;

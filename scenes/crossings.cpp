@@ -30,8 +30,10 @@ TriangleId crossed(const Scene& scene, const SurfaceModel& surfaces, const RaySc
   const double before = glm::dot(a - p[0], normal);
   const double behind = glm::dot(b - p[0], normal);
   const double depth = std::min(std::abs(before), std::abs(behind));
+  const double tolerance = std::max(surface_of(surfaces, from).tolerance,
+                                    surface_of(surfaces, hit->triangle).tolerance);
   const bool passes = (before > 0.0) != (behind > 0.0) &&
-                      depth > std::max(4.0 * surfaces.tolerance, least_depth * length);
+                      depth > std::max(4.0 * tolerance, least_depth * length);
   return passes ? hit->triangle : none<TriangleId>;
 }
 

@@ -178,19 +178,30 @@ static double half_ulp(double x) {
 }
 
 /// Rounding of local coordinates to floats, stretched by the matrix,
-/// and of the product with the matrix in doubles.
-static double position_error(const Part& part, const glm::dmat4& world) {
-  double local = 0.0;
-  for (const auto& p : part.positions)
-    local = std::max(local, largest_of(p));
-  const glm::dmat3 linear(world);
-  const auto rows = glm::transpose(linear);
-  double stretch = 0.0; // the largest sum of a row bounds the change of any coordinate
-  for (int row = 0; row < 3; ++row)
-    stretch =
-        std::max(stretch, std::abs(rows[row].x) + std::abs(rows[row].y) + std::abs(rows[row].z));
-  return half_ulp(local) * stretch + 4e-16 * (stretch * local + largest_of(Vec3(world[3])));
-}
+/// and of the product with the matrix in doubles, by the largest of the coordinates.
+class PositionError {
+public:
+  explicit PositionError(const glm::dmat4& world) : away_(largest_of(Vec3(world[3]))) {
+    const auto rows = glm::transpose(glm::dmat3(world));
+    // The largest sum of a row bounds the change of any coordinate.
+    for (int row = 0; row < 3; ++row)
+      stretch_ =
+          std::max(stretch_, std::abs(rows[row].x) + std::abs(rows[row].y) + std::abs(rows[row].z));
+  }
+
+  double of(double local) const {
+    return half_ulp(local) * stretch_ + 4e-16 * (stretch_ * local + away_);
+  }
+  double of(const Part& part) const {
+    double local = 0.0;
+    for (const auto& p : part.positions)
+      local = std::max(local, largest_of(p));
+    return of(local);
+  }
+
+private:
+  double stretch_ = 0.0, away_ = 0.0;
+};
 
 /// A mirrored node shows its triangles turned round,
 /// unless they are turned round once more (glTF 2.0, 3.7.4).
@@ -210,7 +221,8 @@ static bool is_degenerate(const std::array<Point3, 3>& p, double error) {
 
 static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat4& world,
                      NodeId node, Scene& scene, Findings& findings) {
-  const auto error = position_error(part, world);
+  const PositionError position_error(world);
+  const auto error = position_error.of(part);
   const bool mirrored = is_mirrored(world);
   std::vector<Point3> placed(part.positions.size());
   for (std::size_t k = 0; k < placed.size(); ++k) {
@@ -234,6 +246,8 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
       if (id == none<VertexId>) {
         id = static_cast<VertexId>(scene.vertices.size());
         scene.vertices.push_back({placed[corners[c]], part.texcoords[corners[c]]});
+        scene.position_errors.push_back(
+            static_cast<float>(position_error.of(largest_of(part.positions[corners[c]]))));
         if (!part.colors.empty())
           scene.vertices.back().color = part.colors[corners[c]];
       }

@@ -79,8 +79,9 @@ CountByNodes overlapping_faces(const Scene& scene, const SurfaceModel& surfaces)
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     in_plane[index(surfaces.plane_of_triangle[t])].push_back(TriangleId{t});
   }
-  const double depth = 4.0 * surfaces.tolerance;
   const auto overlap = [&](const FlatFace& a, const FlatFace& b) {
+    const double depth = 4.0 * std::max(surface_of(surfaces, a.triangle).tolerance,
+                                        surface_of(surfaces, b.triangle).tolerance);
     return scene.triangles[index(a.triangle)].material !=
                scene.triangles[index(b.triangle)].material &&
            a.low.y < b.high.y && b.low.y < a.high.y && show_the_same_way(scene, a, b) &&

@@ -50,8 +50,8 @@ double look_up_radius(double uncertainty) { return 4.0 * std::max(uncertainty, f
 
 class PlaneClassifier {
 public:
-  PlaneClassifier(const Scene& scene, const Regions& regions, double tolerance)
-      : scene_(scene), regions_(regions), tolerance_(tolerance) {
+  PlaneClassifier(const Scene& scene, const Regions& regions, const Precision& precision)
+      : scene_(scene), regions_(regions), tolerance_(precision.in_detail()) {
     const Bounds bounds = bounds_of(scene);
     middle_ = 0.5 * bounds.low + 0.5 * bounds.high;
     reach_ = 0.5 * glm::distance(bounds.low, bounds.high);
@@ -115,7 +115,7 @@ private:
     });
     const double length = glm::distance(bounds.low, bounds.high);
     const double width = length > 0.0 ? region.area / length : 0.0;
-    const double uncertainty = width > tolerance_ ? tolerance_ / width : 1.0;
+    const double uncertainty = width > region.tolerance ? region.tolerance / width : 1.0;
     return {r, 0.5 * bounds.low + 0.5 * bounds.high, width, uncertainty};
   }
 
@@ -133,14 +133,15 @@ private:
   /// The region may lie in the plane, given what its owner knows of it there.
   bool may_share(const Owner& owner, const Region& region) const {
     return every_corner(region, [&](const Point3& corner) {
-      const double slack = tolerance_ + owner.uncertainty * glm::distance(corner, owner.centre);
+      const double slack =
+          region.tolerance + owner.uncertainty * glm::distance(corner, owner.centre);
       return std::abs(signed_distance(owner.plane, corner)) <= slack;
     });
   }
 
   bool holds(const Plane& plane, const Region& region) const {
     return every_corner(region, [&](const Point3& corner) {
-      return std::abs(signed_distance(plane, corner)) <= tolerance_;
+      return std::abs(signed_distance(plane, corner)) <= region.tolerance;
     });
   }
 
@@ -270,8 +271,9 @@ private:
 
 } // namespace
 
-PlaneClasses classify_planes(const Scene& scene, const Regions& regions, double tolerance) {
-  return PlaneClassifier(scene, regions, tolerance).classify();
+PlaneClasses classify_planes(const Scene& scene, const Regions& regions,
+                             const Precision& precision) {
+  return PlaneClassifier(scene, regions, precision).classify();
 }
 
 } // namespace meninas

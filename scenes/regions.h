@@ -22,6 +22,7 @@ TriangleShape shape_of(const std::array<Point3, 3>& corners);
 struct Region {
   Plane plane;
   double area = 0.0;
+  double tolerance = 0.0;  ///< of the least known of its triangles
   std::uint32_t first = 0; ///< of its triangles in Regions::members
   std::uint32_t count = 0;
 };
@@ -37,7 +38,7 @@ inline std::span<const TriangleId> triangles_of(const Regions& regions, const Re
 }
 
 Regions grow_regions(const Scene& scene, const std::vector<TriangleShape>& shapes,
-                     const Topology& topology, double tolerance);
+                     const Topology& topology, const Precision& precision);
 
 struct PlaneClasses {
   std::vector<Plane> planes;
@@ -46,6 +47,7 @@ struct PlaneClasses {
 
 /// Regions whose vertices are all within tolerance of one plane, whichever way they face, are one
 /// class.
-PlaneClasses classify_planes(const Scene& scene, const Regions& regions, double tolerance);
+PlaneClasses classify_planes(const Scene& scene, const Regions& regions,
+                             const Precision& precision);
 
 } // namespace meninas

@@ -82,6 +82,7 @@ struct Scene {
   /// floats in the file, moved by the node matrices.
   /// Geometry is only distinguished above it (coplanar, coincident, degenerate).
   double position_error = 0.0;
+  std::vector<float> position_errors; ///< the same by vertex; what has none has that of all
 };
 
 inline const Point3& position(const Scene& scene, VertexId vertex) {

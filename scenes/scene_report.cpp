@@ -31,7 +31,7 @@ std::string counted(std::size_t count, std::string_view noun) {
 class Reporter {
 public:
   Reporter(const Scene& scene, const SurfaceModel& surfaces)
-      : scene_(scene), topology_(find_topology(scene, 0.5 * surfaces.tolerance)),
+      : scene_(scene), topology_(find_topology(scene, Precision(scene))),
         tolerance_(surfaces.tolerance) {}
 
   void report_sizes() {

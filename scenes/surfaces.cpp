@@ -1,6 +1,7 @@
 #include "scenes/surfaces.h"
 
 #include "scenes/patch_pairs.h"
+#include "scenes/precision.h"
 #include "scenes/regions.h"
 #include "scenes/topology.h"
 
@@ -9,21 +10,6 @@
 
 namespace meninas {
 namespace {
-
-/// How far a vertex of a wall may be off its plane.
-///
-/// Each vertex is off by at most the position error. A plane through three corners of a
-/// parallelogram misses the fourth, p0 - p1 + p2, by at most four times that: three errors and its
-/// own.
-/// Modelling programs round to about nine digits; sums of products of coordinates lose a few units
-/// in the last place.
-double coplanarity_tolerance(const Scene& scene) {
-  const Bounds bounds = bounds_of(scene);
-  const double extent = glm::distance(bounds.low, bounds.high);
-  const double largest = std::max(glm::length(bounds.low), glm::length(bounds.high));
-  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
-  return 4.0 * scene.position_error + 1e-9 * extent + rounding * largest;
-}
 
 constexpr std::array<Vec2, 4> quad_uv{Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(1.0, 1.0),
                                       Vec2(0.0, 1.0)};
@@ -128,6 +114,7 @@ void add_surfaces(const Scene& scene, const Regions& regions, const PlaneClasses
     Surface surface;
     surface.plane = region.plane;
     surface.plane_class = classes.of_region[r];
+    surface.tolerance = region.tolerance;
     surface.material = scene.triangles[index(triangles.front())].material;
     surface.area = region.area;
     for (const TriangleId triangle : triangles) {
@@ -151,7 +138,9 @@ SurfaceModel find_surfaces(const Scene& scene) {
   if (count == 0) {
     return model;
   }
-  model.tolerance = coplanarity_tolerance(scene);
+  const Precision precision(scene);
+  model.detail = precision.detail();
+  model.tolerance = precision.in_detail();
   model.patch_of_triangle.assign(count, none<PatchId>);
   model.plane_of_triangle.assign(count, none<PlaneId>);
   model.corner_uv.resize(count);
@@ -160,11 +149,9 @@ SurfaceModel find_surfaces(const Scene& scene) {
   for (std::size_t t = 0; t < count; ++t) {
     shapes[t] = shape_of(corners(scene, static_cast<TriangleId>(t)));
   }
-  // Two copies of one point are each off by the position error: they are half the tolerance apart
-  // at most.
-  const Topology topology = find_topology(scene, 0.5 * model.tolerance);
-  const Regions regions = grow_regions(scene, shapes, topology, model.tolerance);
-  const PlaneClasses classes = classify_planes(scene, regions, model.tolerance);
+  const Topology topology = find_topology(scene, precision);
+  const Regions regions = grow_regions(scene, shapes, topology, precision);
+  const PlaneClasses classes = classify_planes(scene, regions, precision);
   model.planes = classes.planes;
   add_patches(scene, shapes, pair_triangles(scene, regions, topology), model);
   add_surfaces(scene, regions, classes, model);

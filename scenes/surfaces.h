@@ -12,7 +12,7 @@
 // of a triangle patch the affine map p(u,v) = p0 + u (p1 - p0) + v (p2 - p0), u + v <= 1.
 #pragma once
 
-#include "scenes/scene.h"
+#include "scenes/precision.h"
 
 #include <span>
 
@@ -35,6 +35,7 @@ struct Surface {
   PlaneId plane_class = none<PlaneId>;
   MaterialId material = none<MaterialId>;
   double area = 0.0;
+  double tolerance = 0.0; ///< distance in metres below which points count as in its plane
   std::vector<PatchId> patches;
 };
 
@@ -51,16 +52,22 @@ struct Patch {
 };
 
 struct SurfaceModel {
+  Detail detail; ///< of the scene
   std::vector<Surface> surfaces;
   std::vector<Patch> patches;
   std::vector<PatchId> patch_of_triangle;
   std::vector<PlaneId> plane_of_triangle;
   std::vector<Plane> planes;                     ///< a representative of each plane class
   std::vector<std::array<Vec2, 3>> corner_uv;    ///< per triangle, (u, v) of its three vertices in its patch
-  double tolerance = 0.0;                        ///< distance in metres below which points count as coplanar
+  double tolerance = 0.0;                        ///< that of all surfaces within the detail of the scene
 };
 
 SurfaceModel find_surfaces(const Scene& scene);
+
+inline const Surface& surface_of(const SurfaceModel& model, TriangleId triangle) {
+  const Patch& patch = model.patches[index(model.patch_of_triangle[index(triangle)])];
+  return model.surfaces[index(patch.surface)];
+}
 
 inline std::span<const Point3> polygon_of(const Patch& patch) {
   return {patch.corners.data(), static_cast<std::size_t>(patch.corner_count)};

@@ -10,27 +10,71 @@
 namespace meninas {
 namespace {
 
-std::vector<VertexId> weld(const Scene& scene, double distance) {
-  std::vector<VertexId> welded(scene.vertices.size());
-  if (welded.empty()) {
-    return welded;
-  }
-  const Point3 origin = bounds_of(scene).low;
-  NeighbourGrid<3> grid(8.0 * distance, welded.size());
-  for (std::size_t i = 0; i < welded.size(); ++i) {
-    const Point3& here = scene.vertices[i].position;
-    const Vec3 from_origin = here - origin;
+/// Welds a vertex to those added before that stand where it stands.
+class Welder {
+public:
+  Welder(const Scene& scene, double largest_distance)
+      : scene_(scene), origin_(bounds_of(scene).low), largest_(largest_distance),
+        grid_(8.0 * largest_distance, scene.vertices.size()) {}
+
+  /// `distance` of two vertices is the mean of what is said of each.
+  VertexId add(std::size_t i, double distance) {
+    const Point3& here = scene_.vertices[i].position;
+    const Vec3 from_origin = here - origin_;
     const NeighbourGrid<3>::Point key{from_origin.x, from_origin.y, from_origin.z};
-    welded[i] = static_cast<VertexId>(i);
-    grid.visit_near(key, distance, [&](std::uint32_t other) {
-      if (glm::distance(here, scene.vertices[other].position) <= distance) {
-        welded[i] = std::min(welded[i], static_cast<VertexId>(other));
+    VertexId welded{static_cast<std::uint32_t>(i)};
+    grid_.visit_near(key, 0.5 * (distance + largest_), [&](std::uint32_t entry) {
+      const auto& [other, its_distance] = added_[entry];
+      if (glm::distance(here, position(scene_, other)) <= 0.5 * (distance + its_distance)) {
+        welded = std::min(welded, other);
       }
       return true;
     });
-    if (index(welded[i]) == i) {
-      grid.add(key, static_cast<std::uint32_t>(i));
+    if (index(welded) == i) {
+      grid_.add(key, static_cast<std::uint32_t>(added_.size()));
+      added_.push_back({welded, distance});
     }
+    return welded;
+  }
+
+private:
+  struct Added {
+    VertexId vertex;
+    double distance;
+  };
+
+  const Scene& scene_;
+  Point3 origin_;
+  double largest_;
+  NeighbourGrid<3> grid_;
+  std::vector<Added> added_;
+};
+
+std::vector<VertexId> weld(const Scene& scene, double distance) {
+  std::vector<VertexId> welded(scene.vertices.size());
+  if (!welded.empty()) {
+    Welder welder(scene, distance);
+    for (std::size_t i = 0; i < welded.size(); ++i) {
+      welded[i] = welder.add(i, distance);
+    }
+  }
+  return welded;
+}
+
+std::vector<VertexId> weld(const Scene& scene, const Precision& precision) {
+  const double near = 0.5 * precision.in_detail();
+  if (precision.detail().is_all) {
+    return weld(scene, near);
+  }
+  double largest = near;
+  for (std::size_t i = 0; i < scene.vertices.size(); ++i) {
+    largest = std::max(largest, 0.5 * precision.at(static_cast<VertexId>(i)));
+  }
+  std::vector<VertexId> welded(scene.vertices.size());
+  Welder within(scene, near), beyond(scene, largest);
+  for (std::size_t i = 0; i < welded.size(); ++i) {
+    const double distance = 0.5 * precision.at(static_cast<VertexId>(i));
+    welded[i] = (distance <= near ? within : beyond).add(i, distance);
   }
   return welded;
 }
@@ -55,11 +99,9 @@ std::vector<EdgeUse> edge_uses(const Scene& scene, const std::vector<VertexId>& 
   return uses;
 }
 
-} // namespace
-
-Topology find_topology(const Scene& scene, double weld_distance) {
+Topology topology_of(const Scene& scene, std::vector<VertexId> welded) {
   Topology topology;
-  topology.welded = weld(scene, weld_distance);
+  topology.welded = std::move(welded);
   topology.uses = edge_uses(scene, topology.welded);
   topology.edge_of.assign(scene.triangles.size(), {no_edge, no_edge, no_edge});
   for (std::size_t i = 0; i < topology.uses.size(); ++i) {
@@ -72,6 +114,16 @@ Topology find_topology(const Scene& scene, double weld_distance) {
   }
   topology.first_use.push_back(static_cast<std::uint32_t>(topology.uses.size()));
   return topology;
+}
+
+} // namespace
+
+Topology find_topology(const Scene& scene, double weld_distance) {
+  return topology_of(scene, weld(scene, weld_distance));
+}
+
+Topology find_topology(const Scene& scene, const Precision& precision) {
+  return topology_of(scene, weld(scene, precision));
 }
 
 } // namespace meninas

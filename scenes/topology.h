@@ -2,7 +2,7 @@
 // find_surfaces and report_scene.)
 #pragma once
 
-#include "scenes/scene.h"
+#include "scenes/precision.h"
 
 #include <span>
 
@@ -29,6 +29,10 @@ inline constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max
 
 /// Vertices not farther apart than `weld_distance` count as one.
 Topology find_topology(const Scene& scene, double weld_distance);
+
+/// The same for copies of one point, which are each off by their position error:
+/// half the tolerance apart at most. Those far beyond the detail are welded among themselves.
+Topology find_topology(const Scene& scene, const Precision& precision);
 
 inline std::span<const EdgeUse> uses_of(const Topology& topology, std::uint32_t edge) {
   const std::size_t first = topology.first_use[edge];
