@@ -98,7 +98,8 @@ const Patch* whole_patch_of(const LightScene& light, std::uint32_t triangle) {
 std::vector<FrustumFace> frustum_faces(const LightScene& light, std::size_t most) {
   std::vector<FrustumFace> faces;
   const FrameGeometry& geometry = light.rays.geometry();
-  if (light.has_glass || geometry.noise > 0.25 * margin || geometry.triangles.size() > most)
+  if (light.has_glass || geometry.noise > 0.25 * margin || geometry.detail < 1.0F ||
+      geometry.triangles.size() > most)
     return faces;
   for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
     const auto own = corners_of(geometry, t);

@@ -20,8 +20,9 @@ std::optional<ContactTriangle> blocked_at_once(const RayScene& rays, const Conta
   if (contacts.others.empty())
     return std::nullopt;
   const auto& geometry = rays.geometry();
-  return blocking_contact(
-      contacts, {Point3(ray.origin), extent, geometry.plane_normals[ray.leaving]}, geometry.noise);
+  return blocking_contact(contacts,
+                          {Point3(ray.origin), extent, geometry.plane_normals[ray.leaving]},
+                          geometry.noise * double{grain_at(geometry, ray.origin)});
 }
 
 LaneHit hit_at_once(const LaneRay& ray, const ContactTriangle& wall) {

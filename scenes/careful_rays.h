@@ -11,7 +11,7 @@ namespace meninas {
 LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule);
 
 /// The triangles within reach of a point that leaves a plane,
-/// or nearer than `least_reach` if that is further.
+/// or nearer than `least_reach` times its grain if that is further.
 Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving,
                      double least_reach = 0.0);
 

@@ -14,7 +14,7 @@ namespace {
 // of the origin and of three vertices alike, and Embree's arithmetic adds as much again.
 constexpr double float_noise = 4e-7;
 
-RayFrame frame_of(const Scene& scene) {
+RayFrame frame_of(const Scene& scene, const Detail& detail) {
   Point3 low(std::numeric_limits<double>::infinity());
   Point3 high(-std::numeric_limits<double>::infinity());
   for (const auto& triangle : scene.triangles)
@@ -25,9 +25,27 @@ RayFrame frame_of(const Scene& scene) {
   if (scene.triangles.empty())
     return {};
   const auto size = high - low;
-  const auto largest = std::max({size.x, size.y, size.z});
-  const auto scale = 2.0 / largest;
-  return {low + 0.5 * size, std::isfinite(scale) && scale > 0.0 ? scale : 1.0};
+  const auto centre = detail.is_all ? low + 0.5 * size : detail.centre;
+  const auto reach = detail.is_all ? 0.5 * size : glm::max(high - centre, centre - low);
+  const auto scale = 1.0 / std::max({reach.x, reach.y, reach.z});
+  return {centre, std::isfinite(scale) && scale > 0.0 ? scale : 1.0};
+}
+
+float farthest_grain(const FrameGeometry& geometry, std::uint32_t triangle) {
+  float grain = geometry.detail;
+  for (const Point3& corner : corners_of(geometry, triangle))
+    grain = std::max(grain, grain_at(geometry, glm::vec3(corner)));
+  return grain;
+}
+
+/// What the surfaces allow for, by the grain of where they are.
+double tolerance_of(const FrameGeometry& geometry, const SurfaceModel& surfaces) {
+  double largest = surfaces.tolerance / double{geometry.detail};
+  if (geometry.detail < 1.0F)
+    for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t)
+      largest = std::max(largest, surface_of(surfaces, TriangleId{t}).tolerance /
+                                      double{farthest_grain(geometry, t)});
+  return geometry.frame.scale * largest;
 }
 
 // A plane class with faces both ways, or with double-sided ones, may hold sheets modelled as two.
@@ -55,8 +73,10 @@ FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfac
   expects(surfaces.plane_of_triangle.size() == scene.triangles.size(),
           "the surfaces belong to another scene");
   FrameGeometry geometry;
-  geometry.frame = frame_of(scene);
-  geometry.noise = float_noise + 2.0 * geometry.frame.scale * surfaces.tolerance;
+  geometry.frame = frame_of(scene, surfaces.detail);
+  if (!surfaces.detail.is_all)
+    geometry.detail =
+        static_cast<float>(std::min(1.0, surfaces.detail.radius * geometry.frame.scale));
 
   geometry.positions.reserve(scene.vertices.size());
   for (const auto& vertex : scene.vertices)
@@ -76,6 +96,8 @@ FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfac
     if (is_glass(material))
       glass.insert(plane);
   }
+
+  geometry.noise = float_noise + 2.0 * tolerance_of(geometry, surfaces);
 
   for (const std::uint32_t plane : glass)
     geometry.glass.push_back(surfaces.planes[plane]);

@@ -1,8 +1,14 @@
 // The triangles of a scene in the frame of its ray queries:
 // recentred and rescaled so that the bounds fit into [-1, 1].
+//
+// Where some of it lies far beyond the detail, the detail is in the middle of the frame:
+// there floats are finer, and all that is said of rounding is meant times the grain of the place.
 #pragma once
 
 #include "scenes/ray_scene.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace meninas {
 
@@ -28,14 +34,23 @@ struct FrameGeometry {
   std::vector<TriangleFacts> facts;     ///< per triangle
   std::vector<Direction> plane_normals; ///< per plane class
   std::vector<FrameNormal>
-      lifts;          ///< the same in floats, and one of length zero for rays that leave no plane
-  double noise = 0.0; ///< heights below it are rounding, in frame units
+      lifts;           ///< the same in floats, and one of length zero for rays that leave no plane
+  double noise = 0.0;  ///< heights below it are rounding, in frame units of grain 1
+  float detail = 1.0F; ///< the grain nearest to the middle
   Holes holes;
   std::vector<Plane> glass; ///< the planes that hold some, in metres
 };
 
 FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfaces,
                                   Holes holes = {});
+
+/// How large the rounding is at a point of the frame, beside that at its bounds.
+inline float grain_at(const FrameGeometry& geometry, float x, float y, float z) {
+  return std::min(1.0F, std::max({geometry.detail, std::abs(x), std::abs(y), std::abs(z)}));
+}
+inline float grain_at(const FrameGeometry& geometry, const glm::vec3& x) {
+  return grain_at(geometry, x.x, x.y, x.z);
+}
 
 /// Whether nothing is there at the point of a triangle
 /// with these weights of its second and third vertex.

@@ -54,7 +54,7 @@ inline bool is_hit(const RayRule& rule, const Candidate& candidate) {
 struct LegRule {
   const FrameGeometry* geometry = nullptr;
   const RayPacket* packet = nullptr;
-  float noise = 0.0F; ///< an end that is not higher than this over a plane lies in it
+  float noise = 0.0F; ///< times the grain of an end: not higher over a plane it lies in it
   Solids solids = Solids::sheets;
 };
 
@@ -74,9 +74,15 @@ inline LegHit leg_hit(const LegRule& rule, const Candidate& candidate) {
   const auto slope = glm::dot(candidate.normal, candidate.direction);
   const auto climb = slope * candidate.distance;
   const auto rest = slope * (rule.packet->max_distance[candidate.lane] - candidate.distance);
+  const LaneRay leg = lane_ray(*rule.packet, candidate.lane);
   const auto least = rule.noise * rule.noise * glm::dot(candidate.normal, candidate.normal);
-  const auto at_start = leaving != no_index && climb * climb < least;
-  const auto at_end = arriving != no_index && rest * rest < least;
+  const auto is_rounding = [&](float height, const glm::vec3& end) {
+    const auto beside_grain = height / grain_at(*rule.geometry, end);
+    return beside_grain * beside_grain < least;
+  };
+  const auto at_start = leaving != no_index && is_rounding(climb, leg.origin);
+  const auto at_end =
+      arriving != no_index && is_rounding(rest, leg.origin + leg.far * leg.direction);
   return at_start || at_end ? LegHit::touching : LegHit::blocking;
 }
 

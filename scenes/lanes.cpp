@@ -80,7 +80,9 @@ LaneVectors lifted_origins(const FrameGeometry& geometry, const RayPacket& packe
   for (std::size_t k = 0; k < packet_size; ++k) {
     const auto slope = n.x[k] * packet.direction_x[k] + n.y[k] * packet.direction_y[k] +
                        n.z[k] * packet.direction_z[k];
-    const auto side = std::copysign(lift, slope);
+    const auto grain =
+        grain_at(geometry, packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]);
+    const auto side = std::copysign(lift * grain, slope);
     lifted.x[k] = packet.origin_x[k] + side * n.x[k];
     lifted.y[k] = packet.origin_y[k] + side * n.y[k];
     lifted.z[k] = packet.origin_z[k] + side * n.z[k];
@@ -95,7 +97,11 @@ LaneVectors lifted_directions(const FrameGeometry& geometry, const RayPacket& pa
   for (std::size_t k = 0; k < packet_size; ++k) {
     const auto slope = n.x[k] * packet.direction_x[k] + n.y[k] * packet.direction_y[k] +
                        n.z[k] * packet.direction_z[k];
-    const auto side = -std::copysign(lift, slope);
+    const auto far = packet.max_distance[k];
+    const auto grain = grain_at(geometry, packet.origin_x[k] + far * packet.direction_x[k],
+                                packet.origin_y[k] + far * packet.direction_y[k],
+                                packet.origin_z[k] + far * packet.direction_z[k]);
+    const auto side = -std::copysign(lift * grain, slope);
     const auto share = 1.0F / packet.max_distance[k];
     lifted.x[k] =
         packet.direction_x[k] + share * (side * n.x[k] + packet.origin_x[k] - origins.x[k]);

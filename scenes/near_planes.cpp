@@ -11,8 +11,9 @@ namespace meninas {
 
 namespace {
 
-constexpr double most_tests = 2e7;      // of a triangle beside a plane: some hundredths of a second
-constexpr std::size_t most_slabs = 64;  // of a plane; to test more takes longer than to search for contacts
+constexpr double most_tests = 2e7; // of a triangle beside a plane: some hundredths of a second
+constexpr std::size_t most_slabs =
+    64; // of a plane; to test more takes longer than to search for contacts
 constexpr double float_rounding = 1e-6; // of a height, generously, in [-1, 1]
 
 struct Box {
@@ -23,6 +24,7 @@ struct Box {
 /// What is known of the surfaces of a plane class.
 struct Extent {
   Box box;
+  double grain = 1.0;                                   ///< the largest of its points
   double low = std::numeric_limits<double>::infinity(); ///< heights along the plane's normal
   double high = -std::numeric_limits<double>::infinity();
 };
@@ -51,13 +53,17 @@ std::vector<Extent> find_extents(const FrameGeometry& geometry) {
       extent.high = std::max(extent.high, height);
     }
   }
+  for (auto& extent : extents) {
+    const glm::vec3 farthest(glm::max(-extent.box.low, extent.box.high));
+    extent.grain = double{grain_at(geometry, farthest)};
+  }
   return extents;
 }
 
 /// The plane classes of the triangles that come near a plane within the box of its surfaces.
 std::vector<std::uint32_t> planes_near(const FrameGeometry& geometry, const Extent& extent,
                                        std::uint32_t plane, double reach) {
-  const auto margin = 2.0 * reach + float_rounding;
+  const auto margin = extent.grain * (2.0 * reach + float_rounding);
   const auto& normal = geometry.plane_normals[plane];
   std::vector<std::uint32_t> found;
   for (std::uint32_t t = 0; t < geometry.triangles.size() && found.size() <= most_slabs; ++t) {
@@ -77,10 +83,11 @@ std::vector<std::uint32_t> planes_near(const FrameGeometry& geometry, const Exte
   return found;
 }
 
-Slab slab_of(const Direction& normal, const Extent& extent, double reach) {
+/// `margin` is how far around it a point is not off it.
+Slab slab_of(const Direction& normal, const Extent& extent, double margin) {
   const glm::vec3 n(normal);
   return {n.x, n.y, n.z, static_cast<float>(0.5 * (extent.low + extent.high)),
-          static_cast<float>(0.5 * (extent.high - extent.low) + reach + float_rounding)};
+          static_cast<float>(0.5 * (extent.high - extent.low) + margin)};
 }
 
 /// The lanes whose origin is off all slabs.
@@ -125,8 +132,9 @@ NearPlanes find_near_planes(const FrameGeometry& geometry, double reach) {
     if (found[p].size() > most_slabs)
       continue;
     const auto begin = static_cast<std::uint32_t>(near.slabs.size());
+    const double margin = extents[order[p]].grain * (reach + float_rounding);
     for (const auto other : found[p])
-      near.slabs.push_back(slab_of(geometry.plane_normals[other], extents[other], reach));
+      near.slabs.push_back(slab_of(geometry.plane_normals[other], extents[other], margin));
     near.ranges[order[p]] = {begin, static_cast<std::uint32_t>(near.slabs.size())};
   }
   return near;
@@ -146,7 +154,8 @@ std::uint32_t lanes_off_all_else(const NearPlanes& near, const RayPacket& packet
     if (plane >= near.ranges.size() || near.ranges[plane].end == NearPlanes::unknown)
       continue;
     const auto& [begin, end] = near.ranges[plane];
-    certain |= together & bits_of(lanes_off(std::span(near.slabs).subspan(begin, end - begin), packet));
+    certain |=
+        together & bits_of(lanes_off(std::span(near.slabs).subspan(begin, end - begin), packet));
   }
   return certain;
 }

@@ -15,8 +15,7 @@
 namespace meninas {
 
 namespace {
-
-// Surfaces nearer to an origin than `reach` touch it.
+// Surfaces nearer to an origin than `reach` times its grain touch it.
 constexpr double reach = 2e-6;
 
 struct Release {
@@ -137,6 +136,7 @@ bool collect_contact(RTCPointQueryFunctionArguments* args) {
 Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving,
                      double least_reach) {
   ContactQuery query{&rays.geometry(), Point3(origin), leaving, std::max(reach, least_reach), {}};
+  query.reach *= double{grain_at(rays.geometry(), origin)};
   RTCPointQuery point{origin.x, origin.y, origin.z, 0.0F, static_cast<float>(2.0 * query.reach)};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
@@ -214,9 +214,8 @@ void load_legs(const FrameGeometry& geometry, const RayPacket& packet, const Lan
   set_directions(directions.x, directions.y, directions.z, rays);
 }
 
-/// Reads a traced packet;
 /// `touching` are the lanes whose hit lies in a plane that their origin lies in as well.
-void read_hits(const RTCRayHit16& traced, float noise, HitPacket& hits, LaneFlags& touching) {
+void read_hits(const RTCRayHit16& traced, const Impl& impl, HitPacket& hits, LaneFlags& touching) {
   const auto& [ray, hit] = traced;
   copy_lanes(hit.primID, hits.triangle);
   copy_lanes(ray.tfar, hits.distance);
@@ -224,11 +223,12 @@ void read_hits(const RTCRayHit16& traced, float noise, HitPacket& hits, LaneFlag
   copy_lanes(hit.v, hits.b2);
   std::array<float, packet_size> slope;
   for (std::size_t k = 0; k < packet_size; ++k) {
-    slope[k] = hit.Ng_x[k] * ray.dir_x[k] + hit.Ng_y[k] * ray.dir_y[k] + hit.Ng_z[k] * ray.dir_z[k];
-    const auto squared =
-        hit.Ng_x[k] * hit.Ng_x[k] + hit.Ng_y[k] * hit.Ng_y[k] + hit.Ng_z[k] * hit.Ng_z[k];
-    const auto height = slope[k] * ray.tfar[k];
-    touching[k] = height * height < noise * noise * squared ? -1 : 0;
+    const auto x = hit.Ng_x[k], y = hit.Ng_y[k], z = hit.Ng_z[k];
+    slope[k] = x * ray.dir_x[k] + y * ray.dir_y[k] + z * ray.dir_z[k];
+    const auto squared = x * x + y * y + z * z;
+    const auto grain = grain_at(impl.geometry, ray.org_x[k], ray.org_y[k], ray.org_z[k]);
+    const auto height = slope[k] * ray.tfar[k] / grain;
+    touching[k] = height * height < impl.noise * impl.noise * squared ? -1 : 0;
   }
   for (std::size_t k = 0; k < packet_size; ++k)
     hits.front[k] = slope[k] < 0.0F;
@@ -276,12 +276,12 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
   context.flags = flags_for(coherence);
   rtcIntersect16(valid.data(), impl.scene.get(), &context, &traced);
   alignas(64) LaneFlags touching;
-  read_hits(traced, impl.noise, hits, touching);
+  read_hits(traced, impl, hits, touching);
 
   const auto doubts = find_doubts(impl.geometry, packet, hits, valid, touching, backs);
   if (doubts.through != 0) {
     trace_through(impl, packet, coherence, doubts.through, traced);
-    read_hits(traced, impl.noise, hits, touching);
+    read_hits(traced, impl, hits, touching);
   }
   const auto off = lanes_off_all_else(impl.near_planes, packet, doubts.at_contact);
   ContactMemory memory;
