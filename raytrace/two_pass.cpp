@@ -4,10 +4,14 @@
 #include "radiosity/standing_walls.h"
 #include "radiosity/surface_colour.h"
 #include "scenes/errors.h"
+#include "scenes/mixed_scales.h"
 #include "scenes/smooth_surfaces.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
 
 namespace meninas {
 
@@ -47,6 +51,8 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
   prepared->textures = decoded_or_white(prepared->scene, prepared->plan.warnings);
   prepared->rays.emplace(make_ray_scene(prepared->scene, prepared->surfaces,
                                         holes_of(prepared->scene, prepared->textures)));
+  std::ranges::move(warnings_of_mixed_scales(prepared->scene, prepared->surfaces, *prepared->rays),
+                    std::back_inserter(prepared->plan.warnings));
   const DarkSides dark = find_dark_sides(prepared->scene, prepared->surfaces, *prepared->rays);
   prepared->mesh = make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh, dark);
   prepared->mesh = divide_under_walls(std::move(prepared->mesh), prepared->scene,

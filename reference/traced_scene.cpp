@@ -2,9 +2,11 @@
 
 #include "image/image_file.h"
 #include "reference/mirrored_lights.h"
+#include "scenes/mixed_scales.h"
 #include "scenes/refraction.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace meninas::reference {
 
@@ -26,6 +28,8 @@ bool is_see_through(const Material& material) {
 TracedScene make_traced_scene(Scene scene) {
   SurfaceModel surfaces = find_surfaces(scene);
   RayScene rays = make_ray_scene(scene, surfaces);
+  std::ranges::move(warnings_of_mixed_scales(scene, surfaces, rays),
+                    std::back_inserter(scene.warnings));
   std::vector<Direction> normals;
   normals.reserve(scene.triangles.size());
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)

@@ -2,6 +2,7 @@
 
 #include "runs/resources.h"
 #include "scenes/gltf.h"
+#include "scenes/mixed_scales.h"
 #include "scenes/smooth_surfaces.h"
 #include "scenes/stopwatch.h"
 
@@ -178,6 +179,13 @@ std::string formfactors_run(const FormFactorsRequest& request, const RunEvents& 
     }
   }
   const SurfaceModel surfaces = find_surfaces(scene);
+  const auto mixed =
+      request.factors.method == NodeFactorMethod::analytic
+          ? warnings_of_merged_planes(scene, surfaces)
+          : warnings_of_mixed_scales(scene, surfaces, make_ray_scene(scene, surfaces));
+  for (const std::string& warning : mixed) {
+    warn(events, warning);
+  }
   if (request.format == FormFactorsFormat::matrix) {
     return matrix(scene, surfaces, request, events);
   }
