@@ -213,6 +213,7 @@ Assembly make_assembly(const LightScene& light, const Surroundings& around,
   assembly.extended.accuracy = settings.accuracy;
   assembly.extended.max_depth = settings.max_bounces;
   assembly.extended.listing = WorldListing::totals;
+  assembly.extended.shadow_lines /= std::max<std::size_t>(1, element_count(light.mesh));
   assembly.depth_capped = settings.max_bounces < FormFactorSettings{}.max_bounces;
   assembly.closed = is_closed(light.scene, 0.5 * tolerance);
   assembly.cell = cell_of(around, tolerance);

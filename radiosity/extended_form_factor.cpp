@@ -78,15 +78,16 @@ private:
   }
 
   std::vector<Region> first_regions() const {
-    constexpr std::size_t most_lines = 10'000'000; // some tenths of a second
-    const std::vector<BlockerEdge> edges = edges_of(view_.blockers);
+    const std::size_t most_lines = settings_.shadow_lines / std::max<std::size_t>(1, from_.size());
+    std::vector<BlockerEdge> edges;
+    if (view_.blockers.size() < most_lines)
+      edges = edges_of(view_.blockers);
     std::vector<Region> regions;
     for (std::size_t f = 0; f < from_.size(); ++f) {
       if (!needs_points(f))
         continue;
       std::vector<ConvexPolygon> parts = cut_at_contacts(from_[f], view_.blockers, view_.tolerance);
-      cut_at_shadows(parts, from_[f], view_, edges, clear_.known[f], uses_mirrors(),
-                     most_lines / from_.size());
+      cut_at_shadows(parts, from_[f], view_, edges, clear_.known[f], uses_mirrors(), most_lines);
       for (const ConvexPolygon& polygon : parts)
         for (std::size_t k = 2; k < polygon.size; ++k) {
           Region region;

@@ -18,7 +18,7 @@ namespace {
 /// Integrals over an element, as its points tell; each of (w x)^2.
 struct Found {
   bool known = false;
-  bool quick = false; ///< by quick samples, of unknown variance
+  bool quick = false; ///< by quick samples: plain, and taken for free of noise
   int points = 0;     ///< that count
   double off = 0.0;   ///< x = H - H~
   double light = 0.0; ///< x = H
@@ -145,8 +145,10 @@ void look_at_elements(const Refinement& refinement, const SampledField& field, d
   const FieldSampler& sampler = refinement.sampler;
   const OutlinesIn outlined = outlines_in(refinement, growing);
   for_each_in_parallel(element_count(mesh), [&](std::size_t e) {
+    // What was plain for its share once may hide too much for one that has become smaller.
     Found& found = growing.found[e];
-    if (found.known)
+    const bool seen = found.known, told = !found.quick || found.off <= next_to_nothing * share;
+    if (seen && told)
       return;
     const Look look(refinement, growing, field.total, static_cast<ElementId>(e));
     const auto outlines = outlined.find(static_cast<std::uint32_t>(e));
@@ -155,7 +157,7 @@ void look_at_elements(const Refinement& refinement, const SampledField& field, d
     const int points = closely ? settings.root_points : settings.points;
     const std::span<const Vec2> on_outline =
         passed ? std::span<const Vec2>(outlines->second) : std::span<const Vec2>{};
-    if (sampler.quick) {
+    if (sampler.quick && !seen) {
       found = look.at(sampler.quick, points, on_outline);
       found.quick = true;
     }

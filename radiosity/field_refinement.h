@@ -59,7 +59,7 @@ struct FieldSampler {
   SamplePoint at_vertices, between;
   IsOpenPoint is_open;
   SamplePoint quick =
-      {}; ///< between vertices, for less, of unknown variance; none: nothing is quicker
+      {}; ///< between vertices, for less, with variance 0; none: nothing is quicker
 };
 
 struct RefinementSettings {

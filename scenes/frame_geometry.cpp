@@ -76,7 +76,7 @@ FrameGeometry make_frame_geometry(const Scene& scene, const SurfaceModel& surfac
   geometry.frame = frame_of(scene, surfaces.detail);
   if (!surfaces.detail.is_all)
     geometry.detail =
-        static_cast<float>(std::min(1.0, surfaces.detail.radius * geometry.frame.scale));
+        static_cast<float>(std::clamp(surfaces.detail.radius * geometry.frame.scale, 1e-30, 1.0));
 
   geometry.positions.reserve(scene.vertices.size());
   for (const auto& vertex : scene.vertices)

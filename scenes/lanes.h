@@ -10,7 +10,8 @@ inline constexpr auto no_index = std::numeric_limits<std::uint32_t>::max();
 
 // The frame maps the scene into [-1, 1], where floats are rounded by at most 3e-8 per coordinate.
 // Origins are lifted off the plane they leave by `lift`, a few such roundings, times the grain
-// of the place (frame_geometry.h), so that the plane is hardly ever hit again; where it is, the query is repeated with a filter that knows the plane.
+// of the place (frame_geometry.h), so that the plane is hardly ever hit again;
+// where it is, the query is repeated with a filter that knows the plane.
 inline constexpr float lift = 1e-6F;
 
 struct LaneRay {

@@ -19,6 +19,18 @@ struct LostGap {
   double width = std::numeric_limits<double>::infinity();
 };
 
+/// Whether a triangle is off a plane, before it, or behind it if that side counts as well:
+/// what continues the surface or stands on it leaves no gap.
+bool hovers(const Scene& scene, TriangleId triangle, const Plane& plane, double known,
+            bool both_sides) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Point3& corner : corners(scene, triangle)) {
+    low = std::min(low, signed_distance(plane, corner));
+    high = std::max(high, signed_distance(plane, corner));
+  }
+  return low > known || (both_sides && high < -known);
+}
+
 LostGap gap_before(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
                    const Patch& patch) {
   // A gap of a few times what counts as contact is still known to no more than a part of itself.
@@ -33,7 +45,9 @@ LostGap gap_before(const Scene& scene, const SurfaceModel& surfaces, const RaySc
     const double width = distance_to(corners(scene, contact.triangle), middle);
     const double known =
         std::max(surface.tolerance, surface_of(surfaces, contact.triangle).tolerance);
-    if (width > known && width < gap.width)
+    const bool both = scene.materials[index(patch.material)].double_sided;
+    if (width > known && width < gap.width &&
+        hovers(scene, contact.triangle, surface.plane, known, both))
       gap = {patch.node, scene.triangles[index(contact.triangle)].node, width};
   }
   return gap;
@@ -95,7 +109,7 @@ std::vector<std::string> warnings_of_merged_planes(const Scene& scene,
   // Programs round more coarsely than their files tell; so much more is a gap.
   constexpr double clearly = 64.0;
   const Precision precision(scene);
-  double widest = 0.0;
+  double widest = 0.0, known = 0.0;
   NodeId node = none<NodeId>;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const TriangleId triangle{t};
@@ -105,6 +119,7 @@ std::vector<std::string> warnings_of_merged_planes(const Scene& scene,
                               surfaces.planes[index(surfaces.plane_of_triangle[t])], corner)));
     if (off > widest && off > clearly * precision.alone(triangle)) {
       widest = off;
+      known = 0.25 * surface_of(surfaces, triangle).tolerance;
       node = scene.triangles[t].node;
     }
   }
@@ -115,8 +130,7 @@ std::vector<std::string> warnings_of_merged_planes(const Scene& scene,
   return {fmt::format("'{}' counts as lying in one plane with another surface, though {:.2g} m off "
                       "it: in a scene {:.2g} times as wide corners are only known to {:.2g} m; "
                       "leave out what is far away",
-                      scene.nodes[index(node)].name, widest, extent / widest,
-                      0.25 * surfaces.tolerance)};
+                      scene.nodes[index(node)].name, widest, extent / widest, known)};
 }
 
 std::vector<std::string> warnings_of_mixed_scales(const Scene& scene, const SurfaceModel& surfaces,
