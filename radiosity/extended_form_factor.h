@@ -29,8 +29,8 @@ struct ExtendedSettings {
   int max_depth = 1'000'000;        ///< mirrors a path may meet
   std::size_t max_points = 50'000; ///< of the integration: in a cluttered room some ten seconds
   std::size_t max_visits = 30'000'000; ///< worlds looked at from all points together
-  /// Lines of shadow that are drawn to cut the senders by (shadow_lines.h): some tenths of a second.
-  /// Where there are as many blockers senders are not cut.
+  /// Lines of shadow that are drawn to cut the senders by (shadow_lines.h), some tenths of a
+  /// second. Where there are as many blockers senders are not cut.
   std::size_t shadow_lines = 10'000'000;
   WorldListing listing = WorldListing::worlds;
   /// By group, the brightness of what is there:
