@@ -185,6 +185,11 @@ TEST(MixedScales, WhatRaysCannotTellIsSaid) {
         << width;
   }
 
+  // A closed plate a millimetre thick has nothing but itself behind its faces.
+  Scene hall = land(1e3);
+  add_box(hall, "plate", {0.0, 1.0, 0.0}, {0.5, 1.001, 0.5}, diffuse(0.5));
+  EXPECT_THAT(warnings_of(as_exported(hall)), IsEmpty());
+
   // A level ground stays where it is in floats, a slanted one does not.
   Scene ground = furnace(0.8, {});
   add_polygon(ground, "ground",
