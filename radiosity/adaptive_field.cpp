@@ -18,6 +18,42 @@ namespace meninas {
 
 namespace {
 
+/// w = rho / (B + B_mean) of every root cell, by CellId:
+/// what an error of irradiance there is to the eye.
+/// B_mean is a mean over the area that counts. `irradiance` by ElementId.
+std::vector<double> error_weights(const ElementMesh& mesh, const std::vector<Rgb>& irradiance) {
+  const std::size_t roots =
+      mesh.sides.empty() ? 0 : mesh.sides.back().first_cell + mesh.sides.back().root_count;
+  std::vector<double> weight(roots, 0.0);
+  const auto reflected = [&](std::uint32_t root) {
+    const MeshCell& cell = mesh.cells[root];
+    Rgb sum(0.0);
+    for (std::uint32_t e = cell.first_element; e < cell.first_element + cell.element_count; ++e)
+      sum += mesh.area[e] * irradiance[e];
+    return largest(mesh.sides[index(cell.side)].reflectance * sum) / cell.area;
+  };
+  double sum = 0.0, area = 0.0;
+  for (std::uint32_t root = 0; root < roots; ++root) {
+    const double counted = counted_area(mesh, mesh.cells[root]);
+    sum += counted * reflected(root);
+    area += counted;
+  }
+  if (!(sum > 0.0))
+    return weight;
+  for (std::uint32_t root = 0; root < roots; ++root)
+    weight[root] = largest(mesh.sides[index(mesh.cells[root].side)].reflectance) /
+                   (reflected(root) + sum / area);
+  return weight;
+}
+
+/// For that share of the error that is wanted.
+RefinementSettings refinement_of(const AdaptiveSettings& adaptive, double share) {
+  RefinementSettings refinement;
+  refinement.error = share * adaptive.error;
+  refinement.max_elements = adaptive.max_elements;
+  return refinement;
+}
+
 /// The values of a field at the vertices of a mesh that has all of its cells.
 std::vector<glm::vec3> carried(const ElementMesh& mesh, const std::vector<glm::vec3>& values,
                                const ElementMesh& finer, const SurfaceModel& surfaces) {

@@ -6,41 +6,8 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace meninas {
-
-std::vector<double> error_weights(const ElementMesh& mesh, const std::vector<Rgb>& irradiance) {
-  const std::size_t roots =
-      mesh.sides.empty() ? 0 : mesh.sides.back().first_cell + mesh.sides.back().root_count;
-  std::vector<double> weight(roots, 0.0);
-  const auto reflected = [&](std::uint32_t root) {
-    const MeshCell& cell = mesh.cells[root];
-    Rgb sum(0.0);
-    for (std::uint32_t e = cell.first_element; e < cell.first_element + cell.element_count; ++e)
-      sum += mesh.area[e] * irradiance[e];
-    return largest(mesh.sides[index(cell.side)].reflectance * sum) / cell.area;
-  };
-  double sum = 0.0, area = 0.0;
-  for (std::uint32_t root = 0; root < roots; ++root) {
-    const double counted = counted_area(mesh, mesh.cells[root]);
-    sum += counted * reflected(root);
-    area += counted;
-  }
-  if (!(sum > 0.0))
-    return weight;
-  for (std::uint32_t root = 0; root < roots; ++root)
-    weight[root] = largest(mesh.sides[index(mesh.cells[root].side)].reflectance) /
-                   (reflected(root) + sum / area);
-  return weight;
-}
-
-RefinementSettings refinement_of(const AdaptiveSettings& adaptive, double share) {
-  RefinementSettings refinement;
-  refinement.error = share * adaptive.error;
-  refinement.max_elements = adaptive.max_elements;
-  return refinement;
-}
 
 SamplePoint mean_of_two(const SamplePoint& sample) {
   return

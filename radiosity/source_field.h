@@ -9,14 +9,6 @@
 
 namespace meninas {
 
-/// w = rho / (B + B_mean) of every root cell, by CellId:
-/// what an error of irradiance there is to the eye.
-/// B_mean is a mean over the area that counts. `irradiance` by ElementId.
-std::vector<double> error_weights(const ElementMesh& mesh, const std::vector<Rgb>& irradiance);
-
-/// For that share of the error that is wanted.
-RefinementSettings refinement_of(const AdaptiveSettings& adaptive, double share);
-
 /// The mean of two samples, whose difference tells its variance.
 SamplePoint mean_of_two(const SamplePoint& sample);
 
