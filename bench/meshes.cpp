@@ -33,7 +33,7 @@ using namespace meninas::bench;
 
 namespace {
 
-constexpr int samples = 256;
+constexpr int samples = 1024;
 constexpr int most_runs = 5; // the shortest counts
 constexpr double enough_seconds = 20.0;
 

@@ -15,6 +15,7 @@
 #pragma once
 
 #include "radiosity/bends.h"
+#include "radiosity/covered_cells.h"
 #include "radiosity/hierarchical/node_vertices.h"
 
 namespace meninas {
@@ -24,6 +25,7 @@ struct ReceiverNodes {
   NodeTree tree;
   std::vector<TreeNodeId> receivers;
   double bend = 0.0; ///< X
+  std::vector<CoveredCells> covered; ///< by ElementId: on what something stands
   std::vector<std::uint8_t>
       share_light; ///< by ElementId, 1: their corners know light from the source better than they do
 };

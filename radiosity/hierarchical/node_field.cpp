@@ -2,6 +2,7 @@
 
 #include "radiosity/gather_noise.h"
 #include "radiosity/hierarchical/node_edges.h"
+#include "radiosity/hierarchical/open_parts.h"
 #include "radiosity/vertex_places.h"
 
 #include <algorithm>
@@ -135,37 +136,39 @@ std::vector<std::uint8_t> with_covered_corner(const FoundField& found) {
   return covered;
 }
 
-/// Of what receivers have received, elements with a covered corner keep what the others leave.
+/// Of what receivers have received, those `shaded` of their elements keep what the others leave.
 /// Covered corners have the light of the open, continued: as if nothing shaded the wall
 /// behind what hangs before it. So there is no more than that.
 /// What is left of a receiver A is off by some e = 2 % of all it has, which on elements A_c
 /// is e A / A_c, the light that goes on by up to some b = 30 %: each counts by its inverse square.
-void leave_the_rest(const ReceiverNodes& receivers, const FoundField& found,
-                    const std::vector<Rgb>& solved, std::vector<Rgb>& received) {
+void leave_the_rest(const ReceiverNodes& receivers, const ElementMesh& mesh,
+                    const std::vector<std::uint8_t>& shaded, const std::vector<Rgb>& solved,
+                    std::vector<Rgb>& received) {
   constexpr double e_by_b = 0.02 / 0.3;
-  const std::vector<std::uint8_t> covered = with_covered_corner(found);
   for (const TreeNodeId receiver : receivers.receivers) {
     Rgb rest(0.0);
     double area = 0.0, all = 0.0;
     for (const ElementId element : elements_below(receivers.tree, receiver)) {
       const std::size_t e = index(element);
-      rest += found.mesh.area[e] * (solved[e] - (covered[e] != 0 ? Rgb(0.0) : received[e]));
-      area += covered[e] != 0 ? found.mesh.area[e] : 0.0;
-      all += found.mesh.area[e];
+      const double exposed = mesh.area[e] * double{exposed_share(mesh, e, receivers.covered[e])};
+      rest += exposed * (solved[e] - (shaded[e] != 0 ? Rgb(0.0) : received[e]));
+      area += shaded[e] != 0 ? exposed : 0.0;
+      all += exposed;
     }
     if (!(area > 0.0))
       continue;
     const double share = 1.0 / (1.0 + std::pow(e_by_b * all / area, 2.0));
     for (const ElementId element : elements_below(receivers.tree, receiver))
-      if (Rgb& light = received[index(element)]; covered[index(element)] != 0)
+      if (Rgb& light = received[index(element)]; shaded[index(element)] != 0)
         light = glm::mix(light, glm::clamp(rest / area, Rgb(0.0), light), share);
   }
 }
 
 /// What elements receive, by their corners: all of it where they share points for light from the
-/// source (node_light.h), or the rest. Of a spot of a few elements corners do not tell the light.
+/// source (node_light.h), or the rest. Of a spot of a few elements corners do not tell the light,
+/// and of an element on which something stands its open part does (open_parts.h).
 std::vector<Rgb> received_at_corners(const ElementLight& elements, const ReceiverNodes& receivers,
-                                     const FoundField& found,
+                                     const VertexSource& source, const FoundField& found,
                                      const std::vector<glm::vec3>& irradiance,
                                      const std::vector<glm::vec3>& indirect) {
   std::vector<Rgb> received = corner_means(found.mesh, irradiance);
@@ -173,7 +176,14 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Receive
   for (std::size_t e = 0; e < received.size(); ++e)
     if (receivers.share_light[e] == 0)
       received[e] = elements.from_source[e] + rest[e];
-  leave_the_rest(receivers, found, elements.irradiance, received);
+  std::vector<std::uint8_t> shaded = with_covered_corner(found);
+  const auto in_open_parts = light_in_open_parts(source, receivers.covered);
+  for (std::size_t e = 0; e < received.size(); ++e)
+    if (in_open_parts[e]) {
+      received[e] = *in_open_parts[e];
+      shaded[e] = 0;
+    }
+  leave_the_rest(receivers, found.mesh, shaded, elements.irradiance, received);
   return received;
 }
 
@@ -183,7 +193,7 @@ std::vector<Rgb> reflected_by_field(const ElementMesh& mesh, const VertexSource&
                                     FoundField found) {
   share_out(gather_at_nodes({few, few}, receivers, few_rays * receivers.bend, found), found);
   const std::vector<Rgb> received =
-      received_at_corners(elements, receivers, found, filled(found, found.field.irradiance),
+      received_at_corners(elements, receivers, few, found, filled(found, found.field.irradiance),
                           filled(found, found.field.indirect));
   std::vector<Rgb> reflected = elements.reflected;
   for (std::size_t e = 0; e < received.size(); ++e)
@@ -210,8 +220,8 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
       by_small{elements.irradiance, seen_by_small, workspaces};
   share_out(gather_at_nodes({source, by_small}, receivers, receivers.bend, found), found);
   InterpolatedField result{.field = settled(source, found)};
-  result.received = received_at_corners(elements, receivers, found, result.field.irradiance,
-                                        result.field.indirect);
+  result.received = received_at_corners(elements, receivers, by_small, found,
+                                        result.field.irradiance, result.field.indirect);
   divide_bent(light, source, bend_scale(light.mesh, elements.reflected), how.interpolation.bend,
               std::move(found), result);
   return result;

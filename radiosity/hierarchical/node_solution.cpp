@@ -128,7 +128,7 @@ std::uint64_t bytes_of(const Transport& transport) {
 } // namespace
 
 FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows) {
-  constexpr double few = 1024.0;
+  constexpr double few = 128.0;
   constexpr int least = 32;
   const double share = settings.rays * std::min(few / double(std::max<std::size_t>(rows, 1)), 1.0);
   const auto shared = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(share))));
@@ -193,7 +193,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
                     tree.nodes.size() * sizeof(TreeNode) + bytes_of(cut.rows) +
                         bytes_of(received.links)};
   result.receivers = {std::move(tree), std::move(cut.receivers), settings.link_error,
-                      std::move(found.shared)};
+                      std::move(covered), std::move(found.shared)};
   return result;
 }
 

@@ -26,7 +26,7 @@
 // Where vertices gather what is seen (node_field.h), elements only light others,
 // on average over many, and what is seen of them is as vertices have it (node_field.h):
 // X is twenty link errors, light from the source is that of nodes (node_light.h),
-// and where there are more than 1,024 receivers their rows share the rays of so many.
+// and where there are more than 128 receivers their rows share the rays of so many.
 //
 // Cost: first light and pushes are linear in elements; rows as many as receivers, whose number
 // depends on the light and on X, and on elements only while these are larger than X asks for.
@@ -61,7 +61,7 @@ enum class ElementsAre { seen, sources };
 
 NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& form_factors,
                             const DirectSettings& direct, const HierarchicalSettings& settings,
-                            ElementsAre elements,
-                            const SolverSettings& solver, const Progress& progress = {});
+                            ElementsAre elements, const SolverSettings& solver,
+                            const Progress& progress = {});
 
 } // namespace meninas
