@@ -1,5 +1,6 @@
 #include "radiosity/hierarchical/node_solution.h"
 
+#include "radiosity/gather_noise.h"
 #include "radiosity/hierarchical/node_light.h"
 #include "radiosity/solvers/linear_system.h"
 #include "scenes/stopwatch.h"
@@ -113,10 +114,76 @@ std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
   return marked;
 }
 
-FirstLight first_light_of(const LightScene& light, const NodeCut& cut,
-                          const DirectIrradiance& direct) {
-  return first_light(light, by_element(cut, cut.emission), by_element(cut, cut.closure), direct,
-                     FormFactorMethod::rays);
+/// What receivers gather from.
+struct NodeProblem {
+  const LightScene& light;
+  const NodeTree& tree;
+  const DirectSettings& direct;
+  ElementsAre elements;
+  const Progress& progress;
+};
+
+/// A cut, what stands on the elements, and their first light.
+struct LitCut {
+  NodeCut cut;
+  std::vector<CoveredCells> covered; ///< by ElementId, as are `areas`
+  std::vector<double> areas;         ///< exposed, m^2
+  DirectIrradiance direct;
+  FirstLight first;
+  std::uint64_t shadow_rays = 0; ///< of all cuts so far
+};
+
+void light_up(const NodeProblem& problem, LitCut& lit) {
+  const LightScene& light = problem.light;
+  // Smaller receivers may find that something stands on elements: then less of them is lit.
+  if (std::vector<CoveredCells> now = covered_elements(problem.tree, lit.cut); now != lit.covered) {
+    lit.covered = std::move(now);
+    lit.areas = exposed_areas(light.mesh, lit.covered);
+    lit.direct =
+        problem.elements == ElementsAre::seen
+            ? direct_irradiance(light, lit.covered, problem.direct, problem.progress)
+            : light_by_nodes(light, problem.tree, lit.covered, problem.direct, problem.progress);
+    lit.shadow_rays += lit.direct.shadow_rays;
+  }
+  lit.first = first_light(light, by_element(lit.cut, lit.cut.emission),
+                          by_element(lit.cut, lit.cut.closure), lit.direct, FormFactorMethod::rays);
+}
+
+/// The mean of the squares over the square of the mean.
+double unevenness(const std::vector<double>& areas, const std::vector<Rgb>& values) {
+  double area = 0.0, sum = 0.0, squares = 0.0;
+  for (std::size_t e = 0; e < areas.size(); ++e) {
+    const double value = largest(values[e]);
+    area += areas[e];
+    sum += areas[e] * value;
+    squares += areas[e] * value * value;
+  }
+  return sum > 0.0 ? area * squares / (sum * sum) : 1.0;
+}
+
+/// The first cut, lit, and how its rows are found:
+/// where elements only light others with few rays, and once more if light is so uneven
+/// that these are too few.
+LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_factors,
+                     FormFactorSettings& of_rows) {
+  const std::size_t rows = first_receivers(problem.light.mesh, problem.tree).size();
+  const auto find = [&](const FormFactorSettings& settings, LitCut& lit) {
+    of_rows = settings;
+    const std::uint64_t before = lit.cut.rays_traced;
+    lit.cut = first_cut(problem.light, problem.tree, of_rows, problem.progress);
+    lit.cut.rays_traced += before;
+    light_up(problem, lit);
+  };
+  LitCut lit;
+  if (problem.elements == ElementsAre::seen) {
+    find(form_factors, lit);
+    return lit;
+  }
+  find(rays_shared_out(form_factors, rows, 1.0), lit);
+  const double uneven = unevenness(lit.areas, lit.first.source);
+  if (const auto more = rays_shared_out(form_factors, rows, uneven); more.rays > of_rows.rays)
+    find(more, lit);
+  return lit;
 }
 
 std::uint64_t bytes_of(const Transport& transport) {
@@ -127,10 +194,15 @@ std::uint64_t bytes_of(const Transport& transport) {
 
 } // namespace
 
-FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows) {
-  constexpr double few = 128.0;
+FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows,
+                                   double unevenness) {
+  // The noise of N rays is sqrt(unevenness) N^-3/4 (gather_noise.h).
+  constexpr double few = 128.0, most = 1024.0, even = 4.0;
   constexpr int least = 32;
-  const double share = settings.rays * std::min(few / double(std::max<std::size_t>(rows, 1)), 1.0);
+  const double with_all =
+      std::clamp(few * std::pow(unevenness / even, 0.5 / noise_order), few, most);
+  const double share =
+      settings.rays * std::min(with_all / double(std::max<std::size_t>(rows, 1)), 1.0);
   const auto shared = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(share))));
   settings.rays = std::min(settings.rays, std::max(least, shared));
   return settings;
@@ -143,57 +215,41 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
   NodeSolution result;
   Stopwatch watch;
   NodeTree tree = make_node_tree(light.mesh, light.surfaces);
-  const FormFactorSettings of_rows =
-      elements == ElementsAre::seen
-          ? form_factors
-          : rays_shared_out(form_factors, first_receivers(light.mesh, tree).size());
-  NodeCut cut = first_cut(light, tree, of_rows, progress);
-  std::vector<CoveredCells> covered = covered_elements(tree, cut);
+  const NodeProblem problem{light, tree, direct, elements, progress};
+  FormFactorSettings of_rows;
+  LitCut lit = first_lit_cut(problem, form_factors, of_rows);
   const double spread = settings.link_error * (elements == ElementsAre::sources ? 20.0 : 1.0);
-  const auto find_light = [&] {
-    return elements == ElementsAre::seen ? direct_irradiance(light, covered, direct, progress)
-                                         : light_by_nodes(light, tree, covered, direct, progress);
-  };
-  DirectIrradiance found = find_light();
-  std::uint64_t shadow_rays = found.shadow_rays;
-
   Received received;
-  std::vector<double> areas;
   for (;;) {
-    // Smaller receivers may find that something stands on elements: then less of them is lit.
-    if (std::vector<CoveredCells> now = covered_elements(tree, cut); now != covered) {
-      covered = std::move(now);
-      found = find_light();
-      shadow_rays += found.shadow_rays;
-    }
-    areas = exposed_areas(light.mesh, covered);
-    result.first = first_light_of(light, cut, found);
     result.seconds_gathering += watch.lap();
-    received = solve_receivers(tree, cut, result.first, areas, solver);
-    const auto marked = to_divide(tree, cut, result.first, areas, received.irradiance, spread);
+    received = solve_receivers(tree, lit.cut, lit.first, lit.areas, solver);
+    const auto marked = to_divide(tree, lit.cut, lit.first, lit.areas, received.irradiance, spread);
     result.seconds_solving += watch.lap();
     if (std::ranges::find(marked, 1) == marked.end())
       break;
-    cut = moved_down(light, tree, std::move(cut), marked, of_rows, progress);
+    lit.cut = moved_down(light, tree, std::move(lit.cut), marked, of_rows, progress);
+    light_up(problem, lit);
   }
 
   // B = S + rho H, what receivers have pushed down to their elements.
+  const NodeCut& cut = lit.cut;
+  result.first = std::move(lit.first);
+  result.first.shadow_rays = lit.shadow_rays;
   result.arrived = by_element(cut, received.irradiance);
   result.solver = std::move(received.solver);
   result.solver.method = SolverMethod::hierarchical;
   result.solver.radiosity = result.first.source;
   for (std::size_t e = 0; e < result.arrived.size(); ++e)
     result.solver.radiosity[e] += result.first.reflectance[e] * result.arrived[e];
-  result.first.shadow_rays = shadow_rays;
   result.closure = by_element(cut, cut.closure);
-  for (std::size_t e = 0; e < covered.size(); ++e)
-    result.exposed.push_back(exposed_share(light.mesh, e, covered[e]));
+  for (std::size_t e = 0; e < lit.covered.size(); ++e)
+    result.exposed.push_back(exposed_share(light.mesh, e, lit.covered[e]));
   result.rays_traced = cut.rays_traced;
   result.figures = {cut.receivers.size(), received.links.columns.size(),
                     tree.nodes.size() * sizeof(TreeNode) + bytes_of(cut.rows) +
                         bytes_of(received.links)};
-  result.receivers = {std::move(tree), std::move(cut.receivers), settings.link_error,
-                      std::move(covered), std::move(found.shared)};
+  result.receivers = {std::move(tree), std::move(lit.cut.receivers), settings.link_error,
+                      std::move(lit.covered), std::move(lit.direct.shared)};
   return result;
 }
 

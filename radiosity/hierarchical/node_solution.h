@@ -26,7 +26,7 @@
 // Where vertices gather what is seen (node_field.h), elements only light others,
 // on average over many, and what is seen of them is as vertices have it (node_field.h):
 // X is twenty link errors, light from the source is that of nodes (node_light.h),
-// and where there are more than 128 receivers their rows share the rays of so many.
+// and where there are many receivers their rows share the rays of some.
 //
 // Cost: first light and pushes are linear in elements; rows as many as receivers, whose number
 // depends on the light and on X, and on elements only while these are larger than X asks for.
@@ -52,8 +52,11 @@ struct NodeSolution {
   double seconds_gathering = 0.0, seconds_solving = 0.0;
 };
 
-/// The settings for each row of so many that only light others.
-FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows);
+/// The settings for each row of so many that only light others: of more than 128 they share
+/// the rays of so many, or of more, up to 1,024, where light is so uneven that few rays find it.
+/// `unevenness` is the mean of the squares of first light over the square of its mean.
+FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows,
+                                   double unevenness = 1.0);
 
 /// What elements receive is what is seen of them,
 /// or it only lights others, and vertices gather what is seen.
