@@ -163,7 +163,7 @@ double unevenness(const std::vector<double>& areas, const std::vector<Rgb>& valu
 
 /// The first cut, lit, and how its rows are found:
 /// where elements only light others with few rays, and once more if light is so uneven
-/// that these are too few.
+/// that these are far too few.
 LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_factors,
                      FormFactorSettings& of_rows) {
   const std::size_t rows = first_receivers(problem.light.mesh, problem.tree).size();
@@ -181,7 +181,7 @@ LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_
   }
   find(rays_shared_out(form_factors, rows, 1.0), lit);
   const double uneven = unevenness(lit.areas, lit.first.source);
-  if (const auto more = rays_shared_out(form_factors, rows, uneven); more.rays > of_rows.rays)
+  if (const auto more = rays_shared_out(form_factors, rows, uneven); more.rays >= 4 * of_rows.rays)
     find(more, lit);
   return lit;
 }
