@@ -54,6 +54,9 @@ NodeCut merged(const NodeTree& tree, const NodeCut& before, const std::vector<st
   cut.rows.bands = fresh.rows.bands;
   cut.rows.row_begin.push_back(0);
   cut.rays_traced = before.rays_traced + fresh.rays_traced;
+  const std::size_t columns = before.rows.columns.size() + fresh.rows.columns.size();
+  cut.rows.columns.reserve(columns);
+  cut.rows.weights.reserve(columns * static_cast<std::size_t>(cut.rows.bands));
   for (std::size_t a = 0, b = 0; a < before.receivers.size() || b < fresh.receivers.size();) {
     const bool old = b == fresh.receivers.size() ||
                      (a < before.receivers.size() && before.receivers[a] < fresh.receivers[b]);
