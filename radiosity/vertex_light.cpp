@@ -72,14 +72,20 @@ static Cover cover_of(bool is_shut, const LightScene& light, const Receiver& rec
   return is_under_something(light, receiver, element_size) ? Cover::low : Cover::open;
 }
 
-Cover cover_in_the_dark(const LightScene& light, const FormFactorSettings& form_factors,
-                        const Receiver& receiver, double element_size, std::uint32_t seed,
-                        PointWorkspace& work) {
+bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
+                const Receiver& receiver, std::uint32_t seed, PointWorkspace& work) {
   constexpr int few_rays = 32;
   static const DirectionNet net = make_direction_net(few_rays);
   gather_rays(light, net, area_of(receiver), seed, form_factors, work.gather);
   work.rays += work.gather.result.traced;
-  return cover_of(sees_black(work.gather.result), light, receiver, element_size);
+  return sees_black(work.gather.result);
+}
+
+Cover cover_in_the_dark(const LightScene& light, const FormFactorSettings& form_factors,
+                        const Receiver& receiver, double element_size, std::uint32_t seed,
+                        PointWorkspace& work) {
+  return cover_of(is_shut_in(light, form_factors, receiver, seed, work), light, receiver,
+                  element_size);
 }
 
 /// Whether what was gathered is that of a point inside something,

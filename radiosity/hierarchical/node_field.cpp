@@ -168,7 +168,7 @@ void leave_the_rest(const ReceiverNodes& receivers, const ElementMesh& mesh,
 /// source (node_light.h), or the rest. Of a spot of a few elements corners do not tell the light,
 /// and of an element on which something stands its open part does (open_parts.h).
 std::vector<Rgb> received_at_corners(const ElementLight& elements, const ReceiverNodes& receivers,
-                                     const VertexSource& source, const FoundField& found,
+                                     const std::vector<OpenPart>& parts, const FoundField& found,
                                      const std::vector<glm::vec3>& irradiance,
                                      const std::vector<glm::vec3>& indirect) {
   std::vector<Rgb> received = corner_means(found.mesh, irradiance);
@@ -177,12 +177,11 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Receive
     if (receivers.share_light[e] == 0)
       received[e] = elements.from_source[e] + rest[e];
   std::vector<std::uint8_t> shaded = with_covered_corner(found);
-  const auto in_open_parts = light_in_open_parts(source, receivers.covered);
-  for (std::size_t e = 0; e < received.size(); ++e)
-    if (in_open_parts[e]) {
-      received[e] = *in_open_parts[e];
-      shaded[e] = 0;
-    }
+  for (const OpenPart& part : parts) {
+    const std::size_t e = index(part.element);
+    received[e] = elements.from_source[e] + part.share * part.indirect;
+    shaded[e] = 0;
+  }
   leave_the_rest(receivers, found.mesh, shaded, elements.irradiance, received);
   return received;
 }
@@ -190,11 +189,14 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Receive
 /// The radiosity of the elements by the field that they make themselves, found with few rays.
 std::vector<Rgb> reflected_by_field(const ElementMesh& mesh, const VertexSource& few,
                                     const ReceiverNodes& receivers, const ElementLight& elements,
-                                    FoundField found) {
+                                    const std::vector<OpenPart>& parts, FoundField found) {
   share_out(gather_at_nodes({few, few}, receivers, few_rays * receivers.bend, found), found);
-  const std::vector<Rgb> received =
-      received_at_corners(elements, receivers, few, found, filled(found, found.field.irradiance),
+  std::vector<Rgb> received =
+      received_at_corners(elements, receivers, parts, found, filled(found, found.field.irradiance),
                           filled(found, found.field.indirect));
+  for (const OpenPart& part : parts)
+    if (const std::size_t e = index(part.element); part.share > 0.0)
+      received[e] = elements.from_source[e] / part.share + part.indirect;
   std::vector<Rgb> reflected = elements.reflected;
   for (std::size_t e = 0; e < received.size(); ++e)
     if (elements.irradiance[e] != Rgb(0.0))
@@ -211,8 +213,9 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
       gathering_from(light, elements.reflected, how, few_rays, first_spared);
   const VertexSource few{elements.irradiance, solved, workspaces};
   light_vertices(few, found);
+  const std::vector<OpenPart> parts = open_parts(few, receivers.covered);
   const std::vector<Rgb> reflected =
-      reflected_by_field(light.mesh, few, receivers, elements, found);
+      reflected_by_field(light.mesh, few, receivers, elements, parts, found);
   const PointGathering seen = gathering_from(light, reflected, how, 1),
                        seen_by_small =
                            gathering_from(light, reflected, how, few_rays, small_spared);
@@ -220,8 +223,8 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
       by_small{elements.irradiance, seen_by_small, workspaces};
   share_out(gather_at_nodes({source, by_small}, receivers, receivers.bend, found), found);
   InterpolatedField result{.field = settled(source, found)};
-  result.received = received_at_corners(elements, receivers, by_small, found,
-                                        result.field.irradiance, result.field.indirect);
+  result.received = received_at_corners(elements, receivers, parts, found, result.field.irradiance,
+                                        result.field.indirect);
   divide_bent(light, source, bend_scale(light.mesh, elements.reflected), how.interpolation.bend,
               std::move(found), result);
   return result;

@@ -120,7 +120,7 @@ DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
   std::vector<std::uint8_t> seen(size, 0);
   if (const VertexElements facets = facets_around(light); !facets.elements.empty())
     seen = averaged_facets(light.mesh, facets);
-  std::vector<std::uint8_t> alone = seen;
+  std::vector<std::uint8_t> alone = std::move(seen);
   for (std::size_t e = 0; e < size; ++e)
     if (covered[e] != 0)
       alone[e] = 1;
@@ -128,7 +128,7 @@ DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
   std::vector<std::uint8_t> few;
   for (const TreeNodeId id : nodes) {
     const TreeNode& node = tree.nodes[index(id)];
-    few.push_back(is_leaf(node) && seen[index(node.element)] != 0 ? 0 : 1);
+    few.push_back(is_leaf(node) && alone[index(node.element)] != 0 ? 0 : 1);
   }
   const DirectSettings shared =
       shared_out(settings, static_cast<std::size_t>(std::ranges::count(few, 1)));
@@ -138,7 +138,7 @@ DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
     if (!is_leaf(node))
       return direct_irradiance(light, area_of(light, node), index(nodes[k]), of_node, work);
     const std::size_t e = index(node.element);
-    return direct_irradiance(light, node.element, covered[e], seen[e] != 0 ? settings : of_node,
+    return direct_irradiance(light, node.element, covered[e], alone[e] != 0 ? settings : of_node,
                              work);
   };
   MeansOfAreas means = means_of_areas(

@@ -162,10 +162,10 @@ double unevenness(const std::vector<double>& areas, const std::vector<Rgb>& valu
 }
 
 /// The first cut, lit, and how its rows are found:
-/// where elements only light others with few rays, and once more if light is so uneven
-/// that these are far too few.
+/// where elements only light others with few rays, and once more if light is very uneven.
 LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_factors,
                      FormFactorSettings& of_rows) {
+  constexpr double very_uneven = 8.0; // which takes 2.5 times as many rays
   const std::size_t rows = first_receivers(problem.light.mesh, problem.tree).size();
   const auto find = [&](const FormFactorSettings& settings, LitCut& lit) {
     of_rows = settings;
@@ -181,7 +181,8 @@ LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_
   }
   find(rays_shared_out(form_factors, rows, 1.0), lit);
   const double uneven = unevenness(lit.areas, lit.first.source);
-  if (const auto more = rays_shared_out(form_factors, rows, uneven); more.rays >= 4 * of_rows.rays)
+  const FormFactorSettings more = rays_shared_out(form_factors, rows, uneven);
+  if (uneven > very_uneven && more.rays > of_rows.rays)
     find(more, lit);
   return lit;
 }
@@ -197,7 +198,7 @@ std::uint64_t bytes_of(const Transport& transport) {
 FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows,
                                    double unevenness) {
   // The noise of N rays is sqrt(unevenness) N^-3/4 (gather_noise.h).
-  constexpr double few = 128.0, most = 1024.0, even = 4.0;
+  constexpr double few = 128.0, most = 1024.0, even = 2.0;
   constexpr int least = 32;
   const double with_all =
       std::clamp(few * std::pow(unevenness / even, 0.5 / noise_order), few, most);

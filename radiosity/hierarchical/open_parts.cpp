@@ -5,52 +5,53 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 namespace meninas {
 
 namespace {
 
-constexpr int points_in_part = 4; // that are looked at
+constexpr int points_looked_at = 8, points_gathering = 4;
 
-std::optional<Rgb> light_in_part(const VertexSource& source, ElementId element,
-                                 CoveredCells covered, PointWorkspace& work) {
-  const LightScene& light = source.gathering.light;
-  const ReceiverArea area = receiver_of(light, element);
-  const double size = size_of(light.mesh, element);
-  const std::uint32_t seed = hash(index(element), source.gathering.form_factors.seed, 0x09e4);
+OpenPart open_part(const VertexSource& source, ElementId element, CoveredCells covered,
+                   PointWorkspace& work) {
+  const PointGathering& gathering = source.gathering;
+  const ReceiverArea area = receiver_of(gathering.light, element);
+  const std::uint32_t seed = hash(index(element), gathering.form_factors.seed, 0x09e4);
   Rgb sum(0.0);
-  int open = 0;
-  for (std::uint32_t number = 0, looked = 0; looked < points_in_part; ++number) {
+  int looked_at = 0, open = 0;
+  for (std::uint32_t number = 0; looked_at < points_looked_at; ++number) {
     const Vec2 sample(sobol2(number, seed, SobolPair::first));
     if (is_covered(covered, sample.x, sample.y))
       continue;
-    ++looked;
+    ++looked_at;
     const Receiver point{point_in(area, sample), area.normal, area.plane_class, Vec3(0.0),
                          area.coat};
-    const VertexValue value =
-        value_at(source.gathering, source.irradiance, point, size, hash(seed, number), work);
-    if (value.cover == Cover::shut)
+    const std::uint32_t own = hash(seed, number);
+    if (is_shut_in(gathering.light, gathering.form_factors, point, own, work))
       continue;
-    sum += value.irradiance.total;
-    ++open;
+    if (open++ < points_gathering)
+      sum += indirect_light_at(gathering, point, own, work).indirect().total;
   }
-  return open > 0 ? std::optional(sum / double(open)) : std::nullopt;
+  return {element, double(open) / points_looked_at,
+          sum / double(std::clamp(open, 1, points_gathering))};
 }
 
 } // namespace
 
-std::vector<std::optional<Rgb>> light_in_open_parts(const VertexSource& source,
-                                                    std::span<const CoveredCells> covered) {
+std::vector<OpenPart> open_parts(const VertexSource& source,
+                                 std::span<const CoveredCells> covered) {
   constexpr CoveredCells whole = ~CoveredCells{0};
-  std::vector<std::optional<Rgb>> lights(covered.size());
-  std::vector<std::size_t> parts;
-  for (std::size_t e = 0; e < covered.size(); ++e)
+  std::vector<std::uint32_t> in_part;
+  for (std::uint32_t e = 0; e < covered.size(); ++e)
     if (covered[e] != 0 && covered[e] != whole)
-      parts.push_back(e);
+      in_part.push_back(e);
+  std::vector<OpenPart> parts(in_part.size());
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
-    lights[parts[k]] = light_in_part(source, static_cast<ElementId>(parts[k]), covered[parts[k]],
-                                     source.workspaces.local());
+    parts[k] = open_part(source, static_cast<ElementId>(in_part[k]), covered[in_part[k]],
+                         source.workspaces.local());
   });
-  return lights;
+  return parts;
 }
 
 } // namespace meninas

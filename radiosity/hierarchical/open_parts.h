@@ -3,21 +3,29 @@
 // Their covered corners have no light of their own: what is continued to these from the open
 // is not what arrives beside the foot. A few points of the open part gather instead,
 //
-//   H_j = mean of H(x_k),   x_k in cells of j that are not covered (covered_cells.h).
+//   I_j = mean of I(x_k),   x_k in cells of j that are not covered (covered_cells.h), and not shut in,
 //
+// and of so many the share q_j that is not is open: a foot goes through cells.
+// What arrives from the source is known for all of these cells as a mean D_j, so that
+//
+//   H_j = D_j + q_j I_j,   B_j = rho_j (D_j / q_j + I_j),
+//
+// the mean over the cells, of which energy is counted, and what is seen, of the open alone.
 // There are as many such elements as feet are long, few of all.
 #pragma once
 
 #include "radiosity/covered_cells.h"
 #include "radiosity/found_field.h"
 
-#include <optional>
-
 namespace meninas {
 
-/// All light that arrives in the mean on the open part, W/m^2, by ElementId;
-/// none of elements that are open as a whole, or where no point sees light.
-std::vector<std::optional<Rgb>> light_in_open_parts(const VertexSource& source,
-                                                    std::span<const CoveredCells> covered);
+struct OpenPart {
+  ElementId element;
+  double share; ///< q
+  Rgb indirect; ///< I, W/m^2
+};
+
+/// Of elements that are covered in part, by ElementId.
+std::vector<OpenPart> open_parts(const VertexSource& source, std::span<const CoveredCells> covered);
 
 } // namespace meninas
