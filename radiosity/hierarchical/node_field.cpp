@@ -186,10 +186,13 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Receive
   return received;
 }
 
-/// The radiosity of the elements by the field that they make themselves, found with few rays.
-std::vector<Rgb> reflected_by_field(const ElementMesh& mesh, const VertexSource& few,
-                                    const ReceiverNodes& receivers, const ElementLight& elements,
-                                    const std::vector<OpenPart>& parts, FoundField found) {
+/// The radiosity of the elements by the field that they make themselves, found with few rays:
+/// `found` has it in between.
+std::vector<Rgb> reflected_by_field(const VertexSource& few, const ReceiverNodes& receivers,
+                                    const ElementLight& elements,
+                                    const std::vector<OpenPart>& parts, FoundField& found) {
+  DiffuseField lit = found.field;
+  std::vector<VertexState> states = found.states;
   share_out(gather_at_nodes({few, few}, receivers, few_rays * receivers.bend, found), found);
   std::vector<Rgb> received =
       received_at_corners(elements, receivers, parts, found, filled(found, found.field.irradiance),
@@ -200,7 +203,9 @@ std::vector<Rgb> reflected_by_field(const ElementMesh& mesh, const VertexSource&
   std::vector<Rgb> reflected = elements.reflected;
   for (std::size_t e = 0; e < received.size(); ++e)
     if (elements.irradiance[e] != Rgb(0.0))
-      reflected[e] = mesh.reflectance[e] * received[e];
+      reflected[e] = found.mesh.reflectance[e] * received[e];
+  found.field = std::move(lit);
+  found.states = std::move(states);
   return reflected;
 }
 
@@ -214,8 +219,7 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
   const VertexSource few{elements.irradiance, solved, workspaces};
   light_vertices(few, found);
   const std::vector<OpenPart> parts = open_parts(few, receivers.covered);
-  const std::vector<Rgb> reflected =
-      reflected_by_field(light.mesh, few, receivers, elements, parts, found);
+  const std::vector<Rgb> reflected = reflected_by_field(few, receivers, elements, parts, found);
   const PointGathering seen = gathering_from(light, reflected, how, 1),
                        seen_by_small =
                            gathering_from(light, reflected, how, few_rays, small_spared);
