@@ -117,10 +117,9 @@ DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
     return result;
   result.punctual.resize(light.punctual.empty() ? 0 : size);
 
-  std::vector<std::uint8_t> seen(size, 0);
+  std::vector<std::uint8_t> alone(size, 0);
   if (const VertexElements facets = facets_around(light); !facets.elements.empty())
-    seen = averaged_facets(light.mesh, facets);
-  std::vector<std::uint8_t> alone = std::move(seen);
+    alone = averaged_facets(light.mesh, facets);
   for (std::size_t e = 0; e < size; ++e)
     if (covered[e] != 0)
       alone[e] = 1;

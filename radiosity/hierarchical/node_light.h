@@ -6,11 +6,11 @@
 // What such elements light takes the mean over many of them,
 // so that what counts is how many points there are in all:
 // N of them, or twice as many, are shared out among the nodes. Their means are noisy, but true.
-// Elements of which something covers a part, whose corners do not tell (open_parts.h), and facets
-// of curved surfaces, whose means are seen (facets.h), are nodes by themselves and have all of their
-// points. Nodes of groups, a 512th of all elements, that reflect more than a 256th of all light have
-// all of theirs as well:
-// a spot of the sun is some tens of elements, and all light comes from there.
+// Elements of which something covers a part, whose corners do not tell (open_parts.h),
+// and facets of curved surfaces, whose means are seen (facets.h), are nodes by themselves
+// and have all of their points. So have nodes of groups, a 512th of all elements,
+// that reflect more than a 256th of all light: a spot of the sun is some tens of elements,
+// and all light comes from there.
 // There are at most 256 such groups, of some tens of nodes.
 #pragma once
 

@@ -158,14 +158,14 @@ double unevenness(const std::vector<double>& areas, const std::vector<Rgb>& valu
     sum += areas[e] * value;
     squares += areas[e] * value * value;
   }
-  return sum > 0.0 ? area * squares / (sum * sum) : 1.0;
+  return sum * sum > 0.0 ? area * squares / (sum * sum) : 1.0;
 }
 
 /// The first cut, lit, and how its rows are found:
 /// where elements only light others with few rays, and once more if light is very uneven.
 LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_factors,
                      FormFactorSettings& of_rows) {
-  constexpr double very_uneven = 8.0; // which takes 2.5 times as many rays
+  constexpr double very_uneven = 8.0; // which takes 2.5 times as many rays, and more
   const std::size_t rows = first_receivers(problem.light.mesh, problem.tree).size();
   const auto find = [&](const FormFactorSettings& settings, LitCut& lit) {
     of_rows = settings;
@@ -182,7 +182,8 @@ LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_
   find(rays_shared_out(form_factors, rows, 1.0), lit);
   const double uneven = unevenness(lit.areas, lit.first.source);
   const FormFactorSettings more = rays_shared_out(form_factors, rows, uneven);
-  if (uneven > very_uneven && more.rays > of_rows.rays)
+  if (form_factors.method == FormFactorMethod::rays && uneven > very_uneven &&
+      more.rays > of_rows.rays)
     find(more, lit);
   return lit;
 }

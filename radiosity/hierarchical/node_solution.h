@@ -26,7 +26,8 @@
 // Where vertices gather what is seen (node_field.h), elements only light others,
 // on average over many, and what is seen of them is as vertices have it (node_field.h):
 // X is twenty link errors, light from the source is that of nodes (node_light.h),
-// and where there are many receivers their rows share the rays of some.
+// and of more than 128 receivers the rows share the rays of so many,
+// or of up to 1,024 where light is uneven; where it is very uneven they are found twice.
 //
 // Cost: first light and pushes are linear in elements; rows as many as receivers, whose number
 // depends on the light and on X, and on elements only while these are larger than X asks for.

@@ -11,7 +11,7 @@ namespace meninas {
 
 namespace {
 
-constexpr int points_looked_at = 8, points_gathering = 4;
+constexpr int points_looked_at = 32, points_gathering = 4;
 
 OpenPart open_part(const VertexSource& source, ElementId element, CoveredCells covered,
                    PointWorkspace& work) {

@@ -167,8 +167,8 @@ TEST(LowSpaces, NodesDoNotLightAWallBehindAPanel) {
 // Where elements are few of their receiver's, what others leave of its light is nothing but the
 // noise of these: beside the foot of a box one was black, one 35 times as bright as it is,
 // and the corner of the box over that 28 times. Rows of 256 rays know a single element there to
-// a factor of 1.6 and nodes to 2, so that rows have to be better: then it is 2.5 with a margin.
-// A vertex of the box sees many elements, to 2.
+// a factor of 1.6 and nodes to 2, with other seeds to 3 where a tenth of it is exposed,
+// so that rows have to be better. A vertex of the box sees many elements, to 2.
 TEST(LowSpaces, NodesDoNotLightTheFootOfABoxByTheirNoise) {
   const auto l = lit(load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/cornell.gltf"),
                      {.element_size = 0.0857});
