@@ -1,6 +1,7 @@
 // Light from the source on nodes: points shared out among them bring what their elements light,
 // all together, the light that they receive.
 #include "radiosity/hierarchical/node_light.h"
+#include "radiosity/hierarchical/node_solution.h"
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
@@ -164,6 +165,22 @@ TEST(NodeLight, ElementsThatAreCoveredInPartAreByThemselves) {
   EXPECT_GT(most, 0.1);
   for (const std::size_t e : whole)
     EXPECT_EQ(nodes.irradiance[e].g, 0.0);
+}
+
+// Rows share the rays of 128 as long as light is even. Its noise is sqrt(unevenness) N^-3/4,
+// so that sixteen times as uneven it takes 16^(2/3) = 6.3 times as many, and never more than asked.
+TEST(NodeLight, RowsShareRaysAsLightAllows) {
+  FormFactorSettings settings;
+  settings.rays = 512;
+  const auto rays = [&](std::size_t rows, double unevenness) {
+    return rays_shared_out(settings, rows, unevenness).rays;
+  };
+  EXPECT_EQ(rays(100, 1.0), 512);
+  EXPECT_EQ(rays(1024, 1.0), 64);
+  EXPECT_EQ(rays(1024, 2.0), 64);
+  EXPECT_EQ(rays(1024, 32.0), 512) << "403.2, as a power of two";
+  EXPECT_EQ(rays(1024, 1e6), 512);
+  EXPECT_EQ(rays(100'000, 1.0), 32);
 }
 
 } // namespace
