@@ -8,12 +8,15 @@ namespace meninas {
 std::optional<Point3> hemicube_position(const ReceiverArea& element, CoveredCells covered) {
   if (covered == 0)
     return point_in(element, Vec2(element.triangle ? 1.0 / 3.0 : 0.5));
+  // Not at the foot, where there is something else.
+  const CoveredCells foot = cells_at_foot(covered);
+  const CoveredCells out = (covered | foot) == wholly_covered ? covered : covered | foot;
   std::array<Point3, 64> exposed;
   std::size_t count = 0;
   Point3 middle(0.0);
   for (std::uint32_t cell = 0; cell < 64; ++cell) {
     const Vec2 st = (Vec2(cell / 8, cell % 8) + 0.5) / 8.0;
-    if (is_covered(covered, st.x, st.y))
+    if (contains(out, st))
       continue;
     exposed[count] = point_in(element, st);
     middle += exposed[count++];
@@ -50,6 +53,7 @@ void gather_element(const LightScene& light, const Hemicube& cube, const Directi
     work.result.black_light = glm::vec3(static_cast<float>(cube.cells));
   }
   work.result.covered = covered.cells;
+  work.result.exposed = covered.exposed;
   work.result.traced += spent;
 }
 

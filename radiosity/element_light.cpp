@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 
 namespace meninas {
 
@@ -19,15 +18,11 @@ ArrivingLight mean_over(const LightScene& light, const ReceiverArea& area, Cover
                         SharedLightWorkspace& work) {
   std::uint32_t next = 0;
   const auto next_point = [&]() -> NumberedPoint {
-    for (;;) {
-      const std::uint32_t number = next++;
-      const Vec2 sample(sobol2(number, seed, SobolPair::first));
-      if (is_covered(covered, sample.x, sample.y))
-        continue;
-      return {{point_in(area, sample), area.normal, area.plane_class, Vec3(0.0), area.coat},
-              number,
-              element};
-    }
+    const NumberedPlace place = exposed_place(light, area, covered, seed, next);
+    next = place.number + 1;
+    return {{point_in(area, place.st), area.normal, area.plane_class, Vec3(0.0), area.coat},
+            place.number,
+            element};
   };
   return shared_irradiance(light, next_point,
                            {.points = settings.points,
@@ -42,8 +37,7 @@ ArrivingLight mean_over(const LightScene& light, const ReceiverArea& area, Cover
 
 ArrivingLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
                                 const DirectSettings& settings, SharedLightWorkspace& work) {
-  constexpr int whole = 64;
-  if (std::popcount(covered) == whole)
+  if (covered == wholly_covered)
     return {};
   return mean_over(light, receiver_of(light, element), covered, element,
                    hash(index(element), settings.seed, 0xd17ec7), settings, work);

@@ -170,7 +170,7 @@ void assemble_row(const Assembly& assembly, std::size_t row, Workspace& work, Ro
   const GatheredRays& gathered = work.gather.result;
   const Rgb kept = kept_light(gathered);
   result.covered[row] = gathered.covered;
-  result.exposed[row] = exposed_share(gathered.covered);
+  result.exposed[row] = gathered.exposed;
   result.closure[row] = closure_of(gathered);
   work.row.make_room(gathered.landings.size());
   work.beyond.make_room(gathered.landings.size());
@@ -241,7 +241,7 @@ FormFactors assemble_transport(const LightScene& light, const FormFactorSettings
   FormFactors factors =
       assemble_rows(light, element_count(light.mesh), element, settings, progress);
   for (std::size_t e = 0; e < factors.exposed.size(); ++e)
-    factors.exposed[e] = exposed_share(light.mesh, e, factors.covered[e]);
+    factors.exposed[e] *= light.mesh.solid[e];
   return factors;
 }
 

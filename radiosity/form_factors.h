@@ -65,7 +65,7 @@ struct FormFactors {
   Transport beyond; ///< the part in which no closed form owns emission: beyond the enumerated worlds (deep chains, facets); all of `analytic`
   std::vector<RowClosure> closure;      ///< by ElementId
   std::vector<std::uint64_t> covered;   ///< by ElementId: the cells on which something stands (gather_rays.h)
-  std::vector<float> exposed;           ///< by ElementId: exposed_share()
+  std::vector<float> exposed;           ///< by ElementId: the share of the area that is there and on which nothing stands
   std::uint64_t rays_traced = 0;        ///< legs, reflected ones included
 };
 

@@ -305,6 +305,7 @@ void gather_rays(const LightScene& light, const DirectionNet& net, const Receive
     const Covered covered = find_covered(light, net, source, work.black_lanes);
     result.covered = covered.cells;
     result.covered_rays = covered.rays;
+    result.exposed = covered.exposed;
   }
   follow_mirrors(light, settings, work);
 }

@@ -49,7 +49,8 @@ struct GatheredRays {
       cut_light{0.0F}; ///< sums of w tau over the rays that ended so
   std::uint64_t traced = 0;
   CoveredCells covered = 0;
-  double covered_rays = 0.0; ///< of `black`, those from covered cells
+  double covered_rays = 0.0; ///< of `black`, those from where something stands
+  float exposed = 1.0F;      ///< the share of the receiver's area on which nothing does
 
   void clear() {
     auto storage = std::move(landings);

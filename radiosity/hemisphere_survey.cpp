@@ -53,7 +53,7 @@ void survey_element(const LightScene& light, const DirectionNet& net, std::size_
   const GatheredRays& rays = work.gather.result;
   survey.closure[element] = closure_of(rays);
   survey.covered[element] = rays.covered;
-  survey.exposed[element] = exposed_share(light.mesh, element, rays.covered);
+  survey.exposed[element] = light.mesh.solid[element] * rays.exposed;
   const std::uint32_t own = index(light.mesh.side_of_element[element]);
   Rgb gathered(0.0), returned(0.0);
   for (const RayLanding& landing : rays.landings) {

@@ -14,7 +14,7 @@ struct HemisphereSurvey {
   std::vector<RowClosure> closure; ///< by ElementId
   std::vector<std::uint64_t>
       covered;                ///< by ElementId: the cells on which something stands (gather_rays.h)
-  std::vector<float> exposed; ///< by ElementId: exposed_share()
+  std::vector<float> exposed; ///< by ElementId: the share of the area that is there and on which nothing stands
   std::vector<Rgb> gathered;  ///< G by ElementId, W/m^2
   std::vector<Rgb>
       returned; ///< by ElementId: sum_i F_ji rho_i, the share of what it shoots that is reflected where it lands

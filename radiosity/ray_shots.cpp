@@ -6,7 +6,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace meninas {
@@ -17,18 +16,15 @@ constexpr std::uint32_t chunk_rays = 512;
 constexpr std::uint32_t least_rays = 64;
 constexpr std::uint32_t most_rays = 1U << 22U;
 
-/// (s, t) off the covered part: a point on it moves to one of the exposed cells.
-Vec2 exposed_place(CoveredCells covered, Vec2 st) {
-  constexpr int cells = 64;
-  const int exposed = cells - std::popcount(covered);
-  if (!is_covered(covered, st.x, st.y) || exposed == 0)
-    return st;
-  int skip = static_cast<int>(cell_of(st.x, st.y)) % exposed;
-  std::uint32_t cell = 0;
-  while (((covered >> cell) & 1U) != 0 || skip-- > 0)
-    ++cell;
-  const Vec2 within = glm::fract(8.0 * st);
-  return (Vec2(cell / 8, cell % 8) + within) / 8.0;
+/// Where on an element a ray starts: where `sample` says, or, of an element on which
+/// something stands, at a place of its own.
+Vec2 start_of(const LightScene& light, std::uint32_t element, CoveredCells covered, Vec2 sample,
+              std::uint32_t own_seed) {
+  if (covered == 0 || covered == wholly_covered)
+    return sample;
+  return exposed_place(light, receiver_of(light, static_cast<ElementId>(element)), covered,
+                       own_seed, 0)
+      .st;
 }
 
 /// What the coat above an element, if it is a mirror, lets out of the light of rays that leave it.
@@ -86,7 +82,8 @@ typename RayShots<Value>::ChunkResult RayShots<Value>::follow(const Shot& shot, 
         source = source_of(light_, element);
       shown = member;
       const auto sample = sobol4(begin + k, shot.seed);
-      const Vec2 st = exposed_place(survey_.covered[element], Vec2(sample[0], sample[1]));
+      const Vec2 st = start_of(light_, element, survey_.covered[element],
+                               Vec2(sample[0], sample[1]), hash(begin + k, shot.seed, 0x57a7));
       const Point3 from = point_in(source.area, st);
       packet.rays.origin_x[k] = static_cast<float>(from.x);
       packet.rays.origin_y[k] = static_cast<float>(from.y);

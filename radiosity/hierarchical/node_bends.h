@@ -26,6 +26,7 @@ struct ReceiverNodes {
   std::vector<TreeNodeId> receivers;
   double bend = 0.0; ///< X
   std::vector<CoveredCells> covered; ///< by ElementId: on what something stands
+  std::vector<double> exposed;       ///< by ElementId: the area on which nothing does, m^2
   std::vector<std::uint8_t>
       share_light; ///< by ElementId, 1: their corners know light from the source better than they do
 };

@@ -9,8 +9,6 @@ namespace meninas {
 
 namespace {
 
-constexpr CoveredCells whole = ~CoveredCells{0};
-
 /// Nodes of a cut and what they have gathered;
 /// without `receiver_of_element`, which is of whole cuts.
 NodeCut gathered_by(const LightScene& light, const NodeTree& tree, std::vector<TreeNodeId> nodes,
@@ -28,6 +26,7 @@ NodeCut gathered_by(const LightScene& light, const NodeTree& tree, std::vector<T
   part.rows = std::move(factors.transport);
   part.closure = std::move(factors.closure);
   part.covered = std::move(factors.covered);
+  part.exposed = std::move(factors.exposed);
   part.rays_traced = factors.rays_traced;
   return part;
 }
@@ -45,6 +44,7 @@ void append(const NodeCut& from, std::size_t receiver, NodeCut& to) {
   to.closure.push_back(from.closure[receiver]);
   to.emission.push_back(from.emission[receiver]);
   to.covered.push_back(from.covered[receiver]);
+  to.exposed.push_back(from.exposed[receiver]);
 }
 
 /// What is left of a cut, and what has taken the place of the rest, in the order of the tree.
@@ -82,7 +82,7 @@ std::vector<std::uint8_t> covered_in_part(const NodeTree& tree, const NodeCut& c
   for (std::size_t r = 0; r < cut.receivers.size(); ++r) {
     const TreeNode& node = tree.nodes[index(cut.receivers[r])];
     const bool meets_black = cut.closure[r].black > 0.0F && node.leaf_count > most_elements;
-    const bool partly = (cut.covered[r] != 0 || meets_black) && cut.covered[r] != whole;
+    const bool partly = (cut.covered[r] != 0 || meets_black) && cut.covered[r] != wholly_covered;
     marked.push_back(!is_leaf(node) && partly ? 1 : 0);
   }
   return marked;
@@ -159,13 +159,29 @@ NodeCut moved_down(const LightScene& light, const NodeTree& tree, NodeCut cut,
   }
 }
 
+/// Whether what a receiver knows of what stands on it is true of its elements.
+static bool tells_of_elements(const NodeTree& tree, const NodeCut& cut, std::size_t receiver) {
+  return is_leaf(tree.nodes[index(cut.receivers[receiver])]) ||
+         cut.covered[receiver] == wholly_covered;
+}
+
 std::vector<CoveredCells> covered_elements(const NodeTree& tree, const NodeCut& cut) {
   std::vector<CoveredCells> covered(tree.elements.size(), 0);
   for (std::size_t r = 0; r < cut.receivers.size(); ++r)
-    if (is_leaf(tree.nodes[index(cut.receivers[r])]) || cut.covered[r] == whole)
+    if (tells_of_elements(tree, cut, r))
       for (const ElementId element : elements_below(tree, cut.receivers[r]))
         covered[index(element)] = cut.covered[r];
   return covered;
+}
+
+std::vector<float> exposed_shares(const ElementMesh& mesh, const NodeTree& tree,
+                                  const NodeCut& cut) {
+  std::vector<float> exposed = mesh.solid;
+  for (std::size_t r = 0; r < cut.receivers.size(); ++r)
+    if (tells_of_elements(tree, cut, r))
+      for (const ElementId element : elements_below(tree, cut.receivers[r]))
+        exposed[index(element)] *= cut.exposed[r];
+  return exposed;
 }
 
 std::vector<Rgb> means_below(const NodeTree& tree, const NodeCut& cut,

@@ -23,11 +23,16 @@ struct NodeCut {
   std::vector<RowClosure> closure;                ///< by receiver
   std::vector<Rgb> emission;                      ///< by receiver: gathered_emission.h, W/m^2
   std::vector<CoveredCells> covered;              ///< by receiver, of itself
+  std::vector<float> exposed;                     ///< by receiver: the share of it on which nothing stands
   std::uint64_t rays_traced = 0;                  ///< for all nodes that have ever been receivers
 };
 
 /// By ElementId: the cells on which something stands.
 std::vector<CoveredCells> covered_elements(const NodeTree& tree, const NodeCut& cut);
+
+/// By ElementId: the share of its area that is there and on which nothing stands.
+std::vector<float> exposed_shares(const ElementMesh& mesh, const NodeTree& tree,
+                                  const NodeCut& cut);
 
 /// Four to sixteen nodes on every side that has so many elements:
 /// one for each 1/1024 of all there is.

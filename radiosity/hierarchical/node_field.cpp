@@ -141,8 +141,7 @@ std::vector<std::uint8_t> with_covered_corner(const FoundField& found) {
 /// behind what hangs before it. So there is no more than that.
 /// What is left of a receiver A is off by some e = 2 % of all it has, which on elements A_c
 /// is e A / A_c, the light that goes on by up to some b = 30 %: each counts by its inverse square.
-void leave_the_rest(const ReceiverNodes& receivers, const ElementMesh& mesh,
-                    const std::vector<std::uint8_t>& shaded, const std::vector<Rgb>& solved,
+void leave_the_rest(const ReceiverNodes& receivers, const std::vector<std::uint8_t>& shaded, const std::vector<Rgb>& solved,
                     std::vector<Rgb>& received) {
   constexpr double e_by_b = 0.02 / 0.3;
   for (const TreeNodeId receiver : receivers.receivers) {
@@ -150,7 +149,7 @@ void leave_the_rest(const ReceiverNodes& receivers, const ElementMesh& mesh,
     double area = 0.0, all = 0.0;
     for (const ElementId element : elements_below(receivers.tree, receiver)) {
       const std::size_t e = index(element);
-      const double exposed = mesh.area[e] * double{exposed_share(mesh, e, receivers.covered[e])};
+      const double exposed = receivers.exposed[e];
       rest += exposed * (solved[e] - (shaded[e] != 0 ? Rgb(0.0) : received[e]));
       area += shaded[e] != 0 ? exposed : 0.0;
       all += exposed;
@@ -179,10 +178,10 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Receive
   std::vector<std::uint8_t> shaded = with_covered_corner(found);
   for (const OpenPart& part : parts) {
     const std::size_t e = index(part.element);
-    received[e] = elements.from_source[e] + part.share * part.indirect;
+    received[e] = elements.from_source[e] + part.indirect;
     shaded[e] = 0;
   }
-  leave_the_rest(receivers, found.mesh, shaded, elements.irradiance, received);
+  leave_the_rest(receivers, shaded, elements.irradiance, received);
   return received;
 }
 
@@ -194,12 +193,9 @@ std::vector<Rgb> reflected_by_field(const VertexSource& few, const ReceiverNodes
   DiffuseField lit = found.field;
   std::vector<VertexState> states = found.states;
   share_out(gather_at_nodes({few, few}, receivers, few_rays * receivers.bend, found), found);
-  std::vector<Rgb> received =
+  const std::vector<Rgb> received =
       received_at_corners(elements, receivers, parts, found, filled(found, found.field.irradiance),
                           filled(found, found.field.indirect));
-  for (const OpenPart& part : parts)
-    if (const std::size_t e = index(part.element); part.share > 0.0)
-      received[e] = elements.from_source[e] / part.share + part.indirect;
   std::vector<Rgb> reflected = elements.reflected;
   for (std::size_t e = 0; e < received.size(); ++e)
     if (elements.irradiance[e] != Rgb(0.0))

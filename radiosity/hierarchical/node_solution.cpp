@@ -22,15 +22,6 @@ std::vector<Value> by_element(const NodeCut& cut, const std::vector<Value>& by_r
   return values;
 }
 
-/// m^2 by ElementId, of what is there and on which nothing stands.
-std::vector<double> exposed_areas(const ElementMesh& mesh,
-                                  const std::vector<CoveredCells>& covered) {
-  std::vector<double> areas;
-  for (std::size_t e = 0; e < covered.size(); ++e)
-    areas.push_back(mesh.area[e] * double{exposed_share(mesh, e, covered[e])});
-  return areas;
-}
-
 /// The system of the receivers and its solution.
 struct Received {
   SolverResult solver;         ///< of rho H, by receiver
@@ -126,8 +117,9 @@ struct NodeProblem {
 /// A cut, what stands on the elements, and their first light.
 struct LitCut {
   NodeCut cut;
-  std::vector<CoveredCells> covered; ///< by ElementId, as are `areas`
-  std::vector<double> areas;         ///< exposed, m^2
+  std::vector<CoveredCells> covered; ///< by ElementId, as are those below
+  std::vector<float> exposed;
+  std::vector<double> areas; ///< exposed, m^2
   DirectIrradiance direct;
   FirstLight first;
   std::uint64_t shadow_rays = 0; ///< of all cuts so far
@@ -138,7 +130,10 @@ void light_up(const NodeProblem& problem, LitCut& lit) {
   // Smaller receivers may find that something stands on elements: then less of them is lit.
   if (std::vector<CoveredCells> now = covered_elements(problem.tree, lit.cut); now != lit.covered) {
     lit.covered = std::move(now);
-    lit.areas = exposed_areas(light.mesh, lit.covered);
+    lit.exposed = exposed_shares(light.mesh, problem.tree, lit.cut);
+    lit.areas.clear();
+    for (std::size_t e = 0; e < lit.exposed.size(); ++e)
+      lit.areas.push_back(light.mesh.area[e] * double{lit.exposed[e]});
     lit.direct =
         problem.elements == ElementsAre::seen
             ? direct_irradiance(light, lit.covered, problem.direct, problem.progress)
@@ -244,14 +239,14 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
   for (std::size_t e = 0; e < result.arrived.size(); ++e)
     result.solver.radiosity[e] += result.first.reflectance[e] * result.arrived[e];
   result.closure = by_element(cut, cut.closure);
-  for (std::size_t e = 0; e < lit.covered.size(); ++e)
-    result.exposed.push_back(exposed_share(light.mesh, e, lit.covered[e]));
+  result.exposed = std::move(lit.exposed);
   result.rays_traced = cut.rays_traced;
   result.figures = {cut.receivers.size(), received.links.columns.size(),
                     tree.nodes.size() * sizeof(TreeNode) + bytes_of(cut.rows) +
                         bytes_of(received.links)};
-  result.receivers = {std::move(tree), std::move(lit.cut.receivers), settings.link_error,
-                      std::move(lit.covered), std::move(lit.direct.shared)};
+  result.receivers = {std::move(tree),         std::move(lit.cut.receivers),
+                      settings.link_error,     std::move(lit.covered),
+                      std::move(lit.areas),    std::move(lit.direct.shared)};
   return result;
 }
 
