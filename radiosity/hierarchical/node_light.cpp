@@ -161,4 +161,43 @@ DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
   return result;
 }
 
+std::vector<ElementId> lit_with(const NodeTree& tree, std::span<const ElementId> elements) {
+  const std::uint32_t most = most_lit_together(tree.elements.size());
+  std::vector<std::uint8_t> are_lit(tree.elements.size(), 0);
+  for (const ElementId element : elements)
+    are_lit[index(element)] = 1;
+  std::vector<ElementId> result;
+  for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+    const TreeNode& node = tree.nodes[n];
+    const auto id = static_cast<TreeNodeId>(n);
+    if (node.leaf_count > most && !is_leaf(node))
+      continue;
+    const bool is_group = group_of(tree, id, most) == id;
+    const auto below = elements_below(tree, id);
+    if (is_group && std::ranges::any_of(below, [&](ElementId e) { return are_lit[index(e)] != 0; }))
+      result.insert(result.end(), below.begin(), below.end());
+  }
+  return result;
+}
+
+void light_again(const LightScene& light, std::span<const ElementId> elements,
+                 std::span<const CoveredCells> covered, const DirectSettings& settings,
+                 const Progress& progress, DirectIrradiance& direct) {
+  const MeansOfAreas means = means_of_areas(
+      elements.size(),
+      [&](std::size_t k, SharedLightWorkspace& work) {
+        return direct_irradiance(light, elements[k], covered[index(elements[k])], settings, work);
+      },
+      progress);
+  for (std::size_t k = 0; k < elements.size(); ++k) {
+    const std::size_t e = index(elements[k]);
+    direct.irradiance[e] = means.light[k].total;
+    if (!direct.shared.empty())
+      direct.shared[e] = 0;
+    if (!direct.punctual.empty())
+      direct.punctual[e] = means.light[k].punctual;
+  }
+  direct.shadow_rays += means.shadow_rays;
+}
+
 } // namespace meninas

@@ -38,4 +38,12 @@ DirectIrradiance light_by_nodes(const LightScene& light, const NodeTree& tree,
                                 std::span<const CoveredCells> covered,
                                 const DirectSettings& settings, const Progress& progress);
 
+/// Elements that may have had their light together with one of these, and these.
+std::vector<ElementId> lit_with(const NodeTree& tree, std::span<const ElementId> elements);
+
+/// Light of some elements anew, each by itself with all points: of others nothing has changed.
+void light_again(const LightScene& light, std::span<const ElementId> elements,
+                 std::span<const CoveredCells> covered, const DirectSettings& settings,
+                 const Progress& progress, DirectIrradiance& direct);
+
 } // namespace meninas

@@ -122,23 +122,36 @@ struct LitCut {
   std::vector<double> areas; ///< exposed, m^2
   DirectIrradiance direct;
   FirstLight first;
-  std::uint64_t shadow_rays = 0; ///< of all cuts so far
 };
+
+/// The light of those elements whose covered part is another than `before`.
+void light_changed(const NodeProblem& problem, const std::vector<CoveredCells>& before,
+                   LitCut& lit) {
+  std::vector<ElementId> changed;
+  for (std::uint32_t e = 0; e < before.size(); ++e)
+    if (lit.covered[e] != before[e])
+      changed.push_back(static_cast<ElementId>(e));
+  const std::vector<ElementId> again =
+      problem.elements == ElementsAre::seen ? changed : lit_with(problem.tree, changed);
+  light_again(problem.light, again, lit.covered, problem.direct, problem.progress, lit.direct);
+}
 
 void light_up(const NodeProblem& problem, LitCut& lit) {
   const LightScene& light = problem.light;
   // Smaller receivers may find that something stands on elements: then less of them is lit.
   if (std::vector<CoveredCells> now = covered_elements(problem.tree, lit.cut); now != lit.covered) {
-    lit.covered = std::move(now);
+    std::swap(lit.covered, now);
     lit.exposed = exposed_shares(light.mesh, problem.tree, lit.cut);
     lit.areas.clear();
     for (std::size_t e = 0; e < lit.exposed.size(); ++e)
       lit.areas.push_back(light.mesh.area[e] * double{lit.exposed[e]});
-    lit.direct =
-        problem.elements == ElementsAre::seen
-            ? direct_irradiance(light, lit.covered, problem.direct, problem.progress)
-            : light_by_nodes(light, problem.tree, lit.covered, problem.direct, problem.progress);
-    lit.shadow_rays += lit.direct.shadow_rays;
+    if (!now.empty())
+      light_changed(problem, now, lit);
+    else
+      lit.direct = problem.elements == ElementsAre::seen
+                       ? direct_irradiance(light, lit.covered, problem.direct, problem.progress)
+                       : light_by_nodes(light, problem.tree, lit.covered, problem.direct,
+                                        problem.progress);
   }
   lit.first = first_light(light, by_element(lit.cut, lit.cut.emission),
                           by_element(lit.cut, lit.cut.closure), lit.direct, FormFactorMethod::rays);
@@ -231,7 +244,6 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
   // B = S + rho H, what receivers have pushed down to their elements.
   const NodeCut& cut = lit.cut;
   result.first = std::move(lit.first);
-  result.first.shadow_rays = lit.shadow_rays;
   result.arrived = by_element(cut, received.irradiance);
   result.solver = std::move(received.solver);
   result.solver.method = SolverMethod::hierarchical;
