@@ -106,10 +106,9 @@ void add_places_at_foot(const CellCounts& counts, Covered& covered) {
   const CoveredCells foot = cells_at_foot(covered.cells);
   const double elsewhere = counts_of(counts, ~(foot | covered.cells)).black_share();
   const CountsOfCells at_foot = counts_of(counts, foot);
-  const double share =
-      elsewhere < 1.0
-          ? std::max(0.0, (at_foot.black_share() - elsewhere) / (1.0 - elsewhere))
-          : 0.0;
+  const double share = elsewhere < 1.0
+                           ? std::max(0.0, (at_foot.black_share() - elsewhere) / (1.0 - elsewhere))
+                           : 0.0;
   covered.rays += share * at_foot.rays;
   covered.exposed -= static_cast<float>(share * std::popcount(foot) / 64.0);
 }

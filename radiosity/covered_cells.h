@@ -21,14 +21,16 @@ constexpr CoveredCells wholly_covered = ~CoveredCells{0};
 inline std::uint32_t cell_of(double s, double t) {
   return 8U * static_cast<std::uint32_t>(8.0 * s) + static_cast<std::uint32_t>(8.0 * t);
 }
-inline bool contains(CoveredCells cells, Vec2 st) { return ((cells >> cell_of(st.x, st.y)) & 1U) != 0; }
+inline bool contains(CoveredCells cells, Vec2 st) {
+  return ((cells >> cell_of(st.x, st.y)) & 1U) != 0;
+}
 
 /// Those beside covered cells, also by a corner, which are not: a foot may go through them.
 CoveredCells cells_at_foot(CoveredCells covered);
 
 struct Covered {
   CoveredCells cells = 0;
-  double rays = 0.0;    ///< of the net, from these cells and from covered places in those at the foot
+  double rays = 0.0; ///< of the net, from these cells and from covered places in those at the foot
   float exposed = 1.0F; ///< the share of the receiver's area on which nothing stands
 };
 

@@ -5,29 +5,23 @@
 
 namespace meninas {
 
-std::optional<Point3> hemicube_position(const ReceiverArea& element, CoveredCells covered) {
+std::optional<Point3> hemicube_position(const LightScene& light, const ReceiverArea& element,
+                                        CoveredCells covered) {
   if (covered == 0)
     return point_in(element, Vec2(element.triangle ? 1.0 / 3.0 : 0.5));
-  // Not at the foot, where there is something else.
-  const CoveredCells foot = cells_at_foot(covered);
-  const CoveredCells out = (covered | foot) == wholly_covered ? covered : covered | foot;
-  std::array<Point3, 64> exposed;
-  std::size_t count = 0;
-  Point3 middle(0.0);
-  for (std::uint32_t cell = 0; cell < 64; ++cell) {
-    const Vec2 st = (Vec2(cell / 8, cell % 8) + 0.5) / 8.0;
-    if (contains(out, st))
-      continue;
-    exposed[count] = point_in(element, st);
-    middle += exposed[count++];
-  }
-  if (count == 0)
+  if (covered == wholly_covered)
     return std::nullopt;
-  middle /= static_cast<double>(count);
-  return *std::min_element(exposed.begin(), exposed.begin() + static_cast<std::ptrdiff_t>(count),
-                           [&](const Point3& a, const Point3& b) {
-                             return glm::distance(a, middle) < glm::distance(b, middle);
-                           });
+  std::array<Point3, 64> exposed;
+  Point3 middle(0.0);
+  std::uint32_t next = 0;
+  for (Point3& point : exposed) {
+    const NumberedPlace place = exposed_place(light, element, covered, 0, next);
+    next = place.number + 1;
+    point = point_in(element, place.st);
+    middle += point / double(exposed.size());
+  }
+  return *std::ranges::min_element(
+      exposed, {}, [&](const Point3& point) { return glm::distance(point, middle); });
 }
 
 DirectionNet make_coverage_net() { return make_direction_net(256); }
@@ -37,7 +31,7 @@ void gather_element(const LightScene& light, const Hemicube& cube, const Directi
                     const FormFactorSettings& settings, GatherWorkspace& work) {
   const Covered covered = covered_part(light, coverage, element, seed, settings, work);
   const std::uint64_t spent = work.result.traced;
-  const auto position = hemicube_position(element, covered.cells);
+  const auto position = hemicube_position(light, element, covered.cells);
   if (position) {
     ReceiverArea point;
     point.corner = *position;

@@ -7,8 +7,8 @@
 // j): right for what is far away, wrong for what is near however fine the cells are, with an error
 // that falls with the square of the element's size over the distance, and never where j touches i.
 // The part of the element on which something stands is found as for `rays` (covered_cells.h),
-// and the row speaks of the exposed rest: there the cube stands in the middle
-// of the exposed cell nearest to the centroid of all that is exposed.
+// and the row speaks of the exposed rest: there the cube stands
+// at the one of 64 exposed places that is nearest to the middle of all.
 #pragma once
 
 #include "radiosity/gather_rays.h"
@@ -18,7 +18,8 @@
 namespace meninas {
 
 /// The centre of the element or of its exposed part; nothing when all is covered.
-std::optional<Point3> hemicube_position(const ReceiverArea& element, CoveredCells covered);
+std::optional<Point3> hemicube_position(const LightScene& light, const ReceiverArea& element,
+                                        CoveredCells covered);
 
 /// The directions that find what is covered: two rays and more a cell.
 DirectionNet make_coverage_net();

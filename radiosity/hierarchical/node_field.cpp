@@ -141,8 +141,8 @@ std::vector<std::uint8_t> with_covered_corner(const FoundField& found) {
 /// behind what hangs before it. So there is no more than that.
 /// What is left of a receiver A is off by some e = 2 % of all it has, which on elements A_c
 /// is e A / A_c, the light that goes on by up to some b = 30 %: each counts by its inverse square.
-void leave_the_rest(const ReceiverNodes& receivers, const std::vector<std::uint8_t>& shaded, const std::vector<Rgb>& solved,
-                    std::vector<Rgb>& received) {
+void leave_the_rest(const ReceiverNodes& receivers, const std::vector<std::uint8_t>& shaded,
+                    const std::vector<Rgb>& solved, std::vector<Rgb>& received) {
   constexpr double e_by_b = 0.02 / 0.3;
   for (const TreeNodeId receiver : receivers.receivers) {
     Rgb rest(0.0);

@@ -148,10 +148,10 @@ void light_up(const NodeProblem& problem, LitCut& lit) {
     if (!now.empty())
       light_changed(problem, now, lit);
     else
-      lit.direct = problem.elements == ElementsAre::seen
-                       ? direct_irradiance(light, lit.covered, problem.direct, problem.progress)
-                       : light_by_nodes(light, problem.tree, lit.covered, problem.direct,
-                                        problem.progress);
+      lit.direct =
+          problem.elements == ElementsAre::seen
+              ? direct_irradiance(light, lit.covered, problem.direct, problem.progress)
+              : light_by_nodes(light, problem.tree, lit.covered, problem.direct, problem.progress);
   }
   lit.first = first_light(light, by_element(lit.cut, lit.cut.emission),
                           by_element(lit.cut, lit.cut.closure), lit.direct, FormFactorMethod::rays);
@@ -256,9 +256,9 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
   result.figures = {cut.receivers.size(), received.links.columns.size(),
                     tree.nodes.size() * sizeof(TreeNode) + bytes_of(cut.rows) +
                         bytes_of(received.links)};
-  result.receivers = {std::move(tree),         std::move(lit.cut.receivers),
-                      settings.link_error,     std::move(lit.covered),
-                      std::move(lit.areas),    std::move(lit.direct.shared)};
+  result.receivers = {std::move(tree),      std::move(lit.cut.receivers),
+                      settings.link_error,  std::move(lit.covered),
+                      std::move(lit.areas), std::move(lit.direct.shared)};
   return result;
 }
 

@@ -170,19 +170,21 @@ TEST(Hemicube, OutlinesAlongTheCellsConvergeWithOrderOne) {
 }
 
 TEST(ElementHemicube, StandsInTheMiddleOfWhatIsExposed) {
+  const auto l = lit(furnace(0.5, {}, Point3(8.0)), {});
+  const LightScene& light = *l->light;
   ReceiverArea quad;
   quad.corner = Point3(0.0);
   quad.edge_u = {8.0, 0.0, 0.0};
   quad.edge_v = {0.0, 8.0, 0.0};
-  EXPECT_EQ(hemicube_position(quad, 0), Point3(4.0, 4.0, 0.0));
+  EXPECT_EQ(hemicube_position(light, quad, 0), Point3(4.0, 4.0, 0.0));
   constexpr CoveredCells half = 0xffffffffULL; // s < 1/2
-  const auto in_half = hemicube_position(quad, half);
+  const auto in_half = hemicube_position(light, quad, half);
   ASSERT_TRUE(in_half);
   EXPECT_LE(glm::distance(*in_half, Point3(6.0, 4.0, 0.0)), std::sqrt(0.5) + 1e-12);
-  EXPECT_FALSE(hemicube_position(quad, ~CoveredCells{0}));
+  EXPECT_FALSE(hemicube_position(light, quad, ~CoveredCells{0}));
   ReceiverArea triangle = quad;
   triangle.triangle = true;
-  EXPECT_LT(glm::distance(*hemicube_position(triangle, 0), Point3(8.0 / 3.0, 8.0 / 3.0, 0.0)),
+  EXPECT_LT(glm::distance(*hemicube_position(light, triangle, 0), Point3(8.0 / 3.0, 8.0 / 3.0, 0.0)),
             1e-12);
 }
 
