@@ -1,5 +1,6 @@
 #include "radiosity/dark_sides.h"
 
+#include "radiosity/enclosed_sides.h"
 #include "scenes/sampling.h"
 
 #include <tbb/parallel_for.h>
@@ -83,6 +84,19 @@ bool is_lit(const Scene& scene, const SurfaceModel& surfaces, const RayScene& ra
          });
 }
 
+/// Sides of patches all of whose triangles are enclosed.
+DarkSides enclosed_patches(const SurfaceModel& surfaces, const EnclosedSides& enclosed) {
+  DarkSides dark;
+  for (const Patch& patch : surfaces.patches) {
+    std::array<std::uint8_t, 2> both{1, 1};
+    for (const TriangleId triangle : patch.triangles)
+      for (std::size_t facing = 0; triangle != none<TriangleId> && facing < 2; ++facing)
+        both[facing] = std::min(both[facing], enclosed[index(triangle)][facing]);
+    dark.push_back(both);
+  }
+  return dark;
+}
+
 } // namespace
 
 DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays) {
@@ -98,7 +112,7 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
       ++double_sided;
   }
 
-  DarkSides dark(surfaces.patches.size(), {0, 0});
+  DarkSides dark = enclosed_patches(surfaces, find_enclosed_sides(scene, surfaces, rays));
   const std::size_t sources = emitters.size() + scene.lights.size();
   if (double_sided * sources * 2 * probe_points > most_emitter_probes ||
       scene.background != Rgb(0.0))
@@ -112,7 +126,8 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
     for (std::size_t facing = 0; facing < 2; ++facing) {
       const double sign = facing == 0 ? 1.0 : -1.0;
       const Plane plane{sign * surface.plane.normal, sign * surface.plane.offset};
-      if (everything_escapes(rays, patch, surface.plane_class, plane.normal) &&
+      if (dark[p][facing] == 0 &&
+          everything_escapes(rays, patch, surface.plane_class, plane.normal) &&
           !is_lit(scene, surfaces, rays, emitters, patch, plane))
         dark[p][facing] = 1;
     }

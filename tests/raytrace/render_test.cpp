@@ -189,6 +189,17 @@ TEST(Render, ARotatedSceneGivesTheSamePicture) {
   EXPECT_LT(moved_pixels(image, turned, 0.015), 0.01);
 }
 
+// Inside of the box it is dark: its inner sides have no elements, the floor under it is covered,
+// and the outer sides of the room see nothing. So the same elements are lit by the same rays.
+TEST(Render, ADoubleSidedRoomLooksLikeASingleSidedOne) {
+  Scene scene = half_room();
+  scene.cameras = {look_at({1.6, 1.3, 2.7}, {0.0, 1.0, 1.0}, 1.0)};
+  const Image once = picture_of(scene, quick(64, 48, 4));
+  for (Material& material : scene.materials)
+    material.double_sided = !is_emitter(material) && !is_mirror(material);
+  EXPECT_EQ(moved_pixels(once, picture_of(scene, quick(64, 48, 4)), 1e-4), 0.0);
+}
+
 TEST(Render, AMirrorRoomLooksLikeTheDoubledRoom) {
   // The image room is meshed and sampled on its own, so that pictures differ by the noise of both:
   // 3 sigma of 1024 rays at a vertex are about two per cent. Silhouettes and the edge
