@@ -191,8 +191,12 @@ TEST(Render, ARotatedSceneGivesTheSamePicture) {
 
 // Inside of the box it is dark: its inner sides have no elements, the floor under it is covered,
 // and the outer sides of the room see nothing. So the same elements are lit by the same rays.
+// The bottom of the box is left out: only double-sided ones are known to see nothing.
 TEST(Render, ADoubleSidedRoomLooksLikeASingleSidedOne) {
   Scene scene = half_room();
+  std::erase_if(scene.triangles, [&](const Triangle& triangle) {
+    return scene.nodes[index(triangle.node)].name == "box.y0";
+  });
   scene.cameras = {look_at({1.6, 1.3, 2.7}, {0.0, 1.0, 1.0}, 1.0)};
   const Image once = picture_of(scene, quick(64, 48, 4));
   for (Material& material : scene.materials)
