@@ -62,8 +62,29 @@ TreeNodeId group_of(const NodeTree& tree, TreeNodeId node, std::uint32_t most_el
   return node;
 }
 
-/// Of the nodes those, by their place, in groups of nodes that reflect a large part of all light:
-/// where a lamp throws a spot, few points would tell how bright it is.
+/// Light that arrives at elements, and what they reflect of it, W.
+struct Powers {
+  double arriving = 0.0, reflected = 0.0;
+
+  void add(const Powers& more) {
+    arriving += more.arriving;
+    reflected += more.reflected;
+  }
+};
+
+Powers powers_at(const ElementMesh& mesh, std::span<const ElementId> elements, const Rgb& light) {
+  Powers powers;
+  for (const ElementId element : elements) {
+    const std::size_t e = index(element);
+    powers.add(
+        {mesh.area[e] * largest(light), mesh.area[e] * largest(mesh.reflectance[e] * light)});
+  }
+  return powers;
+}
+
+/// Of the nodes those, by their place, in groups of nodes at which a large part of all light
+/// arrives, or that reflect a large part: where a lamp throws a spot, few points would tell
+/// how bright it is, and beside a lamp corners do not tell what black surfaces absorb.
 /// Whole groups, as those of its nodes that were dark by chance lie at its edge.
 std::vector<std::size_t> brightest_nodes(const LightScene& light, const NodeTree& tree,
                                          std::span<const TreeNodeId> nodes,
@@ -71,22 +92,22 @@ std::vector<std::size_t> brightest_nodes(const LightScene& light, const NodeTree
                                          std::span<const std::uint8_t> of_few_points) {
   constexpr std::size_t groups = 512;
   constexpr double large = 1.0 / 256.0;
-  const ElementMesh& mesh = light.mesh;
-  const auto most = static_cast<std::uint32_t>(element_count(mesh) / groups);
-  std::vector<double> power(tree.nodes.size(), 0.0);
-  double all = 0.0;
+  const auto most = static_cast<std::uint32_t>(element_count(light.mesh) / groups);
+  std::vector<Powers> of_group(tree.nodes.size());
+  Powers all;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    double reflected = 0.0;
-    for (const ElementId element : elements_below(tree, nodes[k]))
-      reflected +=
-          mesh.area[index(element)] * largest(mesh.reflectance[index(element)] * arriving[k].total);
-    power[index(group_of(tree, nodes[k], most))] += reflected;
-    all += reflected;
+    const Powers powers = powers_at(light.mesh, elements_below(tree, nodes[k]), arriving[k].total);
+    of_group[index(group_of(tree, nodes[k], most))].add(powers);
+    all.add(powers);
   }
   std::vector<std::size_t> brightest;
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (of_few_points[k] != 0 && power[index(group_of(tree, nodes[k], most))] > large * all)
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const Powers& group = of_group[index(group_of(tree, nodes[k], most))];
+    const bool is_bright =
+        group.arriving > large * all.arriving || group.reflected > large * all.reflected;
+    if (of_few_points[k] != 0 && is_bright)
       brightest.push_back(k);
+  }
   return brightest;
 }
 

@@ -9,9 +9,10 @@
 // Elements of which something covers a part, whose corners do not tell (open_parts.h),
 // and facets of curved surfaces, whose means are seen (facets.h), are nodes by themselves
 // and have all of their points. So have nodes of groups, a 512th of all elements,
-// that reflect more than a 256th of all light: a spot of the sun is some tens of elements,
-// and all light comes from there.
-// There are at most 256 such groups, of some tens of nodes.
+// at which more than a 256th of all light arrives, or that reflect as much of what is:
+// a spot of the sun is some tens of elements, and all light comes from there,
+// and a black shade around a lamp absorbs more than corners of its elements tell.
+// There are at most 512 such groups, of some tens of nodes.
 #pragma once
 
 #include "radiosity/element_light.h"

@@ -130,6 +130,34 @@ TEST(NodeLight, SpotsHaveTheLightThatTheyReceive) {
         << seed;
 }
 
+// The black shade of a lamp takes most of its light and gives none back:
+// its nodes, over each of which light varies by several times, have all of their points.
+// Sixteen and more for each of some twenty nodes leave 0.5 / sqrt(320) of steep light, or less.
+TEST(NodeLight, ShadesAbsorbTheLightThatTheyReceive) {
+  constexpr double low = 3.9, high = 4.1, top = 1.0, edge = 0.8;
+  Scene scene;
+  add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 8}, {8, 0, 8}, {8, 0, 0}}, diffuse(0.5));
+  add_polygon(scene, "lamp",
+              {{low, top, low}, {high, top, low}, {high, top, high}, {low, top, high}},
+              diffuse(0.0, 1.0));
+  const std::vector<Point3> corners{
+      {low, top, low}, {high, top, low}, {high, top, high}, {low, top, high}};
+  const Vec3 down(0.0, edge - top, 0.0);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Point3 &a = corners[k], &b = corners[(k + 1) % 4];
+    add_polygon(scene, "shade", {a, a + down, b + down, b}, diffuse(0.0));
+  }
+  const auto l = lit(scene, {.element_size = 1.0 / 16.0});
+  const DirectIrradiance nodes = by_nodes(*l), alone = direct_irradiance(*l->light, {}, {});
+  const std::vector<std::size_t> shade = elements_of(*l, "shade");
+  EXPECT_GE(shade.size(), 4 * 9);
+  for (const std::size_t e : shade)
+    EXPECT_EQ(nodes.shared[e], 0) << "corners do not tell";
+  const double received = mean_over(*l, nodes.irradiance, "shade").g;
+  EXPECT_GT(received, 0.1) << "the shade faces the lamp";
+  EXPECT_NEAR(received / mean_over(*l, alone.irradiance, "shade").g, 1.0, 0.03);
+}
+
 // Nodes have as many points in all, to a factor of 2, and points their rays, whatever the elements.
 TEST(NodeLight, FinerElementsTakeNoMoreShadowRays) {
   std::vector<double> rays;
