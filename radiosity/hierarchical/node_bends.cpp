@@ -16,12 +16,15 @@ std::ptrdiff_t valid_among(const ElementCorners& corners, const GatheredVertices
 }
 
 /// Whether light is off by more than the bound allows on so large a node:
-/// rho |difference| beside what is there.
+/// rho |difference| beside what is there, and a little of the mean,
+/// or in the dark noise would divide as far as elements go.
 bool is_beyond(const BendBound& bound, double area, const Rgb& rho, const glm::vec3& difference,
                const glm::vec3& irradiance) {
+  constexpr double of_mean = 0.05;
   const double off = largest(rho * glm::abs(Rgb(difference)));
   const double there = largest(rho * Rgb(irradiance));
-  return off * std::sqrt(area / bound.scale.area) > bound.x * (there + bound.scale.radiosity);
+  return off * std::sqrt(area / bound.scale.area) >
+         2.0 * bound.x * (there + of_mean * bound.scale.radiosity);
 }
 
 const Rgb& reflectance_at(const ElementMesh& mesh, ElementVertexId vertex) {

@@ -5,7 +5,7 @@
 // what is seen of them is interpolated, and where light bends it takes more corners.
 // At a vertex p in the middle of a node (node_vertices.h) light is gathered as well; where
 //
-//   rho |I_p - sum of its corners' shares| sqrt(A / A_mean)  >  X (rho H_p + B_mean)
+//   rho |I_p - sum of its corners' shares| sqrt(A / A_mean)  >  2 X (rho H_p + B_mean / 20)
 //
 // the node gives way to its parts, as it does where some of these vertices have
 // light and others are covered. A is the node's area and A_mean that of a receiver:
@@ -26,7 +26,6 @@ struct ReceiverNodes {
   std::vector<TreeNodeId> receivers;
   double bend = 0.0; ///< X
   std::vector<CoveredCells> covered; ///< by ElementId: on what something stands
-  std::vector<double> exposed;       ///< by ElementId: the area on which nothing does, m^2
   std::vector<std::uint8_t>
       share_light; ///< by ElementId, 1: their corners know light from the source better than they do
 };

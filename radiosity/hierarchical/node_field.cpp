@@ -126,41 +126,18 @@ void share_out(const NodeInterpolation& by, FoundField& found) {
   take(false);
 }
 
-/// Elements with a covered corner, by ElementId.
-std::vector<std::uint8_t> with_covered_corner(const FoundField& found) {
-  std::vector<std::uint8_t> covered;
-  for (const ElementCorners& corners : found.mesh.corners)
-    covered.push_back(std::ranges::any_of(corners, [&](ElementVertexId v) {
+/// Elements whose corners do not tell what they receive, by ElementId:
+/// those with a covered corner, and those on which something stands.
+std::vector<std::uint8_t> covered_somewhere(const FoundField& found,
+                                            const std::vector<CoveredCells>& covered) {
+  std::vector<std::uint8_t> somewhere;
+  for (std::size_t e = 0; e < covered.size(); ++e) {
+    const bool at_corner = std::ranges::any_of(found.mesh.corners[e], [&](ElementVertexId v) {
       return found.states[index(v)] == VertexState::covered;
-    }));
-  return covered;
-}
-
-/// Of what receivers have received, those `shaded` of their elements keep what the others leave.
-/// Covered corners have the light of the open, continued: as if nothing shaded the wall
-/// behind what hangs before it. So there is no more than that.
-/// What is left of a receiver A is off by some e = 2 % of all it has, which on elements A_c
-/// is e A / A_c, the light that goes on by up to some b = 30 %: each counts by its inverse square.
-void leave_the_rest(const ReceiverNodes& receivers, const std::vector<std::uint8_t>& shaded,
-                    const std::vector<Rgb>& solved, std::vector<Rgb>& received) {
-  constexpr double e_by_b = 0.02 / 0.3;
-  for (const TreeNodeId receiver : receivers.receivers) {
-    Rgb rest(0.0);
-    double area = 0.0, all = 0.0;
-    for (const ElementId element : elements_below(receivers.tree, receiver)) {
-      const std::size_t e = index(element);
-      const double exposed = receivers.exposed[e];
-      rest += exposed * (solved[e] - (shaded[e] != 0 ? Rgb(0.0) : received[e]));
-      area += shaded[e] != 0 ? exposed : 0.0;
-      all += exposed;
-    }
-    if (!(area > 0.0))
-      continue;
-    const double share = 1.0 / (1.0 + std::pow(e_by_b * all / area, 2.0));
-    for (const ElementId element : elements_below(receivers.tree, receiver))
-      if (Rgb& light = received[index(element)]; shaded[index(element)] != 0)
-        light = glm::mix(light, glm::clamp(rest / area, Rgb(0.0), light), share);
+    });
+    somewhere.push_back(covered[e] != 0 || at_corner ? 1 : 0);
   }
+  return somewhere;
 }
 
 /// What elements receive, by their corners: all of it where they share points for light from the
@@ -175,24 +152,20 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Receive
   for (std::size_t e = 0; e < received.size(); ++e)
     if (receivers.share_light[e] == 0)
       received[e] = elements.from_source[e] + rest[e];
-  std::vector<std::uint8_t> shaded = with_covered_corner(found);
-  for (const OpenPart& part : parts) {
-    const std::size_t e = index(part.element);
-    received[e] = elements.from_source[e] + part.indirect;
-    shaded[e] = 0;
-  }
-  leave_the_rest(receivers, shaded, elements.irradiance, received);
+  for (const OpenPart& part : parts)
+    received[index(part.element)] = part.from_source + part.indirect;
   return received;
 }
 
 /// The radiosity of the elements by the field that they make themselves, found with few rays:
 /// `found` has it in between.
 std::vector<Rgb> reflected_by_field(const VertexSource& few, const ReceiverNodes& receivers,
-                                    const ElementLight& elements,
-                                    const std::vector<OpenPart>& parts, FoundField& found) {
+                                    const ElementLight& elements, std::vector<OpenPart>& parts,
+                                    FoundField& found) {
   DiffuseField lit = found.field;
   std::vector<VertexState> states = found.states;
   share_out(gather_at_nodes({few, few}, receivers, few_rays * receivers.bend, found), found);
+  parts = open_parts(few, covered_somewhere(found, receivers.covered), receivers.covered);
   const std::vector<Rgb> received =
       received_at_corners(elements, receivers, parts, found, filled(found, found.field.irradiance),
                           filled(found, found.field.indirect));
@@ -214,7 +187,7 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
       gathering_from(light, elements.reflected, how, few_rays, first_spared);
   const VertexSource few{elements.irradiance, solved, workspaces};
   light_vertices(few, found);
-  const std::vector<OpenPart> parts = open_parts(few, receivers.covered);
+  std::vector<OpenPart> parts;
   const std::vector<Rgb> reflected = reflected_by_field(few, receivers, elements, parts, found);
   const PointGathering seen = gathering_from(light, reflected, how, 1),
                        seen_by_small =

@@ -7,9 +7,8 @@
 //
 //   B_j = rho_j (mean of H at its corners).
 //
-// Elements on which something stands gather in their open part (open_parts.h),
-// and others with a covered corner, whose value is that of the open,
-// share what the rest of their receiver leaves of its light.
+// Elements on which something stands, and those with a covered corner, whose value is that of the
+// open, gather by themselves (open_parts.h).
 //
 // A receiver sends as if all of it received the same.
 // Beside an edge of the room, where a wall lights the other from as near as a receiver is large,

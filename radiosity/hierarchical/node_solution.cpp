@@ -256,9 +256,8 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
   result.figures = {cut.receivers.size(), received.links.columns.size(),
                     tree.nodes.size() * sizeof(TreeNode) + bytes_of(cut.rows) +
                         bytes_of(received.links)};
-  result.receivers = {std::move(tree),      std::move(lit.cut.receivers),
-                      settings.link_error,  std::move(lit.covered),
-                      std::move(lit.areas), std::move(lit.direct.shared)};
+  result.receivers = {std::move(tree), std::move(lit.cut.receivers), settings.link_error,
+                      std::move(lit.covered), std::move(lit.direct.shared)};
   return result;
 }
 

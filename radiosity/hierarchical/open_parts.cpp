@@ -1,6 +1,6 @@
 #include "radiosity/hierarchical/open_parts.h"
 
-#include "radiosity/vertex_light.h"
+#include "radiosity/element_light.h"
 #include "scenes/sampling.h"
 
 #include <tbb/parallel_for.h>
@@ -25,16 +25,20 @@ OpenPart open_part(const VertexSource& source, ElementId element, CoveredCells c
                          area.coat};
     sum += indirect_light_at(gathering, point, hash(seed, place.number), work).indirect().total;
   }
-  return {element, sum / double(points_gathering)};
+  SharedLightWorkspace shared;
+  const ArrivingLight direct =
+      direct_irradiance(gathering.light, element, covered, gathering.direct, shared);
+  work.direct.shadow_rays += shared.point.shadow_rays;
+  return {element, direct.total, sum / double(points_gathering)};
 }
 
 } // namespace
 
-std::vector<OpenPart> open_parts(const VertexSource& source,
+std::vector<OpenPart> open_parts(const VertexSource& source, std::span<const std::uint8_t> asked,
                                  std::span<const CoveredCells> covered) {
   std::vector<std::uint32_t> in_part;
   for (std::uint32_t e = 0; e < covered.size(); ++e)
-    if (covered[e] != 0 && covered[e] != wholly_covered)
+    if (asked[e] != 0 && covered[e] != wholly_covered)
       in_part.push_back(e);
   std::vector<OpenPart> parts(in_part.size());
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {

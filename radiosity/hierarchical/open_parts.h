@@ -1,11 +1,13 @@
-// Elements on a part of which something stands, as the floor's at the foot of a box.
+// Elements whose corners do not tell what arrives: a part of the element is covered,
+// as of the floor's at the foot of a box, or a corner is, as behind a panel before a wall.
 //
-// Their covered corners have no light of their own: what is continued to these from the open
-// is not what arrives beside the foot. A few points of the open part gather instead,
+// Covered corners have no light of their own: what is continued to these from the open
+// is not what arrives beside the foot or behind the panel.
+// A few points of the element gather instead,
 //
 //   I_j = mean of I(x_k),   x_k in the part of j that is exposed (covered_cells.h),
 //
-// which is what others see of them, as the mean of light from the source is.
+// and light from the source is the mean over all of the element's points there (element_light.h).
 // There are as many such elements as feet are long, few of all.
 #pragma once
 
@@ -16,10 +18,11 @@ namespace meninas {
 
 struct OpenPart {
   ElementId element;
-  Rgb indirect; ///< I, W/m^2
+  Rgb from_source, indirect; ///< D and I, W/m^2
 };
 
-/// Of elements that are covered in part, by ElementId.
-std::vector<OpenPart> open_parts(const VertexSource& source, std::span<const CoveredCells> covered);
+/// Of those elements that are `asked`, by ElementId as is `covered`, and are not wholly covered.
+std::vector<OpenPart> open_parts(const VertexSource& source, std::span<const std::uint8_t> asked,
+                                 std::span<const CoveredCells> covered);
 
 } // namespace meninas

@@ -142,7 +142,7 @@ TEST(NodeEdges, SaddlesDivideNodes) {
     EXPECT_EQ(straight.size() + parts / 4, 4U);
     return parts;
   };
-  const double bound = rho * c / 16.0 / (rho * 8.0 + rho);
+  const double bound = rho * c / 16.0 / 2.0 / (rho * 8.0 + rho / 20.0);
   EXPECT_EQ(divided(0.99 * bound), 16U);
   EXPECT_EQ(divided(1.01 * bound), 0U);
 }

@@ -116,16 +116,16 @@ TEST(NodeField, VerticesStandForTheLargestNodeThatWantsThem) {
   EXPECT_DOUBLE_EQ(at(1, 2), 0.0);
 }
 
-// A parabola of height h over a node is h off its corners' mean in the middle,
-// a slope is not off at all: the node gives way above X = rho h / (rho H + B_mean).
+// A parabola of height h over a node is h off its corners' mean in the middle, a slope is
+// not off at all: the node gives way above X = rho h / 2 (rho H + B_mean / 20), also in the dark.
 TEST(NodeField, NodesGiveWayToBendsOnly) {
-  constexpr double height = 0.2, level = 1.0, rho = 0.5;
+  constexpr double height = 0.2, rho = 0.5;
   Scene scene;
   add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(rho));
   const auto l = lit(scene, {.element_size = 1.0 / 8.0});
   const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
   const std::vector<TreeNodeId> top{static_cast<TreeNodeId>(0)};
-  const auto parts = [&](double bow, double slope, double x) {
+  const auto parts = [&](double level, double bow, double slope, double x) {
     std::vector<glm::vec3> light;
     for (const Point3& at : l->mesh.vertices)
       light.emplace_back(float(level + slope * at.x + bow * 4.0 * at.x * (1.0 - at.x)));
@@ -136,10 +136,12 @@ TEST(NodeField, NodesGiveWayToBendsOnly) {
     EXPECT_EQ(straight.empty(), !bent.empty());
     return bent.size();
   };
-  const double bound = rho * height / (rho * (level + height) + rho);
-  EXPECT_EQ(parts(height, 0.0, 0.99 * bound), 4U);
-  EXPECT_EQ(parts(height, 0.0, 1.01 * bound), 0U);
-  EXPECT_EQ(parts(0.0, 5.0, 1e-4), 0U);
+  for (const double level : {1.0, 0.02}) {
+    const double bow = height * level, bound = 0.5 * bow / (level + bow + 0.05);
+    EXPECT_EQ(parts(level, bow, 0.0, 0.99 * bound), 4U);
+    EXPECT_EQ(parts(level, bow, 0.0, 1.01 * bound), 0U);
+    EXPECT_EQ(parts(level, 0.0, 5.0, 1e-4), 0U);
+  }
 }
 
 // Something stands on a part of a node where some of its vertices have no light of their own:

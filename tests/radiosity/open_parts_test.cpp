@@ -42,6 +42,14 @@ NodeSolution solved_by_nodes(const LightScene& light, const PassOneSettings& set
                         ElementsAre::sources, settings.solver);
 }
 
+/// Of elements that are covered in part, by ElementId.
+std::vector<std::uint8_t> in_part(const std::vector<CoveredCells>& covered) {
+  std::vector<std::uint8_t> parts;
+  for (const CoveredCells cells : covered)
+    parts.push_back(cells != 0 && cells != wholly_covered ? 1 : 0);
+  return parts;
+}
+
 /// m^2 of those elements on which nothing stands.
 double exposed_area(const ElementMesh& mesh, const std::vector<float>& exposed,
                     const std::vector<std::size_t>& elements) {
@@ -85,7 +93,8 @@ TEST(OpenParts, OfAFurnaceReceiveWhatAllOfItDoes) {
                                  {.rays = 256});
   const std::vector<Rgb> irradiance(size, Rgb(2.0));
   PointWorkspaces workspaces;
-  const auto parts = open_parts({irradiance, gathering, workspaces}, solution.receivers.covered);
+  const auto parts = open_parts({irradiance, gathering, workspaces},
+                                in_part(solution.receivers.covered), solution.receivers.covered);
   EXPECT_GT(parts.size(), 10);
   for (const OpenPart& part : parts) {
     const float exposed = solution.exposed[index(part.element)];
@@ -137,8 +146,8 @@ TEST(OpenParts, AtTheFeetOfBoxesAreLitByWhatRowsFind) {
     reflected[e] -= l->mesh.emission[e];
   const PointGathering gathering(*l->light, reflected, {.seed = 7}, {}, {.rays = 512});
   PointWorkspaces workspaces;
-  const auto parts =
-      open_parts({rows.irradiance, gathering, workspaces}, solution.receivers.covered);
+  const auto parts = open_parts({rows.irradiance, gathering, workspaces},
+                                in_part(solution.receivers.covered), solution.receivers.covered);
   EXPECT_GT(parts.size(), 50);
   double squares = 0.0, all = 0.0, from_rows = 0.0, from_nodes = 0.0;
   for (const OpenPart& part : parts) {
