@@ -12,10 +12,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace meninas::test {
 namespace {
+
+std::vector<TreeNodeId> parts_of(const NodeTree& tree, TreeNodeId id) {
+  std::vector<TreeNodeId> parts;
+  for (std::uint32_t c = 0; c < tree.nodes[index(id)].child_count; ++c)
+    parts.push_back(static_cast<TreeNodeId>(index(tree.nodes[index(id)].first_child) + c));
+  return parts;
+}
 
 /// A cut through the tree that is uneven: of every third of the first receivers, the parts.
 std::vector<TreeNodeId> uneven_cut(const ElementMesh& mesh, const NodeTree& tree) {
@@ -26,8 +34,7 @@ std::vector<TreeNodeId> uneven_cut(const ElementMesh& mesh, const NodeTree& tree
       nodes.push_back(id);
       continue;
     }
-    for (std::uint32_t c = 0; c < node.child_count; ++c)
-      nodes.push_back(static_cast<TreeNodeId>(index(node.first_child) + c));
+    std::ranges::copy(parts_of(tree, id), std::back_inserter(nodes));
   }
   return nodes;
 }
@@ -87,15 +94,9 @@ TEST(NodeField, VerticesStandForTheLargestNodeThatWantsThem) {
   add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(0.5));
   const auto l = lit(scene, {.element_size = 1.0 / 8.0});
   const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
-  const auto parts = [&](TreeNodeId id) {
-    std::vector<TreeNodeId> all;
-    for (std::uint32_t c = 0; c < tree.nodes[index(id)].child_count; ++c)
-      all.push_back(static_cast<TreeNodeId>(index(tree.nodes[index(id)].first_child) + c));
-    return all;
-  };
-  std::vector<TreeNodeId> nodes = parts(static_cast<TreeNodeId>(0));
+  std::vector<TreeNodeId> nodes = parts_of(tree, static_cast<TreeNodeId>(0));
   ASSERT_EQ(nodes.size(), 4U);
-  const std::vector<TreeNodeId> smaller = parts(nodes.front());
+  const std::vector<TreeNodeId> smaller = parts_of(tree, nodes.front());
   nodes.erase(nodes.begin());
   nodes.insert(nodes.end(), smaller.begin(), smaller.end());
   const std::vector<double> wanted = wanted_vertices(l->mesh, tree, nodes);
@@ -124,17 +125,17 @@ TEST(NodeField, NodesGiveWayToBendsOnly) {
   add_polygon(scene, "floor", {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, diffuse(rho));
   const auto l = lit(scene, {.element_size = 1.0 / 8.0});
   const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
-  const std::vector<TreeNodeId> top{static_cast<TreeNodeId>(0)};
+  const std::vector top{static_cast<TreeNodeId>(0)};
   const auto parts = [&](double level, double bow, double slope, double x) {
     std::vector<glm::vec3> light;
     for (const Point3& at : l->mesh.vertices)
       light.emplace_back(float(level + slope * at.x + bow * 4.0 * at.x * (1.0 - at.x)));
     const std::vector<std::uint8_t> valid(light.size(), 1);
     std::vector<TreeNodeId> straight;
-    const std::vector<TreeNodeId> bent =
-        parts_of_bent(l->mesh, tree, top, {valid, light, light}, {{1.0, rho}, x}, straight);
-    EXPECT_EQ(straight.empty(), !bent.empty());
-    return bent.size();
+    const std::size_t bent =
+        parts_of_bent(l->mesh, tree, top, {valid, light, light}, {{1.0, rho}, x}, straight).size();
+    EXPECT_EQ(straight.empty(), bent > 0);
+    return bent;
   };
   for (const double level : {1.0, 0.02}) {
     const double bow = height * level, bound = 0.5 * bow / (level + bow + 0.05);
