@@ -29,12 +29,10 @@ std::vector<TreeNodeId> parts_of(const NodeTree& tree, TreeNodeId id) {
 std::vector<TreeNodeId> uneven_cut(const ElementMesh& mesh, const NodeTree& tree) {
   std::vector<TreeNodeId> nodes;
   for (const TreeNodeId id : first_receivers(mesh, tree)) {
-    const TreeNode& node = tree.nodes[index(id)];
-    if (index(id) % 3 != 0 || is_leaf(node)) {
+    if (index(id) % 3 != 0 || is_leaf(tree.nodes[index(id)]))
       nodes.push_back(id);
-      continue;
-    }
-    std::ranges::copy(parts_of(tree, id), std::back_inserter(nodes));
+    else
+      std::ranges::copy(parts_of(tree, id), std::back_inserter(nodes));
   }
   return nodes;
 }
