@@ -112,7 +112,7 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
       ++double_sided;
   }
 
-  DarkSides dark = enclosed_patches(surfaces, find_enclosed_sides(scene, surfaces, rays));
+  DarkSides dark = enclosed_patches(surfaces, find_enclosed_sides(scene, surfaces));
   const std::size_t sources = emitters.size() + scene.lights.size();
   if (double_sided * sources * 2 * probe_points > most_emitter_probes ||
       scene.background != Rgb(0.0))

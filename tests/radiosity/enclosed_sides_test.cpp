@@ -19,7 +19,7 @@ void remove_node(Scene& scene, const std::string& name) {
 /// How many sides of a node are enclosed: fronts and backs.
 std::array<int, 2> enclosed_of(const Scene& scene, const std::string& node) {
   const SurfaceModel surfaces = find_surfaces(scene);
-  const EnclosedSides sides = find_enclosed_sides(scene, surfaces, make_ray_scene(scene, surfaces));
+  const EnclosedSides sides = find_enclosed_sides(scene, surfaces);
   std::array<int, 2> count{0, 0};
   for (std::size_t t = 0; t < sides.size(); ++t)
     if (scene.nodes[index(scene.triangles[t].node)].name.starts_with(node))
@@ -118,6 +118,69 @@ TEST(EnclosedSides, AreNoneWhereLightComesIn) {
         t.material = static_cast<MaterialId>(window.materials.size() - 1);
     EXPECT_EQ(enclosed_of(window, "box"), none_of_them);
   }
+}
+
+// However small a hole in the floor is, what is over it is seen from there.
+TEST(EnclosedSides, AreNoneOverAHole) {
+  Scene scene = box_without_bottom();
+  remove_node(scene, "floor");
+  const auto strip = [&](double x0, double x1, double z0, double z1) {
+    add_polygon(scene, "floor", {{x0, 0, z1}, {x1, 0, z1}, {x1, 0, z0}, {x0, 0, z0}}, wood);
+  };
+  const auto floor_but = [&](double hole) {
+    remove_node(scene, "floor");
+    strip(-2, 0, -2, 2);
+    strip(hole, 2, -2, 2);
+    strip(0, hole, -2, 0);
+    strip(0, hole, hole, 2);
+  };
+  floor_but(0.01);
+  EXPECT_EQ(enclosed_of(scene, "box"), none_of_them);
+  strip(0, 0.01, 0, 0.01); // a lid
+  EXPECT_EQ(enclosed_of(scene, "box"), (std::array{0, 10}));
+  floor_but(0.7); // it reaches beyond the box
+  EXPECT_EQ(enclosed_of(scene, "box"), none_of_them);
+}
+
+// The loop of a sheet lies on another sheet, but there is nothing between them:
+// which side would be the inner one is a matter of rounding.
+TEST(EnclosedSides, AreNoneOfSheets) {
+  const glm::dmat3 turned(glm::dvec3(0.36, 0.48, -0.8), glm::dvec3(-0.8, 0.6, 0.0),
+                          glm::dvec3(0.48, 0.64, 0.6));
+  for (const double gap : {0.0, 1e-7, 1e-3}) {
+    Scene scene;
+    add_polygon(scene, "wall", {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, wood);
+    add_polygon(scene, "poster", {{-1, -1, gap}, {1, -1, gap}, {1, 1, gap}, {-1, 1, gap}}, wood);
+    add_polygon(scene, "poster", {{1, -1, gap}, {1, 1, gap}, {-1, 1, gap}, {-1, -1, gap}}, wood);
+    EXPECT_EQ(enclosed_of(scene, ""), none_of_them) << gap;
+    EXPECT_EQ(enclosed_of(transformed(scene, turned, 1.0, Vec3(0.3)), ""), none_of_them) << gap;
+  }
+}
+
+// A lamp may pass through a body and have both of its ends, and its middle, outside.
+TEST(EnclosedSides, AreNoneWhereALampPassesThrough) {
+  Scene scene = box_on_floor();
+  add_polygon(scene, "lamp", {{-9, 0.4, 0.1}, {0.7, 0.4, 0.1}, {0.7, 0.4, -0.1}, {-9, 0.4, -0.1}},
+              diffuse(0.0, 1.0));
+  EXPECT_EQ(enclosed_of(scene, "box"), none_of_them);
+  remove_node(scene, "lamp");
+  add_polygon(scene, "lamp", {{-9, 1.4, 0.1}, {0.7, 1.4, 0.1}, {0.7, 1.4, -0.1}, {-9, 1.4, -0.1}},
+              diffuse(0.0, 1.0));
+  EXPECT_EQ(enclosed_of(scene, "box"), (std::array{0, 12}));
+  // A lamp that stands on it is outside, as far as it does not shine on what it stands on.
+  add_box(scene, "lamp", {-0.2, 1.0, -0.2}, {0.2, 1.2, 0.2}, diffuse(0.5, 1.0));
+  remove_node(scene, "lamp.y0");
+  EXPECT_EQ(enclosed_of(scene, "box"), (std::array{0, 12}));
+}
+
+// A box whose upper half is turned inside out by a twist winds around it the other way.
+TEST(EnclosedSides, AreNoneWhereABodyCrossesItself) {
+  Scene scene;
+  add_box(scene, "box", {-0.5, 0.0, -0.5}, {0.5, 1.0, 0.5}, wood);
+  for (Vertex& vertex : scene.vertices)
+    if (vertex.position.y > 0.5)
+      vertex.position.x *= -0.8;
+  EXPECT_EQ(enclosed_of(scene, "box"), none_of_them);
 }
 
 TEST(EnclosedSides, AreNoneWhereALampIsInside) {

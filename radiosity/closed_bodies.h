@@ -1,0 +1,36 @@
+// Bodies that light cannot enter, as far as their surface goes.
+//
+// A body is what opaque triangles form that share edges two by two. It is closed if every edge
+// is shared, or if the others make plane loops that lie on something opaque all over,
+// as those of a box without a bottom do on a floor.
+//
+// Limits: loops are those of up to 4,096 edges that are star-shaped about one of their corners,
+// and what covers them lies in their plane to the tolerance of the scene: a body without a bottom
+// that is sunk into a floor is open. In scenes of so many of these and so many triangles
+// that asking takes seconds all with loops are.
+#pragma once
+
+#include "scenes/surfaces.h"
+
+#include <vector>
+
+namespace meninas {
+
+using TriangleCorners = std::array<Point3, 3>;
+
+struct ClosedBody {
+  std::vector<TriangleId> triangles;
+  std::vector<std::uint8_t> looks_in; ///< by place: 1 where the front of a triangle does
+  std::vector<TriangleCorners> shell; ///< these and what closes loops, all fronts outwards
+};
+
+/// Those closed bodies of which `wanted`, by TriangleId, has a triangle.
+std::vector<ClosedBody> find_closed_bodies(const Scene& scene, const SurfaceModel& surfaces,
+                                           const std::vector<std::uint8_t>& wanted);
+
+/// How often the body winds around a point, 1 inside and 0 outside of one that does not cross
+/// itself:  w(x) = 1/4pi sum of the signed solid angles of its triangles (van Oosterom and
+/// Strackee 1983).
+double winding_number(const std::vector<TriangleCorners>& shell, const Point3& x);
+
+} // namespace meninas
