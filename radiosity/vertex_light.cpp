@@ -72,8 +72,10 @@ static Cover cover_of(bool is_shut, const LightScene& light, const Receiver& rec
   return is_under_something(light, receiver, element_size) ? Cover::low : Cover::open;
 }
 
-bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
-                const Receiver& receiver, std::uint32_t seed, PointWorkspace& work) {
+/// Whether nearly all that a point sees is black, as few rays tell:
+/// it is inside something that stands on its surface.
+static bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
+                       const Receiver& receiver, std::uint32_t seed, PointWorkspace& work) {
   constexpr int few_rays = 32;
   static const DirectionNet net = make_direction_net(few_rays);
   gather_rays(light, net, area_of(receiver), seed, form_factors, work.gather);

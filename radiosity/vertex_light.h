@@ -55,11 +55,6 @@ bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance
 /// is blocked within a fraction of an element, as under a box that stands on a floor.
 bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size);
 
-/// Whether nearly all that a point sees is black, as few rays tell:
-/// it is inside something that stands on its surface.
-bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
-                const Receiver& receiver, std::uint32_t seed, PointWorkspace& work);
-
 /// What is over a point to which no light comes from the source, as far as few rays tell:
 /// `shut` where nearly all that it sees is black, as inside something that stands on its surface.
 Cover cover_in_the_dark(const LightScene& light, const FormFactorSettings& form_factors,
