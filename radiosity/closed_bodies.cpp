@@ -1,6 +1,7 @@
 #include "radiosity/closed_bodies.h"
 
 #include "mirror/convex_polygon.h"
+#include "scenes/shells.h"
 #include "scenes/topology.h"
 
 #include <algorithm>
@@ -186,35 +187,19 @@ std::vector<ConvexPolygon> left_by(const TriangleCorners& triangle, const Direct
   return left;
 }
 
-struct Box {
-  Point3 low{std::numeric_limits<double>::infinity()}, high{-low};
-
-  void add(const TriangleCorners& triangle) {
-    for (const Point3& corner : triangle) {
-      low = glm::min(low, corner);
-      high = glm::max(high, corner);
-    }
-  }
-};
-
 /// Whether opaque triangles that are not of the body lie all over a cap.
 bool is_covered(const Scene& scene, const Cap& cap, std::uint32_t body, const Bodies& bodies,
                 double tolerance) {
   constexpr double nothing = 1e-6; // of the area
+  const Bounds around = bounds_of(cap.triangles);
   std::vector<ConvexPolygon> left;
-  Box around;
-  for (const TriangleCorners& part : cap.triangles) {
+  for (const TriangleCorners& part : cap.triangles)
     left.emplace_back(std::span<const Point3>(part));
-    around.add(part);
-  }
   for (std::uint32_t t = 0; t < scene.triangles.size() && !left.empty(); ++t) {
     if (bodies.of_triangle[t] == no_body || bodies.of_triangle[t] == body)
       continue;
     const TriangleCorners triangle = corners(scene, TriangleId{t});
-    Box own;
-    own.add(triangle);
-    if (glm::any(glm::lessThan(own.high, around.low - tolerance)) ||
-        glm::any(glm::greaterThan(own.low, around.high + tolerance)))
+    if (!overlap(bounds_of({&triangle, 1}), around, tolerance))
       continue;
     const Direction normal = glm::normalize(area_vector(triangle));
     const bool in_plane = std::ranges::all_of(cap.triangles, [&](const TriangleCorners& part) {
@@ -309,14 +294,24 @@ std::vector<ClosedBody> find_closed_bodies(const Scene& scene, const SurfaceMode
 
 double winding_number(const std::vector<TriangleCorners>& shell, const Point3& x) {
   double angle = 0.0;
-  for (const TriangleCorners& triangle : shell) {
-    const Vec3 a = triangle[0] - x, b = triangle[1] - x, c = triangle[2] - x;
-    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-    const double below =
-        la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-    angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)), below);
-  }
+  for (const TriangleCorners& triangle : shell)
+    angle += solid_angle(triangle, x);
   return angle / (4.0 * std::numbers::pi);
+}
+
+Bounds bounds_of(std::span<const TriangleCorners> triangles) {
+  Bounds bounds;
+  for (const TriangleCorners& triangle : triangles)
+    for (const Point3& corner : triangle) {
+      bounds.low = glm::min(bounds.low, corner);
+      bounds.high = glm::max(bounds.high, corner);
+    }
+  return bounds;
+}
+
+bool overlap(const Bounds& a, const Bounds& b, double tolerance) {
+  return glm::all(glm::lessThanEqual(a.low, b.high + tolerance)) &&
+         glm::all(glm::lessThanEqual(b.low, a.high + tolerance));
 }
 
 } // namespace meninas

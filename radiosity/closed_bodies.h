@@ -12,6 +12,7 @@
 
 #include "scenes/surfaces.h"
 
+#include <span>
 #include <vector>
 
 namespace meninas {
@@ -29,8 +30,10 @@ std::vector<ClosedBody> find_closed_bodies(const Scene& scene, const SurfaceMode
                                            const std::vector<std::uint8_t>& wanted);
 
 /// How often the body winds around a point, 1 inside and 0 outside of one that does not cross
-/// itself:  w(x) = 1/4pi sum of the signed solid angles of its triangles (van Oosterom and
-/// Strackee 1983).
+/// itself:  w(x) = 1/4pi sum of the signed solid angles of its triangles (scenes/shells.h).
 double winding_number(const std::vector<TriangleCorners>& shell, const Point3& x);
+
+Bounds bounds_of(std::span<const TriangleCorners> triangles);
+bool overlap(const Bounds& a, const Bounds& b, double tolerance = 0.0);
 
 } // namespace meninas

@@ -10,19 +10,6 @@ namespace meninas {
 
 namespace {
 
-struct Box {
-  Point3 low, high;
-};
-
-Box box_of(const TriangleCorners& triangle) {
-  return {glm::min(triangle[0], glm::min(triangle[1], triangle[2])),
-          glm::max(triangle[0], glm::max(triangle[1], triangle[2]))};
-}
-
-bool overlap(const Box& a, const Box& b) {
-  return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
-}
-
 double volume_over(const TriangleCorners& base, const Point3& x) {
   return glm::dot(x - base[0], glm::cross(base[1] - base[0], base[2] - base[0]));
 }
@@ -75,20 +62,16 @@ std::vector<TriangleCorners> lamps_of(const Scene& scene, double above) {
 /// Whether a lamp is in the body, or it takes too long to tell.
 bool may_hold(const ClosedBody& body, const std::vector<TriangleCorners>& lamps,
               std::size_t most_compared) {
-  Box around = box_of(body.shell.front());
-  for (const TriangleCorners& part : body.shell) {
-    const Box own = box_of(part);
-    around = {glm::min(around.low, own.low), glm::max(around.high, own.high)};
-  }
+  const Bounds around = bounds_of(body.shell);
   std::size_t compared = 0;
   return std::ranges::any_of(lamps, [&](const TriangleCorners& lamp) {
-    const Box own = box_of(lamp);
+    const Bounds own = bounds_of({&lamp, 1});
     if (!overlap(own, around))
       return false;
     compared += body.shell.size();
     return compared > most_compared || winding_number(body.shell, lamp[0]) > 0.5 ||
            std::ranges::any_of(body.shell, [&](const TriangleCorners& part) {
-             return overlap(own, box_of(part)) && cross(lamp, part);
+             return overlap(own, bounds_of({&part, 1})) && cross(lamp, part);
            });
   });
 }

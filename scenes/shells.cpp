@@ -78,21 +78,19 @@ std::vector<Shell> find_shells(const Scene& scene, const Topology& topology) {
   return shells;
 }
 
+double solid_angle(const std::array<Point3, 3>& triangle, const Point3& x) {
+  const Vec3 a = triangle[0] - x, b = triangle[1] - x, c = triangle[2] - x;
+  const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+  // tan(Omega / 2) = a . (b x c) / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|)
+  return 2.0 *
+         std::atan2(glm::dot(a, glm::cross(b, c)),
+                    la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+}
+
 double winding_number(const Scene& scene, const Shell& shell, const Point3& x) {
   double angle = 0.0;
-  for (const TriangleId face : shell.faces) {
-    const auto p = corners(scene, face);
-    const Vec3 a = p[0] - x;
-    const Vec3 b = p[1] - x;
-    const Vec3 c = p[2] - x;
-    const double la = glm::length(a);
-    const double lb = glm::length(b);
-    const double lc = glm::length(c);
-    // tan(Omega / 2) = a . (b x c) / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|)
-    angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)), la * lb * lc + glm::dot(a, b) * lc +
-                                                                 glm::dot(b, c) * la +
-                                                                 glm::dot(c, a) * lb);
-  }
+  for (const TriangleId face : shell.faces)
+    angle += solid_angle(corners(scene, face), x);
   return angle / (4.0 * std::numbers::pi);
 }
 

@@ -195,6 +195,33 @@ TEST(NodeLight, ElementsThatAreCoveredInPartAreByThemselves) {
     EXPECT_EQ(nodes.irradiance[e].g, 0.0);
 }
 
+// What is found to stand on an element later lights it anew, and those it was lit together with:
+// each by itself, with all points. Others keep what they have.
+TEST(NodeLight, WhatChangesIsLitAgain) {
+  const auto l = lit(plates(), {.element_size = 1.0 / 128.0});
+  const std::size_t size = element_count(l->mesh);
+  const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
+  std::vector<CoveredCells> covered(size, 0);
+  const DirectSettings settings;
+  const DirectIrradiance before = light_by_nodes(*l->light, tree, covered, settings, {});
+  const std::size_t changed = elements_of(*l, "ceiling")[1000];
+  covered[changed] = 0x0f0f0f0f0f0f0f0f;
+  const std::vector<ElementId> again = lit_with(tree, std::vector{static_cast<ElementId>(changed)});
+  ASSERT_NE(std::ranges::find(again, static_cast<ElementId>(changed)), again.end());
+  EXPECT_GT(again.size(), 1U);
+  EXPECT_LE(again.size(), most_lit_together(size));
+
+  DirectIrradiance now = before;
+  light_again(*l->light, again, covered, settings, {}, now);
+  const DirectIrradiance alone = direct_irradiance(*l->light, covered, settings);
+  EXPECT_GT(now.shadow_rays, before.shadow_rays);
+  for (std::size_t e = 0; e < size; ++e) {
+    const bool is_again = std::ranges::find(again, static_cast<ElementId>(e)) != again.end();
+    EXPECT_EQ(now.irradiance[e].g, (is_again ? alone : before).irradiance[e].g) << e;
+    EXPECT_EQ(now.shared[e], is_again ? 0 : before.shared[e]) << e;
+  }
+}
+
 // Rows share the rays of 128 as long as light is even. Its noise is sqrt(unevenness) N^-3/4,
 // so that sixteen times as uneven it takes 16^(2/3) = 6.3 times as many, and never more than asked.
 TEST(NodeLight, RowsShareRaysAsLightAllows) {
