@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -171,45 +172,101 @@ std::optional<Cap> cap_of(const Scene& scene, const std::vector<VertexId>& loop,
   return std::nullopt;
 }
 
-/// What a triangle in the plane of the parts leaves of them.
+/// What a triangle in the plane of the parts leaves of them. Parts that it misses stay whole.
 std::vector<ConvexPolygon> left_by(const TriangleCorners& triangle, const Direction& normal,
                                    const std::vector<ConvexPolygon>& parts) {
   const double sign = glm::dot(area_vector(triangle), normal) > 0.0 ? 1.0 : -1.0;
   std::vector<ConvexPolygon> left;
-  for (ConvexPolygon part : parts)
-    for (std::size_t k = 0; k < 3 && !part.empty(); ++k) {
+  for (const ConvexPolygon& part : parts) {
+    const std::size_t before = left.size();
+    ConvexPolygon rest = part;
+    for (std::size_t k = 0; k < 3 && !rest.empty(); ++k) {
       const Vec3 inwards = sign * glm::cross(normal, triangle[(k + 1) % 3] - triangle[k]);
-      const ConvexPolygon outside = clip(part, triangle[k], -inwards);
+      const ConvexPolygon outside = clip(rest, triangle[k], -inwards);
       if (!outside.empty())
         left.push_back(outside);
-      clip_in_place(part, triangle[k], inwards);
+      clip_in_place(rest, triangle[k], inwards);
     }
+    if (rest.empty()) {
+      left.resize(before);
+      left.push_back(part);
+    }
+  }
   return left;
 }
 
+/// Opaque triangles by the plane that they lie in.
+class Planes {
+public:
+  Planes(const Scene& scene, const SurfaceModel& surfaces, const Bodies& bodies)
+      : surfaces_(surfaces), triangles_(surfaces.planes.size()) {
+    for (std::uint32_t p = 0; p < surfaces.planes.size(); ++p)
+      by_distance_.emplace_back(std::abs(surfaces.planes[p].offset), p);
+    std::ranges::sort(by_distance_);
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+      if (bodies.of_triangle[t] != no_body)
+        triangles_[index(surfaces.plane_of_triangle[t])].push_back(TriangleId{t});
+    // A floor before what stands on it: little is left to cut after it.
+    for (auto& in_plane : triangles_)
+      std::ranges::stable_sort(in_plane, std::greater{}, [&](TriangleId t) {
+        return glm::length(area_vector(corners(scene, t)));
+      });
+  }
+
+  bool are_asked_too_much() const { return compared > most_compared; }
+
+  /// Those in planes as far from the origin as a point's plane, and as steep; each is counted.
+  template <typename Visit>
+  void visit(const Point3& point, const Direction& normal, const Visit& visit) {
+    const double distance = std::abs(glm::dot(point, normal));
+    const double slack = 2.0 * surfaces_.tolerance + 1e-6 * distance;
+    const auto first = std::ranges::lower_bound(by_distance_, std::pair(distance - slack, 0U));
+    for (auto plane = first; plane != by_distance_.end() && plane->first <= distance + slack;
+         ++plane) {
+      ++compared;
+      if (std::abs(glm::dot(surfaces_.planes[plane->second].normal, normal)) < 0.999)
+        continue;
+      compared += triangles_[plane->second].size();
+      for (const TriangleId triangle : triangles_[plane->second])
+        visit(triangle);
+    }
+  }
+
+  std::size_t compared = 0;
+
+private:
+  static constexpr std::size_t most_compared = 20'000'000;
+  const SurfaceModel& surfaces_;
+  std::vector<std::pair<double, std::uint32_t>> by_distance_; ///< of planes from the origin
+  std::vector<std::vector<TriangleId>> triangles_;            ///< by PlaneId
+};
+
 /// Whether opaque triangles that are not of the body lie all over a cap.
 bool is_covered(const Scene& scene, const Cap& cap, std::uint32_t body, const Bodies& bodies,
-                double tolerance) {
+                double tolerance, Planes& planes) {
   constexpr double nothing = 1e-6; // of the area
+  constexpr std::size_t cut = 16;  // as long as so many comparisons
   const Bounds around = bounds_of(cap.triangles);
   std::vector<ConvexPolygon> left;
   for (const TriangleCorners& part : cap.triangles)
     left.emplace_back(std::span<const Point3>(part));
-  for (std::uint32_t t = 0; t < scene.triangles.size() && !left.empty(); ++t) {
-    if (bodies.of_triangle[t] == no_body || bodies.of_triangle[t] == body)
-      continue;
-    const TriangleCorners triangle = corners(scene, TriangleId{t});
+  planes.visit(cap.triangles[0][0], cap.normal, [&](TriangleId id) {
+    if (left.empty() || planes.are_asked_too_much() || bodies.of_triangle[index(id)] == body)
+      return;
+    const TriangleCorners triangle = corners(scene, id);
     if (!overlap(bounds_of({&triangle, 1}), around, tolerance))
-      continue;
+      return;
     const Direction normal = glm::normalize(area_vector(triangle));
     const bool in_plane = std::ranges::all_of(cap.triangles, [&](const TriangleCorners& part) {
       return std::ranges::all_of(part, [&](const Point3& corner) {
         return std::abs(glm::dot(corner - triangle[0], normal)) <= tolerance;
       });
     });
-    if (in_plane)
-      left = left_by(triangle, cap.normal, left);
-  }
+    if (!in_plane)
+      return;
+    planes.compared += cut * left.size();
+    left = left_by(triangle, cap.normal, left);
+  });
   double open = 0.0;
   for (const ConvexPolygon& part : left)
     open += glm::length(area_vector(part.span()));
@@ -224,25 +281,25 @@ double volume_of(const std::vector<TriangleCorners>& shell) {
   return volume;
 }
 
-/// Adds what closes the loops of a body, if all of them lie on something.
-bool close_loops(const Scene& scene, const Bodies& bodies, std::uint32_t number, double tolerance,
-                 std::vector<TriangleCorners>& shell) {
-  const auto loops = loops_of(bodies.bodies[number]);
+/// What would close the loops of a body, or nothing where that cannot be.
+std::optional<std::vector<Cap>> caps_of(const Scene& scene, const Body& body, double tolerance) {
+  const auto loops = loops_of(body);
   if (!loops)
-    return false;
+    return std::nullopt;
+  std::vector<Cap> caps;
   for (const auto& loop : *loops) {
     const auto cap = cap_of(scene, loop, tolerance);
-    if (!cap || !is_covered(scene, *cap, number, bodies, tolerance))
-      return false;
-    shell.insert(shell.end(), cap->triangles.begin(), cap->triangles.end());
+    if (!cap)
+      return std::nullopt;
+    caps.push_back(*cap);
   }
-  return true;
+  return caps;
 }
 
 /// A body's shell, turned outwards, if it is closed and has room inside:
 /// a sheet on another, which closes it, is off its plane by its rounding.
 std::optional<ClosedBody> closed_body(const Scene& scene, const Bodies& bodies,
-                                      std::uint32_t number, double tolerance) {
+                                      std::uint32_t number, double tolerance, Planes& planes) {
   const Body& body = bodies.bodies[number];
   ClosedBody closed{body.triangles, {}, {}};
   for (const TriangleId triangle : body.triangles) {
@@ -251,13 +308,20 @@ std::optional<ClosedBody> closed_body(const Scene& scene, const Bodies& bodies,
       std::swap(part[1], part[2]);
     closed.shell.push_back(part);
   }
-  if (!close_loops(scene, bodies, number, tolerance, closed.shell))
+  const auto caps = caps_of(scene, body, tolerance);
+  if (!caps)
     return std::nullopt;
+  for (const Cap& cap : *caps)
+    closed.shell.insert(closed.shell.end(), cap.triangles.begin(), cap.triangles.end());
   double area = 0.0;
   for (const TriangleCorners& part : closed.shell)
     area += glm::length(area_vector(part));
   const double volume = volume_of(closed.shell);
   if (!(std::abs(volume) > 8.0 * tolerance * area))
+    return std::nullopt;
+  if (!std::ranges::all_of(*caps, [&](const Cap& cap) {
+        return is_covered(scene, cap, number, bodies, tolerance, planes);
+      }))
     return std::nullopt;
   for (TriangleCorners& part : closed.shell)
     if (volume < 0.0)
@@ -271,22 +335,19 @@ std::optional<ClosedBody> closed_body(const Scene& scene, const Bodies& bodies,
 
 std::vector<ClosedBody> find_closed_bodies(const Scene& scene, const SurfaceModel& surfaces,
                                            const std::vector<std::uint8_t>& wanted) {
-  constexpr std::size_t most_compared = 400'000'000;
   const double tolerance = surfaces.tolerance;
   const Bodies bodies = find_bodies(scene, 0.5 * tolerance);
   const auto is_wanted = [&](const Body& body) {
     return body.is_orientable &&
            std::ranges::any_of(body.triangles, [&](TriangleId t) { return wanted[index(t)] != 0; });
   };
-  const auto with_loops = static_cast<std::size_t>(std::ranges::count_if(
-      bodies.bodies, [&](const Body& body) { return !body.loose.empty() && is_wanted(body); }));
-  const bool can_close = with_loops * scene.triangles.size() <= most_compared;
+  Planes planes(scene, surfaces, bodies);
   std::vector<ClosedBody> closed;
   for (std::uint32_t b = 0; b < bodies.bodies.size(); ++b) {
     const Body& body = bodies.bodies[b];
-    if (!is_wanted(body) || (!body.loose.empty() && !can_close))
+    if (!is_wanted(body) || (!body.loose.empty() && planes.are_asked_too_much()))
       continue;
-    if (auto found = closed_body(scene, bodies, b, tolerance))
+    if (auto found = closed_body(scene, bodies, b, tolerance, planes))
       closed.push_back(*std::move(found));
   }
   return closed;

@@ -6,8 +6,8 @@
 //
 // Limits: loops are those of up to 4,096 edges that are star-shaped about one of their corners,
 // and what covers them lies in their plane to the tolerance of the scene: a body without a bottom
-// that is sunk into a floor is open. In scenes of so many of these and so many triangles
-// that asking takes seconds all with loops are.
+// that is sunk into a floor is open. Of very many loops on very many triangles the first
+// are asked, in the order of the triangles, until that has been twenty million comparisons.
 #pragma once
 
 #include "scenes/surfaces.h"

@@ -79,6 +79,23 @@ TEST(EnclosedSides, AreThoseOfAColumn) {
   EXPECT_EQ(enclosed_of(scene, "box"), (std::array{0, 8}));
 }
 
+// A room without a floor of its own stands on one that is full of boxes without bottoms.
+TEST(EnclosedSides, AreThoseOfManyBoxesOnOneFloor) {
+  Scene scene;
+  constexpr int count = 40;
+  for (int k = 0; k < count * count; ++k) {
+    const Point3 low(k % count, 0.0, k / count);
+    add_box(scene, "box", low, low + Vec3(0.5), wood);
+  }
+  add_box(scene, "room", {-1, 0, -1}, {count + 1, 2, count + 1}, wood);
+  remove_node(scene, "box.y0");
+  remove_node(scene, "room.y0");
+  add_polygon(scene, "floor", {{-99, 0, 99}, {99, 0, 99}, {99, 0, -99}, {-99, 0, -99}}, wood);
+  EXPECT_EQ(enclosed_of(scene, "box"), (std::array{0, 10 * count * count}));
+  EXPECT_EQ(enclosed_of(scene, "room"), (std::array{0, 10}));
+  EXPECT_EQ(enclosed_of(scene, "floor"), none_of_them);
+}
+
 // What stands on a box closes it, and the other way round: four triangles share every edge between.
 TEST(EnclosedSides, AreThoseOfBoxesOnBoxes) {
   Scene scene = box_on_floor();
