@@ -238,8 +238,10 @@ std::vector<std::uint8_t> to_divide(const Refinement& refinement, const Growing&
     const Found& found = growing.found[e];
     const double noise =
         by_noise[e] * (1.0 + stands_out * std::sqrt(2.0 / std::max(1, found.points)));
-    const int level = cell_of(mesh, static_cast<ElementId>(e)).level;
-    marked[e] = found.off > share + noise && level < refinement.settings.most_levels ? 1 : 0;
+    const MeshCell& cell = cell_of(mesh, static_cast<ElementId>(e));
+    const bool may_be = cell.level < refinement.settings.most_levels &&
+                        is_divisible(mesh, refinement.light.surfaces, cell);
+    marked[e] = found.off > share + noise && may_be ? 1 : 0;
   }
   return marked;
 }

@@ -78,7 +78,8 @@ struct SampledField {
 };
 
 /// `weight` is w by CellId of the roots of light.mesh, whose elements are looked at first.
-/// The settings' error may not be reached: at the limits of levels and elements refinement ends.
+/// The settings' error may not be reached: refinement ends at the limits of levels and elements,
+/// and where elements are hardly wider than the scene's tolerance (mesh_division.h).
 SampledField refine_field(const LightScene& light, const FieldSampler& sampler,
                           std::span<const double> weight, const MirrorOutlines& outlines,
                           const RefinementSettings& settings);

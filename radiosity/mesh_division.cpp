@@ -55,8 +55,8 @@ bool has_much_smaller_neighbour(const PlacedVertices& placed, const MeshCell& ce
   return false;
 }
 
-/// Cells may be divided but for those at the last level,
-/// and slivers hardly wider than the distance at which two points are the same.
+} // namespace
+
 bool is_divisible(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& leaf) {
   if (leaf.level >= most_levels)
     return false;
@@ -67,6 +67,8 @@ bool is_divisible(const ElementMesh& mesh, const SurfaceModel& surfaces, const M
                                               mesh.vertices[index(corners[(k + 1) % 4])]));
   return leaf.area > 64.0 * vertex_grain(mesh, surfaces) * longest;
 }
+
+namespace {
 
 /// By ElementId, whether any cell of its surface is divided: on others all neighbours are alike.
 std::vector<std::uint8_t> on_divided_surfaces(const PlacedVertices& placed) {

@@ -14,8 +14,12 @@
 
 namespace meninas {
 
-/// The mesh with the elements marked 1 divided, and those that have to follow.
-/// `marked` by ElementId.
+/// Whether a leaf may be divided: not at the last level,
+/// nor slivers hardly wider than the distance at which two points are the same.
+bool is_divisible(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& leaf);
+
+/// The mesh with the elements marked 1 divided, as far as they may be, and those that have to
+/// follow. `marked` by ElementId.
 ElementMesh divide_elements(const ElementMesh& mesh, const SurfaceModel& surfaces,
                             std::span<const std::uint8_t> marked);
 

@@ -54,6 +54,19 @@ void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
   }
 }
 
+void warn_of_interpolation(const std::optional<double>& error, const PassOneSettings& settings,
+                           const RunEvents& events) {
+  // Elements are divided for what stands out of noise, which leaves a little more than is asked for.
+  constexpr double much_more = 1.25;
+  const auto& adaptive = settings.interpolation.adaptive;
+  if (error && adaptive && *error > much_more * adaptive->error) {
+    warn(events,
+         fmt::format("adaptive: interpolation is off by about {:.2g} % and not within {:.2g} %, "
+                     "elements are as small as they may be",
+                     100.0 * *error, 100.0 * adaptive->error));
+  }
+}
+
 Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
                      const RunEvents& events) {
   if (name) {

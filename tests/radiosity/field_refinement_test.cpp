@@ -102,6 +102,19 @@ TEST(FieldRefinement, ElementsLieAlongTheStep) {
   }
 }
 
+// A strip of a few micrometres is at once as narrow as vertices can be told apart:
+// what is asked for cannot be had, and what is had is said.
+TEST(FieldRefinement, EndsWhereElementsMayNotBeDivided) {
+  const auto l = wall({{0, 0, 0}, {1, 0, 0}, {1, 4e-6, 0}, {0, 4e-6, 0}}, 0.2);
+  const SampledField field = refined(*l, step, {.error = 1e-3});
+  for (std::uint32_t e = 0; e < element_count(field.mesh); ++e) {
+    const MeshCell& cell = cell_of(field.mesh, ElementId{e});
+    EXPECT_LT(cell.level, RefinementSettings{}.most_levels);
+    EXPECT_TRUE(!is_divisible(field.mesh, l->surfaces, cell) || cell.level < 3);
+  }
+  EXPECT_GT(field.error, 1e-3);
+}
+
 TEST(FieldRefinement, WhatDoesNotShowIsLeftAlone) {
   const auto l = square_wall();
   const std::vector<double> black(element_count(l->mesh), 0.0);
