@@ -3,6 +3,7 @@
 #include "radiosity/mesh_cells.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace meninas {
 
@@ -61,7 +62,8 @@ bool is_divisible(const ElementMesh& mesh, const SurfaceModel& surfaces, const M
   if (leaf.level >= most_levels)
     return false;
   const ElementCorners& corners = mesh.corners[leaf.first_element];
-  double longest = 0.0;
+  // Corners may have become one vertex: then the area tells how long the edges are at least.
+  double longest = std::sqrt(leaf.area);
   for (std::size_t k = 0; k < 4; ++k)
     longest = std::max(longest, glm::distance(mesh.vertices[index(corners[k])],
                                               mesh.vertices[index(corners[(k + 1) % 4])]));

@@ -264,5 +264,17 @@ TEST(MeshDivision, SliversAreNotDividedForEver) {
     EXPECT_GT(area, 0.0);
 }
 
+// Nor are elements whose corners have fallen together already,
+// as far from the origin, where points of a millimetre's distance cannot be told apart.
+TEST(MeshDivision, WhatHasBecomeOneVertexIsNotDivided) {
+  Meshed m = meshed(square(), {.element_size = 0.5});
+  m.surfaces.tolerance = 1.0;
+  std::ranges::fill(m.mesh.corners, m.mesh.corners.front());
+  for (ElementCorners& corners : m.mesh.corners)
+    corners.fill(corners.front());
+  for (const CellId cell : m.mesh.cell_of_element)
+    EXPECT_FALSE(is_divisible(m.mesh, m.surfaces, m.mesh.cells[index(cell)]));
+}
+
 } // namespace
 } // namespace meninas::test
