@@ -109,6 +109,16 @@ TEST_F(Adaptive, WhatMakesNoSenseIsSaid) {
                      {"--adaptive", "--solution", "s.glb"});
 }
 
+// The rims of a sunbeam through narrow gaps ask for elements smaller than vertices can be told apart.
+TEST_F(Adaptive, WhatCannotBeHadIsSaid) {
+  const std::string sunbeam = MENINAS_SOURCE_DIR "/scenes/gallery/sunbeam.gltf";
+  const Outcome outcome = run({"render", sunbeam, "-o", "a.exr", "--size", "8x8", "--quality",
+                               "draft", "--adaptive", "0.01", "--quiet"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("warning: adaptive: interpolation is off by about 4"));
+  EXPECT_THAT(outcome.err, HasSubstr("not within 1 %"));
+}
+
 TEST_F(Adaptive, BendsDivideSomeElements) {
   const json figures = stats({"--bends", "0.001"}), none = stats({"--bends", "1000"});
   EXPECT_GT(figures["mesh"]["elements"], figures["mesh"]["solved_elements"]);
