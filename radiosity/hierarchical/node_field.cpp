@@ -112,9 +112,22 @@ void bend_between(const NodeInterpolation& by, std::span<const std::uint8_t> val
     }
 }
 
+/// Vertices that were only asked how light bends, or whose nodes have given way,
+/// take from others as those around them do, or they would stand out by what nodes are off.
+void forget_what_was_asked(const VertexShares& shares, FoundField& found) {
+  DiffuseField& field = found.field;
+  for (std::size_t v = 0; v < found.states.size(); ++v)
+    if (found.states[v] == VertexState::gathered && !gathers(shares, v)) {
+      field.irradiance[v] -= field.indirect[v];
+      field.mirrored[v] -= field.indirect_mirrored[v];
+      found.states[v] = VertexState::lit;
+    }
+}
+
 /// Gives vertices that are lit the rest of their light:
 /// first those between corners of nodes, which others take from.
 void share_out(const NodeInterpolation& by, FoundField& found) {
+  forget_what_was_asked(by.shares, found);
   const std::vector<std::uint8_t> valid = with_values(found);
   const auto take = [&](bool between) {
     for (std::size_t v = 0; v < found.states.size(); ++v)

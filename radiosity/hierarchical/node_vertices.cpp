@@ -1,7 +1,7 @@
 #include "radiosity/hierarchical/node_vertices.h"
 
 #include <algorithm>
-#include <numeric>
+#include <optional>
 
 namespace meninas {
 
@@ -13,6 +13,17 @@ constexpr Corners half_square{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(0, 1)};
 
 const Corners& corners_of(bool triangle) { return triangle ? half_square : square; }
 
+/// Of an element's corners the one nearest to a point of it.
+std::size_t nearest_corner(const ElementMesh& mesh, const ElementPoint& at) {
+  const bool triangle = mesh.sides[index(mesh.side_of_element[index(at.element)])].triangle;
+  const Corners& own = corners_of(triangle);
+  std::size_t nearest = 0;
+  for (std::size_t c = 1; c < (triangle ? 3U : 4U); ++c)
+    if (glm::distance(own[c], at.st) < glm::distance(own[nearest], at.st))
+      nearest = c;
+  return nearest;
+}
+
 /// The vertex at a corner of the node: of the element there, the corner nearest to it.
 ElementVertexId vertex_at(const ElementMesh& mesh, const TreeNode& node, Vec2 corner) {
   // A point within the node, nearer to its corner than any element is wide.
@@ -20,13 +31,7 @@ ElementVertexId vertex_at(const ElementMesh& mesh, const TreeNode& node, Vec2 co
   constexpr double inward = 1e-7;
   const Vec2 st = corner + inward * (middle - corner);
   const ElementPoint at = locate(mesh, node.side, node.uv + st * node.extent);
-  const bool triangle = mesh.sides[index(node.side)].triangle;
-  const Corners& own = corners_of(triangle);
-  std::size_t nearest = 0;
-  for (std::size_t c = 1; c < (triangle ? 3U : 4U); ++c)
-    if (glm::distance(own[c], at.st) < glm::distance(own[nearest], at.st))
-      nearest = c;
-  return mesh.corners[index(at.element)][nearest];
+  return mesh.corners[index(at.element)][nearest_corner(mesh, at)];
 }
 
 std::array<float, 4> weights_at(bool triangle, Vec2 st) {
@@ -34,6 +39,19 @@ std::array<float, 4> weights_at(bool triangle, Vec2 st) {
   if (triangle)
     return {1.0F - s - t, s, t, 0.0F};
   return {(1.0F - s) * (1.0F - t), s * (1.0F - t), s * t, (1.0F - s) * t};
+}
+
+/// The vertex nearest to the middle of a node that is no triangle, if it is within.
+std::optional<NodeProbe> probe_in_the_middle(const ElementMesh& mesh, const TreeNode& node) {
+  constexpr double border = 1e-6;
+  const ElementPoint at = locate(mesh, node.side, node.uv + 0.5 * node.extent);
+  const std::size_t corner = nearest_corner(mesh, at);
+  const Vec2 uv = patch_uv_of(mesh, cell_of(mesh, at.element),
+                              corners_of(mesh.sides[index(node.side)].triangle)[corner]);
+  const Vec2 st = (uv - node.uv) / node.extent;
+  if (std::min({st.x, st.y, 1.0 - st.x, 1.0 - st.y}) < border)
+    return std::nullopt;
+  return NodeProbe{mesh.corners[index(at.element)][corner], weights_at(false, st), true};
 }
 
 } // namespace
@@ -74,6 +92,9 @@ std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
         probes.push_back(probe);
     }
   }
+  if (node.child_count == 2)
+    if (const auto probe = probe_in_the_middle(mesh, node))
+      probes.push_back(*probe);
   return probes;
 }
 
@@ -150,13 +171,19 @@ VertexShares vertex_shares(const ElementMesh& mesh, const NodeTree& tree,
       shares.between[vertex] = 1;
     }
   }
-  const std::vector<double> gather = wanted_vertices(mesh, tree, nodes);
-  for (std::uint32_t v = 0; v < gather.size(); ++v)
-    if (gather[v] > 0.0) {
-      shares.from[v].fill(static_cast<ElementVertexId>(v));
-      shares.weight[v] = {1.0F, 0.0F, 0.0F, 0.0F};
-      shares.between[v] = 0;
-    }
+  const auto keeps_its_own = [&](ElementVertexId v) {
+    shares.from[index(v)].fill(v);
+    shares.weight[index(v)] = {1.0F, 0.0F, 0.0F, 0.0F};
+    shares.between[index(v)] = 0;
+  };
+  for (const TreeNodeId id : nodes) {
+    const TreeNode& node = tree.nodes[index(id)];
+    for (const ElementVertexId corner : corners_of(mesh, node))
+      keeps_its_own(corner);
+    for (const NodeProbe& probe : probes_of(mesh, tree, node))
+      if (!probe.only_asked)
+        keeps_its_own(probe.vertex);
+  }
   return shares;
 }
 

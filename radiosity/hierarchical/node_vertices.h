@@ -4,6 +4,8 @@
 // The corners of a node gather, and a vertex in its middle, which tells whether light is straight
 // between them (node_bends.h). Its parts share that vertex: what else they have for corners,
 // if it does not gather as a corner of another node, lies between corners of this one.
+// A node of two parts has two such vertices, on its long edges. Of light that bends from one to
+// the other they tell nothing: a third, near its middle, is asked, and keeps no value of its own.
 // A vertex within a part takes the bilinear mean of the part's corners, linear in triangles.
 // One on the border of a large and a small part takes from the small one, or is a corner of it:
 // every vertex has one value, so that there is no crack.
@@ -29,6 +31,7 @@ inline bool gathers(const VertexShares& shares, std::size_t vertex) {
 struct NodeProbe {
   ElementVertexId vertex;
   std::array<float, 4> weight; ///< of the corners
+  bool only_asked = false;     ///< no part has it for a corner
 };
 
 double area_below(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId node);
@@ -36,8 +39,8 @@ double area_below(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId node
 /// The corners of a node; a triangle repeats its third.
 ElementCorners corners_of(const ElementMesh& mesh, const TreeNode& node);
 
-/// Those corners of a node's parts that are nearest to its middle:
-/// one, or two where it has two parts. None of an element.
+/// Those corners of a node's parts that are nearest to its middle: one, or two where it has
+/// two parts, and then a vertex near the middle, if there is any. None of an element.
 std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
                                  const TreeNode& node);
 
