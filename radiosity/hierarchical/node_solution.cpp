@@ -68,6 +68,7 @@ std::vector<Rgb> pulled(const NodeTree& tree, const NodeCut& cut, const std::vec
 }
 
 /// Receivers over which what their rays gather varies by more than it may: H, G and the sky.
+/// What they are off by is reflected on and on: the more often, the less it may be.
 std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
                                     const FirstLight& first, const std::vector<double>& areas,
                                     const std::vector<Rgb>& irradiance, double link_error) {
@@ -80,11 +81,14 @@ std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
     radiosity.push_back(reflectance[c] * (at_first[c] + irradiance[c]));
   }
   const std::vector<Rgb> mean = by_element(cut, radiosity);
-  double light = 0.0, area = 0.0;
+  double light = 0.0, at_first_alone = 0.0, area = 0.0;
   for (std::size_t e = 0; e < areas.size(); ++e) {
     light += areas[e] * largest(mean[e]);
+    at_first_alone += areas[e] * largest(first.source[e]);
     area += areas[e];
   }
+  constexpr double often = 4.0; // more than in most rooms
+  const double bound = link_error * std::min(1.0, often * at_first_alone / std::max(light, 1e-300));
 
   // How far the parts of a node are from it, at the most:
   // in the middle of a slope a part is as bright as the whole.
@@ -100,7 +104,7 @@ std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
     if (is_leaf(node) || node.parent == none<TreeNodeId>)
       continue;
     const double varies = largest(reflectance[c]) * apart[index(node.parent)];
-    marked[c] = varies > link_error * (largest(radiosity[c]) + light / area) ? 1 : 0;
+    marked[c] = varies > bound * (largest(radiosity[c]) + light / area) ? 1 : 0;
   }
   return marked;
 }

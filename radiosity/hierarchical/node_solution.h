@@ -22,7 +22,9 @@
 // there is no quadratic beginning, and rows close. Pairs with a closed form and shadow rays,
 // as in the paper, were slower and less accurate (ARCHITECTURE.md).
 //
-// X is the link error where elements are seen as they receive.
+// X is the link error where elements are seen as they receive,
+// less where all light is more than four times what is reflected first: in proportion to that,
+// as what receivers are off by is passed on so many times.
 // Where vertices gather what is seen (node_field.h), elements only light others,
 // on average over many, and what is seen of them is as vertices have it (node_field.h):
 // X is twenty link errors, light from the source is that of nodes (node_light.h),
