@@ -17,6 +17,7 @@ static FoundField divided(const FoundField& before, const SurfaceModel& surfaces
     for (std::size_t c = 0; c < corners.size(); ++c) {
       const std::uint32_t from = index(before.mesh.corners[e][c]), to = index(corners[c]);
       after.states[to] = before.states[from];
+      after.seen[to] = before.seen[from];
       after.field.irradiance[to] = before.field.irradiance[from];
       after.field.mirrored[to] = before.field.mirrored[from];
       after.field.indirect[to] = before.field.indirect[from];

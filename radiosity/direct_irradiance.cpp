@@ -21,20 +21,18 @@ double form_factor_share(const Receiver& receiver, const Direction& normal, cons
 
 namespace {
 
-/// Sums of the weights of the samples so far, and of those that arrive.
-struct VisibleShare {
-  double all = 0.0;
-  Rgb seen{0.0};
-  int samples = 0, arrived = 0;
-};
+bool agree(const VisibleShare& share) {
+  return share.arrived == 0 || share.arrived == share.samples;
+}
 
-/// Adds samples number `begin` to `end` of one image to its visible share.
+/// Adds the samples of one image up to number `end` to its visible share.
 void sample_visibility(const LightScene& light, const VirtualLight& image, const Receiver& receiver,
-                       int begin, int end, std::uint32_t seed, DirectWorkspace& work,
+                       int end, std::uint32_t seed_of_all, DirectWorkspace& work,
                        VisibleShare& share) {
   const Emitter& emitter = light.emitters[image.emitter];
+  const std::uint32_t seed = hash(seed_of_all, image.emitter, index(image.world));
   const Vec3 area = area_vector(image.polygon.span());
-  for (int first = begin; first < end; first += 16) {
+  for (int first = share.samples; first < end; first += 16) {
     const int count = std::min(16, end - first);
     std::array<double, 16> weight{};
     for (int k = 0; k < count; ++k) {
@@ -58,13 +56,7 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
   }
 }
 
-Rgb visible_fraction(const LightScene& light, const VirtualLight& image, const Receiver& receiver,
-                     int samples, int penumbra_samples, std::uint32_t seed, DirectWorkspace& work) {
-  VisibleShare share;
-  sample_visibility(light, image, receiver, 0, samples, seed, work, share);
-  const bool agree = share.arrived == 0 || share.arrived == share.samples;
-  if (!agree && penumbra_samples > samples)
-    sample_visibility(light, image, receiver, samples, penumbra_samples, seed, work, share);
+Rgb visible_fraction(const LightScene& light, const VisibleShare& share) {
   if (share.arrived == share.samples && light.by_angle.empty())
     return Rgb(1.0);
   return share.all > 0.0 ? share.seen / share.all : Rgb(0.0);
@@ -133,6 +125,7 @@ ArrivingLight images_irradiance(const LightScene& light, const Receiver& receive
   // An image is worth shadow rays by its share of what has arrived so far:
   // a bright one that is hidden takes none from the others.
   ArrivingLight sum;
+  const bool everywhere = settings.penumbra_samples == PenumbraSamples::everywhere;
   const auto add = [&](std::uint32_t k, const Rgb& visible) {
     const VirtualLight& image = work.lights[k];
     const Rgb arrived = visible * work.form_factors[k] *
@@ -142,6 +135,7 @@ ArrivingLight images_irradiance(const LightScene& light, const Receiver& receive
     if (image.world != real_world)
       sum.mirrored += arrived;
   };
+  work.sampled.clear();
   std::size_t next = 0;
   for (; next < work.order.size(); ++next) {
     const std::uint32_t k = work.order[next];
@@ -150,9 +144,24 @@ ArrivingLight images_irradiance(const LightScene& light, const Receiver& receive
     const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
     if (samples == 1)
       break;
-    const int penumbra = static_cast<int>(std::lround(settings.penumbra_rays * worth));
-    const auto image_seed = hash(seed, image.emitter, index(image.world));
-    add(k, visible_fraction(light, image, receiver, samples, penumbra, image_seed, work));
+    SampledImage sampled{k, static_cast<int>(std::lround(settings.penumbra_rays * worth)), {}};
+    sample_visibility(light, image, receiver, samples, seed, work, sampled.share);
+    if (everywhere || !agree(sampled.share))
+      sample_visibility(light, image, receiver, sampled.penumbra_samples, seed, work,
+                        sampled.share);
+    add(k, visible_fraction(light, sampled.share));
+    sum.in_part = sum.in_part || !agree(sampled.share);
+    work.sampled.push_back(sampled);
+  }
+
+  // Beside an edge the other images may have edges too, which few samples have missed.
+  if (settings.penumbra_samples == PenumbraSamples::together && sum.in_part) {
+    sum = {.in_part = true};
+    for (SampledImage& sampled : work.sampled) {
+      sample_visibility(light, work.lights[sampled.light], receiver, sampled.penumbra_samples, seed,
+                        work, sampled.share);
+      add(sampled.light, visible_fraction(light, sampled.share));
+    }
   }
 
   // From the first that is worth one ray alone, so are all after it.
@@ -181,7 +190,7 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
                      receiver.tangent,
                      receiver.coat},
                     settings.solid_rays, seed, work.shadow_rays, work.solids);
-    sum = sum + ArrivingLight{refracted.total, refracted.mirrored, Rgb(0.0)};
+    sum = sum + ArrivingLight{refracted.total, refracted.mirrored, Rgb(0.0), false};
   }
   if (light.punctual.empty())
     return sum;

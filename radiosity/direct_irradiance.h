@@ -19,6 +19,10 @@
 
 namespace meninas {
 
+/// Which images take all samples of a penumbra at a point:
+/// those of which the first disagree, all where those of any do, or all everywhere.
+enum class PenumbraSamples : std::uint8_t { own, together, everywhere };
+
 struct DirectSettings {
   int points = 16; ///< receiving points per element to begin with
   int most_points =
@@ -26,6 +30,7 @@ struct DirectSettings {
   int shadow_rays =
       16; ///< per emitter image and point where it matters most; images that bring less get fewer
   int penumbra_rays = 128; ///< when the first ones disagree
+  PenumbraSamples penumbra_samples = PenumbraSamples::own;
   int rays_in_element = 2; ///< per emitter image and each of an element's points (element_light.h)
   int images =
       256; ///< emitter images computed at a point; of more, a choice (mirror/light_choice.h)
@@ -47,6 +52,20 @@ struct Receiver {
 inline SegmentEnd end_of(const Receiver& receiver) { return {receiver.normal, receiver.coat}; }
 inline SegmentEnd end_of(const Emitter& emitter) { return {emitter.plane.normal, emitter.coat}; }
 
+/// Sums of the weights of an image's samples so far, and of those that arrive.
+struct VisibleShare {
+  double all = 0.0;
+  Rgb seen{0.0};
+  int samples = 0, arrived = 0;
+};
+
+/// An image that is worth several samples.
+struct SampledImage {
+  std::uint32_t light = 0; ///< its number
+  int penumbra_samples = 0;
+  VisibleShare share;
+};
+
 /// Storage reused from point to point; one for each thread.
 struct DirectWorkspace {
   LightChoiceWorkspace choice;
@@ -54,6 +73,7 @@ struct DirectWorkspace {
   std::vector<double> form_factors; ///< unoccluded, by light
   std::vector<double> brought;      ///< brightest channel of what each light brings unoccluded
   std::vector<std::uint32_t> order; ///< lights that bring any, those that bring most first
+  std::vector<SampledImage> sampled;
   std::vector<std::uint32_t> dim;   ///< of them, those worth one shadow ray
   std::vector<Rgb> visible;         ///< of what is dim, by light
   SeenWorlds seen;                  ///< for punctual lights
@@ -67,9 +87,11 @@ struct DirectWorkspace {
 /// and that punctual lights sent.
 struct ArrivingLight {
   Rgb total{0.0}, mirrored{0.0}, punctual{0.0};
+  bool in_part = false; ///< of an emitter's image some samples arrived and some did not
 
   friend ArrivingLight operator+(const ArrivingLight& a, const ArrivingLight& b) {
-    return {a.total + b.total, a.mirrored + b.mirrored, a.punctual + b.punctual};
+    return {a.total + b.total, a.mirrored + b.mirrored, a.punctual + b.punctual,
+            a.in_part || b.in_part};
   }
 };
 

@@ -3,6 +3,7 @@
 #include "radiosity/contact_vertices.h"
 #include "radiosity/gap_vertices.h"
 #include "radiosity/mesh_division.h"
+#include "radiosity/penumbra_vertices.h"
 #include "radiosity/vertex_fill.h"
 #include "radiosity/vertex_light.h"
 #include "scenes/sampling.h"
@@ -31,16 +32,23 @@ FoundField unknown_field(ElementMesh mesh) {
   found.receivers = vertex_receivers(found.mesh, found.around);
   const std::size_t count = found.mesh.vertices.size();
   found.states.assign(count, VertexState::unknown);
+  found.seen.assign(count, SourceSeen::alike);
   for_each_array(found.field, [&](auto& values) { values.assign(count, glm::vec3(0.0F)); });
   return found;
 }
 
+std::uint32_t vertex_seed(const VertexSource& source, std::uint32_t vertex, std::uint32_t level) {
+  return hash(vertex, source.gathering.form_factors.seed, 0x7e27 + level);
+}
+
 PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
                               const VertexGathering& how, int share, double spared) {
+  DirectSettings direct = how.direct;
+  direct.penumbra_samples = PenumbraSamples::together;
   return {light,
           std::move(reflected),
           how.form_factors,
-          how.direct,
+          direct,
           {.rays = std::max(std::min(how.interpolation.rays, 128), how.interpolation.rays / share),
            .cluster_shadow_rays = std::max(1, how.interpolation.cluster_shadow_rays / share),
            .clusters_spared = spared}};
@@ -112,12 +120,14 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
 
   const auto light_vertex = [&](std::uint32_t v, PointWorkspace& work) {
     const double size = size_of(mesh, mesh.element_of_vertex[v]);
-    const std::uint32_t seed = hash(v, source.gathering.form_factors.seed, 0x7e27 + level);
-    const VertexValue found_here = value(found.receivers[v], size, seed, work);
+    const VertexValue found_here =
+        value(found.receivers[v], size, vertex_seed(source, v, level), work);
     found.field.irradiance[v] += glm::vec3(found_here.irradiance.total);
     found.field.mirrored[v] += glm::vec3(found_here.irradiance.mirrored);
     found.field.indirect[v] = glm::vec3(found_here.indirect.total);
     found.field.indirect_mirrored[v] = glm::vec3(found_here.indirect.mirrored);
+    if (found_here.irradiance.in_part)
+      found.seen[v] = SourceSeen::in_part;
     found.states[v] = found_here.cover == Cover::open  ? then
                       : found_here.cover == Cover::low ? VertexState::low
                                                        : VertexState::covered;
@@ -139,6 +149,7 @@ void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundFi
              [&](const Receiver& receiver, double size, std::uint32_t seed, PointWorkspace& work) {
                return value_at(source.gathering, source.irradiance, receiver, size, seed, work);
              });
+  follow_penumbrae(source, level, found);
 }
 
 /// Marks the dark vertices in one element with a bright one, or with one that is covered;
@@ -187,6 +198,7 @@ void light_vertices(const VertexSource& source, FoundField& found) {
                  PointWorkspace& work) -> VertexValue {
                return {light_from_source(source.gathering, receiver, seed, work), {}};
              });
+  follow_penumbrae(source, 0, found);
   cover_shut_in(source, found);
 }
 

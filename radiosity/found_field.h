@@ -25,11 +25,16 @@ inline bool has_value(VertexState state) {
          state == VertexState::gathered;
 }
 
+/// How a vertex sees the images of emitters: each wholly or not at all, as few samples tell,
+/// or as many do, or one in part (penumbra_vertices.h).
+enum class SourceSeen : std::uint8_t { alike, surely_alike, in_part };
+
 /// A mesh with the values of vertices as they were found; hanging vertices may be unknown.
 struct FoundField {
   ElementMesh mesh;
   DiffuseField field;
   std::vector<VertexState> states; ///< by ElementVertexId
+  std::vector<SourceSeen> seen;    ///< likewise, of those that have light from the source
   std::vector<Receiver> receivers; ///< where they gather (vertex_places.h)
   VertexElements around;
 };
@@ -59,8 +64,10 @@ struct VertexSource {
 
 FoundField unknown_field(ElementMesh mesh);
 
+/// Of a vertex's samples. `level` tells apart vertices whose numbers are the same.
+std::uint32_t vertex_seed(const VertexSource& source, std::uint32_t vertex, std::uint32_t level);
+
 /// Gathers at the vertices that are unknown and do not hang.
-/// `level` tells apart the samples of vertices whose numbers are the same.
 void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundField& found);
 
 /// Light from the source alone at those vertices. Of dark ones beside bright ones it tells

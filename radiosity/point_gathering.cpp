@@ -12,6 +12,7 @@ namespace {
 DirectSettings cluster_settings(DirectSettings direct, int shadow_rays) {
   direct.shadow_rays = shadow_rays;
   direct.penumbra_rays = 4 * shadow_rays;
+  direct.penumbra_samples = PenumbraSamples::own;
   direct.images = std::numeric_limits<int>::max(); // there are not many, by construction
   return direct;
 }

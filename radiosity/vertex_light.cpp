@@ -124,14 +124,16 @@ VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& ir
   const PointLight arrived = light_at(gathering, receiver, seed, work);
   const bool shut =
       is_enclosed(work.gather.result, irradiance) && arrived.from_source.total == Rgb(0.0);
-  return {arrived.all(), arrived.indirect(),
-          cover_of(shut, gathering.light, receiver, element_size)};
+  ArrivingLight all = arrived.all();
+  all.in_part = arrived.from_source.in_part;
+  return {all, arrived.indirect(), cover_of(shut, gathering.light, receiver, element_size)};
 }
 
 VertexValue indirect_value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
                               const Receiver& receiver, double element_size, std::uint32_t seed,
                               PointWorkspace& work) {
-  const ArrivingLight indirect = indirect_light_at(gathering, receiver, seed, work).indirect();
+  ArrivingLight indirect = indirect_light_at(gathering, receiver, seed, work).indirect();
+  indirect.in_part = false; // of bright clusters
   const bool shut =
       is_enclosed(work.gather.result, irradiance) && !is_lit(gathering, receiver, seed, work);
   return {indirect, indirect, cover_of(shut, gathering.light, receiver, element_size)};
@@ -140,6 +142,13 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
 ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,
                                 std::uint32_t seed, PointWorkspace& work) {
   return direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);
+}
+
+ArrivingLight light_beside_penumbra(const PointGathering& gathering, const Receiver& receiver,
+                                    std::uint32_t seed, PointWorkspace& work) {
+  DirectSettings settings = gathering.direct;
+  settings.penumbra_samples = PenumbraSamples::everywhere;
+  return direct_irradiance(gathering.light, receiver, settings, hash(seed, 1), work.direct);
 }
 
 } // namespace meninas

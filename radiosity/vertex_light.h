@@ -35,6 +35,9 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
 /// The part that comes from the source alone.
 ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,
                                 std::uint32_t seed, PointWorkspace& work);
+/// The same with all samples of a penumbra.
+ArrivingLight light_beside_penumbra(const PointGathering& gathering, const Receiver& receiver,
+                                    std::uint32_t seed, PointWorkspace& work);
 
 /// Whether a wall stands on the surface along a line through this very point.
 /// Where nothing is covered the point still sees neither side of the wall, whose light
