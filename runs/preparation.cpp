@@ -62,7 +62,7 @@ void warn_of_interpolation(const std::optional<double>& error, const PassOneSett
   if (error && adaptive && *error > much_more * adaptive->error) {
     warn(events,
          fmt::format("adaptive: interpolation is off by about {:.2g} % and not within {:.2g} %, "
-                     "elements are as small as they may be",
+                     "elements are as small or as many as they may be",
                      100.0 * *error, 100.0 * adaptive->error));
   }
 }

@@ -264,12 +264,11 @@ TEST(MeshDivision, SliversAreNotDividedForEver) {
     EXPECT_GT(area, 0.0);
 }
 
-// Nor are elements whose corners have fallen together already,
-// as far from the origin, where points of a millimetre's distance cannot be told apart.
+// Nor are elements whose corners have fallen together already, as those do
+// that are smaller than the distance at which points so far from the origin can be told apart.
 TEST(MeshDivision, WhatHasBecomeOneVertexIsNotDivided) {
   Meshed m = meshed(square(), {.element_size = 0.5});
   m.surfaces.tolerance = 1.0;
-  std::ranges::fill(m.mesh.corners, m.mesh.corners.front());
   for (ElementCorners& corners : m.mesh.corners)
     corners.fill(corners.front());
   for (const CellId cell : m.mesh.cell_of_element)

@@ -7,17 +7,25 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace meninas::test {
 namespace {
 
 const std::vector<Point3> lamp_corners{
     {-0.25, 2, -0.25}, {0.25, 2, -0.25}, {0.25, 2, 0.25}, {-0.25, 2, 0.25}};
 
-/// A floor, a lamp of half a metre two metres above it, and a board between.
-std::unique_ptr<LitScene> shaded_floor() {
+/// A floor, lamps of half a metre two metres above it, a metre apart, and a board below the first.
+std::unique_ptr<LitScene> shaded_floor(int lamps = 1) {
   Scene scene;
   add_polygon(scene, "floor", {{-2, 0, -2}, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}}, diffuse(0.5));
-  add_polygon(scene, "lamp", lamp_corners, diffuse(0.0, 10.0));
+  for (int k = 0; k < lamps; ++k) {
+    std::vector<Point3> corners = lamp_corners;
+    for (Point3& corner : corners)
+      corner.x += k;
+    add_polygon(scene, "lamp", corners, diffuse(0.0, 10.0));
+  }
   add_polygon(scene, "board", {{-0.4, 1, -0.3}, {0.5, 1, -0.4}, {0.4, 1, 0.5}, {-0.5, 1, 0.3}},
               diffuse(0.0));
   return lit(std::move(scene), {.element_size = 0.08});
@@ -61,6 +69,28 @@ TEST(PenumbraVertices, NoneOverlooksWhatThoseBesideItSee) {
   // A ring of vertices lies around the penumbra, which is a few elements wide.
   EXPECT_GT(in_part, followed);
   EXPECT_GT(followed, in_part / 5);
+}
+
+// Where one of two lamps is seen in part both take all samples: a sixteenth of the other may be
+// hidden, too. How many that are depends on what has arrived, on which few samples and many differ.
+TEST(PenumbraVertices, TakeAllSamplesOfAllImages) {
+  const auto l = shaded_floor(2);
+  const auto at = [&](const Receiver& receiver, PenumbraSamples samples) {
+    DirectWorkspace work;
+    return direct_irradiance(*l->light, receiver, {.penumbra_samples = samples}, 1, work);
+  };
+  double own = 0.0, together = 0.0; // the largest difference from all samples everywhere
+  const FoundField field = unknown_field(l->mesh);
+  for (const Receiver& receiver : field.receivers) {
+    const ArrivingLight light = at(receiver, PenumbraSamples::together);
+    if (!light.in_part)
+      continue;
+    const double all = at(receiver, PenumbraSamples::everywhere).total.g;
+    own = std::max(own, std::abs(at(receiver, PenumbraSamples::own).total.g / all - 1.0));
+    together = std::max(together, std::abs(light.total.g / all - 1.0));
+  }
+  EXPECT_GT(own, 1.0 / 64.0);
+  EXPECT_LT(together, 1.0 / 128.0);
 }
 
 // The same samples in the same vertices, whoever finds them.
