@@ -96,6 +96,20 @@ TEST(EnclosedSides, AreThoseOfManyBoxesOnOneFloor) {
   EXPECT_EQ(enclosed_of(scene, "floor"), none_of_them);
 }
 
+// Boxes with bottoms cover so much of a floor that asking whether they cover all of it would not
+// end: a sheet has no inside, and is not asked.
+TEST(EnclosedSides, AreThoseOfManyClosedBoxesOnOneFloor) {
+  Scene scene;
+  constexpr int count = 65;
+  for (int k = 0; k < count * count; ++k) {
+    const Point3 low(k % count, 0.0, k / count);
+    add_box(scene, "box", low, low + Vec3(0.5), wood);
+  }
+  add_polygon(scene, "floor", {{-9, 0, 99}, {99, 0, 99}, {99, 0, -9}, {-9, 0, -9}}, wood);
+  EXPECT_EQ(enclosed_of(scene, "box"), (std::array{0, 12 * count * count}));
+  EXPECT_EQ(enclosed_of(scene, "floor"), none_of_them);
+}
+
 // What stands on a box closes it, and the other way round: four triangles share every edge between.
 TEST(EnclosedSides, AreThoseOfBoxesOnBoxes) {
   Scene scene = box_on_floor();
