@@ -43,13 +43,6 @@ ArrivingLight direct_irradiance(const LightScene& light, ElementId element, Cove
                    hash(index(element), settings.seed, 0xd17ec7), settings, work);
 }
 
-ArrivingLight direct_irradiance(const LightScene& light, const ReceiverArea& area,
-                                std::uint32_t number, const DirectSettings& settings,
-                                SharedLightWorkspace& work) {
-  return mean_over(light, area, 0, none<ElementId>, hash(number, settings.seed, 0xd17a7ea),
-                   settings, work);
-}
-
 MeansOfAreas
 means_of_areas(std::size_t count,
                const std::function<ArrivingLight(std::size_t, SharedLightWorkspace&)>& mean,

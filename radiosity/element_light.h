@@ -16,12 +16,6 @@ namespace meninas {
 ArrivingLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
                                 const DirectSettings& settings, SharedLightWorkspace& workspace);
 
-/// The mean over an area of several elements, all of it exposed.
-/// `number` tells its points from those of others.
-ArrivingLight direct_irradiance(const LightScene& light, const ReceiverArea& area,
-                                std::uint32_t number, const DirectSettings& settings,
-                                SharedLightWorkspace& workspace);
-
 /// `mean(k, workspace)` of so many areas, by all threads, and the shadow rays they took.
 struct MeansOfAreas {
   std::vector<ArrivingLight> light;
@@ -37,7 +31,7 @@ struct DirectIrradiance {
   std::vector<Rgb>
       punctual; ///< the part of it that punctual lights sent; empty where there are none
   std::vector<std::uint8_t>
-      shared; ///< 1 where it is found by fewer points than asked for (hierarchical/node_light.h); empty: nowhere
+      shared; ///< 1 where it is that of the corners (hierarchical/node_light.h); empty: nowhere
   std::uint64_t shadow_rays = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "radiosity/found_field.h"
 
 #include "radiosity/contact_vertices.h"
+#include "radiosity/facets.h"
 #include "radiosity/gap_vertices.h"
 #include "radiosity/mesh_division.h"
 #include "radiosity/penumbra_vertices.h"
@@ -34,6 +35,14 @@ FoundField unknown_field(ElementMesh mesh) {
   found.states.assign(count, VertexState::unknown);
   found.seen.assign(count, SourceSeen::alike);
   for_each_array(found.field, [&](auto& values) { values.assign(count, glm::vec3(0.0F)); });
+  return found;
+}
+
+FoundField unknown_field(const ElementMesh& mesh, const VertexElements& facets) {
+  FoundField found = unknown_field(mesh);
+  for (std::size_t v = 0; v < found.states.size(); ++v)
+    if (is_averaged(facets, v))
+      found.states[v] = VertexState::averaged;
   return found;
 }
 
@@ -126,6 +135,8 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
     found.field.mirrored[v] += glm::vec3(found_here.irradiance.mirrored);
     found.field.indirect[v] = glm::vec3(found_here.indirect.total);
     found.field.indirect_mirrored[v] = glm::vec3(found_here.indirect.mirrored);
+    if (!found.punctual.empty())
+      found.punctual[v] += glm::vec3(found_here.irradiance.punctual);
     if (found_here.irradiance.in_part)
       found.seen[v] = SourceSeen::in_part;
     found.states[v] = found_here.cover == Cover::open  ? then

@@ -37,6 +37,7 @@ struct FoundField {
   std::vector<SourceSeen> seen;    ///< likewise, of those that have light from the source
   std::vector<Receiver> receivers; ///< where they gather (vertex_places.h)
   VertexElements around;
+  std::vector<glm::vec3> punctual; ///< what punctual lights send; empty: not asked for
 };
 
 using PointWorkspaces = tbb::enumerable_thread_specific<PointWorkspace>;
@@ -63,6 +64,8 @@ struct VertexSource {
 };
 
 FoundField unknown_field(ElementMesh mesh);
+/// Of the scene's mesh. Vertices of these facets (facets.h) are `averaged`, their values to come.
+FoundField unknown_field(const ElementMesh& mesh, const VertexElements& facets);
 
 /// Of a vertex's samples. `level` tells apart vertices whose numbers are the same.
 std::uint32_t vertex_seed(const VertexSource& source, std::uint32_t vertex, std::uint32_t level);

@@ -87,16 +87,14 @@ InterpolatedField gathered_field(const LightScene& light, const ElementLight& el
                                  const FormFactorSettings& form_factors,
                                  const DirectSettings& direct,
                                  const InterpolationSettings& settings,
-                                 const ReceiverNodes* receivers) {
+                                 ReceiverNodes* receivers) {
   PointWorkspaces workspaces;
-  FoundField found = unknown_field(light.mesh);
   const VertexElements facets =
       elements.from_source.empty() ? VertexElements{} : facets_around(light);
+  FoundField found = receivers != nullptr ? std::move(receivers->vertices)
+                                          : unknown_field(light.mesh, facets);
   if (!facets.elements.empty())
     average_facets(light, elements, facets, form_factors, workspaces, found.field);
-  for (std::size_t v = 0; v < found.states.size(); ++v)
-    if (is_averaged(facets, v))
-      found.states[v] = VertexState::averaged;
 
   InterpolatedField result;
   if (receivers != nullptr)

@@ -16,11 +16,12 @@
 namespace meninas {
 
 /// As interpolate(). The result has a mesh of its own where any element was divided.
-/// With `receivers` indirect light is gathered at the corners of nodes (hierarchical/node_field.h).
+/// With `receivers`, whose vertices are taken, indirect light is gathered at the corners of nodes
+/// (hierarchical/node_field.h).
 InterpolatedField gathered_field(const LightScene& light, const ElementLight& elements,
                                  const FormFactorSettings& form_factors,
                                  const DirectSettings& direct,
                                  const InterpolationSettings& settings,
-                                 const ReceiverNodes* receivers);
+                                 ReceiverNodes* receivers);
 
 } // namespace meninas

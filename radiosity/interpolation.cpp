@@ -76,8 +76,7 @@ static DiffuseField averaged_field(const ElementMesh& mesh, const ElementLight& 
 
 InterpolatedField interpolate(const LightScene& light, const ElementLight& elements,
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
-                              const InterpolationSettings& settings,
-                              const ReceiverNodes* receivers) {
+                              const InterpolationSettings& settings, ReceiverNodes* receivers) {
   if (settings.method == Interpolation::average)
     return {.field = averaged_field(light.mesh, elements)};
   if (settings.adaptive)

@@ -14,12 +14,14 @@
 #pragma once
 
 #include "radiosity/direct_irradiance.h"
-#include "radiosity/hierarchical/node_bends.h"
+#include "radiosity/element_mesh.h"
 #include "radiosity/solve.h"
 
 #include <optional>
 
 namespace meninas {
+
+struct ReceiverNodes; // hierarchical/receiver_nodes.h
 
 enum class Interpolation { average, gather };
 
@@ -69,11 +71,12 @@ struct ElementLight {
 };
 
 /// With `receivers`, vertices inside of nodes take their indirect light from
-/// the corners (hierarchical/node_bends.h), unless the mesh is adaptive.
+/// the corners (hierarchical/node_field.h), unless the mesh is adaptive: what `receivers` know
+/// of vertices becomes the field.
 InterpolatedField interpolate(const LightScene& light, const ElementLight& elements,
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
                               const InterpolationSettings& settings,
-                              const ReceiverNodes* receivers = nullptr);
+                              ReceiverNodes* receivers = nullptr);
 
 /// The field at a point of a side.
 glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv);

@@ -112,7 +112,7 @@ void take_received(const ElementMesh& mesh, const std::vector<Rgb>& received,
 /// and elements receive what vertices do, but for spots (hierarchical/node_light.h).
 void complete(const LightScene& light, const PassOneSettings& settings, const FirstLight& first,
               const std::vector<Rgb>& arrived, const ElementRays& rays, RadiositySolution& solution,
-              const ReceiverNodes* receivers = nullptr) {
+              ReceiverNodes* receivers = nullptr) {
   const ElementMesh& mesh = light.mesh;
   Stopwatch watch;
 
@@ -190,13 +190,19 @@ RadiositySolution shoot_pass_one(const LightScene& light, const PassOneSettings&
 static RadiositySolution link_pass_one(const LightScene& light, const PassOneSettings& settings,
                                        const Progress& progress) {
   const bool vertices_gather = gathers_by_nodes(settings);
-  NodeSolution nodes = solve_by_nodes(
-      light, settings.form_factors, settings.direct, settings.hierarchical,
-      vertices_gather ? ElementsAre::sources : ElementsAre::seen, settings.solver, progress);
+  Stopwatch watch;
+  std::optional<LitVertices> vertices;
+  if (vertices_gather)
+    vertices =
+        lit_vertices(light, {settings.form_factors, settings.direct, settings.interpolation});
+  const double lighting = watch.lap();
+  NodeSolution nodes =
+      solve_by_nodes(light, settings.form_factors, settings.direct, settings.hierarchical,
+                     std::move(vertices), settings.solver, progress);
   RadiositySolution solution;
   solution.solver = std::move(nodes.solver);
   solution.links = nodes.figures;
-  solution.seconds.form_factors = nodes.seconds_gathering;
+  solution.seconds.form_factors = lighting + nodes.seconds_gathering;
   solution.seconds.solve = nodes.seconds_solving;
   complete(light, settings, nodes.first, nodes.arrived,
            {nodes.closure, nodes.exposed, nodes.rays_traced}, solution,

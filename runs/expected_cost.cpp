@@ -3,7 +3,6 @@
 #include "radiosity/element_light.h"
 #include "radiosity/facets.h"
 #include "radiosity/gather_noise.h"
-#include "radiosity/hierarchical/node_light.h"
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/point_gathering.h"
 #include "radiosity/vertex_places.h"
@@ -26,14 +25,6 @@ double seconds_of_one(std::size_t all, std::size_t some, const Do& work) {
   for (std::size_t k = 0; k < count; ++k)
     work(k * all / count);
   return watch.lap() / double(count);
-}
-
-/// How many nodes light from the source is found for; what is covered is not known yet.
-std::size_t lit_together(const LightScene& light, const NodeTree& tree) {
-  std::vector<std::uint8_t> alone(element_count(light.mesh), 0);
-  if (const VertexElements facets = facets_around(light); !facets.elements.empty())
-    alone = averaged_facets(light.mesh, facets);
-  return nodes_lit_together(tree, most_lit_together(alone.size()), alone).size();
 }
 
 /// One gathering, and light from the source at one vertex and on one element;
@@ -63,12 +54,8 @@ PointSeconds point_seconds(const PreparedScene& prepared, const PassOneSettings&
     direct_irradiance(light, receivers[v], settings.direct, seed(v), work.direct);
   });
   SharedLightWorkspace element_work;
-  const DirectSettings at_element =
-      gathers_by_nodes(settings)
-          ? shared_out(settings.direct, lit_together(light, make_node_tree(mesh, light.surfaces)))
-          : settings.direct;
   seconds.on_element = seconds_of_one(element_count(mesh), some, [&](std::size_t e) {
-    direct_irradiance(light, static_cast<ElementId>(e), 0, at_element, element_work);
+    direct_irradiance(light, static_cast<ElementId>(e), 0, settings.direct, element_work);
   });
   return seconds;
 }
@@ -84,7 +71,8 @@ struct Counts {
 
 /// Where light is received by nodes: about twice as many as at first, and a few vertices for each.
 Counts counted_by_nodes(const LightScene& light, const PassOneSettings& settings, Counts all) {
-  constexpr double rows_of_first = 2.0, gathers_of_row = 3.0;
+  constexpr double rows_of_first = 2.0, gathers_of_row = 3.0,
+                   by_themselves = 0.05; // of the elements, whose corners do not tell
   const NodeTree tree = make_node_tree(light.mesh, light.surfaces);
   const std::size_t first = first_receivers(light.mesh, tree).size();
   all.rows = std::min(all.elements, rows_of_first * double(first));
@@ -93,7 +81,7 @@ Counts counted_by_nodes(const LightScene& light, const PassOneSettings& settings
   all.of_rays = double(rays_shared_out(settings.form_factors, first).rays) /
                 double(std::max(1, settings.form_factors.rays));
   all.gathers = std::min(all.gathers, gathers_of_row * all.rows);
-  all.elements = double(lit_together(light, tree));
+  all.elements = by_themselves * all.elements;
   return all;
 }
 

@@ -15,20 +15,9 @@
 #pragma once
 
 #include "radiosity/bends.h"
-#include "radiosity/covered_cells.h"
 #include "radiosity/hierarchical/node_vertices.h"
 
 namespace meninas {
-
-/// The cut at which light was received.
-struct ReceiverNodes {
-  NodeTree tree;
-  std::vector<TreeNodeId> receivers;
-  double bend = 0.0; ///< X
-  std::vector<CoveredCells> covered; ///< by ElementId: on what something stands
-  std::vector<std::uint8_t>
-      share_light; ///< by ElementId, 1: their corners know light from the source better than they do
-};
 
 /// What has been gathered so far, by ElementVertexId.
 struct GatheredVertices {

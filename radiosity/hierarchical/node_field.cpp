@@ -1,6 +1,7 @@
 #include "radiosity/hierarchical/node_field.h"
 
 #include "radiosity/gather_noise.h"
+#include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/hierarchical/node_edges.h"
 #include "radiosity/hierarchical/open_parts.h"
 #include "radiosity/vertex_places.h"
@@ -178,7 +179,8 @@ std::vector<Rgb> reflected_by_field(const VertexSource& few, const ReceiverNodes
   DiffuseField lit = found.field;
   std::vector<VertexState> states = found.states;
   share_out(gather_at_nodes({few, few}, receivers, few_rays * receivers.bend, found), found);
-  parts = open_parts(few, covered_somewhere(found, receivers.covered), receivers.covered);
+  parts = open_parts(few, {elements.from_source, receivers.share_light},
+                     covered_somewhere(found, receivers.covered), receivers.covered);
   const std::vector<Rgb> received =
       received_at_corners(elements, receivers, parts, found, filled(found, found.field.irradiance),
                           filled(found, found.field.indirect));
@@ -199,7 +201,6 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
   const PointGathering solved =
       gathering_from(light, elements.reflected, how, few_rays, first_spared);
   const VertexSource few{elements.irradiance, solved, workspaces};
-  light_vertices(few, found);
   std::vector<OpenPart> parts;
   const std::vector<Rgb> reflected = reflected_by_field(few, receivers, elements, parts, found);
   const PointGathering seen = gathering_from(light, reflected, how, 1),

@@ -16,11 +16,12 @@
 #pragma once
 
 #include "radiosity/bent_field.h"
+#include "radiosity/hierarchical/receiver_nodes.h"
 
 namespace meninas {
 
 /// Where light bends within elements these are divided, as in fields that are gathered everywhere.
-/// `found` has the values of vertices that take means of facets.
+/// `found` has light from the source, and the values of vertices that take means of facets.
 InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
                                  const ReceiverNodes& receivers, const VertexGathering& how,
                                  FoundField found, PointWorkspaces& workspaces);

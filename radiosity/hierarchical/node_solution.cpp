@@ -1,7 +1,6 @@
 #include "radiosity/hierarchical/node_solution.h"
 
 #include "radiosity/gather_noise.h"
-#include "radiosity/hierarchical/node_light.h"
 #include "radiosity/solvers/linear_system.h"
 #include "scenes/stopwatch.h"
 
@@ -114,7 +113,7 @@ struct NodeProblem {
   const LightScene& light;
   const NodeTree& tree;
   const DirectSettings& direct;
-  ElementsAre elements;
+  const FoundField* vertices; ///< that are seen; null: elements are
   const Progress& progress;
 };
 
@@ -135,9 +134,7 @@ void light_changed(const NodeProblem& problem, const std::vector<CoveredCells>& 
   for (std::uint32_t e = 0; e < before.size(); ++e)
     if (lit.covered[e] != before[e])
       changed.push_back(static_cast<ElementId>(e));
-  const std::vector<ElementId> again =
-      problem.elements == ElementsAre::seen ? changed : lit_with(problem.tree, changed);
-  light_again(problem.light, again, lit.covered, problem.direct, problem.progress, lit.direct);
+  light_again(problem.light, changed, lit.covered, problem.direct, problem.progress, lit.direct);
 }
 
 void light_up(const NodeProblem& problem, LitCut& lit) {
@@ -152,10 +149,10 @@ void light_up(const NodeProblem& problem, LitCut& lit) {
     if (!now.empty())
       light_changed(problem, now, lit);
     else
-      lit.direct =
-          problem.elements == ElementsAre::seen
-              ? direct_irradiance(light, lit.covered, problem.direct, problem.progress)
-              : light_by_nodes(light, problem.tree, lit.covered, problem.direct, problem.progress);
+      lit.direct = problem.vertices == nullptr
+                       ? direct_irradiance(light, lit.covered, problem.direct, problem.progress)
+                       : light_by_corners(light, problem.tree, lit.covered, *problem.vertices,
+                                          problem.direct, problem.progress);
   }
   lit.first = first_light(light, by_element(lit.cut, lit.cut.emission),
                           by_element(lit.cut, lit.cut.closure), lit.direct, FormFactorMethod::rays);
@@ -187,7 +184,7 @@ LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_
     light_up(problem, lit);
   };
   LitCut lit;
-  if (problem.elements == ElementsAre::seen) {
+  if (problem.vertices == nullptr) {
     find(form_factors, lit);
     return lit;
   }
@@ -224,15 +221,15 @@ FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows
 
 NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& form_factors,
                             const DirectSettings& direct, const HierarchicalSettings& settings,
-                            ElementsAre elements, const SolverSettings& solver,
+                            std::optional<LitVertices> vertices, const SolverSettings& solver,
                             const Progress& progress) {
   NodeSolution result;
   Stopwatch watch;
   NodeTree tree = make_node_tree(light.mesh, light.surfaces);
-  const NodeProblem problem{light, tree, direct, elements, progress};
+  const NodeProblem problem{light, tree, direct, vertices ? &vertices->found : nullptr, progress};
   FormFactorSettings of_rows;
   LitCut lit = first_lit_cut(problem, form_factors, of_rows);
-  const double spread = settings.link_error * (elements == ElementsAre::sources ? 20.0 : 1.0);
+  const double spread = settings.link_error * (vertices ? 20.0 : 1.0);
   Received received;
   for (;;) {
     result.seconds_gathering += watch.lap();
@@ -260,8 +257,14 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
   result.figures = {cut.receivers.size(), received.links.columns.size(),
                     tree.nodes.size() * sizeof(TreeNode) + bytes_of(cut.rows) +
                         bytes_of(received.links)};
-  result.receivers = {std::move(tree), std::move(lit.cut.receivers), settings.link_error,
-                      std::move(lit.covered), std::move(lit.direct.shared)};
+  result.receivers = {std::move(tree),        std::move(lit.cut.receivers), settings.link_error,
+                      std::move(lit.covered), std::move(lit.direct.shared), {}};
+  if (vertices) {
+    result.rays_traced += vertices->rays;
+    result.first.shadow_rays += vertices->shadow_rays;
+    result.receivers.vertices = std::move(vertices->found);
+    result.receivers.vertices.punctual.clear();
+  }
   return result;
 }
 

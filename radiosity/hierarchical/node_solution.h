@@ -27,7 +27,7 @@
 // as what receivers are off by is passed on so many times.
 // Where vertices gather what is seen (node_field.h), elements only light others,
 // on average over many, and what is seen of them is as vertices have it (node_field.h):
-// X is twenty link errors, light from the source is that of nodes (node_light.h),
+// X is twenty link errors, light from the source is that of their corners (node_light.h),
 // and of more than 128 receivers the rows share the rays of so many,
 // or of up to 1,024 where light is uneven; where it is very uneven they are found twice.
 //
@@ -37,9 +37,12 @@
 
 #include "radiosity/first_light.h"
 #include "radiosity/hierarchical/link_figures.h"
-#include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/hierarchical/node_cut.h"
+#include "radiosity/hierarchical/node_light.h"
+#include "radiosity/hierarchical/receiver_nodes.h"
 #include "radiosity/solve.h"
+
+#include <optional>
 
 namespace meninas {
 
@@ -61,13 +64,11 @@ struct NodeSolution {
 FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows,
                                    double unevenness = 1.0);
 
-/// What elements receive is what is seen of them,
-/// or it only lights others, and vertices gather what is seen.
-enum class ElementsAre { seen, sources };
-
+/// With vertices, which then gather what is seen, elements only light others;
+/// without, what they receive is what is seen of them.
 NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& form_factors,
                             const DirectSettings& direct, const HierarchicalSettings& settings,
-                            ElementsAre elements, const SolverSettings& solver,
+                            std::optional<LitVertices> vertices, const SolverSettings& solver,
                             const Progress& progress = {});
 
 } // namespace meninas

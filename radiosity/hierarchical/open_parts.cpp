@@ -11,9 +11,9 @@ namespace {
 
 constexpr int points_gathering = 4;
 
-OpenPart open_part(const VertexSource& source, ElementId element, CoveredCells covered,
-                   PointWorkspace& work) {
-  const PointGathering& gathering = source.gathering;
+/// The part's light that does not come from the source.
+Rgb indirect_in_part(const PointGathering& gathering, ElementId element, CoveredCells covered,
+                     PointWorkspace& work) {
   const ReceiverArea area = receiver_of(gathering.light, element);
   const std::uint32_t seed = hash(index(element), gathering.form_factors.seed, 0x09e4);
   Rgb sum(0.0);
@@ -25,16 +25,22 @@ OpenPart open_part(const VertexSource& source, ElementId element, CoveredCells c
                          area.coat};
     sum += indirect_light_at(gathering, point, hash(seed, place.number), work).indirect().total;
   }
+  return sum / double(points_gathering);
+}
+
+Rgb from_source_in_part(const PointGathering& gathering, ElementId element, CoveredCells covered,
+                        PointWorkspace& work) {
   SharedLightWorkspace shared;
   const ArrivingLight direct =
       direct_irradiance(gathering.light, element, covered, gathering.direct, shared);
   work.direct.shadow_rays += shared.point.shadow_rays;
-  return {element, direct.total, sum / double(points_gathering)};
+  return direct.total;
 }
 
 } // namespace
 
-std::vector<OpenPart> open_parts(const VertexSource& source, std::span<const std::uint8_t> asked,
+std::vector<OpenPart> open_parts(const VertexSource& source, const SourceOfElements& known,
+                                 std::span<const std::uint8_t> asked,
                                  std::span<const CoveredCells> covered) {
   std::vector<std::uint32_t> in_part;
   for (std::uint32_t e = 0; e < covered.size(); ++e)
@@ -42,8 +48,14 @@ std::vector<OpenPart> open_parts(const VertexSource& source, std::span<const std
       in_part.push_back(e);
   std::vector<OpenPart> parts(in_part.size());
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
-    parts[k] = open_part(source, static_cast<ElementId>(in_part[k]), covered[in_part[k]],
-                         source.workspaces.local());
+    const std::uint32_t e = in_part[k];
+    const ElementId element{e};
+    PointWorkspace& work = source.workspaces.local();
+    parts[k] = {element,
+                known.shared[e] == 0
+                    ? known.light[e]
+                    : from_source_in_part(source.gathering, element, covered[e], work),
+                indirect_in_part(source.gathering, element, covered[e], work)};
   });
   return parts;
 }

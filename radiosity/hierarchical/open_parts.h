@@ -21,8 +21,16 @@ struct OpenPart {
   Rgb from_source, indirect; ///< D and I, W/m^2
 };
 
+/// What is known of light from the source by ElementId: 0 in `shared`, or that of corners
+/// (node_light.h).
+struct SourceOfElements {
+  std::span<const Rgb> light;
+  std::span<const std::uint8_t> shared;
+};
+
 /// Of those elements that are `asked`, by ElementId as is `covered`, and are not wholly covered.
-std::vector<OpenPart> open_parts(const VertexSource& source, std::span<const std::uint8_t> asked,
+std::vector<OpenPart> open_parts(const VertexSource& source, const SourceOfElements& known,
+                                 std::span<const std::uint8_t> asked,
                                  std::span<const CoveredCells> covered);
 
 } // namespace meninas

@@ -38,8 +38,14 @@ Scene furnace_with_box() {
 }
 
 NodeSolution solved_by_nodes(const LightScene& light, const PassOneSettings& settings) {
-  return solve_by_nodes(light, settings.form_factors, settings.direct, settings.hierarchical,
-                        ElementsAre::sources, settings.solver);
+  return solve_by_nodes(
+      light, settings.form_factors, settings.direct, settings.hierarchical,
+      lit_vertices(light, {settings.form_factors, settings.direct, settings.interpolation}),
+      settings.solver);
+}
+
+SourceOfElements known_light(const NodeSolution& solution) {
+  return {solution.first.from_source, solution.receivers.share_light};
 }
 
 /// Of elements that are covered in part, by ElementId.
@@ -93,7 +99,7 @@ TEST(OpenParts, OfAFurnaceReceiveWhatAllOfItDoes) {
                                  {.rays = 256});
   const std::vector<Rgb> irradiance(size, Rgb(2.0));
   PointWorkspaces workspaces;
-  const auto parts = open_parts({irradiance, gathering, workspaces},
+  const auto parts = open_parts({irradiance, gathering, workspaces}, known_light(solution),
                                 in_part(solution.receivers.covered), solution.receivers.covered);
   EXPECT_GT(parts.size(), 10);
   for (const OpenPart& part : parts) {
@@ -146,7 +152,7 @@ TEST(OpenParts, AtTheFeetOfBoxesAreLitByWhatRowsFind) {
     reflected[e] -= l->mesh.emission[e];
   const PointGathering gathering(*l->light, reflected, {.seed = 7}, {}, {.rays = 512});
   PointWorkspaces workspaces;
-  const auto parts = open_parts({rows.irradiance, gathering, workspaces},
+  const auto parts = open_parts({rows.irradiance, gathering, workspaces}, known_light(solution),
                                 in_part(solution.receivers.covered), solution.receivers.covered);
   EXPECT_GT(parts.size(), 50);
   double squares = 0.0, all = 0.0, from_rows = 0.0, from_nodes = 0.0;
