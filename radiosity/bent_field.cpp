@@ -6,9 +6,8 @@
 
 namespace meninas {
 
-/// The marked elements divided; what was found is kept.
-static FoundField divided(const FoundField& before, const SurfaceModel& surfaces,
-                          std::span<const std::uint8_t> marked) {
+FoundField divided(const FoundField& before, const SurfaceModel& surfaces,
+                   std::span<const std::uint8_t> marked) {
   FoundField after = unknown_field(divide_elements(before.mesh, surfaces, marked));
   const std::vector<CellId> now = same_cells(before.mesh, after.mesh);
   for (std::size_t e = 0; e < element_count(before.mesh); ++e) {
@@ -28,7 +27,7 @@ static FoundField divided(const FoundField& before, const SurfaceModel& surfaces
 }
 
 void divide_bent(const LightScene& light, const VertexSource& source, const BendScale& scale,
-                 double x, FoundField found, InterpolatedField& result) {
+                 double x, FoundField& found, InterpolatedField& result) {
   constexpr std::uint32_t most_divisions = 3;
   for (std::uint32_t level = 1; level <= most_divisions && x > 0.0; ++level) {
     const auto marked = bent_elements(found.mesh, result.field.indirect, scale, x);

@@ -10,9 +10,13 @@
 
 namespace meninas {
 
+/// The marked elements divided; what was found is kept.
+FoundField divided(const FoundField& before, const SurfaceModel& surfaces,
+                   std::span<const std::uint8_t> marked);
+
 /// `result` has the field of what was found,
-/// and takes the finer mesh and its field where anything bends. X = 0: nothing does.
+/// and takes the finer mesh and its field where anything bends, `found` as well. X = 0: nothing does.
 void divide_bent(const LightScene& light, const VertexSource& source, const BendScale& scale,
-                 double x, FoundField found, InterpolatedField& result);
+                 double x, FoundField& found, InterpolatedField& result);
 
 } // namespace meninas

@@ -163,7 +163,8 @@ void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundFi
   follow_penumbrae(source, level, found);
 }
 
-/// Marks the dark vertices in one element with a bright one, or with one that is covered;
+/// Marks the dark vertices in one element with a bright one, one that is covered,
+/// or one that has all of its light;
 /// those once marked no more. Returns whether there are any.
 static bool mark_dark_beside_bright(const FoundField& found, std::vector<std::uint8_t>& marked,
                                     std::vector<std::uint8_t>& asked) {
@@ -172,6 +173,7 @@ static bool mark_dark_beside_bright(const FoundField& found, std::vector<std::ui
   };
   const auto is_beside = [&](ElementVertexId v) {
     return found.states[index(v)] == VertexState::covered ||
+           found.states[index(v)] == VertexState::gathered ||
            (found.states[index(v)] == VertexState::lit && !is_dark(index(v)));
   };
   marked.assign(asked.size(), 0);
@@ -203,13 +205,13 @@ static void cover_shut_in(const VertexSource& source, FoundField& found) {
   std::ranges::replace(found.states, VertexState::low, VertexState::lit);
 }
 
-void light_vertices(const VertexSource& source, FoundField& found) {
-  light_each(source, VertexState::unknown, VertexState::lit, {}, 0, found,
+void light_vertices(const VertexSource& source, std::uint32_t level, FoundField& found) {
+  light_each(source, VertexState::unknown, VertexState::lit, {}, level, found,
              [&](const Receiver& receiver, double, std::uint32_t seed,
                  PointWorkspace& work) -> VertexValue {
                return {light_from_source(source.gathering, receiver, seed, work), {}};
              });
-  follow_penumbrae(source, 0, found);
+  follow_penumbrae(source, level, found);
   cover_shut_in(source, found);
 }
 

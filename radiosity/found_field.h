@@ -75,7 +75,8 @@ void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundFi
 
 /// Light from the source alone at those vertices. Of dark ones beside bright ones it tells
 /// which are covered: that they get no light but what neighbours have besides would show.
-void light_vertices(const VertexSource& source, FoundField& found);
+/// `level` as above.
+void light_vertices(const VertexSource& source, std::uint32_t level, FoundField& found);
 
 /// Adds the rest at those that are lit and marked, by ElementVertexId.
 void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> marked,

@@ -78,7 +78,7 @@ void gather_everywhere(const LightScene& light, const ElementLight& elements,
   gather_at_vertices(source, 0, found);
   result.field = settled(source, found);
   divide_bent(light, source, bend_scale(light.mesh, elements.reflected), how.interpolation.bend,
-              std::move(found), result);
+              found, result);
 }
 
 } // namespace

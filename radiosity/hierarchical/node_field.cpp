@@ -4,6 +4,7 @@
 #include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/hierarchical/node_edges.h"
 #include "radiosity/hierarchical/open_parts.h"
+#include "radiosity/shadow_edges.h"
 #include "radiosity/vertex_places.h"
 
 #include <algorithm>
@@ -212,8 +213,9 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
   InterpolatedField result{.field = settled(source, found)};
   result.received = received_at_corners(elements, receivers, parts, found, result.field.irradiance,
                                         result.field.indirect);
-  divide_bent(light, source, bend_scale(light.mesh, elements.reflected), how.interpolation.bend,
-              std::move(found), result);
+  const BendScale scale = bend_scale(light.mesh, elements.reflected);
+  divide_bent(light, source, scale, how.interpolation.bend, found, result);
+  divide_at_shadows(light, source, scale, how.interpolation.shadow_bend, std::move(found), result);
   return result;
 }
 

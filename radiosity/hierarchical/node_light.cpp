@@ -14,7 +14,7 @@ LitVertices lit_vertices(const LightScene& light, const VertexGathering& how) {
   PointWorkspaces workspaces;
   const std::vector<Rgb> none_yet(element_count(light.mesh), Rgb(0.0));
   const PointGathering gathering = gathering_from(light, none_yet, how, 1);
-  light_vertices({none_yet, gathering, workspaces}, lit.found);
+  light_vertices({none_yet, gathering, workspaces}, 0, lit.found);
   for (const PointWorkspace& work : workspaces) {
     lit.rays += work.rays;
     lit.shadow_rays += work.direct.shadow_rays;

@@ -41,7 +41,7 @@ FoundField lit_vertices(const LitScene& l) {
       gathering_from(*l.light, dark, {form_factors, direct, interpolation}, 1);
   PointWorkspaces workspaces;
   FoundField found = unknown_field(l.mesh);
-  light_vertices({bright, gathering, workspaces}, found);
+  light_vertices({bright, gathering, workspaces}, 0, found);
   return found;
 }
 

@@ -1,0 +1,23 @@
+// A field that is found, made finer where light from the source bends:
+// at the edges of shadows, and of what mirrors throw.
+//
+// Elements in which D bends by more than X of the scene's mean (bends.h) are divided,
+// up to three times. At the vertices that they get light from the source is found.
+// The rest is smooth there, or vertices would have asked for more of it:
+// it stays what it was between the corners of the elements that were divided.
+// So an edge costs shadow rays at few vertices and nothing is gathered.
+// Vertices that turn out to be covered take what those around them have.
+// Of the elements that were solved at the most as many more: where more bend, X is doubled.
+#pragma once
+
+#include "radiosity/bends.h"
+#include "radiosity/found_field.h"
+
+namespace meninas {
+
+/// `result` has the field of what was found, settled,
+/// and takes the finer mesh and its field where anything bends. X = 0: nothing does.
+void divide_at_shadows(const LightScene& light, const VertexSource& source, const BendScale& scale,
+                       double x, FoundField found, InterpolatedField& result);
+
+} // namespace meninas

@@ -1,0 +1,227 @@
+// Elements divided where light from the source bends: shadows are nearer to what they are,
+// for few vertices, and what is smooth stays as it was.
+#include "radiosity/mesh_division.h"
+#include "radiosity/shadow_edges.h"
+#include "radiosity/vertex_places.h"
+#include "tests/radiosity/lit_scene.h"
+#include "tests/support/rooms.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas::test {
+namespace {
+
+PassOneSettings by_nodes(double element_size, double shadow_bend) {
+  PassOneSettings settings;
+  settings.mesh.element_size = element_size;
+  settings.form_factors.rays = settings.interpolation.rays = 128;
+  settings.solver.method = SolverMethod::hierarchical;
+  settings.interpolation.shadow_bend = shadow_bend;
+  return settings;
+}
+
+/// A room with a lamp, and a plate that hides half of it from some of the floor.
+Scene room_with_plate() {
+  Scene scene;
+  const Material wall = diffuse(0.5);
+  add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, wall, wall, wall});
+  add_polygon(scene, "lamp", {{0.4, 0.9, 0.4}, {0.6, 0.9, 0.4}, {0.6, 0.9, 0.6}, {0.4, 0.9, 0.6}},
+              diffuse(0.0, 10.0));
+  add_polygon(scene, "plate", {{0.1, 0.4, 0.1}, {0.1, 0.4, 0.9}, {0.5, 0.4, 0.9}, {0.5, 0.4, 0.1}},
+              double_sided(diffuse(0.5)));
+  return scene;
+}
+
+/// A place on a side of the mesh that was solved.
+struct Place {
+  SideId side;
+  Vec2 uv;
+};
+
+/// The middles of all elements of nodes of a name.
+std::vector<Place> middles_of(const LitScene& l, const std::string& node) {
+  std::vector<Place> places;
+  for (const std::size_t e : elements_of(l, node)) {
+    const SideId side = l.mesh.side_of_element[e];
+    const Patch& patch = l.surfaces.patches[index(l.mesh.sides[index(side)].patch)];
+    places.push_back({side, uv_at(patch, centre_of(l.mesh, static_cast<ElementId>(e)))});
+  }
+  return places;
+}
+
+/// Light from the source there: by many shadow rays, and as the field has it.
+double exactly(const LitScene& l, const Place& place, DirectWorkspace& work) {
+  const MeshSide& side = l.mesh.sides[index(place.side)];
+  const Patch& patch = l.surfaces.patches[index(side.patch)];
+  const Receiver point{point_at(patch, place.uv), side.normal, side.plane_class, side.tangent};
+  return direct_irradiance(*l.light, point,
+                           {.shadow_rays = 256,
+                            .penumbra_rays = 4096,
+                            .penumbra_samples = PenumbraSamples::everywhere},
+                           0, work)
+      .total.g;
+}
+
+double by_field(const LitScene& l, const RadiositySolution& solution, const Place& place) {
+  const ElementMesh& mesh = field_scene(*l.light, solution).mesh;
+  return double{irradiance_at(mesh, solution.field, place.side, place.uv).g} -
+         double{value_in(mesh, solution.field.indirect, locate(mesh, place.side, place.uv)).g};
+}
+
+std::vector<double> exactly(const LitScene& l, const std::vector<Place>& places) {
+  DirectWorkspace work;
+  std::vector<double> light;
+  for (const Place& place : places)
+    light.push_back(exactly(l, place, work));
+  return light;
+}
+
+/// The mean of the squares of what the field is off by where light arrives, over that of what does.
+double error_of(const LitScene& l, const RadiositySolution& solution,
+                const std::vector<Place>& places, const std::vector<double>& expected) {
+  double squares = 0.0, all = 0.0;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (expected[k] > 0.0) {
+      squares += std::pow(by_field(l, solution, places[k]) - expected[k], 2.0);
+      all += expected[k] * expected[k];
+    }
+  return squares / all;
+}
+
+// In the middle of elements interpolation is off by e = h^2 D'' / 8. Elements that are off by most
+// are divided up to three times, of those that are less some: of the squared error a third is left
+// at the most, for less than two thirds as many elements more.
+TEST(ShadowEdges, AreNearerToWhatTheyAre) {
+  const auto l = lit(room_with_plate(), {.element_size = 1.0 / 16.0});
+  const std::vector<Place> places = middles_of(*l, "y0");
+  const RadiositySolution even = solve_pass_one(*l->light, by_nodes(1.0 / 16.0, 0.0)),
+                          finer = solve_pass_one(*l->light, by_nodes(1.0 / 16.0, 0.02));
+  ASSERT_TRUE(finer.refined);
+  EXPECT_FALSE(even.refined);
+  const std::size_t before = element_count(l->mesh),
+                    now = element_count(field_scene(*l->light, finer).mesh);
+  EXPECT_LT(now - before, 2 * before / 3);
+  const std::vector<double> expected = exactly(*l, places);
+  EXPECT_LT(error_of(*l, finer, places, expected), error_of(*l, even, places, expected) / 3.0);
+}
+
+// Nothing is gathered for them: what is not from the source is the same everywhere.
+TEST(ShadowEdges, LeaveTheRestAsItWas) {
+  const auto l = lit(room_with_plate(), {.element_size = 1.0 / 16.0});
+  const RadiositySolution even = solve_pass_one(*l->light, by_nodes(1.0 / 16.0, 0.0)),
+                          finer = solve_pass_one(*l->light, by_nodes(1.0 / 16.0, 0.02));
+  const ElementMesh& mesh = field_scene(*l->light, finer).mesh;
+  EXPECT_EQ(even.radiosity, finer.radiosity);
+  EXPECT_LE(finer.form_factor_rays, even.form_factor_rays + 32 * mesh.vertices.size())
+      << "32 of each that is dark tell whether it is covered";
+  for (const Place& place : middles_of(*l, "y0")) {
+    const float before =
+        value_in(l->mesh, even.field.indirect, locate(l->mesh, place.side, place.uv)).g;
+    EXPECT_NEAR(value_in(mesh, finer.field.indirect, locate(mesh, place.side, place.uv)).g, before,
+                1e-5F * before);
+  }
+}
+
+// Vertices that hang are where the edges of their larger neighbours are.
+TEST(ShadowEdges, HaveNoCracks) {
+  const auto l = lit(room_with_plate(), {.element_size = 1.0 / 16.0});
+  const RadiositySolution solution = solve_pass_one(*l->light, by_nodes(1.0 / 16.0, 0.02));
+  const ElementMesh& mesh = field_scene(*l->light, solution).mesh;
+  EXPECT_GT(mesh.hanging.size(), 10);
+  for (const auto* values : {&solution.field.irradiance, &solution.field.indirect})
+    for (const HangingVertex& hanging : mesh.hanging)
+      EXPECT_EQ((*values)[index(hanging.vertex)],
+                0.5F * ((*values)[index(hanging.end_a)] + (*values)[index(hanging.end_b)]));
+}
+
+// A sun through a window is lit or not at every vertex, and elements as large as its spot bend
+// everywhere: there are never more than twice as many as were solved, and those that follow them.
+TEST(ShadowEdges, AreAtMostAsManyMore) {
+  Scene scene = room_with_plate();
+  PunctualLight point;
+  point.position = {0.8, 0.6, 0.3};
+  point.intensity = Rgb(10.0);
+  scene.lights = {point};
+  const auto l = lit(scene, {.element_size = 1.0 / 8.0});
+  const RadiositySolution solution = solve_pass_one(*l->light, by_nodes(1.0 / 8.0, 1e-9));
+  const double growth =
+      double(element_count(field_scene(*l->light, solution).mesh)) / double(element_count(l->mesh));
+  EXPECT_GT(growth, 1.5);
+  EXPECT_LT(growth, 3.0);
+}
+
+// A box stands on the floor, not along the edges of elements. Vertices under it are dark;
+// what lies beside it takes nothing of that: interpolated it is within a quarter of what arrives.
+TEST(ShadowEdges, AreCleanWhereThingsStand) {
+  Scene scene;
+  const Material wall = diffuse(0.5);
+  add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, wall, wall, wall});
+  add_polygon(scene, "lamp", {{0.1, 0.9, 0.1}, {0.9, 0.9, 0.1}, {0.9, 0.9, 0.9}, {0.1, 0.9, 0.9}},
+              diffuse(0.0, 1.0));
+  add_box(scene, "box", {0.37, 0.0, 0.41}, {0.63, 0.3, 0.66}, wall);
+  const auto l = lit(scene, {.element_size = 1.0 / 16.0});
+  const RadiositySolution even = solve_pass_one(*l->light, by_nodes(1.0 / 16.0, 0.0)),
+                          finer = solve_pass_one(*l->light, by_nodes(1.0 / 16.0, 0.005));
+  ASSERT_TRUE(finer.refined);
+  const ElementMesh& mesh = field_scene(*l->light, finer).mesh;
+  DirectWorkspace work;
+  std::size_t beside = 0;
+  for (const auto& [from, to] : {std::pair(Point3(0.37, 0.0, 0.405), Point3(0.63, 0.0, 0.405)),
+                                 std::pair(Point3(0.635, 0.0, 0.41), Point3(0.635, 0.0, 0.66))})
+    for (double t = 0.05; t < 1.0; t += 0.1) {
+      const Place floor = middles_of(*l, "y0").front();
+      const MeshSide& side = l->mesh.sides[index(floor.side)];
+      const Patch& patch = l->surfaces.patches[index(side.patch)];
+      const Place place{floor.side, uv_at(patch, from + t * (to - from))};
+      const double there = exactly(*l, place, work);
+      EXPECT_GT(by_field(*l, finer, place), 0.75 * there) << t;
+      EXPECT_LT(by_field(*l, finer, place), 1.25 * there) << t;
+      ++beside;
+    }
+  EXPECT_EQ(beside, 20U);
+  for (const glm::vec3& value : finer.field.irradiance)
+    EXPECT_TRUE(value.g >= 0.0F && std::isfinite(value.g));
+  EXPECT_EQ(mesh.vertices.size(), finer.field.irradiance.size());
+  EXPECT_EQ(even.radiosity, finer.radiosity);
+}
+
+// The method of images: what a mirror throws has edges too, which are divided,
+// and is what arrives in the doubled room.
+TEST(ShadowEdges, OfTheMirrorRoomAreThoseOfTheDoubledOne) {
+  const Scene half = half_room_with_small_mirror();
+  const auto a = lit(half, {.element_size = 0.125}),
+             b = lit(doubled(half), {.element_size = 0.125});
+  const RadiositySolution even = solve_pass_one(*a->light, by_nodes(0.125, 0.0)),
+                          finer = solve_pass_one(*a->light, by_nodes(0.125, 0.01));
+  double before = 0.0, now = 0.0;
+  for (const std::string wall : {"x1", "y0", "z0"}) {
+    const std::vector<Place> places = middles_of(*a, wall);
+    const std::vector<double> expected = exactly(*b, middles_of(*b, wall));
+    ASSERT_EQ(places.size(), expected.size());
+    before += error_of(*a, even, places, expected);
+    now += error_of(*a, finer, places, expected);
+    EXPECT_LT(error_of(*a, finer, places, expected), std::pow(0.02, 2.0)) << wall;
+  }
+  EXPECT_LT(now, before / 2.0);
+}
+
+TEST(ShadowEdges, AreTheSameBitsForAnyNumberOfThreads) {
+  const auto l = lit(room_with_plate(), {.element_size = 1.0 / 12.0});
+  std::vector<RadiositySolution> runs;
+  for (const std::size_t threads : {1, 2, 4}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    runs.push_back(solve_pass_one(*l->light, by_nodes(1.0 / 12.0, 0.01)));
+  }
+  for (const RadiositySolution& run : runs) {
+    EXPECT_EQ(run.field.irradiance, runs[0].field.irradiance);
+    EXPECT_EQ(run.field.indirect, runs[0].field.indirect);
+    EXPECT_EQ(run.shadow_rays, runs[0].shadow_rays);
+  }
+}
+
+} // namespace
+} // namespace meninas::test
