@@ -72,25 +72,25 @@ bool is_divisible(const ElementMesh& mesh, const SurfaceModel& surfaces, const M
 
 namespace {
 
-/// By ElementId, whether any cell of its surface is divided: on others all neighbours are alike.
-std::vector<std::uint8_t> on_divided_surfaces(const PlacedVertices& placed) {
-  const ElementMesh& mesh = placed.mesh;
-  std::vector<std::uint8_t> divided(placed.surfaces.surfaces.size(), 0), on(element_count(mesh));
-  const auto surface_of = [&](const MeshSide& side) {
-    return index(placed.surfaces.patches[index(side.patch)].surface);
-  };
-  for (const MeshSide& side : mesh.sides)
-    if (is_divided(side))
-      divided[surface_of(side)] = 1;
-  for (std::size_t e = 0; e < on.size(); ++e)
-    on[e] = divided[surface_of(mesh.sides[index(mesh.side_of_element[e])])];
-  return on;
+/// By ElementId, whether a corner of it is one of a divided cell's parts: where two cells along an
+/// edge differ, the smaller ones have its ends for corners; roots beside one another are alike.
+std::vector<std::uint8_t> beside_divided(const ElementMesh& mesh) {
+  std::vector<std::uint8_t> of_parts(mesh.vertices.size(), 0), beside(element_count(mesh), 0);
+  for (std::size_t e = 0; e < beside.size(); ++e)
+    if (cell_of(mesh, static_cast<ElementId>(e)).level > 0)
+      for (const ElementVertexId corner : mesh.corners[e])
+        of_parts[index(corner)] = 1;
+  for (std::size_t e = 0; e < beside.size(); ++e)
+    beside[e] = std::ranges::any_of(mesh.corners[e], [&](ElementVertexId corner) {
+      return of_parts[index(corner)] != 0;
+    });
+  return beside;
 }
 
 /// The elements that have to be divided for the sake of their neighbours; empty when there is none.
 std::vector<std::uint8_t> to_follow(const PlacedVertices& placed) {
   const ElementMesh& mesh = placed.mesh;
-  const std::vector<std::uint8_t> asked = on_divided_surfaces(placed);
+  const std::vector<std::uint8_t> asked = beside_divided(mesh);
   std::vector<std::uint8_t> marked(element_count(mesh), 0);
   for (std::size_t e = 0; e < marked.size(); ++e) {
     const MeshCell& cell = cell_of(mesh, static_cast<ElementId>(e));
@@ -111,7 +111,7 @@ std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed) {
     double edge;
   };
   const ElementMesh& mesh = placed.mesh;
-  const std::vector<std::uint8_t> asked = on_divided_surfaces(placed);
+  const std::vector<std::uint8_t> asked = beside_divided(mesh);
   std::vector<Found> found;
   for (std::size_t e = 0; e < element_count(mesh); ++e) {
     if (asked[e] == 0)

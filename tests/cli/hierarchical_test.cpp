@@ -46,6 +46,23 @@ TEST_F(HierarchicalRuns, FiguresSpeakOfReceiversAndLinks) {
   EXPECT_EQ(view.code, 0) << view.err;
 }
 
+// Elements are divided at the edges of shadows where vertices show these, and not
+// where light from lamps is computed at hits.
+TEST_F(HierarchicalRuns, DivideAtShadowsWhereTheseAreInterpolated) {
+  const auto meshed = [&](const std::string& diffuse) {
+    const Outcome outcome = run_program(
+        folder_.path(), {"render", "room.glb", "-o", "a.exr", "--size", "8x8", "--rays", "64",
+                         "--element-size", "0.1", "--solver", "hierarchical", "--link-error",
+                         "0.002", "--diffuse", diffuse, "--stats", "stats.json"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return json::parse(read_file(folder_ / "stats.json")).at("mesh");
+  };
+  const json interpolated = meshed("interpolated"), direct = meshed("direct");
+  EXPECT_GT(interpolated["elements"], interpolated["solved_elements"]);
+  EXPECT_EQ(direct["elements"], direct["solved_elements"]);
+  EXPECT_EQ(direct["solved_elements"], interpolated["solved_elements"]);
+}
+
 TEST_F(BatchTest, TakesHierarchicalAsTheCommandLineDoes) {
   write_jobs({{{"scenes", "room.glb"},
                {"modes", "radiosity"},
