@@ -90,7 +90,7 @@ void divide_at_shadows(const LightScene& light, const VertexSource& source, cons
                        double x, FoundField found, InterpolatedField& result) {
   constexpr std::uint32_t most_divisions = 3, first_level = 0xed9e;
   constexpr std::size_t parts_more = 3;
-  const std::size_t most = 2 * element_count(found.mesh);
+  const std::size_t solved = element_count(found.mesh), most = solved + most_at_shadows(solved);
   for (std::uint32_t level = 0; level < most_divisions && x > 0.0; ++level) {
     const std::size_t now = element_count(found.mesh), more = now < most ? most - now : 0;
     const auto marked =

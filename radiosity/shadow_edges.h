@@ -7,13 +7,20 @@
 // it stays what it was between the corners of the elements that were divided.
 // So an edge costs shadow rays at few vertices and nothing is gathered.
 // Vertices that turn out to be covered take what those around them have.
-// Of the elements that were solved at the most as many more: where more bend, X is doubled.
+// There are at the most as many more as were solved, or 16,384: where more bend, X is doubled.
 #pragma once
 
 #include "radiosity/bends.h"
 #include "radiosity/found_field.h"
 
+#include <algorithm>
+
 namespace meninas {
+
+/// How many more elements there may be, besides those that follow their neighbours.
+inline std::size_t most_at_shadows(std::size_t solved) {
+  return std::max<std::size_t>(solved, 16384);
+}
 
 /// `result` has the field of what was found, settled,
 /// and takes the finer mesh and its field where anything bends. X = 0: nothing does.
