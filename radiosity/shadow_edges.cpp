@@ -2,7 +2,6 @@
 
 #include "radiosity/bent_field.h"
 #include "radiosity/mesh_division.h"
-#include "radiosity/vertex_fill.h"
 
 #include <algorithm>
 
@@ -36,52 +35,61 @@ FoundField kept(FoundField found, const DiffuseField& settled) {
   return found;
 }
 
-/// By ElementVertexId, 1: new, or has hung so far.
-std::vector<std::uint8_t> without_value(const FoundField& found) {
-  std::vector<std::uint8_t> fresh;
-  for (const VertexState state : found.states)
-    fresh.push_back(state == VertexState::unknown ? 1 : 0);
-  return fresh;
+/// What the coarser mesh has there.
+struct CoarseLight {
+  glm::vec3 irradiance, mirrored, indirect, indirect_mirrored;
+  bool beside_covered; ///< in an element with a covered corner
+};
+CoarseLight light_in(const FoundField& coarse, const SurfaceModel& surfaces,
+                     const ElementMesh& mesh, std::size_t v) {
+  const SideId side = mesh.side_of_element[index(mesh.element_of_vertex[v])];
+  const Patch& patch = surfaces.patches[index(mesh.sides[index(side)].patch)];
+  const ElementPoint at = locate(coarse.mesh, side, uv_at(patch, mesh.vertices[v]));
+  const auto value = [&](const std::vector<glm::vec3>& values) {
+    return value_in(coarse.mesh, values, at);
+  };
+  const bool beside_covered =
+      std::ranges::any_of(coarse.mesh.corners[index(at.element)], [&](ElementVertexId corner) {
+        return coarse.states[index(corner)] == VertexState::covered;
+      });
+  return {value(coarse.field.irradiance), value(coarse.field.mirrored),
+          value(coarse.field.indirect), value(coarse.field.indirect_mirrored), beside_covered};
 }
 
 /// Light from the source at fresh vertices, and what else is there as the coarser mesh has it.
+/// Under things, and in the dark beside these, all is as that has it: what is gathered beside them.
 void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::uint32_t level,
-                 const FoundField& coarse, const std::vector<std::uint8_t>& fresh,
-                 FoundField& found) {
-  const ElementMesh& mesh = found.mesh;
+                 const FoundField& coarse, FoundField& found) {
   DiffuseField& field = found.field;
-  for (std::size_t v = 0; v < fresh.size(); ++v)
-    if (fresh[v] != 0)
+  std::vector<std::uint32_t> fresh; // new, or has hung so far
+  for (std::uint32_t v = 0; v < found.states.size(); ++v)
+    if (found.states[v] == VertexState::unknown) {
+      fresh.push_back(v);
+      found.seen[v] = SourceSeen::alike;
       field.irradiance[v] = field.mirrored[v] = field.indirect[v] = field.indirect_mirrored[v] =
           glm::vec3(0.0F);
+    }
   light_vertices(source, level, found);
-  for (std::size_t v = 0; v < fresh.size(); ++v) {
-    if (fresh[v] == 0 || found.states[v] != VertexState::lit)
+  for (const std::uint32_t v : fresh) {
+    if (found.states[v] == VertexState::unknown)
       continue;
-    const SideId side = mesh.side_of_element[index(mesh.element_of_vertex[v])];
-    const Patch& patch = surfaces.patches[index(mesh.sides[index(side)].patch)];
-    const ElementPoint at = locate(coarse.mesh, side, uv_at(patch, mesh.vertices[v]));
-    field.indirect[v] = value_in(coarse.mesh, coarse.field.indirect, at);
-    field.indirect_mirrored[v] = value_in(coarse.mesh, coarse.field.indirect_mirrored, at);
-    field.irradiance[v] += field.indirect[v];
-    field.mirrored[v] += field.indirect_mirrored[v];
-    found.states[v] = VertexState::gathered;
+    const CoarseLight before = light_in(coarse, surfaces, found.mesh, v);
+    const bool is_dark = field.irradiance[v] == glm::vec3(0.0F);
+    if (found.states[v] == VertexState::covered || (is_dark && before.beside_covered)) {
+      found.states[v] = VertexState::covered;
+      field.irradiance[v] = before.irradiance;
+      field.mirrored[v] = before.mirrored;
+    } else {
+      found.states[v] = VertexState::gathered;
+      field.irradiance[v] += before.indirect;
+      field.mirrored[v] += before.indirect_mirrored;
+    }
+    field.indirect[v] = before.indirect;
+    field.indirect_mirrored[v] = before.indirect_mirrored;
   }
-}
-
-/// Vertices that are left, covered ones and those that hang, as those around them.
-DiffuseField with_all_values(const FoundField& found, const std::vector<std::uint8_t>& fresh) {
-  std::vector<std::uint8_t> valid;
-  for (std::size_t v = 0; v < fresh.size(); ++v)
-    valid.push_back(fresh[v] == 0 || has_value(found.states[v]) ? 1 : 0);
-  DiffuseField field = found.field;
   for (auto* values :
-       {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored}) {
+       {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored})
     settle_hanging(found.mesh, *values);
-    fill_vertices(found.mesh, valid, *values);
-    settle_hanging(found.mesh, *values);
-  }
-  return field;
 }
 
 } // namespace
@@ -93,15 +101,16 @@ void divide_at_shadows(const LightScene& light, const VertexSource& source, cons
   const std::size_t solved = element_count(found.mesh), most = solved + most_at_shadows(solved);
   for (std::uint32_t level = 0; level < most_divisions && x > 0.0; ++level) {
     const std::size_t now = element_count(found.mesh), more = now < most ? most - now : 0;
+    if (more < parts_more)
+      return;
     const auto marked =
         most_bent(found.mesh, from_source(result.field), scale, x, more / parts_more);
     if (std::ranges::find(marked, 1) == marked.end())
       return;
     const FoundField coarse = kept(std::move(found), result.field);
     found = divided(coarse, light.surfaces, marked);
-    const std::vector<std::uint8_t> fresh = without_value(found);
-    light_fresh(source, light.surfaces, first_level + level, coarse, fresh, found);
-    result.field = with_all_values(found, fresh);
+    light_fresh(source, light.surfaces, first_level + level, coarse, found);
+    result.field = found.field;
     result.mesh = found.mesh;
   }
 }

@@ -1,5 +1,6 @@
 #include "runs/memory.h"
 
+#include "radiosity/shadow_edges.h"
 #include "scenes/errors.h"
 #include "scenes/image_size.h"
 
@@ -70,14 +71,19 @@ std::uint64_t scene_memory(const SceneSizes& scene, const RunSettings& settings)
   constexpr double per_vertex = 2 * sizeof(Vertex), per_triangle = 1500.0, per_element = 300.0;
   // How many an adaptive field has is not known beforehand;
   // it is made to have fewer than a mesh of one size, and more where it begins with more.
+  // Nodes divide elements at shadows.
   const QualityPreset preset = preset_of(settings.quality);
   const double roots = settings.elements ? *settings.elements : preset.root_elements;
   const double field_elements = settings.adaptive == WithAdaptivity::yes
                                     ? preset.target_elements * roots / preset.root_elements
                                     : 0.0;
+  const double elements = expected_elements(scene, settings);
+  const double at_shadows = settings.solver == SolverMethod::hierarchical
+                                ? double(most_at_shadows(static_cast<std::size_t>(elements)))
+                                : 0.0;
   return whole(per_vertex * static_cast<double>(scene.vertices) +
                per_triangle * static_cast<double>(scene.triangles) +
-               per_element * (expected_elements(scene, settings) + field_elements)) +
+               per_element * (elements + field_elements + at_shadows)) +
          scene.texture_bytes;
 }
 
