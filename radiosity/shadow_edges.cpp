@@ -2,6 +2,7 @@
 
 #include "radiosity/bent_field.h"
 #include "radiosity/mesh_division.h"
+#include "radiosity/vertex_light.h"
 
 #include <algorithm>
 
@@ -39,6 +40,7 @@ FoundField kept(FoundField found, const DiffuseField& settled) {
 struct CoarseLight {
   glm::vec3 irradiance, mirrored, indirect, indirect_mirrored;
   bool beside_covered; ///< in an element with a covered corner
+  double solved_size;  ///< of the element that was solved there, m
 };
 CoarseLight light_in(const FoundField& coarse, const SurfaceModel& surfaces,
                      const ElementMesh& mesh, std::size_t v) {
@@ -52,12 +54,18 @@ CoarseLight light_in(const FoundField& coarse, const SurfaceModel& surfaces,
       std::ranges::any_of(coarse.mesh.corners[index(at.element)], [&](ElementVertexId corner) {
         return coarse.states[index(corner)] == VertexState::covered;
       });
-  return {value(coarse.field.irradiance), value(coarse.field.mirrored),
-          value(coarse.field.indirect), value(coarse.field.indirect_mirrored), beside_covered};
+  const double times = double(1U << cell_of(coarse.mesh, at.element).level);
+  return {value(coarse.field.irradiance),
+          value(coarse.field.mirrored),
+          value(coarse.field.indirect),
+          value(coarse.field.indirect_mirrored),
+          beside_covered,
+          times * size_of(coarse.mesh, at.element)};
 }
 
 /// Light from the source at fresh vertices, and what else is there as the coarser mesh has it.
-/// Under things, and in the dark beside these, all is as that has it: what is gathered beside them.
+/// Under things all is as that has it: what is gathered beside them. A cover that is low for the
+/// elements that were solved, some of whose corners it covers, is as low for smaller ones.
 void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::uint32_t level,
                  const FoundField& coarse, FoundField& found) {
   DiffuseField& field = found.field;
@@ -75,7 +83,9 @@ void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::
       continue;
     const CoarseLight before = light_in(coarse, surfaces, found.mesh, v);
     const bool is_dark = field.irradiance[v] == glm::vec3(0.0F);
-    if (found.states[v] == VertexState::covered || (is_dark && before.beside_covered)) {
+    if (found.states[v] == VertexState::covered ||
+        (is_dark && before.beside_covered &&
+         is_under_something(source.gathering.light, found.receivers[v], before.solved_size))) {
       found.states[v] = VertexState::covered;
       field.irradiance[v] = before.irradiance;
       field.mirrored[v] = before.mirrored;

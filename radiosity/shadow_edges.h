@@ -6,8 +6,8 @@
 // The rest is smooth there, or vertices would have asked for more of it:
 // it stays what it was between the corners of the elements that were divided.
 // So an edge costs shadow rays at few vertices and nothing is gathered.
-// Vertices that turn out to be covered, and dark ones in elements with a covered corner, keep all
-// that was between the corners: light that is continued to where things stand.
+// Vertices that turn out to be covered, and dark ones as low under what covers a corner of their
+// element, keep all that was between the corners: light that is continued to where things stand.
 // There are at the most as many more as were solved, or 16,384: where more bend, X is doubled.
 #pragma once
 
