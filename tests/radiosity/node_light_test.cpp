@@ -85,7 +85,7 @@ TEST(NodeLight, PenumbraeAreNeitherDarkerNorBrighter) {
 // The sun through a window of 0.33 x 0.33 m2 onto a floor of 8 x 8 m2 in elements of 1/16 m:
 // 5.3 x 5.3 of 16,384, which have all of the light, E = 1. At an edge an element is found lit
 // to a 64th, and the error of 22 of them is 22^1/2 / 8 / 28: 2 % of the light at the most.
-// By their corners it is off by more, by which of these are lit by chance.
+// By their corners alone it is off by more: which of these are lit is chance.
 TEST(NodeLight, SpotsHaveTheLightThatTheyReceive) {
   constexpr double side = 0.33, low = 3.0 + 1.0 / 37.0, high = low + side;
   Scene scene;

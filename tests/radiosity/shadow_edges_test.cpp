@@ -146,8 +146,8 @@ TEST(ShadowEdges, AreNoMoreThanTheyMayBe) {
   point.position = {0.8, 0.6, 0.3};
   point.intensity = Rgb(10.0);
   scene.lights = {point};
-  const auto l = lit(scene, {.element_size = 1.0 / 16.0});
-  const RadiositySolution solution = solve_pass_one(*l->light, by_nodes(1.0 / 16.0, 1e-9));
+  const auto l = lit(scene, {.element_size = 1.0 / 32.0});
+  const RadiositySolution solution = solve_pass_one(*l->light, by_nodes(1.0 / 32.0, 1e-9));
   const double solved = double(element_count(l->mesh)),
                now = double(element_count(field_scene(*l->light, solution).mesh)),
                more = double(most_at_shadows(element_count(l->mesh)));
