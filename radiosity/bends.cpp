@@ -1,31 +1,50 @@
 #include "radiosity/bends.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace meninas {
 
 namespace {
 
-struct Edge {
-  std::uint32_t from, to;
-  auto operator<=>(const Edge&) const = default;
+/// The other ends of every vertex's edges.
+struct VertexEdges {
+  std::vector<std::uint32_t> begin; ///< vertices + 1
+  std::vector<std::uint32_t> ends;
+
+  std::span<const std::uint32_t> of(std::size_t vertex) const {
+    return std::span(ends).subspan(begin[vertex], begin[vertex + 1] - begin[vertex]);
+  }
 };
 
-/// Both ways, by `from`.
-std::vector<Edge> edges_of(const ElementMesh& mesh) {
-  std::vector<Edge> edges;
+/// `edge(a, b)` for the edges of all elements, both ways, those that two elements share twice.
+template <typename Use>
+void for_each_edge(const ElementMesh& mesh, const Use& edge) {
   for (const ElementCorners& corners : mesh.corners)
-    for (std::size_t c = 0; c < 4; ++c) {
-      const auto a = index(corners[c]), b = index(corners[(c + 1) % 4]);
-      if (a != b) {
-        edges.push_back({a, b});
-        edges.push_back({b, a});
+    for (std::size_t c = 0; c < 4; ++c)
+      if (const auto a = index(corners[c]), b = index(corners[(c + 1) % 4]); a != b) {
+        edge(a, b);
+        edge(b, a);
       }
-    }
-  std::ranges::sort(edges);
-  const auto same = std::ranges::unique(edges);
-  edges.erase(same.begin(), same.end());
+}
+
+VertexEdges edges_of(const ElementMesh& mesh) {
+  std::vector<std::uint32_t> first(mesh.vertices.size() + 1, 0);
+  for_each_edge(mesh, [&](std::uint32_t a, std::uint32_t) { ++first[a + 1]; });
+  for (std::size_t v = 1; v < first.size(); ++v)
+    first[v] += first[v - 1];
+  std::vector<std::uint32_t> ends(first.back()), next = first;
+  for_each_edge(mesh, [&](std::uint32_t a, std::uint32_t b) { ends[next[a]++] = b; });
+
+  VertexEdges edges{{0}, {}};
+  edges.ends.reserve(ends.size() / 2);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto own = std::span(ends).subspan(first[v], first[v + 1] - first[v]);
+    std::ranges::sort(own);
+    edges.ends.insert(edges.ends.end(), own.begin(), std::ranges::unique(own).begin());
+    edges.begin.push_back(static_cast<std::uint32_t>(edges.ends.size()));
+  }
   return edges;
 }
 
@@ -34,19 +53,24 @@ double brightest(const glm::vec3& light) {
       {std::abs(double{light.r}), std::abs(double{light.g}), std::abs(double{light.b})});
 }
 
+/// Two edges of a vertex, of which the second goes on from the first.
+bool go_on(const Vec3& to_a, const Vec3& to_b) {
+  constexpr double straight = -0.9; // the cosine between them
+  return glm::dot(to_a, to_b) < straight * glm::length(to_a) * glm::length(to_b);
+}
+
 /// The largest |f''| at a vertex, over pairs of its edges.
 double second_derivative(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
-                         std::span<const Edge> edges) {
-  constexpr double straight = -0.9; // the cosine between edges that go on from one another
+                         std::size_t v, std::span<const std::uint32_t> ends) {
   double largest_bend = 0.0;
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    for (std::size_t k = i + 1; k < edges.size(); ++k) {
-      const std::uint32_t v = edges[i].from, a = edges[i].to, b = edges[k].to;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t k = i + 1; k < ends.size(); ++k) {
+      const std::uint32_t a = ends[i], b = ends[k];
       const Vec3 to_a = mesh.vertices[a] - mesh.vertices[v],
                  to_b = mesh.vertices[b] - mesh.vertices[v];
-      const double la = glm::length(to_a), lb = glm::length(to_b);
-      if (!(glm::dot(to_a, to_b) < straight * la * lb))
+      if (!go_on(to_a, to_b))
         continue;
+      const double la = glm::length(to_a), lb = glm::length(to_b);
       const glm::vec3 slope = (irradiance[a] - irradiance[v]) / static_cast<float>(la) +
                               (irradiance[b] - irradiance[v]) / static_cast<float>(lb);
       largest_bend = std::max(largest_bend, 2.0 * brightest(slope) / (la + lb));
@@ -57,16 +81,11 @@ double second_derivative(const ElementMesh& mesh, std::span<const glm::vec3> irr
 /// By ElementVertexId.
 std::vector<double> second_derivatives(const ElementMesh& mesh,
                                        std::span<const glm::vec3> irradiance) {
-  const std::vector<Edge> edges = edges_of(mesh);
-  std::vector<double> derivatives(mesh.vertices.size(), 0.0);
-  for (std::size_t first = 0; first < edges.size();) {
-    std::size_t last = first;
-    while (last < edges.size() && edges[last].from == edges[first].from)
-      ++last;
-    derivatives[edges[first].from] = second_derivative(
-        mesh, irradiance, std::span<const Edge>(edges).subspan(first, last - first));
-    first = last;
-  }
+  const VertexEdges edges = edges_of(mesh);
+  std::vector<double> derivatives;
+  derivatives.reserve(mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    derivatives.push_back(second_derivative(mesh, irradiance, v, edges.of(v)));
   return derivatives;
 }
 
@@ -87,6 +106,13 @@ double ordinary_bend(const ElementMesh& mesh, std::span<const glm::vec3> irradia
   return *middle;
 }
 
+/// What an element is off by, as a share of B_mean, by its part of all area.
+double of_all(const ElementMesh& mesh, std::size_t e, double off, const BendScale& scale) {
+  const Rgb& rho = mesh.reflectance[e];
+  return std::max({rho.r, rho.g, rho.b}) * off * std::sqrt(mesh.area[e] / scale.area) /
+         scale.radiosity;
+}
+
 } // namespace
 
 BendScale bend_scale(const ElementMesh& mesh, std::span<const Rgb> reflected) {
@@ -101,25 +127,54 @@ BendScale bend_scale(const ElementMesh& mesh, std::span<const Rgb> reflected) {
   return {area / double(reflected.size()), std::max({power.r, power.g, power.b}) / area};
 }
 
-std::vector<std::uint8_t> bent_elements(const ElementMesh& mesh,
-                                        std::span<const glm::vec3> irradiance,
-                                        const BendScale& scale, double x) {
+std::vector<double> bends_of_elements(const ElementMesh& mesh,
+                                      std::span<const glm::vec3> irradiance,
+                                      const BendScale& scale) {
   constexpr double stands_out = 3.0; // times what is ordinary
-  std::vector<std::uint8_t> bent(element_count(mesh), 0);
+  std::vector<double> bends(element_count(mesh), 0.0);
   if (!(scale.radiosity > 0.0))
-    return bent;
+    return bends;
   const std::vector<double> derivatives = second_derivatives(mesh, irradiance);
   const double ordinary = stands_out * ordinary_bend(mesh, irradiance, derivatives);
-  for (std::size_t e = 0; e < bent.size(); ++e) {
+  for (std::size_t e = 0; e < bends.size(); ++e) {
     const double size = size_of(mesh, static_cast<ElementId>(e));
     double off = 0.0;
     for (const auto corner : mesh.corners[e])
       off = std::max(off, off_in_the_middle(derivatives[index(corner)], size) -
                               ordinary * brightest(irradiance[index(corner)]));
-    const Rgb& rho = mesh.reflectance[e];
-    const double share = std::max({rho.r, rho.g, rho.b}) * std::sqrt(mesh.area[e] / scale.area);
-    bent[e] = share * off > x * scale.radiosity ? 1 : 0;
+    bends[e] = of_all(mesh, e, off, scale);
   }
+  return bends;
+}
+
+std::vector<double> bends_at_lone_edges(const ElementMesh& mesh,
+                                        std::span<const glm::vec3> irradiance,
+                                        const BendScale& scale) {
+  std::vector<double> bends(element_count(mesh), 0.0);
+  if (!(scale.radiosity > 0.0))
+    return bends;
+  const VertexEdges edges = edges_of(mesh);
+  const auto goes_on = [&](std::uint32_t v, std::uint32_t from) {
+    const auto ends = edges.of(v);
+    return std::ranges::any_of(ends, [&](std::uint32_t to) {
+      return go_on(mesh.vertices[from] - mesh.vertices[v], mesh.vertices[to] - mesh.vertices[v]);
+    });
+  };
+  for (std::size_t e = 0; e < bends.size(); ++e)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const auto a = index(mesh.corners[e][c]), b = index(mesh.corners[e][(c + 1) % 4]);
+      if (a != b && !goes_on(a, b) && !goes_on(b, a))
+        bends[e] = std::max(bends[e],
+                            of_all(mesh, e, brightest(irradiance[a] - irradiance[b]) / 4.0, scale));
+    }
+  return bends;
+}
+
+std::vector<std::uint8_t> bent_by_more(std::span<const double> bends, double x) {
+  std::vector<std::uint8_t> bent;
+  bent.reserve(bends.size());
+  for (const double bend : bends)
+    bent.push_back(bend > x ? 1 : 0);
   return bent;
 }
 

@@ -14,6 +14,10 @@
 // most of a field is smooth.
 // Limit: borders of a surface have no second difference across them;
 // elements there have it from their inner corners.
+//
+// An edge that goes on at neither end, on a surface of one element, has none at all:
+// if light is even at one end and from there a parabola, f'' = 2 |f_a - f_b| / s^2,
+// an element with such edges is off by e = |f_a - f_b| / 4, the largest.
 #pragma once
 
 #include "radiosity/element_mesh.h"
@@ -32,9 +36,18 @@ struct BendScale {
 /// Of the elements that were solved; `reflected` by ElementId.
 BendScale bend_scale(const ElementMesh& mesh, std::span<const Rgb> reflected);
 
-/// By ElementId, 1 where the element is bent by more than X. `irradiance` by ElementVertexId.
-std::vector<std::uint8_t> bent_elements(const ElementMesh& mesh,
+/// By ElementId, what is held against X. `irradiance` by ElementVertexId.
+std::vector<double> bends_of_elements(const ElementMesh& mesh,
+                                      std::span<const glm::vec3> irradiance,
+                                      const BendScale& scale);
+
+/// The same by the edges that go on at neither end: what there may be at the most where light is
+/// no wilder than a parabola, and not what there is.
+std::vector<double> bends_at_lone_edges(const ElementMesh& mesh,
                                         std::span<const glm::vec3> irradiance,
-                                        const BendScale& scale, double x);
+                                        const BendScale& scale);
+
+/// By ElementId, 1 where the element is bent by more than X.
+std::vector<std::uint8_t> bent_by_more(std::span<const double> bends, double x);
 
 } // namespace meninas

@@ -30,7 +30,8 @@ void divide_bent(const LightScene& light, const VertexSource& source, const Bend
                  double x, FoundField& found, InterpolatedField& result) {
   constexpr std::uint32_t most_divisions = 3;
   for (std::uint32_t level = 1; level <= most_divisions && x > 0.0; ++level) {
-    const auto marked = bent_elements(found.mesh, result.field.indirect, scale, x);
+    const auto marked =
+        bent_by_more(bends_of_elements(found.mesh, result.field.indirect, scale), x);
     if (std::ranges::find(marked, 1) == marked.end())
       return;
     found = divided(found, light.surfaces, marked);

@@ -51,14 +51,19 @@ std::uint32_t vertex_seed(const VertexSource& source, std::uint32_t vertex, std:
 }
 
 PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
-                              const VertexGathering& how, int share, double spared) {
+                              const VertexGathering& how, int share, double spared,
+                              std::optional<int> before) {
+  const auto rays_of = [asked = how.interpolation.rays](int part) {
+    return std::max(std::min(asked, 128), asked / part);
+  };
   DirectSettings direct = how.direct;
   direct.penumbra_samples = PenumbraSamples::together;
   return {light,
           std::move(reflected),
           how.form_factors,
           direct,
-          {.rays = std::max(std::min(how.interpolation.rays, 128), how.interpolation.rays / share),
+          {.rays = rays_of(share),
+           .rays_before = before ? rays_of(*before) : 0,
            .cluster_shadow_rays = std::max(1, how.interpolation.cluster_shadow_rays / share),
            .clusters_spared = spared}};
 }
@@ -110,7 +115,7 @@ void cover_low(const VertexSource& source, FoundField& found) {
       found.states[low[k]] = VertexState::covered;
 }
 
-/// Takes what `value(v, receiver, size, seed, workspace)` finds for the vertices
+/// Takes what `value(v, size, seed, workspace)` finds for the vertices
 /// that do not hang and are in one state, as far as they are marked.
 template <typename Value>
 void light_each(const VertexSource& source, VertexState now, VertexState then,
@@ -129,8 +134,7 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
 
   const auto light_vertex = [&](std::uint32_t v, PointWorkspace& work) {
     const double size = size_of(mesh, mesh.element_of_vertex[v]);
-    const VertexValue found_here =
-        value(found.receivers[v], size, vertex_seed(source, v, level), work);
+    const VertexValue found_here = value(v, size, vertex_seed(source, v, level), work);
     found.field.irradiance[v] += glm::vec3(found_here.irradiance.total);
     found.field.mirrored[v] += glm::vec3(found_here.irradiance.mirrored);
     found.field.indirect[v] = glm::vec3(found_here.indirect.total);
@@ -157,8 +161,9 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
 
 void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundField& found) {
   light_each(source, VertexState::unknown, VertexState::gathered, {}, level, found,
-             [&](const Receiver& receiver, double size, std::uint32_t seed, PointWorkspace& work) {
-               return value_at(source.gathering, source.irradiance, receiver, size, seed, work);
+             [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) {
+               return value_at(source.gathering, source.irradiance, found.receivers[v], size, seed,
+                               work);
              });
   follow_penumbrae(source, level, found);
 }
@@ -193,23 +198,22 @@ static bool mark_dark_beside_bright(const FoundField& found, std::vector<std::ui
 static void cover_shut_in(const VertexSource& source, FoundField& found) {
   std::vector<std::uint8_t> marked, asked(found.states.size(), 0);
   while (mark_dark_beside_bright(found, marked, asked))
-    light_each(source, VertexState::lit, VertexState::lit, marked, 0, found,
-               [&](const Receiver& receiver, double size, std::uint32_t seed,
-                   PointWorkspace& work) -> VertexValue {
-                 return {{},
-                         {},
-                         cover_in_the_dark(source.gathering.light, source.gathering.form_factors,
-                                           receiver, size, seed, work)};
-               });
+    light_each(
+        source, VertexState::lit, VertexState::lit, marked, 0, found,
+        [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) -> VertexValue {
+          return {{},
+                  {},
+                  cover_in_the_dark(source.gathering.light, source.gathering.form_factors,
+                                    found.receivers[v], size, seed, work)};
+        });
   // Under a low cover that goes on all around the rest of the light is still to be gathered.
   std::ranges::replace(found.states, VertexState::low, VertexState::lit);
 }
 
 void light_vertices(const VertexSource& source, std::uint32_t level, FoundField& found) {
   light_each(source, VertexState::unknown, VertexState::lit, {}, level, found,
-             [&](const Receiver& receiver, double, std::uint32_t seed,
-                 PointWorkspace& work) -> VertexValue {
-               return {light_from_source(source.gathering, receiver, seed, work), {}};
+             [&](std::uint32_t v, double, std::uint32_t seed, PointWorkspace& work) -> VertexValue {
+               return {light_from_source(source.gathering, found.receivers[v], seed, work), {}};
              });
   follow_penumbrae(source, level, found);
   cover_shut_in(source, found);
@@ -217,10 +221,20 @@ void light_vertices(const VertexSource& source, std::uint32_t level, FoundField&
 
 void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> marked,
                    FoundField& found) {
+  const PointGathering& gathering = source.gathering;
+  const bool keeps =
+      source.kept != nullptr && gathering.form_factors.method != FormFactorMethod::hemicube;
+  if (keeps && source.keeps_more) {
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t v = 0; v < marked.size(); ++v)
+      if (marked[v] != 0 && found.states[v] == VertexState::lit)
+        vertices.push_back(v);
+    source.kept->make_room(vertices, gathering.net.points.size());
+  }
   light_each(source, VertexState::lit, VertexState::gathered, marked, 0, found,
-             [&](const Receiver& receiver, double size, std::uint32_t seed, PointWorkspace& work) {
-               return indirect_value_at(source.gathering, source.irradiance, receiver, size, seed,
-                                        work);
+             [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) {
+               return indirect_value_at(gathering, source.irradiance, found.receivers[v], size,
+                                        seed, work, keeps ? source.kept->of(v) : nullptr);
              });
 }
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "radiosity/interpolation.h"
+#include "radiosity/kept_rays.h"
 #include "radiosity/point_gathering.h"
 #include "radiosity/vertex_places.h"
 
@@ -53,14 +54,18 @@ struct VertexGathering {
 /// of 128 at least where there are so many. `spared`:
 /// bright clusters that add so little to the noise of these are left to them (bright_clusters.h).
 /// Where clusters lie in many planes their light takes longer than 128 rays.
+/// `before`: with as many as that share, rays may have been traced before (kept_rays.h).
 PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
-                              const VertexGathering& how, int share, double spared = 0.0);
+                              const VertexGathering& how, int share, double spared = 0.0,
+                              std::optional<int> before = {});
 
 /// What vertices gather from.
 struct VertexSource {
   const std::vector<Rgb>& irradiance; ///< by ElementId: tells which elements are lit
   const PointGathering& gathering;
   PointWorkspaces& workspaces;
+  KeptRays* kept = nullptr; ///< of gather_at_lit()
+  bool keeps_more = false;
 };
 
 FoundField unknown_field(ElementMesh mesh);
@@ -79,6 +84,7 @@ void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundFi
 void light_vertices(const VertexSource& source, std::uint32_t level, FoundField& found);
 
 /// Adds the rest at those that are lit and marked, by ElementVertexId.
+/// Takes rays that the source has kept of them, and keeps those of others if it keeps more.
 void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> marked,
                    FoundField& found);
 

@@ -76,6 +76,8 @@ inline auto weights_of(const HemicubePacket& cells) {
 }
 inline std::size_t ray_count(const DirectionNet& net) { return net.points.size(); }
 inline std::size_t ray_count(const Hemicube& cube) { return cube.cells; }
+inline std::uint32_t first_of(const DirectionNet& net) { return net.first; }
+inline std::uint32_t first_of(const Hemicube&) { return 0; }
 
 /// Rays that left with light of their own.
 struct LitLegs {

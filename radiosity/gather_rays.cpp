@@ -257,7 +257,7 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
         static_cast<std::uint32_t>(std::min(packet_size, ray_count(rays) - n * packet_size));
     set_rays(rays.packets[n], source, packet);
     closest_hits(light.rays, packet, hits, Backs::absorb, Coherence::coherent);
-    const auto first = static_cast<std::uint32_t>(n * packet_size);
+    const auto first = first_of(rays) + static_cast<std::uint32_t>(n * packet_size);
     const auto sort = [&](auto&& let_in) {
       const FirstLegs legs{packet, weights_of(rays.packets[n]), let_in, first};
       return sort_hits(light, settings, legs, packet.count, hits, work);

@@ -1,5 +1,6 @@
 #include "radiosity/point_gathering.h"
 
+#include "radiosity/kept_rays.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -69,6 +70,9 @@ PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosi
                                                                     scene.cut_out_mirrors,
                                                                     scene.solids},
       net(make_direction_net(settings.rays)),
+      others(settings.rays_before > 0 && settings.rays_before < settings.rays
+                 ? make_direction_net(settings.rays, settings.rays_before)
+                 : DirectionNet{}),
       cube(factors.method == FormFactorMethod::hemicube ? make_hemicube(factors.hemicube_resolution)
                                                         : Hemicube{}) {}
 
@@ -82,14 +86,27 @@ ReceiverArea area_of(const Receiver& point) {
   return area;
 }
 
-PointLight indirect_light_at(const PointGathering& gathering, const Receiver& receiver,
-                             std::uint32_t seed, PointWorkspace& work) {
+/// What all rays of the point meet, those that have been traced before among them.
+static void gather_rays_at(const PointGathering& gathering, const Receiver& receiver,
+                           std::uint32_t seed, const GatheredRays* before, PointWorkspace& work) {
   const ReceiverArea point = area_of(receiver);
-  if (gathering.form_factors.method == FormFactorMethod::hemicube)
+  if (gathering.form_factors.method == FormFactorMethod::hemicube) {
     gather_rays(gathering.light, gathering.cube, point, gathering.form_factors, work.gather);
-  else
+  } else if (before == nullptr) {
     gather_rays(gathering.light, gathering.net, point, seed, gathering.form_factors, work.gather);
+  } else {
+    work.gather.result.clear();
+    if (before->rays < double(gathering.net.points.size()))
+      gather_rays(gathering.light, gathering.others, point, seed, gathering.form_factors,
+                  work.gather);
+    append(*before, work.gather.result);
+  }
   work.rays += work.gather.result.traced;
+}
+
+PointLight indirect_light_at(const PointGathering& gathering, const Receiver& receiver,
+                             std::uint32_t seed, PointWorkspace& work, const GatheredRays* before) {
+  gather_rays_at(gathering, receiver, seed, before, work);
 
   return {landed_light(gathering, work.gather.result),
           {},

@@ -17,6 +17,7 @@ namespace meninas {
 
 struct PointGatheringSettings {
   int rays = 512;              ///< over the hemisphere
+  int rays_before = 0; ///< of these, that points may have traced before (kept_rays.h)
   int cluster_shadow_rays = 8; ///< per bright cluster, where it matters most; eight times as many for all that are far away together, or an eighth of `rays`
   double clusters_spared = 0.0; ///< ClusterSettings::spared
   double cluster_theta = ClusterCut{}.theta; ///< which are (cluster_cut.h); 0: none
@@ -40,6 +41,7 @@ struct PointGathering {
   ClusterTree cluster_tree; ///< over their emitters
   LightScene clustered; ///< the same scene with the bright clusters for emitters
   DirectionNet net;
+  DirectionNet others; ///< of the net, without those before; empty where there are none
   Hemicube cube; ///< where the form factors are found so
 };
 
@@ -70,8 +72,10 @@ PointLight light_at(const PointGathering& gathering, const Receiver& receiver, s
 ArrivingLight one_more_bounce(const PointGathering& gathering, const Receiver& receiver, int places,
                               std::uint32_t seed, PointWorkspace& work);
 
-/// light_at() without light from the source.
+/// light_at() without light from the source. `before`: what the rays before have met at this point
+/// with this seed, or all of the net; the others are traced. Not where cubes gather.
 PointLight indirect_light_at(const PointGathering& gathering, const Receiver& receiver,
-                             std::uint32_t seed, PointWorkspace& work);
+                             std::uint32_t seed, PointWorkspace& work,
+                             const GatheredRays* before = nullptr);
 
 } // namespace meninas

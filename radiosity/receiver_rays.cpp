@@ -52,11 +52,13 @@ void set_origins(const LanePlaces& places, const ReceiverArea& area, RayPacket& 
 
 } // namespace
 
-DirectionNet make_direction_net(int rays) {
+DirectionNet make_direction_net(int rays, int before) {
   DirectionNet net;
-  net.points.resize(static_cast<std::size_t>(std::max(rays, 1)));
+  const auto all = static_cast<std::size_t>(std::max(rays, 1));
+  net.first = static_cast<std::uint32_t>(before);
+  net.points.resize(all - net.first);
   for (std::uint32_t k = 0; k < net.points.size(); ++k) {
-    const auto point = sobol4(k, 0);
+    const auto point = sobol4(net.first + k, 0);
     for (std::size_t d = 0; d < 4; ++d)
       net.points[k][d] = static_cast<std::uint32_t>(point[d] * 0x1p32F);
   }
@@ -64,7 +66,7 @@ DirectionNet make_direction_net(int rays) {
   // Group by the leading bits of the direction:
   // a power-of-two net puts sixteen points into each of its N / 16 cells.
   int cells_log2 = 0;
-  while ((net.points.size() >> (cells_log2 + 4)) > 1)
+  while ((all >> (cells_log2 + 4)) > 1)
     ++cells_log2;
   const int bits_u = (cells_log2 + 1) / 2, bits_v = cells_log2 / 2;
   const auto cell_of = [bits_u, bits_v](const std::array<std::uint32_t, 4>& p) {

@@ -22,8 +22,10 @@ struct alignas(64) NetPacket {
 struct DirectionNet {
   std::vector<std::array<std::uint32_t, 4>> points; ///< place in the element (two), direction (two)
   std::vector<NetPacket> packets;                   ///< the same; the last may not be full
+  std::uint32_t first = 0; ///< the number of the first: so many others come before these
 };
-DirectionNet make_direction_net(int rays);
+/// Without the first `before` points: they are the net of as many rays.
+DirectionNet make_direction_net(int rays, int before = 0);
 
 /// A parallelogram or triangle to spread the rays over; a point when both edges are zero.
 struct ReceiverArea {

@@ -17,11 +17,24 @@ std::vector<glm::vec3> from_source(const DiffuseField& field) {
   return light;
 }
 
+/// Of surfaces of one element the difference between corners tells that there may be an edge,
+/// and nothing where these have the mean of many facets.
+std::vector<double> bends_of(const FoundField& found, const std::vector<glm::vec3>& light,
+                             const BendScale& scale) {
+  std::vector<double> bends = bends_of_elements(found.mesh, light, scale);
+  const std::vector<double> at_lone_edges = bends_at_lone_edges(found.mesh, light, scale);
+  for (std::size_t e = 0; e < bends.size(); ++e)
+    if (std::ranges::none_of(found.mesh.corners[e], [&](ElementVertexId v) {
+          return found.states[index(v)] == VertexState::averaged;
+        }))
+      bends[e] = std::max(bends[e], at_lone_edges[e]);
+  return bends;
+}
+
 /// Those that are most bent, of which no more than `most` become four.
-std::vector<std::uint8_t> most_bent(const ElementMesh& mesh, const std::vector<glm::vec3>& light,
-                                    const BendScale& scale, double x, std::size_t most) {
+std::vector<std::uint8_t> most_bent(const std::vector<double>& bends, double x, std::size_t most) {
   for (;; x *= 2.0) {
-    std::vector<std::uint8_t> marked = bent_elements(mesh, light, scale, x);
+    std::vector<std::uint8_t> marked = bent_by_more(bends, x);
     if (static_cast<std::size_t>(std::ranges::count(marked, 1)) <= most)
       return marked;
   }
@@ -114,7 +127,7 @@ void divide_at_shadows(const LightScene& light, const VertexSource& source, cons
     if (more < parts_more)
       return;
     const auto marked =
-        most_bent(found.mesh, from_source(result.field), scale, x, more / parts_more);
+        most_bent(bends_of(found, from_source(result.field), scale), x, more / parts_more);
     if (std::ranges::find(marked, 1) == marked.end())
       return;
     const FoundField coarse = kept(std::move(found), result.field);

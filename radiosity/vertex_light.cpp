@@ -131,12 +131,22 @@ VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& ir
 
 VertexValue indirect_value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
                               const Receiver& receiver, double element_size, std::uint32_t seed,
-                              PointWorkspace& work) {
-  ArrivingLight indirect = indirect_light_at(gathering, receiver, seed, work).indirect();
+                              PointWorkspace& work, VertexRays* kept) {
+  const bool are_there = kept != nullptr && kept->rays.rays > 0.0;
+  ArrivingLight indirect =
+      indirect_light_at(gathering, receiver, seed, work, are_there ? &kept->rays : nullptr)
+          .indirect();
   indirect.in_part = false; // of bright clusters
-  const bool shut =
-      is_enclosed(work.gather.result, irradiance) && !is_lit(gathering, receiver, seed, work);
-  return {indirect, indirect, cover_of(shut, gathering.light, receiver, element_size)};
+  if (kept != nullptr && !are_there)
+    kept->rays = work.gather.result;
+  if (is_enclosed(work.gather.result, irradiance) && !is_lit(gathering, receiver, seed, work))
+    return {indirect, indirect, Cover::shut};
+  const bool low = kept != nullptr && kept->is_under_something
+                       ? *kept->is_under_something
+                       : is_under_something(gathering.light, receiver, element_size);
+  if (kept != nullptr)
+    kept->is_under_something = low;
+  return {indirect, indirect, low ? Cover::low : Cover::open};
 }
 
 ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,

@@ -2,6 +2,7 @@
 // where something stands on a surface there is no light to interpolate.
 #pragma once
 
+#include "radiosity/kept_rays.h"
 #include "radiosity/point_gathering.h"
 
 namespace meninas {
@@ -28,9 +29,10 @@ VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& ir
                      PointWorkspace& work);
 
 /// The indirect part alone; `irradiance` of the result is the same.
+/// Takes the rays that are `kept`, or keeps them there for the next time.
 VertexValue indirect_value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
                               const Receiver& receiver, double element_size, std::uint32_t seed,
-                              PointWorkspace& work);
+                              PointWorkspace& work, VertexRays* kept = nullptr);
 
 /// The part that comes from the source alone.
 ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,

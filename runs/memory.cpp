@@ -1,5 +1,6 @@
 #include "runs/memory.h"
 
+#include "radiosity/kept_rays.h"
 #include "radiosity/shadow_edges.h"
 #include "scenes/errors.h"
 #include "scenes/image_size.h"
@@ -125,6 +126,10 @@ std::uint64_t solve_memory(const SceneSizes& scene, const RunSettings& settings)
     bytes +=
         4.0 * sizeof(double) * elements * elements; // the factors of three channels and a matrix
   }
+  if (settings.solver == SolverMethod::hierarchical) // what rays of vertices have met
+    bytes += double(sizeof(RayLanding)) *
+             std::min<double>(most_kept_rays,
+                              elements * two_pass_settings(settings).pass_one.form_factors.rays);
   return whole(bytes);
 }
 

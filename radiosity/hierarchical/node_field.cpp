@@ -201,14 +201,15 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
                                  FoundField found, PointWorkspaces& workspaces) {
   const PointGathering solved =
       gathering_from(light, elements.reflected, how, few_rays, first_spared);
-  const VertexSource few{elements.irradiance, solved, workspaces};
+  KeptRays kept;
+  const VertexSource few{elements.irradiance, solved, workspaces, &kept, true};
   std::vector<OpenPart> parts;
   const std::vector<Rgb> reflected = reflected_by_field(few, receivers, elements, parts, found);
-  const PointGathering seen = gathering_from(light, reflected, how, 1),
+  const PointGathering seen = gathering_from(light, reflected, how, 1, 0.0, few_rays),
                        seen_by_small =
                            gathering_from(light, reflected, how, few_rays, small_spared);
-  const VertexSource source{elements.irradiance, seen, workspaces},
-      by_small{elements.irradiance, seen_by_small, workspaces};
+  const VertexSource source{elements.irradiance, seen, workspaces, &kept},
+      by_small{elements.irradiance, seen_by_small, workspaces, &kept};
   share_out(gather_at_nodes({source, by_small}, receivers, receivers.bend, found), found);
   InterpolatedField result{.field = settled(source, found)};
   result.received = received_at_corners(elements, receivers, parts, found, result.field.irradiance,

@@ -31,7 +31,8 @@ std::vector<std::uint8_t> bent(const std::function<double(const Point3&)>& f, do
   std::vector<glm::vec3> values;
   for (const Point3& vertex : wall().mesh.vertices)
     values.emplace_back(f(vertex));
-  return bent_elements(wall().mesh, values, {.area = size * size, .radiosity = 1.0}, x);
+  return bent_by_more(
+      bends_of_elements(wall().mesh, values, {.area = size * size, .radiosity = 1.0}), x);
 }
 
 TEST(Bends, AreWhereLightBends) {
@@ -69,9 +70,28 @@ TEST(Bends, CountByTheAreaTheyHave) {
   for (const Point3& vertex : wall().mesh.vertices)
     values.emplace_back(kink(vertex));
   const double x = 0.99 * 0.5 * size;
-  const auto among_large =
-      bent_elements(wall().mesh, values, {.area = 4.0 * size * size, .radiosity = 1.0}, x);
+  const auto among_large = bent_by_more(
+      bends_of_elements(wall().mesh, values, {.area = 4.0 * size * size, .radiosity = 1.0}), x);
   EXPECT_EQ(std::ranges::count(among_large, 1), 0);
+}
+
+// A surface of one element has no second difference. From even light at one end a parabola
+// rises by 0.8 to the other: in the middle it is 0.2 below the line, of which half is reflected.
+TEST(Bends, MayBeWhereOneElementIsAll) {
+  const auto bends = [](double element_size) {
+    Scene scene;
+    add_polygon(scene, "panel", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, diffuse(0.5));
+    const auto l = lit(std::move(scene), {.element_size = element_size});
+    std::vector<glm::vec3> values;
+    for (const Point3& vertex : l->mesh.vertices)
+      values.emplace_back(1.0 + 0.8 * vertex.x * vertex.x);
+    return bends_at_lone_edges(l->mesh, values, {.area = 1.0, .radiosity = 2.0});
+  };
+  const std::vector<double> of_one = bends(1.0);
+  ASSERT_EQ(of_one.size(), 1U);
+  EXPECT_NEAR(of_one.front(), 0.5 * 0.2 / 2.0, 1e-7); // values are floats
+  for (const double bend : bends(0.5))
+    EXPECT_EQ(bend, 0.0);
 }
 
 constexpr double height = 0.4;

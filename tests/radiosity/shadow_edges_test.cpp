@@ -156,6 +156,41 @@ TEST(ShadowEdges, AreNoMoreThanTheyMayBe) {
   EXPECT_EQ(most_at_shadows(100'000), 100'000U);
 }
 
+/// A table of one element, a third of it in the shadow of a plate.
+Scene room_with_table() {
+  Scene scene;
+  const Material wall = diffuse(0.5);
+  add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, wall, wall, wall});
+  add_polygon(scene, "lamp",
+              {{0.48, 0.9, 0.48}, {0.52, 0.9, 0.48}, {0.52, 0.9, 0.52}, {0.48, 0.9, 0.52}},
+              diffuse(0.0, 400.0));
+  add_polygon(scene, "plate",
+              {{0.1, 0.5, 0.1}, {0.1, 0.5, 0.9}, {0.48, 0.5, 0.9}, {0.48, 0.5, 0.1}},
+              double_sided(diffuse(0.5)));
+  add_polygon(scene, "table", {{0.4, 0.3, 0.4}, {0.4, 0.3, 0.6}, {0.6, 0.3, 0.6}, {0.6, 0.3, 0.4}},
+              diffuse(0.5));
+  return scene;
+}
+
+// There are no second differences, and all of the table has the wrong light. Three divisions leave
+// the strip beside the edge, an eighth; a quarter leaves room for where in it the edge is.
+TEST(ShadowEdges, AreFoundWhereOneElementIsAll) {
+  const auto l = lit(room_with_table(), {.element_size = 0.25});
+  ASSERT_EQ(elements_of(*l, "table").size(), 1U);
+  const SideId table = l->mesh.side_of_element[elements_of(*l, "table").front()];
+  std::vector<Place> places;
+  for (double u = 1.0 / 64.0; u < 1.0; u += 1.0 / 32.0)
+    for (double v = 1.0 / 64.0; v < 1.0; v += 1.0 / 32.0)
+      places.push_back({table, Vec2(u, v)});
+  const std::vector<double> expected = exactly(*l, places);
+  const double even =
+                   error_of(*l, solve_pass_one(*l->light, by_nodes(0.25, 0.0)), places, expected),
+               finer =
+                   error_of(*l, solve_pass_one(*l->light, by_nodes(0.25, 0.02)), places, expected);
+  EXPECT_GT(even, 0.05);
+  EXPECT_LT(finer, even / 4.0);
+}
+
 /// A lamp over a box that is so far above the floor, not along the edges of elements.
 Scene room_with_box(double gap) {
   Scene scene;
