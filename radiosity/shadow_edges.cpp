@@ -17,11 +17,14 @@ std::vector<glm::vec3> from_source(const DiffuseField& field) {
   return light;
 }
 
-/// Of surfaces of one element the difference between corners tells that there may be an edge,
+/// By light from the source. Before the first division there are surfaces of one element:
+/// the difference between corners tells that there may be an edge on them,
 /// and nothing where these have the mean of many facets.
-std::vector<double> bends_of(const FoundField& found, const std::vector<glm::vec3>& light,
-                             const BendScale& scale) {
+std::vector<double> bends_of(const FoundField& found, const BendScale& scale, bool first) {
+  const std::vector<glm::vec3> light = from_source(found.field);
   std::vector<double> bends = bends_of_elements(found.mesh, light, scale);
+  if (!first)
+    return bends;
   const std::vector<double> at_lone_edges = bends_at_lone_edges(found.mesh, light, scale);
   for (std::size_t e = 0; e < bends.size(); ++e)
     if (std::ranges::none_of(found.mesh.corners[e], [&](ElementVertexId v) {
@@ -38,15 +41,6 @@ std::vector<std::uint8_t> most_bent(const std::vector<double>& bends, double x, 
     if (static_cast<std::size_t>(std::ranges::count(marked, 1)) <= most)
       return marked;
   }
-}
-
-/// What is found so far, for those who add to it: every vertex that has a value has the settled one,
-/// and none asks anew how it sees the source.
-FoundField kept(FoundField found, const DiffuseField& settled) {
-  found.field = settled;
-  std::ranges::replace(found.states, VertexState::low, VertexState::gathered);
-  std::ranges::replace(found.seen, SourceSeen::alike, SourceSeen::surely_alike);
-  return found;
 }
 
 /// What the coarser mesh has there.
@@ -121,21 +115,28 @@ void divide_at_shadows(const LightScene& light, const VertexSource& source, cons
                        double x, FoundField found, InterpolatedField& result) {
   constexpr std::uint32_t most_divisions = 3, first_level = 0xed9e;
   constexpr std::size_t parts_more = 3;
+  if (!(x > 0.0))
+    return;
   const std::size_t solved = element_count(found.mesh), most = solved + most_at_shadows(solved);
-  for (std::uint32_t level = 0; level < most_divisions && x > 0.0; ++level) {
+  found.field = std::move(result.field);
+  std::ranges::replace(found.states, VertexState::low, VertexState::gathered);
+  std::uint32_t level = 0;
+  for (; level < most_divisions; ++level) {
     const std::size_t now = element_count(found.mesh), more = now < most ? most - now : 0;
     if (more < parts_more)
-      return;
-    const auto marked =
-        most_bent(bends_of(found, from_source(result.field), scale), x, more / parts_more);
+      break;
+    const auto marked = most_bent(bends_of(found, scale, level == 0), x, more / parts_more);
     if (std::ranges::find(marked, 1) == marked.end())
-      return;
-    const FoundField coarse = kept(std::move(found), result.field);
+      break;
+    // Every vertex that has a value keeps it, and none asks anew how it sees the source.
+    std::ranges::replace(found.seen, SourceSeen::alike, SourceSeen::surely_alike);
+    const FoundField coarse = std::move(found);
     found = divided(coarse, light.surfaces, marked);
     light_fresh(source, light.surfaces, first_level + level, coarse, found);
-    result.field = found.field;
-    result.mesh = found.mesh;
   }
+  result.field = std::move(found.field);
+  if (level > 0)
+    result.mesh = std::move(found.mesh);
 }
 
 } // namespace meninas

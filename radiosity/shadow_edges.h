@@ -2,7 +2,9 @@
 // at the edges of shadows, and of what mirrors throw.
 //
 // Elements in which D bends by more than X of the scene's mean (bends.h) are divided,
-// up to three times. At the vertices that they get light from the source is found.
+// up to three times. Surfaces of one element are where D differs between corners, as far as a bend
+// may hide in it: once they are divided they have bends of their own.
+// At the vertices that elements get light from the source is found.
 // The rest is smooth there, or vertices would have asked for more of it:
 // it stays what it was between the corners of the elements that were divided.
 // So an edge costs shadow rays at few vertices and nothing is gathered.
