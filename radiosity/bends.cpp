@@ -53,10 +53,12 @@ double brightest(const glm::vec3& light) {
       {std::abs(double{light.r}), std::abs(double{light.g}), std::abs(double{light.b})});
 }
 
-/// Two edges of a vertex, of which the second goes on from the first.
+/// Two edges of a vertex, of which the second goes on from the first: their cosine is that small.
 bool go_on(const Vec3& to_a, const Vec3& to_b) {
-  constexpr double straight = -0.9; // the cosine between them
-  return glm::dot(to_a, to_b) < straight * glm::length(to_a) * glm::length(to_b);
+  constexpr double straight = -0.9;
+  const double along = glm::dot(to_a, to_b);
+  return along < 0.0 &&
+         along * along > straight * straight * glm::dot(to_a, to_a) * glm::dot(to_b, to_b);
 }
 
 /// The largest |f''| at a vertex, over pairs of its edges.

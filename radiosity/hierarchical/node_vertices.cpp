@@ -17,15 +17,19 @@ const Corners& corners_of(bool triangle) { return triangle ? half_square : squar
 std::size_t nearest_corner(const ElementMesh& mesh, const ElementPoint& at) {
   const bool triangle = mesh.sides[index(mesh.side_of_element[index(at.element)])].triangle;
   const Corners& own = corners_of(triangle);
+  const auto squared = [&](std::size_t c) { return glm::dot(own[c] - at.st, own[c] - at.st); };
   std::size_t nearest = 0;
   for (std::size_t c = 1; c < (triangle ? 3U : 4U); ++c)
-    if (glm::distance(own[c], at.st) < glm::distance(own[nearest], at.st))
+    if (squared(c) < squared(nearest))
       nearest = c;
   return nearest;
 }
 
-/// The vertex at a corner of the node: of the element there, the corner nearest to it.
-ElementVertexId vertex_at(const ElementMesh& mesh, const TreeNode& node, Vec2 corner) {
+/// The vertex at the corner of the node of that number: of the element there, the nearest to it.
+ElementVertexId vertex_at(const ElementMesh& mesh, const TreeNode& node, std::size_t number) {
+  if (is_leaf(node))
+    return mesh.corners[index(node.element)][number];
+  const Vec2 corner = corners_of(node.triangle)[number];
   // A point within the node, nearer to its corner than any element is wide.
   const Vec2 middle = node.triangle ? Vec2(1.0 / 3.0) : Vec2(0.5);
   constexpr double inward = 1e-7;
@@ -66,7 +70,7 @@ double area_below(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId node
 ElementCorners corners_of(const ElementMesh& mesh, const TreeNode& node) {
   ElementCorners corners;
   for (std::size_t c = 0; c < corners.size(); ++c)
-    corners[c] = vertex_at(mesh, node, corners_of(node.triangle)[c]);
+    corners[c] = vertex_at(mesh, node, c);
   return corners;
 }
 
@@ -78,7 +82,8 @@ std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
   double nearest = 0.0;
   for (std::uint32_t k = 0; k < node.child_count; ++k) {
     const TreeNode& child = tree.nodes[index(node.first_child) + k];
-    for (const Vec2& corner : corners_of(child.triangle)) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Vec2 corner = corners_of(child.triangle)[c];
       const Vec2 st = (child.uv + corner * child.extent - node.uv) / node.extent;
       const double distance = glm::distance(st, middle);
       if (probes.empty() || distance * as_near < nearest) {
@@ -87,7 +92,7 @@ std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
       } else if (distance > nearest * as_near) {
         continue;
       }
-      const NodeProbe probe{vertex_at(mesh, child, corner), weights_at(node.triangle, st)};
+      const NodeProbe probe{vertex_at(mesh, child, c), weights_at(node.triangle, st)};
       if (std::ranges::find(probes, probe.vertex, &NodeProbe::vertex) == probes.end())
         probes.push_back(probe);
     }
