@@ -120,7 +120,7 @@ double vertex_grain(const ElementMesh& mesh, const SurfaceModel& surfaces) {
 }
 
 VertexWelder add_elements(ElementMesh& mesh, const SurfaceModel& surfaces) {
-  VertexWelder welder(vertex_grain(mesh, surfaces));
+  VertexWelder welder(vertex_grain(mesh, surfaces), mesh.cells.size());
   for (MeshSide& side : mesh.sides) {
     side.first_element = static_cast<std::uint32_t>(mesh.area.size());
     for (std::uint32_t k = 0; k < side.root_count; ++k)

@@ -12,13 +12,16 @@ namespace meninas {
 class VertexWelder {
 public:
   /// Points are the same within about `grain`, metres.
-  explicit VertexWelder(double grain) : grain_(grain) {}
+  /// `expected`: about as many as there will be.
+  explicit VertexWelder(double grain, std::size_t expected = 0) : grain_(grain) {
+    known_.reserve(expected);
+  }
 
   /// The vertex there, which is appended if it is new.
   ElementVertexId vertex_at(std::uint64_t surface_side, const Point3& x,
                             std::vector<Point3>& vertices) {
     const auto [entry, is_new] =
-        known_.emplace(key_of(surface_side, x), static_cast<ElementVertexId>(vertices.size()));
+        known_.try_emplace(key_of(surface_side, x), static_cast<ElementVertexId>(vertices.size()));
     if (is_new)
       vertices.push_back(x);
     return entry->second;
