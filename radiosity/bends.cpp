@@ -1,7 +1,6 @@
 #include "radiosity/bends.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace meninas {
