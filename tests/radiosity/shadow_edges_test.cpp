@@ -1,5 +1,6 @@
 // Elements divided where light from the source bends: shadows are nearer to what they are,
 // for few vertices, and what is smooth stays as it was.
+#include "radiosity/facets.h"
 #include "radiosity/mesh_division.h"
 #include "radiosity/shadow_edges.h"
 #include "radiosity/vertex_places.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace meninas::test {
 namespace {
@@ -189,6 +191,40 @@ TEST(ShadowEdges, AreFoundWhereOneElementIsAll) {
                    error_of(*l, solve_pass_one(*l->light, by_nodes(0.25, 0.02)), places, expected);
   EXPECT_GT(even, 0.05);
   EXPECT_LT(finer, even / 4.0);
+}
+
+/// A tube of small facets that turn by 30 degrees, which a lamp lights from one side.
+Scene room_with_tube() {
+  Scene scene;
+  const Material wall = diffuse(0.5);
+  add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, wall, wall, wall});
+  add_polygon(scene, "lamp", {{0.1, 0.4, 0.4}, {0.1, 0.6, 0.4}, {0.1, 0.6, 0.6}, {0.1, 0.4, 0.6}},
+              diffuse(0.0, 100.0));
+  constexpr int sides = 12, rows = 4;
+  const auto at = [](int side, int row) {
+    const double turn = 2.0 * std::numbers::pi * (side % sides) / sides;
+    return Point3(0.6 + 0.05 * std::cos(turn), 0.45 + 0.025 * row, 0.5 - 0.05 * std::sin(turn));
+  };
+  for (int k = 0; k < sides; ++k)
+    for (int row = 0; row < rows; ++row)
+      add_polygon(scene, "tube", {at(k, row), at(k + 1, row), at(k + 1, row + 1), at(k, row + 1)},
+                  wall);
+  return scene;
+}
+
+// Corners of facets have the mean of those around them, which differs from one to the next
+// as the curve turns: that is no edge.
+TEST(ShadowEdges, AreNotBetweenTheMeansOfFacets) {
+  const auto l = lit(room_with_tube(), {.element_size = 0.25});
+  ASSERT_FALSE(facets_around(*l->light).elements.empty());
+  const std::vector<std::size_t> tube = elements_of(*l, "tube");
+  const RadiositySolution solution = solve_pass_one(*l->light, by_nodes(0.25, 0.02));
+  const ElementMesh& mesh = field_scene(*l->light, solution).mesh;
+  std::size_t now = 0;
+  for (const SideId side : mesh.side_of_element)
+    now += std::ranges::any_of(tube,
+                               [&](std::size_t e) { return l->mesh.side_of_element[e] == side; });
+  EXPECT_EQ(now, tube.size());
 }
 
 /// A lamp over a box that is so far above the floor, not along the edges of elements.
