@@ -25,40 +25,61 @@ bool agree(const VisibleShare& share) {
   return share.arrived == 0 || share.arrived == share.samples;
 }
 
+/// The samples of one image from a point.
+struct ImageSampling {
+  std::uint32_t seed;
+  PolygonFan fan;
+
+  Point3 point(int k) const {
+    return point_on(fan, Vec2(sobol2(static_cast<std::uint32_t>(k), seed, SobolPair::first)));
+  }
+};
+
 /// Adds the samples of one image up to number `end` to its visible share.
+/// Weights are needed where some arrive and some do not, or panes take their part of each;
+/// those of samples before, which all arrived or all did not, are found when one is met that differs.
 void sample_visibility(const LightScene& light, const VirtualLight& image, const Receiver& receiver,
                        int end, std::uint32_t seed_of_all, DirectWorkspace& work,
                        VisibleShare& share) {
   const Emitter& emitter = light.emitters[image.emitter];
-  const std::uint32_t seed = hash(seed_of_all, image.emitter, index(image.world));
-  const Vec3 area = area_vector(image.polygon.span());
+  const ImageSampling sampling{hash(seed_of_all, image.emitter, index(image.world)),
+                               PolygonFan(image.polygon, area_vector(image.polygon.span()))};
   for (int first = share.samples; first < end; first += 16) {
     const int count = std::min(16, end - first);
-    std::array<double, 16> weight{};
+    std::array<Point3, 16> points;
     for (int k = 0; k < count; ++k) {
-      const Vec2 sample(sobol2(static_cast<std::uint32_t>(first + k), seed, SobolPair::first));
-      const Point3 y = point_on(image.polygon, area, sample);
-      weight[static_cast<std::size_t>(k)] = form_factor_share(receiver, image, y);
-      fold(light, image.world, receiver.position, receiver.plane_class, y, emitter.plane_class,
-           work.folded[static_cast<std::size_t>(k)]);
+      const auto lane = static_cast<std::size_t>(k);
+      points[lane] = sampling.point(first + k);
+      fold(light, image.world, receiver.position, receiver.plane_class, points[lane],
+           emitter.plane_class, work.folded[lane]);
     }
     const std::uint32_t dark =
         blocked(light, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
-    for (int k = 0; k < count; ++k) {
-      share.all += weight[static_cast<std::size_t>(k)];
-      if (((dark >> k) & 1U) == 0U)
-        share.seen += weight[static_cast<std::size_t>(k)] *
-                      left_between(light, end_of(receiver), end_of(emitter),
-                                   work.folded[static_cast<std::size_t>(k)]);
-    }
+    const bool were_seen = share.arrived > 0;
     share.samples += count;
     share.arrived += count - std::popcount(dark);
+    if (agree(share) && light.by_angle.empty())
+      continue;
+    for (; share.weighed < first; ++share.weighed) {
+      const double weight = form_factor_share(receiver, image, sampling.point(share.weighed));
+      share.all += weight;
+      if (were_seen)
+        share.seen += weight;
+    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+      const double weight = form_factor_share(receiver, image, points[k]);
+      share.all += weight;
+      if (((dark >> k) & 1U) == 0U)
+        share.seen +=
+            weight * left_between(light, end_of(receiver), end_of(emitter), work.folded[k]);
+    }
+    share.weighed = share.samples;
   }
 }
 
 Rgb visible_fraction(const LightScene& light, const VisibleShare& share) {
-  if (share.arrived == share.samples && light.by_angle.empty())
-    return Rgb(1.0);
+  if (agree(share) && light.by_angle.empty())
+    return Rgb(share.arrived > 0 ? 1.0 : 0.0);
   return share.all > 0.0 ? share.seen / share.all : Rgb(0.0);
 }
 
@@ -99,7 +120,8 @@ void sample_dim_images(const LightScene& light, const Receiver& receiver,
       const VirtualLight& image = work.lights[dim[first + count]];
       const Vec2 sample(sobol2(0, hash(seed, image.emitter, index(image.world)), SobolPair::first));
       const Point3 y = point_on(image.polygon, area_vector(image.polygon.span()), sample);
-      weight[count] = form_factor_share(receiver, image, y);
+      if (!light.by_angle.empty())
+        weight[count] = form_factor_share(receiver, image, y);
       fold(light, image.world, receiver.position, receiver.plane_class, y,
            light.emitters[image.emitter].plane_class, work.folded[count]);
     }

@@ -57,6 +57,7 @@ struct VisibleShare {
   double all = 0.0;
   Rgb seen{0.0};
   int samples = 0, arrived = 0;
+  int weighed = 0; ///< of the samples: where all arrive or none does, weights are not needed
 };
 
 /// An image that is worth several samples.

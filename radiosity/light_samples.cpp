@@ -57,11 +57,12 @@ void emission_samples(const LightScene& light, const Receiver& receiver,
   for (const VirtualLight& image : work.lights) {
     const Emitter& emitter = light.emitters[image.emitter];
     const Vec3 area = area_vector(image.polygon.span());
+    const PolygonFan fan(image.polygon, area);
     const auto seed = hash(sampling.seed, image.emitter, index(image.world));
     const std::size_t begin = samples.size();
     for (std::uint32_t k = 0; k < count; ++k) {
       const auto u = sobol4(sampling.first + k, seed);
-      const Point3 y = point_on(image.polygon, area, Vec2(u[0], u[1]));
+      const Point3 y = point_on(fan, Vec2(u[0], u[1]));
       const Vec3 to = y - receiver.position;
       const double cosine = -glm::dot(to, image.normal) / std::max(glm::length(to), 1e-300);
       samples.push_back({to, std::max(0.0, cosine), image.weight * glm::length(area) / count,

@@ -10,22 +10,48 @@
 
 namespace meninas {
 
+namespace {
+
+/// The share of the fan's triangle that ends in corner k, by area.
+double share_of(const ConvexPolygon& polygon, const Vec3& area, std::size_t k) {
+  const Vec3 edge_a = polygon.vertices[k - 1] - polygon.vertices[0],
+             edge_b = polygon.vertices[k] - polygon.vertices[0];
+  return 0.5 * glm::dot(glm::cross(edge_a, edge_b), area) / glm::dot(area, area);
+}
+
 /// A fan triangle by area, then a point in it.
-Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample) {
-  const double total = glm::dot(area, area);
+template <typename ShareOf>
+Point3 point_in_fan(const ConvexPolygon& polygon, const ShareOf& share_of_triangle, Vec2 sample) {
+  const auto& corners = polygon.vertices;
   double before = 0.0;
   for (std::size_t k = 2; k < polygon.size; ++k) {
-    const Vec3 edge_a = polygon.vertices[k - 1] - polygon.vertices[0],
-               edge_b = polygon.vertices[k] - polygon.vertices[0];
-    const double share = 0.5 * glm::dot(glm::cross(edge_a, edge_b), area) / total;
+    const double share = share_of_triangle(k);
     if (sample.x < before + share || k + 1 == polygon.size) {
       const double u = share > 0.0 ? std::clamp((sample.x - before) / share, 0.0, 1.0) : 0.5;
       const double root = std::sqrt(u);
-      return polygon.vertices[0] + root * (1.0 - sample.y) * edge_a + root * sample.y * edge_b;
+      return corners[0] + root * (1.0 - sample.y) * (corners[k - 1] - corners[0]) +
+             root * sample.y * (corners[k] - corners[0]);
     }
     before += share;
   }
-  return polygon.vertices[0];
+  return corners[0];
+}
+
+} // namespace
+
+PolygonFan::PolygonFan(const ConvexPolygon& whole, const Vec3& area) : polygon(whole) {
+  for (std::size_t k = 2; k < polygon.size; ++k)
+    shares[k] = share_of(polygon, area, k);
+}
+
+Point3 point_on(const PolygonFan& fan, Vec2 sample) {
+  return point_in_fan(
+      fan.polygon, [&](std::size_t k) { return fan.shares[k]; }, sample);
+}
+
+Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample) {
+  return point_in_fan(
+      polygon, [&](std::size_t k) { return share_of(polygon, area, k); }, sample);
 }
 
 void fold(const LightScene& light, WorldId world, const Point3& x, PlaneId leaving, const Point3& y,

@@ -8,7 +8,18 @@
 
 namespace meninas {
 
-/// A point of a convex polygon with density one over its area, whose area vector is given.
+/// A convex polygon as the fan of triangles about its first corner, of which points are chosen.
+struct PolygonFan {
+  const ConvexPolygon& polygon;
+  std::array<double, ConvexPolygon::capacity> shares; ///< of the area: of the triangle that ends in a corner
+
+  /// With the polygon's area vector.
+  PolygonFan(const ConvexPolygon& whole, const Vec3& area);
+};
+
+/// A point of a convex polygon with density one over its area:
+/// of a fan where many are asked for.
+Point3 point_on(const PolygonFan& fan, Vec2 sample);
 Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample);
 
 /// What blocks a segment, and on which of its legs:
