@@ -51,10 +51,10 @@ std::uint32_t vertex_seed(const VertexSource& source, std::uint32_t vertex, std:
 }
 
 PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
-                              const VertexGathering& how, int share, double spared,
-                              std::optional<int> before) {
-  const auto rays_of = [asked = how.interpolation.rays](int part) {
-    return std::max(std::min(asked, 128), asked / part);
+                              const VertexGathering& how, RayShare share, double spared,
+                              std::optional<RayShare> before) {
+  const auto rays_of = [asked = how.interpolation.rays](RayShare of) {
+    return of.times * std::max(std::min(asked, 128), asked / of.part);
   };
   DirectSettings direct = how.direct;
   direct.penumbra_samples = PenumbraSamples::together;
@@ -64,7 +64,7 @@ PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflecte
           direct,
           {.rays = rays_of(share),
            .rays_before = before ? rays_of(*before) : 0,
-           .cluster_shadow_rays = std::max(1, how.interpolation.cluster_shadow_rays / share),
+           .cluster_shadow_rays = std::max(1, how.interpolation.cluster_shadow_rays / share.part),
            .clusters_spared = spared}};
 }
 

@@ -50,14 +50,19 @@ struct VertexGathering {
   const InterpolationSettings& interpolation;
 };
 
-/// From elements of that reflected radiosity, with one `share`th of the rays,
-/// of 128 at least where there are so many. `spared`:
+/// Of the rays that are asked for one `part`th, of 128 at least where there are so many,
+/// so many `times`.
+struct RayShare {
+  int part = 1, times = 1;
+};
+
+/// From elements of that reflected radiosity, with that share of the rays. `spared`:
 /// bright clusters that add so little to the noise of these are left to them (bright_clusters.h).
 /// Where clusters lie in many planes their light takes longer than 128 rays.
-/// `before`: with as many as that share, rays may have been traced before (kept_rays.h).
+/// `before`: rays of as many as that share may have been traced before (kept_rays.h).
 PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
-                              const VertexGathering& how, int share, double spared = 0.0,
-                              std::optional<int> before = {});
+                              const VertexGathering& how, RayShare share = {}, double spared = 0.0,
+                              std::optional<RayShare> before = {});
 
 /// What vertices gather from.
 struct VertexSource {

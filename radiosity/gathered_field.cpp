@@ -73,7 +73,7 @@ namespace {
 void gather_everywhere(const LightScene& light, const ElementLight& elements,
                        const VertexGathering& how, FoundField found, PointWorkspaces& workspaces,
                        InterpolatedField& result) {
-  const PointGathering gathering = gathering_from(light, elements.reflected, how, 1);
+  const PointGathering gathering = gathering_from(light, elements.reflected, how);
   const VertexSource source{elements.irradiance, gathering, workspaces};
   gather_at_vertices(source, 0, found);
   result.field = settled(source, found);

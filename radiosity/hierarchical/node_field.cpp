@@ -8,6 +8,7 @@
 #include "radiosity/vertex_places.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace meninas {
@@ -15,6 +16,7 @@ namespace meninas {
 namespace {
 
 constexpr int few_rays = 4; // for the first gathering, and for small nodes: so many times fewer
+constexpr RayShare first_share{few_rays, 1};
 constexpr double first_spared = 1.0, small_spared = 0.1; // of bright clusters there
 
 /// What nodes gather from: the same light, with many and with few rays.
@@ -196,18 +198,28 @@ std::vector<Rgb> reflected_by_field(const VertexSource& few, const ReceiverNodes
 
 } // namespace
 
+int times_of_rays(std::size_t elements, std::size_t receivers) {
+  // The sum of a N^-2p over vertices, for a sum of N, is least where N goes with a^1/(1 + 2p).
+  constexpr double vertices_of_receiver = 2.0; // its middle, and a share of its corners
+  const double elements_of_vertex =
+      double(elements) / (vertices_of_receiver * double(std::max<std::size_t>(receivers, 1)));
+  const double times = std::pow(std::max(1.0, elements_of_vertex), 1.0 / (1.0 + 2.0 * noise_order));
+  return static_cast<int>(std::bit_floor(static_cast<unsigned>(times)));
+}
+
 InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
                                  const ReceiverNodes& receivers, const VertexGathering& how,
                                  FoundField found, PointWorkspaces& workspaces) {
   const PointGathering solved =
-      gathering_from(light, elements.reflected, how, few_rays, first_spared);
+      gathering_from(light, elements.reflected, how, first_share, first_spared);
   KeptRays kept;
   const VertexSource few{elements.irradiance, solved, workspaces, &kept, true};
   std::vector<OpenPart> parts;
   const std::vector<Rgb> reflected = reflected_by_field(few, receivers, elements, parts, found);
-  const PointGathering seen = gathering_from(light, reflected, how, 1, 0.0, few_rays),
-                       seen_by_small =
-                           gathering_from(light, reflected, how, few_rays, small_spared);
+  const int times = times_of_rays(element_count(light.mesh), receivers.receivers.size());
+  const PointGathering seen = gathering_from(light, reflected, how, {1, times}, 0.0, first_share),
+                       seen_by_small = gathering_from(light, reflected, how, {few_rays, times},
+                                                      small_spared, first_share);
   const VertexSource source{elements.irradiance, seen, workspaces, &kept},
       by_small{elements.irradiance, seen_by_small, workspaces, &kept};
   share_out(gather_at_nodes({source, by_small}, receivers, receivers.bend, found), found);

@@ -13,7 +13,7 @@ LitVertices lit_vertices(const LightScene& light, const VertexGathering& how) {
     lit.found.punctual.assign(lit.found.states.size(), glm::vec3(0.0F));
   PointWorkspaces workspaces;
   const std::vector<Rgb> none_yet(element_count(light.mesh), Rgb(0.0));
-  const PointGathering gathering = gathering_from(light, none_yet, how, 1);
+  const PointGathering gathering = gathering_from(light, none_yet, how);
   light_vertices({none_yet, gathering, workspaces}, 0, lit.found);
   for (const PointWorkspace& work : workspaces) {
     lit.rays += work.rays;
