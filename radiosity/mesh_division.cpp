@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+#include <utility>
 
 namespace meninas {
 
@@ -81,9 +85,8 @@ std::vector<std::uint8_t> beside_divided(const ElementMesh& mesh) {
       for (const ElementVertexId corner : mesh.corners[e])
         of_parts[index(corner)] = 1;
   for (std::size_t e = 0; e < beside.size(); ++e)
-    beside[e] = std::ranges::any_of(mesh.corners[e], [&](ElementVertexId corner) {
-      return of_parts[index(corner)] != 0;
-    });
+    beside[e] = std::ranges::any_of(
+        mesh.corners[e], [&](ElementVertexId corner) { return of_parts[index(corner)] != 0; });
   return beside;
 }
 
@@ -135,6 +138,85 @@ std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed) {
   return hanging;
 }
 
+/// The elements on whose edges corners of smaller ones hang.
+class LargerNeighbours {
+public:
+  explicit LargerNeighbours(const ElementMesh& mesh)
+      : mesh_(mesh), edge_of_(mesh.vertices.size(), none_hangs) {
+    std::vector<std::uint8_t> is_end(mesh.vertices.size(), 0);
+    for (std::size_t k = 0; k < mesh.hanging.size(); ++k) {
+      const HangingVertex& h = mesh.hanging[k];
+      edge_of_[index(h.vertex)] = static_cast<std::uint32_t>(k);
+      is_end[index(h.end_a)] = is_end[index(h.end_b)] = 1;
+      element_at_.emplace(key_of(h.end_a, h.end_b), none<ElementId>);
+    }
+    for (std::size_t e = 0; e < element_count(mesh); ++e)
+      for (std::size_t c = 0; c < 4; ++c) {
+        const ElementVertexId a = mesh.corners[e][c], b = mesh.corners[e][(c + 1) % 4];
+        if (is_end[index(a)] == 0 || is_end[index(b)] == 0)
+          continue;
+        if (const auto edge = element_at_.find(key_of(a, b)); edge != element_at_.end())
+          edge->second = static_cast<ElementId>(e);
+      }
+  }
+
+  /// Calls `use(larger)` for those beside an element.
+  template <typename Use>
+  void for_each(ElementId element, const Use& use) const {
+    const ElementCorners& corners = mesh_.corners[index(element)];
+    for (std::size_t c = 0; c < 4; ++c)
+      for (const auto& [from, to] : {std::pair(c, (c + 1) % 4), std::pair((c + 1) % 4, c)}) {
+        const std::uint32_t edge = edge_of_[index(corners[from])];
+        if (edge == none_hangs)
+          continue;
+        const HangingVertex& h = mesh_.hanging[edge];
+        if (corners[to] == h.end_a || corners[to] == h.end_b)
+          if (const ElementId larger = element_at_.at(key_of(h.end_a, h.end_b));
+              larger != none<ElementId>)
+            use(larger);
+      }
+  }
+
+private:
+  static constexpr std::uint32_t none_hangs = std::numeric_limits<std::uint32_t>::max();
+  static std::uint64_t key_of(ElementVertexId a, ElementVertexId b) {
+    return std::uint64_t{std::min(index(a), index(b))} << 32U | std::max(index(a), index(b));
+  }
+
+  const ElementMesh& mesh_;
+  std::vector<std::uint32_t> edge_of_; ///< by ElementVertexId: in `mesh.hanging`
+  std::unordered_map<std::uint64_t, ElementId> element_at_;
+};
+
+/// The marked elements that may be divided, and those that have to be for their sake, as far as
+/// hanging vertices tell: where one of the smaller elements beside such a vertex is divided, its
+/// parts would be two levels below the element on whose edge it hangs.
+std::vector<std::uint8_t> with_followers(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                                         std::span<const std::uint8_t> marked) {
+  std::vector<std::uint8_t> divided(marked.begin(), marked.end());
+  std::vector<ElementId> next;
+  const auto mark = [&](std::size_t e) {
+    divided[e] = is_divisible(mesh, surfaces, cell_of(mesh, static_cast<ElementId>(e))) ? 1 : 0;
+    if (divided[e] != 0)
+      next.push_back(static_cast<ElementId>(e));
+  };
+  for (std::size_t e = 0; e < marked.size(); ++e)
+    if (marked[e] != 0)
+      mark(e);
+  if (mesh.hanging.empty())
+    return divided;
+  const LargerNeighbours larger(mesh);
+  while (!next.empty()) {
+    const ElementId element = next.back();
+    next.pop_back();
+    larger.for_each(element, [&](ElementId neighbour) {
+      if (divided[index(neighbour)] == 0)
+        mark(index(neighbour));
+    });
+  }
+  return divided;
+}
+
 /// The roots with every cell divided that `is_divided(its number)` names,
 /// before its children are asked about.
 template <typename Predicate>
@@ -174,7 +256,7 @@ ElementMesh with_divided(const ElementMesh& mesh, const SurfaceModel& surfaces,
 
 ElementMesh divide_elements(const ElementMesh& mesh, const SurfaceModel& surfaces,
                             std::span<const std::uint8_t> marked) {
-  ElementMesh result = with_divided(mesh, surfaces, marked);
+  ElementMesh result = with_divided(mesh, surfaces, with_followers(mesh, surfaces, marked));
   for (;;) {
     const VertexWelder welder = add_elements(result, surfaces);
     const PlacedVertices placed{result, surfaces, welder};
