@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <unordered_map>
 #include <utility>
@@ -52,14 +53,6 @@ struct PlacedVertices {
   }
 };
 
-bool has_much_smaller_neighbour(const PlacedVertices& placed, const MeshCell& cell) {
-  for (std::size_t k = 0; k < corners_of(placed.mesh, cell).size(); ++k)
-    for (const double quarter : {0.25, 0.75})
-      if (placed.on_edge(cell, k, quarter) != none<ElementVertexId>)
-        return true;
-  return false;
-}
-
 } // namespace
 
 bool is_divisible(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& leaf) {
@@ -76,62 +69,80 @@ bool is_divisible(const ElementMesh& mesh, const SurfaceModel& surfaces, const M
 
 namespace {
 
-/// By ElementId, whether a corner of it is one of a divided cell's parts: where two cells along an
-/// edge differ, the smaller ones have its ends for corners; roots beside one another are alike.
-std::vector<std::uint8_t> beside_divided(const ElementMesh& mesh) {
-  std::vector<std::uint8_t> of_parts(mesh.vertices.size(), 0), beside(element_count(mesh), 0);
-  for (std::size_t e = 0; e < beside.size(); ++e)
-    if (cell_of(mesh, static_cast<ElementId>(e)).level > 0)
+/// By ElementVertexId, whether it is a corner of a divided cell's part.
+std::vector<std::uint8_t> corners_of_parts(const ElementMesh& mesh) {
+  std::vector<std::uint8_t> of_parts(mesh.vertices.size(), 0);
+  for (std::uint32_t e = 0; e < element_count(mesh); ++e)
+    if (cell_of(mesh, ElementId{e}).level > 0)
       for (const ElementVertexId corner : mesh.corners[e])
         of_parts[index(corner)] = 1;
-  for (std::size_t e = 0; e < beside.size(); ++e)
-    beside[e] = std::ranges::any_of(
-        mesh.corners[e], [&](ElementVertexId corner) { return of_parts[index(corner)] != 0; });
-  return beside;
+  return of_parts;
 }
 
-/// The elements that have to be divided for the sake of their neighbours; empty when there is none.
-std::vector<std::uint8_t> to_follow(const PlacedVertices& placed) {
+/// A vertex in the middle of an element's edge k.
+struct EdgeMiddle {
+  ElementId element;
+  std::size_t k;
+  ElementVertexId vertex;
+};
+
+/// Where two cells along an edge differ, the smaller ones have its ends for corners;
+/// roots beside one another are alike.
+std::vector<EdgeMiddle> edge_middles(const PlacedVertices& placed) {
   const ElementMesh& mesh = placed.mesh;
-  const std::vector<std::uint8_t> asked = beside_divided(mesh);
-  std::vector<std::uint8_t> marked(element_count(mesh), 0);
-  for (std::size_t e = 0; e < marked.size(); ++e) {
-    const MeshCell& cell = cell_of(mesh, static_cast<ElementId>(e));
-    if (asked[e] != 0 && has_much_smaller_neighbour(placed, cell) &&
-        is_divisible(mesh, placed.surfaces, cell))
-      marked[e] = 1;
+  const std::vector<std::uint8_t> of_parts = corners_of_parts(mesh);
+  std::vector<EdgeMiddle> middles;
+  for (std::uint32_t e = 0; e < element_count(mesh); ++e) {
+    const MeshCell& cell = cell_of(mesh, ElementId{e});
+    const std::size_t count = corners_of(mesh, cell).size();
+    for (std::size_t k = 0; k < count; ++k) {
+      if (of_parts[index(mesh.corners[e][k])] == 0 ||
+          of_parts[index(mesh.corners[e][(k + 1) % count])] == 0)
+        continue;
+      if (const ElementVertexId middle = placed.on_edge(cell, k, 0.5);
+          middle != none<ElementVertexId>)
+        middles.push_back({ElementId{e}, k, middle});
+    }
   }
-  if (std::find(marked.begin(), marked.end(), 1) == marked.end())
+  return middles;
+}
+
+/// The elements that have to be divided for the sake of their neighbours,
+/// where on half of an edge there is another vertex; empty when there is none.
+std::vector<std::uint8_t> to_follow(const PlacedVertices& placed,
+                                    std::span<const EdgeMiddle> middles) {
+  const ElementMesh& mesh = placed.mesh;
+  std::vector<std::uint8_t> marked(element_count(mesh), 0);
+  for (const EdgeMiddle& middle : middles) {
+    const MeshCell& cell = cell_of(mesh, middle.element);
+    if ((placed.on_edge(cell, middle.k, 0.25) != none<ElementVertexId> ||
+         placed.on_edge(cell, middle.k, 0.75) !=
+             none<ElementVertexId>)&&is_divisible(mesh, placed.surfaces, cell))
+      marked[index(middle.element)] = 1;
+  }
+  if (std::ranges::find(marked, 1) == marked.end())
     marked.clear();
   return marked;
 }
 
 /// Larger edges first:
 /// the ends of a smaller one may hang on a larger one, never the other way round.
-std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed) {
+std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed,
+                                            std::span<const EdgeMiddle> middles) {
   struct Found {
     HangingVertex vertex;
     double edge;
   };
   const ElementMesh& mesh = placed.mesh;
-  const std::vector<std::uint8_t> asked = beside_divided(mesh);
   std::vector<Found> found;
-  for (std::size_t e = 0; e < element_count(mesh); ++e) {
-    if (asked[e] == 0)
-      continue;
-    const MeshCell& cell = cell_of(mesh, static_cast<ElementId>(e));
-    const std::size_t count = corners_of(mesh, cell).size();
-    for (std::size_t k = 0; k < count; ++k) {
-      const ElementVertexId middle = placed.on_edge(cell, k, 0.5);
-      const ElementVertexId a = mesh.corners[e][k], b = mesh.corners[e][(k + 1) % count];
-      if (middle == none<ElementVertexId>)
-        continue;
-      found.push_back(
-          {{middle, a, b}, glm::distance(mesh.vertices[index(a)], mesh.vertices[index(b)])});
-    }
+  for (const auto& [element, k, middle] : middles) {
+    const ElementCorners& corners = mesh.corners[index(element)];
+    const std::size_t next = (k + 1) % corners_of(mesh, cell_of(mesh, element)).size();
+    const ElementVertexId a = corners[k], b = corners[next];
+    found.push_back(
+        {{middle, a, b}, glm::distance(mesh.vertices[index(a)], mesh.vertices[index(b)])});
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Found& a, const Found& b) { return a.edge > b.edge; });
+  std::ranges::stable_sort(found, std::greater<>(), &Found::edge);
   std::vector<HangingVertex> hanging;
   for (const Found& f : found)
     hanging.push_back(f.vertex);
@@ -260,9 +271,10 @@ ElementMesh divide_elements(const ElementMesh& mesh, const SurfaceModel& surface
   for (;;) {
     const VertexWelder welder = add_elements(result, surfaces);
     const PlacedVertices placed{result, surfaces, welder};
-    const std::vector<std::uint8_t> more = to_follow(placed);
+    const std::vector<EdgeMiddle> middles = edge_middles(placed);
+    const std::vector<std::uint8_t> more = to_follow(placed, middles);
     if (more.empty()) {
-      result.hanging = hanging_vertices(placed);
+      result.hanging = hanging_vertices(placed, middles);
       return result;
     }
     result = with_divided(result, surfaces, more);
@@ -294,7 +306,8 @@ ElementMesh divided_mesh(const ElementMesh& roots, const SurfaceModel& surfaces,
                          std::span<const std::uint8_t> division) {
   ElementMesh result = grown(roots, [&](std::uint32_t cell) { return division[cell] != 0; });
   const VertexWelder welder = add_elements(result, surfaces);
-  result.hanging = hanging_vertices({result, surfaces, welder});
+  const PlacedVertices placed{result, surfaces, welder};
+  result.hanging = hanging_vertices(placed, edge_middles(placed));
   return result;
 }
 
