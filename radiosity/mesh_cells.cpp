@@ -20,21 +20,53 @@ std::array<Vec2, 4> corner_coordinates(bool triangle) {
   return {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(1.0, 1.0), Vec2(0.0, 1.0)};
 }
 
-void add_element(ElementMesh& mesh, const SurfaceModel& surfaces, std::uint32_t number,
-                 VertexWelder& welder) {
-  MeshCell& cell = mesh.cells[number];
-  const MeshSide& side = mesh.sides[index(cell.side)];
-  const bool triangle = side.triangle;
+/// Elements as they are added.
+struct NewElements {
+  ElementMesh& mesh;
+  const SurfaceModel& surfaces;
+  const MeshBefore* before;
+  VertexNumbers& vertices;
+};
+
+/// The corners of a leaf, which is what it was before.
+ElementCorners corners_before(const NewElements& to, const MeshCell& was) {
+  const ElementMesh& before = to.before->mesh;
+  ElementCorners corners = before.corners[was.first_element];
+  for (ElementVertexId& corner : corners)
+    corner = to.vertices.number_of(corner, before.vertices[index(corner)], to.mesh.vertices);
+  return corners;
+}
+
+/// The corners of a leaf by their places, and its area.
+ElementCorners new_corners(const NewElements& to, MeshCell& cell) {
+  const bool triangle = to.mesh.sides[index(cell.side)].triangle;
   const auto coordinates = corner_coordinates(triangle);
   ElementCorners corners;
   std::array<Point3, 4> points;
   for (std::size_t c = 0; c < 4; ++c) {
-    points[c] = point_in(mesh, surfaces, cell, coordinates[c]);
-    corners[c] = c == 3 && triangle ? corners[2]
-                                    : welder.vertex_at(surface_side(mesh, surfaces, cell),
-                                                       points[c], mesh.vertices);
+    points[c] = point_in(to.mesh, to.surfaces, cell, coordinates[c]);
+    corners[c] = c == 3 && triangle
+                     ? corners[2]
+                     : to.vertices.vertex_at(surface_side(to.mesh, to.surfaces, cell), points[c],
+                                             to.mesh.vertices);
   }
   cell.area = area_of(std::span(points).first(triangle ? 3 : 4));
+  return corners;
+}
+
+void add_element(const NewElements& to, std::uint32_t number) {
+  ElementMesh& mesh = to.mesh;
+  MeshCell& cell = mesh.cells[number];
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  const CellId before = to.before ? to.before->cells[number] : none<CellId>;
+  ElementCorners corners;
+  if (before == none<CellId>) {
+    corners = new_corners(to, cell);
+  } else {
+    const MeshCell& was = to.before->mesh.cells[index(before)];
+    corners = corners_before(to, was);
+    cell.area = was.area;
+  }
   cell.first_element = static_cast<std::uint32_t>(mesh.area.size());
   cell.element_count = 1;
   mesh.cell_of_element.push_back(static_cast<CellId>(number));
@@ -47,23 +79,49 @@ void add_element(ElementMesh& mesh, const SurfaceModel& surfaces, std::uint32_t 
 }
 
 /// The leaves below a cell, depth first.
-void add_leaves(ElementMesh& mesh, const SurfaceModel& surfaces, std::uint32_t number,
-                VertexWelder& welder) {
+void add_leaves(const NewElements& to, std::uint32_t number) {
+  ElementMesh& mesh = to.mesh;
   if (is_leaf(mesh.cells[number])) {
-    add_element(mesh, surfaces, number, welder);
+    add_element(to, number);
     return;
   }
   const auto first = static_cast<std::uint32_t>(mesh.area.size());
   const std::uint32_t child = index(mesh.cells[number].first_child);
   double area = 0.0;
   for (std::uint32_t k = 0; k < 4; ++k) {
-    add_leaves(mesh, surfaces, child + k, welder);
+    add_leaves(to, child + k);
     area += mesh.cells[child + k].area;
   }
   MeshCell& cell = mesh.cells[number];
   cell.area = area;
   cell.first_element = first;
   cell.element_count = static_cast<std::uint32_t>(mesh.area.size()) - first;
+}
+
+/// Whether a cell may have a vertex on the border of its patch, where others may end as well.
+bool is_at_border(const ElementMesh& mesh, const MeshCell& cell) {
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  const int nu = side.nu << cell.level, nv = side.nv << cell.level;
+  if (!side.triangle)
+    return cell.i == 0 || cell.j == 0 || cell.i == nu - 1 || cell.j == nv - 1;
+  const int first = cell.flipped ? 1 : 0;
+  return cell.i <= first || cell.j <= first || cell.i + cell.j >= nu - 1 + first;
+}
+
+/// The vertices before that new elements may share, by place.
+void place_vertices(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshBefore& before,
+                    VertexNumbers& vertices) {
+  for (std::size_t number = 0; number < mesh.cells.size(); ++number) {
+    if (before.cells[number] == none<CellId>)
+      continue;
+    const MeshCell& was = before.mesh.cells[index(before.cells[number])];
+    if (!is_leaf(was) ||
+        (was.level == 0 && is_leaf(mesh.cells[number]) && !is_at_border(before.mesh, was)))
+      continue;
+    const std::uint64_t side = surface_side(before.mesh, surfaces, was);
+    for (const ElementVertexId corner : before.mesh.corners[was.first_element])
+      vertices.place(side, before.mesh.vertices[index(corner)], corner);
+  }
 }
 
 } // namespace
@@ -119,19 +177,25 @@ double vertex_grain(const ElementMesh& mesh, const SurfaceModel& surfaces) {
   return std::max(16.0 * surfaces.tolerance, 1e-7 * mesh.element_size);
 }
 
-VertexWelder add_elements(ElementMesh& mesh, const SurfaceModel& surfaces) {
-  VertexWelder welder(vertex_grain(mesh, surfaces), mesh.cells.size());
+VertexNumbers add_elements(ElementMesh& mesh, const SurfaceModel& surfaces,
+                           const MeshBefore* before) {
+  const std::size_t vertices_before = before ? before->mesh.vertices.size() : 0;
+  VertexNumbers vertices(vertex_grain(mesh, surfaces), vertices_before,
+                         before ? 0 : mesh.cells.size());
+  if (before)
+    place_vertices(mesh, surfaces, *before, vertices);
+  const NewElements to{mesh, surfaces, before, vertices};
   for (MeshSide& side : mesh.sides) {
     side.first_element = static_cast<std::uint32_t>(mesh.area.size());
     for (std::uint32_t k = 0; k < side.root_count; ++k)
-      add_leaves(mesh, surfaces, side.first_cell + k, welder);
+      add_leaves(to, side.first_cell + k);
     side.element_count = static_cast<std::uint32_t>(mesh.area.size()) - side.first_element;
   }
   mesh.element_of_vertex.assign(mesh.vertices.size(), none<ElementId>);
   for (std::size_t e = mesh.corners.size(); e-- > 0;)
     for (const auto vertex : mesh.corners[e])
       mesh.element_of_vertex[index(vertex)] = static_cast<ElementId>(e);
-  return welder;
+  return vertices;
 }
 
 } // namespace meninas

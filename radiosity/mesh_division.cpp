@@ -38,7 +38,7 @@ std::span<const Vec2> corners_of(const ElementMesh& mesh, const MeshCell& cell) 
 struct PlacedVertices {
   const ElementMesh& mesh;
   const SurfaceModel& surfaces;
-  const VertexWelder& welder;
+  const VertexNumbers& vertices;
 
   /// The vertex at a share of the way along edge k of an element's cell, not one of its ends;
   /// none if there is none.
@@ -47,7 +47,7 @@ struct PlacedVertices {
     const std::size_t next = (k + 1) % corners.size();
     const Vec2 st = glm::mix(corners[k], corners[next], share);
     const ElementVertexId found =
-        welder.find(surface_side(mesh, surfaces, cell), point_in(mesh, surfaces, cell, st));
+        vertices.find(surface_side(mesh, surfaces, cell), point_in(mesh, surfaces, cell, st));
     const ElementCorners& ends = mesh.corners[cell.first_element];
     return found == ends[k] || found == ends[next] ? none<ElementVertexId> : found;
   }
@@ -239,15 +239,16 @@ ElementMesh grown(const ElementMesh& mesh, Predicate&& is_divided) {
   return result;
 }
 
-/// The mesh with the marked elements divided, whatever their neighbours are.
-ElementMesh with_divided(const ElementMesh& mesh, const SurfaceModel& surfaces,
-                         std::span<const std::uint8_t> marked) {
-  // By cell of the new mesh: the cell of the old one that it was, none for what is new.
+/// The mesh with the marked elements divided, whatever their neighbours are,
+/// and by cell of it the same of the mesh before, none for what is new. It has no elements yet.
+std::pair<ElementMesh, std::vector<CellId>> with_divided(const ElementMesh& mesh,
+                                                         const SurfaceModel& surfaces,
+                                                         std::span<const std::uint8_t> marked) {
   std::vector<CellId> was;
   for (const MeshSide& side : mesh.sides)
     for (std::uint32_t k = 0; k < side.root_count; ++k)
       was.push_back(static_cast<CellId>(side.first_cell + k));
-  return grown(mesh, [&](std::uint32_t number) {
+  ElementMesh cells = grown(mesh, [&](std::uint32_t number) {
     if (was[number] == none<CellId>)
       return false;
     const MeshCell& before = mesh.cells[index(was[number])];
@@ -261,24 +262,31 @@ ElementMesh with_divided(const ElementMesh& mesh, const SurfaceModel& surfaces,
       was.push_back(static_cast<CellId>(index(before.first_child) + k));
     return true;
   });
+  return {std::move(cells), std::move(was)};
 }
 
 } // namespace
 
 ElementMesh divide_elements(const ElementMesh& mesh, const SurfaceModel& surfaces,
                             std::span<const std::uint8_t> marked) {
-  ElementMesh result = with_divided(mesh, surfaces, with_followers(mesh, surfaces, marked));
-  for (;;) {
-    const VertexWelder welder = add_elements(result, surfaces);
-    const PlacedVertices placed{result, surfaces, welder};
+  const auto divide = [&](const ElementMesh& before, std::span<const std::uint8_t> these,
+                          ElementMesh& result) {
+    auto [cells, was] = with_divided(before, surfaces, these);
+    const MeshBefore known{before, was};
+    const VertexNumbers vertices = add_elements(cells, surfaces, &known);
+    const PlacedVertices placed{cells, surfaces, vertices};
     const std::vector<EdgeMiddle> middles = edge_middles(placed);
-    const std::vector<std::uint8_t> more = to_follow(placed, middles);
-    if (more.empty()) {
-      result.hanging = hanging_vertices(placed, middles);
-      return result;
-    }
-    result = with_divided(result, surfaces, more);
-  }
+    std::vector<std::uint8_t> more = to_follow(placed, middles);
+    if (more.empty())
+      cells.hanging = hanging_vertices(placed, middles);
+    result = std::move(cells);
+    return more;
+  };
+  ElementMesh result;
+  std::vector<std::uint8_t> more = divide(mesh, with_followers(mesh, surfaces, marked), result);
+  while (!more.empty())
+    more = divide(ElementMesh(std::move(result)), more, result);
+  return result;
 }
 
 std::vector<std::uint8_t> division_of(const ElementMesh& mesh) {
@@ -305,8 +313,8 @@ bool is_division_of(const ElementMesh& roots, std::span<const std::uint8_t> divi
 ElementMesh divided_mesh(const ElementMesh& roots, const SurfaceModel& surfaces,
                          std::span<const std::uint8_t> division) {
   ElementMesh result = grown(roots, [&](std::uint32_t cell) { return division[cell] != 0; });
-  const VertexWelder welder = add_elements(result, surfaces);
-  const PlacedVertices placed{result, surfaces, welder};
+  const VertexNumbers vertices = add_elements(result, surfaces);
+  const PlacedVertices placed{result, surfaces, vertices};
   result.hanging = hanging_vertices(placed, edge_middles(placed));
   return result;
 }
