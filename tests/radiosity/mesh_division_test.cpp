@@ -219,16 +219,29 @@ TEST(MeshDivision, NeighboursDifferByOneLevel) {
   EXPECT_EQ(deepest, 6);
 }
 
+// A division takes what stays from the mesh before and asks for new vertices by place;
+// from the roots all vertices are asked for: the two are the same mesh.
 TEST(MeshDivision, AMeshIsItsRootsAndItsDivision) {
-  const Meshed m = meshed(half_room(), {.target_elements = 100});
-  const ElementMesh mesh = divided_at_random(m, 4, 0.15, 9);
-  const std::vector<std::uint8_t> division = division_of(mesh);
-  ASSERT_TRUE(is_division_of(m.mesh, division));
-  const ElementMesh again = divided_mesh(m.mesh, m.surfaces, division);
-  EXPECT_EQ(again.vertices, mesh.vertices);
-  EXPECT_EQ(again.corners, mesh.corners);
-  EXPECT_EQ(again.hanging.size(), mesh.hanging.size());
+  for (const Scene& scene : scenes())
+    for (const double elements : {20.0, 100.0, 700.0}) {
+      const Meshed m = meshed(scene, {.target_elements = elements});
+      const ElementMesh mesh = divided_at_random(m, 4, 0.15, 9);
+      const std::vector<std::uint8_t> division = division_of(mesh);
+      ASSERT_TRUE(is_division_of(m.mesh, division));
+      const ElementMesh again = divided_mesh(m.mesh, m.surfaces, division);
+      EXPECT_EQ(again.vertices, mesh.vertices);
+      EXPECT_EQ(again.corners, mesh.corners);
+      EXPECT_EQ(again.area, mesh.area);
+      EXPECT_EQ(again.element_of_vertex, mesh.element_of_vertex);
+      ASSERT_EQ(again.hanging.size(), mesh.hanging.size());
+      for (std::size_t k = 0; k < mesh.hanging.size(); ++k)
+        EXPECT_EQ(again.hanging[k].vertex, mesh.hanging[k].vertex);
+    }
+}
 
+TEST(MeshDivision, WrongDivisionsAreKnown) {
+  const Meshed m = meshed(half_room(), {.target_elements = 100});
+  const std::vector<std::uint8_t> division = division_of(divided_at_random(m, 4, 0.15, 9));
   auto cut = division, wrong = division, deep = std::vector<std::uint8_t>(division.size(), 1);
   cut.pop_back();
   wrong[3] = 7;
