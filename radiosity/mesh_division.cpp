@@ -40,12 +40,12 @@ struct PlacedVertices {
   const SurfaceModel& surfaces;
   const VertexNumbers& vertices;
 
-  /// The vertex at a share of the way along edge k of an element's cell, not one of its ends;
+  /// The vertex in the middle of edge k of an element's cell, not one of its ends;
   /// none if there is none.
-  ElementVertexId on_edge(const MeshCell& cell, std::size_t k, double share) const {
+  ElementVertexId middle_of_edge(const MeshCell& cell, std::size_t k) const {
     const auto corners = corners_of(mesh, cell);
     const std::size_t next = (k + 1) % corners.size();
-    const Vec2 st = glm::mix(corners[k], corners[next], share);
+    const Vec2 st = 0.5 * (corners[k] + corners[next]);
     const ElementVertexId found =
         vertices.find(surface_side(mesh, surfaces, cell), point_in(mesh, surfaces, cell, st));
     const ElementCorners& ends = mesh.corners[cell.first_element];
@@ -99,7 +99,7 @@ std::vector<EdgeMiddle> edge_middles(const PlacedVertices& placed) {
       if (of_parts[index(mesh.corners[e][k])] == 0 ||
           of_parts[index(mesh.corners[e][(k + 1) % count])] == 0)
         continue;
-      if (const ElementVertexId middle = placed.on_edge(cell, k, 0.5);
+      if (const ElementVertexId middle = placed.middle_of_edge(cell, k);
           middle != none<ElementVertexId>)
         middles.push_back({ElementId{e}, k, middle});
     }
@@ -107,35 +107,16 @@ std::vector<EdgeMiddle> edge_middles(const PlacedVertices& placed) {
   return middles;
 }
 
-/// The elements that have to be divided for the sake of their neighbours,
-/// where on half of an edge there is another vertex; empty when there is none.
-std::vector<std::uint8_t> to_follow(const PlacedVertices& placed,
-                                    std::span<const EdgeMiddle> middles) {
-  const ElementMesh& mesh = placed.mesh;
-  std::vector<std::uint8_t> marked(element_count(mesh), 0);
-  for (const EdgeMiddle& middle : middles) {
-    const MeshCell& cell = cell_of(mesh, middle.element);
-    if ((placed.on_edge(cell, middle.k, 0.25) != none<ElementVertexId> ||
-         placed.on_edge(cell, middle.k, 0.75) !=
-             none<ElementVertexId>)&&is_divisible(mesh, placed.surfaces, cell))
-      marked[index(middle.element)] = 1;
-  }
-  if (std::ranges::find(marked, 1) == marked.end())
-    marked.clear();
-  return marked;
-}
-
 /// Larger edges first:
 /// the ends of a smaller one may hang on a larger one, never the other way round.
-std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed,
-                                            std::span<const EdgeMiddle> middles) {
+std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed) {
   struct Found {
     HangingVertex vertex;
     double edge;
   };
   const ElementMesh& mesh = placed.mesh;
   std::vector<Found> found;
-  for (const auto& [element, k, middle] : middles) {
+  for (const auto& [element, k, middle] : edge_middles(placed)) {
     const ElementCorners& corners = mesh.corners[index(element)];
     const std::size_t next = (k + 1) % corners_of(mesh, cell_of(mesh, element)).size();
     const ElementVertexId a = corners[k], b = corners[next];
@@ -239,11 +220,10 @@ ElementMesh grown(const ElementMesh& mesh, Predicate&& is_divided) {
   return result;
 }
 
-/// The mesh with the marked elements divided, whatever their neighbours are,
-/// and by cell of it the same of the mesh before, none for what is new. It has no elements yet.
+/// The cells of the mesh with these elements divided, and no elements yet,
+/// and by cell the same of the mesh before, none for what is new.
 std::pair<ElementMesh, std::vector<CellId>> with_divided(const ElementMesh& mesh,
-                                                         const SurfaceModel& surfaces,
-                                                         std::span<const std::uint8_t> marked) {
+                                                         std::span<const std::uint8_t> divided) {
   std::vector<CellId> was;
   for (const MeshSide& side : mesh.sides)
     for (std::uint32_t k = 0; k < side.root_count; ++k)
@@ -253,7 +233,7 @@ std::pair<ElementMesh, std::vector<CellId>> with_divided(const ElementMesh& mesh
       return false;
     const MeshCell& before = mesh.cells[index(was[number])];
     if (is_leaf(before)) {
-      if (marked[before.first_element] == 0 || !is_divisible(mesh, surfaces, before))
+      if (divided[before.first_element] == 0)
         return false;
       was.insert(was.end(), 4, none<CellId>);
       return true;
@@ -269,24 +249,11 @@ std::pair<ElementMesh, std::vector<CellId>> with_divided(const ElementMesh& mesh
 
 ElementMesh divide_elements(const ElementMesh& mesh, const SurfaceModel& surfaces,
                             std::span<const std::uint8_t> marked) {
-  const auto divide = [&](const ElementMesh& before, std::span<const std::uint8_t> these,
-                          ElementMesh& result) {
-    auto [cells, was] = with_divided(before, surfaces, these);
-    const MeshBefore known{before, was};
-    const VertexNumbers vertices = add_elements(cells, surfaces, &known);
-    const PlacedVertices placed{cells, surfaces, vertices};
-    const std::vector<EdgeMiddle> middles = edge_middles(placed);
-    std::vector<std::uint8_t> more = to_follow(placed, middles);
-    if (more.empty())
-      cells.hanging = hanging_vertices(placed, middles);
-    result = std::move(cells);
-    return more;
-  };
-  ElementMesh result;
-  std::vector<std::uint8_t> more = divide(mesh, with_followers(mesh, surfaces, marked), result);
-  while (!more.empty())
-    more = divide(ElementMesh(std::move(result)), more, result);
-  return result;
+  auto [result, was] = with_divided(mesh, with_followers(mesh, surfaces, marked));
+  const MeshBefore before{mesh, was};
+  const VertexNumbers vertices = add_elements(result, surfaces, &before);
+  result.hanging = hanging_vertices({result, surfaces, vertices});
+  return std::move(result);
 }
 
 std::vector<std::uint8_t> division_of(const ElementMesh& mesh) {
@@ -314,8 +281,7 @@ ElementMesh divided_mesh(const ElementMesh& roots, const SurfaceModel& surfaces,
                          std::span<const std::uint8_t> division) {
   ElementMesh result = grown(roots, [&](std::uint32_t cell) { return division[cell] != 0; });
   const VertexNumbers vertices = add_elements(result, surfaces);
-  const PlacedVertices placed{result, surfaces, vertices};
-  result.hanging = hanging_vertices(placed, edge_middles(placed));
+  result.hanging = hanging_vertices({result, surfaces, vertices});
   return result;
 }
 

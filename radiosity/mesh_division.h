@@ -3,9 +3,9 @@
 //
 // Elements are divided into four by the middles of their edges.
 // Neighbours differ by one level at most, also across the edges that patches of one surface share:
-// an element on whose edge, at a quarter of its length,
-// there is a vertex is divided as well (a restricted quadtree, Von Herzen and Barr 1987). A vertex
-// left in the middle of a larger element's edge hangs: it takes the mean of the edge's ends.
+// an element is divided as well where one of the two smaller ones along its edge is (a restricted
+// quadtree, Von Herzen and Barr 1987). A vertex left in the middle of a larger element's edge
+// hangs: it takes the mean of the edge's ends.
 #pragma once
 
 #include "radiosity/element_mesh.h"
