@@ -129,14 +129,13 @@ BendScale bend_scale(const ElementMesh& mesh, std::span<const Rgb> reflected) {
 }
 
 std::vector<double> bends_of_elements(const ElementMesh& mesh,
-                                      std::span<const glm::vec3> irradiance,
-                                      const BendScale& scale) {
-  constexpr double stands_out = 3.0; // times what is ordinary
+                                      std::span<const glm::vec3> irradiance, const BendScale& scale,
+                                      StandsOut stands_out) {
   std::vector<double> bends(element_count(mesh), 0.0);
   if (!(scale.radiosity > 0.0))
     return bends;
   const std::vector<double> derivatives = second_derivatives(mesh, irradiance);
-  const double ordinary = stands_out * ordinary_bend(mesh, irradiance, derivatives);
+  const double ordinary = stands_out.times * ordinary_bend(mesh, irradiance, derivatives);
   for (std::size_t e = 0; e < bends.size(); ++e) {
     const double size = size_of(mesh, static_cast<ElementId>(e));
     double off = 0.0;

@@ -8,10 +8,12 @@
 // and linear interpolation over an element of size s is off by e = s^2 |f''| / 8 in its middle:
 // of the irradiance of its corners, the largest, in the brightest channel. An element is bent where
 //
-//   rho max(e - 3 noise H, 0) sqrt(A / A_mean) / B_mean  >  X.
+//   rho max(e - k noise H, 0) sqrt(A / A_mean) / B_mean  >  X.
 //
 // What noise of the values makes of e / H is taken to be its median over all vertices:
-// most of a field is smooth.
+// most of a field is smooth. What is gathered by rays has to stand out three times from that;
+// light from the source, which has noise in penumbrae alone, once: that median is how smooth light
+// bends on large elements.
 // Limit: borders of a surface have no second difference across them;
 // elements there have it from their inner corners.
 //
@@ -36,10 +38,16 @@ struct BendScale {
 /// Of the elements that were solved; `reflected` by ElementId.
 BendScale bend_scale(const ElementMesh& mesh, std::span<const Rgb> reflected);
 
+/// k.
+struct StandsOut {
+  double times;
+};
+inline constexpr StandsOut of_gathered{3.0}, of_source{1.0};
+
 /// By ElementId, what is held against X. `irradiance` by ElementVertexId.
 std::vector<double> bends_of_elements(const ElementMesh& mesh,
-                                      std::span<const glm::vec3> irradiance,
-                                      const BendScale& scale);
+                                      std::span<const glm::vec3> irradiance, const BendScale& scale,
+                                      StandsOut stands_out = of_gathered);
 
 /// The same by the edges that go on at neither end: what there may be at the most where light is
 /// no wilder than a parabola, and not what there is.

@@ -5,6 +5,8 @@
 #include "radiosity/vertex_light.h"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 
 namespace meninas {
 
@@ -22,7 +24,7 @@ std::vector<glm::vec3> from_source(const DiffuseField& field) {
 /// and nothing where these have the mean of many facets.
 std::vector<double> bends_of(const FoundField& found, const BendScale& scale, bool first) {
   const std::vector<glm::vec3> light = from_source(found.field);
-  std::vector<double> bends = bends_of_elements(found.mesh, light, scale);
+  std::vector<double> bends = bends_of_elements(found.mesh, light, scale, of_source);
   if (!first)
     return bends;
   const std::vector<double> at_lone_edges = bends_at_lone_edges(found.mesh, light, scale);
@@ -34,13 +36,16 @@ std::vector<double> bends_of(const FoundField& found, const BendScale& scale, bo
   return bends;
 }
 
-/// Those that are most bent, of which no more than `most` become four.
+/// Those that are bent by more than x, of more than `most` the most bent.
 std::vector<std::uint8_t> most_bent(const std::vector<double>& bends, double x, std::size_t most) {
-  for (;; x *= 2.0) {
-    std::vector<std::uint8_t> marked = bent_by_more(bends, x);
-    if (static_cast<std::size_t>(std::ranges::count(marked, 1)) <= most)
-      return marked;
+  std::vector<double> bent;
+  std::ranges::copy_if(bends, std::back_inserter(bent), [x](double bend) { return bend > x; });
+  if (bent.size() > most) {
+    const auto first_left_out = bent.begin() + static_cast<std::ptrdiff_t>(most);
+    std::ranges::nth_element(bent, first_left_out, std::greater<>());
+    x = *first_left_out;
   }
+  return bent_by_more(bends, x);
 }
 
 /// What the coarser mesh has there.
