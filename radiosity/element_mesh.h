@@ -10,7 +10,8 @@
 // So the element of a hit (patch, u, v) is index arithmetic and a descent by halves,
 // and no ray is ever traced against elements.
 // Sides of the same surface share the vertices on their common edge;
-// edges that meet in one surface get the same division into roots.
+// edges that meet in one surface get the same division into roots, but beside slivers
+// (edge_divisions.h).
 // Ideal mirrors (no diffuse reflectance, no emission) have no side: they are not unknowns.
 #pragma once
 

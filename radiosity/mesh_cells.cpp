@@ -99,14 +99,15 @@ void add_leaves(const NewElements& to, std::uint32_t number) {
 }
 
 /// The vertices before that new elements may share, by place: corners of cells that are divided,
-/// and of the parts of others. Roots beside one another are alike, within patches and across edges.
+/// and of the parts of others. Within a patch roots beside one another are alike.
 void place_vertices(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshBefore& before,
                     VertexNumbers& vertices) {
   for (std::size_t number = 0; number < mesh.cells.size(); ++number) {
     if (before.cells[number] == none<CellId>)
       continue;
     const MeshCell& was = before.mesh.cells[index(before.cells[number])];
-    if (!is_leaf(was) || (was.level == 0 && is_leaf(mesh.cells[number])))
+    if (!is_leaf(was) ||
+        (was.level == 0 && is_leaf(mesh.cells[number]) && !is_at_border(before.mesh, was)))
       continue;
     const std::uint64_t side = surface_side(before.mesh, surfaces, was);
     for (const ElementVertexId corner : before.mesh.corners[was.first_element])
@@ -127,6 +128,15 @@ std::uint64_t surface_side(const ElementMesh& mesh, const SurfaceModel& surfaces
   const MeshSide& side = mesh.sides[index(cell.side)];
   return 2ULL * index(surfaces.patches[index(side.patch)].surface) +
          static_cast<std::uint64_t>(side.facing);
+}
+
+bool is_at_border(const ElementMesh& mesh, const MeshCell& cell) {
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  const int nu = side.nu << cell.level, nv = side.nv << cell.level;
+  if (!side.triangle)
+    return cell.i == 0 || cell.j == 0 || cell.i == nu - 1 || cell.j == nv - 1;
+  const int first = cell.flipped ? 1 : 0;
+  return cell.i <= first || cell.j <= first || cell.i + cell.j >= nu - 1 + first;
 }
 
 void add_root_cells(ElementMesh& mesh) {

@@ -13,6 +13,11 @@ namespace meninas {
 /// The root cells of all sides, which know their divisions: in the order of the sides.
 void add_root_cells(ElementMesh& mesh);
 
+/// Whether a cell may have a vertex on the border of its patch. There others may have another
+/// division, where they would want far more, and may end in the middle of an edge
+/// (edge_divisions.h); within a patch neighbours are cells of one forest.
+bool is_at_border(const ElementMesh& mesh, const MeshCell& cell);
+
 /// Divides cell number `cell` into four, which are appended.
 void divide_cell(ElementMesh& mesh, std::uint32_t cell);
 
@@ -28,7 +33,8 @@ struct MeshBefore {
 
 /// Numbers the leaves, depth first, and makes their corners, vertices and areas.
 /// Returns the vertices by place: all of them, or of a mesh that was another before
-/// those at corners of divided cells' parts. That spares the time, and is the same mesh.
+/// those at corners of divided cells' parts and on the borders of patches.
+/// That spares the time, and is the same mesh.
 VertexNumbers add_elements(ElementMesh& mesh, const SurfaceModel& surfaces,
                            const MeshBefore* before = nullptr);
 

@@ -40,12 +40,12 @@ struct PlacedVertices {
   const SurfaceModel& surfaces;
   const VertexNumbers& vertices;
 
-  /// The vertex in the middle of edge k of an element's cell, not one of its ends;
+  /// The vertex at a share of the way along edge k of an element's cell, not one of its ends;
   /// none if there is none.
-  ElementVertexId middle_of_edge(const MeshCell& cell, std::size_t k) const {
+  ElementVertexId on_edge(const MeshCell& cell, std::size_t k, double share) const {
     const auto corners = corners_of(mesh, cell);
     const std::size_t next = (k + 1) % corners.size();
-    const Vec2 st = 0.5 * (corners[k] + corners[next]);
+    const Vec2 st = glm::mix(corners[k], corners[next], share);
     const ElementVertexId found =
         vertices.find(surface_side(mesh, surfaces, cell), point_in(mesh, surfaces, cell, st));
     const ElementCorners& ends = mesh.corners[cell.first_element];
@@ -79,6 +79,15 @@ std::vector<std::uint8_t> corners_of_parts(const ElementMesh& mesh) {
   return of_parts;
 }
 
+/// Whether parts of cells in other patches may lie along an element's edges that are no halves of
+/// them, as the division into roots may be another there.
+bool has_unlike_neighbours(const ElementMesh& mesh, ElementId element,
+                           std::span<const std::uint8_t> of_parts) {
+  return is_at_border(mesh, cell_of(mesh, element)) &&
+         std::ranges::any_of(mesh.corners[index(element)],
+                             [&](ElementVertexId corner) { return of_parts[index(corner)] != 0; });
+}
+
 /// A vertex in the middle of an element's edge k.
 struct EdgeMiddle {
   ElementId element;
@@ -86,20 +95,20 @@ struct EdgeMiddle {
   ElementVertexId vertex;
 };
 
-/// Where two cells along an edge differ, the smaller ones have its ends for corners;
-/// roots beside one another are alike.
-std::vector<EdgeMiddle> edge_middles(const PlacedVertices& placed) {
+/// Where two cells of a patch differ along an edge, the smaller ones have its ends for corners.
+std::vector<EdgeMiddle> edge_middles(const PlacedVertices& placed,
+                                     std::span<const std::uint8_t> of_parts) {
   const ElementMesh& mesh = placed.mesh;
-  const std::vector<std::uint8_t> of_parts = corners_of_parts(mesh);
   std::vector<EdgeMiddle> middles;
   for (std::uint32_t e = 0; e < element_count(mesh); ++e) {
     const MeshCell& cell = cell_of(mesh, ElementId{e});
     const std::size_t count = corners_of(mesh, cell).size();
+    const bool all = has_unlike_neighbours(mesh, ElementId{e}, of_parts);
     for (std::size_t k = 0; k < count; ++k) {
-      if (of_parts[index(mesh.corners[e][k])] == 0 ||
-          of_parts[index(mesh.corners[e][(k + 1) % count])] == 0)
+      if (!all && (of_parts[index(mesh.corners[e][k])] == 0 ||
+                   of_parts[index(mesh.corners[e][(k + 1) % count])] == 0))
         continue;
-      if (const ElementVertexId middle = placed.middle_of_edge(cell, k);
+      if (const ElementVertexId middle = placed.on_edge(cell, k, 0.5);
           middle != none<ElementVertexId>)
         middles.push_back({ElementId{e}, k, middle});
     }
@@ -107,16 +116,41 @@ std::vector<EdgeMiddle> edge_middles(const PlacedVertices& placed) {
   return middles;
 }
 
+/// The elements at borders that have to be divided for the sake of neighbours in other patches,
+/// which did not hang on them (with_followers() finds the others); empty when there is none.
+std::vector<std::uint8_t> to_follow(const PlacedVertices& placed,
+                                    std::span<const std::uint8_t> of_parts) {
+  const ElementMesh& mesh = placed.mesh;
+  std::vector<std::uint8_t> marked(element_count(mesh), 0);
+  const auto has_much_smaller_neighbour = [&](const MeshCell& cell) {
+    for (std::size_t k = 0; k < corners_of(mesh, cell).size(); ++k)
+      for (const double quarter : {0.25, 0.75})
+        if (placed.on_edge(cell, k, quarter) != none<ElementVertexId>)
+          return true;
+    return false;
+  };
+  for (std::uint32_t e = 0; e < marked.size(); ++e) {
+    const MeshCell& cell = cell_of(mesh, ElementId{e});
+    if (has_unlike_neighbours(mesh, ElementId{e}, of_parts) && has_much_smaller_neighbour(cell) &&
+        is_divisible(mesh, placed.surfaces, cell))
+      marked[e] = 1;
+  }
+  if (std::ranges::find(marked, 1) == marked.end())
+    marked.clear();
+  return marked;
+}
+
 /// Larger edges first:
 /// the ends of a smaller one may hang on a larger one, never the other way round.
-std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed) {
+std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed,
+                                            std::span<const std::uint8_t> of_parts) {
   struct Found {
     HangingVertex vertex;
     double edge;
   };
   const ElementMesh& mesh = placed.mesh;
   std::vector<Found> found;
-  for (const auto& [element, k, middle] : edge_middles(placed)) {
+  for (const auto& [element, k, middle] : edge_middles(placed, of_parts)) {
     const ElementCorners& corners = mesh.corners[index(element)];
     const std::size_t next = (k + 1) % corners_of(mesh, cell_of(mesh, element)).size();
     const ElementVertexId a = corners[k], b = corners[next];
@@ -249,11 +283,20 @@ std::pair<ElementMesh, std::vector<CellId>> with_divided(const ElementMesh& mesh
 
 ElementMesh divide_elements(const ElementMesh& mesh, const SurfaceModel& surfaces,
                             std::span<const std::uint8_t> marked) {
-  auto [result, was] = with_divided(mesh, with_followers(mesh, surfaces, marked));
-  const MeshBefore before{mesh, was};
-  const VertexNumbers vertices = add_elements(result, surfaces, &before);
-  result.hanging = hanging_vertices({result, surfaces, vertices});
-  return std::move(result);
+  std::vector<std::uint8_t> more(marked.begin(), marked.end());
+  ElementMesh divided;
+  for (const ElementMesh* before = &mesh;; before = &divided) {
+    auto [result, was] = with_divided(*before, with_followers(*before, surfaces, more));
+    const MeshBefore known{*before, was};
+    const VertexNumbers vertices = add_elements(result, surfaces, &known);
+    const PlacedVertices placed{result, surfaces, vertices};
+    const std::vector<std::uint8_t> of_parts = corners_of_parts(result);
+    result.hanging = hanging_vertices(placed, of_parts);
+    more = to_follow(placed, of_parts);
+    divided = std::move(result);
+    if (more.empty())
+      return divided;
+  }
 }
 
 std::vector<std::uint8_t> division_of(const ElementMesh& mesh) {
@@ -281,7 +324,7 @@ ElementMesh divided_mesh(const ElementMesh& roots, const SurfaceModel& surfaces,
                          std::span<const std::uint8_t> division) {
   ElementMesh result = grown(roots, [&](std::uint32_t cell) { return division[cell] != 0; });
   const VertexNumbers vertices = add_elements(result, surfaces);
-  result.hanging = hanging_vertices({result, surfaces, vertices});
+  result.hanging = hanging_vertices({result, surfaces, vertices}, corners_of_parts(result));
   return result;
 }
 

@@ -3,8 +3,9 @@
 //
 // Elements are divided into four by the middles of their edges.
 // Neighbours differ by one level at most, also across the edges that patches of one surface share:
-// an element is divided as well where one of the two smaller ones along its edge is (a restricted
-// quadtree, Von Herzen and Barr 1987). A vertex left in the middle of a larger element's edge
+// an element is divided as well where one of the two smaller ones along its edge is, and where on
+// its edge, at a quarter of the length, there is a vertex of another patch (a restricted quadtree,
+// Von Herzen and Barr 1987). A vertex left in the middle of a larger element's edge
 // hangs: it takes the mean of the edge's ends.
 #pragma once
 
