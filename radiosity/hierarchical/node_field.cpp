@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
 
 namespace meninas {
 
@@ -217,12 +218,17 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
   std::vector<OpenPart> parts;
   const std::vector<Rgb> reflected = reflected_by_field(few, receivers, elements, parts, found);
   const int times = times_of_rays(element_count(light.mesh), receivers.receivers.size());
-  const PointGathering seen = gathering_from(light, reflected, how, {1, times}, 0.0, first_share),
+  const PointGathering seen = gathering_from(light, reflected, how, {}, 0.0, first_share),
                        seen_by_small = gathering_from(light, reflected, how, {few_rays, times},
                                                       small_spared, first_share);
+  const std::unique_ptr<const PointGathering> seen_by_large(
+      times > 1
+          ? new PointGathering(gathering_from(light, reflected, how, {1, times}, 0.0, first_share))
+          : nullptr);
   const VertexSource source{elements.irradiance, seen, workspaces, &kept},
-      by_small{elements.irradiance, seen_by_small, workspaces, &kept};
-  share_out(gather_at_nodes({source, by_small}, receivers, receivers.bend, found), found);
+      by_small{elements.irradiance, seen_by_small, workspaces, &kept},
+      by_large{elements.irradiance, seen_by_large ? *seen_by_large : seen, workspaces, &kept};
+  share_out(gather_at_nodes({by_large, by_small}, receivers, receivers.bend, found), found);
   InterpolatedField result{.field = settled(source, found)};
   result.received = received_at_corners(elements, receivers, parts, found, result.field.irradiance,
                                         result.field.indirect);
