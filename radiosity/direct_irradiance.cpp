@@ -83,6 +83,12 @@ Rgb visible_fraction(const LightScene& light, const VisibleShare& share) {
   return share.all > 0.0 ? share.seen / share.all : Rgb(0.0);
 }
 
+/// What an image sends, as it is seen.
+Rgb source_of(const LightScene& light, const VirtualLight& image) {
+  return light.worlds.worlds[index(image.world)].throughput *
+         light.emitters[image.emitter].radiosity;
+}
+
 /// What every image would bring without blockers; those that bring nothing are left out.
 void order_by_light(const LightScene& light, const Receiver& receiver, DirectWorkspace& work) {
   work.form_factors.clear();
@@ -90,11 +96,9 @@ void order_by_light(const LightScene& light, const Receiver& receiver, DirectWor
   work.order.clear();
   for (std::uint32_t k = 0; k < work.lights.size(); ++k) {
     const VirtualLight& image = work.lights[k];
-    const Rgb source = light.worlds.worlds[index(image.world)].throughput *
-                       light.emitters[image.emitter].radiosity;
     work.form_factors.push_back(
         image.weight * point_form_factor(receiver.position, receiver.normal, image.polygon.span()));
-    work.brought.push_back(work.form_factors.back() * largest(source));
+    work.brought.push_back(work.form_factors.back() * largest(source_of(light, image)));
     if (work.brought.back() > 0.0)
       work.order.push_back(k);
   }
@@ -224,6 +228,13 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
     if (arrival.world != real_world)
       sum.mirrored += arrival.irradiance;
   }
+  return sum;
+}
+
+Rgb unblocked_irradiance(const LightScene& light, const DirectWorkspace& work) {
+  Rgb sum(0.0);
+  for (std::size_t k = 0; k < work.lights.size(); ++k)
+    sum += work.form_factors[k] * source_of(light, work.lights[k]);
   return sum;
 }
 

@@ -112,4 +112,7 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& workspace);
 
+/// What the images of emitters would bring to the point last asked for if nothing blocked them.
+Rgb unblocked_irradiance(const LightScene& light, const DirectWorkspace& workspace);
+
 } // namespace meninas

@@ -73,6 +73,19 @@ VertexElements facets_around(const LightScene& light) {
   return result;
 }
 
+std::vector<std::uint8_t> sides_that_turn(const ElementMesh& mesh, const VertexElements& facets,
+                                          double degrees) {
+  const double least_cosine = std::cos(degrees * std::numbers::pi / 180.0);
+  std::vector<std::uint8_t> turn(mesh.sides.size(), 0);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const SideId own = mesh.side_of_element[index(mesh.element_of_vertex[v])];
+    for (const ElementId facet : around(facets, v))
+      if (glm::dot(mesh.sides[index(own)].normal, side_of(mesh, facet).normal) < least_cosine)
+        turn[index(own)] = 1;
+  }
+  return turn;
+}
+
 std::vector<std::uint8_t> averaged_facets(const ElementMesh& mesh, const VertexElements& facets) {
   std::vector<std::uint8_t> averaged(element_count(mesh), 0);
   for (const ElementId facet : facets.elements)

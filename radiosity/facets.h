@@ -21,6 +21,11 @@ inline bool is_averaged(const VertexElements& facets, std::size_t vertex) {
   return !facets.elements.empty() && !around(facets, vertex).empty();
 }
 
+/// By SideId, 1 for facets that turn by more than so many degrees
+/// from another one with which a vertex of theirs takes the mean.
+std::vector<std::uint8_t> sides_that_turn(const ElementMesh& mesh, const VertexElements& facets,
+                                          double degrees);
+
 /// The facets that any vertex takes the mean of, by ElementId: 1.
 std::vector<std::uint8_t> averaged_facets(const ElementMesh& mesh, const VertexElements& facets);
 

@@ -1,6 +1,7 @@
 #include "radiosity/shadow_edges.h"
 
 #include "radiosity/bent_field.h"
+#include "radiosity/facet_edges.h"
 #include "radiosity/mesh_division.h"
 #include "radiosity/vertex_light.h"
 
@@ -19,9 +20,15 @@ std::vector<glm::vec3> from_source(const DiffuseField& field) {
   return light;
 }
 
+bool has_means(const FoundField& found, std::size_t element) {
+  return std::ranges::any_of(found.mesh.corners[element], [&](ElementVertexId v) {
+    return found.states[index(v)] == VertexState::averaged;
+  });
+}
+
 /// By light from the source. Before the first division there are surfaces of one element:
-/// the difference between corners tells that there may be an edge on them,
-/// and nothing where these have the mean of many facets.
+/// the difference between corners tells that there may be an edge on them.
+/// Where these have the mean of many facets it tells how the curve turns, and is left out.
 std::vector<double> bends_of(const FoundField& found, const BendScale& scale, bool first) {
   const std::vector<glm::vec3> light = from_source(found.field);
   std::vector<double> bends = bends_of_elements(found.mesh, light, scale, of_source);
@@ -29,9 +36,7 @@ std::vector<double> bends_of(const FoundField& found, const BendScale& scale, bo
     return bends;
   const std::vector<double> at_lone_edges = bends_at_lone_edges(found.mesh, light, scale);
   for (std::size_t e = 0; e < bends.size(); ++e)
-    if (std::ranges::none_of(found.mesh.corners[e], [&](ElementVertexId v) {
-          return found.states[index(v)] == VertexState::averaged;
-        }))
+    if (!has_means(found, e))
       bends[e] = std::max(bends[e], at_lone_edges[e]);
   return bends;
 }
@@ -114,6 +119,29 @@ void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::
     settle_hanging(found.mesh, *values);
 }
 
+/// Facets with edges have light from the source of their own at their corners.
+void light_facets_with_edges(const LightScene& light, const VertexSource& source,
+                             const BendScale& scale, double x, std::uint32_t level,
+                             FoundField& found) {
+  if (std::ranges::find(found.states, VertexState::averaged) == found.states.end())
+    return;
+  const std::vector<double> bends =
+      bends_at_lone_edges(found.mesh, from_source(found.field), scale);
+  std::vector<ElementId> bent;
+  for (std::uint32_t e = 0; e < bends.size(); ++e)
+    if (bends[e] > x && has_means(found, e))
+      bent.push_back(ElementId{e});
+  const std::vector<ElementId> facets = facets_with_edges(light, source, level, found, bent);
+  if (facets.empty())
+    return;
+  const FoundField before = found;
+  for (const ElementId facet : facets)
+    for (const ElementVertexId corner : found.mesh.corners[index(facet)])
+      if (found.states[index(corner)] == VertexState::averaged)
+        found.states[index(corner)] = VertexState::unknown;
+  light_fresh(source, light.surfaces, level, before, found);
+}
+
 } // namespace
 
 void divide_at_shadows(const LightScene& light, const VertexSource& source, const BendScale& scale,
@@ -125,6 +153,7 @@ void divide_at_shadows(const LightScene& light, const VertexSource& source, cons
   const std::size_t solved = element_count(found.mesh), most = solved + most_at_shadows(solved);
   found.field = std::move(result.field);
   std::ranges::replace(found.states, VertexState::low, VertexState::gathered);
+  light_facets_with_edges(light, source, scale, x, first_level - 1, found);
   std::uint32_t level = 0;
   for (; level < most_divisions; ++level) {
     const std::size_t now = element_count(found.mesh), more = now < most ? most - now : 0;

@@ -64,6 +64,26 @@ TEST(Bends, OfWhatIsOrdinaryDoNotCount) {
   EXPECT_EQ(std::ranges::count(by_noise, 1), 0);
 }
 
+// Twice as bent as most of the wall: for rays that is within what noise may be,
+// light from the source stands out.
+TEST(Bends, OfTheSourceStandOutSooner) {
+  const auto f = [](const Point3& x) {
+    return x.x * x.x + std::pow(std::max(x.x - 0.7, 0.0), 2.0);
+  };
+  std::vector<glm::vec3> values;
+  for (const Point3& vertex : wall().mesh.vertices)
+    values.emplace_back(10.0 + f(vertex));
+  const BendScale scale{.area = size * size, .radiosity = 1.0};
+  const double x = 0.2 * 0.5 * 2.0 * size * size / 8.0; // a fifth of the larger part's excess
+  const auto of_rays = bent_by_more(bends_of_elements(wall().mesh, values, scale), x),
+             of_light = bent_by_more(bends_of_elements(wall().mesh, values, scale, of_source), x);
+  EXPECT_EQ(std::ranges::count(of_rays, 1), 0);
+  for (std::size_t e = 0; e < of_light.size(); ++e) {
+    const double at = centre_of(wall().mesh, static_cast<ElementId>(e)).x;
+    EXPECT_EQ(of_light[e], at > 0.6 ? 1 : 0) << at; // those at 0.65 have corners where it begins
+  }
+}
+
 TEST(Bends, CountByTheAreaTheyHave) {
   const auto kink = [](const Point3& x) { return 1.0 + 8.0 * std::max(x.x - 0.5, 0.0); };
   std::vector<glm::vec3> values;
