@@ -87,7 +87,7 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
     settings.pass_one.mesh.target_elements = elements;
     uniform.push_back(measure(scene, truth, rays, settings));
     const Measured& m = uniform.back();
-    fmt::print("{:>22} {:9} {:9.2f} {:9.4f}\n", "uniform", m.elements, m.seconds, m.error);
+    fmt::print("{:>22} {:9} {:9.3f} {:9.5f}\n", "uniform", m.elements, m.seconds, m.error);
     std::fflush(stdout);
   }
   const auto beside_uniform = [&](const std::string& name, const TwoPassSettings& settings) {
@@ -95,7 +95,7 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
     const double elements =
         needed(uniform, m.error, [](const Measured& u) { return double(u.elements); });
     const double seconds = needed(uniform, m.error, [](const Measured& u) { return u.seconds; });
-    fmt::print("{:>22} {:9} {:9.2f} {:9.4f}   {:.0f} = {:.1f} x, {:.2f} = {:.1f} x\n", name,
+    fmt::print("{:>22} {:9} {:9.3f} {:9.5f}   {:.0f} = {:.1f} x, {:.3f} = {:.1f} x\n", name,
                m.elements, m.seconds, m.error, elements, elements / double(m.elements), seconds,
                seconds / m.seconds);
     std::fflush(stdout);
