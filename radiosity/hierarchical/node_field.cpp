@@ -8,7 +8,6 @@
 #include "radiosity/vertex_places.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <memory>
 
@@ -198,15 +197,6 @@ std::vector<Rgb> reflected_by_field(const VertexSource& few, const ReceiverNodes
 }
 
 } // namespace
-
-int times_of_rays(std::size_t elements, std::size_t receivers) {
-  // The sum of a N^-2p over vertices, for a sum of N, is least where N goes with a^1/(1 + 2p).
-  constexpr double vertices_of_receiver = 2.0; // its middle, and a share of its corners
-  const double elements_of_vertex =
-      double(elements) / (vertices_of_receiver * double(std::max<std::size_t>(receivers, 1)));
-  const double times = std::pow(std::max(1.0, elements_of_vertex), 1.0 / (1.0 + 2.0 * noise_order));
-  return static_cast<int>(std::bit_floor(static_cast<unsigned>(times)));
-}
 
 InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
                                  const ReceiverNodes& receivers, const VertexGathering& how,

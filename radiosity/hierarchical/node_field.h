@@ -7,6 +7,9 @@
 //
 //   B_j = rho_j (mean of H at its corners).
 //
+// In the second gathering a vertex takes the more rays the more elements it stands for
+// (gather_noise.h).
+//
 // Elements on which something stands, and those with a covered corner, whose value is that of the
 // open, gather by themselves (open_parts.h).
 //
@@ -19,13 +22,6 @@
 #include "radiosity/hierarchical/receiver_nodes.h"
 
 namespace meninas {
-
-/// How many times the rays that are asked for a vertex takes for the second gathering:
-/// it stands for that many elements as there are to one that gathers, and the noise of its value
-/// lies over all of them. N evenly spread rays leave a squared error of N^-2p (gather_noise.h), so
-/// that as many rays in all do most where N goes with the area to the power of 1 / (1 + 2p) = 0.4;
-/// a power of two, as nets are even then.
-int times_of_rays(std::size_t elements, std::size_t receivers);
 
 /// Where light bends within elements these are divided, as in fields that are gathered everywhere.
 /// `found` has light from the source, and the values of vertices that take means of facets.

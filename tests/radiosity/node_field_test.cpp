@@ -1,5 +1,5 @@
 // The field of the hierarchical solver: it is what gathering everywhere finds.
-#include "radiosity/hierarchical/node_field.h"
+#include "radiosity/gather_noise.h"
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
