@@ -1,5 +1,7 @@
 #include "radiosity/bends.h"
 
+#include "radiosity/vertex_edges.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,74 +9,21 @@ namespace meninas {
 
 namespace {
 
-/// The other ends of every vertex's edges.
-struct VertexEdges {
-  std::vector<std::uint32_t> begin; ///< vertices + 1
-  std::vector<std::uint32_t> ends;
-
-  std::span<const std::uint32_t> of(std::size_t vertex) const {
-    return std::span(ends).subspan(begin[vertex], begin[vertex + 1] - begin[vertex]);
-  }
-};
-
-/// `edge(a, b)` for the edges of all elements, both ways, those that two elements share twice.
-template <typename Use>
-void for_each_edge(const ElementMesh& mesh, const Use& edge) {
-  for (const ElementCorners& corners : mesh.corners)
-    for (std::size_t c = 0; c < 4; ++c)
-      if (const auto a = index(corners[c]), b = index(corners[(c + 1) % 4]); a != b) {
-        edge(a, b);
-        edge(b, a);
-      }
-}
-
-VertexEdges edges_of(const ElementMesh& mesh) {
-  std::vector<std::uint32_t> first(mesh.vertices.size() + 1, 0);
-  for_each_edge(mesh, [&](std::uint32_t a, std::uint32_t) { ++first[a + 1]; });
-  for (std::size_t v = 1; v < first.size(); ++v)
-    first[v] += first[v - 1];
-  std::vector<std::uint32_t> ends(first.back()), next = first;
-  for_each_edge(mesh, [&](std::uint32_t a, std::uint32_t b) { ends[next[a]++] = b; });
-
-  VertexEdges edges{{0}, {}};
-  edges.ends.reserve(ends.size() / 2);
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const auto own = std::span(ends).subspan(first[v], first[v + 1] - first[v]);
-    std::ranges::sort(own);
-    edges.ends.insert(edges.ends.end(), own.begin(), std::ranges::unique(own).begin());
-    edges.begin.push_back(static_cast<std::uint32_t>(edges.ends.size()));
-  }
-  return edges;
-}
-
 double brightest(const glm::vec3& light) {
   return std::max(
       {std::abs(double{light.r}), std::abs(double{light.g}), std::abs(double{light.b})});
 }
 
-/// Two edges of a vertex, of which the second goes on from the first: their cosine is that small.
-bool go_on(const Vec3& to_a, const Vec3& to_b) {
-  constexpr double straight = -0.9;
-  const double along = glm::dot(to_a, to_b);
-  return along < 0.0 &&
-         along * along > straight * straight * glm::dot(to_a, to_a) * glm::dot(to_b, to_b);
-}
-
 /// The largest |f''| at a vertex, over pairs of its edges.
-double second_derivative(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
-                         std::size_t v, std::span<const std::uint32_t> ends) {
+double largest_derivative(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
+                          std::size_t v, std::span<const std::uint32_t> ends) {
   double largest_bend = 0.0;
   for (std::size_t i = 0; i < ends.size(); ++i)
     for (std::size_t k = i + 1; k < ends.size(); ++k) {
       const std::uint32_t a = ends[i], b = ends[k];
-      const Vec3 to_a = mesh.vertices[a] - mesh.vertices[v],
-                 to_b = mesh.vertices[b] - mesh.vertices[v];
-      if (!go_on(to_a, to_b))
-        continue;
-      const double la = glm::length(to_a), lb = glm::length(to_b);
-      const glm::vec3 slope = (irradiance[a] - irradiance[v]) / static_cast<float>(la) +
-                              (irradiance[b] - irradiance[v]) / static_cast<float>(lb);
-      largest_bend = std::max(largest_bend, 2.0 * brightest(slope) / (la + lb));
+      if (go_on(mesh.vertices[a] - mesh.vertices[v], mesh.vertices[b] - mesh.vertices[v]))
+        largest_bend =
+            std::max(largest_bend, brightest(second_derivative(mesh, irradiance, v, a, b)));
     }
   return largest_bend;
 }
@@ -86,7 +35,7 @@ std::vector<double> second_derivatives(const ElementMesh& mesh,
   std::vector<double> derivatives;
   derivatives.reserve(mesh.vertices.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    derivatives.push_back(second_derivative(mesh, irradiance, v, edges.of(v)));
+    derivatives.push_back(largest_derivative(mesh, irradiance, v, edges.of(v)));
   return derivatives;
 }
 

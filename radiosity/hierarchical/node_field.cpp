@@ -1,5 +1,6 @@
 #include "radiosity/hierarchical/node_field.h"
 
+#include "radiosity/curved_means.h"
 #include "radiosity/gather_noise.h"
 #include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/hierarchical/node_edges.h"
@@ -164,8 +165,9 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Receive
                                      const std::vector<OpenPart>& parts, const FoundField& found,
                                      const std::vector<glm::vec3>& irradiance,
                                      const std::vector<glm::vec3>& indirect) {
-  std::vector<Rgb> received = corner_means(found.mesh, irradiance);
-  const std::vector<Rgb> rest = corner_means(found.mesh, indirect);
+  const VertexEdges edges = edges_of(found.mesh);
+  std::vector<Rgb> received = curved_means(found.mesh, edges, irradiance);
+  const std::vector<Rgb> rest = curved_means(found.mesh, edges, indirect);
   for (std::size_t e = 0; e < received.size(); ++e)
     if (receivers.share_light[e] == 0)
       received[e] = elements.from_source[e] + rest[e];

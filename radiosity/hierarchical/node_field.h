@@ -5,7 +5,7 @@
 // from the elements as they were solved, with a quarter of the rays,
 // but not fewer than 128, and four times the bound, and then from what that makes of them,
 //
-//   B_j = rho_j (mean of H at its corners).
+//   B_j = rho_j (mean of H, by its corners and second differences; curved_means.h).
 //
 // In the second gathering a vertex takes the more rays the more elements it stands for
 // (gather_noise.h).

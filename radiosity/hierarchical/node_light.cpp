@@ -1,5 +1,6 @@
 #include "radiosity/hierarchical/node_light.h"
 
+#include "radiosity/curved_means.h"
 #include "radiosity/facets.h"
 #include "radiosity/mesh_division.h"
 
@@ -91,9 +92,10 @@ std::vector<ElementId> brightest(const ElementMesh& mesh, const NodeTree& tree,
   return elements;
 }
 
-std::vector<Rgb> at_corners(const ElementMesh& mesh, std::vector<glm::vec3> values) {
+std::vector<Rgb> at_corners(const ElementMesh& mesh, const VertexEdges& edges,
+                            std::vector<glm::vec3> values) {
   settle_hanging(mesh, values);
-  return corner_means(mesh, values);
+  return curved_means(mesh, edges, values);
 }
 
 } // namespace
@@ -108,9 +110,10 @@ DirectIrradiance light_by_corners(const LightScene& light, const NodeTree& tree,
     result.shared.assign(size, 0);
     return result;
   }
-  result.irradiance = at_corners(light.mesh, vertices.field.irradiance);
+  const VertexEdges edges = edges_of(light.mesh);
+  result.irradiance = at_corners(light.mesh, edges, vertices.field.irradiance);
   if (!light.punctual.empty())
-    result.punctual = at_corners(light.mesh, vertices.punctual);
+    result.punctual = at_corners(light.mesh, edges, vertices.punctual);
   result.shared.assign(size, 1);
   light_again(light, by_themselves(light.mesh, covered, vertices), covered, settings, progress,
               result);

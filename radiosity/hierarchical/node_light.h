@@ -1,6 +1,6 @@
 // Light from the source where elements only light others and vertices are seen:
 //
-//   D_j = mean of D at the corners of element j
+//   D_j = mean of D over element j, as its corners and second differences tell (curved_means.h)
 //
 // Vertices have it anyway, and what such elements light takes the mean over many of them.
 // Elements whose corners do not tell have points of their own (element_light.h):
