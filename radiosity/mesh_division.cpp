@@ -88,34 +88,6 @@ bool has_unlike_neighbours(const ElementMesh& mesh, ElementId element,
                              [&](ElementVertexId corner) { return of_parts[index(corner)] != 0; });
 }
 
-/// A vertex in the middle of an element's edge k.
-struct EdgeMiddle {
-  ElementId element;
-  std::size_t k;
-  ElementVertexId vertex;
-};
-
-/// Where two cells of a patch differ along an edge, the smaller ones have its ends for corners.
-std::vector<EdgeMiddle> edge_middles(const PlacedVertices& placed,
-                                     std::span<const std::uint8_t> of_parts) {
-  const ElementMesh& mesh = placed.mesh;
-  std::vector<EdgeMiddle> middles;
-  for (std::uint32_t e = 0; e < element_count(mesh); ++e) {
-    const MeshCell& cell = cell_of(mesh, ElementId{e});
-    const std::size_t count = corners_of(mesh, cell).size();
-    const bool all = has_unlike_neighbours(mesh, ElementId{e}, of_parts);
-    for (std::size_t k = 0; k < count; ++k) {
-      if (!all && (of_parts[index(mesh.corners[e][k])] == 0 ||
-                   of_parts[index(mesh.corners[e][(k + 1) % count])] == 0))
-        continue;
-      if (const ElementVertexId middle = placed.on_edge(cell, k, 0.5);
-          middle != none<ElementVertexId>)
-        middles.push_back({ElementId{e}, k, middle});
-    }
-  }
-  return middles;
-}
-
 /// The elements at borders that have to be divided for the sake of neighbours in other patches,
 /// which did not hang on them (with_followers() finds the others); empty when there is none.
 std::vector<std::uint8_t> to_follow(const PlacedVertices& placed,
@@ -140,7 +112,8 @@ std::vector<std::uint8_t> to_follow(const PlacedVertices& placed,
   return marked;
 }
 
-/// Larger edges first:
+/// Vertices in the middle of edges. Where two cells of a patch differ along one, the smaller ones have
+/// its ends for corners. Larger edges first:
 /// the ends of a smaller one may hang on a larger one, never the other way round.
 std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed,
                                             std::span<const std::uint8_t> of_parts) {
@@ -150,12 +123,19 @@ std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed,
   };
   const ElementMesh& mesh = placed.mesh;
   std::vector<Found> found;
-  for (const auto& [element, k, middle] : edge_middles(placed, of_parts)) {
-    const ElementCorners& corners = mesh.corners[index(element)];
-    const std::size_t next = (k + 1) % corners_of(mesh, cell_of(mesh, element)).size();
-    const ElementVertexId a = corners[k], b = corners[next];
-    found.push_back(
-        {{middle, a, b}, glm::distance(mesh.vertices[index(a)], mesh.vertices[index(b)])});
+  for (std::uint32_t e = 0; e < element_count(mesh); ++e) {
+    const MeshCell& cell = cell_of(mesh, ElementId{e});
+    const std::size_t count = corners_of(mesh, cell).size();
+    const bool all = has_unlike_neighbours(mesh, ElementId{e}, of_parts);
+    for (std::size_t k = 0; k < count; ++k) {
+      const ElementVertexId a = mesh.corners[e][k], b = mesh.corners[e][(k + 1) % count];
+      if (!all && (of_parts[index(a)] == 0 || of_parts[index(b)] == 0))
+        continue;
+      const ElementVertexId middle = placed.on_edge(cell, k, 0.5);
+      if (middle != none<ElementVertexId>)
+        found.push_back(
+            {{middle, a, b}, glm::distance(mesh.vertices[index(a)], mesh.vertices[index(b)])});
+    }
   }
   std::ranges::stable_sort(found, std::greater<>(), &Found::edge);
   std::vector<HangingVertex> hanging;

@@ -158,6 +158,30 @@ TEST(ShadowEdges, AreNoMoreThanTheyMayBe) {
   EXPECT_EQ(most_at_shadows(100'000), 100'000U);
 }
 
+/// A room whose floor a lamp lights, without anything between.
+Scene empty_room() {
+  Scene scene;
+  const Material wall = diffuse(0.5);
+  add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, wall, wall, wall});
+  add_polygon(scene, "lamp", {{0.4, 0.9, 0.4}, {0.6, 0.9, 0.4}, {0.6, 0.9, 0.6}, {0.4, 0.9, 0.6}},
+              diffuse(0.0, 10.0));
+  return scene;
+}
+
+// On large elements smooth light bends as much as edges do, at most vertices alike: noise it is not.
+// Middles of elements of 0.25 m become vertices; half the size alone takes a sixteenth.
+TEST(ShadowEdges, AreNotAllThatIsDivided) {
+  const auto l = lit(empty_room(), {.element_size = 0.25});
+  const std::vector<Place> places = middles_of(*l, "y0");
+  const std::vector<double> expected = exactly(*l, places);
+  const double even =
+                   error_of(*l, solve_pass_one(*l->light, by_nodes(0.25, 0.0)), places, expected),
+               finer =
+                   error_of(*l, solve_pass_one(*l->light, by_nodes(0.25, 0.01)), places, expected);
+  EXPECT_GT(even, 1e-3);
+  EXPECT_LT(finer, even / 16.0);
+}
+
 /// A table of one element, a third of it in the shadow of a plate.
 Scene room_with_table() {
   Scene scene;
