@@ -26,13 +26,19 @@ PassOneSettings by_nodes(double element_size, double shadow_bend) {
   return settings;
 }
 
-/// A room with a lamp, and a plate that hides half of it from some of the floor.
-Scene room_with_plate() {
+/// A room whose floor a lamp lights, without anything between.
+Scene empty_room() {
   Scene scene;
   const Material wall = diffuse(0.5);
   add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, wall, wall, wall});
   add_polygon(scene, "lamp", {{0.4, 0.9, 0.4}, {0.6, 0.9, 0.4}, {0.6, 0.9, 0.6}, {0.4, 0.9, 0.6}},
               diffuse(0.0, 10.0));
+  return scene;
+}
+
+/// A plate in it hides half of the lamp from some of the floor.
+Scene room_with_plate() {
+  Scene scene = empty_room();
   add_polygon(scene, "plate", {{0.1, 0.4, 0.1}, {0.1, 0.4, 0.9}, {0.5, 0.4, 0.9}, {0.5, 0.4, 0.1}},
               double_sided(diffuse(0.5)));
   return scene;
@@ -92,6 +98,16 @@ double error_of(const LitScene& l, const RadiositySolution& solution,
       all += expected[k] * expected[k];
     }
   return squares / all;
+}
+
+/// Of elements of 0.25 m that are not divided, and with a bound of x.
+std::array<double, 2> errors_without_and_with(const LitScene& l, const std::vector<Place>& places,
+                                              double x) {
+  const std::vector<double> expected = exactly(l, places);
+  const auto error = [&](double bound) {
+    return error_of(l, solve_pass_one(*l.light, by_nodes(0.25, bound)), places, expected);
+  };
+  return {error(0.0), error(x)};
 }
 
 // In the middle of elements interpolation is off by e = h^2 D'' / 8. Elements that are off by most
@@ -158,26 +174,12 @@ TEST(ShadowEdges, AreNoMoreThanTheyMayBe) {
   EXPECT_EQ(most_at_shadows(100'000), 100'000U);
 }
 
-/// A room whose floor a lamp lights, without anything between.
-Scene empty_room() {
-  Scene scene;
-  const Material wall = diffuse(0.5);
-  add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, wall, wall, wall});
-  add_polygon(scene, "lamp", {{0.4, 0.9, 0.4}, {0.6, 0.9, 0.4}, {0.6, 0.9, 0.6}, {0.4, 0.9, 0.6}},
-              diffuse(0.0, 10.0));
-  return scene;
-}
-
 // On large elements smooth light bends as much as edges do, at most vertices alike: noise it is not.
 // Middles of elements of 0.25 m become vertices; half the size alone takes a sixteenth.
 TEST(ShadowEdges, AreNotAllThatIsDivided) {
   const auto l = lit(empty_room(), {.element_size = 0.25});
   const std::vector<Place> places = middles_of(*l, "y0");
-  const std::vector<double> expected = exactly(*l, places);
-  const double even =
-                   error_of(*l, solve_pass_one(*l->light, by_nodes(0.25, 0.0)), places, expected),
-               finer =
-                   error_of(*l, solve_pass_one(*l->light, by_nodes(0.25, 0.01)), places, expected);
+  const auto [even, finer] = errors_without_and_with(*l, places, 0.01);
   EXPECT_GT(even, 1e-3);
   EXPECT_LT(finer, even / 16.0);
 }
@@ -208,11 +210,7 @@ TEST(ShadowEdges, AreFoundWhereOneElementIsAll) {
   for (double u = 1.0 / 64.0; u < 1.0; u += 1.0 / 32.0)
     for (double v = 1.0 / 64.0; v < 1.0; v += 1.0 / 32.0)
       places.push_back({table, Vec2(u, v)});
-  const std::vector<double> expected = exactly(*l, places);
-  const double even =
-                   error_of(*l, solve_pass_one(*l->light, by_nodes(0.25, 0.0)), places, expected),
-               finer =
-                   error_of(*l, solve_pass_one(*l->light, by_nodes(0.25, 0.02)), places, expected);
+  const auto [even, finer] = errors_without_and_with(*l, places, 0.02);
   EXPECT_GT(even, 0.05);
   EXPECT_LT(finer, even / 4.0);
 }
@@ -305,11 +303,7 @@ TEST(ShadowEdges, AreFoundOnFacets) {
     for (double u = 0.1; u < 1.0; u += 0.2)
       for (double v = 0.1; v < 1.0; v += 0.2)
         places.push_back({l->mesh.side_of_element[e], Vec2(u, v)});
-  const std::vector<double> expected = exactly(*l, places);
-  const double even =
-                   error_of(*l, solve_pass_one(*l->light, by_nodes(0.25, 0.0)), places, expected),
-               finer =
-                   error_of(*l, solve_pass_one(*l->light, by_nodes(0.25, 0.02)), places, expected);
+  const auto [even, finer] = errors_without_and_with(*l, places, 0.02);
   EXPECT_LT(finer, even / 2.0);
 }
 
