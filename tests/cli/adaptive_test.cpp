@@ -1,6 +1,7 @@
 // `--adaptive`: elements divided where the light asks for it, from the command line to the picture.
 #include "tests/cli/program.h"
 #include "tests/cli/tiny_room.h"
+#include "tests/support/source_dir.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -111,7 +112,7 @@ TEST_F(Adaptive, WhatMakesNoSenseIsSaid) {
 
 // The rims of a sunbeam through narrow gaps ask for elements smaller than vertices can be told apart.
 TEST_F(Adaptive, WhatCannotBeHadIsSaid) {
-  const std::string sunbeam = MENINAS_SOURCE_DIR "/scenes/gallery/sunbeam.gltf";
+  const std::string sunbeam = source_dir() + "/scenes/gallery/sunbeam.gltf";
   const Outcome outcome = run({"render", sunbeam, "-o", "a.exr", "--size", "8x8", "--quality",
                                "draft", "--adaptive", "0.01", "--quiet"});
   EXPECT_EQ(outcome.code, 0);

@@ -1,5 +1,6 @@
 // `batch`: what it makes, from how many solves, and what it leaves alone.
 #include "tests/cli/batch_folder.h"
+#include "tests/support/source_dir.h"
 
 #include <gmock/gmock.h>
 
@@ -184,7 +185,7 @@ TEST_F(BatchTest, ADryRunTouchesNothing) {
 
 TEST_F(BatchTest, TheExampleOfTheManualWorks) {
   const Outcome outcome =
-      run_program(folder_.path(), {"batch", MENINAS_SOURCE_DIR "/docs/batch.example.json", "-o",
+      run_program(folder_.path(), {"batch", source_dir() + "/docs/batch.example.json", "-o",
                                    "out", "--dry-run"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("render  walk/0023.png\n"));
@@ -202,7 +203,7 @@ TEST_F(BatchTest, TheSchemaKnowsEverySetting) {
   EXPECT_FALSE(settings.contains("camera"));
   // But for them it is the file that ships.
   schema["$defs"]["settings"]["properties"] = Json::object();
-  EXPECT_EQ(schema, Json::parse(read_file(MENINAS_SOURCE_DIR "/docs/batch.schema.json")));
+  EXPECT_EQ(schema, Json::parse(read_file(source_dir() + "/docs/batch.schema.json")));
 }
 
 TEST_F(BatchTest, MemoryIsAskedForBeforeItIsTaken) {

@@ -2,6 +2,7 @@
 #include "image/image_file.h"
 #include "tests/cli/program.h"
 #include "tests/cli/tiny_room.h"
+#include "tests/support/source_dir.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -136,7 +137,7 @@ TEST_F(Outputs, EverySolverSaysHowItWent) {
 }
 
 TEST_F(Outputs, ARoomThatAbsorbsNothingHasNoSolution) {
-  std::ifstream furnace(MENINAS_SOURCE_DIR "/scenes/gallery/furnace.gltf");
+  std::ifstream furnace(source_dir() + "/scenes/gallery/furnace.gltf");
   json root = json::parse(furnace);
   for (json& material : root.at("materials")) {
     material["pbrMetallicRoughness"]["baseColorFactor"] = {1.0, 1.0, 1.0, 1.0};

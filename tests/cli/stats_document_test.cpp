@@ -1,6 +1,7 @@
 // What `--stats` writes is described: docs/stats.md, and docs/trade.md for error estimates.
 #include "tests/cli/program.h"
 #include "tests/cli/tiny_room.h"
+#include "tests/support/source_dir.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ void add_keys(const json& value, std::set<std::string>& keys) {
 }
 
 TEST(StatsDocument, HasEveryKey) {
-  const std::string docs = MENINAS_SOURCE_DIR "/docs/";
+  const std::string docs = source_dir() + "/docs/";
   const std::string text = read_file(docs + "stats.md") + read_file(docs + "trade.md");
   TemporaryFolder folder;
   write_room(folder / "room.glb", tiny_room());

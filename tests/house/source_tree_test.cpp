@@ -1,4 +1,5 @@
 #include "tests/house/source_tree.h"
+#include "tests/support/source_dir.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,20 +26,20 @@ std::vector<std::string> direction_breaches_of(const std::string& path,
 }
 
 TEST(SourceTree, IncludesPointOneWay) {
-  EXPECT_THAT(include_direction_breaches(read_source_tree(MENINAS_SOURCE_DIR)), IsEmpty());
+  EXPECT_THAT(include_direction_breaches(read_source_tree(test::source_dir())), IsEmpty());
 }
 
 TEST(SourceTree, WrappedLibrariesHaveOneUserEach) {
-  EXPECT_THAT(wrapped_library_breaches(read_source_tree(MENINAS_SOURCE_DIR)), IsEmpty());
+  EXPECT_THAT(wrapped_library_breaches(read_source_tree(test::source_dir())), IsEmpty());
 }
 
 TEST(SourceTree, FilesAreShortAndHeadersSayWhatTheyAre) {
-  EXPECT_THAT(file_shape_breaches(read_source_tree(MENINAS_SOURCE_DIR)), IsEmpty());
+  EXPECT_THAT(file_shape_breaches(read_source_tree(test::source_dir())), IsEmpty());
 }
 
 TEST(SourceTree, TheScannerReadsThisTree) {
   std::vector<std::string> paths;
-  for (const SourceFile& source : read_source_tree(MENINAS_SOURCE_DIR)) {
+  for (const SourceFile& source : read_source_tree(test::source_dir())) {
     paths.push_back(source.path);
   }
   EXPECT_THAT(paths, testing::IsSupersetOf(

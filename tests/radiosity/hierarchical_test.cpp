@@ -5,6 +5,7 @@
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
+#include "tests/support/source_dir.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -40,7 +41,7 @@ PassOneSettings with_fine_direct_light(PassOneSettings settings) {
 }
 
 Scene gallery(const std::string& name) {
-  return load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/" + name + ".gltf");
+  return load_gltf(source_dir() + "/scenes/gallery/" + name + ".gltf");
 }
 
 /// Root mean square and mean of what two solutions differ by, relative to the mean irradiance;

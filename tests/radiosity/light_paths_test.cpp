@@ -6,6 +6,7 @@
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/random.h"
 #include "tests/support/rooms.h"
+#include "tests/support/source_dir.h"
 
 #include <gtest/gtest.h>
 
@@ -128,7 +129,7 @@ class LightPaths : public testing::TestWithParam<Comparison> {};
 
 TEST_P(LightPaths, TermsAddUpToTheRaysOnlyAnswer) {
   expect_agreement(
-      load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/" + GetParam().scene + ".gltf"),
+      load_gltf(source_dir() + "/scenes/gallery/" + GetParam().scene + ".gltf"),
       100.0, GetParam());
 }
 

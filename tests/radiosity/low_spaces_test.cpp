@@ -3,6 +3,7 @@
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
+#include "tests/support/source_dir.h"
 
 #include <gtest/gtest.h>
 
@@ -170,7 +171,7 @@ TEST(LowSpaces, NodesDoNotLightAWallBehindAPanel) {
 // a factor of 1.6 and nodes to 2, with other seeds to 3 where a tenth of it is exposed,
 // so that rows have to be better. A vertex of the box sees many elements, to 2.
 TEST(LowSpaces, NodesDoNotLightTheFootOfABoxByTheirNoise) {
-  const auto l = lit(load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/cornell.gltf"),
+  const auto l = lit(load_gltf(source_dir() + "/scenes/gallery/cornell.gltf"),
                      {.element_size = 0.0857});
   PassOneSettings exact = settings_by(By::rows);
   exact.form_factors.rays = 1024;

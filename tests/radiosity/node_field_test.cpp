@@ -3,6 +3,7 @@
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
+#include "tests/support/source_dir.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -105,7 +106,7 @@ TEST(NodeField, IsWhatGatheringEverywhereFinds) {
 TEST(NodeField, EdgesOfARoomAreAsDarkAsTheyAre) {
   PassOneSettings settings = by_nodes(0.0, 0.01, 512);
   settings.mesh.target_elements = 6000;
-  const auto l = lit(load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/cornell.gltf"),
+  const auto l = lit(load_gltf(source_dir() + "/scenes/gallery/cornell.gltf"),
                      settings.mesh);
   const RadiositySolution nodes = solve_pass_one(*l->light, settings),
                           rows = solve_pass_one(*l->light, by_rows(settings, 0));
@@ -184,7 +185,7 @@ double nearly_all_within(const RadiositySolution& a, const RadiositySolution& b)
 TEST(NodeField, SpotsOfTheSunSendWhatTheyReceive) {
   PassOneSettings settings = by_nodes(0.0, 0.01, 256);
   settings.mesh.target_elements = 9000;
-  const auto l = lit(load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/sunbeam.gltf"),
+  const auto l = lit(load_gltf(source_dir() + "/scenes/gallery/sunbeam.gltf"),
                      settings.mesh);
   const RadiositySolution nodes = solve_pass_one(*l->light, settings),
                           rows = solve_pass_one(*l->light, by_rows(settings, 0)),

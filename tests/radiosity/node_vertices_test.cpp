@@ -5,6 +5,7 @@
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
+#include "tests/support/source_dir.h"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +36,7 @@ std::vector<TreeNodeId> uneven_cut(const ElementMesh& mesh, const NodeTree& tree
 }
 
 std::vector<Scene> rooms_and_figures() {
-  return {half_room(), load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/meninas.gltf")};
+  return {half_room(), load_gltf(source_dir() + "/scenes/gallery/meninas.gltf")};
 }
 
 // Where a vertex is is linear over its patch: interpolated, positions are what they are,

@@ -4,6 +4,7 @@
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"
+#include "tests/support/source_dir.h"
 
 #include <gtest/gtest.h>
 
@@ -139,7 +140,7 @@ TEST(OpenParts, HaveAllOfTheLightFromTheSource) {
 // What rows themselves find there, by 512 rays each, is the same in sum.
 TEST(OpenParts, AtTheFeetOfBoxesAreLitByWhatRowsFind) {
   const auto l =
-      lit(load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/cornell-mirror.gltf"),
+      lit(load_gltf(source_dir() + "/scenes/gallery/cornell-mirror.gltf"),
           {.target_elements = 16000});
   PassOneSettings settings;
   const RadiositySolution rows = solve_pass_one(*l->light, settings);

@@ -8,6 +8,7 @@
 #include "tests/radiosity/lit_scene.h"
 #include "tests/radiosity/radiosity_systems.h"
 #include "tests/support/rooms.h"
+#include "tests/support/source_dir.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -69,7 +70,7 @@ TEST(Progressive, AgreesWithRowsInGalleryScenes) {
     PassOneSettings settings = shooting(0.0, 256);
     settings.mesh.target_elements = 600;
     const auto l =
-        lit(load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/" + name + ".gltf"),
+        lit(load_gltf(source_dir() + "/scenes/gallery/" + name + ".gltf"),
             settings.mesh);
     const RadiositySolution shots = shoot_pass_one(*l->light, settings);
     EXPECT_TRUE(shots.solver.converged);
@@ -111,7 +112,7 @@ TEST(Progressive, AgreesWithEliminationInGalleryScenes) {
     PassOneSettings settings = shooting(0.0, 64, tolerance);
     settings.mesh.target_elements = 300;
     const auto l =
-        lit(load_gltf(std::string(MENINAS_SOURCE_DIR) + "/scenes/gallery/" + name + ".gltf"),
+        lit(load_gltf(source_dir() + "/scenes/gallery/" + name + ".gltf"),
             settings.mesh);
     int looks = 0;
     const RadiositySolution shots =

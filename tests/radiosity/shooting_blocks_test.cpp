@@ -3,6 +3,7 @@
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/scene_builder.h"
+#include "tests/support/source_dir.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ namespace {
 
 TEST(ShootingBlocks, CoverEveryElementOnce) {
   const auto l =
-      lit(load_gltf(MENINAS_SOURCE_DIR "/scenes/gallery/meninas.gltf"), {.target_elements = 3000});
+      lit(load_gltf(source_dir() + "/scenes/gallery/meninas.gltf"), {.target_elements = 3000});
   const Shooters blocks =
       make_shooting_blocks(l->mesh, std::vector<float>(element_count(l->mesh), 1.0F));
   std::vector<int> met(element_count(l->mesh), 0);

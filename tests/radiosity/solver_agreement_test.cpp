@@ -2,6 +2,7 @@
 #include "scenes/gltf.h"
 #include "tests/radiosity/lit_system.h"
 #include "tests/support/rooms.h"
+#include "tests/support/source_dir.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ TEST(SolverAgreement, EveryGallerySceneWithinTenTolerancesOfTheDirectSolution) {
   constexpr double tolerance = 1e-6;
   int scenes = 0;
   for (const auto& entry :
-       std::filesystem::directory_iterator(MENINAS_SOURCE_DIR "/scenes/gallery")) {
+       std::filesystem::directory_iterator(source_dir() + "/scenes/gallery")) {
     if (entry.path().extension() != ".gltf" && entry.path().extension() != ".glb")
       continue;
     const auto l = lit(load_gltf(entry.path()), {.target_elements = 150});

@@ -1,6 +1,7 @@
 // The suite can fail: small changes of a scene are caught by the limits of its committed case,
 // and the scene as it is passes.
 #include "tests/cli/program.h"
+#include "tests/support/source_dir.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::filesystem::path suite = std::filesystem::path(MENINAS_SOURCE_DIR) / "reference/images";
+const std::filesystem::path suite = std::filesystem::path(source_dir()) / "reference/images";
 
 class Mutations : public testing::Test {
 protected:

@@ -4,6 +4,7 @@
 #include "scenes/gallery/generator/stages.h"
 #include "scenes/gltf.h"
 #include "scenes/scene.h"
+#include "tests/support/source_dir.h"
 
 #include <gmock/gmock.h>
 
@@ -17,7 +18,7 @@
 namespace meninas {
 
 static const std::filesystem::path folder =
-    std::filesystem::path(MENINAS_SOURCE_DIR) / "scenes/gallery";
+    std::filesystem::path(test::source_dir()) / "scenes/gallery";
 
 static Scene load(const std::string& name) { return load_gltf(folder / (name + ".gltf")); }
 
