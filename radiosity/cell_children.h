@@ -15,6 +15,12 @@ struct ChildPoint {
   Point st;            ///< in the child's own coordinates
 };
 
+/// The nearest number in [0, 1], and 0 for what is no number: a cell is an index made of it.
+template <typename Real>
+Real within_unit(Real x) {
+  return x > Real(0) ? x < Real(1) ? x : Real(1) : Real(0);
+}
+
 /// `st` in [0, 1]^2, of a triangle s + t <= 1.
 template <typename Point>
 ChildPoint<Point> child_at(Point st, bool triangle) {

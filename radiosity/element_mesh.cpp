@@ -138,8 +138,8 @@ struct CellPoint {
 };
 
 CellPoint locate_root(const MeshSide& side, Vec2 uv) {
-  const double fu = std::clamp(uv.x, 0.0, 1.0) * side.nu;
-  const double fv = std::clamp(uv.y, 0.0, 1.0) * side.nv;
+  const double fu = within_unit(uv.x) * side.nu;
+  const double fv = within_unit(uv.y) * side.nv;
   if (!side.triangle) {
     const int i = std::min(static_cast<int>(fu), side.nu - 1);
     const int j = std::min(static_cast<int>(fv), side.nv - 1);

@@ -54,6 +54,9 @@ struct FirstLegs {
             first + k};
   }
 };
+// clang deduces aggregates by themselves from its version 17 on.
+template <typename Weights, typename LetIn>
+FirstLegs(const RayPacket&, Weights, LetIn, std::uint32_t) -> FirstLegs<Weights, LetIn>;
 
 /// What the receiver's coat lets in, by lane.
 inline std::array<glm::vec3, packet_size>

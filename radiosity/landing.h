@@ -103,8 +103,8 @@ inline Landing descend(const LandingTable& table, bool triangle, Landing root) {
 
 /// The element, or the root cell of a divided side.
 inline Landing land_on_root(const SideRecord& side, glm::vec2 uv) {
-  const float fu = glm::clamp(uv.x, 0.0F, 1.0F) * static_cast<float>(side.nu);
-  const float fv = glm::clamp(uv.y, 0.0F, 1.0F) * static_cast<float>(side.nv);
+  const float fu = within_unit(uv.x) * static_cast<float>(side.nu);
+  const float fv = within_unit(uv.y) * static_cast<float>(side.nv);
   if (!side.triangle) {
     const int i = glm::min(static_cast<int>(fu), side.nu - 1);
     const int j = glm::min(static_cast<int>(fv), side.nv - 1);

@@ -57,7 +57,7 @@ LaneIndices faces_of(const HitPacket& hits) {
 
 MENINAS_WIDE_LANES
 LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const SideRecord& side,
-                        const HitPacket& hits) {
+                        const HitPacket& hits, std::uint32_t lanes) {
   LanePoints at;
   if (face.map != UvMap::general) {
     const glm::vec2 uv0 = face.uv0, uv1 = face.uv1, uv2 = face.uv2;
@@ -72,18 +72,19 @@ LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const S
         at.t[k] = uv.y;
       }
   } else {
-    for (std::uint32_t k = 0; k < packet_size; ++k) {
+    at.s.fill(0.0F);
+    at.t.fill(0.0F);
+    for_each_lane(lanes, [&](std::uint32_t k) {
       const glm::vec2 uv = uv_of(light, face, hits, k);
       at.s[k] = uv.x;
       at.t[k] = uv.y;
-    }
+    });
   }
   const std::int32_t nu = side.nu, nv = side.nv;
   const auto fu = static_cast<float>(nu), fv = static_cast<float>(nv);
   const std::uint32_t first = side.first_element;
   for (std::size_t k = 0; k < packet_size; ++k) {
-    const float u = (at.s[k] < 0.0F ? 0.0F : at.s[k] > 1.0F ? 1.0F : at.s[k]) * fu;
-    const float v = (at.t[k] < 0.0F ? 0.0F : at.t[k] > 1.0F ? 1.0F : at.t[k]) * fv;
+    const float u = within_unit(at.s[k]) * fu, v = within_unit(at.t[k]) * fv;
     const auto iu = static_cast<std::int32_t>(u), iv = static_cast<std::int32_t>(v);
     const std::int32_t i = iu < nu ? iu : nu - 1, j = iv < nv ? iv : nv - 1;
     at.s[k] = u - static_cast<float>(i);
@@ -91,13 +92,13 @@ LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const S
     at.element[k] = first + static_cast<std::uint32_t>(j * nu + i);
   }
   if (side.divided)
-    for (std::size_t k = 0; k < packet_size; ++k) {
+    for_each_lane(lanes, [&](std::uint32_t k) {
       const Landing found =
           descend(light.landing, false, {at.element[k], glm::vec2(at.s[k], at.t[k])});
       at.element[k] = found.element;
       at.s[k] = found.st.x;
       at.t[k] = found.st.y;
-    }
+    });
   return at;
 }
 

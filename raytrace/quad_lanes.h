@@ -11,6 +11,7 @@
 
 namespace meninas {
 
+/// (u, v) of lane k, which has hit the face.
 inline glm::vec2 uv_of(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                        std::uint32_t k) {
   return landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
@@ -25,9 +26,10 @@ struct alignas(64) LanePoints {
   LaneFloats s, t;
 };
 
-/// land(), sixteen at a time.
+/// land(), sixteen at a time, of the lanes that have hit the face. Where the others are said to be
+/// is without meaning: they may have hit nothing, and then have no triangle to be looked up.
 LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const SideRecord& side,
-                        const HitPacket& hits);
+                        const HitPacket& hits, std::uint32_t lanes);
 
 /// Calls visit(k) for the lanes whose bits are set.
 template <typename Visit>

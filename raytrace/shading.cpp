@@ -225,7 +225,7 @@ std::uint32_t lanes_of_first_pixel(const LaneState& state, std::uint32_t lanes) 
 void add_quad(const RenderContext& context, const LaneState& state, const FaceRecord& face,
               const HitPacket& hits, std::uint32_t lanes, TileWorkspace& work) {
   const LightScene& light = context.light;
-  const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits);
+  const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits, lanes);
   while (lanes != 0) {
     const auto first = static_cast<std::uint32_t>(std::countr_zero(lanes));
     std::uint32_t alike = lanes_of_first_pixel(state, lanes);
