@@ -101,7 +101,7 @@ Command add_diff_command(CLI::App& program) {
       program.add_subcommand("diff", "Measure how far a picture is from a reference");
   const auto options = std::make_shared<DiffOptions>();
   DiffRequest& request = options->request;
-  command->add_option("A", request.picture, "picture, EXR or PNG (taken to linear light)")
+  command->add_option("A", request.picture, "picture: EXR of one or more layers and parts, TIFF, HDR, or PNG and JPEG (taken to linear light)")
       ->type_name("")
       ->required();
   command->add_option("B", request.reference, "its reference")->type_name("")->required();

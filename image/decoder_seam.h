@@ -18,29 +18,44 @@
 namespace meninas::decoder {
 
 /// Raised with every change of this file: a module from another build is refused, not misread.
-inline constexpr int seam_version = 3;
+inline constexpr int seam_version = 4;
 
 struct TextPair {
   const char* key;
   const char* value;
 };
 
-/// Either pixels, or no owner and the reason why not.
+/// A part of an EXR; of other formats there is one.
 /// Channels are interleaved, rows from the top, alpha not multiplied in.
-struct Decoded {
-  void* owner;
-  int width, height, channels;
-  int code_values; ///< 0 for linear values; otherwise sRGB code values k / code_values (255 or 65535)
+struct DecodedPart {
+  const char* name;               ///< empty where it has none
+  const char* left_out;           ///< why it has no pixels; null where it has
+  int width, height, channels;    ///< of the pixels that are stored: an EXR's data window
+  int x, y;                       ///< of the first of them within the display window
+  int full_width, full_height;    ///< of the display window: the picture
   const float* pixels;
   const char* const* channel_names;
-  const TextPair* attributes; ///< all header strings, names as they appear in the file
+};
+
+/// Either parts, at least one of them with pixels, or no owner and the reason why not.
+struct Decoded {
+  void* owner;
+  const DecodedPart* parts;
+  std::size_t part_count;
+  int code_values; ///< 0 for linear values; otherwise sRGB code values k / code_values (255 or 65535)
+  const TextPair* attributes; ///< all header strings of the first part, names as they appear in the file
   std::size_t attribute_count;
   char error[512];
 };
 
+/// What is read of a file: all parts of an EXR; or what a glTF file may name,
+/// the first part, and no TIFF, whose size is not checked against the memory (scenes/image_size.h).
+enum class Use { picture, texture };
+
 struct Limits {
+  Use use;
   int side;           ///< largest width and height
-  std::size_t values; ///< largest width * height * channels
+  std::size_t values; ///< largest width * height * channels, of all parts together
 };
 
 struct Table {

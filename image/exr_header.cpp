@@ -28,6 +28,11 @@ public:
     return bytes(end + 1).substr(0, end);
   }
   std::int32_t integer() { return integer_of(bytes(4)); }
+  char peek() const {
+    if (rest_.empty())
+      throw std::runtime_error("the EXR ends within its header");
+    return rest_.front();
+  }
 
   static std::int32_t integer_of(std::string_view four) {
     std::uint32_t value = 0;
@@ -118,11 +123,15 @@ void check_exr_header(std::string_view exr, const Limits& limits) {
   reader.bytes(4);
   constexpr std::uint32_t deep = 0x800U, several_parts = 0x1000U;
   const auto version = static_cast<std::uint32_t>(reader.integer());
-  if ((version & deep) != 0)
-    throw std::runtime_error("the EXR holds deep data, not a flat picture");
-  if ((version & several_parts) != 0)
-    throw std::runtime_error("the EXR has several parts; only EXRs of one part are read");
-  check_size(read_header(reader), exr.size(), limits);
+  if ((version & several_parts) == 0) {
+    if ((version & deep) != 0)
+      throw std::runtime_error("the EXR holds deep data, not a flat picture");
+    check_size(read_header(reader), exr.size(), limits);
+    return;
+  }
+  // The headers of several parts follow each other; an empty one, a single zero, ends them.
+  while (reader.peek() != '\0')
+    check_size(read_header(reader), exr.size(), limits);
 }
 
 } // namespace meninas::decoder

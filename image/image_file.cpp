@@ -3,19 +3,17 @@
 #include "image/decoder_loader.h"
 #include "image/display.h"
 #include "image/exr_encoding.h"
+#include "image/picture_channels.h"
 #include "image/png_encoding.h"
 #include "image/whole_file.h"
 #include "scenes/errors.h"
 #include "scenes/types.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <set>
 #include <string_view>
@@ -23,8 +21,6 @@
 namespace meninas {
 
 namespace fs = std::filesystem;
-
-static constexpr decoder::Limits limits{.side = 1 << 16, .values = std::size_t{1} << 30};
 
 void preload_picture_reader() { decoder::preload(); }
 
@@ -135,40 +131,42 @@ struct ReleaseDecoded {
 };
 using DecodedPicture = std::unique_ptr<decoder::Decoded, ReleaseDecoded>;
 
-/// Where a colour's components are among the channels of a file.
-using Components = std::array<int, 3>;
-
 /// Reads single values of a decoded picture, taking sRGB code values to linear through a table:
 /// a texture has millions of them, but only 256 or 65536 different ones.
 class ChannelReader {
 public:
-  ChannelReader(const decoder::Decoded& decoded, Encoding encoding) : decoded_(decoded) {
-    if (encoding == Encoding::linear || decoded.code_values == 0)
+  ChannelReader(const decoder::Decoded& decoded, const decoder::DecodedPart& part,
+                Encoding encoding)
+      : part_(part), last_(decoded.code_values) {
+    if (encoding == Encoding::linear || last_ == 0)
       return;
-    const int last = decoded.code_values;
-    for (int code = 0; code <= last; ++code)
-      linear_.push_back(srgb_decode(static_cast<float>(code) / static_cast<float>(last)));
+    for (int code = 0; code <= last_; ++code)
+      linear_.push_back(srgb_decode(static_cast<float>(code) / static_cast<float>(last_)));
   }
   float value(std::size_t pixel, int channel) const {
-    return decoded_.pixels[pixel * static_cast<std::size_t>(decoded_.channels) +
-                           static_cast<std::size_t>(channel)];
+    return part_.pixels[pixel * static_cast<std::size_t>(part_.channels) +
+                        static_cast<std::size_t>(channel)];
   }
   float linear(std::size_t pixel, int channel) const {
     const float stored = value(pixel, channel);
     if (linear_.empty())
       return stored;
-    return linear_[static_cast<std::size_t>(
-        std::lround(stored * static_cast<float>(decoded_.code_values)))];
+    // Signed integers may be negative.
+    const long code = std::lround(stored * static_cast<float>(last_));
+    return linear_[static_cast<std::size_t>(std::clamp(code, 0L, long{last_}))];
   }
 
 private:
-  const decoder::Decoded& decoded_;
+  const decoder::DecodedPart& part_;
+  int last_; ///< code value
   std::vector<float> linear_;
 };
 
 } // namespace
 
-static DecodedPicture decode(std::span<const std::byte> bytes, const std::string& name) {
+static DecodedPicture decode(std::span<const std::byte> bytes, const std::string& name,
+                             decoder::Use use) {
+  const decoder::Limits limits{.use = use, .side = 1 << 16, .values = std::size_t{1} << 30};
   DecodedPicture decoded(
       new decoder::Decoded(decoder::module_table().decode(bytes.data(), bytes.size(), limits)));
   if (decoded->owner == nullptr)
@@ -176,61 +174,21 @@ static DecodedPicture decode(std::span<const std::byte> bytes, const std::string
   return decoded;
 }
 
-/// Channel number by name.
-/// Some decoders leave grey pictures unnamed, so one or two channels are grey (and alpha).
-static std::map<std::string, int, std::less<>> channel_numbers(const decoder::Decoded& decoded) {
-  std::map<std::string, int, std::less<>> numbers;
-  for (int channel = 0; channel < decoded.channels; ++channel)
-    numbers.emplace(decoded.channel_names[channel], channel);
-  if (decoded.code_values != 0 && decoded.channels <= 2) {
-    numbers.clear();
-    numbers.emplace("Y", 0);
-    if (decoded.channels == 2)
-      numbers.emplace("A", 1);
-  }
-  return numbers;
-}
-
-/// Takes PREFIX R, G and B out of the channels that are left, if all three are there.
-static std::optional<Components> take_colour(std::map<std::string, int, std::less<>>& channels,
-                                             const std::string& prefix) {
-  const auto r = channels.find(prefix + "R"), g = channels.find(prefix + "G"),
-             b = channels.find(prefix + "B");
-  if (r == channels.end() || g == channels.end() || b == channels.end())
-    return std::nullopt;
-  const Components components{r->second, g->second, b->second};
-  channels.erase(r);
-  channels.erase(g);
-  channels.erase(b);
-  return components;
-}
-
-static Components take_picture(std::map<std::string, int, std::less<>>& channels,
-                               const std::string& name) {
-  if (const auto colour = take_colour(channels, ""))
-    return *colour;
-  const auto grey = channels.find("Y");
-  if (grey == channels.end()) {
-    std::vector<std::string> some;
-    for (const auto& [channel, number] : channels)
-      if (some.size() < 8)
-        some.push_back(channel);
-    if (some.size() < channels.size())
-      some.emplace_back("...");
-    throw InputError(name, "",
-                     fmt::format("holds no channels R, G and B, only {}", fmt::join(some, ", ")));
-  }
-  const Components components{grey->second, grey->second, grey->second};
-  channels.erase(grey);
-  return components;
-}
-
-static Image extract(const decoder::Decoded& decoded, const ChannelReader& reader,
+/// The display window of a part, with what is stored of it; the rest is 0.
+static Image extract(const decoder::DecodedPart& part, const ChannelReader& reader,
                      const Components& components) {
-  Image image(decoded.width, decoded.height);
-  for (std::size_t pixel = 0; pixel < image.pixels.size(); ++pixel)
-    for (int c = 0; c < 3; ++c)
-      image.pixels[pixel][c] = reader.linear(pixel, components[static_cast<std::size_t>(c)]);
+  Image image(part.full_width, part.full_height);
+  const int first_x = std::max(0, -part.x), first_y = std::max(0, -part.y);
+  const int end_x = std::min(part.width, part.full_width - part.x);
+  const int end_y = std::min(part.height, part.full_height - part.y);
+  for (int y = first_y; y < end_y; ++y)
+    for (int x = first_x; x < end_x; ++x) {
+      const auto stored =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(part.width) + static_cast<std::size_t>(x);
+      for (int c = 0; c < 3; ++c)
+        image.at(part.x + x, part.y + y)[c] =
+            reader.linear(stored, components[static_cast<std::size_t>(c)]);
+    }
   return image;
 }
 
@@ -254,26 +212,48 @@ static std::vector<std::byte> read_bytes(const fs::path& file) {
   return bytes;
 }
 
-ImageFile read_image(const fs::path& file) {
-  const auto name = file.string();
-  const auto decoded = decode(read_bytes(file), name);
-  const ChannelReader reader(*decoded, Encoding::srgb);
+/// What somebody who compares the picture may not expect of it.
+static std::vector<std::string> remarks_on(const decoder::Decoded& decoded,
+                                           const PictureChannels& channels) {
+  std::vector<std::string> remarks;
+  if (channels.picture && !channels.picture->name.empty())
+    remarks.push_back(fmt::format("the picture is its '{}'", channels.picture->name));
+  for (const auto& part : std::span(decoded.parts, decoded.part_count))
+    if (part.left_out != nullptr)
+      remarks.push_back(fmt::format("part '{}' is left out: {}", part.name, part.left_out));
+  if (channels.picture) {
+    const auto& part = decoded.parts[channels.picture->part];
+    if (part.width != part.full_width || part.height != part.full_height || part.x != 0 ||
+        part.y != 0)
+      remarks.push_back(fmt::format("{}x{} pixels from ({}, {}) on are stored of its {}x{}: "
+                                    "the others are 0, and what lies beyond is left out",
+                                    part.width, part.height, part.x, part.y, part.full_width,
+                                    part.full_height));
+  }
+  return remarks;
+}
 
-  // R, G and B are the picture; every other NAME.R with its G and B is a layer.
-  auto channels = channel_numbers(*decoded);
+ImageFile read_image(const fs::path& file, Picture picture) {
+  const auto name = file.string();
+  const auto decoded = decode(read_bytes(file), name, decoder::Use::picture);
+  PictureChannels channels = picture_channels(*decoded);
+  if (!channels.picture && (picture == Picture::needed || channels.layers.empty()))
+    throw InputError(name, "", channels.problem);
+
   ImageFile result;
   result.encoding = decoded->code_values == 0 ? Encoding::linear : Encoding::srgb;
-  result.picture = extract(*decoded, reader, take_picture(channels, name));
-  std::vector<std::string> layer_names;
-  for (const auto& [channel, number] : channels)
-    if (channel.size() > 2 && channel.ends_with(".R"))
-      layer_names.push_back(channel.substr(0, channel.size() - 2));
-  std::ranges::sort(layer_names);
-  for (const auto& layer : layer_names)
-    if (const auto components = take_colour(channels, layer + "."))
-      result.layers.push_back({layer, extract(*decoded, reader, *components)});
-  for (const auto& [channel, number] : channels)
-    result.ignored_channels.push_back(channel);
+  result.remarks = remarks_on(*decoded, channels);
+  result.ignored_channels = std::move(channels.others);
+  const auto image_of = [&](const ColourChannels& colour) {
+    const auto& part = decoded->parts[colour.part];
+    return extract(part, ChannelReader(*decoded, part, Encoding::srgb), colour.components);
+  };
+  if (channels.picture) {
+    result.picture = image_of(*channels.picture);
+    result.picture_name = channels.picture->name;
+  }
+  for (const ColourChannels& layer : channels.layers)
+    result.layers.push_back({layer.name, image_of(layer)});
 
   for (const auto& [key, value] : std::span(decoded->attributes, decoded->attribute_count))
     if (std::string_view(key).starts_with(attribute_prefix))
@@ -284,19 +264,22 @@ ImageFile read_image(const fs::path& file) {
 
 Bitmap decode_image(std::span<const std::byte> encoded, Encoding encoding,
                     const std::string& name) {
-  const auto decoded = decode(encoded, name);
-  const ChannelReader reader(*decoded, encoding);
-  auto channels = channel_numbers(*decoded);
-  const auto colour = take_picture(channels, name);
-  const auto alpha = channels.find("A");
+  const auto decoded = decode(encoded, name, decoder::Use::texture);
+  const PictureChannels channels = picture_channels(*decoded);
+  if (!channels.picture)
+    throw InputError(name, "", channels.problem);
+  const auto& part = decoded->parts[channels.picture->part];
+  const ChannelReader reader(*decoded, part, encoding);
+  const auto& colour = channels.picture->components;
+  const auto& alpha = channels.picture->alpha;
 
-  Bitmap bitmap{decoded->width, decoded->height, {}};
+  Bitmap bitmap{part.width, part.height, {}};
   bitmap.pixels.resize(static_cast<std::size_t>(bitmap.width) *
                        static_cast<std::size_t>(bitmap.height));
   for (std::size_t pixel = 0; pixel < bitmap.pixels.size(); ++pixel)
     bitmap.pixels[pixel] = {reader.linear(pixel, colour[0]), reader.linear(pixel, colour[1]),
                             reader.linear(pixel, colour[2]),
-                            alpha == channels.end() ? 1.0F : reader.value(pixel, alpha->second)};
+                            alpha ? reader.value(pixel, *alpha) : 1.0F};
   return bitmap;
 }
 

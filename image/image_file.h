@@ -60,16 +60,24 @@ enum class Encoding { srgb, linear };
 /// Layers and attributes come sorted by name, as an EXR stores them.
 struct ImageFile {
   Image picture;
-  std::vector<Layer> layers; ///< every NAME with NAME.R, NAME.G and NAME.B
+  std::string picture_name;  ///< of the layer or part that it is; empty for plain R, G and B
+  std::vector<Layer> layers; ///< every other NAME with NAME.R, NAME.G and NAME.B
   Attributes attributes;     ///< those that write_exr wrote
   std::vector<std::string>
       ignored_channels; ///< all others, alpha among them, by the name they have in the file
+  std::vector<std::string> remarks; ///< what a user has to know to compare the picture, a line each
   Encoding encoding = Encoding::linear; ///< of the file; the values here are linear
 };
-/// EXR and HDR as they are; PNG and JPEG decoded from sRGB to linear. Grey becomes R = G = B.
-/// The kind is recognised by the content.
+
+/// Whether a file of layers alone, none of which is known to be the picture, is refused.
+enum class Picture { needed, not_needed };
+
+/// EXR and HDR as they are; PNG, JPEG, WebP and TIFFs of integers decoded from sRGB to linear,
+/// of a TIFF the first page. Grey becomes R = G = B. The kind is recognised by the content.
+/// An EXR's pixels are those of its display window, 0 where no data are. What of its layers and
+/// parts is the picture, picture_channels.h says.
 /// Refuses more than 65536 pixels on a side and more than 2^30 values in all.
-ImageFile read_image(const std::filesystem::path& file);
+ImageFile read_image(const std::filesystem::path& file, Picture picture = Picture::needed);
 
 /// Decodes an encoded image held in memory;
 /// `linear` leaves the values as they are, otherwise sRGB becomes linear.

@@ -12,7 +12,13 @@ namespace meninas {
 namespace fs = std::filesystem;
 
 static Image take_layer(ImageFile& file, const fs::path& path, const std::string& name) {
+  if (!file.picture_name.empty() && name == file.picture_name) {
+    return std::move(file.picture);
+  }
   std::vector<std::string> names;
+  if (!file.picture_name.empty()) {
+    names.push_back(file.picture_name);
+  }
   for (Layer& layer : file.layers) {
     if (layer.name == name) {
       return std::move(layer.image);
@@ -29,9 +35,10 @@ static Image take_layer(ImageFile& file, const fs::path& path, const std::string
 }
 
 ComparedPicture read_compared(const fs::path& path, const std::optional<std::string>& layer) {
-  ImageFile file = read_image(path);
+  ImageFile file = read_image(path, layer ? Picture::not_needed : Picture::needed);
   ComparedPicture result{.image = layer ? take_layer(file, path, *layer) : std::move(file.picture),
-                         .encoding = file.encoding};
+                         .encoding = file.encoding,
+                         .remarks = std::move(file.remarks)};
   if (const auto bad = first_bad_pixel(result.image)) {
     throw InputError(path.string(), layer ? fmt::format("layer '{}'", *layer) : "", *bad);
   }

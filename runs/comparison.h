@@ -15,6 +15,7 @@ namespace meninas {
 struct ComparedPicture {
   Image image;
   Encoding encoding = Encoding::linear; ///< of the file: sRGB code values are a displayed picture
+  std::vector<std::string> remarks;     ///< what of the file is compared, a line each
 };
 
 /// Throws InputError for a file that cannot be read, has no such layer (naming the nearest),

@@ -70,10 +70,19 @@ std::string diff_json(const PictureDifference& difference) {
   return json.dump(2) + '\n';
 }
 
+static void note_remarks(const ComparedPicture& picture, const std::filesystem::path& file,
+                         const RunEvents& events) {
+  for (const std::string& remark : picture.remarks) {
+    note(events, fmt::format("{}: {}", file.string(), remark));
+  }
+}
+
 DiffResult diff_run(const DiffRequest& request, const RunEvents& events) {
   check_heat_map(request);
   const ComparedPicture picture = read_compared(request.picture, request.layer);
   const ComparedPicture reference = read_compared(request.reference, request.layer);
+  note_remarks(picture, request.picture, events);
+  note_remarks(reference, request.reference, events);
   check_same_size(picture.image, request.picture, reference.image, request.reference);
   if (picture.encoding != reference.encoding) {
     warn(events, fmt::format("{} and {}: one holds radiance, the other a displayed picture, whose "

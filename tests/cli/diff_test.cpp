@@ -139,7 +139,7 @@ TEST_F(Diff, WhatCannotBeComparedIsRefused) {
   expect(3, "missing.exr: no such file", {"missing.exr", "b.exr"});
   expect(3, "a.exr: is 16x12 pixels, other-size.exr is 12x16", {"a.exr", "other-size.exr"});
   std::ofstream(folder_ / "text.exr") << "This is no picture.";
-  expect(3, "text.exr: cannot read the picture: not a picture: neither EXR, PNG, JPEG, WebP nor HDR",
+  expect(3, "text.exr: cannot read the picture: not a picture: neither EXR, PNG, JPEG, WebP, TIFF nor HDR",
          {"a.exr", "text.exr"});
   expect(4, "heat.exr: cannot write: a heat map is a .png file",
          {"a.exr", "b.exr", "-o", "heat.exr"});

@@ -71,7 +71,7 @@ TEST_F(DamagedPicture, NotAPicture) {
     std::ofstream(folder / "a.png") << text;
     EXPECT_EQ(read_error(folder / "a.png"),
               (folder / "a.png").string() +
-                  ": cannot read the picture: not a picture: neither EXR, PNG, JPEG, WebP nor HDR");
+                  ": cannot read the picture: not a picture: neither EXR, PNG, JPEG, WebP, TIFF nor HDR");
   }
 }
 
