@@ -2,11 +2,13 @@
 
 #include "image/image_file.h"
 #include "reference/mirrored_lights.h"
+#include "scenes/constant_textures.h"
 #include "scenes/mixed_scales.h"
 #include "scenes/refraction.h"
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 
 namespace meninas::reference {
 
@@ -26,6 +28,8 @@ bool is_see_through(const Material& material) {
 } // namespace
 
 TracedScene make_traced_scene(Scene scene) {
+  DecodedTextures textures = decode_textures(scene, decode);
+  fold_constant_textures(scene, textures);
   SurfaceModel surfaces = find_surfaces(scene);
   RayScene rays = make_ray_scene(scene, surfaces);
   std::ranges::move(warnings_of_mixed_scales(scene, surfaces, rays),
@@ -38,9 +42,13 @@ TracedScene make_traced_scene(Scene scene) {
   bsdfs.reserve(scene.materials.size());
   for (const Material& material : scene.materials)
     bsdfs.push_back(make_bsdf(material, untextured(material)));
-  DecodedTextures textures = decode_textures(scene, decode);
   LightTable lights = make_light_table(scene, textures);
-  std::vector<PlaneId> mirror_planes = find_mirror_planes(scene, surfaces, bsdfs);
+  auto [mirror_planes, metals_left_out] = find_mirror_planes(scene, surfaces, bsdfs, textures);
+  if (metals_left_out > 0 && !scene.lights.empty())
+    scene.warnings.push_back(
+        "light of punctual lights by way of " + std::to_string(metals_left_out) +
+        " planes of mirrors is left out: of at most " + std::to_string(most_mirror_planes) +
+        " it is followed");
   std::vector<LightImage> light_images = make_light_images(scene, surfaces, bsdfs, mirror_planes);
   const bool see_through = std::ranges::any_of(scene.materials, is_see_through);
   return {std::move(scene),        std::move(surfaces), std::move(rays),   std::move(normals),

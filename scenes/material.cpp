@@ -9,8 +9,8 @@ static bool has_texels_of_metal(const Material& material) {
 }
 
 bool is_mirror(const Material& material) {
-  return material.metallic > 0.0 && !has_texels_of_metal(material) &&
-         (material.roughness <= ideal_mirror_roughness || material.throws_as_mirror) &&
+  const bool is_smooth = material.roughness <= ideal_mirror_roughness && !has_texels_of_metal(material);
+  return material.metallic > 0.0 && (is_smooth || material.throws_as_mirror) &&
          glm::any(glm::greaterThan(material.base_color, Rgb(0.0)));
 }
 

@@ -112,9 +112,12 @@ void keep_large_coats(const Extents& extents, Scene& scene) {
 
 } // namespace
 
-void mark_smooth_surfaces(Scene& scene) {
-  for (Material& material : scene.materials)
-    material.throws_as_mirror = is_smooth_metal(material) || is_smooth_coat(material);
+void mark_smooth_surfaces(Scene& scene, std::span<const std::uint8_t> nearly_smooth) {
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    Material& material = scene.materials[m];
+    const bool nearly = m < nearly_smooth.size() && nearly_smooth[m] != 0 && may_be_smooth(material);
+    material.throws_as_mirror = nearly || is_smooth_metal(material) || is_smooth_coat(material);
+  }
   if (std::ranges::none_of(scene.materials, &Material::throws_as_mirror))
     return;
   const Extents extents = extents_of(scene);

@@ -13,6 +13,8 @@
 
 #include "scenes/scene.h"
 
+#include <span>
+
 namespace meninas {
 
 /// Beyond this roughness metals throw light evenly;
@@ -29,7 +31,9 @@ inline constexpr std::size_t most_coat_planes = 16;
 /// Sets Material::throws_as_mirror for every material:
 /// true of metals rougher than ideal mirrors, but smooth, and of the coats of diffuse surfaces,
 /// where their roughness has no texture, they are flat and, some of them, in a large plane.
-void mark_smooth_surfaces(Scene& scene);
+/// `nearly_smooth` names metals besides, by MaterialId: those whose textures of roughness
+/// vary little about a smooth mean (constant_textures.h).
+void mark_smooth_surfaces(Scene& scene, std::span<const std::uint8_t> nearly_smooth = {});
 
 /// Makes coats throw light evenly: for transports that know no reflectance by the angle.
 void spread_coats(Scene& scene);

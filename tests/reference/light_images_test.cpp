@@ -1,5 +1,6 @@
 // Punctual lights are all asked for, whichever is the strongest,
 // and thinned out without bias where they are too many.
+#include "image/image_file.h"
 #include "reference/light_images.h"
 #include "tests/reference/tracing.h"
 
@@ -57,6 +58,36 @@ TEST(LightImages, OfMoreThanCanBeAskedForTheMeanIsThatOfAll) {
   }
   ASSERT_GT(2 * scene.lights.size(), reference::most_images);
   expect_radiance(radiance_seen(scene, {2, 1, 1}, Point3(0.0), 64), sum * (rho / pi));
+}
+
+// A wall that its texture makes a mirror on the left and matt on the right:
+// what the mirror throws on the floor is that of the image behind it.
+TEST(LightImages, AreSeenInWhatTexelsMakeAMirror) {
+  Scene scene;
+  add_polygon(scene, "floor", {{-9, 0, 9}, {9, 0, 9}, {9, 0, 0}, {-9, 0, 0}}, diffuse(rho));
+  Material wall = mirror(0.8);
+  wall.roughness = 1.0;
+  wall.metallic_roughness_texture = TextureUse{.texture = TextureId{0}};
+  add_polygon(scene, "wall", {{-2, 0, 0}, {2, 0, 0}, {2, 3, 0}, {-2, 3, 0}}, wall);
+  for (Vertex& vertex : scene.vertices)
+    vertex.texcoord[0] = glm::vec2((vertex.position.x + 2.0) / 4.0, 0.5);
+  Image image(2, 1);
+  image.at(0, 0) = glm::vec3(0, 0, 1); // roughness 0, metal
+  image.at(1, 0) = glm::vec3(0, 1, 1);
+  scene.textures = {{.name = "halves",
+                     .encoded = encode_png(image, 0.0),
+                     .wrap_u = Wrap::clamp,
+                     .wrap_v = Wrap::clamp,
+                     .magnified = TexelFilter::nearest}};
+  PunctualLight spot = bulb({-1, 2, 2}, Rgb(4.0));
+  spot.kind = PunctualKind::spot;
+  spot.direction = glm::normalize(Vec3(0, -1, -2));
+  spot.inner_cone = 0.2;
+  spot.outer_cone = 0.25;
+  scene.lights = {spot};
+  const PunctualLight seen = bulb({-1, 2, -2}, Rgb(4.0));
+  const Point3 x(-1, 0, 2);
+  expect_radiance(radiance_seen(scene, {0, 1, 3}, x, 64), 0.8 * irradiance(seen, x) * (rho / pi));
 }
 
 /// A corner of two perfect mirrors, with a bulb and a spot in it.

@@ -1,0 +1,35 @@
+#include "raytrace/scene_textures.h"
+
+#include "image/image_file.h"
+#include "scenes/constant_textures.h"
+#include "scenes/errors.h"
+
+#include <fmt/format.h>
+
+namespace meninas {
+
+static TexturePixels decoded(const Texture& texture, TextureContent content) {
+  const Encoding encoding = content == TextureContent::colour ? Encoding::srgb : Encoding::linear;
+  Bitmap image = decode_image(texture.encoded, encoding, texture.name);
+  return {image.width, image.height, std::move(image.pixels)};
+}
+
+/// What cannot be decoded changes nothing: white times the factor. A warning says so.
+static DecodedTextures decoded_or_white(const Scene& scene, std::vector<std::string>& warnings) {
+  return decode_textures(scene, [&](const Texture& texture, TextureContent content) {
+    try {
+      return decoded(texture, content);
+    } catch (const InputError& problem) {
+      warnings.push_back(fmt::format("{}: the factor is used alone", problem.what()));
+      return TexturePixels{1, 1, {glm::vec4(1.0F)}};
+    }
+  });
+}
+
+DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings) {
+  DecodedTextures textures = decoded_or_white(scene, warnings);
+  fold_constant_textures(scene, textures);
+  return textures;
+}
+
+} // namespace meninas

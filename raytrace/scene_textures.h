@@ -1,0 +1,15 @@
+// The textures of a scene, decoded, before anything is decided by its materials.
+#pragma once
+
+#include "scenes/texture_lookup.h"
+
+#include <string>
+#include <vector>
+
+namespace meninas {
+
+/// Constant ones become factors of the scene's materials (scenes/constant_textures.h).
+/// What cannot be decoded changes nothing, and a line of the warnings says so.
+DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings);
+
+} // namespace meninas
