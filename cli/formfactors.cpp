@@ -17,6 +17,11 @@ const Choices<NodeFactorMethod> methods{{"analytic", NodeFactorMethod::analytic}
                                         {"rays", NodeFactorMethod::rays},
                                         {"hemicube", NodeFactorMethod::hemicube}};
 
+const Choices<NodeSides> side_choices{{"facing", NodeSides::facing},
+                                      {"front", NodeSides::front},
+                                      {"back", NodeSides::back},
+                                      {"both", NodeSides::both}};
+
 struct FormFactorsOptions {
   CommonOptions common;
   FormFactorsRequest request;
@@ -82,6 +87,12 @@ void add_method_options(CLI::App& command, NodeFactorSettings& settings) {
   };
   add("--method", fmt::format("{}", fmt::join(names_of(methods), "|")), "[analytic]",
       [&](const std::string& text) { settings.method = parse_choice("--method", text, methods); });
+  add("--sides", fmt::format("{}", fmt::join(names_of(side_choices), "|")),
+      "which sides of double-sided nodes count: those that see the other node, all fronts, all "
+      "backs, or all of both [facing]",
+      [&](const std::string& text) {
+        settings.sides = parse_choice("--sides", text, side_choices);
+      });
   add("--accuracy", "X",
       fmt::format("wanted relative error of the analytic method [{}]", standard.accuracy),
       [&](const std::string& text) {
@@ -116,8 +127,8 @@ Command add_formfactors_command(CLI::App& program) {
   const auto options = std::make_shared<FormFactorsOptions>();
   FormFactorsRequest& request = options->request;
   add_scene(*command, options->common);
-  command->add_option("--from", request.from, "node whose front sends light")->type_name("NODE");
-  command->add_option("--to", request.to, "node whose front receives it")->type_name("NODE");
+  command->add_option("--from", request.from, "node, or group of nodes, that sends light")->type_name("NODE");
+  command->add_option("--to", request.to, "node, or group of nodes, that receives it")->type_name("NODE");
   command->add_flag_callback(
       "--all", [=] { options->request.format = FormFactorsFormat::matrix; },
       "the matrix of all nodes as CSV, with row sums");

@@ -122,9 +122,10 @@ Estimate estimate_of(std::span<const double> values, double unseen) {
 std::vector<ExtendedFactor> hemicube_form_factors(const Scene& scene, const SurfaceModel& surfaces,
                                                   const MirrorSet& mirrors,
                                                   const std::vector<Face>& from,
-                                                  std::span<const NodeId> to,
+                                                  std::span<const NodeSet> to,
                                                   const NodeFactorSettings& settings) {
-  const NodeScene node_scene(scene, surfaces, mirrors, to, settings.max_depth);
+  const NodeScene node_scene(scene, surfaces, mirrors, {to, settings.sides}, settings.max_depth);
+  require_landings(node_scene, {to, settings.sides});
   const std::vector<CubePlace> places = places_of(from, settings.points, 1);
   const Hemicube cube = make_hemicube(settings.resolution);
   const Hemicube coarse = make_hemicube(about_half(settings.resolution));

@@ -8,22 +8,17 @@ namespace meninas {
 
 namespace {
 
-/// By SideId: the place of its node among those asked for, fronts only.
+/// By SideId: the place of its set among those asked for, where its side is.
 constexpr std::uint32_t not_asked = 0xffffffffU;
 std::vector<std::uint32_t> groups_of_sides(const Scene& scene, const ElementMesh& mesh,
-                                           std::span<const NodeId> to) {
+                                           const AskedSides& to) {
+  const std::vector<std::uint32_t> sets = sets_of_nodes(scene, to.nodes);
   std::vector<std::uint32_t> groups(mesh.sides.size(), not_asked);
   for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
-    const std::string& name = scene.nodes[index(mesh.sides[s].node)].name;
-    const auto place = std::find_if(
-        to.begin(), to.end(), [&](NodeId node) { return scene.nodes[index(node)].name == name; });
-    if (place != to.end() && mesh.sides[s].facing == Facing::front)
-      groups[s] = static_cast<std::uint32_t>(place - to.begin());
+    const std::uint32_t set = sets[index(mesh.sides[s].node)];
+    if (set != none_of_sets && may_count(to.sides, mesh.sides[s].facing == Facing::front))
+      groups[s] = set;
   }
-  for (std::uint32_t g = 0; g < to.size(); ++g)
-    if (std::find(groups.begin(), groups.end(), g) == groups.end())
-      throw UsageError(scene.file, "node '" + scene.nodes[index(to[g])].name +
-                                       "' is a mirror: rays go on through it");
   return groups;
 }
 
@@ -36,12 +31,20 @@ WorldTree named_worlds(const MirrorSet& mirrors, int max_depth) {
 } // namespace
 
 NodeScene::NodeScene(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
-                     std::span<const NodeId> to, int max_depth)
-    : group_count(to.size()), mesh(make_element_mesh(scene, surfaces, {.target_elements = 1.0})),
+                     const AskedSides& to, int max_depth)
+    : group_count(to.nodes.size()), mesh(make_element_mesh(scene, surfaces, {.target_elements = 1.0})),
       groups(groups_of_sides(scene, mesh, to)), rays(make_ray_scene(scene, surfaces)),
       worlds(named_worlds(mirrors, max_depth)),
       light(make_light_scene(scene, surfaces, rays, mirrors, worlds, mesh)) {
   settings.max_bounces = std::min(settings.max_bounces, max_depth);
+}
+
+void require_landings(const NodeScene& scene, const AskedSides& to) {
+  for (std::uint32_t g = 0; g < to.nodes.size(); ++g)
+    if (std::ranges::find(scene.groups, g) == scene.groups.end())
+      throw UsageError(scene.light.scene.file,
+                       "node '" + scene.light.scene.nodes[index(to.nodes[g].front())].name +
+                           "' is a mirror: rays go on through it");
 }
 
 void add(const NodeScene& scene, const GatheredRays& gathered, double share, NodeTally& tally) {

@@ -10,24 +10,33 @@
 
 namespace meninas {
 
-/// One element for each patch: enough to know whose it is.
+/// Where rays are to land: on those sides of those sets of nodes.
+struct AskedSides {
+  std::span<const NodeSet> nodes;
+  NodeSides sides = NodeSides::facing;
+};
+
+/// One element for each side: enough to know whose it is.
 /// A mirror's landing is known by its table.
 struct NodeScene {
   NodeScene(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
-            std::span<const NodeId> to, int max_depth);
+            const AskedSides& to, int max_depth);
   NodeScene(const NodeScene&) = delete;
   NodeScene& operator=(const NodeScene&) = delete;
 
   std::size_t group_count;
   ElementMesh mesh;
-  std::vector<std::uint32_t> groups; ///< by SideId: the place of its node among those asked for
+  std::vector<std::uint32_t> groups; ///< by SideId: the place of its set among those asked for
   RayScene rays;
   WorldTree worlds;
   LightScene light;
   FormFactorSettings settings;
 };
 
-/// The share of the light of A that has arrived, by (group, world), and by group over all worlds.
+/// Throws UsageError when nothing can land on one of the sets.
+void require_landings(const NodeScene& scene, const AskedSides& to);
+
+/// The share of the light of A that has arrived, by (set, world), and by set over all worlds.
 struct NodeTally {
   using Key = std::pair<std::uint32_t, std::uint32_t>;
   std::map<Key, double> by_world; ///< sums of tau_w F^w
@@ -42,7 +51,7 @@ void add(const NodeTally& part, NodeTally& tally);
 /// From the values of several tallies of the same thing to an estimate of it.
 using Combine = std::function<Estimate(std::span<const double> values)>;
 
-/// By group, each world's reflectances taken out. What was cut adds to the error of the totals.
+/// By set, each world's reflectances taken out. What was cut adds to the error of the totals.
 std::vector<ExtendedFactor>
 node_factors_of(const NodeScene& scene, std::span<const NodeTally> tallies, const Combine& combine);
 

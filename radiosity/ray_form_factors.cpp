@@ -73,9 +73,10 @@ Estimate estimate_of(std::span<const double> values, double one_ray) {
 std::vector<ExtendedFactor> ray_form_factors(const Scene& scene, const SurfaceModel& surfaces,
                                              const MirrorSet& mirrors,
                                              const std::vector<Face>& from,
-                                             std::span<const NodeId> to,
+                                             std::span<const NodeSet> to,
                                              const NodeFactorSettings& settings) {
-  const NodeScene node_scene(scene, surfaces, mirrors, to, settings.max_depth);
+  const NodeScene node_scene(scene, surfaces, mirrors, {to, settings.sides}, settings.max_depth);
+  require_landings(node_scene, {to, settings.sides});
   const std::vector<Sender> senders = senders_of(from, settings.rays);
   std::vector<NodeTally> runs(replicas);
   tbb::parallel_for(std::uint32_t{0}, replicas, [&](std::uint32_t r) {

@@ -1,7 +1,8 @@
 #include "runs/formfactors_run.h"
 
+#include "raytrace/scene_textures.h"
 #include "runs/resources.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf_tree.h"
 #include "scenes/mixed_scales.h"
 #include "scenes/smooth_surfaces.h"
 #include "scenes/stopwatch.h"
@@ -12,6 +13,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <span>
+#include <utility>
 
 namespace meninas {
 namespace {
@@ -44,6 +48,20 @@ std::vector<std::string> mirror_names(const Scene& scene, const MirrorSet& mirro
   return names;
 }
 
+const char* name_of(NodeSides sides) {
+  switch (sides) {
+  case NodeSides::facing:
+    return "facing";
+  case NodeSides::front:
+    return "front";
+  case NodeSides::back:
+    return "back";
+  case NodeSides::both:
+    return "both";
+  }
+  return "";
+}
+
 void warn_of_error(const NodeFactors& factors, double accuracy, const std::string& from,
                    const RunEvents& events) {
   if (!factors.converged) {
@@ -57,12 +75,49 @@ void warn_of_error(const NodeFactors& factors, double accuracy, const std::strin
   }
 }
 
+/// Which sides of A count, where that is not all fronts.
+std::string sides_text(const NodeFactors& factors) {
+  if (factors.backs == 0.0) {
+    return "";
+  }
+  return factors.fronts == 0.0
+             ? " of backs"
+             : fmt::format(", {:.6g} m^2 of them backs", factors.backs);
+}
+
+/// What does not count, said of one pair or of many: each line once, with the first it is said of.
+class NotCounted {
+public:
+  void add(const std::string& of, const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) {
+      const auto known = std::ranges::find(lines_, line, &std::pair<std::string, Names>::first);
+      Names& names = known != lines_.end() ? known->second : lines_.emplace_back(line, Names{}).second;
+      names.first = names.count == 0 ? of : names.first;
+      ++names.count;
+    }
+  }
+  void say(const RunEvents& events) const {
+    for (const auto& [line, names] : lines_) {
+      const std::string more = names.count > 1 ? fmt::format(" and {} more", names.count - 1) : "";
+      warn(events, fmt::format("from {}{}: {}", names.first, more, line));
+    }
+  }
+
+private:
+  struct Names {
+    std::string first;
+    std::size_t count = 0;
+  };
+  std::vector<std::pair<std::string, Names>> lines_;
+};
+
 std::string as_text(const Scene& scene, const FormFactorsRequest& request,
                     const NodeFactors& factors, double seconds) {
   constexpr std::size_t most_worlds = 24;
   const ExtendedFactor& factor = factors.to.front();
   std::string text = fmt::format("{:<18}{}\n", "scene", scene.file);
-  text += fmt::format("{:<18}{}, {:.6g} m^2\n", "from", request.from, factors.area);
+  text += fmt::format("{:<18}{}, {:.6g} m^2{}\n", "from", request.from, factors.area,
+                      sides_text(factors));
   text += fmt::format("{:<18}{}\n", "to", request.to);
   text += fmt::format("{:<18}{:.10g}\n", "form factor", factor.total.value);
   text += fmt::format("{:<18}{:.2g}{}\n", "error estimate", factor.total.error,
@@ -95,6 +150,8 @@ std::string as_json(const Scene& scene, const FormFactorsRequest& request,
   }
   const Json json{{"from", request.from},
                   {"to", request.to},
+                  {"sides", name_of(request.factors.sides)},
+                  {"area", factors.area},
                   {"form_factor", factor.total.value},
                   {"error_estimate", factor.total.error},
                   {"worlds", worlds},
@@ -103,24 +160,27 @@ std::string as_json(const Scene& scene, const FormFactorsRequest& request,
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-/// The nodes that scatter light, the first of each name.
-std::vector<NodeId> scattering_nodes(const Scene& scene, const SurfaceModel& surfaces) {
-  std::vector<NodeId> nodes;
-  for (std::uint32_t n = 0; n < scene.nodes.size(); ++n) {
-    const std::string& name = scene.nodes[n].name;
-    const bool scatters =
-        std::any_of(surfaces.patches.begin(), surfaces.patches.end(), [&](const Patch& patch) {
-          return scene.nodes[index(patch.node)].name == name &&
-                 !is_mirror(scene.materials[index(patch.material)]);
-        });
-    const bool known = std::any_of(nodes.begin(), nodes.end(), [&](NodeId node) {
-      return scene.nodes[index(node)].name == name;
-    });
-    if (scatters && !known) {
-      nodes.push_back(static_cast<NodeId>(n));
+/// The nodes that scatter light; those of one name are one.
+std::vector<NodeSet> scattering_nodes(const Scene& scene, const SurfaceModel& surfaces) {
+  std::vector<std::uint8_t> scatters(scene.nodes.size(), 0);
+  for (const Patch& patch : surfaces.patches) {
+    if (!is_mirror(scene.materials[index(patch.material)])) {
+      scatters[index(patch.node)] = 1;
     }
   }
-  return nodes;
+  std::map<std::string, std::size_t> known;
+  std::vector<NodeSet> sets;
+  for (std::uint32_t n = 0; n < scene.nodes.size(); ++n) {
+    if (scatters[n] == 0) {
+      continue;
+    }
+    const auto [place, is_new] = known.try_emplace(scene.nodes[n].name, sets.size());
+    if (is_new) {
+      sets.emplace_back();
+    }
+    sets[place->second].push_back(NodeId{n});
+  }
+  return sets;
 }
 
 /// A field of a CSV row; quoted where its text would be taken for something else (RFC 4180).
@@ -137,17 +197,19 @@ std::string csv_field(const std::string& text) {
 
 std::string matrix(const Scene& scene, const SurfaceModel& surfaces,
                    const FormFactorsRequest& request, const RunEvents& events) {
-  const std::vector<NodeId> nodes = scattering_nodes(scene, surfaces);
+  const std::vector<NodeSet> nodes = scattering_nodes(scene, surfaces);
+  NotCounted not_counted;
   std::string text = "from";
-  for (const NodeId node : nodes) {
-    text += ',' + csv_field(scene.nodes[index(node)].name);
+  for (const NodeSet& set : nodes) {
+    text += ',' + csv_field(scene.nodes[index(set.front())].name);
   }
   text += ",sum\n";
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const std::string& name = scene.nodes[index(nodes[n])].name;
+    const std::string& name = scene.nodes[index(nodes[n].front())].name;
     const NodeFactors factors =
         node_form_factors(scene, surfaces, nodes[n], nodes, request.factors);
     warn_of_error(factors, request.factors.accuracy, name, events);
+    not_counted.add(fmt::format("'{}'", name), factors.not_counted);
     text += csv_field(name);
     double sum = 0.0;
     for (const ExtendedFactor& factor : factors.to) {
@@ -160,7 +222,19 @@ std::string matrix(const Scene& scene, const SurfaceModel& surfaces,
                       static_cast<double>(n + 1) / static_cast<double>(nodes.size()));
     }
   }
+  not_counted.say(events);
   return text;
+}
+
+NodeSet nodes_of(const Scene& scene, std::span<const TreeNode> tree, const std::string& name,
+                 const RunEvents& events) {
+  NamedNodes named = nodes_called(scene, tree, name);
+  if (named.below > 0) {
+    warn(events, fmt::format("'{}' stands for its own mesh; {} below it do not count", name,
+                             named.below == 1 ? "that of the node"
+                                              : fmt::format("those of the {} nodes", named.below)));
+  }
+  return std::move(named.nodes);
 }
 
 } // namespace
@@ -168,6 +242,7 @@ std::string matrix(const Scene& scene, const SurfaceModel& surfaces,
 std::string formfactors_run(const FormFactorsRequest& request, const RunEvents& events) {
   const ThreadLimit limit(request.threads);
   Scene scene = load_gltf(request.scene, request.gltf);
+  settle_textures(scene, scene.warnings);
   // Between surfaces; what a coat throws is their own reflectance's affair.
   spread_coats(scene);
   for (const std::string& warning : scene.warnings) {
@@ -189,12 +264,16 @@ std::string formfactors_run(const FormFactorsRequest& request, const RunEvents& 
   if (request.format == FormFactorsFormat::matrix) {
     return matrix(scene, surfaces, request, events);
   }
-  const NodeId from = find_node(scene, request.from);
-  const std::array to{find_node(scene, request.to)};
+  const auto tree = read_node_tree(request.scene, request.gltf);
+  const NodeSet from = nodes_of(scene, tree, request.from, events);
+  const std::array to{nodes_of(scene, tree, request.to, events)};
   Stopwatch watch;
   const NodeFactors factors = node_form_factors(scene, surfaces, from, to, request.factors);
   const double seconds = watch.lap();
   warn_of_error(factors, request.factors.accuracy, request.from, events);
+  NotCounted not_counted;
+  not_counted.add(fmt::format("'{}' to '{}'", request.from, request.to), factors.not_counted);
+  not_counted.say(events);
   return request.format == FormFactorsFormat::json ? as_json(scene, request, factors, seconds)
                                                    : as_text(scene, request, factors, seconds);
 }

@@ -15,7 +15,7 @@ enum class FormFactorsFormat { text, json, matrix };
 
 struct FormFactorsRequest {
   std::filesystem::path scene;
-  std::string from, to; ///< nodes; a matrix has all of them
+  std::string from, to; ///< nodes or groups of them; a matrix has all nodes
   FormFactorsFormat format = FormFactorsFormat::text;
   NodeFactorSettings factors;
   GltfSettings gltf; ///< how the scene's file is read

@@ -113,6 +113,42 @@ TEST_F(FormFactorsCommand, TheMatrixHasARowForEveryNodeAndItsSum) {
   EXPECT_EQ(rows, 6);
 }
 
+TEST_F(FormFactorsCommand, AGroupStandsForWhatIsBelowIt) {
+  TinyRoom room = tiny_room();
+  auto& nodes = room.root["nodes"];
+  nodes.push_back({{"name", "slabs"}, {"children", {0, 1}}});
+  auto& listed = room.root["scenes"][0]["nodes"];
+  listed.erase(0);
+  listed[0] = nodes.size() - 1;
+  write_room(folder_ / "room.glb", room);
+  const auto factor = [&](const std::string& from) {
+    return nlohmann::json::parse(run({"--from", from, "--to", "right", "--json"}).out)
+        .value("form_factor", 0.0);
+  };
+  EXPECT_NEAR(factor("slabs"), 0.5 * (factor("floor") + factor("ceiling")), 1e-4);
+  expect_refused("room.glb: no node 'slab', did you mean 'slabs'?",
+                 {"--from", "slab", "--to", "right"});
+}
+
+TEST_F(FormFactorsCommand, SidesOfDoubleSidedNodesAreThoseThatFaceEachOtherOrAsAsked) {
+  TinyRoom room = tiny_room();
+  const auto factor = [&](const std::string& sides) {
+    const auto json = nlohmann::json::parse(
+        run({"--from", "floor", "--to", "right", "--json", "--sides", sides}).out);
+    EXPECT_EQ(json["sides"], sides);
+    return json["form_factor"].get<double>();
+  };
+  const double single = factor("facing");
+  EXPECT_EQ(factor("front"), single);
+  room.root["materials"][0]["doubleSided"] = true;
+  write_room(folder_ / "room.glb", room);
+  EXPECT_NEAR(factor("facing"), single, 1e-4);
+  EXPECT_NEAR(factor("front"), single, 1e-4);
+  EXPECT_NEAR(factor("both"), 0.5 * single, 1e-4);
+  EXPECT_EQ(factor("back"), 0.0);
+  EXPECT_EQ(run({"--from", "floor", "--to", "right", "--sides", "inner"}).code, 2);
+}
+
 TEST_F(FormFactorsCommand, WhatCannotBeAskedIsRefusedInOneLine) {
   expect_refused("room.glb: no node 'flor', did you mean 'floor'?",
                  {"--from", "flor", "--to", "right"});

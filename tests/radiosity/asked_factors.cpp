@@ -4,12 +4,21 @@
 
 namespace meninas::test {
 
+NodeSet nodes_named(const Scene& scene, const std::string& name) {
+  NodeSet nodes;
+  for (std::uint32_t n = 0; n < scene.nodes.size(); ++n)
+    if (scene.nodes[n].name == name)
+      nodes.push_back(NodeId{n});
+  return nodes;
+}
+
 Asked ask(const Scene& scene, const std::string& from, const std::string& to,
           const NodeFactorSettings& settings) {
   const SurfaceModel surfaces = find_surfaces(scene);
-  const std::array nodes{find_node(scene, to)};
-  NodeFactors factors = node_form_factors(scene, surfaces, find_node(scene, from), nodes, settings);
-  return {factors.to[0], factors.area, factors.converged, factors.mirrors};
+  const std::array nodes{nodes_named(scene, to)};
+  NodeFactors factors =
+      node_form_factors(scene, surfaces, nodes_named(scene, from), nodes, settings);
+  return {factors.to[0], factors.area, factors.converged, factors.mirrors, factors.not_counted};
 }
 
 Scene scene_of(const std::vector<ScenePolygon>& polygons, double mirror_reflectance) {

@@ -11,7 +11,11 @@ struct Asked {
   double area = 0.0;
   bool converged = true;
   MirrorSet mirrors;
+  std::vector<std::string> not_counted;
 };
+
+/// In scenes made by hand several nodes may have one name.
+NodeSet nodes_named(const Scene& scene, const std::string& name);
 
 Asked ask(const Scene& scene, const std::string& from, const std::string& to,
           const NodeFactorSettings& settings = {});

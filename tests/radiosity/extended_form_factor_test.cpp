@@ -137,10 +137,10 @@ TEST(ExtendedFormFactor, ClosedRoomsClose) {
   scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
 
   const SurfaceModel surfaces = find_surfaces(scene);
-  std::vector<NodeId> nodes;
+  std::vector<NodeSet> nodes;
   for (const char* name : {"x1", "y0", "y1", "z0", "z1"})
-    nodes.push_back(find_node(scene, name));
-  for (const NodeId from : nodes) {
+    nodes.push_back(nodes_named(scene, name));
+  for (const NodeSet& from : nodes) {
     const NodeFactors factors = node_form_factors(scene, surfaces, from, nodes);
     double sum = 0.0;
     for (const ExtendedFactor& factor : factors.to)

@@ -155,11 +155,11 @@ TEST(FactorsBesideASheetOfMirror, AddUpToOne) {
   add_polygon(scene, "sheet", {{0.6, 0.5, 1}, {1.5, 0.5, 1}, {1.5, 1.6, 1}, {0.6, 1.6, 1}},
               double_sided(mirror(1.0)));
   const SurfaceModel surfaces = find_surfaces(scene);
-  std::vector<NodeId> walls;
+  std::vector<NodeSet> walls;
   for (const char* name : {"x0", "x1", "y0", "y1", "z0", "z1"})
-    walls.push_back(find_node(scene, name));
+    walls.push_back(nodes_named(scene, name));
   NodeFactorSettings settings;
-  for (const NodeId from : {walls[0], walls[4]}) {
+  for (const NodeSet& from : {walls[0], walls[4]}) {
     const NodeFactors factors = node_form_factors(scene, surfaces, from, walls, settings);
     double sum = 0.0;
     for (const ExtendedFactor& factor : factors.to)

@@ -251,8 +251,8 @@ TEST(SolidLight, FormFactorsThroughASlabAreThoseThroughAPane) {
     NodeFactorSettings settings;
     settings.method = NodeFactorMethod::rays;
     settings.rays = 1 << 18;
-    const std::array<NodeId, 1> lamp{NodeId{1}};
-    return node_form_factors(scene, find_surfaces(scene), NodeId{0}, lamp, settings)
+    const std::array lamp{NodeSet{NodeId{1}}};
+    return node_form_factors(scene, find_surfaces(scene), {NodeId{0}}, lamp, settings)
         .to[0]
         .total.value;
   };
