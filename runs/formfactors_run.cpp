@@ -226,7 +226,7 @@ std::string matrix(const Scene& scene, const SurfaceModel& surfaces,
   return text;
 }
 
-NodeSet nodes_of(const Scene& scene, std::span<const TreeNode> tree, const std::string& name,
+NodeSet nodes_of(const Scene& scene, std::span<const FileNode> tree, const std::string& name,
                  const RunEvents& events) {
   NamedNodes named = nodes_called(scene, tree, name);
   if (named.below > 0) {

@@ -19,7 +19,7 @@ std::string name_in_file(const Json& root, std::size_t node) {
 }
 
 /// Whether a node of that name is above, by place in the tree. Parents stand before children.
-std::vector<std::uint8_t> marked_below(std::span<const TreeNode> tree, const std::string& name) {
+std::vector<std::uint8_t> marked_below(std::span<const FileNode> tree, const std::string& name) {
   std::vector<std::uint8_t> below(tree.size(), 0);
   for (std::size_t k = 0; k < tree.size(); ++k) {
     const std::size_t parent = tree[k].parent;
@@ -30,7 +30,7 @@ std::vector<std::uint8_t> marked_below(std::span<const TreeNode> tree, const std
 }
 
 /// The names of what can be asked for: nodes with meshes and groups of such.
-std::vector<std::string> known_names(const Scene& scene, std::span<const TreeNode> tree) {
+std::vector<std::string> known_names(const Scene& scene, std::span<const FileNode> tree) {
   std::vector<std::string> names;
   for (const Node& node : scene.nodes)
     names.push_back(node.name);
@@ -48,7 +48,7 @@ std::vector<std::string> known_names(const Scene& scene, std::span<const TreeNod
 
 } // namespace
 
-std::vector<TreeNode> read_node_tree(const std::filesystem::path& file,
+std::vector<FileNode> read_node_tree(const std::filesystem::path& file,
                                      const GltfSettings& settings) {
   auto content = read_whole_file(file, settings.memory_limit);
   if (!content.problem.empty())
@@ -63,7 +63,7 @@ std::vector<TreeNode> read_node_tree(const std::filesystem::path& file,
   std::vector<std::size_t> place_of(count_of(document.root, "nodes"), placed.size());
   for (std::size_t k = 0; k < placed.size(); ++k)
     place_of[placed[k].index] = k;
-  std::vector<TreeNode> tree(placed.size());
+  std::vector<FileNode> tree(placed.size());
   std::uint32_t meshes = 0;
   for (std::size_t k = 0; k < placed.size(); ++k) {
     const auto& json = element(document.root, "nodes", placed[k].index);
@@ -80,7 +80,7 @@ std::vector<TreeNode> read_node_tree(const std::filesystem::path& file,
   return tree;
 }
 
-NamedNodes nodes_called(const Scene& scene, std::span<const TreeNode> tree,
+NamedNodes nodes_called(const Scene& scene, std::span<const FileNode> tree,
                         const std::string& name) {
   NamedNodes found;
   for (std::uint32_t n = 0; n < scene.nodes.size(); ++n)
@@ -101,7 +101,7 @@ NamedNodes nodes_called(const Scene& scene, std::span<const TreeNode> tree,
   if (!found.nodes.empty())
     return found;
 
-  const bool is_there = std::ranges::find(tree, name, &TreeNode::name) != tree.end();
+  const bool is_there = std::ranges::find(tree, name, &FileNode::name) != tree.end();
   if (is_there)
     throw UsageError(scene.file, fmt::format("node '{}' has no mesh, nor has any below it", name));
   const auto known = known_names(scene, tree);

@@ -10,14 +10,14 @@
 
 namespace meninas {
 
-struct TreeNode {
+struct FileNode {
   std::string name; ///< as in the file, `node12` where it has none
   std::size_t parent = 0; ///< its place in the tree; its own for a root
   NodeId node = none<NodeId>; ///< that of the scene which load_gltf gives; none without a mesh
 };
 
 /// The nodes of the chosen scene, parents before children.
-std::vector<TreeNode> read_node_tree(const std::filesystem::path& file,
+std::vector<FileNode> read_node_tree(const std::filesystem::path& file,
                                      const GltfSettings& settings = {});
 
 /// What a name stands for.
@@ -30,7 +30,7 @@ struct NamedNodes {
 /// all nodes with meshes that are below a node of that name.
 /// Throws UsageError, with the nearest known name as a hint, when there is no such node,
 /// or nothing with a mesh below it.
-NamedNodes nodes_called(const Scene& scene, std::span<const TreeNode> tree,
+NamedNodes nodes_called(const Scene& scene, std::span<const FileNode> tree,
                         const std::string& name);
 
 } // namespace meninas

@@ -49,7 +49,7 @@ protected:
   TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.write("sofa.gltf", as_text(sofa()));
   Scene scene_ = load_gltf(file_);
-  std::vector<TreeNode> tree_ = read_node_tree(file_);
+  std::vector<FileNode> tree_ = read_node_tree(file_);
   std::size_t below_ = 0;
 };
 
