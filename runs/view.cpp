@@ -1,6 +1,7 @@
 #include "runs/view.h"
 
 #include "radiosity/solution_file.h"
+#include "raytrace/scene_textures.h"
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
 #include "scenes/content_hash.h"
@@ -47,6 +48,9 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
 LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings settings,
                         const RunEvents& events, RunFigures& figures) {
   Stopwatch watch;
+  // The solution belongs to the scene as it was solved, with constant textures as factors.
+  std::vector<std::string> said_later;
+  settle_textures(scene, said_later);
   StoredSolution stored = read_solution(file, scene);
   settings.mesh = stored.mesh;
   figures.seconds.load += watch.lap();
