@@ -2,6 +2,7 @@
 // means over the elements, the image itself at every hit, and light by what glows in patterns.
 #include "image/image_file.h"
 #include "radiosity/surface_colour.h"
+#include "raytrace/scene_textures.h"
 #include "raytrace/two_pass.h"
 #include "tests/raytrace/glass_pictures.h"
 #include "tests/support/glass_rooms.h"
@@ -56,6 +57,31 @@ TwoPassSettings quick(double element_size) {
   settings.render.width = settings.render.height = 1;
   settings.render.samples = 16;
   return settings;
+}
+
+// A solution carries the hash of the scene as it was prepared; who reads it settles the textures
+// of the scene before it asks. So to settle is what preparation does, and once is enough.
+TEST(Textures, ThatAreConstantMakeOneSceneHoweverOftenTheyAreSettled) {
+  Image grey(8, 8);
+  for (glm::vec3& pixel : grey.pixels)
+    pixel = glm::vec3(0.5F);
+  Scene scene;
+  scene.textures = {{.name = "grey", .encoded = encode_png(grey, 0.0)}, chessboard(4, 16)};
+  add_square(scene, "floor", 0.0, true, painted(0.8));
+  Material tiles = diffuse(0.5);
+  tiles.base_color_texture = TextureUse{.texture = TextureId{1}};
+  add_square(scene, "ceiling", 1.0, false, tiles);
+  scene.background = Rgb(1.0);
+  const auto prepared = prepare_scene(scene, quick(0.5).pass_one);
+  const std::uint64_t as_loaded = content_hash(scene);
+  std::vector<std::string> warnings;
+  settle_textures(scene, warnings);
+  EXPECT_NE(content_hash(scene), as_loaded);
+  EXPECT_EQ(content_hash(scene), content_hash(prepared->scene));
+  EXPECT_FALSE(is_textured(scene.materials[0]));
+  EXPECT_TRUE(is_textured(scene.materials[1]));
+  settle_textures(scene, warnings);
+  EXPECT_EQ(content_hash(scene), content_hash(prepared->scene));
 }
 
 TEST(Textures, ElementsKnowTheMeanOverThemselves) {
