@@ -65,6 +65,8 @@ LeftToShoot<Value> left_to_shoot(const ShotState<Value>& state, double little) {
   const Value brightest = maximum_norm(state.unshot);
   if (worst(share_of(power, state.power)) > little)
     return {place_of_most(state.left, state.power), brightest};
+  if (state.unshot.empty()) // a scene of mirrors alone
+    return {0, brightest};
   return {state.shooters.of_unknown[place_of_most(state.unshot, state.largest)], brightest};
 }
 

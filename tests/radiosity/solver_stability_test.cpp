@@ -37,6 +37,15 @@ System closed_room(int size, double reflectance) {
   return system;
 }
 
+// A scene of mirrors alone has no element.
+TEST_P(Solvers, NothingAtAllIsSolved) {
+  System system;
+  system.transport.row_begin = {0};
+  const SolverResult result = run(system);
+  EXPECT_TRUE(result.converged);
+  EXPECT_TRUE(result.radiosity.empty());
+}
+
 TEST_P(Solvers, AgreeWithElimination) {
   Random random(11);
   for (const int bands : {1, 3})
