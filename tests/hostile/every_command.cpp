@@ -1,0 +1,245 @@
+#include "tests/hostile/every_command.h"
+
+#include "radiosity/node_form_factors.h"
+#include "raytrace/debug_view.h"
+#include "raytrace/features.h"
+#include "raytrace/picture_error.h"
+#include "reference/reference_picture.h"
+#include "runs/expected_cost.h"
+#include "scenes/errors.h"
+#include "scenes/lobes.h"
+#include "scenes/scene_report.h"
+
+#include <fmt/format.h>
+#include <glm/gtx/component_wise.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace meninas::test {
+
+namespace {
+
+bool happens(Random& random, double chance) { return random.between(0.0, 1.0) < chance; }
+
+template <typename Value, std::size_t N>
+Value one_of(Random& random, const std::array<Value, N>& values) {
+  return values[static_cast<std::size_t>(random.between(0.0, N))];
+}
+
+void require(bool holds, const std::string& what) {
+  if (!holds)
+    throw Finding(what);
+}
+
+template <typename Colour>
+bool is_light(const Colour& c, double least = 0.0) {
+  return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b) && c.r >= least &&
+         c.g >= least && c.b >= least;
+}
+
+/// Differences of sums of floats may be less than nothing by their rounding, a few 1e-7 of the
+/// largest.
+template <typename Colour>
+void require_light(const std::vector<Colour>& values, const char* what) {
+  double largest = 0.0;
+  for (const Colour& value : values)
+    largest = std::max(largest, double{glm::compMax(value)});
+  for (std::size_t k = 0; k < values.size(); ++k)
+    require(is_light(values[k], -1e-6 * largest),
+            fmt::format("{} {} of {} is {} {} {}, the largest {}", what, k, values.size(),
+                        values[k].r, values[k].g, values[k].b, largest));
+}
+
+/// Draft, with fewer of everything.
+RunSettings drawn_settings(Random& random) {
+  RunSettings settings;
+  settings.quality = one_of(random, std::array{Quality::draft, Quality::draft, Quality::normal});
+  settings.elements = static_cast<int>(random.between(20.0, 150.0));
+  settings.rays = one_of(random, std::array{16, 32, 64});
+  settings.solver = one_of(random, solver_methods);
+  if (happens(random, 0.4))
+    settings.solver = SolverMethod::hierarchical;
+  if (settings.solver != SolverMethod::hierarchical) {
+    settings.form_factors =
+        one_of(random, std::array{FormFactorMethod::rays, FormFactorMethod::rays,
+                                  FormFactorMethod::hemicube});
+    settings.hemicube_resolution = 8;
+    if (happens(random, 0.15))
+      settings.interpolation = Interpolation::average;
+  }
+  const bool gathers = settings.interpolation != Interpolation::average;
+  if (gathers && happens(random, 0.2))
+    settings.adaptive = WithAdaptivity::yes;
+  else if (gathers && happens(random, 0.2))
+    settings.bends = 0.02;
+  if (happens(random, 0.2))
+    settings.mirror_depth = static_cast<int>(random.between(0.0, 4.0));
+  settings.samples = one_of(random, std::array{1, 4, 16});
+  settings.mode = happens(random, 0.15) ? PictureMode::radiosity : PictureMode::hybrid;
+  settings.diffuse = one_of(random, std::array{DiffuseTerm::interpolated, DiffuseTerm::direct,
+                                               DiffuseTerm::gather});
+  if (gathers && happens(random, 0.2))
+    settings.layers = WithLayers::yes;
+  if (happens(random, 0.2))
+    settings.pixel_error = 0.05;
+  if (happens(random, 0.2))
+    settings.filter = PixelFilter::gaussian;
+  settings.glossy_samples = 4;
+  settings.seed = static_cast<std::uint32_t>(random.between(0.0, 1e6));
+  if (happens(random, 0.5))
+    settings.background = Rgb(1.0);
+  return settings;
+}
+
+std::string in_words(const RunSettings& settings) {
+  return fmt::format("{} solver {} form factors {} adaptive {} bends {} mode {} diffuse {} layers {} "
+                     "samples {} sky {}",
+                     static_cast<int>(settings.quality), name_of(settings.solver),
+                     static_cast<int>(settings.form_factors), static_cast<int>(settings.adaptive),
+                     settings.bends.has_value(), static_cast<int>(settings.mode),
+                     static_cast<int>(diffuse_term(settings)), static_cast<int>(settings.layers),
+                     *settings.samples, settings.background.has_value());
+}
+
+/// The light beyond which nothing can be where the sky is all there is, else infinity.
+/// Glass and lobes are drawn by chance, with weights whose mean alone is bounded.
+double brightest(const Scene& scene) {
+  const bool sky_alone = scene.lights.empty() && std::ranges::none_of(scene.materials, is_emitter);
+  const bool by_chance =
+      std::ranges::any_of(scene.materials, [](const Material& m) { return is_glass(m); }) ||
+      std::ranges::any_of(scene.materials, has_lobes);
+  return sky_alone && !by_chance ? glm::compMax(scene.background)
+                                 : std::numeric_limits<double>::infinity();
+}
+
+void check(const RadiositySolution& solution) {
+  require_light(solution.radiosity, "radiosity");
+  require_light(solution.irradiance, "irradiance");
+  require_light(solution.field.irradiance, "irradiance of vertex");
+  require_light(solution.field.indirect, "indirect irradiance of vertex");
+  const EnergyBalance& energy = solution.energy;
+  const Rgb sum = energy.emitted + energy.absorbed + energy.escaped + energy.mirror_absorbed;
+  const auto require_energy = [&](const Rgb& part, const char* name, double least) {
+    require(is_light(part, least),
+            fmt::format("energy {} is {} {} {}", name, part.r, part.g, part.b));
+  };
+  const double least = -1e-6 * glm::compMax(sum);
+  require_energy(energy.emitted, "emitted", least);
+  require_energy(energy.absorbed, "absorbed", least);
+  require_energy(energy.escaped, "escaped", least);
+  // Coats let in more than their mean from some angles: by chance mirrors may seem to have given.
+  require_energy(energy.mirror_absorbed, "absorbed by mirrors",
+                 -std::numeric_limits<double>::max());
+  require(std::isfinite(energy.imbalance), "the imbalance of energy is not finite");
+  require(std::isfinite(solution.closure.max_error) && std::isfinite(solution.solver.residual),
+          "closure or residual is not finite");
+}
+
+void check(const Rendering& rendering, double most) {
+  require_light(rendering.image.pixels, "pixel");
+  // Roundings of floats in sums of a few hundred terms.
+  for (const glm::vec3& pixel : rendering.image.pixels)
+    require(glm::compMax(pixel) <= most * 1.001,
+            fmt::format("a pixel of {} under a sky of {}", glm::compMax(pixel), most));
+  for (const Layer& layer : rendering.layers)
+    for (const glm::vec3& pixel : layer.image.pixels)
+      require(std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b),
+              "layer " + layer.name + " is not finite");
+}
+
+Camera camera_of(const Scene& scene) {
+  return scene.cameras.empty() ? default_camera(bounds_of(scene)) : scene.cameras.front();
+}
+
+void draw_reference(const Scene& scene, const Camera& camera) {
+  const auto traced = reference::make_traced_scene(scene);
+  const auto picture = reference::reference_picture(
+      traced, camera, {.width = 8, .height = 8, .max_samples = 2 * reference::batch_samples});
+  require_light(picture.mean.pixels, "pixel of the reference");
+  require_light(picture.variance.pixels, "variance of the reference");
+}
+
+void find_form_factors(const Scene& scene, const SurfaceModel& surfaces, Random& random) {
+  NodeFactorSettings settings;
+  settings.method = one_of(random, std::array{NodeFactorMethod::analytic, NodeFactorMethod::rays,
+                                              NodeFactorMethod::hemicube});
+  settings.accuracy = 0.05;
+  settings.rays = 1 << 10;
+  settings.resolution = 16;
+  settings.points = 4;
+  settings.max_depth = 2;
+  std::vector<NodeSet> nodes;
+  for (std::uint32_t n = 0; n < std::min<std::size_t>(scene.nodes.size(), 4); ++n)
+    nodes.push_back({static_cast<NodeId>(n)});
+  const NodeFactors factors = node_form_factors(
+      scene, surfaces, one_of(random, std::array{nodes.front(), nodes.back()}), nodes, settings);
+  double sum = 0.0;
+  for (const ExtendedFactor& factor : factors.to) {
+    const double value = factor.total.value, error = factor.total.error;
+    require(std::isfinite(value) && value >= 0.0 && std::isfinite(error) && error >= 0.0,
+            fmt::format("a form factor of {} +- {}", value, error));
+    sum += value - 3.0 * error;
+  }
+  require(sum <= 1.01, fmt::format("form factors of {} in all", sum));
+}
+
+/// `plan`, and what goes on from there.
+void run(Scene scene, const RunSettings& settings, Random& random, const Effort& effort) {
+  TwoPassSettings chosen = two_pass_settings(settings);
+  chosen.render.width = chosen.render.height = 16;
+  // Between mirrors of reflectance 0.99 a ray is followed a thousand times.
+  chosen.render.diffuse.points.rays = 16;
+  chosen.render.diffuse.direct.penumbra_rays = 16;
+  const auto prepared = prepare_scene(std::move(scene), chosen.pass_one);
+  const Scene& there = prepared->scene;
+  const Camera camera = camera_of(there);
+  report_scene(there, prepared->surfaces, *prepared->rays);
+  const ExpectedCost cost = expect_cost(*prepared, camera, {16, 16}, settings, 0.0, 1);
+  require(std::isfinite(cost.total) && cost.total >= 0.0, "the cost that is foretold is no number");
+  if (there.triangles.size() > effort.most_triangles)
+    return;
+
+  const RadiositySolution solution = solve_pass_one(*prepared->light, chosen.pass_one);
+  check(solution);
+  const LightScene& lit = field_scene(*prepared->light, solution);
+  const Rendering rendering = render(lit, solution.field, camera, chosen.render);
+  check(rendering, brightest(there));
+  render_features(lit, solution.field, camera, chosen.render);
+  if (happens(random, 0.3)) {
+    const PictureError error =
+        estimate_error(lit, solution.field, camera, chosen, solution.solver,
+                       {rendering.image, rendering.samples}, {.gathered_pixels = 16, .pixels = 64});
+    require(!std::isnan(error.total) && error.total >= 0.0, "the error estimate is no number");
+  }
+  if (there.triangles.size() > effort.few_triangles)
+    return;
+  if (happens(random, 0.3))
+    draw_reference(there, camera);
+  if (happens(random, 0.3)) {
+    try {
+      find_form_factors(there, prepared->surfaces, random);
+    } catch (const UsageError&) {
+      // A node of mirrors alone sends nothing.
+    }
+  }
+}
+
+} // namespace
+
+void run_every_command(Scene scene, Random& random, const Effort& effort) {
+  RunSettings settings = drawn_settings(random);
+  // Exact form factors by way of many mirrors take minutes, by design.
+  const bool exact = happens(random, 0.1) && std::ranges::none_of(scene.materials, is_mirror);
+  if (exact && scene.triangles.size() <= effort.few_triangles / 4 &&
+      settings.solver != SolverMethod::hierarchical)
+    settings.form_factors = FormFactorMethod::analytic;
+  scene.background = settings.background.value_or(scene.background);
+  try {
+    run(std::move(scene), settings, random, effort);
+  } catch (const Finding& finding) {
+    throw Finding(fmt::format("{} ({})", finding.what(), in_words(settings)));
+  }
+}
+
+} // namespace meninas::test
