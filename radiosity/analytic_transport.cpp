@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <optional>
 
 namespace meninas {
@@ -37,12 +38,20 @@ Face make_face(const ConvexPolygon& polygon, const Plane& plane, PlaneId plane_c
   return face;
 }
 
-Face element_face(const ElementMesh& mesh, std::size_t element) {
+/// An element as one face, or as the triangles of a region.
+std::vector<Face> faces_of(const ElementMesh& mesh, std::size_t element) {
   const MeshSide& side = mesh.sides[index(mesh.side_of_element[element])];
+  std::vector<Face> faces;
+  if (const RegionElement* region = region_of(mesh, static_cast<ElementId>(element))) {
+    for (const auto& triangle : region->triangles)
+      faces.push_back(make_face(ConvexPolygon(triangle), side.plane, side.plane_class));
+    return faces;
+  }
   ConvexPolygon polygon;
   for (int k = 0; k < (side.triangle ? 3 : 4); ++k)
     polygon.push_back(mesh.vertices[index(mesh.corners[element][static_cast<std::size_t>(k)])]);
-  return make_face(polygon, side.plane, side.plane_class);
+  faces.push_back(make_face(polygon, side.plane, side.plane_class));
+  return faces;
 }
 
 /// What light can end on, in groups: every element, then all that is black, then every mirror.
@@ -83,8 +92,10 @@ Surroundings surroundings_of(const LightScene& light) {
   around.group_count =
       around.first_mirror + static_cast<std::uint32_t>(around.mirrors.mirrors.size());
   for (std::uint32_t e = 0; e < elements; ++e) {
-    around.targets.push_back(element_face(light.mesh, e));
-    around.groups.push_back(e);
+    for (const Face& face : faces_of(light.mesh, e)) {
+      around.targets.push_back(face);
+      around.groups.push_back(e);
+    }
   }
   add_black_faces(light, around);
   for (std::uint32_t m = 0; m < around.mirrors.mirrors.size(); ++m) {
@@ -176,7 +187,9 @@ RowClosure closure_of(const Assembly& assembly, const ExtendedFactors& factors) 
 
 void assemble_row(const Assembly& assembly, std::size_t i, Row& row, FormFactors& result) {
   const ElementMesh& mesh = assembly.light.mesh;
-  const std::vector<Face> exposed = exposed_parts(assembly, assembly.around.targets[i]);
+  std::vector<Face> exposed;
+  for (const Face& face : faces_of(mesh, i))
+    std::ranges::move(exposed_parts(assembly, face), std::back_inserter(exposed));
   double area = 0.0;
   for (const Face& part : exposed)
     area += part.area;

@@ -12,8 +12,11 @@ FoundField divided(const FoundField& before, const SurfaceModel& surfaces,
   const std::vector<CellId> now = same_cells(before.mesh, after.mesh);
   for (std::size_t e = 0; e < element_count(before.mesh); ++e) {
     const ElementCorners corners =
-        corners_of(after.mesh, now[index(before.mesh.cell_of_element[e])]);
+        same_corners(before.mesh, static_cast<ElementId>(e), after.mesh,
+                     now[index(before.mesh.cell_of_element[e])]);
     for (std::size_t c = 0; c < corners.size(); ++c) {
+      if (corners[c] == none<ElementVertexId>)
+        continue;
       const std::uint32_t from = index(before.mesh.corners[e][c]), to = index(corners[c]);
       after.states[to] = before.states[from];
       after.seen[to] = before.seen[from];

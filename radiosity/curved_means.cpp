@@ -33,7 +33,7 @@ std::vector<Rgb> curved_means(const ElementMesh& mesh, const VertexEdges& edges,
   std::vector<Rgb> means = corner_means(mesh, values);
   for (std::size_t e = 0; e < means.size(); ++e) {
     const ElementCorners& corners = mesh.corners[e];
-    if (corners[2] == corners[3])
+    if (corners[2] == corners[3] || region_of(mesh, static_cast<ElementId>(e)) != nullptr)
       continue;
     for (const std::size_t way : {0U, 1U}) {
       Curvature curvature;

@@ -7,7 +7,7 @@ namespace meninas {
 
 std::optional<Point3> hemicube_position(const LightScene& light, const ReceiverArea& element,
                                         CoveredCells covered) {
-  if (covered == 0)
+  if (covered == 0 && element.region == nullptr)
     return point_in(element, Vec2(element.triangle ? 1.0 / 3.0 : 0.5));
   if (covered == wholly_covered)
     return std::nullopt;

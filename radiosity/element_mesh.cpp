@@ -1,6 +1,7 @@
 #include "radiosity/element_mesh.h"
 
 #include "radiosity/cell_children.h"
+#include "radiosity/contact_segments.h"
 #include "radiosity/edge_divisions.h"
 #include "radiosity/element_sizes.h"
 #include "radiosity/mesh_cells.h"
@@ -125,6 +126,7 @@ ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces,
   for (MeshSide& side : mesh.sides)
     side.element_size = sizes.of_surface[index(surfaces.patches[index(side.patch)].surface)];
   add_root_cells(mesh);
+  mesh.contacts = std::make_shared<const ContactSegments>(find_contact_segments(scene, surfaces, mesh));
   add_elements(mesh, surfaces);
   return mesh;
 }
@@ -136,6 +138,10 @@ struct CellPoint {
   std::uint32_t cell;
   Vec2 st;
 };
+
+bool is_beyond(const std::array<double, 4>& line, Vec2 st) {
+  return line[0] + line[1] * st.x + line[2] * st.y + line[3] * st.x * st.y >= 0.0;
+}
 
 CellPoint locate_root(const MeshSide& side, Vec2 uv) {
   const double fu = within_unit(uv.x) * side.nu;
@@ -166,7 +172,14 @@ ElementPoint locate(const ElementMesh& mesh, SideId id, Vec2 uv) {
     const ChildPoint<Vec2> child = child_at(at.st, side.triangle);
     at = {index(mesh.cells[at.cell].first_child) + child.child, child.st};
   }
-  return {static_cast<ElementId>(mesh.cells[at.cell].first_element), at.st};
+  std::uint32_t element = mesh.cells[at.cell].first_element;
+  if (!mesh.line_of_cell.empty() && mesh.line_of_cell[at.cell] != uncut) {
+    std::uint32_t next = mesh.line_of_cell[at.cell];
+    while ((next & CellLine::region) == 0)
+      next = mesh.lines[next].next[is_beyond(mesh.lines[next].line, at.st) ? 1 : 0];
+    element += next & ~CellLine::region;
+  }
+  return {static_cast<ElementId>(element), at.st};
 }
 
 Vec2 patch_uv_of(const ElementMesh& mesh, const MeshCell& cell, Vec2 st) {

@@ -9,6 +9,9 @@
 // its leaves are the elements. Those of a side are numbered in a row, depth first.
 // So the element of a hit (patch, u, v) is index arithmetic and a descent by halves,
 // and no ray is ever traced against elements.
+// Where something stands across a leaf, the leaf has an element for every region that is left
+// of it (cut_cells.h): none reaches from one side of a wall to the other, and none shares a vertex
+// with what is behind the wall.
 // Sides of the same surface share the vertices on their common edge;
 // edges that meet in one surface get the same division into roots, but beside slivers
 // (edge_divisions.h).
@@ -18,9 +21,12 @@
 #include "radiosity/dark_sides.h"
 #include "scenes/surfaces.h"
 
+#include <memory>
 #include <vector>
 
 namespace meninas {
+
+struct ContactSegments; // contact_segments.h
 
 enum class SideId : std::uint32_t {};
 enum class CellId : std::uint32_t {};
@@ -64,7 +70,7 @@ struct MeshCell {
   CellId parent = none<CellId>;
   CellId first_child = none<CellId>; ///< none: a leaf
   SideId side = none<SideId>;
-  std::uint32_t first_element = 0, element_count = 0; ///< the leaves below; of a leaf, itself
+  std::uint32_t first_element = 0, element_count = 0; ///< those of the leaves below; of a leaf, its own: one, or its regions
   std::int32_t i = 0, j = 0;
   std::uint8_t level = 0;
   bool flipped = false; ///< a triangle that points the other way: upper ones, and the middle one of four
@@ -85,6 +91,23 @@ struct HangingVertex {
   ElementVertexId vertex, end_a, end_b;
 };
 
+/// A line that cuts a leaf, l0 + l1 s + l2 t + l3 s t = 0 in the leaf's (s, t):
+/// where that is negative `next[0]` goes on, else `next[1]`.
+struct CellLine {
+  static constexpr std::uint32_t region = 0x80000000U; ///< marks a region of the leaf in `next`
+  std::array<double, 4> line{};
+  std::array<std::uint32_t, 2> next{0, 0}; ///< in ElementMesh::lines
+};
+
+/// An element that is a region of a cut leaf.
+struct RegionElement {
+  std::vector<std::array<Point3, 3>> triangles; ///< that make it up
+  std::vector<double> area_up_to;               ///< by triangle, m^2: its own and of all before
+  Point3 centroid{0.0};
+  std::array<double, 4> corner_weights{}; ///< of the bilinear value at the centroid
+  std::uint8_t own_corners = 0; ///< bit c: corner c of the leaf is a corner of the region
+};
+
 struct ElementMesh {
   std::vector<MeshSide> sides;
   std::vector<std::array<SideId, 2>>
@@ -100,15 +123,36 @@ struct ElementMesh {
   std::vector<ElementId> element_of_vertex; ///< one of the elements that share it
   std::vector<HangingVertex> hanging; ///< those whose ends hang themselves after these
   double element_size = 0.0; ///< of the roots, metres; a surface may have larger ones
-};
 
-/// Sides marked in `dark` get no elements; empty: all are meshed. No cell is divided.
+  /// What stands on the sides; null: not looked for. Cells are cut by it.
+  std::shared_ptr<const ContactSegments> contacts;
+  std::vector<CellLine> lines;
+  std::vector<std::uint32_t> line_of_cell; ///< by CellId, the first of its lines; `uncut`. Empty: nothing is cut
+  std::vector<std::uint8_t> walled_edges; ///< by CellId, bit k: along edge k of the leaf a wall stands. Likewise
+  std::vector<RegionElement> regions;
+  std::vector<std::uint32_t> region_of_element; ///< by ElementId; `uncut`: the whole leaf. Likewise
+  std::vector<std::uint8_t> at_contact; ///< by ElementVertexId: 1 where something stands at the vertex, or between it and its elements. Likewise
+};
+inline constexpr std::uint32_t uncut = 0xffffffffU;
+
+/// The region that an element is; null where it is a whole leaf.
+inline const RegionElement* region_of(const ElementMesh& mesh, ElementId element) {
+  if (mesh.region_of_element.empty() || mesh.region_of_element[index(element)] == uncut)
+    return nullptr;
+  return &mesh.regions[mesh.region_of_element[index(element)]];
+}
+inline bool is_at_contact(const ElementMesh& mesh, std::size_t vertex) {
+  return !mesh.at_contact.empty() && mesh.at_contact[vertex] != 0;
+}
+
+/// Sides marked in `dark` get no elements; empty: all are meshed. No cell is divided; those are cut
+/// on which something stands.
 ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces,
                               const MeshSettings& settings = {}, const DarkSides& dark = {});
 
 inline std::size_t element_count(const ElementMesh& mesh) { return mesh.area.size(); }
 
-/// Whether any cell of the side is divided.
+/// Whether any cell of the side is divided or cut.
 inline bool is_divided(const MeshSide& side) { return side.element_count != side.root_count; }
 
 /// Where in its element a point of a side is:

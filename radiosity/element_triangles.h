@@ -6,7 +6,20 @@
 
 namespace meninas {
 
-/// Three indices of vertices each, counter-clockwise seen from the side's own light.
-std::vector<std::uint32_t> element_triangles(const ElementMesh& mesh);
+/// A point of a region's outline (cut_cells.h) that is no vertex of the mesh: values there are
+/// sum weight value(corner).
+struct RegionPoint {
+  Point3 position;
+  ElementId element;
+  std::array<float, 4> weights;
+};
+
+struct ElementTriangles {
+  /// Three indices each, counter-clockwise seen from the side's own light:
+  /// of vertices, and from `mesh.vertices.size()` on of points.
+  std::vector<std::uint32_t> indices;
+  std::vector<RegionPoint> points;
+};
+ElementTriangles element_triangles(const ElementMesh& mesh);
 
 } // namespace meninas

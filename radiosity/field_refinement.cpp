@@ -88,6 +88,9 @@ public:
 
 private:
   void add(const SamplePoint& at, Vec2 uv, Vec2 st, Found& sum) const {
+    if (region_of(mesh_, element_) != nullptr &&
+        locate(mesh_, cell_.side, uv).element != element_)
+      return; // in another region of the leaf
     const PointSample sample =
         at({point_at(patch_, uv), side_.normal, side_.plane_class, side_.tangent, side_.coat},
            size_of(mesh_, element_), seed_of(cell_.side, uv));
@@ -257,7 +260,8 @@ Growing divided(const Refinement& refinement, const Growing& before,
   for (std::size_t e = 0; e < element_count(before.mesh); ++e)
     if (const MeshCell& cell = after.mesh.cells[index(now[index(before.mesh.cell_of_element[e])])];
         is_leaf(cell))
-      after.found[cell.first_element] = before.found[e];
+      after.found[cell.first_element + e - cell_of(before.mesh, static_cast<ElementId>(e)).first_element] =
+          before.found[e];
   return after;
 }
 

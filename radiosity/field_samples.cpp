@@ -161,11 +161,15 @@ SampledField field_of(const ElementMesh& mesh, const FieldSamples& samples) {
 FieldSamples carried(const ElementMesh& before, const FieldSamples& samples,
                      const ElementMesh& after) {
   FieldSamples result = no_samples(after);
-  std::vector<std::uint32_t> vertex_now(before.vertices.size(), 0);
+  constexpr std::uint32_t nowhere = index(none<ElementVertexId>);
+  std::vector<std::uint32_t> vertex_now(before.vertices.size(), nowhere);
   const std::vector<CellId> now = same_cells(before, after);
   for (std::size_t e = 0; e < element_count(before); ++e) {
-    const ElementCorners corners = corners_of(after, now[index(before.cell_of_element[e])]);
+    const ElementCorners corners = same_corners(before, static_cast<ElementId>(e), after,
+                                                now[index(before.cell_of_element[e])]);
     for (std::size_t c = 0; c < corners.size(); ++c) {
+      if (corners[c] == none<ElementVertexId>)
+        continue;
       const std::uint32_t from = index(before.corners[e][c]), to = index(corners[c]);
       vertex_now[from] = to;
       result.samples[to] = samples.samples[from];
@@ -173,7 +177,8 @@ FieldSamples carried(const ElementMesh& before, const FieldSamples& samples,
     }
   }
   for (const auto& [ends, contact] : samples.contacts)
-    result.contacts[{vertex_now[ends.first], vertex_now[ends.second]}] = contact;
+    if (vertex_now[ends.first] != nowhere && vertex_now[ends.second] != nowhere)
+      result.contacts[{vertex_now[ends.first], vertex_now[ends.second]}] = contact;
   return result;
 }
 

@@ -34,6 +34,11 @@ struct GapSum {
 /// a triangle has its third twice.
 Point3 point_in(const ElementMesh& mesh, ElementId element, std::uint32_t k) {
   const auto sample = sobol4(k, 0x6a9);
+  if (const RegionElement* region = region_of(mesh, element)) {
+    ReceiverArea area;
+    area.region = region;
+    return point_in_region(area, Vec2(sample[0], sample[1]));
+  }
   const auto at = [&](std::size_t c) {
     return mesh.vertices[index(mesh.corners[index(element)][c])];
   };

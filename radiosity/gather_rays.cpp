@@ -390,8 +390,10 @@ RowClosure closure_of(const GatheredRays& gathered) {
 ReceiverArea receiver_of(const LightScene& light, ElementId element) {
   const MeshCell& cell = cell_of(light.mesh, element);
   const MeshSide& side = light.mesh.sides[index(cell.side)];
-  return part_of_side(light, side, side.triangle,
-                      [&](Vec2 st) { return patch_uv_of(light.mesh, cell, st); });
+  ReceiverArea area = part_of_side(light, side, side.triangle,
+                                   [&](Vec2 st) { return patch_uv_of(light.mesh, cell, st); });
+  area.region = region_of(light.mesh, element);
+  return area;
 }
 
 } // namespace meninas

@@ -63,6 +63,33 @@ static FaceRecord make_face(const Scene& scene, const SurfaceModel& model, const
   return face;
 }
 
+/// From every cell to its children, its line or its element.
+static void add_descent(const ElementMesh& mesh, LandingTable& table) {
+  for (std::size_t number = 0; number < mesh.cells.size(); ++number) {
+    const MeshCell& cell = mesh.cells[number];
+    const bool is_cut = !mesh.line_of_cell.empty() && mesh.line_of_cell[number] != uncut;
+    table.descent.push_back(!is_leaf(cell) ? index(cell.first_child)
+                            : is_cut       ? LandingTable::cut | mesh.line_of_cell[number]
+                                           : LandingTable::leaf | cell.first_element);
+    if (!is_cut)
+      continue;
+    // The lines of a leaf follow one another, each after the one that leads to it.
+    std::uint32_t last = mesh.line_of_cell[number];
+    table.lines.resize(mesh.lines.size());
+    for (std::uint32_t line = last; line <= last; ++line)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const CellLine& from = mesh.lines[line];
+        std::copy(from.line.begin(), from.line.end(), table.lines[line].line.begin());
+        const bool ends = (from.next[k] & CellLine::region) != 0;
+        table.lines[line].next[k] =
+            ends ? LandingTable::leaf | (cell.first_element + (from.next[k] & ~CellLine::region))
+                 : LandingTable::cut | from.next[k];
+        if (!ends)
+          last = std::max(last, from.next[k]);
+      }
+  }
+}
+
 LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces,
                                 const MirrorSet& mirrors, const ElementMesh& mesh,
                                 Point3 frame_centre, double frame_scale) {
@@ -81,9 +108,7 @@ LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces
     table.sides.push_back({is_divided(side) ? side.first_cell : side.first_element, side.nu,
                            side.nv, side.triangle, is_divided(side)});
   if (std::any_of(mesh.sides.begin(), mesh.sides.end(), is_divided))
-    for (const auto& cell : mesh.cells)
-      table.descent.push_back(is_leaf(cell) ? LandingTable::leaf | cell.first_element
-                                            : index(cell.first_child));
+    add_descent(mesh, table);
   return table;
 }
 

@@ -6,6 +6,7 @@
 #include "radiosity/cell_children.h"
 #include "radiosity/element_mesh.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -46,14 +47,21 @@ struct SideRecord {
   bool divided = false;
 };
 
+/// A line that cuts a leaf (element_mesh.h): where it is negative at (s, t) `next[0]` goes on.
+struct LandingLine {
+  std::array<float, 4> line{};
+  std::array<std::uint32_t, 2> next{0, 0}; ///< as in `descent`
+};
+
 struct LandingTable {
-  /// Marks the element in `descent`.
-  static constexpr std::uint32_t leaf = 0x80000000U;
+  /// Marks the element in `descent`, and the line of a leaf that is cut.
+  static constexpr std::uint32_t leaf = 0x80000000U, cut = 0x40000000U;
 
   std::vector<FaceRecord> faces; ///< [2 triangle + (0 front, 1 back)]
   std::vector<SideRecord> sides; ///< by SideId
   std::vector<std::uint32_t>
-      descent; ///< by CellId: `leaf` and the element, or the first child; empty when nothing is divided
+      descent; ///< by CellId: `leaf` and the element, `cut` and a line, or the first child; empty when nothing is divided
+  std::vector<LandingLine> lines;
 };
 
 LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces,
@@ -93,10 +101,16 @@ struct Landing {
 /// From a root cell of a divided side to the element.
 inline Landing descend(const LandingTable& table, bool triangle, Landing root) {
   std::uint32_t at = table.descent[root.element];
-  while ((at & LandingTable::leaf) == 0) {
+  while ((at & (LandingTable::leaf | LandingTable::cut)) == 0) {
     const ChildPoint<glm::vec2> child = child_at(root.st, triangle);
     at = table.descent[at + child.child];
     root.st = child.st;
+  }
+  while ((at & LandingTable::leaf) == 0) {
+    const LandingLine& line = table.lines[at & ~LandingTable::cut];
+    const float height = line.line[0] + line.line[1] * root.st.x + line.line[2] * root.st.y +
+                         line.line[3] * root.st.x * root.st.y;
+    at = line.next[height >= 0.0F ? 1 : 0];
   }
   return {at & ~LandingTable::leaf, root.st};
 }

@@ -40,6 +40,15 @@ void add_emitters(const SurfaceModel& surfaces, const ElementMesh& mesh, const M
   for (std::uint32_t e = side.first_element; e < side.first_element + side.element_count; ++e) {
     if (mesh.emission[e] == Rgb(0.0) || mesh.solid[e] == 0.0F)
       continue;
+    if (const RegionElement* region = region_of(mesh, ElementId{e})) {
+      for (auto triangle : region->triangles) {
+        if (side.facing == Facing::back) // they turn as seen from the side's own light
+          std::swap(triangle[1], triangle[2]);
+        emitters.push_back(make_emitter(side, triangle, double{mesh.solid[e]} * mesh.emission[e],
+                                        glm::length(area_vector(triangle))));
+      }
+      continue;
+    }
     std::vector<Point3> corners;
     for (std::size_t c = 0; c < (side.triangle ? 3U : 4U); ++c)
       corners.push_back(mesh.vertices[index(mesh.corners[e][c])]);

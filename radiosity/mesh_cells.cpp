@@ -1,5 +1,7 @@
 #include "radiosity/mesh_cells.h"
 
+#include "radiosity/cut_cells.h"
+
 #include <algorithm>
 #include <span>
 
@@ -26,6 +28,14 @@ struct NewElements {
   const SurfaceModel& surfaces;
   const MeshBefore* before;
   VertexNumbers& vertices;
+  const CutCells& cuts;
+
+  /// How a leaf is cut; null where nothing touches it.
+  const CutCell* cut(std::uint32_t number) const {
+    return cuts.of_cell.empty() || cuts.of_cell[number] == uncut
+               ? nullptr
+               : &cuts.cells[cuts.of_cell[number]];
+  }
 };
 
 /// The corners of a leaf, which is what it was before.
@@ -54,10 +64,77 @@ ElementCorners new_corners(const NewElements& to, MeshCell& cell) {
   return corners;
 }
 
-void add_element(const NewElements& to, std::uint32_t number) {
+/// The corners of a region of a cut leaf. Those it does not share are told apart by their group.
+ElementCorners corners_of_region(const NewElements& to, const MeshCell& cell,
+                                 const CutRegion& region) {
+  constexpr std::uint64_t group_bits = 34; // above the numbers of sides of surfaces
+  const bool triangle = to.mesh.sides[index(cell.side)].triangle;
+  const auto coordinates = corner_coordinates(triangle);
+  const std::uint64_t side = surface_side(to.mesh, to.surfaces, cell);
+  ElementCorners corners;
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (c == 3 && triangle) {
+      corners[c] = corners[2];
+      continue;
+    }
+    const std::uint32_t group = region.corners[c].group;
+    const bool shared = group == RegionCorner::shared;
+    corners[c] = to.vertices.vertex_at(shared ? side : side | (group + 1ULL) << group_bits,
+                                       point_in(to.mesh, to.surfaces, cell, coordinates[c]),
+                                       to.mesh.vertices);
+    to.mesh.at_contact.resize(to.mesh.vertices.size(), 0);
+    to.mesh.at_contact[index(corners[c])] = shared ? 0 : 1;
+  }
+  return corners;
+}
+
+void append_element(ElementMesh& mesh, CellId cell, const ElementCorners& corners, double area) {
+  const MeshSide& side = mesh.sides[index(mesh.cells[index(cell)].side)];
+  mesh.cell_of_element.push_back(cell);
+  mesh.side_of_element.push_back(mesh.cells[index(cell)].side);
+  mesh.corners.push_back(corners);
+  mesh.area.push_back(area);
+  mesh.reflectance.push_back(side.reflectance);
+  mesh.emission.push_back(side.emission);
+  mesh.solid.push_back(1.0F);
+}
+
+/// One element for every region of a leaf that something touches.
+void add_regions(const NewElements& to, std::uint32_t number, const CutCell& cut) {
   ElementMesh& mesh = to.mesh;
   MeshCell& cell = mesh.cells[number];
-  const MeshSide& side = mesh.sides[index(cell.side)];
+  cell.first_element = static_cast<std::uint32_t>(mesh.area.size());
+  cell.element_count = static_cast<std::uint32_t>(cut.regions.size());
+  if (cut.walled_edges != 0) {
+    mesh.walled_edges.resize(mesh.cells.size(), 0);
+    mesh.walled_edges[number] = cut.walled_edges;
+  }
+  cell.area = 0.0;
+  for (const CutRegion& region : cut.regions)
+    cell.area += region.element.area_up_to.empty() ? 0.0 : region.element.area_up_to.back();
+  for (const CutRegion& region : cut.regions) {
+    const double area =
+        region.element.area_up_to.empty() ? 0.0 : region.element.area_up_to.back();
+    append_element(mesh, static_cast<CellId>(number), corners_of_region(to, cell, region), area);
+    if (cut.first_line == uncut)
+      continue;
+    mesh.region_of_element.resize(mesh.area.size(), uncut);
+    mesh.region_of_element.back() = static_cast<std::uint32_t>(mesh.regions.size());
+    mesh.regions.push_back(region.element);
+  }
+  if (cut.first_line != uncut) {
+    mesh.line_of_cell.resize(mesh.cells.size(), uncut);
+    mesh.line_of_cell[number] = cut.first_line;
+  }
+}
+
+void add_element(const NewElements& to, std::uint32_t number) {
+  ElementMesh& mesh = to.mesh;
+  if (const CutCell* cut = to.cut(number)) {
+    add_regions(to, number, *cut);
+    return;
+  }
+  MeshCell& cell = mesh.cells[number];
   const CellId before = to.before ? to.before->cells[number] : none<CellId>;
   ElementCorners corners;
   if (before == none<CellId>) {
@@ -69,13 +146,7 @@ void add_element(const NewElements& to, std::uint32_t number) {
   }
   cell.first_element = static_cast<std::uint32_t>(mesh.area.size());
   cell.element_count = 1;
-  mesh.cell_of_element.push_back(static_cast<CellId>(number));
-  mesh.side_of_element.push_back(cell.side);
-  mesh.corners.push_back(corners);
-  mesh.area.push_back(cell.area);
-  mesh.reflectance.push_back(side.reflectance);
-  mesh.emission.push_back(side.emission);
-  mesh.solid.push_back(1.0F);
+  append_element(mesh, static_cast<CellId>(number), corners, cell.area);
 }
 
 /// The leaves below a cell, depth first.
@@ -100,18 +171,22 @@ void add_leaves(const NewElements& to, std::uint32_t number) {
 
 /// The vertices before that new elements may share, by place: corners of cells that are divided,
 /// and of the parts of others. Within a patch roots beside one another are alike.
+/// Leaves that something touches are made anew.
 void place_vertices(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshBefore& before,
-                    VertexNumbers& vertices) {
+                    const CutCells& cuts, VertexNumbers& vertices) {
   for (std::size_t number = 0; number < mesh.cells.size(); ++number) {
     if (before.cells[number] == none<CellId>)
       continue;
     const MeshCell& was = before.mesh.cells[index(before.cells[number])];
-    if (!is_leaf(was) ||
-        (was.level == 0 && is_leaf(mesh.cells[number]) && !is_at_border(before.mesh, was)))
+    const bool touched = !cuts.of_cell.empty() && cuts.of_cell[number] != uncut;
+    if (!is_leaf(was) || (was.level == 0 && is_leaf(mesh.cells[number]) && !touched &&
+                          !is_at_border(before.mesh, was)))
       continue;
     const std::uint64_t side = surface_side(before.mesh, surfaces, was);
-    for (const ElementVertexId corner : before.mesh.corners[was.first_element])
-      vertices.place(side, before.mesh.vertices[index(corner)], corner);
+    for (std::uint32_t e = was.first_element; e < was.first_element + was.element_count; ++e)
+      for (const ElementVertexId corner : before.mesh.corners[e])
+        if (!is_at_contact(before.mesh, index(corner)))
+          vertices.place(side, before.mesh.vertices[index(corner)], corner);
   }
 }
 
@@ -182,15 +257,23 @@ VertexNumbers add_elements(ElementMesh& mesh, const SurfaceModel& surfaces,
   const std::size_t vertices_before = before ? before->mesh.vertices.size() : 0;
   VertexNumbers vertices(vertex_grain(mesh, surfaces), vertices_before,
                          before ? 0 : mesh.cells.size());
+  CutCells cuts = cut_leaves(mesh, surfaces);
   if (before)
-    place_vertices(mesh, surfaces, *before, vertices);
-  const NewElements to{mesh, surfaces, before, vertices};
+    place_vertices(mesh, surfaces, *before, cuts, vertices);
+  const NewElements to{mesh, surfaces, before, vertices, cuts};
   for (MeshSide& side : mesh.sides) {
     side.first_element = static_cast<std::uint32_t>(mesh.area.size());
     for (std::uint32_t k = 0; k < side.root_count; ++k)
       add_leaves(to, side.first_cell + k);
     side.element_count = static_cast<std::uint32_t>(mesh.area.size()) - side.first_element;
   }
+  mesh.lines = std::move(cuts.lines);
+  if (!mesh.line_of_cell.empty()) {
+    mesh.line_of_cell.resize(mesh.cells.size(), uncut);
+    mesh.region_of_element.resize(mesh.area.size(), uncut);
+  }
+  if (!mesh.at_contact.empty())
+    mesh.at_contact.resize(mesh.vertices.size(), 0);
   mesh.element_of_vertex.assign(mesh.vertices.size(), none<ElementId>);
   for (std::size_t e = mesh.corners.size(); e-- > 0;)
     for (const auto vertex : mesh.corners[e])

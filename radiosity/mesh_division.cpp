@@ -20,6 +20,7 @@ ElementMesh roots_of(const ElementMesh& mesh) {
   roots.sides = mesh.sides;
   roots.sides_of_patch = mesh.sides_of_patch;
   roots.element_size = mesh.element_size;
+  roots.contacts = mesh.contacts;
   add_root_cells(roots);
   return roots;
 }
@@ -112,6 +113,16 @@ std::vector<std::uint8_t> to_follow(const PlacedVertices& placed,
   return marked;
 }
 
+/// Whether a place on the border of an element's leaf is on the element, which may be a region of it.
+bool has_place(const ElementMesh& mesh, ElementId element, Vec2 st) {
+  constexpr double inward = 1e-9;
+  if (region_of(mesh, element) == nullptr)
+    return true;
+  const MeshCell& cell = cell_of(mesh, element);
+  const Vec2 within = glm::mix(st, Vec2(1.0 / 3.0), inward);
+  return locate(mesh, cell.side, patch_uv_of(mesh, cell, within)).element == element;
+}
+
 /// Vertices in the middle of edges. Where two cells of a patch differ along one, the smaller ones have
 /// its ends for corners. Larger edges first:
 /// the ends of a smaller one may hang on a larger one, never the other way round.
@@ -125,14 +136,16 @@ std::vector<HangingVertex> hanging_vertices(const PlacedVertices& placed,
   std::vector<Found> found;
   for (std::uint32_t e = 0; e < element_count(mesh); ++e) {
     const MeshCell& cell = cell_of(mesh, ElementId{e});
-    const std::size_t count = corners_of(mesh, cell).size();
+    const std::span<const Vec2> places = corners_of(mesh, cell);
+    const std::size_t count = places.size();
     const bool all = has_unlike_neighbours(mesh, ElementId{e}, of_parts);
     for (std::size_t k = 0; k < count; ++k) {
       const ElementVertexId a = mesh.corners[e][k], b = mesh.corners[e][(k + 1) % count];
       if (!all && (of_parts[index(a)] == 0 || of_parts[index(b)] == 0))
         continue;
       const ElementVertexId middle = placed.on_edge(cell, k, 0.5);
-      if (middle != none<ElementVertexId>)
+      if (middle != none<ElementVertexId> &&
+          has_place(mesh, ElementId{e}, 0.5 * (places[k] + places[(k + 1) % count])))
         found.push_back(
             {{middle, a, b}, glm::distance(mesh.vertices[index(a)], mesh.vertices[index(b)])});
     }
@@ -247,7 +260,8 @@ std::pair<ElementMesh, std::vector<CellId>> with_divided(const ElementMesh& mesh
       return false;
     const MeshCell& before = mesh.cells[index(was[number])];
     if (is_leaf(before)) {
-      if (divided[before.first_element] == 0)
+      const auto first = divided.begin() + before.first_element;
+      if (std::find(first, first + before.element_count, 1) == first + before.element_count)
         return false;
       was.insert(was.end(), 4, none<CellId>);
       return true;
@@ -351,17 +365,27 @@ std::vector<CellId> same_cells(const ElementMesh& from, const ElementMesh& to) {
   return same;
 }
 
-ElementCorners corners_of(const ElementMesh& mesh, CellId id) {
-  const bool triangle = mesh.sides[index(mesh.cells[index(id)].side)].triangle;
+ElementCorners same_corners(const ElementMesh& from, ElementId element, const ElementMesh& to,
+                            CellId id) {
+  const MeshCell& was = cell_of(from, element);
+  const MeshCell& is = to.cells[index(id)];
+  if (is_leaf(is) && is.element_count == was.element_count)
+    return to.corners[is.first_element + index(element) - was.first_element];
+  const bool triangle = to.sides[index(is.side)].triangle;
   // The child that keeps a corner, and keeps its number (cell_children.h).
   constexpr std::array<std::uint32_t, 4> of_quad{0, 1, 3, 2}, of_triangle{0, 1, 2, 2};
   ElementCorners corners;
   for (std::size_t c = 0; c < 4; ++c) {
-    CellId cell = id;
-    while (!is_leaf(mesh.cells[index(cell)]))
-      cell = static_cast<CellId>(index(mesh.cells[index(cell)].first_child) +
-                                 (triangle ? of_triangle : of_quad)[c]);
-    corners[c] = mesh.corners[mesh.cells[index(cell)].first_element][c];
+    const std::size_t number = triangle ? std::min<std::size_t>(c, 2) : c;
+    const MeshCell* cell = &is;
+    while (!is_leaf(*cell))
+      cell = &to.cells[index(cell->first_child) + (triangle ? of_triangle : of_quad)[c]];
+    corners[c] = none<ElementVertexId>;
+    const bool whole = was.element_count == 1 && cell->element_count == 1;
+    const bool at_contact = is_at_contact(from, index(from.corners[index(element)][number]));
+    for (std::uint32_t e = cell->first_element; e < cell->first_element + cell->element_count; ++e)
+      if (whole || (!at_contact && !is_at_contact(to, index(to.corners[e][number]))))
+        corners[c] = to.corners[e][number];
   }
   return corners;
 }

@@ -44,8 +44,10 @@ ElementMesh overlaid(const ElementMesh& a, const ElementMesh& b, const SurfaceMo
 /// the same cell in `to`, a mesh of the same roots that has all cells of `from`.
 std::vector<CellId> same_cells(const ElementMesh& from, const ElementMesh& to);
 
-/// The vertices at the corners of any cell.
-ElementCorners corners_of(const ElementMesh& mesh, CellId cell);
+/// The vertices of an element of one mesh in another that it was divided into, `cell` its cell there:
+/// none where it is not known to be the same, as where something stands.
+ElementCorners same_corners(const ElementMesh& from, ElementId element, const ElementMesh& to,
+                            CellId cell);
 
 /// The root of the tree an element is in.
 CellId root_of(const ElementMesh& mesh, ElementId element);

@@ -1,5 +1,7 @@
 #include "radiosity/receiver_rays.h"
 
+#include "radiosity/element_mesh.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,6 +34,15 @@ float near_cosine(float x) {
 
 /// Origins are computed in double: on the plane to the rounding of a float.
 void set_origins(const LanePlaces& places, const ReceiverArea& area, RayPacket& packet) {
+  if (area.region != nullptr) {
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      const Point3 x = point_in_region(area, Vec2(places.s[k], places.t[k]));
+      packet.origin_x[k] = static_cast<float>(x.x);
+      packet.origin_y[k] = static_cast<float>(x.y);
+      packet.origin_z[k] = static_cast<float>(x.z);
+    }
+    return;
+  }
   alignas(64) std::array<double, packet_size> s, t;
   for (std::size_t k = 0; k < packet_size; ++k) {
     const bool fold = area.triangle & (places.s[k] + places.t[k] > 1.0F);
@@ -51,6 +62,20 @@ void set_origins(const LanePlaces& places, const ReceiverArea& area, RayPacket& 
 }
 
 } // namespace
+
+Point3 point_in_region(const ReceiverArea& area, Vec2 st) {
+  // The triangle that holds the share s of the area, and in it what is left of s.
+  const std::vector<double>& up_to = area.region->area_up_to;
+  const double wanted = std::clamp(st.x, 0.0, 1.0) * up_to.back();
+  const auto k = std::min(static_cast<std::size_t>(std::ranges::upper_bound(up_to, wanted) -
+                                                   up_to.begin()),
+                          up_to.size() - 1);
+  const double before = k == 0 ? 0.0 : up_to[k - 1];
+  const double root = std::sqrt(std::clamp((wanted - before) / (up_to[k] - before), 0.0, 1.0));
+  const auto& [a, b, c] = area.region->triangles[k];
+  const Point3 x = (1.0 - root) * a + root * ((1.0 - st.y) * b + st.y * c);
+  return area.region_scale * (x - area.region_centre);
+}
 
 DirectionNet make_direction_net(int rays, int before) {
   DirectionNet net;
@@ -90,6 +115,8 @@ RaySource ray_source(const ReceiverArea& receiver, const RayFrame& frame, std::u
   source.area.edge_u *= frame.scale;
   source.area.edge_v *= frame.scale;
   source.area.edge_uv *= frame.scale;
+  source.area.region_centre = receiver.region_centre + frame.centre / receiver.region_scale;
+  source.area.region_scale = receiver.region_scale * frame.scale;
   for (std::uint32_t d = 0; d < 4; ++d)
     source.shift[d] = hash(seed, d);
   return source;

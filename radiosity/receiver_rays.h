@@ -12,6 +12,8 @@
 
 namespace meninas {
 
+struct RegionElement; // element_mesh.h
+
 /// Sixteen points of a net, lane by lane:
 /// two coordinates of the place in the receiver, two of the direction.
 struct alignas(64) NetPacket {
@@ -27,7 +29,8 @@ struct DirectionNet {
 /// Without the first `before` points: they are the net of as many rays.
 DirectionNet make_direction_net(int rays, int before = 0);
 
-/// A parallelogram or triangle to spread the rays over; a point when both edges are zero.
+/// A parallelogram or triangle to spread the rays over, or the region of one that is left where it
+/// is cut; a point when both edges are zero.
 struct ReceiverArea {
   Point3 corner;
   Vec3 edge_u{0.0}, edge_v{0.0},
@@ -37,6 +40,10 @@ struct ReceiverArea {
   PlaneId plane_class = none<PlaneId>;
   Vec3 tangent{0.0}; ///< a direction in the plane that directions are counted from; zero: any
   MaterialId coat = none<MaterialId>; ///< above it, where that is a mirror
+
+  const RegionElement* region = nullptr; ///< of the area; must outlive it
+  Point3 region_centre{0.0}; ///< its points are (x - centre) scale
+  double region_scale = 1.0;
 
   bool is_point() const { return edge_u == Vec3(0.0) && edge_v == Vec3(0.0); }
 };
@@ -50,8 +57,13 @@ inline TangentFrame frame_along(const Direction& normal, const Vec3& tangent) {
   return {along / length, glm::cross(normal, along / length)};
 }
 
+/// The point of the area's region for (s, t): a map that keeps shares of area.
+Point3 point_in_region(const ReceiverArea& area, Vec2 st);
+
 /// The point of the area at (s, t), folded into the triangle where it is one.
 inline Point3 point_in(const ReceiverArea& area, Vec2 st) {
+  if (area.region != nullptr)
+    return point_in_region(area, st);
   if (area.triangle && st.x + st.y > 1.0)
     st = 1.0 - st;
   return area.corner + st.x * area.edge_u + st.y * area.edge_v + st.x * st.y * area.edge_uv;

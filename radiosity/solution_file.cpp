@@ -35,12 +35,28 @@ Point3 centre_of(const ElementMesh& mesh) {
 }
 
 /// B = E + rho H at the vertices, so exposed that the brightest of it is white.
-std::vector<glm::vec3> display_colours(const ElementMesh& mesh, const DiffuseField& field) {
+/// Values at the vertices, and after them at the points on outlines of regions.
+std::vector<glm::vec3> with_points(const ElementMesh& mesh, const ElementTriangles& triangles,
+                                   std::vector<glm::vec3> values) {
+  for (const RegionPoint& point : triangles.points) {
+    glm::vec3 value(0.0F);
+    for (std::size_t c = 0; c < 4; ++c)
+      value += point.weights[c] * values[index(mesh.corners[index(point.element)][c])];
+    values.push_back(value);
+  }
+  return values;
+}
+
+std::vector<glm::vec3> display_colours(const ElementMesh& mesh, const ElementTriangles& triangles,
+                                       const DiffuseField& field) {
   Image radiosity;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const std::uint32_t element = index(mesh.element_of_vertex[v]);
-    radiosity.pixels.emplace_back(mesh.emission[element] +
-                                  mesh.reflectance[element] * Rgb(field.irradiance[v]));
+  const std::vector<glm::vec3> irradiance = with_points(mesh, triangles, field.irradiance);
+  for (std::size_t v = 0; v < irradiance.size(); ++v) {
+    const ElementId of = v < mesh.vertices.size()
+                             ? mesh.element_of_vertex[v]
+                             : triangles.points[v - mesh.vertices.size()].element;
+    radiosity.pixels.emplace_back(mesh.emission[index(of)] +
+                                  mesh.reflectance[index(of)] * Rgb(irradiance[v]));
   }
   radiosity.width = static_cast<int>(radiosity.pixels.size());
   radiosity.height = 1;
@@ -151,20 +167,26 @@ json viewer_json(Geometry& geometry, const ElementMesh& mesh, const DiffuseField
   for (const Point3& vertex : mesh.vertices) {
     positions.emplace_back(vertex - centre);
   }
+  const ElementTriangles triangles = element_triangles(mesh);
+  for (const RegionPoint& point : triangles.points) {
+    positions.emplace_back(point.position - centre);
+  }
   const json vec3{{"componentType", gltf_float}, {"type", "VEC3"}};
   const json scalar{{"componentType", gltf_unsigned_int}, {"type", "SCALAR"}};
   json attributes;
   attributes["POSITION"] =
       add_array(geometry, positions, gltf_array_buffer, bounds_json(positions));
   attributes["COLOR_0"] =
-      add_array(geometry, display_colours(mesh, field), gltf_array_buffer, vec3);
+      add_array(geometry, display_colours(mesh, triangles, field), gltf_array_buffer, vec3);
   for (const FieldPart& part : field_parts) {
     if (!(field.*part.values).empty()) {
-      attributes[part.attribute] = add_array(geometry, field.*part.values, gltf_array_buffer, vec3);
+      attributes[part.attribute] =
+          add_array(geometry, with_points(mesh, triangles, field.*part.values), gltf_array_buffer,
+                    vec3);
     }
   }
   const std::size_t indices =
-      add_array(geometry, element_triangles(mesh), gltf_element_array_buffer, scalar);
+      add_array(geometry, triangles.indices, gltf_element_array_buffer, scalar);
   const json primitive{
       {"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", 4}};
   return {

@@ -86,7 +86,8 @@ std::vector<glm::vec3> read_irradiance(const std::filesystem::path& file, const 
   const json& accessor = root.at("accessors").at(accessor_index);
   const json& view = root.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
   const std::size_t offset = view.at("byteOffset");
-  const bool fits = accessor.at("count").get<std::size_t>() == vertices &&
+  // Points on outlines of regions, which viewers show, come after the vertices.
+  const bool fits = accessor.at("count").get<std::size_t>() >= vertices &&
                     offset <= glb.binary.size() &&
                     vertices <= (glb.binary.size() - offset) / vec3_size;
   if (!fits) {

@@ -1,11 +1,14 @@
 #include "radiosity/vertex_places.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace meninas {
 
 Point3 centre_of(const ElementMesh& mesh, ElementId element) {
+  if (const RegionElement* region = region_of(mesh, element))
+    return region->centroid;
   const auto& corners = mesh.corners[index(element)];
   const int count = corners[3] == corners[2] ? 3 : 4;
   Point3 sum(0.0);
@@ -15,14 +18,14 @@ Point3 centre_of(const ElementMesh& mesh, ElementId element) {
 }
 
 std::vector<Rgb> corner_means(const ElementMesh& mesh, std::span<const glm::vec3> values) {
-  std::vector<Rgb> means(element_count(mesh));
+  std::vector<Rgb> means(element_count(mesh), Rgb(0.0));
   for (std::size_t e = 0; e < means.size(); ++e) {
     const ElementCorners& corners = mesh.corners[e];
     const std::size_t count = corners[3] == corners[2] ? 3 : 4;
-    Rgb sum(0.0);
+    const RegionElement* region = region_of(mesh, static_cast<ElementId>(e));
     for (std::size_t c = 0; c < count; ++c)
-      sum += Rgb(values[index(corners[c])]);
-    means[e] = sum / double(count);
+      means[e] += (region != nullptr ? region->corner_weights[c] : 1.0 / double(count)) *
+                  Rgb(values[index(corners[c])]);
   }
   return means;
 }
@@ -63,7 +66,38 @@ static double angle_at(const ElementMesh& mesh, ElementId element, std::size_t v
   return 0.0;
 }
 
+/// The point of a triangle nearest to another in its plane.
+static Point3 nearest_in(const std::array<Point3, 3>& triangle, const Point3& x) {
+  const Vec3 normal = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+  bool inside = true;
+  Point3 nearest = triangle[0];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point3& a = triangle[k];
+    const Vec3 edge = triangle[(k + 1) % 3] - a;
+    inside = inside && glm::dot(glm::cross(edge, x - a), normal) >= 0.0;
+    const double length2 = glm::dot(edge, edge);
+    const double t = length2 > 0.0 ? std::clamp(glm::dot(x - a, edge) / length2, 0.0, 1.0) : 0.0;
+    if (glm::distance(a + t * edge, x) < glm::distance(nearest, x))
+      nearest = a + t * edge;
+  }
+  return inside ? x : nearest;
+}
+
+/// The point of an element nearest to one of its corners: of a region that may be another place.
+static Point3 nearest_in(const ElementMesh& mesh, ElementId element, const Point3& corner) {
+  const RegionElement* region = region_of(mesh, element);
+  if (region == nullptr || region->triangles.empty())
+    return corner;
+  Point3 nearest = region->triangles[0][0];
+  for (const auto& triangle : region->triangles)
+    if (const Point3 x = nearest_in(triangle, corner);
+        glm::distance(x, corner) < glm::distance(nearest, corner))
+      nearest = x;
+  return nearest;
+}
+
 /// The vertex itself where elements surround it, of whatever sizes.
+/// Where something stands at it, or before it, light is gathered next to that.
 static Point3 gathering_point(const ElementMesh& mesh, const VertexElements& all,
                               std::size_t vertex) {
   constexpr double inset = 0.02;
@@ -74,6 +108,17 @@ static Point3 gathering_point(const ElementMesh& mesh, const VertexElements& all
   for (const ElementId element : elements) {
     centre += centre_of(mesh, element) / double(elements.size());
     angle += angle_at(mesh, element, vertex);
+  }
+  if (is_at_contact(mesh, vertex)) {
+    const ElementId nearest = *std::ranges::min_element(elements, {}, [&](ElementId element) {
+      return glm::distance(nearest_in(mesh, element, mesh.vertices[vertex]),
+                           mesh.vertices[vertex]);
+    });
+    return glm::mix(nearest_in(mesh, nearest, mesh.vertices[vertex]),
+                    elements.size() == 1 || region_of(mesh, nearest) != nullptr
+                        ? centre_of(mesh, nearest)
+                        : centre,
+                    inset);
   }
   if (angle > nearly_all)
     return mesh.vertices[vertex];

@@ -1,6 +1,5 @@
 #include "raytrace/two_pass.h"
 
-#include "radiosity/standing_walls.h"
 #include "radiosity/surface_colour.h"
 #include "raytrace/scene_textures.h"
 #include "scenes/mixed_scales.h"
@@ -38,8 +37,6 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
                     std::back_inserter(prepared->plan.warnings));
   const DarkSides dark = find_dark_sides(prepared->scene, prepared->surfaces, *prepared->rays);
   prepared->mesh = make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh, dark);
-  prepared->mesh = divide_under_walls(std::move(prepared->mesh), prepared->scene,
-                                      prepared->surfaces, *prepared->rays, dark, settings.mesh);
   average_textures(prepared->scene, prepared->surfaces, prepared->textures, prepared->mesh);
   prepared->light.emplace(make_light_scene(prepared->scene, prepared->surfaces, *prepared->rays,
                                            prepared->plan.mirrors, prepared->plan.worlds,

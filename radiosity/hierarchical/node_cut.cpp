@@ -130,9 +130,12 @@ std::vector<TreeNodeId> first_receivers(const ElementMesh& mesh, const NodeTree&
     if (node.parent == none<TreeNodeId>)
       limit = std::max(1U, static_cast<std::uint32_t>(
                                node.leaf_count / first_on_side(areas[index(node.side)] / all)));
-    const bool above_is_large =
-        node.parent == none<TreeNodeId> || tree.nodes[index(node.parent)].leaf_count > limit;
-    if (above_is_large && (node.leaf_count <= limit || is_leaf(node)))
+    const auto is_divided = [&](const TreeNode& other) {
+      return !is_leaf(other) && (other.leaf_count > limit || other.cut);
+    };
+    const bool above_is_divided =
+        node.parent == none<TreeNodeId> || is_divided(tree.nodes[index(node.parent)]);
+    if (above_is_divided && !is_divided(node))
       nodes.push_back(static_cast<TreeNodeId>(n));
   }
   return nodes;

@@ -35,7 +35,7 @@ std::vector<float> exposed_shares(const ElementMesh& mesh, const NodeTree& tree,
                                   const NodeCut& cut);
 
 /// Four to sixteen nodes on every side that has so many elements:
-/// one for each 1/1024 of all there is.
+/// one for each 1/1024 of all there is. Where something stands across one, its parts.
 std::vector<TreeNodeId> first_receivers(const ElementMesh& mesh, const NodeTree& tree);
 
 /// Those, and smaller ones where something stands on a side.

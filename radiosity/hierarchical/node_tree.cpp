@@ -9,7 +9,8 @@ namespace {
 enum class Shape : std::uint8_t {
   grid,  ///< root cells [i, i + nu) x [j, j + nv); of a side of triangles, pairs of them
   wedge, ///< the triangles of nu rows from (i, j)
-  cell   ///< a cell of the forest
+  cell,  ///< a cell of the forest
+  region ///< that of a cut leaf whose element has the number i
 };
 
 /// What a node is made of.
@@ -54,6 +55,14 @@ std::vector<Piece> halves(const Piece& p, double aspect) {
 
 std::vector<Piece> parts_of(const ElementMesh& mesh, const MeshSide& side, const Piece& p,
                             double aspect) {
+  if (p.shape == Shape::cell && is_leaf(mesh.cells[p.cell])) {
+    const MeshCell& leaf = mesh.cells[p.cell];
+    std::vector<Piece> regions;
+    for (std::uint32_t k = 0; k < leaf.element_count; ++k)
+      regions.push_back(
+          {Shape::region, static_cast<int>(leaf.first_element + k), 0, 1, 1, p.cell});
+    return regions;
+  }
   if (p.shape == Shape::cell) {
     const std::uint32_t first = index(mesh.cells[p.cell].first_child);
     return {{Shape::cell, 0, 0, 1, 1, first},
@@ -77,12 +86,15 @@ TreeNode node_of(const ElementMesh& mesh, const MeshSide& side, SideId id, const
   TreeNode node;
   node.side = id;
   node.triangle = side.triangle && p.shape != Shape::grid;
-  if (p.shape == Shape::cell) {
+  if (p.shape == Shape::cell || p.shape == Shape::region) {
     const MeshCell& cell = mesh.cells[p.cell];
     node.uv = patch_uv_of(mesh, cell, Vec2(0.0));
     node.extent = patch_uv_of(mesh, cell, Vec2(1.0)) - node.uv;
-    if (is_leaf(cell))
+    if (p.shape == Shape::region)
+      node.element = static_cast<ElementId>(p.i);
+    else if (is_leaf(cell) && cell.element_count == 1)
       node.element = static_cast<ElementId>(cell.first_element);
+    node.cut = is_leaf(cell) && p.shape == Shape::cell && cell.element_count > 1;
   } else {
     const Vec2 cells(side.nu, side.nv);
     node.uv = Vec2(p.i, p.j) / cells;
@@ -96,8 +108,11 @@ void number_leaves(std::size_t tops, NodeTree& tree) {
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {
     TreeNode& node = tree.nodes[n];
     node.leaf_count = is_leaf(node) ? 1 : 0;
-    for (std::uint32_t c = 0; c < node.child_count; ++c)
-      node.leaf_count += tree.nodes[index(node.first_child) + c].leaf_count;
+    for (std::uint32_t c = 0; c < node.child_count; ++c) {
+      const TreeNode& child = tree.nodes[index(node.first_child) + c];
+      node.leaf_count += child.leaf_count;
+      node.cut = node.cut || child.cut;
+    }
   }
   std::uint32_t next = 0;
   for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
@@ -114,6 +129,29 @@ void number_leaves(std::size_t tops, NodeTree& tree) {
     }
     if (is_leaf(node))
       tree.elements[node.first_leaf] = node.element;
+  }
+}
+
+/// Marks the nodes above a leaf on which something stands between this and another of its leaves.
+void mark_walled(const ElementMesh& mesh, std::uint32_t number, std::size_t leaf, NodeTree& tree) {
+  constexpr std::array<Vec2, 4> quad{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
+  constexpr std::array<Vec2, 3> half{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
+  const MeshCell& cell = mesh.cells[number];
+  const std::span<const Vec2> corners =
+      mesh.sides[index(cell.side)].triangle ? std::span<const Vec2>(half) : quad;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    if (((mesh.walled_edges[number] >> k) & 1U) == 0)
+      continue;
+    const Vec2 uv =
+        patch_uv_of(mesh, cell, 0.5 * (corners[k] + corners[(k + 1) % corners.size()]));
+    for (TreeNodeId above = tree.nodes[leaf].parent; above != none<TreeNodeId>;
+         above = tree.nodes[index(above)].parent) {
+      constexpr double border = 1e-9;
+      TreeNode& node = tree.nodes[index(above)];
+      const Vec2 st = (uv - node.uv) / node.extent;
+      const double beyond = node.triangle ? 1.0 - st.x - st.y : 1.0 - std::max(st.x, st.y);
+      node.cut = node.cut || std::min({st.x, st.y, beyond}) > border;
+    }
   }
 }
 
@@ -151,11 +189,15 @@ NodeTree make_node_tree(const ElementMesh& mesh, const SurfaceModel& surfaces) {
       const SideId side = tree.nodes[n].side;
       const auto parts = parts_of(mesh, mesh.sides[index(side)], pieces[n], aspects[index(side)]);
       tree.nodes[n].first_child = static_cast<TreeNodeId>(tree.nodes.size());
-      tree.nodes[n].child_count = static_cast<std::uint8_t>(parts.size());
+      tree.nodes[n].child_count = static_cast<std::uint32_t>(parts.size());
       for (const Piece& part : parts)
         add(side, part, static_cast<TreeNodeId>(n));
     }
   }
+  if (!mesh.walled_edges.empty())
+    for (std::size_t n = 0; n < tree.nodes.size(); ++n)
+      if (pieces[n].shape == Shape::cell && is_leaf(mesh.cells[pieces[n].cell]))
+        mark_walled(mesh, pieces[n].cell, n, tree);
   number_leaves(mesh.sides.size(), tree);
   return tree;
 }

@@ -3,7 +3,8 @@
 //
 // At the top is one node for each side, at the bottom the elements.
 // A grid of root cells is halved, in the direction in which it is longer or in both;
-// below, a node is a cell of the forest (element_mesh.h). A grid of triangles with n rows
+// below, a node is a cell of the forest (element_mesh.h); the regions of a cut leaf are its children.
+// A grid of triangles with n rows
 // is a parallelogram of (n - k) x k pairs and two such grids, of n - k and of k rows, k = n / 2.
 // A node is a part of its patch's (u, v): it covers  uv + (s, t) extent,  triangles s + t <= 1.
 #pragma once
@@ -19,8 +20,9 @@ enum class TreeNodeId : std::uint32_t {};
 struct TreeNode {
   TreeNodeId parent = none<TreeNodeId>;
   TreeNodeId first_child = none<TreeNodeId>; ///< none: a leaf
-  std::uint8_t child_count = 0;              ///< in a row
+  std::uint32_t child_count = 0;             ///< in a row
   bool triangle = false;
+  bool cut = false; ///< something stands across it: its parts have light of their own
   SideId side = none<SideId>;
   ElementId element = none<ElementId>; ///< of a leaf
   Vec2 uv{0.0}, extent{1.0};
