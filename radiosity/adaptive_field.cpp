@@ -59,11 +59,8 @@ std::vector<glm::vec3> carried(const ElementMesh& mesh, const std::vector<glm::v
                                const ElementMesh& finer, const SurfaceModel& surfaces) {
   std::vector<glm::vec3> result;
   result.reserve(finer.vertices.size());
-  for (std::size_t v = 0; v < finer.vertices.size(); ++v) {
-    const SideId side = finer.side_of_element[index(finer.element_of_vertex[v])];
-    const Patch& patch = surfaces.patches[index(finer.sides[index(side)].patch)];
-    result.push_back(value_in(mesh, values, locate(mesh, side, uv_at(patch, finer.vertices[v]))));
-  }
+  for (std::uint32_t v = 0; v < finer.vertices.size(); ++v)
+    result.push_back(value_in(mesh, values, place_in(mesh, surfaces, finer, ElementVertexId{v})));
   return result;
 }
 

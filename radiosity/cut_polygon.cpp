@@ -21,9 +21,29 @@ struct Line {
   double height(Vec2 x) const { return glm::dot(normal, x) - offset; }
 };
 
+/// Whichever end comes first, so that what is cut does not depend on how segments were found.
 Line line_through(Vec2 a, Vec2 b) {
-  const Vec2 along = glm::normalize(b - a), normal(-along.y, along.x);
+  constexpr double upright = 1e-6;
+  Vec2 along = glm::normalize(b - a);
+  if (along.x < -upright || (along.x < upright && along.y < 0.0))
+    along = -along;
+  const Vec2 normal(-along.y, along.x);
   return {normal, glm::dot(normal, a)};
+}
+
+/// The longest; of those as long, to rounding, the one whose middle comes first.
+const Segment2& longest_of(std::span<const Segment2> segments) {
+  constexpr double alike = 1e-6;
+  const Segment2* longest = &segments[0];
+  for (const Segment2& s : segments) {
+    const double length = glm::distance(s.a, s.b), most = glm::distance(longest->a, longest->b);
+    const Vec2 before = s.a + s.b - (longest->a + longest->b);
+    const bool comes_first = before.x < -alike * most ||
+                             (before.x < alike * most && before.y < -alike * most);
+    if (length > (1.0 + alike) * most || (length > (1.0 - alike) * most && comes_first))
+      longest = &s;
+  }
+  return *longest;
 }
 
 /// The part of a convex polygon on one side of a line; `sign` -1: below it.
@@ -56,8 +76,7 @@ struct Cutter {
       cut.pieces.push_back(std::move(polygon));
       return CutLine::piece | static_cast<std::uint32_t>(cut.pieces.size() - 1);
     }
-    const Segment2 longest = *std::ranges::max_element(
-        inside, {}, [](const Segment2& s) { return glm::distance(s.a, s.b); });
+    const Segment2 longest = longest_of(inside);
     const Line line = line_through(longest.a, longest.b);
     const auto number = static_cast<std::uint32_t>(cut.lines.size());
     cut.lines.push_back({line.normal, line.offset, {}});

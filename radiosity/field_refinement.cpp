@@ -78,19 +78,28 @@ public:
     const std::uint32_t own_seed = seed_of(cell_.side, patch_uv_of(mesh_, cell_, Vec2(0.25)));
     for (std::uint32_t k = 0; k <= static_cast<std::uint32_t>(points); ++k) {
       const Vec2 st = point_of(side_.triangle, k, own_seed);
-      add(sample, patch_uv_of(mesh_, cell_, st), st, sum);
+      const Vec2 uv = uv_of(st);
+      add(sample, uv, region_of(mesh_, element_) ? locate(mesh_, cell_.side, uv).st : st, sum);
     }
     for (const Vec2 uv : on_outline)
-      add(sample, uv, locate(mesh_, cell_.side, uv).st, sum);
+      if (const ElementPoint at = locate(mesh_, cell_.side, uv); at.element == element_)
+        add(sample, uv, at.st, sum);
     const double share = sum.points > 0 ? mesh_.area[index(element_)] / sum.points : 0.0;
     return {true, false, sum.points, share * sum.off, share * sum.light, share * sum.sigma};
   }
 
 private:
+  /// A point of the element, which may be a region of its leaf.
+  Vec2 uv_of(Vec2 st) const {
+    const RegionElement* region = region_of(mesh_, element_);
+    if (region == nullptr)
+      return patch_uv_of(mesh_, cell_, st);
+    ReceiverArea area;
+    area.region = region;
+    return uv_at(patch_, point_in_region(area, st));
+  }
+
   void add(const SamplePoint& at, Vec2 uv, Vec2 st, Found& sum) const {
-    if (region_of(mesh_, element_) != nullptr &&
-        locate(mesh_, cell_.side, uv).element != element_)
-      return; // in another region of the leaf
     const PointSample sample =
         at({point_at(patch_, uv), side_.normal, side_.plane_class, side_.tangent, side_.coat},
            size_of(mesh_, element_), seed_of(cell_.side, uv));

@@ -265,6 +265,41 @@ void light_contacts(const VertexSource& source, const FoundField& found,
   extend_to_contacts(edges, lights, valid, field);
 }
 
+/// Vertices beyond what cuts an element have the light of the place next to it. The line through
+/// that and the light at the element's own corners is followed to the vertex, so that light is
+/// right where it is seen.
+void extend_regions(const FoundField& found, std::vector<std::uint8_t>& valid,
+                    DiffuseField& field) {
+  const ElementMesh& mesh = found.mesh;
+  std::vector<ContactEdge> edges;
+  std::vector<ContactLight> lights;
+  for (std::uint32_t e = 0; e < element_count(mesh); ++e) {
+    const RegionElement* region = region_of(mesh, ElementId{e});
+    if (region == nullptr)
+      continue;
+    const ElementCorners& corners = mesh.corners[e];
+    const std::size_t count = corners[3] == corners[2] ? 3 : 4;
+    const auto is_own = [&](std::size_t c) { return ((region->own_corners >> c) & 1U) != 0; };
+    for (std::size_t c = 0; c < count; ++c)
+      for (const std::size_t beside : {(c + 1) % count, (c + count - 1) % count}) {
+        const std::uint32_t v = index(corners[c]), n = index(corners[beside]);
+        if (is_own(c) || !is_own(beside) || valid[v] == 0 || valid[n] == 0)
+          continue;
+        const Vec3 way = mesh.vertices[v] - mesh.vertices[n];
+        const double place =
+            glm::dot(found.receivers[v].position - mesh.vertices[n], way) / glm::dot(way, way);
+        if (!(place > 0.0 && place < 1.0))
+          continue;
+        edges.push_back({v, n});
+        lights.push_back(
+            {place,
+             {{Rgb(field.irradiance[v]), Rgb(field.mirrored[v])},
+              {Rgb(field.indirect[v]), Rgb(field.indirect_mirrored[v])}}});
+      }
+  }
+  extend_to_contacts(edges, lights, valid, field);
+}
+
 /// The corners of elements that are open only in between take what is gathered there.
 void light_gaps(const VertexSource& source, const ElementMesh& mesh,
                 std::vector<std::uint8_t>& valid, DiffuseField& field) {
@@ -291,6 +326,7 @@ DiffuseField settled(const VertexSource& source, const FoundField& found) {
   std::vector<std::uint8_t> valid = with_values(found);
   for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
   light_contacts(source, found, valid, field);
+  extend_regions(found, valid, field);
   light_gaps(source, found.mesh, valid, field);
   for_each_array(field, [&](auto& values) {
     fill_vertices(found.mesh, valid, values);

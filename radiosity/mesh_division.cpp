@@ -390,6 +390,32 @@ ElementCorners same_corners(const ElementMesh& from, ElementId element, const El
   return corners;
 }
 
+ElementPoint place_in(const ElementMesh& coarse, const SurfaceModel& surfaces,
+                      const ElementMesh& mesh, ElementVertexId vertex) {
+  const Point3& x = mesh.vertices[index(vertex)];
+  const ElementId element = mesh.element_of_vertex[index(vertex)];
+  const SideId id = mesh.side_of_element[index(element)];
+  const MeshSide& side = coarse.sides[index(id)];
+  const Patch& patch = surfaces.patches[index(side.patch)];
+  if (!is_at_contact(mesh, index(vertex)))
+    return locate(coarse, id, uv_at(patch, x));
+  Point3 within(0.0);
+  if (const RegionElement* region = region_of(mesh, element)) {
+    const auto& [a, b, c] = region->triangles[0];
+    within = (a + b + c) / 3.0;
+  } else {
+    const ElementCorners& corners = mesh.corners[index(element)];
+    for (std::size_t k = 0; k < 3; ++k)
+      within += mesh.vertices[index(corners[k])] / 3.0;
+  }
+  const ElementPoint at = locate(coarse, id, uv_at(patch, within));
+  const MeshCell& cell = cell_of(coarse, at.element);
+  const double sign = cell.flipped ? -1.0 : 1.0;
+  const Vec2 divisions(side.nu << cell.level, side.nv << cell.level);
+  return {at.element,
+          glm::clamp(sign * (uv_at(patch, x) * divisions - Vec2(cell.i, cell.j)), 0.0, 1.0)};
+}
+
 CellId root_of(const ElementMesh& mesh, ElementId element) {
   CellId cell = mesh.cell_of_element[index(element)];
   while (mesh.cells[index(cell)].parent != none<CellId>)

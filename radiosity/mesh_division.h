@@ -49,6 +49,11 @@ std::vector<CellId> same_cells(const ElementMesh& from, const ElementMesh& to);
 ElementCorners same_corners(const ElementMesh& from, ElementId element, const ElementMesh& to,
                             CellId cell);
 
+/// Where a vertex of a mesh is in a coarser one, of which it has all cells: in the element that the
+/// vertex's own elements are parts of, though something may stand between it and them.
+ElementPoint place_in(const ElementMesh& coarse, const SurfaceModel& surfaces,
+                      const ElementMesh& mesh, ElementVertexId vertex);
+
 /// The root of the tree an element is in.
 CellId root_of(const ElementMesh& mesh, ElementId element);
 

@@ -61,9 +61,8 @@ struct CoarseLight {
 };
 CoarseLight light_in(const FoundField& coarse, const SurfaceModel& surfaces,
                      const ElementMesh& mesh, std::size_t v) {
-  const SideId side = mesh.side_of_element[index(mesh.element_of_vertex[v])];
-  const Patch& patch = surfaces.patches[index(mesh.sides[index(side)].patch)];
-  const ElementPoint at = locate(coarse.mesh, side, uv_at(patch, mesh.vertices[v]));
+  const ElementPoint at =
+      place_in(coarse.mesh, surfaces, mesh, static_cast<ElementVertexId>(v));
   const auto value = [&](const std::vector<glm::vec3>& values) {
     return value_in(coarse.mesh, values, at);
   };

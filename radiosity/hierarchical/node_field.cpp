@@ -4,7 +4,6 @@
 #include "radiosity/gather_noise.h"
 #include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/hierarchical/node_edges.h"
-#include "radiosity/hierarchical/open_parts.h"
 #include "radiosity/shadow_edges.h"
 #include "radiosity/vertex_places.h"
 
@@ -144,25 +143,10 @@ void share_out(const NodeInterpolation& by, FoundField& found) {
   take(false);
 }
 
-/// Elements whose corners do not tell what they receive, by ElementId:
-/// those with a covered corner, and those on which something stands.
-std::vector<std::uint8_t> covered_somewhere(const FoundField& found,
-                                            const std::vector<CoveredCells>& covered) {
-  std::vector<std::uint8_t> somewhere;
-  for (std::size_t e = 0; e < covered.size(); ++e) {
-    const bool at_corner = std::ranges::any_of(found.mesh.corners[e], [&](ElementVertexId v) {
-      return found.states[index(v)] == VertexState::covered;
-    });
-    somewhere.push_back(covered[e] != 0 || at_corner ? 1 : 0);
-  }
-  return somewhere;
-}
-
 /// What elements receive, by their corners: all of it where they share points for light from the
-/// source (node_light.h), or the rest. Of a spot of a few elements corners do not tell the light,
-/// and of an element on which something stands its open part does (open_parts.h).
+/// source (node_light.h), or the rest. Of a spot of a few elements corners do not tell the light.
 std::vector<Rgb> received_at_corners(const ElementLight& elements, const ReceiverNodes& receivers,
-                                     const std::vector<OpenPart>& parts, const FoundField& found,
+                                     const FoundField& found,
                                      const std::vector<glm::vec3>& irradiance,
                                      const std::vector<glm::vec3>& indirect) {
   const VertexEdges edges = edges_of(found.mesh);
@@ -171,23 +155,18 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Receive
   for (std::size_t e = 0; e < received.size(); ++e)
     if (receivers.share_light[e] == 0)
       received[e] = elements.from_source[e] + rest[e];
-  for (const OpenPart& part : parts)
-    received[index(part.element)] = part.from_source + part.indirect;
   return received;
 }
 
 /// The radiosity of the elements by the field that they make themselves, found with few rays:
 /// `found` has it in between.
 std::vector<Rgb> reflected_by_field(const VertexSource& few, const ReceiverNodes& receivers,
-                                    const ElementLight& elements, std::vector<OpenPart>& parts,
-                                    FoundField& found) {
+                                    const ElementLight& elements, FoundField& found) {
   DiffuseField lit = found.field;
   std::vector<VertexState> states = found.states;
   share_out(gather_at_nodes({few, few}, receivers, few_rays * receivers.bend, found), found);
-  parts = open_parts(few, {elements.from_source, receivers.share_light},
-                     covered_somewhere(found, receivers.covered), receivers.covered);
   const std::vector<Rgb> received =
-      received_at_corners(elements, receivers, parts, found, filled(found, found.field.irradiance),
+      received_at_corners(elements, receivers, found, filled(found, found.field.irradiance),
                           filled(found, found.field.indirect));
   std::vector<Rgb> reflected = elements.reflected;
   for (std::size_t e = 0; e < received.size(); ++e)
@@ -207,8 +186,7 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
       gathering_from(light, elements.reflected, how, first_share, first_spared);
   KeptRays kept;
   const VertexSource few{elements.irradiance, solved, workspaces, &kept, true};
-  std::vector<OpenPart> parts;
-  const std::vector<Rgb> reflected = reflected_by_field(few, receivers, elements, parts, found);
+  const std::vector<Rgb> reflected = reflected_by_field(few, receivers, elements, found);
   const int times = times_of_rays(element_count(light.mesh), receivers.receivers.size());
   const PointGathering seen = gathering_from(light, reflected, how, {}, 0.0, first_share),
                        seen_by_small = gathering_from(light, reflected, how, {few_rays, times},
@@ -222,7 +200,7 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
       by_large{elements.irradiance, seen_by_large ? *seen_by_large : seen, workspaces, &kept};
   share_out(gather_at_nodes({by_large, by_small}, receivers, receivers.bend, found), found);
   InterpolatedField result{.field = settled(source, found)};
-  result.received = received_at_corners(elements, receivers, parts, found, result.field.irradiance,
+  result.received = received_at_corners(elements, receivers, found, result.field.irradiance,
                                         result.field.indirect);
   const BendScale scale = bend_scale(light.mesh, elements.reflected);
   divide_bent(light, source, scale, how.interpolation.bend, found, result);

@@ -10,9 +10,6 @@
 // In the second gathering a vertex takes the more rays the more elements it stands for
 // (gather_noise.h).
 //
-// Elements on which something stands, and those with a covered corner, whose value is that of the
-// open, gather by themselves (open_parts.h).
-//
 // A receiver sends as if all of it received the same.
 // Beside an edge of the room, where a wall lights the other from as near as a receiver is large,
 // that is too even: corners of rooms come out too bright.

@@ -210,7 +210,7 @@ TEST(Hierarchical, TreesAndCutsAreWhole) {
       // Half the product of the diagonals, or of two edges of a triangle;
       // as far as the floats of a file make them planar.
       const Vec3 opposite = area.edge_u + area.edge_v + area.edge_uv;
-      const double own =
+      const double own = area.region != nullptr ? area.region->area_up_to.back() :
           0.5 * glm::length(area.triangle ? glm::cross(area.edge_u, area.edge_v)
                                           : glm::cross(opposite, area.edge_v - area.edge_u));
       EXPECT_NEAR(own, below, 1e-6 * below) << n;
