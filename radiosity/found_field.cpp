@@ -286,9 +286,11 @@ void extend_regions(const FoundField& found, std::vector<std::uint8_t>& valid,
         if (is_own(c) || !is_own(beside) || valid[v] == 0 || valid[n] == 0)
           continue;
         const Vec3 way = mesh.vertices[v] - mesh.vertices[n];
-        const double place =
-            glm::dot(found.receivers[v].position - mesh.vertices[n], way) / glm::dot(way, way);
-        if (!(place > 0.0 && place < 1.0))
+        const Vec3 to = found.receivers[v].position - mesh.vertices[n];
+        const double place = glm::dot(to, way) / glm::dot(way, way);
+        // Of its edges the one on which light is gathered for the vertex (vertex_places.h).
+        if (!(place > 0.0 && place < 1.0 &&
+              glm::distance(to, place * way) < 0.05 * glm::length(way)))
           continue;
         edges.push_back({v, n});
         lights.push_back(
