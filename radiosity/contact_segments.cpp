@@ -15,7 +15,7 @@ namespace meninas {
 
 namespace {
 
-constexpr double hovering = 1.0 / 8.0;  ///< of an element
+constexpr double hovering = 1.0 / 16.0; ///< of an element
 constexpr double min_side = 1.0 / 16.0; ///< of an element
 
 struct Box {
@@ -116,10 +116,15 @@ struct Heights {
   double on, close;
 };
 
+bool is_along(const std::array<Point3, 3>& face, const MeshSide& side) {
+  constexpr double max_sine = 0.3;
+  const Vec3 normal = glm::cross(face[1] - face[0], face[2] - face[0]);
+  return glm::length(glm::cross(normal, side.normal)) <= max_sine * glm::length(normal);
+}
+
 /// Where a face stands on the plane of a side, as the side's normal sees it.
 std::optional<Segment2> contact_of(const std::array<Point3, 3>& face, const MeshSide& side,
                                    const PlanePlace& place, Heights limit) {
-  constexpr double min_sine = 0.3; // of a face that does not cross the plane: flatter ones lie on it
   std::array<double, 3> height;
   for (std::size_t k = 0; k < 3; ++k)
     height[k] = glm::dot(side.normal, face[k] - place.origin);
@@ -138,11 +143,18 @@ std::optional<Segment2> contact_of(const std::array<Point3, 3>& face, const Mesh
     }
     return Segment2{ends[0], ends[1]};
   }
-  const Vec3 normal = glm::cross(face[1] - face[0], face[2] - face[0]);
-  if (height[second] > limit.close ||
-      glm::length(glm::cross(normal, side.normal)) <= min_sine * glm::length(normal))
+  if (height[second] > limit.close || is_along(face, side))
     return std::nullopt;
   return Segment2{place(face[lowest]), place(face[second])};
+}
+
+/// Whether a face hovers close above the plane of a side, along it.
+bool hovers_along(const std::array<Point3, 3>& face, const MeshSide& side, const PlanePlace& place,
+                  Heights limit) {
+  return is_along(face, side) && std::ranges::all_of(face, [&](const Point3& x) {
+           const double height = glm::dot(side.normal, x - place.origin);
+           return height > limit.on && height <= limit.close;
+         });
 }
 
 /// How far the runs of segments extend whose ends meet within `grain`.
@@ -181,9 +193,11 @@ std::vector<ContactSegment> contacts_on(const Scene& scene, const SurfaceModel& 
                                         const FaceTree& faces, const MeshSide& side) {
   std::vector<ContactSegment> found;
   const Patch& patch = surfaces.patches[index(side.patch)];
-  const double size = side.element_size;
-  if (!(patch.area / side.root_count > min_side * min_side * size * size))
+  const double cell = patch.area / side.root_count;
+  if (!(cell > min_side * min_side * side.element_size * side.element_size))
     return found;
+  // Elements may be wanted larger than there is room.
+  const double size = std::min(side.element_size, std::sqrt(cell));
   const double tolerance = surfaces.surfaces[index(patch.surface)].tolerance;
   const Heights limit{4.0 * tolerance, hovering * size};
   const PlanePlace place(patch, side);
@@ -201,10 +215,21 @@ std::vector<ContactSegment> contacts_on(const Scene& scene, const SurfaceModel& 
   faces.for_each(box, [&](TriangleId t) {
     if (surfaces.plane_of_triangle[index(t)] == side.plane_class)
       return;
-    const auto contact = contact_of(corners(scene, t), side, place, limit);
-    Segment2 inside = contact.value_or(Segment2{});
-    if (contact && clip_to(outline, grain, inside))
-      found.push_back({*contact, 0.0});
+    const auto add = [&](const Segment2& contact) {
+      Segment2 inside = contact;
+      if (clip_to(outline, grain, inside))
+        found.push_back({contact, 0.0});
+    };
+    const std::array<Point3, 3> face = corners(scene, t);
+    if (const auto contact = contact_of(face, side, place, limit))
+      add(*contact);
+    // Of what hovers along the side the outline parts light and shade.
+    const Patch& hovering_patch = surfaces.patches[index(surfaces.patch_of_triangle[index(t)])];
+    if (hovering_patch.triangles[0] == t && hovers_along(face, side, place, limit)) {
+      const std::span<const Point3> polygon = polygon_of(hovering_patch);
+      for (std::size_t k = 0; k < polygon.size(); ++k)
+        add({place(polygon[k]), place(polygon[(k + 1) % polygon.size()])});
+    }
   });
   measure_runs(found, grain);
   return found;

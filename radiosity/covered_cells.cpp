@@ -122,8 +122,26 @@ CoveredCells cells_at_foot(CoveredCells covered) {
   return around & ~covered;
 }
 
+/// A region is cut along what stands there: all of it is covered, or none. Rays may begin at its
+/// very rim, on either side of the wall there, so nearly all of them have to meet black.
+static Covered covered_region(const LightScene& light, const DirectionNet& net,
+                              const RaySource& source,
+                              std::span<const std::uint32_t> black_lanes) {
+  constexpr double nearly_all = 0.97;
+  double black = 0.0;
+  for (const std::uint32_t lanes : black_lanes)
+    black += std::popcount(lanes);
+  const auto rays = static_cast<double>(net.points.size());
+  if (black < nearly_all * rays ||
+      !is_enclosed(light, source, [](std::uint32_t) { return Vec2(0.5); }))
+    return {};
+  return {wholly_covered, rays, 0.0F};
+}
+
 Covered find_covered(const LightScene& light, const DirectionNet& net, const RaySource& source,
                      std::span<const std::uint32_t> black_lanes) {
+  if (source.area.region != nullptr)
+    return covered_region(light, net, source, black_lanes);
   const CellCounts counts = count_cells(net, source, black_lanes);
   // A few rays leave cells out:
   // what is covered is looked for from cells with black rays on, through those without any.

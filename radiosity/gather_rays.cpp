@@ -295,6 +295,18 @@ void follow_mirrors(const LightScene& light, const FormFactorSettings& settings,
 
 } // namespace
 
+/// Of a receiver that is covered as a whole all rays count as black, also those that begin on its
+/// rim, within rounding of the outside.
+static void forget_rays(GatheredRays& result, GatherWorkspace& work) {
+  const double rays = result.rays;
+  const std::uint64_t traced = result.traced;
+  result.clear();
+  result.rays = result.black = rays;
+  result.black_light = glm::vec3(static_cast<float>(rays));
+  result.traced = traced;
+  work.next.clear();
+}
+
 void gather_rays(const LightScene& light, const DirectionNet& net, const ReceiverArea& receiver,
                  std::uint32_t seed, const FormFactorSettings& settings, GatherWorkspace& work) {
   const RaySource source = ray_source(receiver, light.rays.frame(), seed);
@@ -303,6 +315,8 @@ void gather_rays(const LightScene& light, const DirectionNet& net, const Receive
   GatheredRays& result = work.result;
   if (result.black > 0.0 && !receiver.is_point()) {
     const Covered covered = find_covered(light, net, source, work.black_lanes);
+    if (covered.cells == wholly_covered)
+      forget_rays(result, work);
     result.covered = covered.cells;
     result.covered_rays = covered.rays;
     result.exposed = covered.exposed;

@@ -310,6 +310,11 @@ TEST(ContactLeaks, WhatStandsThereCutsAndNothingElse) {
   EXPECT_EQ(regions_on_floor(upright(0.1, 0.0, 1.0), double_sided(pane)), 0U);
   EXPECT_EQ(regions_on_floor({{-1, 0.1, 1}, {1, 0.1, 1}, {1, 0.1, -1}, {-1, 0.1, -1}}, paper), 0U)
       << "along it";
+  const double low = 0.01;
+  EXPECT_GT(regions_on_floor({{-1, low, 0.4}, {0.1, low, 0.4}, {0.1, low, -0.7}, {-1, low, -0.7}},
+                             diffuse(0.5)),
+            0U)
+      << "the outline of a rug";
 }
 
 } // namespace

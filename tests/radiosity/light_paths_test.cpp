@@ -28,6 +28,8 @@ LightScene by_rays_alone(const LightScene& light) {
 
 /// What is compared, and how finely it is sampled.
 /// Where few rays meet the lamp, so that an element's error is not known, the means over nodes are.
+/// Of the box of `mirror-spot`, lit through a hole, 4,096 rays of each of its few elements meet the
+/// lamp once in a dozen solutions, which says nothing of the error either; sixteen times as many do.
 struct Comparison {
   std::string scene;
   bool by_node = false;
@@ -136,7 +138,7 @@ TEST_P(LightPaths, TermsAddUpToTheRaysOnlyAnswer) {
 INSTANTIATE_TEST_SUITE_P(Gallery, LightPaths,
                          testing::Values(Comparison{"cornell"}, Comparison{"facing-mirrors"},
                                          Comparison{"cornell-mirror", true, 1024, 12},
-                                         Comparison{"mirror-spot", true, 4096, 8},
+                                         Comparison{"mirror-spot", true, 65536, 8},
                                          Comparison{"periscope", true, 1024, 12},
                                          Comparison{"glass-solids", true, 1024, 12}),
                          [](const auto& compared) {
