@@ -1,7 +1,10 @@
 #include "scenes/gltf.h"
 
+#include "scenes/glass_plates.h"
 #include "scenes/gltf_stages.h"
+#include "scenes/nearly_flat.h"
 #include "scenes/smooth_surfaces.h"
+#include "scenes/touching.h"
 
 #include <fmt/format.h>
 
@@ -101,6 +104,23 @@ static void report_animations(const Document& document, Scene& scene, Findings& 
     scene.ignored.push_back("animations");
 }
 
+static void make_flat(Scene& scene, std::span<const float> half_steps, Findings& findings) {
+  const Flattening made = flatten_nearly_flat(scene, half_steps);
+  if (made.surfaces > 0)
+    findings.say(fmt::format("surfaces that are flat but for rounding are made flat: {} (vertices "
+                             "moved by at most {:.2g} m)",
+                             made.surfaces, made.farthest));
+}
+
+static void put_apart(Scene& scene, Findings& findings) {
+  for (const NodeId node : plates_to_panes(scene))
+    findings.about("plates of glass that lie on a face count as panes in nodes",
+                   scene.nodes[index(node)].name);
+  for (const NodeId node : separate_touching(scene))
+    findings.about("glass or lamps that lie in the plane of a face are put a hair before it in nodes",
+                   scene.nodes[index(node)].name);
+}
+
 Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings) {
   auto content = read_whole_file(file, settings.memory_limit);
   if (!content.problem.empty())
@@ -117,7 +137,7 @@ Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& f
   check_extensions(document, scene, findings);
 
   const auto nodes = place_nodes(document, findings);
-  read_geometry(document, nodes, scene, findings);
+  const std::vector<float> half_steps = read_geometry(document, nodes, scene, findings);
   if (scene.triangles.empty())
     throw InputError(document.file, "",
                      scene.degenerate_triangles == 0
@@ -125,9 +145,13 @@ Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& f
                          : fmt::format("nothing to render: all {} triangles are without area",
                                        scene.degenerate_triangles));
   read_materials(document, scene, findings);
+  make_flat(scene, half_steps, findings);
+  put_apart(scene, findings);
   mark_smooth_surfaces(scene);
   read_cameras(document, nodes, scene, findings);
   read_lights(document, nodes, scene, findings);
+  for (const std::string& light : settle_lights(scene))
+    findings.about("lights in the plane of a face are put before it", light);
 
   report_animations(document, scene, findings);
   if (scene.degenerate_triangles > 0)

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <set>
 
 namespace meninas::gltf {
 
@@ -253,6 +255,34 @@ Vectors decode_vectors(const Document& document, std::size_t accessor, std::size
     }
   });
   return vectors;
+}
+
+/// Whether a number of `stored` bits is one of `bits`, of which the highest fill up the rest.
+static bool has_repeated_bits(std::uint32_t value, int stored, int bits) {
+  const auto high = value >> (stored - bits);
+  return value == ((high << (stored - bits)) | (high >> (2 * bits - stored)));
+}
+
+double step_of_values(const Document& document, std::size_t accessor) {
+  const Reader reader(document, accessor);
+  const auto component = reader.component();
+  if (component == Component::f32 || component == Component::u32)
+    return 0.0;
+  const bool has_sign = component == Component::i8 || component == Component::i16;
+  const int stored = 8 * static_cast<int>(size_of(component)) - (has_sign ? 1 : 0);
+  std::set<std::uint32_t> values;
+  reader.each([&](std::uint64_t, const unsigned char* bytes) {
+    for (std::size_t c = 0; c < reader.width(); ++c)
+      values.insert(static_cast<std::uint32_t>(
+          std::abs(read_number(bytes + c * size_of(component), component))));
+  });
+  constexpr std::size_t few = 16; // of them some fit by chance
+  int bits = stored;
+  for (int fewer = stored - 1; values.size() >= few && 2 * fewer > stored; --fewer)
+    if (std::ranges::all_of(values, [&](auto v) { return has_repeated_bits(v, stored, fewer); }))
+      bits = fewer;
+  const double step = std::ldexp(1.0, stored - bits);
+  return reader.is_normalised() ? normalised(step, component) : step;
 }
 
 std::vector<std::uint32_t> decode_indices(const Document& document, std::size_t accessor) {

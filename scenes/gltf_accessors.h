@@ -19,6 +19,13 @@ struct Vectors {
 };
 Vectors decode_vectors(const Document& document, std::size_t accessor, std::size_t width);
 
+/// The distance between neighbouring values that an accessor can hold: of integers, 0 of floats.
+///
+/// Optimisers quantise to fewer bits than they store: b bits q become q 2^(s-b) + q 2^-(2b-s), the
+/// high bits repeated below (`quantize` of glTF-Transform). Where all of many values have that
+/// form, the step is that of the fewest such bits.
+double step_of_values(const Document& document, std::size_t accessor);
+
 /// Unsigned integers of one component.
 std::vector<std::uint32_t> decode_indices(const Document& document, std::size_t accessor);
 

@@ -22,6 +22,13 @@ struct Part {
   std::vector<glm::vec4> colors; ///< empty without COLOR_0
   std::vector<Corners> triangles;
   MaterialId material = none<MaterialId>;
+  double step = 0.0; ///< of integer positions; 0: floats
+};
+
+/// What is read, and by vertex half the step of integer positions, in metres.
+struct Geometry {
+  Scene& scene;
+  std::vector<float> half_steps;
 };
 
 // Coordinates whose fourth powers leave the range of doubles cannot be computed with.
@@ -152,6 +159,7 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& 
 
   Part part;
   part.positions = decode_positions(at, *accessor);
+  part.step = step_of_values(at.document, *accessor);
   if (const auto* targets = find(at.json, "targets"); targets && !targets->empty()) {
     findings.about("morph targets stand still, by their default weights, in nodes", at.in.node);
     apply_morph_targets(at.document, at.where(), at.json, at.in.morph_weights, part.positions);
@@ -189,6 +197,8 @@ public:
           std::max(stretch_, std::abs(rows[row].x) + std::abs(rows[row].y) + std::abs(rows[row].z));
   }
 
+  /// Of coordinates that are rounded to multiples of a step.
+  double of_step(double step) const { return 0.5 * step * stretch_; }
   double of(double local) const {
     return half_ulp(local) * stretch_ + 4e-16 * (stretch_ * local + away_);
   }
@@ -220,7 +230,8 @@ static bool is_degenerate(const std::array<Point3, 3>& p, double error) {
 }
 
 static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat4& world,
-                     NodeId node, Scene& scene, Findings& findings) {
+                     NodeId node, Geometry& into, Findings& findings) {
+  Scene& scene = into.scene;
   const PositionError position_error(world);
   const auto error = position_error.of(part);
   const bool mirrored = is_mirrored(world);
@@ -248,6 +259,7 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
         scene.vertices.push_back({placed[corners[c]], part.texcoords[corners[c]]});
         scene.position_errors.push_back(
             static_cast<float>(position_error.of(largest_of(part.positions[corners[c]]))));
+        into.half_steps.push_back(static_cast<float>(position_error.of_step(part.step)));
         if (!part.colors.empty())
           scene.vertices.back().color = part.colors[corners[c]];
       }
@@ -266,11 +278,11 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
 
 /// A primitive where its node puts it: moved by the joints, or by the matrix of each instance.
 static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& node, NodeId id,
-                       Skins& skins, Scene& scene, Findings& findings) {
+                       Skins& skins, Geometry& into, Findings& findings) {
   if (const auto skin = index_at(element(at.document.root, "nodes", node.index), "skin")) {
     if (apply_skin(at.document, at.where(), at.json, skins.joints(*skin), part.positions)) {
       findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
-      return add_part(at, part, glm::dmat4(1.0), id, scene, findings);
+      return add_part(at, part, glm::dmat4(1.0), id, into, findings);
     }
     findings.about("skins without joints in the scene are left out in nodes", at.in.node);
   }
@@ -278,13 +290,14 @@ static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& no
   if (copies.empty())
     findings.about("instanced nodes without an instance are left out", at.in.node);
   for (const auto& world : copies)
-    add_part(at, part, world, id, scene, findings);
+    add_part(at, part, world, id, into, findings);
 }
 
-void read_geometry(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
-                   Findings& findings) {
+std::vector<float> read_geometry(const Document& document, std::span<const PlacedNode> nodes,
+                                 Scene& scene, Findings& findings) {
   check_geometry_size(document, nodes);
   Skins skins(document, nodes);
+  Geometry geometry{scene, {}};
   std::vector<std::string> names;
   for (const auto& node : nodes) {
     const auto mesh = index_at(element(document.root, "nodes", node.index), "mesh");
@@ -295,11 +308,12 @@ void read_geometry(const Document& document, std::span<const PlacedNode> nodes, 
     names.push_back(place.node);
     each_primitive(place, [&](const PrimitivePlace& at) {
       if (auto part = decode_primitive(at, findings))
-        place_part(at, std::move(*part), node, id, skins, scene, findings);
+        place_part(at, std::move(*part), node, id, skins, geometry, findings);
     });
   }
   for (auto& name : unique_names(names))
     scene.nodes.push_back({std::move(name)});
+  return std::move(geometry.half_steps);
 }
 
 } // namespace meninas::gltf

@@ -21,22 +21,27 @@ struct FlatFace {
   bool forward = true; ///< its front is where the plane's normal points
 };
 
+FlatFace flat_face(const std::array<Point3, 3>& p, const TangentFrame& frame,
+                   const Direction& normal) {
+  FlatFace face;
+  face.forward = glm::dot(area_vector(p), normal) >= 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    face.corners[face.forward ? k : 2 - k] = {glm::dot(p[k], frame.tangent),
+                                              glm::dot(p[k], frame.bitangent)};
+  }
+  const auto& c = face.corners;
+  face.low = glm::min(c[0], glm::min(c[1], c[2]));
+  face.high = glm::max(c[0], glm::max(c[1], c[2]));
+  return face;
+}
+
 std::vector<FlatFace> faces_of_plane(const Scene& scene, const Plane& plane,
                                      std::span<const TriangleId> triangles) {
   const TangentFrame frame = tangent_frame(plane.normal);
   std::vector<FlatFace> faces;
   for (const TriangleId triangle : triangles) {
-    const auto p = corners(scene, triangle);
-    FlatFace face{.triangle = triangle};
-    face.forward = glm::dot(area_vector(p), plane.normal) >= 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      face.corners[face.forward ? k : 2 - k] = {glm::dot(p[k], frame.tangent),
-                                                glm::dot(p[k], frame.bitangent)};
-    }
-    const auto& c = face.corners;
-    face.low = glm::min(c[0], glm::min(c[1], c[2]));
-    face.high = glm::max(c[0], glm::max(c[1], c[2]));
-    faces.push_back(face);
+    faces.push_back(flat_face(corners(scene, triangle), frame, plane.normal));
+    faces.back().triangle = triangle;
   }
   std::ranges::sort(faces, [](const FlatFace& a, const FlatFace& b) {
     return std::pair(a.low.x, a.triangle) < std::pair(b.low.x, b.triangle);
@@ -73,6 +78,20 @@ bool show_the_same_way(const Scene& scene, const FlatFace& a, const FlatFace& b)
 }
 
 } // namespace
+
+bool overlap_along(const Direction& normal, const std::array<Point3, 3>& a,
+                   const std::array<Point3, 3>& b, double depth) {
+  const TangentFrame frame = tangent_frame(normal);
+  const Point3& origin = a[0];
+  const auto flat = [&](std::array<Point3, 3> p) {
+    for (Point3& corner : p) {
+      corner -= origin;
+    }
+    return flat_face(p, frame, normal);
+  };
+  const FlatFace one = flat(a), other = flat(b);
+  return reaches_into(one, other, depth) && reaches_into(other, one, depth);
+}
 
 CountByNodes overlapping_faces(const Scene& scene, const SurfaceModel& surfaces) {
   std::vector<std::vector<TriangleId>> in_plane(surfaces.planes.size());

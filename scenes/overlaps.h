@@ -1,4 +1,4 @@
-// Faces that lie on one another in one plane. (Part of report_scene.)
+// Faces that lie on one another in one plane.
 #pragma once
 
 #include "scenes/mesh_oddities.h"
@@ -10,5 +10,9 @@ namespace meninas {
 /// which of them a ray meets is a matter of rounding. Counted by the faces of the first node
 /// that something of the second lies on. At least that many in a scene where all overlap.
 CountByNodes overlapping_faces(const Scene& scene, const SurfaceModel& surfaces);
+
+/// Whether two triangles, seen along a normal, have more in common than a strip of that depth.
+bool overlap_along(const Direction& normal, const std::array<Point3, 3>& a,
+                   const std::array<Point3, 3>& b, double depth);
 
 } // namespace meninas

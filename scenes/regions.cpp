@@ -42,9 +42,11 @@ private:
 class RegionGrower {
 public:
   RegionGrower(const Scene& scene, const std::vector<TriangleShape>& shapes,
-               const Topology& topology, const Precision& precision)
-      : scene_(scene), shapes_(shapes), topology_(topology), precision_(precision),
-        taken_(scene.triangles.size(), 0), asked_(topology.first_use.size(), 0) {}
+               const Topology& topology, std::span<const double> tolerances)
+      : scene_(scene), shapes_(shapes), topology_(topology), tolerances_(tolerances),
+        taken_(scene.triangles.size(), 0), asked_(topology.first_use.size(), 0) {
+    std::ranges::transform(tolerances, taken_.begin(), [](double t) { return t < 0.0 ? 1 : 0; });
+  }
 
   bool is_taken(TriangleId triangle) const { return taken_[index(triangle)] != 0; }
 
@@ -91,7 +93,7 @@ private:
     fit_.add(corners(scene_, triangle), shape);
     triangles_.push_back(triangle);
     region_.area += shape.area;
-    region_.tolerance = std::max(region_.tolerance, precision_.of(triangle));
+    region_.tolerance = std::max(region_.tolerance, tolerances_[index(triangle)]);
   }
 
   void expand(TriangleId triangle) {
@@ -118,14 +120,14 @@ private:
     // Moving one corner by the tolerance turns the triangle about the opposite edge by tolerance /
     // height.
     const double angle =
-        angle_tolerance + (shape.height > 0.0 ? precision_.of(triangle) / shape.height : 2.0);
+        angle_tolerance + (shape.height > 0.0 ? tolerances_[index(triangle)] / shape.height : 2.0);
     const double sine = glm::length(glm::cross(shape.normal, region_.plane.normal));
     const bool same_front = glm::dot(shape.normal, region_.plane.normal) > 0.0;
     return same_front && sine <= angle && within(triangle, region_.plane);
   }
 
   bool within(TriangleId triangle, const Plane& plane) const {
-    const double tolerance = precision_.of(triangle);
+    const double tolerance = tolerances_[index(triangle)];
     for (const Point3& corner : corners(scene_, triangle)) {
       if (!(std::abs(signed_distance(plane, corner)) <= tolerance)) {
         return false;
@@ -149,7 +151,7 @@ private:
   const Scene& scene_;
   const std::vector<TriangleShape>& shapes_;
   const Topology& topology_;
-  const Precision& precision_;
+  std::span<const double> tolerances_;
   std::vector<std::uint8_t> taken_;
   std::vector<std::uint64_t> asked_; ///< per edge, the round in which it was asked last
   std::uint64_t round_ = 0;
@@ -217,10 +219,10 @@ TriangleShape shape_of(const std::array<Point3, 3>& corners) {
 }
 
 Regions grow_regions(const Scene& scene, const std::vector<TriangleShape>& shapes,
-                     const Topology& topology, const Precision& precision) {
+                     const Topology& topology, std::span<const double> tolerances) {
   Regions grown;
   grown.members.reserve(scene.triangles.size());
-  RegionGrower grower(scene, shapes, topology, precision);
+  RegionGrower grower(scene, shapes, topology, tolerances);
   for (const TriangleId seed : seed_order(scene, shapes)) {
     if (!grower.is_taken(seed)) {
       grown.regions.push_back(grower.grow(seed, grown.members));

@@ -27,7 +27,7 @@ struct Region {
   std::uint32_t count = 0;
 };
 
-/// Every triangle is in exactly one region; regions are in the order of their first triangles.
+/// No triangle is in two regions; regions are in the order of their first triangles.
 struct Regions {
   std::vector<Region> regions;
   std::vector<TriangleId> members; ///< the triangles of each region, ascending
@@ -37,8 +37,9 @@ inline std::span<const TriangleId> triangles_of(const Regions& regions, const Re
   return std::span(regions.members).subspan(region.first, region.count);
 }
 
+/// `tolerances` by triangle, in metres; a triangle of a negative one is in no region.
 Regions grow_regions(const Scene& scene, const std::vector<TriangleShape>& shapes,
-                     const Topology& topology, const Precision& precision);
+                     const Topology& topology, std::span<const double> tolerances);
 
 struct PlaneClasses {
   std::vector<Plane> planes;

@@ -146,11 +146,13 @@ SurfaceModel find_surfaces(const Scene& scene) {
   model.corner_uv.resize(count);
 
   std::vector<TriangleShape> shapes(count);
+  std::vector<double> tolerances(count);
   for (std::size_t t = 0; t < count; ++t) {
     shapes[t] = shape_of(corners(scene, static_cast<TriangleId>(t)));
+    tolerances[t] = precision.of(static_cast<TriangleId>(t));
   }
   const Topology topology = find_topology(scene, precision);
-  const Regions regions = grow_regions(scene, shapes, topology, precision);
+  const Regions regions = grow_regions(scene, shapes, topology, tolerances);
   const PlaneClasses classes = classify_planes(scene, regions, precision);
   model.planes = classes.planes;
   add_patches(scene, shapes, pair_triangles(scene, regions, topology), model);
