@@ -5,6 +5,7 @@
 #include "scenes/smooth_surfaces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -144,7 +145,10 @@ MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces,
       set.mirror_of_surface[index(surface)][static_cast<std::size_t>(face)] = id;
       tolerance = std::max(tolerance, surfaces.surfaces[index(surface)].tolerance);
     }
-    candidate.mirror.window = merge_convex(std::move(candidate.mirror.window), tolerance);
+    // An outline that is off by so much moves no shadow that can be seen.
+    constexpr double unseen = 3e-4; // of the root of the area
+    candidate.mirror.window = merge_convex(std::move(candidate.mirror.window), tolerance,
+                                           unseen * std::sqrt(candidate.mirror.area));
     set.mirrors.push_back(std::move(candidate.mirror));
   }
   return set;

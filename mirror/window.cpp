@@ -92,9 +92,8 @@ private:
   std::map<EdgeKey, std::pair<std::size_t, std::size_t>> edges_;
 };
 
-} // namespace
-
-std::vector<ConvexPolygon> merge_convex(std::vector<ConvexPolygon> polygons, double tolerance) {
+/// Corners are told apart by cells of 16 tolerances; `straight` as of merge_convex().
+void merge_all(std::vector<ConvexPolygon>& polygons, double tolerance, double straight) {
   EdgeTable edges(16.0 * tolerance);
   for (std::size_t p = 0; p < polygons.size(); ++p)
     edges.add(polygons[p], p);
@@ -109,7 +108,7 @@ std::vector<ConvexPolygon> merge_convex(std::vector<ConvexPolygon> polygons, dou
         const auto other = edges.opposite(polygons[p], k);
         const auto both =
             other && other->first != p
-                ? merged(polygons[p], k, polygons[other->first], other->second, tolerance)
+                ? merged(polygons[p], k, polygons[other->first], other->second, straight)
                 : std::nullopt;
         if (!both) {
           ++k;
@@ -126,6 +125,16 @@ std::vector<ConvexPolygon> merge_convex(std::vector<ConvexPolygon> polygons, dou
     }
   }
   std::erase_if(polygons, [](const ConvexPolygon& polygon) { return polygon.empty(); });
+}
+
+} // namespace
+
+std::vector<ConvexPolygon> merge_convex(std::vector<ConvexPolygon> polygons, double tolerance,
+                                        double straight) {
+  constexpr std::size_t many = 16;
+  merge_all(polygons, tolerance, tolerance);
+  if (polygons.size() > many && straight > tolerance)
+    merge_all(polygons, tolerance, straight);
   return polygons;
 }
 

@@ -12,7 +12,10 @@
 namespace meninas {
 
 /// Polygons of one plane and one orientation, disjoint;
-/// corners closer than `tolerance` are the same point.
-std::vector<ConvexPolygon> merge_convex(std::vector<ConvexPolygon> polygons, double tolerance);
+/// corners closer than `tolerance` are the same point, and those so near to the line between their
+/// neighbours are none. Where that leaves many polygons, as of a plate whose rows of corners are
+/// not straight but for rounding, `straight` takes its place for the latter, if it is more.
+std::vector<ConvexPolygon> merge_convex(std::vector<ConvexPolygon> polygons, double tolerance,
+                                        double straight = 0.0);
 
 } // namespace meninas

@@ -1,6 +1,7 @@
 #include "radiosity/plan.h"
 
 #include "radiosity/closedness.h"
+#include "radiosity/enclosed_lights.h"
 #include "radiosity/world_tail.h"
 #include "scenes/lobes.h"
 #include "scenes/smooth_surfaces.h"
@@ -186,6 +187,15 @@ void warn_of_lights(const Scene& scene, TransportPlan& plan) {
   }
 }
 
+void warn_of_enclosed_lights(const Scene& scene, const SurfaceModel& surfaces,
+                             TransportPlan& plan) {
+  for (const auto& [light, body] : enclosed_lights(scene, surfaces)) {
+    plan.warnings.push_back(fmt::format("the light '{}' is inside the closed opaque body '{}': "
+                                        "nothing outside of it is lit by it",
+                                        light, body));
+  }
+}
+
 void warn_of_materials(const std::vector<const Material*>& materials, TransportPlan& plan) {
   if (const auto names = names_where(materials, throws_shapes); !names.empty()) {
     plan.warnings.push_back("light that smooth metals throw on other surfaces is spread evenly: " +
@@ -344,6 +354,7 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
   plan.ignored = scene.ignored;
   plan.warnings = scene.warnings;
   warn_of_lights(scene, plan);
+  warn_of_enclosed_lights(scene, surfaces, plan);
   if (scene.cameras.empty()) {
     plan.warnings.push_back("no camera: a default view of the whole scene is used");
   }

@@ -14,13 +14,13 @@
 namespace meninas {
 namespace {
 
-constexpr double thinnest_share = 0.02;   ///< of the root of a face's area
-constexpr double large_faces = 0.8;       ///< of a plate's surface
-constexpr double covered = 0.9;           ///< of the face that something is behind
-constexpr double faintest = 1.0 / 3.0;    ///< what a way through leaves
-constexpr double mean_way = 1.1;          ///< in thicknesses
-constexpr double parallel = 0.9999;       ///< cosine
-constexpr std::size_t most_faces = 4096;  ///< of a plate
+constexpr double thinnest_share = 0.02;  ///< of the root of a face's area
+constexpr double large_faces = 0.8;      ///< of a plate's surface
+constexpr double covered = 0.9;          ///< of the face that something is behind
+constexpr double faintest = 1.0 / 3.0;   ///< what a way through leaves
+constexpr double mean_way = 1.1;         ///< in thicknesses
+constexpr double parallel = 0.9999;      ///< cosine
+constexpr std::size_t most_faces = 4096; ///< of a plate
 constexpr std::uint32_t points_asked = 64;
 
 struct Face {
@@ -44,8 +44,8 @@ Face face_of(const Scene& scene, TriangleId triangle) {
 }
 
 /// The faces that look along a direction, if they lie in one plane.
-std::optional<Plane> large_face(std::span<const Face> all, const Direction& normal, double tolerance,
-                                std::vector<Face>& found, double& area) {
+std::optional<Plane> large_face(std::span<const Face> all, const Direction& normal,
+                                double tolerance, std::vector<Face>& found, double& area) {
   for (const Face& face : all)
     if (glm::dot(face.shape.normal, normal) > parallel) {
       found.push_back(face);
@@ -133,9 +133,10 @@ double covered_share(std::span<const Face> face, const Plane& plane, double thic
       const double root = std::sqrt(double{u.x});
       const auto& p = part.corners;
       const Point3 x = p[0] + root * (1.0 - u.y) * (p[1] - p[0]) + root * u.y * (p[2] - p[0]);
-      hits += std::ranges::any_of(near, [&](const Face* other) {
-                return is_over(other->corners, other->shape.normal, x);
-              })
+      hits += std::ranges::any_of(near,
+                                  [&](const Face* other) {
+                                    return is_over(other->corners, other->shape.normal, x);
+                                  })
                   ? 1
                   : 0;
     }
@@ -186,8 +187,7 @@ std::vector<NodeId> plates_to_panes(Scene& scene) {
   if (bodies.empty())
     return {};
   const Precision precision(scene);
-  const double tolerance =
-      std::max(close * precision.detail().radius, 8.0 * precision.in_detail());
+  const double tolerance = std::max(close * precision.detail().radius, 8.0 * precision.in_detail());
   std::vector<Face> opaque;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
     if (!is_glass(material_of(scene, TriangleId{t})))
@@ -216,8 +216,7 @@ std::vector<NodeId> plates_to_panes(Scene& scene) {
     const auto [pane, is_new] = panes.try_emplace({first.material, steps}, none<MaterialId>);
     if (is_new) {
       pane->second = static_cast<MaterialId>(scene.materials.size());
-      scene.materials.push_back(
-          pane_of(scene.materials[index(first.material)], plate->thickness));
+      scene.materials.push_back(pane_of(scene.materials[index(first.material)], plate->thickness));
     }
     gone.insert(plate->triangles.begin(), plate->triangles.end());
     for (const Face& face : plate->faces[lies[0] ? 1 : 0]) {

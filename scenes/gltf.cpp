@@ -2,6 +2,7 @@
 
 #include "scenes/glass_plates.h"
 #include "scenes/gltf_stages.h"
+#include "scenes/hairline_gaps.h"
 #include "scenes/nearly_flat.h"
 #include "scenes/smooth_surfaces.h"
 #include "scenes/touching.h"
@@ -117,8 +118,9 @@ static void put_apart(Scene& scene, Findings& findings) {
     findings.about("plates of glass that lie on a face count as panes in nodes",
                    scene.nodes[index(node)].name);
   for (const NodeId node : separate_touching(scene))
-    findings.about("glass or lamps that lie in the plane of a face are put a hair before it in nodes",
-                   scene.nodes[index(node)].name);
+    findings.about(
+        "glass or lamps that lie in the plane of a face are put a hair before it in nodes",
+        scene.nodes[index(node)].name);
 }
 
 Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings) {
@@ -146,6 +148,8 @@ Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& f
                                        scene.degenerate_triangles));
   read_materials(document, scene, findings);
   make_flat(scene, half_steps, findings);
+  if (const auto joints = close_hairline_gaps(scene); !joints.empty())
+    findings.say(describe_joints(scene, joints));
   put_apart(scene, findings);
   mark_smooth_surfaces(scene);
   read_cameras(document, nodes, scene, findings);

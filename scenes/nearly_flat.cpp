@@ -38,19 +38,19 @@ struct FlatSurface {
 /// What is known of some triangles as one plane.
 struct Fit {
   FlatSurface surface;
-  double offset = 0.0;    ///< the largest distance from the plane
-  double stated = 0.0;    ///< what the file's integers make of it
-  double width = 0.0;     ///< area over length
-  double turn = 0.0;      ///< the largest of a facet that is wide enough to tell
-  double alike = 1.0;     ///< Moran's I of the heights
-  double going_on = 0.0;  ///< the share of the border where the part goes on
+  double offset = 0.0;   ///< the largest distance from the plane
+  double stated = 0.0;   ///< what the file's integers make of it
+  double width = 0.0;    ///< area over length
+  double turn = 0.0;     ///< the largest of a facet that is wide enough to tell
+  double alike = 1.0;    ///< Moran's I of the heights
+  double going_on = 0.0; ///< the share of the border where the part goes on
 };
 
 class Flattener {
 public:
   Flattener(Scene& scene, std::span<const float> half_steps)
-      : scene_(scene), half_steps_(half_steps), precision_(scene), topology_(find_topology(scene, precision_)),
-        parts_(scene.triangles.size()) {
+      : scene_(scene), half_steps_(half_steps), precision_(scene),
+        topology_(find_topology(scene, precision_)), parts_(scene.triangles.size()) {
     shapes_.resize(scene.triangles.size());
     tolerances_.resize(scene.triangles.size());
     for (std::uint32_t t = 0; t < shapes_.size(); ++t) {
@@ -220,8 +220,7 @@ private:
           continue;
         border += glm::distance(low, high);
         const bool goes_on = std::ranges::any_of(uses, [&](const EdgeUse& use) {
-          return use.triangle != t && !is_of(triangles, use.triangle) &&
-                 is_smooth(t, use.triangle);
+          return use.triangle != t && !is_of(triangles, use.triangle) && is_smooth(t, use.triangle);
         });
         going_on += goes_on ? glm::distance(low, high) : 0.0;
       }
@@ -314,8 +313,7 @@ private:
   /// Whether all its corners are those of one surface that is made flat.
   bool is_within_one(const FlatSurface& surface, std::size_t made) const {
     const auto found = planes_of_.find(surface.vertices.front());
-    return found != planes_of_.end() &&
-           std::ranges::any_of(found->second, [&](std::uint32_t id) {
+    return found != planes_of_.end() && std::ranges::any_of(found->second, [&](std::uint32_t id) {
              return id < made && std::ranges::includes(flat_[id].vertices, surface.vertices);
            });
   }
