@@ -106,8 +106,10 @@ static void report_animations(const Document& document, Scene& scene, Findings& 
 }
 
 static void make_flat(Scene& scene, std::span<const float> half_steps, Findings& findings) {
+  constexpr double a_float = 1e-6; // of the scene's size: what nobody is told of
   const Flattening made = flatten_nearly_flat(scene, half_steps);
-  if (made.surfaces > 0)
+  const Bounds bounds = bounds_of(scene);
+  if (made.farthest > a_float * glm::distance(bounds.low, bounds.high))
     findings.say(fmt::format("surfaces that are flat but for rounding are made flat: {} (vertices "
                              "moved by at most {:.2g} m)",
                              made.surfaces, made.farthest));

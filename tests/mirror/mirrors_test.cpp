@@ -1,4 +1,5 @@
 #include "mirror/mirrors.h"
+#include "tests/support/random.h"
 #include "tests/support/scene_builder.h"
 
 #include <gmock/gmock.h>
@@ -47,6 +48,29 @@ TEST(FindMirrors, CoplanarPiecesAreOneMirror) {
   EXPECT_LT(glm::distance(mirror.plane.normal, Direction(0, 0, 1)), rounding);
   EXPECT_EQ(mirror.nodes.size(), 2U);
   EXPECT_DOUBLE_EQ(mirror.reflectance.g, 0.8);
+}
+
+TEST(FindMirrors, RowsOfCornersThatAreStraightButForRoundingAreOneWindow) {
+  // 12 x 30 quads of one plane, rounded to a tenth of a millimetre within it.
+  Random random(5);
+  std::vector<Point3> corner;
+  for (int j = 0; j <= 30; ++j)
+    for (int i = 0; i <= 12; ++i)
+      corner.push_back(random.in_box({-5e-5, -5e-5, 0}, {5e-5, 5e-5, 0}) +
+                       Vec3(0.05 * i, 0.05 * j, 0.0));
+  Scene scene;
+  const Material silver = mirror(0.8);
+  for (std::size_t j = 0; j < 30; ++j)
+    for (std::size_t i = 0; i < 12; ++i) {
+      const std::size_t k = 13 * j + i;
+      add_polygon(scene, "tile", {corner[k], corner[k + 1], corner[k + 14], corner[k + 13]},
+                  silver);
+    }
+  const MirrorSet set = mirrors_of(scene);
+  ASSERT_EQ(set.mirrors.size(), 1U);
+  EXPECT_LE(set.mirrors[0].window.size(), 16U);
+  // The outline is off by at most 3e-4 of a metre along the circumference of 4.2 m.
+  EXPECT_NEAR(window_area(set.mirrors[0]), 0.9, 3e-4 * 4.2);
 }
 
 TEST(FindMirrors, TwoReflectancesAreTwoMirrorsLargestFirst) {
