@@ -132,10 +132,12 @@ void merge_all(std::vector<ConvexPolygon>& polygons, double tolerance, double st
 std::vector<ConvexPolygon> merge_convex(std::vector<ConvexPolygon> polygons, double tolerance,
                                         double straight) {
   constexpr std::size_t many = 16;
-  merge_all(polygons, tolerance, tolerance);
-  if (polygons.size() > many && straight > tolerance)
-    merge_all(polygons, tolerance, straight);
-  return polygons;
+  std::vector<ConvexPolygon> exact = polygons;
+  merge_all(exact, tolerance, tolerance);
+  if (exact.size() <= many || !(straight > tolerance))
+    return exact;
+  merge_all(polygons, tolerance, straight);
+  return polygons.size() < exact.size() ? polygons : exact;
 }
 
 } // namespace meninas

@@ -252,10 +252,12 @@ private:
   void add_whole_parts() {
     for (auto& [root, part] : uneven_) {
       Fit fit = fit_of(part.triangles);
-      part.is_done = is_flat(part.triangles, fit);
+      const bool is_as_it_is = fit.offset <= region_tolerance(part.triangles);
+      const bool is_made_flat = !is_as_it_is && is_flat(part.triangles, fit);
+      part.is_done = is_as_it_is || is_made_flat;
       const double most = std::max(fit.stated, noise_offset * fit.width);
       part.noise = std::min(4.0 * part.noise, most);
-      if (part.is_done)
+      if (is_made_flat)
         accept(std::move(fit.surface));
     }
   }

@@ -258,7 +258,8 @@ TEST(GltfLights, ReadsASpotUndeclared) {
 }
 
 TEST(GltfLights, DefaultsAndClamps) {
-  const auto point = load(with_light({{"type", "point"}, {"range", 4.0}}));
+  const auto point =
+      load(with_light({{"type", "point"}, {"range", 4.0}}, {{"translation", {0, 0, 1}}}));
   EXPECT_EQ(point.lights[0].kind, PunctualKind::point);
   EXPECT_EQ(point.lights[0].intensity, Rgb(1.0));
   EXPECT_EQ(point.lights[0].name, "light0");
