@@ -16,7 +16,8 @@ Vec3 way_into(const Point3& x, std::span<const Plane> planes) {
   Eigen::JacobiSVD<Eigen::MatrixX3d> svd(normals, Eigen::ComputeThinU | Eigen::ComputeThinV);
   svd.setThreshold(same_plane);
   const Eigen::Vector3d way = svd.solve(rest);
-  return {way.x(), way.y(), way.z()};
+  // Coordinates whose squares overflow have no place in common.
+  return way.allFinite() ? Vec3(way.x(), way.y(), way.z()) : Vec3(0.0);
 }
 
 } // namespace meninas
