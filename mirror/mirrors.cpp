@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 namespace meninas {
@@ -37,6 +38,7 @@ MaterialId first_with_coat_of(const Scene& scene, const Material& material) {
 
 struct Candidate {
   Mirror mirror;
+  std::set<NodeId> known_nodes; ///< those of the mirror: one of many tiles has as many
   std::vector<std::pair<SurfaceId, int>> faces; ///< surface, and 0 for its front, 1 for its back
 };
 
@@ -53,9 +55,8 @@ void add_face(Candidate& candidate, const SurfaceModel& model, SurfaceId id, int
       std::reverse(polygon.vertices.begin(),
                    polygon.vertices.begin() + static_cast<std::ptrdiff_t>(polygon.size));
     candidate.mirror.window.push_back(polygon);
-    auto& nodes = candidate.mirror.nodes;
-    if (std::find(nodes.begin(), nodes.end(), patch.node) == nodes.end())
-      nodes.push_back(patch.node);
+    if (candidate.known_nodes.insert(patch.node).second)
+      candidate.mirror.nodes.push_back(patch.node);
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 #include <set>
 
 namespace meninas {
@@ -105,11 +106,15 @@ std::vector<std::string> names_where(const std::vector<const Material*>& materia
 std::vector<PlannedMirror> list_mirrors(const Scene& scene, const MirrorSet& mirrors) {
   std::vector<PlannedMirror> list;
   for (const Mirror& mirror : mirrors.mirrors) {
+    constexpr std::size_t few = 6;
     std::vector<std::string> names;
-    for (const NodeId node : mirror.nodes) {
+    for (const NodeId node : mirror.nodes | std::views::take(few)) {
       names.push_back(scene.nodes[index(node)].name);
     }
-    list.push_back({fmt::format("{}", fmt::join(names, "+")), mirror.area, mirror.reflectance});
+    const std::size_t more = mirror.nodes.size() - names.size();
+    list.push_back({fmt::format("{}{}", fmt::join(names, "+"),
+                                more > 0 ? fmt::format(" and {} more", more) : ""),
+                    mirror.area, mirror.reflectance});
   }
   return list;
 }
@@ -144,34 +149,27 @@ std::map<NodeId, std::set<PlaneId>> faceted_nodes(const Scene& scene, const Surf
   return planes;
 }
 
+/// In one line, however many there are.
 void warn_of_facets(const Scene& scene, const SurfaceModel& surfaces, TransportPlan& plan) {
-  if (plan.mirrors.facets == 0) {
-    return;
-  }
-  const auto nodes = faceted_nodes(scene, surfaces, plan.mirrors);
-  constexpr std::size_t few = 8; // more are told in one line
-  if (nodes.size() <= few) {
-    for (const auto& [node, planes] : nodes) {
-      plan.warnings.push_back(
-          fmt::format("'{}' is a curved or faceted mirror of {}: followed by rays, not enumerated",
-                      scene.nodes[index(node)].name, plural(planes.size(), "plane")));
-    }
-    return;
-  }
   std::vector<std::string> names;
   std::set<PlaneId> all;
-  for (const auto& [node, planes] : nodes) {
+  for (const auto& [node, planes] : faceted_nodes(scene, surfaces, plan.mirrors)) {
     names.push_back(scene.nodes[index(node)].name);
     all.insert(planes.begin(), planes.end());
   }
-  plan.warnings.push_back(
-      fmt::format("{} are small mirrors of {}: followed by rays, not enumerated", quoted(names),
-                  plural(all.size(), "plane")));
+  if (names.empty()) {
+    return;
+  }
+  plan.warnings.push_back(fmt::format(
+      "{} {} of {}: followed by rays, not enumerated", quoted(names),
+      names.size() == 1 ? "is a curved or faceted mirror" : "are curved, faceted or small mirrors",
+      plural(all.size(), "plane")));
 }
 
 void warn_of_lights(const Scene& scene, TransportPlan& plan) {
   if (plan.emitters == 0 && scene.lights.empty() && scene.background == Rgb(0.0)) {
-    plan.warnings.push_back("nothing emits light: the picture will be black");
+    plan.warnings.push_back("nothing emits light: the picture will be black; --background 1 lights "
+                            "it from all around");
   }
   if (!scene.lights.empty() && (plan.mirrors.facets > 0 || !plan.worlds.cut.empty())) {
     plan.warnings.push_back("light of point, spot and directional lights is followed over the "

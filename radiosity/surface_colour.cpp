@@ -12,8 +12,15 @@ namespace meninas {
 
 namespace {
 
-constexpr double points_per_element = 64.0;
-constexpr double fewest_points = 256.0, most_points = 1 << 26;
+/// Points of an element, and of a triangle at least. Where there are very many, so that a scene
+/// would take more than `all_points`, they have fewer, down to `least_points`: each is a small part
+/// of what others see of them together.
+constexpr double points_per_element = 64.0, points_per_triangle = 256.0, least_points = 16.0;
+constexpr double all_points = 1 << 21, most_points = 1 << 26;
+
+double points_for_each_of(std::size_t count, double wanted) {
+  return std::clamp(all_points / double(std::max<std::size_t>(1, count)), least_points, wanted);
+}
 
 struct ColourSum {
   SurfaceColour colour;
@@ -58,12 +65,14 @@ void for_points_of(const Scene& scene, const SurfaceModel& surfaces, const Eleme
                    SideId id, At&& at) {
   const MeshSide& side = mesh.sides[index(id)];
   const Patch& patch = surfaces.patches[index(side.patch)];
+  const double per_element = points_for_each_of(element_count(mesh), points_per_element);
+  const double fewest = points_for_each_of(scene.triangles.size(), points_per_triangle);
   for (const TriangleId triangle : patch.triangles) {
     if (triangle == none<TriangleId>)
       continue;
     const double share = glm::length(area_vector(corners(scene, triangle))) / patch.area;
     const auto count = static_cast<std::uint32_t>(
-        std::clamp(points_per_element * share * side.element_count, fewest_points, most_points));
+        std::clamp(per_element * share * side.element_count, fewest, most_points));
     for (std::uint32_t k = 0; k < count; ++k) {
       const auto sample = sobol4(k, hash(index(triangle), 0x7e47));
       const double root = std::sqrt(double{sample[0]});

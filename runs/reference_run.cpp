@@ -10,8 +10,11 @@ static void warn_of_scene(const reference::TracedScene& traced, const RunEvents&
   for (const std::string& warning : traced.scene.warnings) {
     warn(events, warning);
   }
-  if (traced.lights.lights.empty() && traced.light_images.empty()) {
-    warn(events, "nothing emits light: the picture will be black");
+  const bool is_dark = traced.lights.lights.empty() && traced.light_images.empty() &&
+                       traced.scene.background == Rgb(0.0);
+  if (is_dark) {
+    warn(events, "nothing emits light: the picture will be black; --background 1 lights it from "
+                 "all around");
   }
   if (traced.scene.cameras.empty()) {
     warn(events, "no camera: a default view of the whole scene is used");

@@ -13,6 +13,12 @@ namespace fs = std::filesystem;
 
 static std::string megabytes(std::uint64_t bytes) { return fmt::format("{} MiB", bytes >> 20); }
 
+/// What stands in a checkout where `git lfs` has not fetched the content.
+static bool is_lfs_pointer(const Bytes& bytes) {
+  constexpr std::string_view start = "version https://git-lfs.github.com/spec/";
+  return bytes.size() >= start.size() && std::equal(start.begin(), start.end(), bytes.begin());
+}
+
 Resource read_whole_file(const fs::path& file, std::uint64_t size_limit) {
   std::error_code error;
   const auto status = fs::status(file, error);
@@ -41,6 +47,8 @@ Resource read_whole_file(const fs::path& file, std::uint64_t size_limit) {
   std::string problem;
   if (!tinygltf::ReadWholeFile(&resource.bytes, &problem, file.string(), nullptr))
     return {{}, "cannot be read"};
+  if (is_lfs_pointer(resource.bytes))
+    return {{}, "is a Git LFS pointer, not the data: run git lfs pull"};
   return resource;
 }
 

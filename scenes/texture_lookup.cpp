@@ -78,6 +78,8 @@ DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode)
 }
 
 Vec2 transformed_texcoord(const TextureUse& use, Vec2 texcoord) {
+  if (use.rotation == 0.0)
+    return use.offset + use.scale * texcoord;
   const double c = std::cos(use.rotation), s = std::sin(use.rotation);
   const Vec2 scaled = use.scale * texcoord;
   return use.offset + Vec2(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x);

@@ -332,27 +332,6 @@ TEST_F(Outputs, WithoutACameraThereIsAViewAndAWarning) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "a.exr"));
 }
 
-TEST_F(Outputs, WithoutAnEmitterThePictureIsBlackAndThatIsSaid) {
-  TinyRoom room = tiny_room();
-  room.root["materials"][1].erase("emissiveFactor");
-  write_room(folder_ / "room.glb", room);
-  const Outcome outcome = render({"-o", "a.exr", "--quiet"});
-  EXPECT_EQ(outcome.err, "meninas: warning: nothing emits light: the picture will be black\n");
-  for (const glm::vec3& pixel : read_image(folder_ / "a.exr").picture.pixels) {
-    ASSERT_EQ(pixel, glm::vec3(0.0F));
-  }
-}
-
-TEST_F(Outputs, ABlackPictureOfALitSceneIsSaidToBe) {
-  TinyRoom room = tiny_room();
-  room.root["nodes"][7]["translation"] = {0, 100, 0}; // above the room, looking along it
-  write_room(folder_ / "room.glb", room);
-  const Outcome outcome = render({"-o", "a.exr", "--stats", "a.json"});
-  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("error about")))
-      << "there is nothing to be relative to";
-  EXPECT_THAT(outcome.err, HasSubstr("the picture is black: no light reaches what camera"));
-}
-
 TEST_F(Outputs, TheCameraDecidesTheShapeOfThePicture) {
   TinyRoom room = tiny_room();
   room.root["cameras"][0]["perspective"]["aspectRatio"] = 0.25;

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace meninas::test {
 namespace {
 
@@ -171,20 +173,58 @@ TEST(Plan, DarkScenesAndMissingCamerasAreWarnedAbout) {
   scene.materials[3].emission = Rgb(0.0);
   scene.cameras.clear();
   EXPECT_THAT(plan_of(scene).warnings,
-              testing::ElementsAre("nothing emits light: the picture will be black",
+              testing::ElementsAre("nothing emits light: the picture will be black; "
+                                   "--background 1 lights it from all around",
                                    "no camera: a default view of the whole scene is used"));
 }
 
 TEST(Plan, FacetedMirrorsAreNamed) {
   Scene scene = room_with(diffuse(0.5));
   PlanSettings settings;
-  settings.mirrors.max_mirrors = 2;
+  settings.mirrors.max_mirrors = 5;
   add_box(scene, "cube", Point3(0.4), Point3(0.6), mirror(0.9));
   const TransportPlan plan = plan_transport(scene, find_surfaces(scene), settings);
-  EXPECT_GT(plan.mirrors.facets, 0U);
+  EXPECT_EQ(plan.mirrors.facets, 1U);
   EXPECT_THAT(plan.warnings,
               Contains(HasSubstr(
                   "is a curved or faceted mirror of 1 plane: followed by rays, not enumerated")));
+}
+
+TEST(Plan, AMirrorOfManyNodesIsNamedByTheFirst) {
+  Scene scene = room_with(diffuse(0.5));
+  constexpr int count = 40;
+  for (int k = 0; k < count; ++k) {
+    const double x = 0.1 + 0.02 * k;
+    add_polygon(scene, "tile" + std::to_string(k),
+                {Point3(x, 0.4, 0.5), {x + 0.01, 0.4, 0.5}, {x + 0.01, 0.6, 0.5}, {x, 0.6, 0.5}},
+                mirror(0.9));
+  }
+  const TransportPlan plan = plan_of(scene);
+  ASSERT_EQ(plan.mirror_list.size(), 1U);
+  EXPECT_EQ(plan.mirror_list[0].name, "tile0+tile1+tile2+tile3+tile4+tile5 and 34 more");
+  EXPECT_EQ(plan.mirrors.mirrors[0].nodes.size(), std::size_t{count});
+}
+
+TEST(Plan, ManyFacetedMirrorsAreToldInOneLine) {
+  for (const int count : {2, 5, 40}) {
+    Scene scene = room_with(diffuse(0.5));
+    PlanSettings settings;
+    settings.mirrors.max_mirrors = 0;
+    for (int k = 0; k < count; ++k) {
+      const Point3 low(0.1 + 0.02 * k, 0.4, 0.4);
+      add_box(scene, "bolt" + std::to_string(k), low, low + Vec3(0.01), mirror(0.9));
+    }
+    const auto warnings = plan_transport(scene, find_surfaces(scene), settings).warnings;
+    const auto tells = [](const std::string& line) {
+      return line.find("not enumerated") != std::string::npos;
+    };
+    ASSERT_EQ(std::ranges::count_if(warnings, tells), 1) << count;
+    const std::string line = *std::ranges::find_if(warnings, tells);
+    EXPECT_THAT(line, testing::StartsWith("'bolt0.x0', 'bolt0.x1', 'bolt0.y0'"));
+    EXPECT_THAT(line, HasSubstr(" and " + std::to_string(6 * count - 6) + " more are curved"));
+    // The boxes stand in a row: they share bottom, top, front and back, each has two of its own.
+    EXPECT_THAT(line, HasSubstr(std::to_string(4 + 2 * count) + " planes"));
+  }
 }
 
 } // namespace

@@ -299,6 +299,20 @@ TEST(GltfBadInput, FilesOutsideAreReadOnlyWhenAllowed) {
               HasSubstr("'link.bin' is outside the folder"));
 }
 
+TEST(GltfBadInput, PointersOfGitLfsAreNamed) {
+  const TemporaryFolder folder;
+  const std::string pointer = "version https://git-lfs.github.com/spec/v1\n"
+                              "oid sha256:" +
+                              std::string(64, 'a') + "\nsize 123456\n";
+  EXPECT_EQ(error_of(folder.write("room.glb", pointer)),
+            "room.glb: is a Git LFS pointer, not the data: run git lfs pull");
+  auto file = square();
+  file.json["buffers"][0]["uri"] = "data.bin";
+  folder.write("data.bin", pointer);
+  EXPECT_THAT(error_of(folder.write("room.gltf", as_text(file))),
+              HasSubstr("buffers[0]: 'data.bin': is a Git LFS pointer, not the data"));
+}
+
 TEST(GltfBadInput, FilesThatAreNoGltf) {
   const TemporaryFolder folder;
   EXPECT_EQ(error_of(folder.path() / "nowhere.gltf"), "nowhere.gltf: no such file");
