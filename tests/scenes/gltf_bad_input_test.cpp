@@ -307,7 +307,7 @@ TEST(GltfBadInput, PointersOfGitLfsAreNamed) {
   EXPECT_EQ(error_of(folder.write("room.glb", pointer)),
             "room.glb: is a Git LFS pointer, not the data: run git lfs pull");
   auto file = square();
-  file.json["buffers"][0]["uri"] = "data.bin";
+  file.json["buffers"] = Json::array({{{"byteLength", file.data.size()}, {"uri", "data.bin"}}});
   folder.write("data.bin", pointer);
   EXPECT_THAT(error_of(folder.write("room.gltf", as_text(file))),
               HasSubstr("buffers[0]: 'data.bin': is a Git LFS pointer, not the data"));
