@@ -4,7 +4,7 @@
 //
 // Vertices have it anyway, and what such elements light takes the mean over many of them.
 // Elements whose corners do not tell have points of their own (element_light.h):
-// those of which something covers a part or a corner (open_parts.h),
+// those of which something covers a part or a corner (covered_cells.h),
 // and facets of curved surfaces, whose means are seen (facets.h).
 // So have groups of elements, a 512th of all, at which more than a 256th of all light arrives,
 // or that reflect as much of what is: a spot of the sun is some tens of elements,
