@@ -1,12 +1,15 @@
 #include "radiosity/contact_segments.h"
 
 #include "mirror/median_split.h"
+#include "radiosity/vertex_welder.h"
 #include "scenes/disjoint_sets.h"
 #include "scenes/lobes.h"
+#include "scenes/texture_lookup.h"
 
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <unordered_map>
@@ -38,6 +41,9 @@ struct Box {
   }
 };
 
+/// What textures make of glass may be opaque in places.
+bool is_clear(const Material& material) { return is_glass(material) && !is_textured(material); }
+
 /// The opaque faces of a scene by their boxes, in a binary tree.
 class FaceTree {
 public:
@@ -45,7 +51,7 @@ public:
     std::vector<Point3> middles(scene.triangles.size());
     boxes_.resize(scene.triangles.size());
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-      if (is_glass(material_of(scene, TriangleId{t})))
+      if (is_clear(material_of(scene, TriangleId{t})))
         continue;
       for (const Point3& corner : corners(scene, TriangleId{t}))
         boxes_[t].add(corner);
@@ -188,9 +194,52 @@ void measure_runs(std::vector<ContactSegment>& segments, double grain) {
     segments[s].reach = glm::distance(bounds[runs.root(s)][0], bounds[runs.root(s)][1]);
 }
 
+/// By PatchId, bit k: edge k is shared with another patch that faces the same way in its plane.
+std::vector<std::uint8_t> inner_edges(const SurfaceModel& surfaces) {
+  VertexWelder welder(16.0 * surfaces.tolerance + 1e-300);
+  std::vector<Point3> places;
+  std::map<std::array<std::uint32_t, 2>, std::vector<std::pair<std::uint32_t, std::size_t>>> edges;
+  std::vector<std::uint8_t> inner(surfaces.patches.size(), 0);
+  std::vector<std::uint32_t> in_plane(2 * surfaces.planes.size(), 0);
+  const auto face_of = [&](const Patch& patch) {
+    const Surface& surface = surfaces.surfaces[index(patch.surface)];
+    const std::uint32_t plane = index(surface.plane_class);
+    return 2 * plane +
+           (glm::dot(surface.plane.normal, surfaces.planes[plane].normal) > 0.0 ? 0U : 1U);
+  };
+  for (const Patch& patch : surfaces.patches)
+    ++in_plane[face_of(patch)];
+  for (std::uint32_t p = 0; p < surfaces.patches.size(); ++p) {
+    const Patch& patch = surfaces.patches[p];
+    const std::uint32_t face = face_of(patch);
+    if (in_plane[face] < 2)
+      continue;
+    const auto polygon = polygon_of(patch);
+    const auto place = [&](std::size_t k) {
+      return index(welder.vertex_at(face, polygon[k % polygon.size()], places));
+    };
+    for (std::size_t k = 0; k < polygon.size(); ++k)
+      edges[{std::min(place(k), place(k + 1)), std::max(place(k), place(k + 1))}].emplace_back(p,
+                                                                                              k);
+  }
+  for (const auto& [ends, at] : edges)
+    if (at.size() > 1)
+      for (const auto& [p, k] : at)
+        inner[p] |= static_cast<std::uint8_t>(1U << k);
+  return inner;
+}
+
+/// What stands on sides is found by.
+struct StandingFaces {
+  const Scene& scene;
+  const SurfaceModel& surfaces;
+  FaceTree faces;
+  std::vector<std::uint8_t> inner_edges; ///< by PatchId
+};
+
 /// What stands on one side.
-std::vector<ContactSegment> contacts_on(const Scene& scene, const SurfaceModel& surfaces,
-                                        const FaceTree& faces, const MeshSide& side) {
+std::vector<ContactSegment> contacts_on(const StandingFaces& standing, const MeshSide& side) {
+  const auto& [scene, surfaces, faces, inner] = standing;
   std::vector<ContactSegment> found;
   const Patch& patch = surfaces.patches[index(side.patch)];
   const double cell = patch.area / side.root_count;
@@ -227,8 +276,10 @@ std::vector<ContactSegment> contacts_on(const Scene& scene, const SurfaceModel& 
     const Patch& hovering_patch = surfaces.patches[index(surfaces.patch_of_triangle[index(t)])];
     if (hovering_patch.triangles[0] == t && hovers_along(face, side, place, limit)) {
       const std::span<const Point3> polygon = polygon_of(hovering_patch);
+      const std::uint8_t shared = inner[index(surfaces.patch_of_triangle[index(t)])];
       for (std::size_t k = 0; k < polygon.size(); ++k)
-        add({place(polygon[k]), place(polygon[(k + 1) % polygon.size()])});
+        if (((shared >> k) & 1U) == 0)
+          add({place(polygon[k]), place(polygon[(k + 1) % polygon.size()])});
     }
   });
   measure_runs(found, grain);
@@ -291,13 +342,13 @@ void for_each_root(const MeshSide& side, const RootRange& range, const Use& use)
 
 ContactSegments find_contact_segments(const Scene& scene, const SurfaceModel& surfaces,
                                       const ElementMesh& mesh) {
-  const FaceTree faces(scene);
+  const StandingFaces standing{scene, surfaces, FaceTree(scene), inner_edges(surfaces)};
   std::vector<std::vector<ContactSegment>> on_side(mesh.sides.size());
   std::vector<std::vector<RootRange>> ranges(mesh.sides.size());
   tbb::parallel_for(std::size_t{0}, mesh.sides.size(), [&](std::size_t s) {
     const MeshSide& side = mesh.sides[s];
     const Patch& patch = surfaces.patches[index(side.patch)];
-    on_side[s] = contacts_on(scene, surfaces, faces, side);
+    on_side[s] = contacts_on(standing, side);
     const PlanePlace place(patch, side);
     for (const ContactSegment& segment : on_side[s])
       ranges[s].push_back(roots_near(patch, side, place, segment.at));

@@ -280,4 +280,24 @@ FormFactors assemble_rows(const LightScene& light, std::size_t size, const RowRe
   return result;
 }
 
+RowClosure closure_of(const GatheredRays& gathered) {
+  const double exposed = gathered.rays - gathered.covered_rays;
+  RowClosure closure;
+  if (exposed == 0.0) {
+    closure.black = 1.0F;
+    closure.black_light = glm::vec3(1.0F);
+    return closure;
+  }
+  closure.landed = static_cast<float>(gathered.landed / exposed);
+  closure.escaped = static_cast<float>(gathered.escaped / exposed);
+  closure.black = static_cast<float>((gathered.black - gathered.covered_rays) / exposed);
+  closure.cut = static_cast<float>(gathered.cut / exposed);
+  const auto share = static_cast<float>(1.0 / exposed);
+  closure.mirror_absorbed = gathered.mirror_absorbed * share;
+  closure.escaped_light = gathered.escaped_light * share;
+  closure.black_light = (gathered.black_light - static_cast<float>(gathered.covered_rays)) * share;
+  closure.cut_light = gathered.cut_light * share;
+  return closure;
+}
+
 } // namespace meninas

@@ -112,6 +112,16 @@ static double reach_along(const RegionElement& region, const Point3& a, const Po
   return reach;
 }
 
+constexpr double alike = 1e-6;
+
+/// Whether a point has the lower coordinates, by more than rounding beside `length`.
+static bool comes_before(const Point3& a, const Point3& b, double length) {
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(a[k] - b[k]) > alike * length)
+      return a[k] < b[k];
+  return false;
+}
+
 /// For a vertex beyond what cuts its elements: two thirds of the way to that from an own corner of
 /// one of them. The line through both has the mean of any parabola over the way (Radau's rule), and
 /// is not led astray by shadows much narrower than the element.
@@ -133,9 +143,13 @@ static std::optional<Point3> before_contact(const ElementMesh& mesh,
       for (const std::size_t beside : {(c + 1) % count, (c + count - 1) % count}) {
         const Point3 &from = mesh.vertices[index(corners[beside])], &to = mesh.vertices[vertex];
         const double reach = is_own(beside) ? reach_along(*region, from, to) : 0.0;
-        if (reach * glm::distance(from, to) > longest) {
-          longest = reach * glm::distance(from, to);
-          place = glm::mix(from, to, 2.0 / 3.0 * reach);
+        const double length = reach * glm::distance(from, to);
+        const Point3 there = glm::mix(from, to, 2.0 / 3.0 * reach);
+        // Of ways as long, to rounding, the same one in whatever order elements come.
+        if (length > (1.0 + alike) * longest ||
+            (length > (1.0 - alike) * longest && place && comes_before(there, *place, length))) {
+          longest = length;
+          place = there;
         }
       }
     }

@@ -1,6 +1,5 @@
 // A hash grid that lists the points near a point, in expected constant time. Deterministic: points
-// come in the order they were added, per cell. Where more than `most_in_cell` crowd in one cell,
-// those that came first are known and the others are not, so no look-up takes longer.
+// come in the order they were added, per cell.
 #pragma once
 
 #include <array>
@@ -17,16 +16,13 @@ public:
   using Point = std::array<double, Dimensions>;
 
   /// Cells of a few look-up radii make most look-ups touch few cells with few points.
-  NeighbourGrid(double cell, std::size_t expected_items, std::uint32_t most_in_cell = end)
-      : cell_(cell), most_in_cell_(most_in_cell), lists_(std::bit_ceil(2 * expected_items + 1)) {
+  NeighbourGrid(double cell, std::size_t expected_items)
+      : cell_(cell), lists_(std::bit_ceil(2 * expected_items + 1)) {
     items_.reserve(expected_items);
   }
 
   void add(const Point& point, std::uint32_t item) {
     List& list = lists_[slot_of(cell_of(point))];
-    if (list.count == most_in_cell_)
-      return;
-    ++list.count;
     const auto entry = static_cast<std::uint32_t>(items_.size());
     items_.push_back({point, item, end});
     (list.first == end ? list.first : items_[list.last].next) = entry;
@@ -62,13 +58,10 @@ public:
     }
   }
 
-  /// Ends lists; no cell has so many.
-  static constexpr std::uint32_t end = 0xffffffffU;
-
 private:
   using Coordinates = std::array<double, Dimensions>;
+  static constexpr std::uint32_t end = 0xffffffffU;
   struct List {
-    std::uint32_t count = 0;
     std::uint32_t first = end;
     std::uint32_t last = end;
   };
@@ -114,7 +107,6 @@ private:
   }
 
   double cell_;
-  std::uint32_t most_in_cell_;
   std::vector<List> lists_;
   std::vector<Item> items_;
 };

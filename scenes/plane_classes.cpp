@@ -33,9 +33,8 @@ struct Owner {
 /// Fixed, oblique to the planes people build: tells the two orientations of a plane apart.
 const Direction orientation = glm::normalize(Vec3(0.5309, 0.6713, 0.5171));
 
-/// Planes that are looked at per region, and known per cell of the grid, those that are known best
-/// first: a bound on the time that very many nearly equal planes take, such as those of a scanned
-/// body, whose triangles hardly know them. Among so many a plane is shared by chance.
+/// Planes that are looked at per region: a bound on the time that scenes of very many nearly equal
+/// planes take.
 constexpr int most_candidates = 64;
 
 /// Pieces that know their normals less well than this, in radians, say nothing about the planes of
@@ -157,7 +156,7 @@ private:
     while (next < pieces_.size()) {
       const double coarsest = std::max(4.0 * pieces_[next].uncertainty, finest);
       const std::size_t room = owners.size() + pieces_.size() - next;
-      NeighbourGrid<4> grid(4.0 * look_up_radius(coarsest), room, most_candidates);
+      NeighbourGrid<4> grid(4.0 * look_up_radius(coarsest), room);
       for (std::uint32_t g = 0; g < owners.size(); ++g) {
         add(grid, owners, g);
       }

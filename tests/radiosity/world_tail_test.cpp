@@ -45,15 +45,16 @@ Tail tail_of(Scene scene, const WorldSettings& worlds, int rays) {
 
 // Two routes to what lies beyond the tree: where the rays of all elements land,
 // and the bound from the windows alone. Between facing mirrors over a whole wall each, bound
-// and truth differ by the throughput of the deeper worlds and by the few lines that miss the rest.
+// and truth differ by the throughput of the deeper worlds and by the few lines that miss the rest:
+// beyond eight reflections 0.17 is left, which 8,192 rays of an element know to 5 %.
 TEST(WorldTail, BoundsWhatRaysBringFromBeyondTheTree) {
   for (const double rho : {0.5, 0.9, 0.99, 1.0})
     for (const int depth : {0, 1, 2, 4, 8}) {
       const Tail tail =
           tail_of(facing_mirrors(Rgb(rho)),
-                  {.min_throughput = 0.0, .max_depth = depth, .max_worlds = 1000}, 512);
+                  {.min_throughput = 0.0, .max_depth = depth, .max_worlds = 1000}, 8192);
       EXPECT_LE(tail.measured, 1.02 * tail.bound) << rho << ' ' << depth; // the noise of the rays
-      EXPECT_GE(tail.measured, 0.2 * rho * tail.bound) << rho << ' ' << depth;
+      EXPECT_GE(tail.measured, 0.15 * rho * tail.bound) << rho << ' ' << depth;
     }
 }
 
