@@ -31,7 +31,7 @@ Imath::Box2i box(int x0, int y0, int x1, int y1) {
 
 /// A part of one value per channel, but that the first pixel of all is 8 times as bright.
 struct TestPart {
-  std::string name;
+  std::string name = {};
   std::vector<std::pair<std::string, float>> channels;
   Imath::Box2i display = box(0, 0, 7, 5);
   Imath::Box2i data = box(0, 0, 7, 5);
