@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t max_pieces = 64;
 constexpr double max_blocked = 0.02; ///< of the polygon's size, and no more than is open: pieces
                                      ///< that more parts are two regions
+constexpr double min_gap = 1.0 / 16.0; ///< of the polygon's size: what is hovering for
+                                       ///< contact_segments.h is standing here
 
 double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -115,16 +117,42 @@ bool common_stretch(const Segment2& one, const Segment2& other, double grain, Se
   return true;
 }
 
-double blocked_length(const Segment2& way, std::span<const Segment2> segments, double grain) {
-  double blocked = 0.0;
-  for (const Stretch& stretch : met_along(way.a, way.b, segments, grain))
-    blocked += stretch.to - stretch.from;
-  return blocked * glm::distance(way.a, way.b);
+/// The part of the line through a segment that lies within a convex polygon.
+Segment2 chord_of(std::span<const Vec2> polygon, double grain, const Segment2& way) {
+  double around = 0.0;
+  for (std::size_t k = 0; k < polygon.size(); ++k)
+    around += glm::distance(polygon[k], polygon[(k + 1) % polygon.size()]);
+  const Vec2 along = around / glm::distance(way.a, way.b) * (way.b - way.a);
+  Segment2 chord{way.a - along, way.a + along};
+  return clip_to(polygon, grain, chord) ? chord : way;
+}
+
+/// How much of the way between two pieces is blocked. Light finds no way through a gap narrower
+/// than `narrow` that segments leave on the chord on which the way lies.
+double blocked_length(const Segment2& way, const Segment2& chord, double narrow,
+                      std::span<const Segment2> segments, double grain) {
+  const double length = glm::distance(chord.a, chord.b);
+  const Vec2 along = (chord.b - chord.a) / length;
+  const double a = glm::dot(along, way.a - chord.a) / length;
+  const double b = glm::dot(along, way.b - chord.a) / length;
+  const Stretch own{std::min(a, b), std::max(a, b)};
+  double open = 0.0, from = 0.0;
+  const auto pass = [&](double to) {
+    if ((to - from) * length > narrow || to - from >= 1.0)
+      open += std::max(0.0, std::min(to, own.to) - std::max(from, own.from));
+  };
+  for (const Stretch& stretch : met_along(chord.a, chord.b, segments, grain)) {
+    pass(stretch.from);
+    from = stretch.to;
+  }
+  pass(1.0);
+  return std::max(0.0, own.to - own.from - open) * length;
 }
 
 /// Joins the pieces between which nothing stands.
-void number_regions(std::span<const Segment2> segments, double grain, double size,
-                    CutPolygon& cut) {
+void number_regions(std::span<const Vec2> polygon, std::span<const Segment2> segments,
+                    double grain, CutPolygon& cut) {
+  const double size = std::sqrt(std::abs(area_of(polygon)));
   DisjointSets sets(cut.pieces.size());
   const auto edge = [&](std::size_t piece, std::size_t k) {
     const auto& points = cut.pieces[piece];
@@ -135,7 +163,8 @@ void number_regions(std::span<const Segment2> segments, double grain, double siz
       for (std::size_t k = 0; k < cut.pieces[i].size(); ++k)
         for (std::size_t l = 0; l < cut.pieces[j].size(); ++l)
           if (Segment2 common; common_stretch(edge(i, k), edge(j, l), grain, common)) {
-            const double blocked = blocked_length(common, segments, grain);
+            const double blocked = blocked_length(common, chord_of(polygon, grain, common),
+                                                  min_gap * size, segments, grain);
             if (blocked <= max_blocked * size && blocked < 0.5 * glm::distance(common.a, common.b))
               sets.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
           }
@@ -230,7 +259,7 @@ CutPolygon cut_polygon(std::span<const Vec2> polygon, std::span<const Segment2> 
                        double grain) {
   Cutter cutter{grain, {}};
   cutter.add({polygon.begin(), polygon.end()}, segments);
-  number_regions(segments, grain, std::sqrt(std::abs(area_of(polygon))), cutter.cut);
+  number_regions(polygon, segments, grain, cutter.cut);
   return std::move(cutter.cut);
 }
 

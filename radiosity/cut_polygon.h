@@ -2,7 +2,8 @@
 //
 // Each segment cuts the piece in which it lies along its whole line (binary space partition: Fuchs,
 // Kedem, Naylor 1980), the longest first. So pieces are convex, and a point finds its own by signs.
-// Pieces that meet where no segment lies between them are one region again.
+// Pieces that meet where no segment lies between them are one region again; gaps that segments
+// leave along a line, narrower than a sixteenth of the polygon, count as closed.
 // Where segments end within the polygon, the pieces on either side of them stay two regions: what
 // lies between is a step that tapers off to where the segment's line leaves the polygon.
 //
