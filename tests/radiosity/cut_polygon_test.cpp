@@ -54,6 +54,21 @@ TEST(CutPolygon, AFootIsOneRegionAndAllAroundItAnother) {
   EXPECT_EQ(region_at(cut, {0.05, 0.05}), region_at(cut, {0.95, 0.95}));
 }
 
+TEST(CutPolygon, ANarrowGapBesideAWallsEndJoinsNoSides) {
+  // A wall of a tenth that ends below the border by `gap`: its two faces and its top.
+  const auto wall = [](double gap) {
+    const double top = 1.0 - gap;
+    return std::vector<Segment2>{
+        {{0.4, -0.5}, {0.4, top}}, {{0.5, top}, {0.5, -0.5}}, {{0.4, top}, {0.5, top}}};
+  };
+  for (const double gap : {0.002, 0.05}) {
+    const CutPolygon cut = cut_polygon(square, wall(gap), grain);
+    EXPECT_NE(region_at(cut, {0.2, 0.5}), region_at(cut, {0.8, 0.5})) << gap;
+  }
+  const CutPolygon round_its_end = cut_polygon(square, wall(0.5), grain);
+  EXPECT_EQ(region_at(round_its_end, {0.39, 0.9}), region_at(round_its_end, {0.51, 0.9}));
+}
+
 TEST(CutPolygon, WhatLiesOnABorderCutsNothing) {
   EXPECT_EQ(cut_polygon(square, std::vector<Segment2>{{{0, -1}, {0, 2}}}, grain).regions, 1U);
   EXPECT_EQ(cut_polygon(square, std::vector<Segment2>{{{1.5, -1}, {1.5, 2}}}, grain).regions, 1U);
