@@ -6,14 +6,15 @@ namespace meninas {
 
 Vec3 way_into(const Point3& x, std::span<const Plane> planes) {
   constexpr double same_plane = 0.05;
-  Eigen::MatrixX3d normals(planes.size(), 3);
+  // Of a fixed number of columns there is no thin decomposition where planes are fewer.
+  Eigen::MatrixXd normals(planes.size(), 3);
   Eigen::VectorXd rest(planes.size());
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     normals.row(row) << planes[k].normal.x, planes[k].normal.y, planes[k].normal.z;
     rest[row] = -signed_distance(planes[k], x);
   }
-  Eigen::JacobiSVD<Eigen::MatrixX3d> svd(normals, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(normals, Eigen::ComputeThinU | Eigen::ComputeThinV);
   svd.setThreshold(same_plane);
   const Eigen::Vector3d way = svd.solve(rest);
   // Coordinates whose squares overflow have no place in common.

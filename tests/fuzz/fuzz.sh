@@ -2,7 +2,8 @@
 # Fuzzes the glTF loader: builds the target with clang, makes the seeds, and runs it.
 #   tests/fuzz/fuzz.sh FOLDER [--runs N | --seconds S] [FUZZER_OPTIONS]
 # FOLDER keeps the build, the corpus that grew and the findings (crash-*, timeout-*, oom-*). With --runs the same files are tried each
-# time, from the seeds alone; with --seconds it goes on from the corpus of earlier runs. Exit code 77: there is no clang++-16 (before clang 15 there is no std::source_location).
+# time, from the seeds alone; with --seconds it goes on from the corpus of earlier runs. Exit code 1: there is a finding; 77: there is no
+# clang++-16 (before clang 15 there is no std::source_location).
 set -euo pipefail
 
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -28,5 +29,6 @@ ninja -C "$folder/build" -j2 >"$folder/build.log" || { cat "$folder/build.log" &
 $keep || rm -rf "$folder/corpus"
 mkdir -p "$folder/corpus"
 cd "$folder"
-exec build/loader_fuzz -dict=words.dict -max_len=8192 -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=512 \
+# Left to itself libFuzzer ends with 77 where it finds something, and with 70 and 71 for what takes too long or too much.
+exec build/loader_fuzz -error_exitcode=1 -timeout_exitcode=1 -dict=words.dict -max_len=8192 -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=512 \
   -print_final_stats=1 "${limit[@]}" "$@" corpus seeds
