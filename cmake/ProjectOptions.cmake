@@ -31,7 +31,7 @@ if(MENINAS_SANITIZE)
   add_compile_options(-fsanitize=${MENINAS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${MENINAS_SANITIZE})
   # GCC cannot follow initialisation through the instrumented code and warns about the standard library itself.
-  add_compile_options(-Wno-maybe-uninitialized)
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endif()
 if(MENINAS_SANITIZE MATCHES thread)
   # Every program is linked with it; that it is there by then, the first library sees to (CMakeLists.txt).
