@@ -1,6 +1,6 @@
 // Plane classes, in two steps: regions are gathered around the widest one whose plane they may
 // share, then the gathering is kept as far as one plane really holds all their vertices.
-#include "scenes/neighbour_grid.h"
+#include "scenes/plane_search.h"
 #include "scenes/regions.h"
 
 #include <Eigen/Eigenvalues>
@@ -22,20 +22,6 @@ struct Piece {
   double width = 0.0;       ///< the narrower extent
   double uncertainty = 0.0; ///< of its normal, in radians
 };
-
-/// The plane of the first piece of a gathering, and how well that piece knows it.
-struct Owner {
-  Plane plane;
-  Point3 centre;
-  double uncertainty;
-};
-
-/// Fixed, oblique to the planes people build: tells the two orientations of a plane apart.
-const Direction orientation = glm::normalize(Vec3(0.5309, 0.6713, 0.5171));
-
-/// Planes that are looked at per region: a bound on the time that scenes of very many nearly equal
-/// planes take.
-constexpr int most_candidates = 64;
 
 /// Pieces that know their normals less well than this, in radians, say nothing about the planes of
 /// others.
@@ -86,7 +72,6 @@ public:
   }
 
 private:
-  using Key = NeighbourGrid<4>::Point;
   using Members = std::span<const std::uint32_t>; ///< pieces
 
   const Region& region_of(std::uint32_t piece) const {
@@ -119,19 +104,8 @@ private:
     return {r, 0.5 * bounds.low + 0.5 * bounds.high, width, uncertainty};
   }
 
-  /// Normal and offset from the middle of the scene, the offset in units of its reach: errors of
-  /// both are alike.
-  Key key_of(const Plane& plane, double sign) const {
-    const Direction n = sign * plane.normal;
-    return {n.x, n.y, n.z, sign * signed_distance(plane, middle_) / std::max(reach_, tolerance_)};
-  }
-
-  double canonical_sign(const Plane& plane) const {
-    return glm::dot(plane.normal, orientation) < 0.0 ? -1.0 : 1.0;
-  }
-
   /// The region may lie in the plane, given what its owner knows of it there.
-  bool may_share(const Owner& owner, const Region& region) const {
+  bool may_share(const KnownPlane& owner, const Region& region) const {
     return every_corner(region, [&](const Point3& corner) {
       const double slack =
           region.tolerance + owner.uncertainty * glm::distance(corner, owner.centre);
@@ -147,62 +121,37 @@ private:
 
   /// The gathering of each piece.
   ///
-  /// Pieces come from the most to the least certain, in levels of alike uncertainty, each with a
-  /// grid as coarse as it needs.
+  /// Pieces come from the widest to the narrowest, and join the first gathering that may share its
+  /// plane with them.
   std::vector<std::uint32_t> gather() const {
     std::vector<std::uint32_t> gathering(pieces_.size());
-    std::vector<Owner> owners;
-    std::uint32_t next = 0;
-    while (next < pieces_.size()) {
-      const double coarsest = std::max(4.0 * pieces_[next].uncertainty, finest);
-      const std::size_t room = owners.size() + pieces_.size() - next;
-      NeighbourGrid<4> grid(4.0 * look_up_radius(coarsest), room);
-      for (std::uint32_t g = 0; g < owners.size(); ++g) {
-        add(grid, owners, g);
+    PlaneSearch planes(middle_, std::max(reach_, tolerance_));
+    std::vector<std::uint32_t> gathering_of_plane;
+    std::uint32_t gatherings = 0;
+    for (std::uint32_t k = 0; k < pieces_.size(); ++k) {
+      const Piece& piece = pieces_[k];
+      const bool is_vague = piece.uncertainty >= vaguest;
+      const auto found = is_vague ? std::nullopt : find(planes, piece);
+      if (found) {
+        gathering[k] = gathering_of_plane[*found];
+        continue;
       }
-      for (; next < pieces_.size() && pieces_[next].uncertainty <= coarsest; ++next) {
-        const Piece& piece = pieces_[next];
-        gathering[next] = find(grid, piece, owners);
-        if (gathering[next] == nothing) {
-          gathering[next] = static_cast<std::uint32_t>(owners.size());
-          owners.push_back({region_of(next).plane, piece.centre, piece.uncertainty});
-          add(grid, owners, gathering[next]);
-        }
+      gathering[k] = gatherings++;
+      if (!is_vague) {
+        planes.add({region_of(k).plane, piece.centre, piece.uncertainty});
+        gathering_of_plane.push_back(gathering[k]);
       }
     }
     return gathering;
   }
 
-  void add(NeighbourGrid<4>& grid, const std::vector<Owner>& owners, std::uint32_t owner) const {
-    const auto& [plane, centre, uncertainty] = owners[owner];
-    if (uncertainty < vaguest) {
-      grid.add(key_of(plane, canonical_sign(plane)), owner);
-    }
-  }
-
-  std::uint32_t find(const NeighbourGrid<4>& grid, const Piece& piece,
-                     const std::vector<Owner>& owners) const {
-    std::uint32_t found = nothing;
-    if (piece.uncertainty >= vaguest) {
-      return found;
-    }
+  std::optional<std::uint32_t> find(const PlaneSearch& planes, const Piece& piece) const {
     const Region& region = regions_.regions[piece.region];
-    const Plane& plane = region.plane;
-    int candidates = 0;
-    const auto visit = [&](std::uint32_t owner) {
-      if (may_share(owners[owner], region)) {
-        found = owner;
-      }
-      return found == nothing && ++candidates < most_candidates;
-    };
-    const double sign = canonical_sign(plane);
-    const double radius = look_up_radius(piece.uncertainty);
-    grid.visit_near(key_of(plane, sign), radius, visit);
-    // A plane nearly along the fixed direction may have been filed under its other orientation.
-    if (found == nothing && std::abs(glm::dot(plane.normal, orientation)) <= 2.0 * radius) {
-      grid.visit_near(key_of(plane, -sign), radius, visit);
-    }
-    return found;
+    return planes.first({.plane = region.plane,
+                         .points = corners(scene_, triangles_of(regions_, region).front()),
+                         .tolerance = region.tolerance,
+                         .radius = look_up_radius(piece.uncertainty)},
+                        [&](std::uint32_t k) { return may_share(planes[k], region); });
   }
 
   /// Least squares over all corners: scattered pieces together know their plane better than the
@@ -260,7 +209,6 @@ private:
     }
   }
 
-  static constexpr std::uint32_t nothing = 0xffffffffU;
   const Scene& scene_;
   const Regions& regions_;
   double tolerance_;
