@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace meninas {
 
 static TexturePixels decoded(const Texture& texture, TextureContent content) {
@@ -28,7 +31,7 @@ static DecodedTextures decoded_or_white(const Scene& scene, std::vector<std::str
 
 DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings) {
   DecodedTextures textures = decoded_or_white(scene, warnings);
-  fold_constant_textures(scene, textures);
+  std::ranges::move(fold_constant_textures(scene, textures), std::back_inserter(warnings));
   return textures;
 }
 

@@ -29,7 +29,7 @@ bool is_see_through(const Material& material) {
 
 TracedScene make_traced_scene(Scene scene) {
   DecodedTextures textures = decode_textures(scene, decode);
-  fold_constant_textures(scene, textures);
+  std::ranges::move(fold_constant_textures(scene, textures), std::back_inserter(scene.warnings));
   SurfaceModel surfaces = find_surfaces(scene);
   RayScene rays = make_ray_scene(scene, surfaces);
   std::ranges::move(warnings_of_mixed_scales(scene, surfaces, rays),

@@ -1,6 +1,8 @@
 #include "scenes/constant_textures.h"
 
+#include "scenes/clear_coat.h"
 #include "scenes/disjoint_sets.h"
+#include "scenes/gltf_document.h"
 #include "scenes/smooth_surfaces.h"
 #include "scenes/texel_ranges.h"
 
@@ -20,12 +22,16 @@ struct Slot {
   glm::bvec4 read; ///< channels that count; of base colours alpha besides
 };
 constexpr std::size_t base_slot = 0;
-const std::array<Slot, 5> slots{{
+const std::array<Slot, 9> slots{{
     {&Material::base_color_texture, TextureContent::colour, {true, true, true, false}},
     {&Material::metallic_roughness_texture, TextureContent::numbers, {false, true, true, false}},
     {&Material::emissive_texture, TextureContent::colour, {true, true, true, false}},
     {&Material::transmission_texture, TextureContent::numbers, {true, false, false, false}},
     {&Material::thickness_texture, TextureContent::numbers, {false, true, false, false}},
+    {&Material::specular_texture, TextureContent::numbers, {false, false, false, true}},
+    {&Material::specular_color_texture, TextureContent::colour, {true, true, true, false}},
+    {&Material::clear_coat_texture, TextureContent::numbers, {true, false, false, false}},
+    {&Material::clear_coat_roughness_texture, TextureContent::numbers, {false, true, false, false}},
 }};
 
 /// sRGB, and beyond white as it goes on.
@@ -84,9 +90,39 @@ void fold(Material& material, const Values& values) {
     material.transmission *= channel(3, 0);
   if (values[4])
     material.thickness *= channel(4, 1);
+  if (values[5])
+    material.specular *= channel(5, 3);
+  if (values[6])
+    material.specular_color *= glm::clamp(Rgb(*values[6]), 0.0, 1.0);
+  if (values[7])
+    material.clear_coat *= channel(7, 0);
+  if (values[8])
+    material.clear_coat_roughness *= channel(8, 1);
   for (std::size_t s = 0; s < slots.size(); ++s)
     if (values[s])
       (material.*slots[s].use).reset();
+}
+
+/// Whether there is something to settle that is gone afterwards.
+bool has_unsettled_coat(const Material& material) {
+  return material.clear_coat > 0.0 || material.specular_texture ||
+         material.specular_color_texture || material.clear_coat_texture ||
+         material.clear_coat_roughness_texture;
+}
+
+/// What is no factor by now is left out.
+void settle_coat(Material& material, gltf::Findings& findings) {
+  if (material.specular_texture || material.specular_color_texture)
+    findings.about("textures of specular reflection that vary are left out in materials",
+                   material.name);
+  if (material.clear_coat > 0.0 &&
+      (material.clear_coat_texture || material.clear_coat_roughness_texture))
+    findings.about("textures of clear coats that vary are left out in materials", material.name);
+  for (auto* use : {&material.specular_texture, &material.specular_color_texture,
+                    &material.clear_coat_texture, &material.clear_coat_roughness_texture})
+    use->reset();
+  if (const std::string told = settle_clear_coat(material); !told.empty())
+    findings.about(told, material.name);
 }
 
 using Triangles = std::vector<TriangleId>;
@@ -96,12 +132,14 @@ public:
   Folding(Scene& scene, const DecodedTextures& textures) : scene_(scene), textures_(textures) {}
 
   const std::vector<std::uint8_t>& nearly_smooth() const { return nearly_smooth_; }
+  std::vector<std::string> findings() const { return findings_.lines(); }
 
   bool run() {
     std::vector<Triangles> of_material(scene_.materials.size());
     for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
       const MaterialId material = scene_.triangles[t].material;
-      if (is_textured(scene_.materials[index(material)]))
+      if (is_textured(scene_.materials[index(material)]) ||
+          has_unsettled_coat(scene_.materials[index(material)]))
         of_material[index(material)].push_back(TriangleId{t});
     }
     for (std::size_t m = 0; m < of_material.size(); ++m)
@@ -212,6 +250,10 @@ private:
       fold(scene_.materials[m], values);
       changed_ = true;
     }
+    if (has_unsettled_coat(scene_.materials[m])) {
+      settle_coat(scene_.materials[m], findings_);
+      changed_ = true;
+    }
     if (has_deciding_texture(scene_.materials[m]))
       fold_parts(m, triangles);
     if (is_nearly_smooth(scene_.materials[m], triangles)) {
@@ -301,6 +343,7 @@ private:
   std::optional<DisjointSets> sets_; ///< vertices of the scene, once they are asked for
   std::int64_t work_ = most_work;
   std::vector<std::uint8_t> nearly_smooth_; ///< by MaterialId
+  gltf::Findings findings_;
   bool changed_ = false;
 };
 
@@ -321,12 +364,13 @@ void drop_unused(const Scene& scene, DecodedTextures& textures) {
 
 } // namespace
 
-void fold_constant_textures(Scene& scene, DecodedTextures& textures) {
+std::vector<std::string> fold_constant_textures(Scene& scene, DecodedTextures& textures) {
   Folding folding(scene, textures);
   if (!folding.run())
-    return;
+    return {};
   mark_smooth_surfaces(scene, folding.nearly_smooth());
   drop_unused(scene, textures);
+  return folding.findings();
 }
 
 } // namespace meninas

@@ -22,6 +22,9 @@
 // come from one, and so many texels are looked at that it takes some tenths of a second;
 // beyond that textures stay what they are, which is slower and no less right.
 //
+// Textures of specular reflection and of clear coats are read for this alone: where they vary, the
+// factors count without them, and that is said by name.
+//
 // A cut-out material (alphaMode MASK) none of whose triangles shows a hole is opaque.
 #pragma once
 
@@ -36,7 +39,8 @@ inline constexpr double constant_codes = 2.0;
 inline constexpr double nearly_constant_codes = 16.0;
 
 /// Puts constant textures into the factors, marks smooth surfaces anew if any was (smooth_surfaces.h),
-/// and drops the pixels of those that no material uses any more.
-void fold_constant_textures(Scene& scene, DecodedTextures& textures);
+/// and drops the pixels of those that no material uses any more. Clear coats are settled
+/// (clear_coat.h). Returns what users are to be told.
+std::vector<std::string> fold_constant_textures(Scene& scene, DecodedTextures& textures);
 
 } // namespace meninas

@@ -76,7 +76,8 @@ static void read_emission(const Document& document, std::size_t index, const Jso
       read_texture_use(document, json, "emissiveTexture", material.name, findings);
 }
 
-static void read_coat(const Json& json, Material& material, Findings& findings) {
+static void read_coat(const Document& document, const Json& json, Material& material,
+                      Findings& findings) {
   if (const auto* extension = find(json, {"extensions", "KHR_materials_ior"})) {
     material.ior = number_or(*extension, "ior", 1.5);
     // 0 stands for a coat that reflects everything; else nothing is thinner than vacuum.
@@ -92,9 +93,12 @@ static void read_coat(const Json& json, Material& material, Findings& findings) 
     material.specular_color = glm::clamp(color, 0.0, brightest_emission);
     if (material.specular_color != color)
       findings.about("specular colours out of range were clamped in materials", material.name);
-    if (material.specular > 0.0 &&
-        (extension->contains("specularTexture") || extension->contains("specularColorTexture")))
-      findings.about("textures of specular reflection are left out in materials", material.name);
+    if (material.specular > 0.0) {
+      material.specular_texture =
+          read_texture_use(document, *extension, "specularTexture", material.name, findings);
+      material.specular_color_texture =
+          read_texture_use(document, *extension, "specularColorTexture", material.name, findings);
+    }
   }
 }
 
@@ -154,12 +158,12 @@ static Material read_material(const Document& document, std::size_t index, Findi
   else
     read_metallic_roughness(document, json, material, findings);
   read_emission(document, index, json, material, findings);
-  read_coat(json, material, findings);
+  read_coat(document, json, material, findings);
   read_glass(document, json, material, findings);
   if (find(json, {"extensions", "KHR_materials_unlit"}))
     findings.about("unlit materials are lit: their colour is read as reflectance", material.name);
   if (const auto* coat = find(json, {"extensions", "KHR_materials_clearcoat"}))
-    read_clear_coat(*coat, material, findings);
+    read_clear_coat(document, *coat, material, findings);
   if (json.contains("normalTexture"))
     findings.about("normal textures are left out in materials", material.name);
   if (json.contains("occlusionTexture"))

@@ -35,8 +35,9 @@ void read_materials(const Document& document, Scene& scene, Findings& findings);
 void read_specular_glossiness(const Document& document, const Json& model, Material& material,
                               Findings& findings);
 
-/// The coat of KHR_materials_clearcoat in place of the material's own, where that is rougher.
-void read_clear_coat(const Json& extension, Material& material, Findings& findings);
+/// The coat of KHR_materials_clearcoat (clear_coat.h), which textures may leave to be settled.
+void read_clear_coat(const Document& document, const Json& extension, Material& material,
+                     Findings& findings);
 
 /// `use.texture` is the file's texture;
 /// null when there is no image to be had, which is then in the findings.

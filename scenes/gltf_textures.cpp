@@ -84,6 +84,16 @@ std::set<std::uint64_t> texcoord_sets(const Json& material) {
   add({"pbrMetallicRoughness", "metallicRoughnessTexture"});
   add({"extensions", "KHR_materials_pbrSpecularGlossiness", "diffuseTexture"});
   add({"extensions", "KHR_materials_transmission", "transmissionTexture"});
+  const auto* specular = find(material, {"extensions", "KHR_materials_specular"});
+  if (specular && number_or(*specular, "specularFactor", 1.0) > 0.0) {
+    add({"extensions", "KHR_materials_specular", "specularTexture"});
+    add({"extensions", "KHR_materials_specular", "specularColorTexture"});
+  }
+  const auto* coat = find(material, {"extensions", "KHR_materials_clearcoat"});
+  if (coat && number_or(*coat, "clearcoatFactor", 0.0) > 0.0) {
+    add({"extensions", "KHR_materials_clearcoat", "clearcoatTexture"});
+    add({"extensions", "KHR_materials_clearcoat", "clearcoatRoughnessTexture"});
+  }
   // Of a pane it is a texture of nothing, and without absorption it says nothing.
   const auto* volume = find(material, {"extensions", "KHR_materials_volume"});
   if (volume && number_or(*volume, "thicknessFactor", 0.0) > 0.0 &&
@@ -220,17 +230,23 @@ private:
 
 void read_textures(const Document& document, Scene& scene, Findings& findings) {
   TextureShelf shelf(document, scene, findings);
-  for (auto& material : scene.materials) {
+  const auto settle = [&](std::optional<TextureUse>& use) {
+    if (!use)
+      return;
+    use->texture = shelf.of(index(use->texture));
+    if (use->texture == none<TextureId>)
+      use.reset();
+  };
+  for (auto& material : scene.materials)
     for (auto* use : {&material.base_color_texture, &material.metallic_roughness_texture,
                       &material.emissive_texture, &material.transmission_texture,
-                      &material.thickness_texture}) {
-      if (!*use)
-        continue;
-      (*use)->texture = shelf.of(index((*use)->texture));
-      if ((*use)->texture == none<TextureId>)
-        use->reset();
-    }
-  }
+                      &material.thickness_texture})
+      settle(*use);
+  // What is shown comes before what may be no more than a factor, as long as there is room.
+  for (auto& material : scene.materials)
+    for (auto* use : {&material.specular_texture, &material.specular_color_texture,
+                      &material.clear_coat_texture, &material.clear_coat_roughness_texture})
+      settle(*use);
 }
 
 } // namespace meninas::gltf

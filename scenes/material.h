@@ -68,6 +68,14 @@ struct Material {
   std::optional<TextureUse> emissive_texture;
   std::optional<TextureUse> transmission_texture; ///< red
   std::optional<TextureUse> thickness_texture;    ///< green
+
+  // What is settled before anything is decided by the material, and gone by then:
+  // of these textures the constant ones become factors, the others are left out (constant_textures.h).
+  double clear_coat = 0.0, clear_coat_roughness = 0.0; ///< lacquer, in [0, 1] (clear_coat.h)
+  std::optional<TextureUse> specular_texture;          ///< alpha
+  std::optional<TextureUse> specular_color_texture;
+  std::optional<TextureUse> clear_coat_texture;           ///< red
+  std::optional<TextureUse> clear_coat_roughness_texture; ///< green
 };
 
 /// The reflectance of the material in pass one, which scatters evenly:

@@ -51,6 +51,17 @@ void add_material(ContentHash& hash, const Material& material) {
     add_texture_use(hash, material.transmission_texture);
     add_texture_use(hash, material.thickness_texture);
   }
+  if (material.clear_coat > 0.0) {
+    hash.add(material.clear_coat);
+    hash.add(material.clear_coat_roughness);
+    add_texture_use(hash, material.clear_coat_texture);
+    add_texture_use(hash, material.clear_coat_roughness_texture);
+  }
+  if (material.specular_texture || material.specular_color_texture) {
+    hash.add(std::uint64_t{2}); // not those of glass
+    add_texture_use(hash, material.specular_texture);
+    add_texture_use(hash, material.specular_color_texture);
+  }
 }
 
 void add_light(ContentHash& hash, const PunctualLight& light) {

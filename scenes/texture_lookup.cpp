@@ -73,6 +73,10 @@ DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode)
     need(material.metallic_roughness_texture, decoded.numbers, TextureContent::numbers);
     need(material.transmission_texture, decoded.numbers, TextureContent::numbers);
     need(material.thickness_texture, decoded.numbers, TextureContent::numbers);
+    need(material.specular_texture, decoded.numbers, TextureContent::numbers);
+    need(material.specular_color_texture, decoded.colours, TextureContent::colour);
+    need(material.clear_coat_texture, decoded.numbers, TextureContent::numbers);
+    need(material.clear_coat_roughness_texture, decoded.numbers, TextureContent::numbers);
   }
   return decoded;
 }

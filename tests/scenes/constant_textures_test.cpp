@@ -4,6 +4,7 @@
 #include "scenes/texel_ranges.h"
 #include "tests/support/scene_builder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,11 @@
 
 namespace meninas::test {
 namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 
 glm::vec4 codes(float r, float g, float b, float a = 255.0F) {
   return glm::vec4(r, g, b, a) / 255.0F;
@@ -49,11 +55,15 @@ Material rough_metal() {
   return material;
 }
 
-/// With one image in all slots.
-Scene& folded(Scene& scene, const TexturePixels& image) {
+/// With one image in all slots; returns what is said.
+std::vector<std::string> fold(Scene& scene, const TexturePixels& image) {
   DecodedTextures textures = decode_textures(
       scene, [&](const Texture&, TextureContent) { return image; });
-  fold_constant_textures(scene, textures);
+  return fold_constant_textures(scene, textures);
+}
+
+Scene& folded(Scene& scene, const TexturePixels& image) {
+  fold(scene, image);
   return scene;
 }
 
@@ -76,6 +86,76 @@ TEST(ConstantTextures, AreFactors) {
   EXPECT_DOUBLE_EQ(result.metallic, 0.75);
   EXPECT_DOUBLE_EQ(result.base_color.b, 0.9 * 0.75);
   EXPECT_DOUBLE_EQ(result.emission.r, 0.5);
+}
+
+/// Matt paint, named, with textures of all that is in its coat.
+Material lacquered_paint() {
+  Material material;
+  material.name = "car";
+  material.roughness = 0.5;
+  material.specular_color = Rgb(0.8);
+  material.specular_texture = material.specular_color_texture = TextureUse{.texture = TextureId{0}};
+  return material;
+}
+
+TEST(ConstantTextures, OfSpecularReflectionAreFactors) {
+  Scene scene = square(lacquered_paint());
+  EXPECT_THAT(fold(scene, filled(8, 8, glm::vec4(0.5, 0.25, 1.0, 0.75))), IsEmpty());
+  const Material& result = scene.materials[0];
+  EXPECT_DOUBLE_EQ(result.specular, 0.75);
+  EXPECT_DOUBLE_EQ(result.specular_color.r, 0.8 * 0.5);
+  EXPECT_DOUBLE_EQ(result.specular_color.g, 0.8 * 0.25);
+  EXPECT_FALSE(result.specular_texture || result.specular_color_texture);
+
+  TexturePixels image = filled(8, 8, glm::vec4(1.0F));
+  texel(image, 3, 3) = glm::vec4(0.0F);
+  Scene varied = square(lacquered_paint());
+  EXPECT_THAT(fold(varied, image),
+              ElementsAre(AllOf(HasSubstr("specular reflection that vary are left out"),
+                                HasSubstr("'car'"))));
+  EXPECT_EQ(varied.materials[0].specular, 1.0);
+  EXPECT_FALSE(varied.materials[0].specular_texture);
+}
+
+// As exporters write it: the factors are 1, and the image says what the lacquer is.
+TEST(ConstantTextures, OfClearCoatsAreFactors) {
+  Material material = lacquered_paint();
+  material.specular_texture = material.specular_color_texture = std::nullopt;
+  material.clear_coat = material.clear_coat_roughness = 1.0;
+  material.clear_coat_texture = material.clear_coat_roughness_texture =
+      TextureUse{.texture = TextureId{0}};
+  Scene scene = square(material);
+  EXPECT_THAT(fold(scene, filled(8, 8, codes(204, 0, 99))),
+              ElementsAre(AllOf(HasSubstr("clear coats are shown"), HasSubstr("'car'"))));
+  EXPECT_NEAR(scene.materials[0].specular, 0.8, 1e-7);
+  EXPECT_EQ(scene.materials[0].roughness, 0.0);
+  EXPECT_EQ(scene.materials[0].specular_color, Rgb(1.0));
+  EXPECT_EQ(scene.materials[0].clear_coat, 0.0) << "settled";
+
+  Scene bare = square(material);
+  EXPECT_THAT(fold(bare, filled(8, 8, codes(0, 0, 99))), IsEmpty()) << "no lacquer at all";
+  EXPECT_EQ(bare.materials[0].roughness, 0.5);
+
+  TexturePixels image = filled(8, 8, codes(255, 0, 0));
+  texel(image, 3, 3).g = 1.0F;
+  Scene varied = square(material);
+  EXPECT_THAT(fold(varied, image),
+              ElementsAre(HasSubstr("clear coats that vary are left out"),
+                          HasSubstr("as smooth itself are left out")));
+  EXPECT_EQ(varied.materials[0].roughness, 0.5);
+}
+
+TEST(ConstantTextures, TellWhetherThereIsMetalUnderAClearCoat) {
+  Material material = lacquered_paint();
+  material.specular_texture = material.specular_color_texture = std::nullopt;
+  material.roughness = material.metallic = material.clear_coat = 1.0;
+  material.metallic_roughness_texture = TextureUse{.texture = TextureId{0}};
+  for (const float metallic : {0.0F, 1.0F}) {
+    Scene scene = square(material);
+    const auto said = fold(scene, filled(4, 4, glm::vec4(0.0F, 0.5F, metallic, 1.0F)));
+    EXPECT_THAT(said, ElementsAre(HasSubstr(metallic > 0.0F ? "left out" : "shown")));
+    EXPECT_EQ(scene.materials[0].roughness, metallic > 0.0F ? 0.5 : 0.0);
+  }
 }
 
 TEST(ConstantTextures, OfSmoothMetalMakeMirrors) {

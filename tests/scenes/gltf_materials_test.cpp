@@ -203,6 +203,42 @@ TEST(GltfMaterials, ClearCoatsTakeThePlaceOfDullerGloss) {
   EXPECT_FALSE(warns(read(0.0, 0.5, Json::object()), {"clear coat"})) << "there is none by default";
 }
 
+TEST(GltfMaterials, TexturesOfCoatsAreReadForWhatTheySayEverywhere) {
+  auto file = square();
+  const Json use{{"index", 0}};
+  const auto read = [&](double factor) -> Material {
+    file.json["materials"][0] = {
+        {"name", "Car"},
+        {"pbrMetallicRoughness", {{"metallicFactor", 0.0}}},
+        {"extensions",
+         {{"KHR_materials_specular",
+           {{"specularFactor", factor}, {"specularTexture", use}, {"specularColorTexture", use}}},
+          {"KHR_materials_clearcoat",
+           {{"clearcoatFactor", factor},
+            {"clearcoatRoughnessFactor", 0.5},
+            {"clearcoatTexture", use},
+            {"clearcoatRoughnessTexture", use}}}}}};
+    file.json["images"] = Json::array({{{"uri", "data:image/png;base64,iVBORw0KGgo="}}});
+    file.json["textures"] = Json::array({{{"source", 0}}});
+    const Scene scene = load(file);
+    EXPECT_FALSE(warns(scene, {"'Car'"})) << "nothing is left out yet";
+    return scene.materials.at(0);
+  };
+  const Material car = read(0.5);
+  for (const auto& texture : {car.specular_texture, car.specular_color_texture,
+                              car.clear_coat_texture, car.clear_coat_roughness_texture}) {
+    ASSERT_TRUE(texture);
+    EXPECT_EQ(texture->texture, TextureId{0});
+  }
+  EXPECT_EQ(car.clear_coat, 0.5);
+  EXPECT_EQ(car.clear_coat_roughness, 0.5);
+  EXPECT_EQ(car.roughness, 1.0) << "that is settled by what the textures say";
+  const Material none = read(0.0);
+  EXPECT_FALSE(none.specular_texture || none.specular_color_texture || none.clear_coat_texture ||
+               none.clear_coat_roughness_texture)
+      << "of nothing";
+}
+
 TEST(GltfMaterials, AThousandSloppyMaterialsMakeOneLine) {
   auto file = square();
   for (int k = 0; k < 1000; ++k) {

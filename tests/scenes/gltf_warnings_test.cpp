@@ -21,19 +21,6 @@ static void set_colors(GltfFile& file, float alpha) {
       std::vector<float>{1, 1, 1, 1, 1, 1, 1, alpha, 1, 1, 1, 1, 1, 1, 1, 1}, "VEC4");
 }
 
-TEST(GltfWarnings, TexturesOfSpecularReflectionAreNamed) {
-  for (const auto* texture : {"specularTexture", "specularColorTexture"}) {
-    const auto read = [&](double factor) {
-      return load(with_material({{"extensions",
-                                  {{"KHR_materials_specular",
-                                    {{"specularFactor", factor}, {texture, {{"index", 0}}}}}}}}));
-    };
-    EXPECT_TRUE(warns(read(0.5), {"textures of specular reflection are left out", "'Paint'"}))
-        << texture;
-    EXPECT_FALSE(warns(read(0.0), {"specular"})) << "of nothing";
-  }
-}
-
 TEST(GltfWarnings, AlphaOfVerticesThatIsNotBlendedIsNamed) {
   for (const float alpha : {1.0F, 0.5F}) {
     auto file = with_material({{"alphaMode", "BLEND"}});
