@@ -9,8 +9,8 @@
 namespace meninas {
 
 /// Constant ones become factors of the scene's materials (scenes/constant_textures.h).
-/// What cannot be decoded changes nothing, and a line of the warnings says so, as one does of what is
-/// left out.
+/// What cannot be decoded changes nothing, and a line of the warnings says so, as one does of what
+/// is left out.
 DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings);
 
 } // namespace meninas

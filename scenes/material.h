@@ -70,7 +70,8 @@ struct Material {
   std::optional<TextureUse> thickness_texture;    ///< green
 
   // What is settled before anything is decided by the material, and gone by then:
-  // of these textures the constant ones become factors, the others are left out (constant_textures.h).
+  // of these textures the constant ones become factors, the others are left out
+  // (constant_textures.h).
   double clear_coat = 0.0, clear_coat_roughness = 0.0; ///< lacquer, in [0, 1] (clear_coat.h)
   std::optional<TextureUse> specular_texture;          ///< alpha
   std::optional<TextureUse> specular_color_texture;

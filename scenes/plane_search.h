@@ -1,19 +1,20 @@
-// Finding, among planes that are known to a stated accuracy, the first in which some points may lie.
+// Finding, among planes that are known to a stated accuracy, the first in which some points may
+// lie.
 //
-// A plane whose normal is known to u radians about a centre c holds a point x that is itself known to
-// e, as far as anybody can tell, where
+// A plane whose normal is known to u radians about a centre c holds a point x that is itself known
+// to e, as far as anybody can tell, where
 //
 //   |n . x - d| <= e + u |x - c|.
 //
-// Of the planes that were added, the one that was added first and holds all the points is found, by
-// normals and distances from the middle of the scene that are alike within a radius. It is the one
-// that asking all of them in turn would find; no plane is left out for there being many.
+// Of the planes that were added, the one that was added first and holds all the points is found,
+// by normals and distances from the middle of the scene that are alike within a radius. It is the
+// one that asking all of them in turn would find; no plane is left out for there being many.
 //
-// The planes are in binary trees over (normal, distance) whose nodes know the ranges of these, of the
-// centres and of u, so that the inequality is bounded over all that is below a node and most of it
-// is not looked at. Trees are as large as 32 times the powers of two, and two of one size become
+// The planes are in binary trees over (normal, distance) whose nodes know the ranges of these, of
+// the centres and of u, so that the inequality is bounded over all that is below a node and most of
+// it is not looked at. Trees are as large as 32 times the powers of two, and two of one size become
 // one (Bentley, Saxe 1980): n additions take O(n log^2 n). A search takes O(log^2 n) where few
-// planes come near, as in all that people build; there is no bound for planes made to defeat it.
+// planes come near; there is no bound for planes made to defeat it.
 #pragma once
 
 #include "scenes/surfaces.h"
@@ -37,7 +38,7 @@ struct PlaneQuery {
   Plane plane;                     ///< as the points themselves tell it
   std::array<Point3, 3> points{};  ///< that lie in the plane that is looked for
   double tolerance = 0.0;          ///< of the points, metres
-  double radius = 0.0;             ///< of normals, along each axis, and of distances in units of the reach
+  double radius = 0.0; ///< of normals, along each axis, and of distances in units of the reach
 };
 
 class PlaneSearch {
