@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace meninas {
@@ -97,32 +98,78 @@ ElementSizes sizes_of(const Scene& scene, const SurfaceModel& surfaces,
   return {size, std::vector<double>(surfaces.surfaces.size(), size)};
 }
 
+/// How many there are: each takes one element at least.
+double sides_in_mesh(const Scene& scene, const SurfaceModel& surfaces, const DarkSides& dark) {
+  double sides = 0.0;
+  for (std::size_t p = 0; p < surfaces.patches.size(); ++p)
+    sides += meshed_sides(scene, surfaces, static_cast<PatchId>(p), dark);
+  return sides;
+}
+
+struct Division {
+  std::vector<Divisions> of_patch;
+  double elements = 0.0;
+};
+
+void enlarge(ElementSizes& sizes, double times) {
+  sizes.element_size *= times;
+  for (double& size : sizes.of_surface)
+    size *= times;
+}
+
+/// Of patches of many sizes that share edges all would be divided like the largest, and triangles
+/// have twice the elements of quads: beyond twice what is asked for, and one element a side,
+/// they agree on fewer edges, and all elements are as much larger as it takes.
+void fit_to_target(double asked, const std::function<Division(double)>& divide,
+                   ElementSizes& sizes, Division& division) {
+  constexpr double most = 2.0, enough = 1.25;
+  if (division.elements <= most * asked)
+    return;
+  double most_times = 4.0;
+  for (const double fewer : {2.0, 1.5}) {
+    if (division.elements <= enough * asked)
+      return;
+    most_times = fewer;
+    division = divide(most_times);
+  }
+  for (int k = 0; k < 8 && division.elements > enough * asked; ++k) {
+    enlarge(sizes, std::max(1.05, std::sqrt(division.elements / asked)));
+    division = divide(most_times);
+  }
+}
+
 } // namespace
 
 ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces,
                               const MeshSettings& settings, const DarkSides& dark) {
   ElementSizes sizes = sizes_of(scene, surfaces, settings, dark);
+  const auto divide = [&](double most_times) {
+    Division division{divide_edges(surfaces, sizes.of_surface, most_times)};
+    division.elements =
+        static_cast<double>(elements_of(scene, surfaces, division.of_patch, dark));
+    return division;
+  };
+  Division division = divide(4.0);
+  if (settings.element_size <= 0.0)
+    fit_to_target(settings.target_elements + sides_in_mesh(scene, surfaces, dark), divide, sizes,
+                  division);
 
   // A derived size grows until the mesh fits; a chosen one is the user's word.
-  auto divisions = divide_edges(surfaces, sizes.of_surface);
-  auto elements = elements_of(scene, surfaces, divisions, dark);
-  while (elements > settings.max_elements) {
+  while (division.elements > static_cast<double>(settings.max_elements)) {
     if (settings.element_size > 0.0)
       throw UsageError("--element-size",
                        fmt::format("{} m needs {} elements, more than {}", settings.element_size,
-                                   elements, settings.max_elements));
-    if (elements <= 2 * surfaces.patches.size())
+                                   static_cast<std::uint64_t>(division.elements),
+                                   settings.max_elements));
+    if (division.elements <= 2.0 * static_cast<double>(surfaces.patches.size()))
       break; // one element a side is the least there is
-    sizes.element_size *= 1.4;
-    for (double& size : sizes.of_surface)
-      size *= 1.4;
-    divisions = divide_edges(surfaces, sizes.of_surface);
-    elements = elements_of(scene, surfaces, divisions, dark);
+    enlarge(sizes, 1.4);
+    division = divide(4.0);
   }
 
   ElementMesh mesh;
   mesh.element_size = sizes.element_size;
-  add_sides(mesh, scene, surfaces, divisions, dark);
+  add_sides(mesh, scene, surfaces, division.of_patch, dark);
   for (MeshSide& side : mesh.sides)
     side.element_size = sizes.of_surface[index(surfaces.patches[index(side.patch)].surface)];
   add_root_cells(mesh);

@@ -3,6 +3,7 @@
 #include "radiosity/surface_colour.h"
 #include "raytrace/scene_textures.h"
 #include "scenes/mixed_scales.h"
+#include "scenes/retriangulation.h"
 #include "scenes/smooth_surfaces.h"
 #include "scenes/stopwatch.h"
 
@@ -26,6 +27,8 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
       settings.form_factors.max_bounces == 0)
     spread_coats(prepared->scene);
   prepared->surfaces = find_surfaces(prepared->scene);
+  if (retriangulate_slivers(prepared->scene, prepared->surfaces))
+    prepared->surfaces = find_surfaces(prepared->scene);
   prepared->plan = plan_transport(prepared->scene, prepared->surfaces, settings.plan);
   std::ranges::move(warnings, std::back_inserter(prepared->plan.warnings));
   prepared->seconds.plan = watch.lap();

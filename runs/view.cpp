@@ -5,6 +5,7 @@
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
 #include "scenes/content_hash.h"
+#include "scenes/retriangulation.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
@@ -48,9 +49,11 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
 LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings settings,
                         const RunEvents& events, RunFigures& figures) {
   Stopwatch watch;
-  // The solution belongs to the scene as it was solved, with constant textures as factors.
+  // The solution belongs to the scene as it was solved: with constant textures as factors, and
+  // slivers triangulated anew.
   std::vector<std::string> said_later;
   settle_textures(scene, said_later);
+  retriangulate_slivers(scene, find_surfaces(scene));
   StoredSolution stored = read_solution(file, scene);
   settings.mesh = stored.mesh;
   figures.seconds.load += watch.lap();
