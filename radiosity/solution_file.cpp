@@ -147,10 +147,10 @@ json figures_json(const RadiositySolution& solution) {
             {"cut", closure.cut}}}};
 }
 
-json extras_json(const Scene& scene, const ElementMesh& mesh, const MeshSettings& settings,
+json extras_json(std::uint64_t scene_hash, const ElementMesh& mesh, const MeshSettings& settings,
                  std::span<const std::byte> binary) {
   return {{"version", program_version()},
-          {"scene_hash", hex(content_hash(scene))},
+          {"scene_hash", hex(scene_hash)},
           {"data_hash", hex(data_hash(binary))},
           {"mesh",
            {{"element_size", settings.element_size},
@@ -180,9 +180,8 @@ json viewer_json(Geometry& geometry, const ElementMesh& mesh, const DiffuseField
       add_array(geometry, display_colours(mesh, triangles, field), gltf_array_buffer, vec3);
   for (const FieldPart& part : field_parts) {
     if (!(field.*part.values).empty()) {
-      attributes[part.attribute] =
-          add_array(geometry, with_points(mesh, triangles, field.*part.values), gltf_array_buffer,
-                    vec3);
+      attributes[part.attribute] = add_array(
+          geometry, with_points(mesh, triangles, field.*part.values), gltf_array_buffer, vec3);
     }
   }
   const std::size_t indices =
@@ -202,7 +201,7 @@ json viewer_json(Geometry& geometry, const ElementMesh& mesh, const DiffuseField
 
 } // namespace
 
-void write_solution(const std::filesystem::path& file, const Scene& scene,
+void write_solution(const std::filesystem::path& file, std::uint64_t scene_hash,
                     const ElementMesh& solved, const RadiositySolution& solution,
                     const MeshSettings& settings) {
   const ElementMesh& mesh = solution.refined ? solution.refined->mesh : solved;
@@ -212,7 +211,7 @@ void write_solution(const std::filesystem::path& file, const Scene& scene,
   if (solution.refined) {
     own_mesh["division"] = add_bytes(geometry, division_of(mesh));
   }
-  json extras = extras_json(scene, mesh, settings, geometry.binary);
+  json extras = extras_json(scene_hash, mesh, settings, geometry.binary);
   extras.update(own_mesh);
   extras["figures"] = figures_json(solution);
   root["asset"] = {{"version", "2.0"},

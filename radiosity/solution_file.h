@@ -17,8 +17,8 @@
 
 namespace meninas {
 
-/// `solved` is the mesh that was solved.
-void write_solution(const std::filesystem::path& file, const Scene& scene,
+/// `solved` is the mesh that was solved, `scene_hash` content_hash() of the scene as it was loaded.
+void write_solution(const std::filesystem::path& file, std::uint64_t scene_hash,
                     const ElementMesh& solved, const RadiositySolution& solution,
                     const MeshSettings& settings);
 
@@ -34,7 +34,7 @@ struct StoredSolution {
 };
 
 /// Throws InputError when the file is damaged,
-/// or belongs to another scene or another version of the program.
+/// or belongs to another scene than `scene` as it was loaded, or another version of the program.
 StoredSolution read_solution(const std::filesystem::path& file, const Scene& scene);
 
 /// The scene on the field's own mesh;

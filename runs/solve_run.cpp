@@ -62,6 +62,7 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   Scene scene = load_scene(request.scene, request.settings);
   check_memory(scene, request.settings, std::nullopt);
   figures.seconds.load = watch.lap();
+  const std::uint64_t scene_hash = content_hash(scene);
   const auto prepared = prepare_run(std::move(scene), settings, events, figures);
   const RadiositySolution solution = solve_or_relight(request, *prepared->light, settings, events);
   add_solution(figures, solution);
@@ -69,7 +70,7 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   warn_of_interpolation(figures.interpolation_error, settings, events);
 
   watch.lap();
-  write_solution(request.solution, prepared->scene, prepared->mesh, solution, settings.mesh);
+  write_solution(request.solution, scene_hash, prepared->mesh, solution, settings.mesh);
   if (request.per_node) {
     const auto nodes = light_by_node(prepared->scene, prepared->mesh, solution);
     write_text_file(*request.per_node, per_node_json(nodes));

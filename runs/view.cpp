@@ -1,11 +1,9 @@
 #include "runs/view.h"
 
 #include "radiosity/solution_file.h"
-#include "raytrace/scene_textures.h"
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
 #include "scenes/content_hash.h"
-#include "scenes/retriangulation.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
@@ -31,6 +29,7 @@ static Attributes attributes_of(const Scene& scene, const Camera& camera,
 LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
                          const std::optional<fs::path>& kept, const RunEvents& events,
                          RunFigures& figures) {
+  const std::uint64_t scene_hash = kept ? content_hash(scene) : 0;
   LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures),
                .field = {},
                .refined = {}};
@@ -39,7 +38,7 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
   warn_of_solution(figures.solver, figures.closure, events);
   warn_of_interpolation(figures.interpolation_error, settings, events);
   if (kept) {
-    write_solution(*kept, lit.prepared->scene, lit.prepared->mesh, solution, settings.mesh);
+    write_solution(*kept, scene_hash, lit.prepared->mesh, solution, settings.mesh);
   }
   lit.field = std::move(solution.field);
   lit.refined = std::move(solution.refined);
@@ -49,11 +48,6 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
 LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings settings,
                         const RunEvents& events, RunFigures& figures) {
   Stopwatch watch;
-  // The solution belongs to the scene as it was solved: with constant textures as factors, and
-  // slivers triangulated anew.
-  std::vector<std::string> said_later;
-  settle_textures(scene, said_later);
-  retriangulate_slivers(scene, find_surfaces(scene));
   StoredSolution stored = read_solution(file, scene);
   settings.mesh = stored.mesh;
   figures.seconds.load += watch.lap();

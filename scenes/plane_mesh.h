@@ -5,8 +5,8 @@
 // Across the others triangles are flipped until each has no vertex of a neighbour
 // within its circumcircle (Lawson 1977): the constrained Delaunay triangulation.
 // Triangles that are then still much longer than wide get a new vertex at their circumcentre,
-// the worst ones first (Ruppert 1995), unless that lies beyond the outline
-// or within the circle about an edge of the outline: no edge of it is cut.
+// the worst ones first (Ruppert 1995), where the triangles then take a tenth less in all, and unless
+// that lies beyond the outline or within the circle about an edge of it: the outline is not cut.
 #pragma once
 
 #include "scenes/types.h"
@@ -35,8 +35,8 @@ double wanted_area(const PlaneMesh& mesh, const PlaneTriangle& triangle);
 /// Flips edges until the triangulation is Delaunay.
 void make_delaunay(PlaneMesh& mesh);
 
-/// Adds points until no triangle takes more than three times its area, as far as that can be,
-/// and at most `most_points`. Expects a Delaunay triangulation.
+/// Adds points where a triangle takes more than three times its area, as far as that saves elements,
+/// until there are `most_points`. Expects a Delaunay triangulation.
 void refine(PlaneMesh& mesh, std::size_t most_points);
 
 } // namespace meninas

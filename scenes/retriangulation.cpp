@@ -89,11 +89,10 @@ public:
   bool carries_affine(const PlaneMesh& mesh) {
     const Material& material = scene_.materials[index(surface_.material)];
     const bool textures = is_textured(material) || material.alpha_mode == AlphaMode::mask;
-    const bool colours = std::ranges::any_of(
-        triangles_, [&](TriangleId t) { return has_vertex_colors(scene_, t); });
-    const auto largest = std::ranges::max_element(mesh.triangles, {}, [&](const PlaneTriangle& t) {
-      return area_of(mesh, t);
-    });
+    const bool colours =
+        std::ranges::any_of(triangles_, [&](TriangleId t) { return has_vertex_colors(scene_, t); });
+    const auto largest = std::ranges::max_element(
+        mesh.triangles, {}, [&](const PlaneTriangle& t) { return area_of(mesh, t); });
     std::array<Vec2, 3> places;
     for (std::size_t k = 0; k < 3; ++k)
       places[k] = mesh.points[largest->corners[k]];
@@ -156,8 +155,8 @@ private:
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       mesh.triangles[t].neighbours.fill(PlaneTriangle::outline);
       for (std::size_t k = 0; k < 3; ++k)
-        if (!open.try_emplace({mesh.triangles[t].corners[k], mesh.triangles[t].corners[(k + 1) % 3]},
-                              t, k)
+        if (!open.try_emplace(
+                     {mesh.triangles[t].corners[k], mesh.triangles[t].corners[(k + 1) % 3]}, t, k)
                  .second)
           return false;
     }
@@ -219,15 +218,24 @@ bool is_meshed(const Material& material) {
   return !is_mirror(material) && !is_glass(material) && !is_emitter(material);
 }
 
+/// More vertices far away would change what counts as the detail of the scene (precision.h).
+bool is_in_detail(const SurfaceModel& model, const Surface& surface) {
+  return model.detail.is_all || std::ranges::all_of(surface.patches, [&](PatchId id) {
+           return std::ranges::all_of(
+               polygon_of(model.patches[index(id)]), [&](const Point3& corner) {
+                 return glm::distance(corner, model.detail.centre) <= model.detail.radius;
+               });
+         });
+}
+
 /// The surfaces that take too much, in their order.
 std::vector<SurfaceId> wasteful_surfaces(const Scene& scene, const SurfaceModel& model) {
   constexpr std::size_t few = 8;
   std::vector<SurfaceId> wasteful;
   for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
     const Surface& surface = model.surfaces[s];
-    if (surface.patches.size() >= few &&
-        is_meshed(scene.materials[index(surface.material)]) &&
-        wanted_by(model, surface) > most_wanted * surface.area)
+    if (surface.patches.size() >= few && is_meshed(scene.materials[index(surface.material)]) &&
+        wanted_by(model, surface) > most_wanted * surface.area && is_in_detail(model, surface))
       wasteful.push_back(static_cast<SurfaceId>(s));
   }
   return wasteful;

@@ -13,6 +13,8 @@
 // at a neighbour; material, node and front of the surface. New vertices lie in its plane.
 // Texture coordinates and vertex colours, where the material uses them, have to be one affine
 // function over the surface, which the new vertices then take; other surfaces are left alone.
+// So are lamps, mirrors and glass, which have no elements, surfaces of several nodes, and those beyond
+// the detail of the scene (precision.h).
 #pragma once
 
 #include "scenes/surfaces.h"

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -157,6 +159,38 @@ TEST(ElementMesh, TargetIsAboutMet) {
     // Each of 13 patches rounds both of its divisions up.
     EXPECT_GT(element_count(m.mesh), 0.9 * target);
     EXPECT_LT(element_count(m.mesh), 1.7 * target);
+  }
+}
+
+TEST(ElementMesh, TrianglesThatShareEdgesAskForTwiceTheTargetAtMost) {
+  // Twelve rings of a disc, each half as wide as the next: all would be divided like the widest.
+  Scene scene;
+  scene.materials = {diffuse(0.5)};
+  scene.nodes = {{"disc"}};
+  scene.position_error = 1e-9;
+  constexpr int rings = 12, sectors = 24;
+  for (int r = 0; r <= rings; ++r)
+    for (int k = 0; k < sectors; ++k) {
+      const double turn = 2.0 * std::numbers::pi * (k + 0.5 * r) / sectors;
+      const double radius = 4.0 * std::pow(0.7, r);
+      scene.vertices.push_back(
+          {.position = {radius * std::cos(turn), 0.0, -radius * std::sin(turn)}});
+    }
+  const auto at = [](int r, int k) {
+    return VertexId{static_cast<std::uint32_t>(r * sectors + k % sectors)};
+  };
+  for (int r = 0; r < rings; ++r)
+    for (int k = 0; k < sectors; ++k) {
+      scene.triangles.push_back({{at(r, k), at(r, k + 1), at(r + 1, k)}, MaterialId{0}, NodeId{0}});
+      scene.triangles.push_back(
+          {{at(r, k + 1), at(r + 1, k + 1), at(r + 1, k)}, MaterialId{0}, NodeId{0}});
+    }
+  for (const double target : {1000.0, 8000.0, 30000.0}) {
+    const Meshed m = meshed(scene, {.target_elements = target});
+    // One element a side comes on top.
+    const double asked = target + static_cast<double>(m.mesh.sides.size());
+    EXPECT_LT(element_count(m.mesh), 2.0 * asked);
+    EXPECT_GT(element_count(m.mesh), 0.4 * target);
   }
 }
 

@@ -41,7 +41,7 @@ protected:
     solution_.solver.residuals = {0.5, 0.25};
     solution_.energy.emitted = {1.0, 2.0, 3.0};
     solution_.closure.cut = 0.125;
-    write_solution(file_, scene_, mesh_, solution_, settings_);
+    write_solution(file_, content_hash(scene_), mesh_, solution_, settings_);
   }
   ~SolutionFile() override {
     std::error_code error;
@@ -102,7 +102,7 @@ TEST_F(SolutionFile, KeepsADividedMesh) {
   const ElementMesh& own = solution_.refined->mesh;
   for (const FieldPart& part : field_parts)
     (solution_.field.*part.values).assign(own.vertices.size(), glm::vec3(0.5F));
-  write_solution(file_, scene_, mesh_, solution_, settings_);
+  write_solution(file_, content_hash(scene_), mesh_, solution_, settings_);
 
   const StoredSolution stored = read_solution(file_, scene_);
   EXPECT_EQ(stored.division, division_of(own));
@@ -200,7 +200,7 @@ TEST_F(SolutionFile, WithAChangedByteIsRefused) {
 TEST_F(SolutionFile, WithoutNumbersIsRefused) {
   solution_.field.irradiance[1].y = std::numeric_limits<float>::quiet_NaN();
   // A picture of it cannot be exposed, but what is in the file must be refused all the same.
-  write_solution(file_, scene_, mesh_, solution_, settings_);
+  write_solution(file_, content_hash(scene_), mesh_, solution_, settings_);
   EXPECT_THAT(refusal(), HasSubstr("an irradiance is not finite"));
 }
 
