@@ -12,19 +12,25 @@
 
 namespace meninas {
 
-/// The mean over the exposed part of an element: points are doubled until it settles.
-ArrivingLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
-                                const DirectSettings& settings, SharedLightWorkspace& workspace);
+/// A mean over an element, and the part of it that punctual lights sent, W/m^2.
+struct MeanLight {
+  Rgb total{0.0}, punctual{0.0};
+};
+
+/// The mean over the exposed part of an element: points are doubled until it settles. Punctual lights
+/// where a narrow spot meets the element in part: 256 points of each such part (spot_parts.h).
+MeanLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
+                            const DirectSettings& settings, SharedLightWorkspace& workspace);
 
 /// `mean(k, workspace)` of so many areas, by all threads, and the shadow rays they took.
 struct MeansOfAreas {
-  std::vector<ArrivingLight> light;
+  std::vector<MeanLight> light;
   std::uint64_t shadow_rays = 0;
 };
-MeansOfAreas means_of_areas(
-    std::size_t count,
-    const std::function<ArrivingLight(std::size_t, SharedLightWorkspace&)>& mean,
-    const Progress& progress);
+MeansOfAreas
+means_of_areas(std::size_t count,
+               const std::function<MeanLight(std::size_t, SharedLightWorkspace&)>& mean,
+               const Progress& progress);
 
 struct DirectIrradiance {
   std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element

@@ -1,5 +1,6 @@
 #include "raytrace/two_pass.h"
 
+#include "radiosity/spot_parts.h"
 #include "radiosity/surface_colour.h"
 #include "raytrace/scene_textures.h"
 #include "scenes/mixed_scales.h"
@@ -39,7 +40,9 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
   std::ranges::move(warnings_of_mixed_scales(prepared->scene, prepared->surfaces, *prepared->rays),
                     std::back_inserter(prepared->plan.warnings));
   const DarkSides dark = find_dark_sides(prepared->scene, prepared->surfaces, *prepared->rays);
-  prepared->mesh = make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh, dark);
+  prepared->mesh = divide_under_spots(
+      make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh, dark), prepared->scene,
+      prepared->surfaces, prepared->plan.worlds, settings.mesh.max_elements);
   average_textures(prepared->scene, prepared->surfaces, prepared->textures, prepared->mesh);
   prepared->light.emplace(make_light_scene(prepared->scene, prepared->surfaces, *prepared->rays,
                                            prepared->plan.mirrors, prepared->plan.worlds,

@@ -3,6 +3,7 @@
 #include "radiosity/curved_means.h"
 #include "radiosity/facets.h"
 #include "radiosity/mesh_division.h"
+#include "radiosity/spot_parts.h"
 
 #include <algorithm>
 
@@ -27,17 +28,23 @@ namespace {
 
 constexpr std::size_t groups = 512;
 
-/// Elements that have something on them, at a corner too, or whose means are seen.
-std::vector<ElementId> by_themselves(const ElementMesh& mesh, std::span<const CoveredCells> covered,
+/// Elements that have something on them, at a corner too, those in a narrow spot, or whose
+/// means are seen.
+std::vector<ElementId> by_themselves(const LightScene& light, std::span<const CoveredCells> covered,
                                      const FoundField& vertices) {
+  const ElementMesh& mesh = light.mesh;
   const auto tells = [&](ElementVertexId v) {
     const VertexState state = vertices.states[index(v)];
     return state != VertexState::covered && state != VertexState::averaged;
   };
+  const auto is_at_spot = [&](ElementId element) {
+    return !narrow_spots(mesh, light.worlds, light.punctual, element).empty();
+  };
   const bool all = element_count(mesh) <= groups;
   std::vector<ElementId> elements;
   for (std::uint32_t e = 0; e < covered.size(); ++e)
-    if (all || covered[e] != 0 || !std::ranges::all_of(mesh.corners[e], tells))
+    if (all || covered[e] != 0 || !std::ranges::all_of(mesh.corners[e], tells) ||
+        is_at_spot(static_cast<ElementId>(e)))
       elements.push_back(static_cast<ElementId>(e));
   return elements;
 }
@@ -115,8 +122,7 @@ DirectIrradiance light_by_corners(const LightScene& light, const NodeTree& tree,
   if (!light.punctual.empty())
     result.punctual = at_corners(light.mesh, edges, vertices.punctual);
   result.shared.assign(size, 1);
-  light_again(light, by_themselves(light.mesh, covered, vertices), covered, settings, progress,
-              result);
+  light_again(light, by_themselves(light, covered, vertices), covered, settings, progress, result);
   light_again(light, brightest(light.mesh, tree, result), covered, settings, progress, result);
   return result;
 }
