@@ -78,10 +78,16 @@ struct Chooser {
   static double emitting_cosine(const EmitterNode& node, double cos_axis, double distance) {
     if (node.cos_spread <= -1.0)
       return 1.0;
-    const double angle = std::acos(std::clamp(cos_axis, -1.0, 1.0)) -
-                         std::acos(std::clamp(node.cos_spread, -1.0, 1.0)) -
-                         std::asin(std::min(1.0, node.radius / distance));
-    return angle <= 0.0 ? 1.0 : std::max(0.0, std::cos(angle));
+    // Angles of at most pi, as cosines and sines: nothing is left of them once it is subtracted.
+    const auto sine = [](double cosine) { return std::sqrt(std::max(0.0, 1.0 - cosine * cosine)); };
+    const double cos_angle = std::clamp(cos_axis, -1.0, 1.0), cos_spread = node.cos_spread;
+    if (cos_angle >= cos_spread)
+      return 1.0;
+    const double cos_beyond = cos_angle * cos_spread + sine(cos_angle) * sine(cos_spread);
+    const double sin_sphere = std::min(1.0, node.radius / distance), cos_sphere = sine(sin_sphere);
+    if (cos_beyond >= cos_sphere)
+      return 1.0;
+    return std::max(0.0, cos_beyond * cos_sphere + sine(cos_beyond) * sin_sphere);
   }
 
   bool is_leaf(std::uint32_t node) const { return tree.nodes[node].second_child == 0; }

@@ -1,5 +1,6 @@
 #include "radiosity/direct_irradiance.h"
 
+#include "radiosity/lamp_faces.h"
 #include "radiosity/light_samples.h"
 #include "radiosity/point_form_factor.h"
 #include "radiosity/shadow_legs.h"
@@ -161,15 +162,17 @@ ArrivingLight images_irradiance(const LightScene& light, const Receiver& receive
     if (image.world != real_world)
       sum.mirrored += arrived;
   };
+  // One that stands for others of its group has them to share its shadow rays with: it takes one.
   work.sampled.clear();
-  std::size_t next = 0;
-  for (; next < work.order.size(); ++next) {
-    const std::uint32_t k = work.order[next];
+  work.dim.clear();
+  for (const std::uint32_t k : work.order) {
     const VirtualLight& image = work.lights[k];
     const double worth = work.brought[k] / std::max(work.brought[k], largest(sum.total));
     const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
-    if (samples == 1)
-      break;
+    if (samples == 1 || image.weight > 1.0) {
+      work.dim.push_back(k);
+      continue;
+    }
     SampledImage sampled{k, static_cast<int>(std::lround(settings.penumbra_rays * worth)), {}};
     sample_visibility(light, image, receiver, samples, seed, work, sampled.share);
     if (everywhere || !agree(sampled.share))
@@ -190,23 +193,68 @@ ArrivingLight images_irradiance(const LightScene& light, const Receiver& receive
     }
   }
 
-  // From the first that is worth one ray alone, so are all after it.
-  work.dim.assign(work.order.begin() + static_cast<std::ptrdiff_t>(next), work.order.end());
   sample_dim_images(light, receiver, work.dim, seed, work);
-  for (const std::uint32_t k : std::span(work.order).subspan(next))
-    add(k, work.visible[k]);
+  for (const std::uint32_t k : work.order)
+    if (work.visible[k] != Rgb(0.0))
+      add(k, work.visible[k]);
+  return sum;
+}
+
+static bool stand_for_others(const DirectWorkspace& work) {
+  return std::ranges::any_of(work.lights,
+                             [](const VirtualLight& image) { return image.weight > 1.0; });
+}
+
+/// Whether of the images that stand for others some are hidden and some are not.
+static bool groups_in_part(const DirectWorkspace& work) {
+  bool hidden = false, seen = false;
+  for (const std::uint32_t k : work.dim)
+    if (work.lights[k].weight > 1.0)
+      (work.visible[k] == Rgb(0.0) ? hidden : seen) = true;
+  return hidden && seen;
+}
+
+/// Whether the point is on one of the faces of a lamp of thousands.
+static bool is_on_lamp(const LightScene& light, const Receiver& receiver) {
+  return has_lamp_of_many_faces(light) &&
+         std::ranges::any_of(light.emitters, [&](const Emitter& emitter) {
+           const Point3& corner = emitter.polygon.vertices[0];
+           const Vec3 to = receiver.position - corner;
+           return emitter.plane_class == receiver.plane_class &&
+                  glm::dot(to, to) <= 2.0 * emitter.area;
+         });
+}
+
+/// What the images of emitters bring, or a choice of them: one four times as large in the penumbra
+/// of lamps of many faces, which few images stand for. What such a face receives from the others is
+/// little beside what it emits: a few images do.
+static ArrivingLight chosen_irradiance(const LightScene& light, const Receiver& receiver,
+                                       const DirectSettings& settings, std::uint32_t seed,
+                                       DirectWorkspace& work) {
+  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const auto images = images_to_choose(light, static_cast<std::size_t>(settings.images));
+  const auto choose = [&](std::size_t most) {
+    const LightChoice choice{most, 0x1p-32 * hash(seed, 0xc401ce, 0)};
+    chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
+                  work.lights);
+    return images_irradiance(light, receiver, settings, seed, work);
+  };
+  if (is_on_lamp(light, receiver))
+    return choose(std::max<std::size_t>(images / 16, 4));
+  ArrivingLight sum = choose(images);
+  if (!stand_for_others(work))
+    return sum;
+  const bool in_part = groups_in_part(work);
+  if (in_part || settings.penumbra_samples == PenumbraSamples::everywhere)
+    sum = choose(4 * images);
+  sum.in_part = sum.in_part || in_part;
   return sum;
 }
 
 ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& work) {
-  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
-  const LightChoice choice{static_cast<std::size_t>(settings.images),
-                           0x1p-32 * hash(seed, 0xc401ce, 0)};
-  chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
-                work.lights);
-  ArrivingLight sum = images_irradiance(light, receiver, settings, seed, work);
+  ArrivingLight sum = chosen_irradiance(light, receiver, settings, seed, work);
   if (has_solid_light(light)) {
     const SolidLight refracted =
         solid_light(light,

@@ -1,5 +1,6 @@
 #include "radiosity/element_light.h"
 
+#include "radiosity/lamp_faces.h"
 #include "radiosity/shadow_legs.h"
 #include "radiosity/spot_parts.h"
 #include "scenes/sampling.h"
@@ -118,9 +119,15 @@ Rgb mean_of_others(const Receiving& r, std::span<const SpotPart> parts, DirectWo
 } // namespace
 
 MeanLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
-                            const DirectSettings& settings, SharedLightWorkspace& work) {
+                            const DirectSettings& asked, SharedLightWorkspace& work) {
   if (covered == wholly_covered)
     return {};
+  DirectSettings settings = asked;
+  if (is_face_of_lamp(light, element)) {
+    settings.points = std::min(settings.points, 1);
+    settings.most_points = std::min(settings.most_points, 1);
+    settings.images_in_element = std::min(settings.images_in_element, 16);
+  }
   const Receiving r{light,
                     element,
                     receiver_of(light, element),

@@ -1,5 +1,6 @@
 #include "radiosity/shared_light.h"
 
+#include "radiosity/lamp_faces.h"
 #include "radiosity/point_form_factor.h"
 #include "radiosity/shadow_legs.h"
 #include "scenes/sampling.h"
@@ -115,8 +116,11 @@ void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLi
               SharedLightWorkspace& work) {
   ImageSum& total = work.images[at.image];
   const auto parts = parts_of(at, image, work);
+  // One that stands for others of its lamp has them to share its rays with.
   const auto rays =
-      std::max(1U, static_cast<std::uint32_t>(std::lround(total.from_a_point * worth)));
+      image.weight > 1.0
+          ? 1U
+          : std::max(1U, static_cast<std::uint32_t>(std::lround(total.from_a_point * worth)));
   const Emitter& emitter = light.emitters[image.emitter];
   const Vec3 last = area_vector(parts.back().span());
   const double area = area_of(parts.first(parts.size() - 1)) + glm::length(last);
@@ -161,7 +165,8 @@ void find_lights(const LightScene& light, const NumberedPoint& point, std::uint3
 void add_point(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
                const SharedLightSettings& settings, SharedLightWorkspace& work) {
   const Receiver& receiver = point.receiver;
-  find_lights(light, point, seed, static_cast<std::size_t>(settings.images), work);
+  find_lights(light, point, seed,
+              images_to_choose(light, static_cast<std::size_t>(settings.images)), work);
   work.at_point.clear();
   work.parts.clear();
   for (const VirtualLight& image : work.point.lights)
