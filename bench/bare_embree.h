@@ -3,7 +3,7 @@
 // behind a transparent back they see nothing.
 #pragma once
 
-#include "scenes/frame_geometry.h"
+#include "scenes/rays/frame_geometry.h"
 
 #include <embree3/rtcore.h>
 

@@ -9,7 +9,7 @@
 #include "runs/batch/batch_run.h"
 #include "runs/outputs.h"
 #include "runs/resources.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>

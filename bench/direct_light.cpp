@@ -10,11 +10,11 @@
 // and the worst element) from means over many times as many points.
 // Pass one: the Cornell box with its mirror, and with the mirror painted grey;
 // the ratio of their times is the counter `ratio`.
-#include "radiosity/element_light.h"
+#include "radiosity/light/element_light.h"
 #include "radiosity/pass_one.h"
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 #include "scenes/sampling.h"
 #include "tests/support/rooms.h"
 

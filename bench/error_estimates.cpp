@@ -1,5 +1,5 @@
 // Whether what a picture says about its own error is true:
-// the estimate (raytrace/picture_error.h) beside the error against a reference.
+// the estimate (raytrace/error/picture_error.h) beside the error against a reference.
 //
 //   error_estimates REFERENCES SCENE.gltf ...
 //
@@ -10,8 +10,8 @@
 // The last line counts how many estimates are within a factor of two,
 // or below 0.002 like the error, which is as far as the noise of reference/images lets one see.
 #include "bench/truth.h"
-#include "image/relative_error.h"
-#include "raytrace/picture_error.h"
+#include "image/metrics/relative_error.h"
+#include "raytrace/error/picture_error.h"
 #include "runs/run_settings.h"
 #include "scenes/errors.h"
 #include "scenes/stopwatch.h"

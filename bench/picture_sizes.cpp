@@ -6,7 +6,7 @@
 // Square pictures from 64 to LARGEST pixels (4096), of SAMPLES camera rays a pixel (16)
 // with mirrors followed, on one thread, in processor time. Bare loops (Embree's default
 // flags) find the rays ready in packets, and look at nothing but whether they met something.
-// Of the picture's rays some are sure of what they meet and are not traced (raytrace/sure_paths.h);
+// Of the picture's rays some are sure of what they meet and are not traced (raytrace/beams/sure_paths.h);
 // of its time, the others' queries take what our own queries take for as many such rays.
 // The rest finds paths, makes rays, shades what they meet, and adds up pixels.
 // The three take turns, and a share is the median of those of all turns,
@@ -17,7 +17,7 @@
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"
 #include "scenes/errors.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

@@ -10,12 +10,12 @@
 // beside that of a plain sum over an array of the same size,
 // read by all threads in the same process. The two take turns; rates are medians.
 #include "radiosity/pass_one.h"
-#include "radiosity/solve.h"
+#include "radiosity/solvers/solve.h"
 #include "raytrace/two_pass.h"
 #include "runs/resources.h"
 #include "runs/run_settings.h"
 #include "scenes/errors.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "bench/stage_rays.h"
 
 #include "raytrace/camera_rays.h"
-#include "scenes/frame_geometry.h"
+#include "scenes/rays/frame_geometry.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>

@@ -12,7 +12,7 @@
 #include "raytrace/two_pass.h"
 #include "runs/run_settings.h"
 #include "scenes/errors.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

@@ -4,7 +4,7 @@
 //   time_to_error --presets REFERENCES SCENE.gltf ...      the presets draft, normal and fine instead
 //
 // Every scene is rendered with a ladder of settings. The error is that of a picture of the size
-// of REFERENCES/NAME.reference.exr, its variance taken off (image/relative_error.h),
+// of REFERENCES/NAME.reference.exr, its variance taken off (image/metrics/relative_error.h),
 // the time that of one of 256 x 256 pixels, in processor seconds of all threads, which other
 // programs on the machine disturb less than a clock; on two idle cores a run takes half of it.
 // For 5, 2 and 1 % stands the fastest setting that reaches it, its split by stage,
@@ -13,10 +13,10 @@
 #include "bench/bare_embree.h"
 #include "bench/stage_rays.h"
 #include "bench/truth.h"
-#include "image/relative_error.h"
-#include "raytrace/probes.h"
+#include "image/metrics/relative_error.h"
+#include "raytrace/error/probes.h"
 #include "runs/run_settings.h"
-#include "runs/setting_options.h"
+#include "runs/steering/setting_options.h"
 #include "scenes/errors.h"
 
 #include <fmt/format.h>

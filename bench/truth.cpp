@@ -1,7 +1,7 @@
 #include "bench/truth.h"
 
 #include "image/image_file.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 
 #include <algorithm>
 #include <cmath>

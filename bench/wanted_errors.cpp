@@ -1,4 +1,4 @@
-// Whether runs that choose their own settings (runs/steering.h) get where they were asked to.
+// Whether runs that choose their own settings (runs/steering/steering.h) get where they were asked to.
 //
 //   wanted_errors X REFERENCES SCENE.gltf ...
 //
@@ -6,10 +6,10 @@
 // whose variance is taken off. Its true error stands beside the estimate that the run ended with,
 // with the steps and the processor seconds it took.
 #include "bench/truth.h"
-#include "image/relative_error.h"
-#include "raytrace/probes.h"
-#include "runs/setting_options.h"
-#include "runs/steering.h"
+#include "image/metrics/relative_error.h"
+#include "raytrace/error/probes.h"
+#include "runs/steering/setting_options.h"
+#include "runs/steering/steering.h"
 #include "scenes/errors.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "cli/settings.h"
 #include "cli/values.h"
 #include "runs/batch/batch_run.h"
-#include "runs/progress_line.h"
+#include "runs/report/progress_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 #include "cli/common_options.h"
-#include "runs/progress_line.h"
+#include "runs/report/progress_line.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/values.h"
-#include "runs/progress_line.h"
+#include "runs/report/progress_line.h"
 #include "scenes/version.h"
 
 #include <fcntl.h>

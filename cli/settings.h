@@ -2,7 +2,7 @@
 // options with the same values, read by the very definitions that read them on the command line.
 #pragma once
 
-#include "runs/setting.h"
+#include "runs/steering/setting.h"
 
 namespace meninas {
 

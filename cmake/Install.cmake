@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/meninas)
 
 install(TARGETS meninas_cli RUNTIME)
-foreach(folder IN ITEMS scenes image mirror radiosity raytrace reference runs)
+foreach(folder IN ITEMS scenes image mirror form_factors radiosity raytrace reference runs)
   install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/meninas
     FILES_MATCHING PATTERN "*.h" PATTERN "gallery" EXCLUDE)
 endforeach()

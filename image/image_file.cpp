@@ -1,10 +1,10 @@
 #include "image/image_file.h"
 
-#include "image/decoder_loader.h"
+#include "image/codecs/decoder_loader.h"
 #include "image/display.h"
-#include "image/exr_encoding.h"
+#include "image/codecs/exr_encoding.h"
 #include "image/picture_channels.h"
-#include "image/png_encoding.h"
+#include "image/codecs/png_encoding.h"
 #include "image/whole_file.h"
 #include "scenes/errors.h"
 #include "scenes/types.h"

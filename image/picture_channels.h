@@ -11,7 +11,7 @@
 // Layers are all other colours.
 #pragma once
 
-#include "image/decoder_seam.h"
+#include "image/codecs/decoder_seam.h"
 
 #include <array>
 #include <cstddef>

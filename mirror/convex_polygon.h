@@ -1,7 +1,7 @@
 // Convex polygons in space and their clipping (Sutherland and Hodgman 1974), without allocation.
 #pragma once
 
-#include "scenes/surfaces.h"
+#include "scenes/surfaces/surfaces.h"
 
 #include <array>
 #include <span>

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "mirror/convex_polygon.h"
-#include "scenes/surfaces.h"
+#include "scenes/surfaces/surfaces.h"
 
 #include <span>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "mirror/mirrors.h"
 
 #include "mirror/window.h"
-#include "scenes/lobes.h"
-#include "scenes/smooth_surfaces.h"
+#include "scenes/materials/lobes.h"
+#include "scenes/materials/smooth_surfaces.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 // Curved mirrors are many small planes: beyond `max_mirrors` planes only large ones are enumerated,
 // the rest are facets, which rays follow exactly all the same but which get no mirror world.
 //
-// Glass is a mirror on either side whose reflectance depends on the angle (scenes/glass.h),
-// and so is the coat of a polished floor on its front (scenes/smooth_surfaces.h):
+// Glass is a mirror on either side whose reflectance depends on the angle (scenes/materials/glass.h),
+// and so is the coat of a polished floor on its front (scenes/materials/smooth_surfaces.h):
 // what is said of them here is the mean over all angles, by which their worlds are judged.
 // Solids have none, rays alone follow what they reflect. What light meets on its way, whoever
 // follows it asks of the glass or the coat itself. Coats come last, and take no mirror's place.
@@ -15,7 +15,7 @@
 #pragma once
 
 #include "mirror/convex_polygon.h"
-#include "scenes/surfaces.h"
+#include "scenes/surfaces/surfaces.h"
 
 #include <string>
 #include <vector>

@@ -5,7 +5,7 @@
 // R_mk, so that the straight segment from x to T_w y unfolds into the path x, m1, ..., mk, y.
 #pragma once
 
-#include "scenes/surfaces.h"
+#include "scenes/surfaces/surfaces.h"
 
 namespace meninas {
 

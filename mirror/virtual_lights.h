@@ -10,7 +10,7 @@
 
 #include "mirror/emitters.h"
 #include "mirror/worlds.h"
-#include "scenes/ray_scene.h"
+#include "scenes/rays/ray_scene.h"
 
 #include <span>
 #include <vector>

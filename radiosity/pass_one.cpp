@@ -1,11 +1,11 @@
 #include "radiosity/pass_one.h"
 
-#include "radiosity/first_light.h"
-#include "radiosity/gathered_emission.h"
+#include "radiosity/light/first_light.h"
+#include "radiosity/transport/gathered_emission.h"
 #include "radiosity/hierarchical/node_solution.h"
-#include "radiosity/shooting_blocks.h"
-#include "radiosity/surface_colour.h"
-#include "scenes/lobes.h"
+#include "radiosity/solvers/shooting_blocks.h"
+#include "radiosity/scene/surface_colour.h"
+#include "scenes/materials/lobes.h"
 #include "scenes/stopwatch.h"
 
 #include <algorithm>

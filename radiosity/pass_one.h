@@ -2,9 +2,9 @@
 #pragma once
 
 #include "radiosity/hierarchical/link_figures.h"
-#include "radiosity/interpolation.h"
-#include "radiosity/plan.h"
-#include "radiosity/progressive.h"
+#include "radiosity/field/interpolation.h"
+#include "radiosity/scene/plan.h"
+#include "radiosity/solvers/progressive.h"
 
 namespace meninas {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "scenes/camera.h"
-#include "scenes/ray_scene.h"
+#include "scenes/rays/ray_scene.h"
 
 namespace meninas {
 

@@ -1,6 +1,6 @@
 #include "raytrace/diffuse_term.h"
 
-#include "radiosity/vertex_places.h"
+#include "radiosity/field/vertex_places.h"
 #include "scenes/sampling.h"
 
 namespace meninas {

@@ -9,8 +9,8 @@
 // point_gathering.h), so that none is counted twice.
 #pragma once
 
-#include "radiosity/point_gathering.h"
-#include "radiosity/shared_light.h"
+#include "radiosity/light/point_gathering.h"
+#include "radiosity/light/shared_light.h"
 #include "raytrace/field_shading.h"
 
 #include <memory>

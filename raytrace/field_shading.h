@@ -3,8 +3,8 @@
 // the one place where radiosity becomes radiance.
 #pragma once
 
-#include "radiosity/interpolation.h"
-#include "radiosity/light_scene.h"
+#include "radiosity/field/interpolation.h"
+#include "radiosity/scene/light_scene.h"
 
 #include <span>
 #include <string>

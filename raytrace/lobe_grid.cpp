@@ -1,7 +1,7 @@
 #include "raytrace/lobe_grid.h"
 
-#include "scenes/microfacets.h"
-#include "scenes/refraction.h"
+#include "scenes/materials/microfacets.h"
+#include "scenes/materials/refraction.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 //   L(o) = sum_k w_k L(i_k),   w_k = S(o.h_k) g_k / norm,   g_k = G2(o, i_k) / G1(o),   i_k = o reflected at the facet normal h_k
 //
 // Cell k of the unit square is mapped to the facets that o sees (Heitz 2018), so that every
-// cell holds as much of the lobe: what is left of f cos / density is S g (scenes/bsdf.h).
+// cell holds as much of the lobe: what is left of f cos / density is S g (scenes/materials/bsdf.h).
 // Cells are met at one shifted point each; the shift differs from ray to ray.
 // The norm makes the weights add up to the lobe's albedo whatever n:
 // under even light a white metal and what its facets spread add up to exactly 1.
@@ -21,7 +21,7 @@
 // A lobe of no width (roughness at most `ideal_mirror_roughness`) is one direction, the mirror's.
 #pragma once
 
-#include "scenes/lobes.h"
+#include "scenes/materials/lobes.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #include "raytrace/pixel_samples.h"
 
-#include "raytrace/mirror_beam.h"
+#include "raytrace/beams/mirror_beam.h"
 #include "raytrace/specular_paths.h"
 #include "raytrace/wide_lanes.h"
 #include "scenes/sampling.h"

@@ -1,10 +1,10 @@
 // Sixteen rays that have landed on one quad side, looked up in the field together.
 #pragma once
 
-#include "radiosity/light_scene.h"
+#include "radiosity/scene/light_scene.h"
 #include "raytrace/field_shading.h"
-#include "scenes/lanes.h"
-#include "scenes/ray_scene.h"
+#include "scenes/rays/lanes.h"
+#include "scenes/rays/ray_scene.h"
 
 #include <array>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "raytrace/features.h"
+#include "raytrace/views/features.h"
 #include "raytrace/sample_choice.h"
 
 #include <algorithm>

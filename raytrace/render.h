@@ -9,7 +9,7 @@
 #pragma once
 
 #include "image/image.h"
-#include "radiosity/interpolation.h"
+#include "radiosity/field/interpolation.h"
 #include "radiosity/pass_one.h"
 #include "raytrace/diffuse_term.h"
 #include "raytrace/pixel_filter.h"

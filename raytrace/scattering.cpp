@@ -4,7 +4,7 @@
 #include "raytrace/quad_lanes.h"
 #include "raytrace/shading.h"
 #include "raytrace/specular_paths.h"
-#include "scenes/refraction.h"
+#include "scenes/materials/refraction.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 //   L(o) = L_e + rho(o) H / pi + sum_k w_k L(i_k) + sum_p f(o, i_p) E_p + sum_e f(o, i_e) cos_e L_e
 //
 // rho(o) is what the lobes without a direction of their own reflect towards o (even_reflectance,
-// scenes/bsdf.h), H the field; the first sum is over the grid of the lobe,
+// scenes/materials/bsdf.h), H the field; the first sum is over the grid of the lobe,
 // each of whose rays is followed as those of a mirror are (lobe_grid.h);
 // the second over punctual lights and their images in the mirror worlds, which no ray can meet;
 // the third over points of emitters and of their images.
@@ -26,7 +26,7 @@
 #pragma once
 
 #include "raytrace/tile.h"
-#include "scenes/lobes.h"
+#include "scenes/materials/lobes.h"
 
 namespace meninas {
 

@@ -1,7 +1,7 @@
 #include "raytrace/scene_textures.h"
 
 #include "image/image_file.h"
-#include "scenes/constant_textures.h"
+#include "scenes/materials/constant_textures.h"
 #include "scenes/errors.h"
 
 #include <fmt/format.h>

@@ -1,14 +1,14 @@
 // The textures of a scene, decoded, before anything is decided by its materials.
 #pragma once
 
-#include "scenes/texture_lookup.h"
+#include "scenes/materials/texture_lookup.h"
 
 #include <string>
 #include <vector>
 
 namespace meninas {
 
-/// Constant ones become factors of the scene's materials (scenes/constant_textures.h).
+/// Constant ones become factors of the scene's materials (scenes/materials/constant_textures.h).
 /// What cannot be decoded changes nothing, and a line of the warnings says so, as one does of what
 /// is left out.
 DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings);

@@ -1,6 +1,6 @@
 #include "raytrace/shading.h"
 
-#include "radiosity/surface_colour.h"
+#include "radiosity/scene/surface_colour.h"
 #include "raytrace/footprint.h"
 #include "raytrace/quad_lanes.h"
 #include "raytrace/scattering.h"

@@ -1,12 +1,12 @@
 // What a tile of the picture is made with: what all tiles share, and the storage of one.
 #pragma once
 
-#include "radiosity/light_samples.h"
+#include "radiosity/light/light_samples.h"
 #include "raytrace/camera_rays.h"
 #include "raytrace/diffuse_term.h"
 #include "raytrace/lobe_grid.h"
 #include "raytrace/render.h"
-#include "raytrace/sure_paths.h"
+#include "raytrace/beams/sure_paths.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "raytrace/pixel_samples.h"
 #include "raytrace/specular_paths.h"
-#include "scenes/lobes.h"
+#include "scenes/materials/lobes.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>

@@ -1,11 +1,11 @@
 #include "raytrace/two_pass.h"
 
-#include "radiosity/spot_parts.h"
-#include "radiosity/surface_colour.h"
+#include "radiosity/light/spot_parts.h"
+#include "radiosity/scene/surface_colour.h"
 #include "raytrace/scene_textures.h"
-#include "scenes/mixed_scales.h"
-#include "scenes/retriangulation.h"
-#include "scenes/smooth_surfaces.h"
+#include "scenes/rays/mixed_scales.h"
+#include "scenes/repair/retriangulation.h"
+#include "scenes/materials/smooth_surfaces.h"
 #include "scenes/stopwatch.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "reference/light_images.h"
 
 #include "reference/mirrored_lights.h"
-#include "scenes/lobes.h"
+#include "scenes/materials/lobes.h"
 #include "scenes/punctual_light.h"
 
 #include <algorithm>

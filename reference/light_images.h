@@ -14,9 +14,9 @@
 // by what they would bring (systematic sampling, Madow 1949): the expectation is that of all.
 #pragma once
 
-#include "scenes/bsdf.h"
+#include "scenes/materials/bsdf.h"
 #include "scenes/camera.h"
-#include "scenes/surfaces.h"
+#include "scenes/surfaces/surfaces.h"
 
 #include <vector>
 

@@ -19,7 +19,7 @@
 // So the layers add up to what the path brings, whichever lobe its direction was drawn from.
 #pragma once
 
-#include "scenes/lobes.h"
+#include "scenes/materials/lobes.h"
 
 #include <array>
 #include <cstddef>

@@ -8,8 +8,8 @@
 // both are needed for multiple importance sampling.
 #pragma once
 
-#include "scenes/ray_scene.h"
-#include "scenes/texture_lookup.h"
+#include "scenes/rays/ray_scene.h"
+#include "scenes/materials/texture_lookup.h"
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "reference/trace_paths.h"
 
 #include "reference/mirrored_lights.h"
-#include "scenes/lobes.h"
+#include "scenes/materials/lobes.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 
 #include "image/image_file.h"
 #include "reference/mirrored_lights.h"
-#include "scenes/constant_textures.h"
-#include "scenes/mixed_scales.h"
-#include "scenes/refraction.h"
+#include "scenes/materials/constant_textures.h"
+#include "scenes/rays/mixed_scales.h"
+#include "scenes/materials/refraction.h"
 
 #include <algorithm>
 #include <iterator>

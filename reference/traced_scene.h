@@ -6,10 +6,10 @@
 
 #include "reference/light_images.h"
 #include "reference/light_table.h"
-#include "scenes/bsdf.h"
-#include "scenes/ray_scene.h"
-#include "scenes/surfaces.h"
-#include "scenes/texture_lookup.h"
+#include "scenes/materials/bsdf.h"
+#include "scenes/rays/ray_scene.h"
+#include "scenes/surfaces/surfaces.h"
+#include "scenes/materials/texture_lookup.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #include "runs/diff_run.h"
 
-#include "image/heat_map.h"
+#include "image/metrics/heat_map.h"
 #include "runs/outputs.h"
 #include "scenes/errors.h"
 

@@ -2,7 +2,7 @@
 // as a table for people or as JSON, as a heat map, and within limits or not.
 #pragma once
 
-#include "runs/comparison.h"
+#include "runs/report/comparison.h"
 #include "runs/run_events.h"
 
 #include <filesystem>

@@ -2,9 +2,9 @@
 
 #include "raytrace/scene_textures.h"
 #include "runs/resources.h"
-#include "scenes/gltf_tree.h"
-#include "scenes/mixed_scales.h"
-#include "scenes/smooth_surfaces.h"
+#include "scenes/gltf/tree.h"
+#include "scenes/rays/mixed_scales.h"
+#include "scenes/materials/smooth_surfaces.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>

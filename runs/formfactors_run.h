@@ -2,9 +2,9 @@
 // as JSON, or all of them as a CSV matrix with row sums.
 #pragma once
 
-#include "radiosity/node_form_factors.h"
+#include "radiosity/queries/node_form_factors.h"
 #include "runs/run_events.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 
 #include <filesystem>
 #include <string>

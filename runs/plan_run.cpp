@@ -1,11 +1,11 @@
 #include "runs/plan_run.h"
 
-#include "runs/expected_cost.h"
-#include "runs/memory.h"
+#include "runs/steering/expected_cost.h"
+#include "runs/steering/memory.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
-#include "runs/stats.h"
-#include "scenes/scene_report.h"
+#include "runs/report/stats.h"
+#include "scenes/report/scene_report.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>

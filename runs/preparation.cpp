@@ -1,7 +1,7 @@
 #include "runs/preparation.h"
 
 #include "image/image_file.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "image/image.h"
 #include "runs/run_events.h"
 #include "runs/run_settings.h"
-#include "runs/stats.h"
+#include "runs/report/stats.h"
 
 namespace meninas {
 

@@ -1,11 +1,11 @@
 #include "runs/regress_run.h"
 
-#include "image/changes.h"
-#include "image/heat_map.h"
+#include "image/metrics/changes.h"
+#include "image/metrics/heat_map.h"
 #include "image/whole_file.h"
 #include "image/z_test.h"
 #include "runs/outputs.h"
-#include "runs/reference_manifest.h"
+#include "runs/json/reference_manifest.h"
 #include "scenes/errors.h"
 #include "scenes/stopwatch.h"
 

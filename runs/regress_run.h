@@ -2,7 +2,7 @@
 // or makes the references anew.
 #pragma once
 
-#include "runs/cases_file.h"
+#include "runs/json/cases_file.h"
 #include "runs/run_events.h"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "runs/render_run.h"
 
-#include "runs/memory.h"
+#include "runs/steering/memory.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
 #include "runs/view.h"

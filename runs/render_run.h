@@ -1,12 +1,12 @@
 // `render`: from a scene file to pictures.
 #pragma once
 
-#include "runs/error_report.h"
+#include "runs/steering/error_report.h"
 #include "runs/outputs.h"
 #include "runs/run_settings.h"
 #include "runs/snapshots.h"
-#include "runs/stats.h"
-#include "runs/steering.h"
+#include "runs/report/stats.h"
+#include "runs/steering/steering.h"
 
 #include <filesystem>
 #include <optional>

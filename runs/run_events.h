@@ -1,7 +1,7 @@
 // What a run tells while it runs. Nothing of it changes the result; every function may be empty.
 #pragma once
 
-#include "radiosity/form_factors.h"
+#include "radiosity/transport/form_factors.h"
 
 #include <functional>
 #include <string>

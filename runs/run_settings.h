@@ -1,10 +1,10 @@
 // What a user chooses about a run: a preset of quality, and explicit values that override it.
 #pragma once
 
-#include "raytrace/debug_view.h"
+#include "raytrace/views/debug_view.h"
 #include "raytrace/two_pass.h"
 #include "reference/reference_picture.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 
 #include <optional>
 #include <string>

@@ -1,8 +1,8 @@
 #include "runs/solve_run.h"
 
-#include "radiosity/factor_file.h"
-#include "radiosity/solution_file.h"
-#include "runs/memory.h"
+#include "radiosity/transport/factor_file.h"
+#include "radiosity/solution/solution_file.h"
+#include "runs/steering/memory.h"
 #include "runs/outputs.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"

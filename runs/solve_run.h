@@ -3,7 +3,7 @@
 
 #include "runs/run_events.h"
 #include "runs/run_settings.h"
-#include "runs/stats.h"
+#include "runs/report/stats.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "runs/view.h"
 
-#include "radiosity/solution_file.h"
+#include "radiosity/solution/solution_file.h"
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
 #include "scenes/content_hash.h"

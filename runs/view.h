@@ -7,7 +7,7 @@
 #include "image/image_file.h"
 #include "runs/run_events.h"
 #include "runs/run_settings.h"
-#include "runs/stats.h"
+#include "runs/report/stats.h"
 
 #include <filesystem>
 #include <memory>

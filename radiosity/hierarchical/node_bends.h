@@ -14,7 +14,7 @@
 // if light in the middle of that is as far from the mean of its ends (node_edges.h).
 #pragma once
 
-#include "radiosity/bends.h"
+#include "radiosity/field/bends.h"
 #include "radiosity/hierarchical/node_vertices.h"
 
 namespace meninas {

@@ -1,6 +1,6 @@
 #include "radiosity/hierarchical/node_cut.h"
 
-#include "radiosity/gathered_emission.h"
+#include "radiosity/transport/gathered_emission.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 // one that meets black backs, which may be those of something small, until it has few elements.
 #pragma once
 
-#include "radiosity/hierarchical/node_tree.h"
+#include "radiosity/transport/node_tree.h"
 
 namespace meninas {
 

@@ -23,7 +23,7 @@
 // and those beside middles or corners without light of their own.
 #pragma once
 
-#include "radiosity/found_field.h"
+#include "radiosity/field/found_field.h"
 #include "radiosity/hierarchical/node_vertices.h"
 
 namespace meninas {

@@ -1,11 +1,11 @@
 #include "radiosity/hierarchical/node_field.h"
 
-#include "radiosity/curved_means.h"
-#include "radiosity/gather_noise.h"
+#include "radiosity/field/curved_means.h"
+#include "radiosity/light/gather_noise.h"
 #include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/hierarchical/node_edges.h"
-#include "radiosity/shadow_edges.h"
-#include "radiosity/vertex_places.h"
+#include "radiosity/field/shadow_edges.h"
+#include "radiosity/field/vertex_places.h"
 
 #include <algorithm>
 #include <cmath>

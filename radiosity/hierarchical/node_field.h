@@ -15,7 +15,7 @@
 // that is too even: corners of rooms come out too bright.
 #pragma once
 
-#include "radiosity/bent_field.h"
+#include "radiosity/field/bent_field.h"
 #include "radiosity/hierarchical/receiver_nodes.h"
 
 namespace meninas {

@@ -1,9 +1,9 @@
 #include "radiosity/hierarchical/node_light.h"
 
-#include "radiosity/curved_means.h"
-#include "radiosity/facets.h"
-#include "radiosity/mesh_division.h"
-#include "radiosity/spot_parts.h"
+#include "radiosity/field/curved_means.h"
+#include "radiosity/field/facets.h"
+#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/light/spot_parts.h"
 
 #include <algorithm>
 

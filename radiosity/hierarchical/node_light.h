@@ -12,9 +12,9 @@
 // than corners of its elements tell. And so has a mesh of no more elements than that.
 #pragma once
 
-#include "radiosity/element_light.h"
-#include "radiosity/found_field.h"
-#include "radiosity/hierarchical/node_tree.h"
+#include "radiosity/light/element_light.h"
+#include "radiosity/field/found_field.h"
+#include "radiosity/transport/node_tree.h"
 
 namespace meninas {
 

@@ -1,7 +1,7 @@
 #include "radiosity/hierarchical/node_solution.h"
 
-#include "radiosity/gather_noise.h"
-#include "radiosity/solvers/linear_system.h"
+#include "radiosity/light/gather_noise.h"
+#include "radiosity/transport/linear_system.h"
 #include "scenes/stopwatch.h"
 
 #include <algorithm>

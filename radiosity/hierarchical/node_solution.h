@@ -35,12 +35,12 @@
 // depends on the light and on X, and on elements only while these are larger than X asks for.
 #pragma once
 
-#include "radiosity/first_light.h"
+#include "radiosity/light/first_light.h"
 #include "radiosity/hierarchical/link_figures.h"
 #include "radiosity/hierarchical/node_cut.h"
 #include "radiosity/hierarchical/node_light.h"
 #include "radiosity/hierarchical/receiver_nodes.h"
-#include "radiosity/solve.h"
+#include "radiosity/solvers/solve.h"
 
 #include <optional>
 

@@ -11,7 +11,7 @@
 // every vertex has one value, so that there is no crack.
 #pragma once
 
-#include "radiosity/hierarchical/node_tree.h"
+#include "radiosity/transport/node_tree.h"
 
 namespace meninas {
 

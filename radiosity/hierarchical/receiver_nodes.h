@@ -1,9 +1,9 @@
 // What the solution by nodes leaves to the field that is gathered from it.
 #pragma once
 
-#include "radiosity/covered_cells.h"
-#include "radiosity/found_field.h"
-#include "radiosity/hierarchical/node_tree.h"
+#include "radiosity/transport/covered_cells.h"
+#include "radiosity/field/found_field.h"
+#include "radiosity/transport/node_tree.h"
 
 namespace meninas {
 

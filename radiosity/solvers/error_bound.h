@@ -11,7 +11,7 @@
 // and g with them. (The inside of a closed white shell would make G infinite, and nobody sees it.)
 #pragma once
 
-#include "radiosity/solvers/linear_system.h"
+#include "radiosity/transport/linear_system.h"
 
 namespace meninas {
 

@@ -2,7 +2,7 @@
 // and what a solver says at its end.
 #pragma once
 
-#include "radiosity/solve.h"
+#include "radiosity/solvers/solve.h"
 #include "radiosity/solvers/error_bound.h"
 
 namespace meninas {

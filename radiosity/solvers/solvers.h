@@ -2,7 +2,7 @@
 // and records every iterate there, the first one included.
 #pragma once
 
-#include "radiosity/solve.h"
+#include "radiosity/solvers/solve.h"
 #include "radiosity/solvers/error_bound.h"
 
 #include <functional>

@@ -1,8 +1,8 @@
 #include "runs/batch/batch_file.h"
 
 #include "runs/batch/output_name.h"
-#include "runs/json_place.h"
-#include "runs/json_schema.h"
+#include "runs/json/json_place.h"
+#include "runs/json/json_schema.h"
 #include "runs/pages/batch_schema_text.h"
 #include "scenes/errors.h"
 

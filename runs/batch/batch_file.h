@@ -13,7 +13,7 @@
 #pragma once
 
 #include "runs/batch/camera_path.h"
-#include "runs/setting.h"
+#include "runs/steering/setting.h"
 
 #include <filesystem>
 #include <optional>

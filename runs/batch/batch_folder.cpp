@@ -1,9 +1,9 @@
 #include "runs/batch/batch_folder.h"
 
 #include "image/whole_file.h"
-#include "runs/json_place.h"
+#include "runs/json/json_place.h"
 #include "runs/outputs.h"
-#include "runs/stats.h"
+#include "runs/report/stats.h"
 #include "scenes/content_hash.h"
 #include "scenes/errors.h"
 

@@ -4,7 +4,7 @@
 #include "runs/preparation.h"
 #include "scenes/content_hash.h"
 #include "scenes/errors.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 #include "scenes/version.h"
 
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "runs/batch/batch_file.h"
-#include "runs/memory.h"
+#include "runs/steering/memory.h"
 
 #include <cstdint>
 

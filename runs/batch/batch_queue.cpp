@@ -1,6 +1,6 @@
 #include "runs/batch/batch_queue.h"
 
-#include "runs/memory.h"
+#include "runs/steering/memory.h"
 
 #include <fmt/format.h>
 

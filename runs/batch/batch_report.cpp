@@ -1,7 +1,7 @@
 #include "runs/batch/batch_report.h"
 
-#include "runs/json_place.h"
-#include "runs/page.h"
+#include "runs/json/json_place.h"
+#include "runs/report/page.h"
 #include "runs/pages/batch_page.h"
 #include "runs/regress_run.h"
 #include "scenes/version.h"

@@ -2,7 +2,7 @@
 
 #include "image/image_file.h"
 #include "runs/batch/interruption.h"
-#include "runs/memory.h"
+#include "runs/steering/memory.h"
 #include "runs/resources.h"
 #include "scenes/errors.h"
 #include "scenes/stopwatch.h"

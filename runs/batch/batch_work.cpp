@@ -2,7 +2,7 @@
 
 #include "runs/batch/batch_forecast.h"
 #include "runs/batch/batch_queue.h"
-#include "runs/memory.h"
+#include "runs/steering/memory.h"
 #include "scenes/errors.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "runs/batch/output_name.h"
 
 #include "image/image_file.h"
-#include "runs/json_place.h"
+#include "runs/json/json_place.h"
 #include "scenes/errors.h"
 #include "scenes/types.h"
 

@@ -2,11 +2,11 @@
 
 #include "image/display.h"
 #include "runs/outputs.h"
-#include "runs/page.h"
+#include "runs/report/page.h"
 #include "runs/preparation.h"
-#include "runs/thumbnail.h"
+#include "runs/report/thumbnail.h"
 #include "scenes/errors.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "runs/trade/trade_knobs.h"
 
-#include "runs/setting_options.h"
+#include "runs/steering/setting_options.h"
 
 #include <fmt/format.h>
 

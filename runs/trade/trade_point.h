@@ -3,9 +3,9 @@
 #pragma once
 
 #include "image/image.h"
-#include "raytrace/picture_error.h"
+#include "raytrace/error/picture_error.h"
 #include "runs/run_settings.h"
-#include "runs/stats.h"
+#include "runs/report/stats.h"
 
 #include <string>
 #include <vector>
@@ -24,7 +24,7 @@ struct TradePoint {
   std::vector<KnobTurn> turns; ///< none, of points that were there from the beginning; else one
   std::vector<double> seconds; ///< from the scene in memory to the picture, by repetition
   std::vector<double> processor_seconds; ///< of all threads
-  std::vector<double> errors;            ///< against the reference (image/relative_error.h)
+  std::vector<double> errors;            ///< against the reference (image/metrics/relative_error.h)
   PictureError estimate;                 ///< by the first repetition itself
   RunSeconds stages;                     ///< of the first repetition
   std::size_t elements = 0;

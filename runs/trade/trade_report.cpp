@@ -1,10 +1,10 @@
 #include "runs/trade/trade_report.h"
 
 #include "image/display.h"
-#include "runs/page.h"
+#include "runs/report/page.h"
 #include "runs/pages/trade_page.h"
-#include "runs/setting_options.h"
-#include "runs/thumbnail.h"
+#include "runs/steering/setting_options.h"
+#include "runs/report/thumbnail.h"
 #include "scenes/version.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "runs/trade/trade_sweep.h"
 
-#include "runs/setting_options.h"
+#include "runs/steering/setting_options.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,12 +2,12 @@
 // and whose indices are in range, or with one UserError of one line. Then the scene's
 // surfaces are found and reported on, as every command does. Anything else is a finding.
 #include "scenes/errors.h"
-#include "scenes/gltf.h"
-#include "scenes/hidden_copies.h"
-#include "scenes/mesh_oddities.h"
-#include "scenes/overlaps.h"
-#include "scenes/shells.h"
-#include "scenes/surfaces.h"
+#include "scenes/gltf/gltf.h"
+#include "scenes/rays/hidden_copies.h"
+#include "scenes/report/mesh_oddities.h"
+#include "scenes/report/overlaps.h"
+#include "scenes/surfaces/shells.h"
+#include "scenes/surfaces/surfaces.h"
 
 #include <cmath>
 #include <cstdio>

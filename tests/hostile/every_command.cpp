@@ -1,14 +1,14 @@
 #include "tests/hostile/every_command.h"
 
-#include "radiosity/node_form_factors.h"
-#include "raytrace/debug_view.h"
-#include "raytrace/features.h"
-#include "raytrace/picture_error.h"
+#include "radiosity/queries/node_form_factors.h"
+#include "raytrace/views/debug_view.h"
+#include "raytrace/views/features.h"
+#include "raytrace/error/picture_error.h"
 #include "reference/reference_picture.h"
-#include "runs/expected_cost.h"
+#include "runs/steering/expected_cost.h"
 #include "scenes/errors.h"
-#include "scenes/lobes.h"
-#include "scenes/scene_report.h"
+#include "scenes/materials/lobes.h"
+#include "scenes/report/scene_report.h"
 
 #include <fmt/format.h>
 #include <glm/gtx/component_wise.hpp>

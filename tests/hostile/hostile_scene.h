@@ -5,7 +5,7 @@
 // positions are rounded) is as for users, and so that a finding can be given to the program.
 #pragma once
 
-#include "tests/scenes/gltf_file.h"
+#include "tests/scenes/gltf/gltf_file.h"
 
 namespace meninas::test {
 

@@ -1,6 +1,6 @@
 // The per-pixel test against a noisy reference:
 // right pictures pass, biased ones do not; and what a change is called.
-#include "image/changes.h"
+#include "image/metrics/changes.h"
 #include "image/z_test.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // Coats as mirrors, and their worlds.
 #include "mirror/worlds.h"
-#include "scenes/smooth_surfaces.h"
+#include "scenes/materials/smooth_surfaces.h"
 #include "tests/support/coats.h"
 #include "tests/support/scene_builder.h"
 

@@ -1,7 +1,7 @@
 // Mirrors that break careless code: slivers, sheets seen edge-on,
 // lamps that touch or pierce a mirror, tiles, holes, and hundreds of tilts.
-#include "radiosity/element_light.h"
-#include "radiosity/gathered_emission.h"
+#include "radiosity/light/element_light.h"
+#include "radiosity/transport/gathered_emission.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/random.h"
 #include "tests/support/rooms.h"

@@ -1,7 +1,7 @@
 #include "tests/radiosity/lit_system.h"
 
-#include "radiosity/element_light.h"
-#include "radiosity/gathered_emission.h"
+#include "radiosity/light/element_light.h"
+#include "radiosity/transport/gathered_emission.h"
 
 namespace meninas::test {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/radiosity/lit_scene.h"
-#include "tests/radiosity/radiosity_systems.h"
+#include "tests/radiosity/solvers/radiosity_systems.h"
 
 namespace meninas::test {
 

@@ -1,7 +1,7 @@
 // Meshes without light: scenes of a few polygons, divided into elements.
 #pragma once
 
-#include "radiosity/element_mesh.h"
+#include "radiosity/mesh/element_mesh.h"
 #include "tests/support/scene_builder.h"
 
 namespace meninas::test {

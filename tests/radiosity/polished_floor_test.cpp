@@ -1,6 +1,6 @@
 // Coats that are mirrors to the light of surfaces:
 // R(cos) of it over what is scattered below, in every transport of pass one.
-#include "radiosity/hemisphere_survey.h"
+#include "radiosity/solvers/hemisphere_survey.h"
 #include "tests/radiosity/solved.h"
 #include "tests/support/coats.h"
 #include "tests/support/rooms.h"

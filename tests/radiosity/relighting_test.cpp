@@ -1,5 +1,5 @@
 // Form factors kept for other light: the same solution as without them, or a refusal that says why.
-#include "radiosity/factor_file.h"
+#include "radiosity/transport/factor_file.h"
 #include "scenes/errors.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/glass_rooms.h"

@@ -1,4 +1,4 @@
-#include "radiosity/point_form_factor.h"
+#include "form_factors/point_form_factor.h"
 #include "raytrace/two_pass.h"
 #include "tests/support/rooms.h"
 #include "tests/support/scene_builder.h"

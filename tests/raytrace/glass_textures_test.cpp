@@ -1,6 +1,6 @@
 // Textures of transmission and thickness: glass and what is not, in one surface.
 #include "image/image_file.h"
-#include "scenes/refraction.h"
+#include "scenes/materials/refraction.h"
 #include "tests/raytrace/glass_pictures.h"
 #include "tests/support/glass_rooms.h"
 #include "tests/support/rooms.h"

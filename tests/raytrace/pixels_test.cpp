@@ -1,5 +1,5 @@
 // How samples make a pixel: filters, adaptive sampling, and layers that show the scene.
-#include "raytrace/features.h"
+#include "raytrace/views/features.h"
 #include "raytrace/sample_choice.h"
 #include "raytrace/two_pass.h"
 #include "tests/raytrace/pictures.h"

@@ -1,5 +1,5 @@
 // Flat metals that are nearly mirrors: mirrors in pass one, lobes in the picture.
-#include "scenes/smooth_surfaces.h"
+#include "scenes/materials/smooth_surfaces.h"
 #include "tests/raytrace/pictures.h"
 #include "tests/support/metals.h"
 #include "tests/support/rooms.h"

@@ -1,7 +1,7 @@
 // Textures in both passes:
 // means over the elements, the image itself at every hit, and light by what glows in patterns.
 #include "image/image_file.h"
-#include "radiosity/surface_colour.h"
+#include "radiosity/scene/surface_colour.h"
 #include "raytrace/scene_textures.h"
 #include "raytrace/two_pass.h"
 #include "tests/raytrace/glass_pictures.h"

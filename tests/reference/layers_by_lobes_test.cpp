@@ -1,7 +1,7 @@
 // Layers where gloss, coats and glass are seen:
 // what has a direction of its own is a mirror to the eye, in the reference as in the two passes.
 #include "raytrace/two_pass.h"
-#include "scenes/lobes.h"
+#include "scenes/materials/lobes.h"
 #include "tests/reference/tracing.h"
 #include "tests/support/glass_rooms.h"
 

@@ -1,7 +1,7 @@
 // The two passes against paths, where light goes by glass and gloss:
 // two programs that share the materials and nothing else.
 #include "raytrace/two_pass.h"
-#include "scenes/smooth_surfaces.h"
+#include "scenes/materials/smooth_surfaces.h"
 #include "tests/reference/tracing.h"
 #include "tests/support/coats.h"
 #include "tests/support/glass_rooms.h"

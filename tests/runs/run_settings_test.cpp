@@ -1,5 +1,5 @@
 #include "runs/run_settings.h"
-#include "runs/setting_options.h"
+#include "runs/steering/setting_options.h"
 
 #include <gtest/gtest.h>
 

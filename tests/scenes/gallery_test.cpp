@@ -2,7 +2,7 @@
 // they load without complaint, and they are what they claim.
 #include "scenes/gallery/generator/gltf_text.h"
 #include "scenes/gallery/generator/stages.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 #include "scenes/scene.h"
 #include "tests/support/source_dir.h"
 

@@ -2,7 +2,7 @@
 // them.
 #pragma once
 
-#include "scenes/surfaces.h"
+#include "scenes/surfaces/surfaces.h"
 
 #include <cmath>
 #include <functional>

@@ -1,7 +1,7 @@
 // Rooms that several tests light.
 #pragma once
 
-#include "scenes/surfaces.h"
+#include "scenes/surfaces/surfaces.h"
 #include "tests/support/scene_builder.h"
 
 namespace meninas::test {

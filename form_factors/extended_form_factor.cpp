@@ -1,0 +1,390 @@
+#include "form_factors/extended_form_factor.h"
+
+#include "form_factors/clear_form_factors.h"
+#include "form_factors/error_sum.h"
+#include "form_factors/kaleidoscope.h"
+#include "form_factors/discontinuity_lines.h"
+#include "form_factors/world_shares.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+namespace meninas {
+
+namespace {
+
+/// Radon's rule of degree five on a triangle:
+/// barycentric weights of its points, and their shares of the area.
+struct TrianglePoint {
+  double b0, b1, b2, weight;
+};
+constexpr double r1 = 0.101286507323456338800987361915123, w1 = 0.125939180544827152595683945500181;
+constexpr double r2 = 0.470142064105115089770441209513447, w2 = 0.132394152788506180737649387833152;
+constexpr std::array<TrianglePoint, 7> radon{{{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.225},
+                                              {1.0 - 2.0 * r1, r1, r1, w1},
+                                              {r1, 1.0 - 2.0 * r1, r1, w1},
+                                              {r1, r1, 1.0 - 2.0 * r1, w1},
+                                              {1.0 - 2.0 * r2, r2, r2, w2},
+                                              {r2, 1.0 - 2.0 * r2, r2, w2},
+                                              {r2, r2, 1.0 - 2.0 * r2, w2}}};
+
+/// A triangle of A with the integrals over it.
+struct Region {
+  std::array<Point3, 3> corners;
+  std::uint32_t face = 0;
+  double area = 0.0;
+  WorldShares shares;
+  WorldShares errors;
+  double tail = 0.0;
+};
+
+double area_of(const std::array<Point3, 3>& c) {
+  return 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
+}
+
+class Integration {
+public:
+  Integration(const WorldView& view, const std::vector<Face>& from, std::size_t groups,
+              const ExtendedSettings& settings)
+      : view_(view), from_(from), settings_(settings), groups_(groups), index_(view.mirrors),
+        clear_(clear_form_factors(view, from, groups)), weights_(groups, 1.0), errors_(groups) {
+    for (const Face& face : from)
+      area_ += face.area;
+  }
+
+  ExtendedFactors run() {
+    std::vector<Region> whole = first_regions();
+    if (!whole.empty()) {
+      choose_tail(whole);
+      evaluate(whole);
+      choose_weights(whole);
+      split(whole);
+      refine();
+    }
+    return result();
+  }
+
+private:
+  bool uses_mirrors() const { return !view_.mirrors.mirrors.empty() && settings_.max_depth > 0; }
+
+  bool needs_points(std::size_t face) const {
+    if (uses_mirrors())
+      return true;
+    const auto& known = clear_.known[face];
+    return std::any_of(known.begin(), known.end(), [](std::uint8_t k) { return k == 0; });
+  }
+
+  std::vector<Region> first_regions() const {
+    const std::size_t most_lines = settings_.shadow_lines / std::max<std::size_t>(1, from_.size());
+    std::vector<BlockerEdge> edges;
+    if (view_.blockers.size() < most_lines)
+      edges = edges_of(view_.blockers);
+    std::vector<Region> regions;
+    for (std::size_t f = 0; f < from_.size(); ++f) {
+      if (!needs_points(f))
+        continue;
+      std::vector<ConvexPolygon> parts = cut_at_contacts(from_[f], view_.blockers, view_.tolerance);
+      cut_at_shadows(parts, from_[f], view_, edges, clear_.known[f], uses_mirrors(), most_lines);
+      for (const ConvexPolygon& polygon : parts)
+        for (std::size_t k = 2; k < polygon.size; ++k) {
+          Region region;
+          region.corners = {polygon.vertices[0], polygon.vertices[k - 1], polygon.vertices[k]};
+          region.face = static_cast<std::uint32_t>(f);
+          region.area = area_of(region.corners);
+          regions.push_back(std::move(region));
+        }
+    }
+    return regions;
+  }
+
+  WalkPoint point_of(const Region& region, const TrianglePoint& p) const {
+    const Face& face = from_[region.face];
+    const auto& c = region.corners;
+    return {p.b0 * c[0] + p.b1 * c[1] + p.b2 * c[2], face.plane.normal, face.plane_class};
+  }
+
+  double total_of(const WorldShares& shares) const {
+    double sum = 0.0;
+    for (const WalkShare& share : shares)
+      sum += weights_[share.group] * mean_of(index_[share.world].throughput) * share.factor;
+    return sum;
+  }
+
+  /// What may be left out at each point:
+  /// a part of the wanted accuracy, by a first look from a few points.
+  void choose_tail(const std::vector<Region>& regions) {
+    constexpr double part = 0.2, first_look = 1e-2, least_factor = 1e-4;
+    constexpr std::size_t looks = 8;
+    walk_.max_depth = settings_.max_depth;
+    walk_.tail = first_look;
+    WorldShares seen;
+    const std::size_t stride = (regions.size() + looks - 1) / looks;
+    std::size_t count = 0;
+    for (std::size_t r = 0; r < regions.size(); r += stride, ++count)
+      append(
+          seen,
+          walk_worlds(view_, point_of(regions[r], radon[0]), walk_, clear_.known[regions[r].face]),
+          1.0, index_);
+    double factor = total_of(seen) / static_cast<double>(std::max<std::size_t>(count, 1));
+    for (const Estimate& closed : clear_.factors)
+      factor += closed.value;
+    walk_.tail = part * settings_.accuracy * std::max(factor, least_factor);
+  }
+
+  /// Fills in the integrals over the regions, some hundred at a time.
+  void evaluate(std::vector<Region>& regions) {
+    for (std::size_t first = 0; first < regions.size(); first += batch_) {
+      const std::size_t count = std::min(batch_, regions.size() - first);
+      std::vector<WalkResult> walks(count * radon.size());
+      tbb::parallel_for(std::size_t{0}, walks.size(), [&](std::size_t k) {
+        const Region& region = regions[first + k / radon.size()];
+        walks[k] = walk_worlds(view_, point_of(region, radon[k % radon.size()]), walk_,
+                               clear_.known[region.face]);
+      });
+      for (std::size_t k = 0; k < walks.size(); ++k) {
+        Region& region = regions[first + k / radon.size()];
+        const double weight = radon[k % radon.size()].weight * region.area / area_;
+        append(region.shares, walks[k], weight, index_);
+        region.tail += weight * walks[k].tail;
+        visits_ += walks[k].worlds.size();
+      }
+      for (std::size_t r = 0; r < count; ++r)
+        combine(regions[first + r].shares);
+      points_ += walks.size();
+      // What the points have seen is kept until it is added up:
+      // as many at once as memory has room for.
+      batch_ = std::clamp<std::size_t>(most_kept * points_ / (radon.size() * (visits_ + 1)), 1,
+                                       most_regions);
+    }
+  }
+
+  /// What a group's total changed by:
+  /// as it adds up, and with the near worlds taken one by one, all others together.
+  struct Change {
+    double error = 0.0, signed_error = 0.0;
+  };
+
+  std::vector<Change> changes_by_group(const WorldShares& changes) const {
+    constexpr int near = 2;
+    std::vector<Change> by_group(groups_);
+    std::vector<double> rest(groups_, 0.0);
+    for (const WalkShare& change : changes) {
+      const auto& world = index_[change.world];
+      const double light = mean_of(world.throughput) * change.factor;
+      by_group[change.group].signed_error += light;
+      if (world.depth <= near)
+        by_group[change.group].error += std::abs(light);
+      else
+        rest[change.group] += light;
+    }
+    for (std::size_t g = 0; g < groups_; ++g)
+      by_group[g].error += std::abs(rest[g]);
+    return by_group;
+  }
+
+  /// Replaces each region by four, with errors from what that changed.
+  void split(const std::vector<Region>& parents) {
+    std::vector<Region> children;
+    for (const Region& parent : parents) {
+      const auto& c = parent.corners;
+      const Point3 m01 = 0.5 * (c[0] + c[1]), m12 = 0.5 * (c[1] + c[2]), m20 = 0.5 * (c[2] + c[0]);
+      for (const auto& corners : {std::array{c[0], m01, m20}, std::array{m01, c[1], m12},
+                                  std::array{m20, m12, c[2]}, std::array{m12, m20, m01}}) {
+        Region child;
+        child.corners = corners;
+        child.face = parent.face;
+        child.area = 0.25 * parent.area;
+        children.push_back(std::move(child));
+      }
+    }
+    evaluate(children);
+    for (std::size_t p = 0; p < parents.size(); ++p) {
+      WorldShares sum;
+      for (std::size_t k = 4 * p; k < 4 * p + 4; ++k)
+        sum.insert(sum.end(), children[k].shares.begin(), children[k].shares.end());
+      combine(sum);
+      WorldShares changes = difference(sum, parents[p].shares);
+
+      // Splitting halves an error at the least (a jump),
+      // so what is left is no more than the change: a quarter of it in each.
+      for (WalkShare& change : changes)
+        change.factor *= 0.25;
+      for (std::size_t k = 4 * p; k < 4 * p + 4; ++k) {
+        children[k].errors = changes;
+        push(std::move(children[k]));
+      }
+    }
+  }
+
+  void push(Region region) {
+    value_ += total_of(region.shares);
+    const auto changes = changes_by_group(region.errors);
+    double error = 0.0;
+    for (std::size_t g = 0; g < groups_; ++g) {
+      errors_[g].add(changes[g].error, changes[g].signed_error);
+      error += weights_[g] * changes[g].error;
+    }
+    heap_.emplace(error, regions_.size());
+    regions_.push_back(std::move(region));
+  }
+
+  Region pop() {
+    Region region = std::move(regions_[heap_.top().second]);
+    regions_[heap_.top().second] = {};
+    heap_.pop();
+    value_ -= total_of(region.shares);
+    const auto changes = changes_by_group(region.errors);
+    for (std::size_t g = 0; g < groups_; ++g)
+      errors_[g].remove(changes[g].error, changes[g].signed_error);
+    return region;
+  }
+
+  double closed_value() const {
+    double sum = 0.0;
+    for (std::size_t g = 0; g < groups_; ++g)
+      sum += weights_[g] * clear_.factors[g].value;
+    return sum;
+  }
+
+  /// Half of the weight is that of the factors themselves, half that of what they bring.
+  void choose_weights(const std::vector<Region>& regions) {
+    if (settings_.importance.empty())
+      return;
+    double all = 0.0, important = 0.0;
+    const auto add = [&](std::size_t group, double factor) {
+      all += factor;
+      important += settings_.importance[group] * factor;
+    };
+    for (std::size_t g = 0; g < groups_; ++g)
+      add(g, clear_.factors[g].value);
+    for (const Region& region : regions)
+      for (const WalkShare& share : region.shares)
+        add(share.group, mean_of(index_[share.world].throughput) * share.factor);
+    if (important > 0.0)
+      for (std::size_t g = 0; g < groups_; ++g)
+        weights_[g] = 1.0 + settings_.importance[g] * all / important;
+  }
+
+  bool settled() const {
+    constexpr double part = 0.7, rounding = 1e-15;
+    double error = 0.0;
+    for (std::size_t g = 0; g < groups_; ++g)
+      error += weights_[g] * errors_[g].estimate();
+    return error <= part * settings_.accuracy * (value_ + closed_value()) + rounding;
+  }
+
+  void refine() {
+    constexpr std::size_t most_at_once = 8;
+    while (!settled() && points_ < settings_.max_points && visits_ < settings_.max_visits) {
+      std::vector<Region> parents;
+      const double largest = heap_.top().first;
+      while (parents.size() < most_at_once && !heap_.empty() && heap_.top().first >= 0.25 * largest)
+        parents.push_back(pop());
+      split(parents);
+    }
+  }
+
+  ExtendedFactors result() const {
+    ExtendedFactors factors;
+    factors.points = points_;
+    factors.to.resize(groups_);
+    WorldShares sum, errors;
+    double tail = 0.0;
+    for (const Region& region : regions_) {
+      sum.insert(sum.end(), region.shares.begin(), region.shares.end());
+      tail += region.tail;
+      for (WalkShare error : region.errors) {
+        error.factor = std::abs(error.factor);
+        errors.push_back(error);
+      }
+    }
+    for (std::uint32_t g = 0; g < groups_; ++g) {
+      if (clear_.factors[g].value > 0.0)
+        sum.push_back({0, g, clear_.factors[g].value});
+      errors.push_back({0, g, clear_.factors[g].error});
+      factors.to[g].total.error = tail;
+    }
+    factors.tail = tail;
+    combine(sum);
+    combine(errors);
+    add_worlds(sum, errors, factors);
+    double error = 0.0, value = 0.0;
+    for (const ExtendedFactor& factor : factors.to) {
+      value += factor.total.value;
+      error = std::max(error, factor.total.error);
+    }
+    factors.converged = error <= settings_.accuracy * value + 1e-15;
+    return factors;
+  }
+
+  void add_worlds(const WorldShares& sum, const WorldShares& errors,
+                  ExtendedFactors& factors) const {
+    auto error = errors.begin();
+    for (const WalkShare& share : sum) {
+      const auto before = [](const WalkShare& a, const WalkShare& b) {
+        return std::tie(a.world, a.group) < std::tie(b.world, b.group);
+      };
+      error = std::lower_bound(error, errors.end(), share, before);
+      const bool found =
+          error != errors.end() && error->world == share.world && error->group == share.group;
+      const Rgb& throughput = index_[share.world].throughput;
+      ExtendedFactor& factor = factors.to[share.group];
+      factor.total.value += mean_of(throughput) * share.factor;
+      factor.light += throughput * share.factor;
+      factor.geometric += share.factor;
+      if (settings_.listing == WorldListing::worlds)
+        factor.worlds.push_back({index_.chain_of(share.world),
+                                 throughput,
+                                 {share.factor, found ? error->factor : 0.0}});
+    }
+    for (std::uint32_t g = 0; g < groups_; ++g) {
+      factors.to[g].total.error += clear_.factors[g].error + errors_[g].estimate();
+      sort_worlds(factors.to[g]);
+    }
+  }
+
+  const WorldView& view_;
+  const std::vector<Face>& from_;
+  const ExtendedSettings& settings_;
+  std::size_t groups_;
+  double area_ = 0.0;
+  WorldIndex index_;
+  WalkSettings walk_;
+  static constexpr std::size_t most_kept = 4'000'000, most_regions = 64;
+  std::size_t batch_ = 2; ///< regions evaluated at once
+  ClearFormFactors clear_;
+  std::vector<double> weights_; ///< by group: how much its errors count
+  std::vector<Region> regions_;
+  std::priority_queue<std::pair<double, std::size_t>>
+      heap_; ///< the region with the largest error first
+  double value_ = 0.0;
+  std::vector<ErrorSum> errors_; ///< by group, of the regions
+  std::size_t points_ = 0, visits_ = 0;
+};
+
+} // namespace
+
+void sort_worlds(ExtendedFactor& factor) {
+  std::stable_sort(
+      factor.worlds.begin(), factor.worlds.end(), [](const WorldFactor& a, const WorldFactor& b) {
+        return mean_of(a.throughput) * a.factor.value > mean_of(b.throughput) * b.factor.value;
+      });
+}
+
+ExtendedFactors extended_form_factors(const WorldView& view, const std::vector<Face>& from,
+                                      std::size_t group_count, const ExtendedSettings& settings) {
+  // Few images in the corner of mirrors are left to the points, which tell the chains apart.
+  constexpr std::size_t few = 64;
+  const auto cell = settings.max_depth > 0 ? find_kaleidoscope(view, from) : std::nullopt;
+  if (cell) {
+    ExtendedFactors factors = kaleidoscope_form_factors(view, from, group_count, settings, *cell);
+    if (!cell->corners || factors.points > few)
+      return factors;
+  }
+  return Integration(view, from, group_count, settings).run();
+}
+
+} // namespace meninas

@@ -1,0 +1,49 @@
+// What a point sees of a convex polygon past opaque convex blockers, exactly.
+//
+// A blocker hides its cone from the point. Convex minus convex is a set of disjoint convex pieces,
+// one for each side of the cone the polygon reaches beyond:
+// subtracting blocker after blocker leaves the visible parts, whose form factors add up.
+// Blockers are to lie between the point and the polygon's plane: cut them there first.
+#pragma once
+
+#include "mirror/convex_polygon.h"
+#include "scenes/surfaces/surfaces.h"
+
+#include <vector>
+
+namespace meninas {
+
+/// Coplanar patches of one surface joined to a convex polygon; opaque from both sides.
+struct Face {
+  ConvexPolygon polygon; ///< counter-clockwise seen from the front
+  Plane plane;
+  PlaneId plane_class = none<PlaneId>;
+  MaterialId material = none<MaterialId>;
+  NodeId node = none<NodeId>;
+  double area = 0.0;
+  Point3 centre{0.0}; ///< of a sphere around it
+  double radius = 0.0;
+};
+
+/// As few convex faces as joining whole edges gives. Patches of different nodes are not joined.
+std::vector<Face> joined_faces(const SurfaceModel& surfaces);
+
+/// The face cut along the lines where others stand on it:
+/// across them what is seen jumps, between them it changes steadily.
+std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others,
+                                           double tolerance);
+
+/// Splits the parts that the segment runs through, along the line it is on.
+void cut_along(std::vector<ConvexPolygon>& parts, const Point3& from, const Point3& to,
+               const Direction& front, double tolerance);
+
+/// Takes the cone from x over the blocker out of every part. A blocker seen edge-on hides nothing.
+void subtract_cone(std::vector<ConvexPolygon>& parts, const Point3& x,
+                   const ConvexPolygon& blocker);
+
+/// Whether no segment between the two polygons can meet the blocker:
+/// a plane holds them apart. Errs towards "no".
+bool holds_apart(const ConvexPolygon& a, const ConvexPolygon& b, const ConvexPolygon& blocker,
+                 double tolerance);
+
+} // namespace meninas

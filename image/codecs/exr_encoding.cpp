@@ -1,0 +1,153 @@
+#include "image/codecs/exr_encoding.h"
+
+#include <Imath/half.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+namespace meninas {
+
+namespace {
+
+/// A file in memory.
+class ByteStream : public Imf::OStream {
+public:
+  explicit ByteStream(std::vector<std::byte>& bytes) : OStream("memory"), bytes_(bytes) {}
+
+  void write(const char* from, int count) override {
+    const auto size = static_cast<std::size_t>(count);
+    // The library comes back to fill in where the rows are.
+    bytes_.resize(std::max(bytes_.size(), place_ + size));
+    std::memcpy(bytes_.data() + place_, from, size);
+    place_ += size;
+  }
+  std::uint64_t tellp() override { return place_; }
+  void seekp(std::uint64_t place) override { place_ = place; }
+
+private:
+  std::vector<std::byte>& bytes_;
+  std::size_t place_ = 0;
+};
+
+/// Three channels of the file, stored under `prefix` ("" or "NAME.").
+struct Planes {
+  std::string prefix;
+  const Image* image;
+};
+
+constexpr std::array components = {"R", "G", "B"};
+
+template <typename Value>
+constexpr Imf::PixelType stored_type = std::is_same_v<Value, half> ? Imf::HALF : Imf::FLOAT;
+
+} // namespace
+
+static std::vector<Planes> planes_of(const Image& picture, std::span<const Layer> layers) {
+  std::vector<Planes> planes{{"", &picture}};
+  for (const Layer& layer : layers)
+    planes.push_back({layer.name + ".", &layer.image});
+  return planes;
+}
+
+/// No date among the attributes: the same picture would become two different files.
+static Imf::Header header_of(const Image& picture, std::span<const Planes> planes,
+                             Imf::PixelType type, const Attributes& attributes) {
+  Imf::Header header(picture.width, picture.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  for (const auto& [prefix, image] : planes)
+    for (const char* component : components)
+      header.channels().insert(prefix + component, Imf::Channel(type));
+  header.insert("Software", Imf::StringAttribute("Meninas " MENINAS_VERSION));
+  for (const auto& [key, value] : attributes)
+    if (!value.empty())
+      header.insert(std::string(attribute_prefix) + key, Imf::StringAttribute(value));
+  return header;
+}
+
+/// Some rows of all planes, interleaved, clipped to what the type can hold:
+/// an infinity would poison every filter that touches it later.
+template <typename Value>
+static std::vector<Value> gather_rows(std::span<const Planes> planes, int first, int last) {
+  const auto largest = static_cast<float>(std::numeric_limits<Value>::max());
+  const auto width = static_cast<std::size_t>(planes.front().image->width);
+  const auto begin = static_cast<std::size_t>(first) * width;
+  const auto count = static_cast<std::size_t>(last - first) * width;
+  const auto stride = components.size() * planes.size();
+  std::vector<Value> rows(count * stride);
+  for (std::size_t k = 0; k < planes.size(); ++k)
+    for (std::size_t pixel = 0; pixel < count; ++pixel)
+      for (std::size_t c = 0; c < components.size(); ++c)
+        rows[pixel * stride + components.size() * k + c] =
+            Value(std::clamp(planes[k].image->pixels[begin + pixel][static_cast<glm::length_t>(c)],
+                             -largest, largest));
+  return rows;
+}
+
+/// Tells where the values of each channel are, for rows from `first` on.
+template <typename Value>
+static Imf::FrameBuffer frame_of(std::vector<Value>& rows, std::span<const Planes> planes,
+                                 int first) {
+  const auto width = static_cast<std::size_t>(planes.front().image->width);
+  const auto stride = components.size() * planes.size() * sizeof(Value);
+  Imf::FrameBuffer frame;
+  for (std::size_t k = 0; k < planes.size(); ++k)
+    for (std::size_t c = 0; c < components.size(); ++c) {
+      // The library counts rows from the top of the picture.
+      auto* top = reinterpret_cast<char*>(rows.data() + components.size() * k + c) -
+                  static_cast<std::ptrdiff_t>(static_cast<std::size_t>(first) * width * stride);
+      frame.insert(planes[k].prefix + components[c],
+                   Imf::Slice(stored_type<Value>, top, stride, width * stride));
+    }
+  return frame;
+}
+
+/// A band of rows at a time keeps the interleaved copy small,
+/// and is enough for parallel compression.
+template <typename Value>
+static void write_rows(Imf::OutputFile& file, std::span<const Planes> planes) {
+  constexpr int band = 256;
+  const int height = planes.front().image->height;
+  for (int first = 0; first < height; first += band) {
+    const int last = std::min(first + band, height);
+    auto rows = gather_rows<Value>(planes, first, last);
+    file.setFrameBuffer(frame_of(rows, planes, first));
+    file.writePixels(last - first);
+  }
+}
+
+/// The library compresses by threads of its own, none unless told otherwise.
+static int use_threads() {
+  const auto allowed =
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  const int threads = allowed > 1 ? static_cast<int>(allowed) : 0;
+  if (Imf::globalThreadCount() != threads)
+    Imf::setGlobalThreadCount(threads);
+  return threads;
+}
+
+std::vector<std::byte> encode_exr(const Image& picture, std::span<const Layer> layers,
+                                  PixelType type, const Attributes& attributes) {
+  const auto planes = planes_of(picture, layers);
+  const auto stored = type == PixelType::half ? Imf::HALF : Imf::FLOAT;
+  std::vector<std::byte> bytes;
+  ByteStream stream(bytes);
+  {
+    Imf::OutputFile file(stream, header_of(picture, planes, stored, attributes), use_threads());
+    type == PixelType::half ? write_rows<half>(file, planes) : write_rows<float>(file, planes);
+  }
+  return bytes;
+}
+
+} // namespace meninas

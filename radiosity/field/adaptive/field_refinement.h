@@ -1,0 +1,87 @@
+// Finer elements where the field does not tell what lies between its vertices (substructuring:
+// Cohen, Greenberg, Immel, Brock 1986).
+//
+// A field is sampled at the vertices of the root cells.
+// Each element is then looked at in a few more points x_k between: what its vertices say there, H~,
+// against what a sample says, H. The relative error of its radiosity counts with its area,
+//
+//   eta_e^2 = A_e mean_k (w |H(x_k) - H~(x_k)|)^2,    w = rho / (B + B_mean)   of the root cell, brightest channel,
+//
+// less what the samples' own noise adds to it (below),
+// and elements are divided whose eta_e^2 is above their share X^2 A / N,
+// until the sum over all of them is below X^2 A: until the radiosity is X right in the mean square,
+// relative to what is there, to the scene's mean where it is darker. So a smooth field gets large
+// elements, and along the edge of a shadow, where the error does not fall with the size, elements
+// become small until their area makes up for it: what an element costs brings the same everywhere.
+// A, and the scene's mean, count no more of a wide ground than counted_area() does (element_mesh.h).
+//
+// Noise: samples with variance sigma^2 are off by H - H~ of variance (1 + 1/4) sigma^2
+// in the middle of four vertices, however small the element. sigma is estimated relative to H,
+// from points around, and taken off; elements are divided only for what stands out of it.
+// So the bound is one for what elements hide.
+// The noise of the vertices themselves is a matter of how many rays they take (adaptive_field.h).
+//
+// Most elements are plain: quick samples show next to nothing in all of their points.
+// Only the others are looked at with samples whose noise is known.
+//
+// Vertices on which something stands, or at whose side it does,
+// take what is sampled beside it, as on undivided meshes (contact_vertices.h).
+//
+// Limit: what is smaller than the distance of the points in a root cell may be overlooked.
+// Edges of light that mirrors throw are not:
+// they are known (mirror_outlines.h), and elements on them are looked at there too.
+#pragma once
+
+#include "radiosity/field/adaptive/mirror_outlines.h"
+#include "radiosity/field/vertex_light.h"
+
+#include <functional>
+
+namespace meninas {
+
+/// What arrives at a point; it counts where nothing is over it,
+/// and under a low cover where nothing around is open.
+struct PointSample {
+  ArrivingLight light;
+  Cover cover = Cover::open;
+  double variance =
+      0.0; ///< of the brightest channel of all light, as far as it is known: between vertices only
+};
+
+/// The sample at a point in elements of a size.
+/// Called from any thread; the same for the same arguments.
+using SamplePoint =
+    std::function<PointSample(const Receiver& receiver, double element_size, std::uint32_t seed)>;
+/// Whether a point is neither covered nor nearly so, under an edge.
+using IsOpenPoint =
+    std::function<bool(const Receiver& receiver, double element_size, std::uint32_t seed)>;
+struct FieldSampler {
+  SamplePoint at_vertices, between;
+  IsOpenPoint is_open;
+  SamplePoint quick =
+      {}; ///< between vertices, for less, with variance 0; none: nothing is quicker
+};
+
+struct RefinementSettings {
+  double error = 0.02;  ///< X
+  int root_points = 15; ///< between the vertices, besides the centre: in root cells and on outlines
+  int points = 4;       ///< in what is divided from them
+  int most_levels = 6;
+  std::size_t max_elements = 1'000'000;
+};
+
+struct SampledField {
+  ElementMesh mesh;
+  std::vector<glm::vec3> total, mirrored; ///< by ElementVertexId, W/m^2
+  double error = 0.0;                     ///< the root of sum eta^2 / A, as far as points tell
+  double noise = 0.0;                     ///< sigma / H, the root of its mean square
+};
+
+/// `weight` is w by CellId of the roots of light.mesh, whose elements are looked at first.
+/// The settings' error may not be reached: refinement ends at the limits of levels and elements,
+/// and where elements are hardly wider than the scene's tolerance (mesh_division.h).
+SampledField refine_field(const LightScene& light, const FieldSampler& sampler,
+                          std::span<const double> weight, const MirrorOutlines& outlines,
+                          const RefinementSettings& settings);
+
+} // namespace meninas

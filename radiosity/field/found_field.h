@@ -1,0 +1,106 @@
+// A field while it is found: values of vertices one by one, and what is known of each.
+//
+// Light is gathered at vertices (vertex_light.h):
+// that from the source and the rest together, or the rest only where it is asked for.
+// Once all that are to have a value have one, the field is settled:
+// what stands on a surface takes what is gathered beside it (contact_vertices.h,
+// gap_vertices.h), vertices that hang take from their ends,
+// and those that are left from their neighbours (vertex_fill.h).
+#pragma once
+
+#include "radiosity/field/interpolation.h"
+#include "radiosity/light/kept_rays.h"
+#include "radiosity/light/point_gathering.h"
+#include "radiosity/field/vertex_places.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+namespace meninas {
+
+/// What a vertex has; `lit`: light from the source alone;
+/// `low`: all light, under a low cover that goes on all around (vertex_light.h).
+enum class VertexState : std::uint8_t { unknown, covered, averaged, lit, low, gathered };
+
+inline bool has_value(VertexState state) {
+  return state == VertexState::averaged || state == VertexState::low ||
+         state == VertexState::gathered;
+}
+
+/// How a vertex sees the images of emitters: each wholly or not at all, as few samples tell,
+/// or as many do, or one in part (penumbra_vertices.h).
+enum class SourceSeen : std::uint8_t { alike, surely_alike, in_part };
+
+/// A mesh with the values of vertices as they were found; hanging vertices may be unknown.
+struct FoundField {
+  ElementMesh mesh;
+  DiffuseField field;
+  std::vector<VertexState> states; ///< by ElementVertexId
+  std::vector<SourceSeen> seen;    ///< likewise, of those that have light from the source
+  std::vector<Receiver> receivers; ///< where they gather (vertex_places.h)
+  VertexElements around;
+  std::vector<glm::vec3> punctual; ///< what punctual lights send; empty: not asked for
+};
+
+using PointWorkspaces = tbb::enumerable_thread_specific<PointWorkspace>;
+
+/// How vertices gather.
+struct VertexGathering {
+  const FormFactorSettings& form_factors;
+  const DirectSettings& direct;
+  const InterpolationSettings& interpolation;
+};
+
+/// Of the rays that are asked for one `part`th, of 128 at least where there are so many,
+/// so many `times`.
+struct RayShare {
+  int part = 1, times = 1;
+};
+
+/// From elements of that reflected radiosity, with that share of the rays. `spared`:
+/// bright clusters that add so little to the noise of these are left to them (bright_clusters.h).
+/// Where clusters lie in many planes their light takes longer than 128 rays.
+/// `before`: rays of as many as that share may have been traced before (kept_rays.h).
+PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
+                              const VertexGathering& how, RayShare share = {}, double spared = 0.0,
+                              std::optional<RayShare> before = {});
+
+/// What vertices gather from.
+struct VertexSource {
+  const std::vector<Rgb>& irradiance; ///< by ElementId: tells which elements are lit
+  const PointGathering& gathering;
+  PointWorkspaces& workspaces;
+  KeptRays* kept = nullptr; ///< of gather_at_lit()
+  bool keeps_more = false;
+};
+
+FoundField unknown_field(ElementMesh mesh);
+/// Of the scene's mesh. Vertices of these facets (facets.h) are `averaged`, their values to come.
+FoundField unknown_field(const ElementMesh& mesh, const VertexElements& facets);
+
+/// Of a vertex's samples. `level` tells apart vertices whose numbers are the same.
+std::uint32_t vertex_seed(const VertexSource& source, std::uint32_t vertex, std::uint32_t level);
+
+/// Gathers at the vertices that are unknown and do not hang.
+void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundField& found);
+
+/// Light from the source alone at those vertices. Of dark ones beside bright ones it tells
+/// which are covered: that they get no light but what neighbours have besides would show.
+/// `level` as above.
+void light_vertices(const VertexSource& source, std::uint32_t level, FoundField& found);
+
+/// Adds the rest at those that are lit and marked, by ElementVertexId.
+/// Takes rays that the source has kept of them, and keeps those of others if it keeps more.
+void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> marked,
+                   FoundField& found);
+
+/// By ElementVertexId: 1 where there is a value.
+std::vector<std::uint8_t> with_values(const FoundField& found);
+
+/// The field with values at all vertices.
+DiffuseField settled(const VertexSource& source, const FoundField& found);
+
+/// Values by ElementVertexId for those that only gather from them:
+/// what has none, beside contacts too, is as its neighbours are.
+std::vector<glm::vec3> filled(const FoundField& found, std::vector<glm::vec3> values);
+
+} // namespace meninas

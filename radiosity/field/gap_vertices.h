@@ -1,0 +1,37 @@
+// Values for the ground of gaps: elements on all of whose corners something stands, but which are
+// open in between, as the floor is between two boxes closer together than its elements are wide.
+//
+// Of sixteen points of such an element those are open whose ray along the normal comes to light:
+// a few of them gather, first those under no low cover, and the corners take
+// the means of their elements. Under what stands there nothing is seen of that,
+// and contact_vertices.h goes before: its edges have an open end.
+#pragma once
+
+#include "radiosity/field/interpolation.h"
+#include "radiosity/field/vertex_light.h"
+
+#include <optional>
+#include <span>
+
+namespace meninas {
+
+/// What arrives in the mean at the open ones of a few points of an element;
+/// none where all are covered.
+struct GapLight {
+  ArrivingLight irradiance, indirect;
+};
+std::optional<GapLight> light_in_gap(const PointGathering& gathering,
+                                     const std::vector<Rgb>& irradiance, const ElementMesh& mesh,
+                                     ElementId element, PointWorkspace& work);
+
+/// The elements without a valid corner; `valid` by ElementVertexId.
+std::vector<ElementId> covered_elements(const ElementMesh& mesh,
+                                        std::span<const std::uint8_t> valid);
+
+/// Their corners take the means of what is there, and are valid then.
+/// `lights` by place in `elements`.
+void take_from_gaps(const ElementMesh& mesh, std::span<const ElementId> elements,
+                    std::span<const std::optional<GapLight>> lights,
+                    std::vector<std::uint8_t>& valid, DiffuseField& field);
+
+} // namespace meninas

@@ -1,0 +1,27 @@
+// The field gathered at the vertices of the mesh that was solved,
+// with finer elements where it bends.
+//
+//   H(x) = D(x) + sum_w tau_w sum_j F^w_xj B_j      at every vertex x
+//
+// light from the source in closed form, the rest by rays (point_gathering.h).
+// Facets of curved surfaces take means instead (facets.h),
+// vertices on which something stands what is gathered beside it (contact_vertices.h).
+// Where the indirect part bends by more than the settings allow (bends.h),
+// elements are divided and light is gathered at what vertices they get, up to three times:
+// the foot of a lit wall takes a few small elements instead of small ones everywhere.
+#pragma once
+
+#include "radiosity/field/interpolation.h"
+
+namespace meninas {
+
+/// As interpolate(). The result has a mesh of its own where any element was divided.
+/// With `receivers`, whose vertices are taken, indirect light is gathered at the corners of nodes
+/// (hierarchical/node_field.h).
+InterpolatedField gathered_field(const LightScene& light, const ElementLight& elements,
+                                 const FormFactorSettings& form_factors,
+                                 const DirectSettings& direct,
+                                 const InterpolationSettings& settings,
+                                 ReceiverNodes* receivers);
+
+} // namespace meninas

@@ -1,0 +1,164 @@
+#include "radiosity/field/vertex_light.h"
+
+#include "scenes/rays/careful_rays.h"
+#include "scenes/rays/frame_geometry.h"
+#include "scenes/sampling.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace meninas {
+
+/// Of sixteen directions over a point, how many are blocked within a fraction of an element.
+static std::size_t blocked_nearby(const LightScene& light, const Receiver& receiver,
+                                  double element_size) {
+  constexpr double reach = 0.35;
+  const TangentFrame frame = frame_along(receiver.normal, receiver.tangent);
+  const RayFrame& ray_frame = light.rays.frame();
+  const glm::vec3 origin(to_frame(ray_frame, receiver.position));
+  RayPacket packet;
+  packet.count = packet_size;
+  for (std::uint32_t k = 0; k < packet_size; ++k) {
+    const auto sample = sobol4(k, 0xc0fe);
+    const glm::vec3 local = cosine_hemisphere(sample[0], sample[1]);
+    const glm::vec3 direction = double{local.x} * frame.tangent +
+                                double{local.y} * frame.bitangent +
+                                double{local.z} * receiver.normal;
+    set_ray(packet, k, origin, direction, index(receiver.plane_class),
+            static_cast<float>(reach * element_size * ray_frame.scale));
+    packet.arriving[k] = index(none<PlaneId>);
+  }
+  return static_cast<std::size_t>(std::popcount(occluded(light.rays, packet, Coherence::coherent)));
+}
+
+bool is_under_something(const LightScene& light, const Receiver& receiver, double element_size) {
+  return blocked_nearby(light, receiver, element_size) >= packet_size - 1;
+}
+
+bool is_nearly_under_something(const LightScene& light, const Receiver& receiver,
+                               double element_size) {
+  // A wall beside the point blocks half of the directions, an overhang more.
+  constexpr std::size_t most_blocked = packet_size / 2 + 2;
+  return blocked_nearby(light, receiver, element_size) > most_blocked;
+}
+
+bool is_at_foot(const LightScene& light, const Receiver& receiver) {
+  constexpr double steep = 0.7; // sine of the wall's slope: facets of a curved surface are less
+  const Point3 origin = to_frame(light.rays.frame(), receiver.position);
+  const Contacts contacts = contacts_of(light.rays, glm::vec3(origin), index(receiver.plane_class));
+  return std::ranges::any_of(contacts.others, [&](const ContactTriangle& wall) {
+    const Direction& across = light.rays.geometry().plane_normals[index(wall.plane)];
+    if (glm::length(glm::cross(across, receiver.normal)) <= steep)
+      return false;
+    // It stands on this side of the surface, not below it.
+    return std::ranges::any_of(wall.corners, [&](const Point3& corner) {
+      const Vec3 to = corner - origin;
+      return glm::dot(to, receiver.normal) > 0.01 * glm::length(to);
+    });
+  });
+}
+
+/// Whether nearly all that a point sees is black.
+static bool sees_black(const GatheredRays& gathered) {
+  constexpr double most_black = 0.9;
+  return gathered.black > most_black * gathered.rays;
+}
+
+/// What is over a point, by what it sees.
+static Cover cover_of(bool is_shut, const LightScene& light, const Receiver& receiver,
+                      double element_size) {
+  if (is_shut)
+    return Cover::shut;
+  return is_under_something(light, receiver, element_size) ? Cover::low : Cover::open;
+}
+
+/// Whether nearly all that a point sees is black, as few rays tell:
+/// it is inside something that stands on its surface.
+static bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
+                       const Receiver& receiver, std::uint32_t seed, PointWorkspace& work) {
+  constexpr int few_rays = 32;
+  static const DirectionNet net = make_direction_net(few_rays);
+  gather_rays(light, net, area_of(receiver), seed, form_factors, work.gather);
+  work.rays += work.gather.result.traced;
+  return sees_black(work.gather.result);
+}
+
+Cover cover_in_the_dark(const LightScene& light, const FormFactorSettings& form_factors,
+                        const Receiver& receiver, double element_size, std::uint32_t seed,
+                        PointWorkspace& work) {
+  return cover_of(is_shut_in(light, form_factors, receiver, seed, work), light, receiver,
+                  element_size);
+}
+
+/// Whether what was gathered is that of a point inside something,
+/// or behind it, where no light comes.
+static bool is_enclosed(const GatheredRays& gathered, const std::vector<Rgb>& irradiance) {
+  const auto lit = [&](const RayLanding& landing) {
+    return irradiance[landing.element] != Rgb(0.0);
+  };
+  return sees_black(gathered) ||
+         (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
+}
+
+/// Whether any light from the source arrives.
+static bool is_lit(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
+                   PointWorkspace& work) {
+  return light_from_source(gathering, receiver, seed, work).total != Rgb(0.0);
+}
+
+bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+             const Receiver& receiver, double element_size, std::uint32_t seed,
+             PointWorkspace& work) {
+  constexpr int few_rays = 16;
+  static const DirectionNet net = make_direction_net(few_rays);
+  if (is_nearly_under_something(gathering.light, receiver, element_size))
+    return false;
+  gather_rays(gathering.light, net, area_of(receiver), seed, gathering.form_factors, work.gather);
+  work.rays += work.gather.result.traced;
+  return !is_enclosed(work.gather.result, irradiance) || is_lit(gathering, receiver, seed, work);
+}
+
+VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                     const Receiver& receiver, double element_size, std::uint32_t seed,
+                     PointWorkspace& work) {
+  const PointLight arrived = light_at(gathering, receiver, seed, work);
+  const bool shut =
+      is_enclosed(work.gather.result, irradiance) && arrived.from_source.total == Rgb(0.0);
+  ArrivingLight all = arrived.all();
+  all.in_part = arrived.from_source.in_part;
+  return {all, arrived.indirect(), cover_of(shut, gathering.light, receiver, element_size)};
+}
+
+VertexValue indirect_value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
+                              const Receiver& receiver, double element_size, std::uint32_t seed,
+                              PointWorkspace& work, VertexRays* kept) {
+  const bool are_there = kept != nullptr && kept->rays.rays > 0.0;
+  ArrivingLight indirect =
+      indirect_light_at(gathering, receiver, seed, work, are_there ? &kept->rays : nullptr)
+          .indirect();
+  indirect.in_part = false; // of bright clusters
+  if (kept != nullptr && !are_there)
+    kept->rays = work.gather.result;
+  if (is_enclosed(work.gather.result, irradiance) && !is_lit(gathering, receiver, seed, work))
+    return {indirect, indirect, Cover::shut};
+  const bool low = kept != nullptr && kept->is_under_something
+                       ? *kept->is_under_something
+                       : is_under_something(gathering.light, receiver, element_size);
+  if (kept != nullptr)
+    kept->is_under_something = low;
+  return {indirect, indirect, low ? Cover::low : Cover::open};
+}
+
+ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,
+                                std::uint32_t seed, PointWorkspace& work) {
+  return direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);
+}
+
+ArrivingLight light_beside_penumbra(const PointGathering& gathering, const Receiver& receiver,
+                                    std::uint32_t seed, PointWorkspace& work) {
+  DirectSettings settings = gathering.direct;
+  settings.penumbra_samples = PenumbraSamples::everywhere;
+  return direct_irradiance(gathering.light, receiver, settings, hash(seed, 1), work.direct);
+}
+
+} // namespace meninas

@@ -1,0 +1,289 @@
+#include "radiosity/light/direct_irradiance.h"
+
+#include "radiosity/light/lamp_faces.h"
+#include "radiosity/light/light_samples.h"
+#include "form_factors/point_form_factor.h"
+#include "radiosity/light/shadow_legs.h"
+#include "scenes/sampling.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace meninas {
+
+double form_factor_share(const Receiver& receiver, const Direction& normal, const Point3& y) {
+  const Vec3 to = y - receiver.position;
+  const double distance2 = glm::dot(to, to);
+  const double cosines =
+      std::max(0.0, glm::dot(to, receiver.normal)) * std::max(0.0, -glm::dot(to, normal));
+  return distance2 > 0.0 ? cosines / (distance2 * distance2) : 0.0;
+}
+
+namespace {
+
+bool agree(const VisibleShare& share) {
+  return share.arrived == 0 || share.arrived == share.samples;
+}
+
+/// The samples of one image from a point.
+struct ImageSampling {
+  std::uint32_t seed;
+  PolygonFan fan;
+
+  Point3 point(int k) const {
+    return point_on(fan, Vec2(sobol2(static_cast<std::uint32_t>(k), seed, SobolPair::first)));
+  }
+};
+
+/// Adds the samples of one image up to number `end` to its visible share.
+/// Weights are needed where some arrive and some do not, or panes take their part of each;
+/// those of samples before, which all arrived or all did not, are found when one is met that differs.
+void sample_visibility(const LightScene& light, const VirtualLight& image, const Receiver& receiver,
+                       int end, std::uint32_t seed_of_all, DirectWorkspace& work,
+                       VisibleShare& share) {
+  const Emitter& emitter = light.emitters[image.emitter];
+  const ImageSampling sampling{hash(seed_of_all, image.emitter, index(image.world)),
+                               PolygonFan(image.polygon, area_vector(image.polygon.span()))};
+  for (int first = share.samples; first < end; first += 16) {
+    const int count = std::min(16, end - first);
+    std::array<Point3, 16> points;
+    for (int k = 0; k < count; ++k) {
+      const auto lane = static_cast<std::size_t>(k);
+      points[lane] = sampling.point(first + k);
+      fold(light, image.world, receiver.position, receiver.plane_class, points[lane],
+           emitter.plane_class, work.folded[lane]);
+    }
+    const std::uint32_t dark =
+        blocked(light, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
+    const bool were_seen = share.arrived > 0;
+    share.samples += count;
+    share.arrived += count - std::popcount(dark);
+    if (agree(share) && light.by_angle.empty())
+      continue;
+    for (; share.weighed < first; ++share.weighed) {
+      const double weight = form_factor_share(receiver, image, sampling.point(share.weighed));
+      share.all += weight;
+      if (were_seen)
+        share.seen += weight;
+    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+      const double weight = form_factor_share(receiver, image, points[k]);
+      share.all += weight;
+      if (((dark >> k) & 1U) == 0U)
+        share.seen +=
+            weight * left_between(light, end_of(receiver), end_of(emitter), work.folded[k]);
+    }
+    share.weighed = share.samples;
+  }
+}
+
+Rgb visible_fraction(const LightScene& light, const VisibleShare& share) {
+  if (agree(share) && light.by_angle.empty())
+    return Rgb(share.arrived > 0 ? 1.0 : 0.0);
+  return share.all > 0.0 ? share.seen / share.all : Rgb(0.0);
+}
+
+/// What an image sends, as it is seen.
+Rgb source_of(const LightScene& light, const VirtualLight& image) {
+  return light.worlds.worlds[index(image.world)].throughput *
+         light.emitters[image.emitter].radiosity;
+}
+
+/// What every image would bring without blockers; those that bring nothing are left out.
+void order_by_light(const LightScene& light, const Receiver& receiver, DirectWorkspace& work) {
+  work.form_factors.clear();
+  work.brought.clear();
+  work.order.clear();
+  for (std::uint32_t k = 0; k < work.lights.size(); ++k) {
+    const VirtualLight& image = work.lights[k];
+    work.form_factors.push_back(
+        image.weight * point_form_factor(receiver.position, receiver.normal, image.polygon.span()));
+    work.brought.push_back(work.form_factors.back() * largest(source_of(light, image)));
+    if (work.brought.back() > 0.0)
+      work.order.push_back(k);
+  }
+  std::stable_sort(work.order.begin(), work.order.end(),
+                   [&](auto a, auto b) { return work.brought[a] > work.brought[b]; });
+}
+
+/// How much is seen of each of the dim images, by its one sample:
+/// sixteen rays together that have as many legs.
+void sample_dim_images(const LightScene& light, const Receiver& receiver,
+                       std::span<std::uint32_t> dim, std::uint32_t seed, DirectWorkspace& work) {
+  const auto depth_of = [&](std::uint32_t k) {
+    return light.worlds.worlds[index(work.lights[k].world)].depth;
+  };
+  work.visible.assign(work.lights.size(), Rgb(0.0));
+  std::ranges::stable_sort(dim, {}, depth_of);
+  for (std::size_t first = 0; first < dim.size();) {
+    std::array<double, 16> weight{};
+    std::uint32_t count = 0;
+    for (; count < 16 && first + count < dim.size() &&
+           depth_of(dim[first + count]) == depth_of(dim[first]);
+         ++count) {
+      const VirtualLight& image = work.lights[dim[first + count]];
+      const Vec2 sample(sobol2(0, hash(seed, image.emitter, index(image.world)), SobolPair::first));
+      const Point3 y = point_on(image.polygon, area_vector(image.polygon.span()), sample);
+      if (!light.by_angle.empty())
+        weight[count] = form_factor_share(receiver, image, y);
+      fold(light, image.world, receiver.position, receiver.plane_class, y,
+           light.emitters[image.emitter].plane_class, work.folded[count]);
+    }
+    const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t own = dim[first + k];
+      if (((dark >> k) & 1U) == 0U && (light.by_angle.empty() || weight[k] > 0.0))
+        work.visible[own] =
+            left_between(light, end_of(receiver), end_of(light.emitters[work.lights[own].emitter]),
+                         work.folded[k]);
+    }
+    first += count;
+  }
+}
+
+} // namespace
+
+ArrivingLight images_irradiance(const LightScene& light, const Receiver& receiver,
+                                const DirectSettings& settings, std::uint32_t seed,
+                                DirectWorkspace& work) {
+  order_by_light(light, receiver, work);
+
+  // An image is worth shadow rays by its share of what has arrived so far:
+  // a bright one that is hidden takes none from the others.
+  ArrivingLight sum;
+  const bool everywhere = settings.penumbra_samples == PenumbraSamples::everywhere;
+  const auto add = [&](std::uint32_t k, const Rgb& visible) {
+    const VirtualLight& image = work.lights[k];
+    const Rgb arrived = visible * work.form_factors[k] *
+                        light.worlds.worlds[index(image.world)].throughput *
+                        light.emitters[image.emitter].radiosity;
+    sum.total += arrived;
+    if (image.world != real_world)
+      sum.mirrored += arrived;
+  };
+  // One that stands for others of its group has them to share its shadow rays with: it takes one.
+  work.sampled.clear();
+  work.dim.clear();
+  for (const std::uint32_t k : work.order) {
+    const VirtualLight& image = work.lights[k];
+    const double worth = work.brought[k] / std::max(work.brought[k], largest(sum.total));
+    const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
+    if (samples == 1 || image.weight > 1.0) {
+      work.dim.push_back(k);
+      continue;
+    }
+    SampledImage sampled{k, static_cast<int>(std::lround(settings.penumbra_rays * worth)), {}};
+    sample_visibility(light, image, receiver, samples, seed, work, sampled.share);
+    if (everywhere || !agree(sampled.share))
+      sample_visibility(light, image, receiver, sampled.penumbra_samples, seed, work,
+                        sampled.share);
+    add(k, visible_fraction(light, sampled.share));
+    sum.in_part = sum.in_part || !agree(sampled.share);
+    work.sampled.push_back(sampled);
+  }
+
+  // Beside an edge the other images may have edges too, which few samples have missed.
+  if (settings.penumbra_samples == PenumbraSamples::together && sum.in_part) {
+    sum = {.in_part = true};
+    for (SampledImage& sampled : work.sampled) {
+      sample_visibility(light, work.lights[sampled.light], receiver, sampled.penumbra_samples, seed,
+                        work, sampled.share);
+      add(sampled.light, visible_fraction(light, sampled.share));
+    }
+  }
+
+  sample_dim_images(light, receiver, work.dim, seed, work);
+  for (const std::uint32_t k : work.order)
+    if (work.visible[k] != Rgb(0.0))
+      add(k, work.visible[k]);
+  return sum;
+}
+
+static bool stand_for_others(const DirectWorkspace& work) {
+  return std::ranges::any_of(work.lights,
+                             [](const VirtualLight& image) { return image.weight > 1.0; });
+}
+
+/// Whether of the images that stand for others some are hidden and some are not.
+static bool groups_in_part(const DirectWorkspace& work) {
+  bool hidden = false, seen = false;
+  for (const std::uint32_t k : work.dim)
+    if (work.lights[k].weight > 1.0)
+      (work.visible[k] == Rgb(0.0) ? hidden : seen) = true;
+  return hidden && seen;
+}
+
+/// Whether the point is on one of the faces of a lamp of thousands.
+static bool is_on_lamp(const LightScene& light, const Receiver& receiver) {
+  return has_lamp_of_many_faces(light) &&
+         std::ranges::any_of(light.emitters, [&](const Emitter& emitter) {
+           const Point3& corner = emitter.polygon.vertices[0];
+           const Vec3 to = receiver.position - corner;
+           return emitter.plane_class == receiver.plane_class &&
+                  glm::dot(to, to) <= 2.0 * emitter.area;
+         });
+}
+
+/// What the images of emitters bring, or a choice of them: one four times as large in the penumbra
+/// of lamps of many faces, which few images stand for. What such a face receives from the others is
+/// little beside what it emits: a few images do.
+static ArrivingLight chosen_irradiance(const LightScene& light, const Receiver& receiver,
+                                       const DirectSettings& settings, std::uint32_t seed,
+                                       DirectWorkspace& work) {
+  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const auto images = images_to_choose(light, static_cast<std::size_t>(settings.images));
+  const auto choose = [&](std::size_t most) {
+    const LightChoice choice{most, 0x1p-32 * hash(seed, 0xc401ce, 0)};
+    chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
+                  work.lights);
+    return images_irradiance(light, receiver, settings, seed, work);
+  };
+  if (is_on_lamp(light, receiver))
+    return choose(std::max<std::size_t>(images / 16, 4));
+  ArrivingLight sum = choose(images);
+  if (!stand_for_others(work))
+    return sum;
+  const bool in_part = groups_in_part(work);
+  if (in_part || settings.penumbra_samples == PenumbraSamples::everywhere)
+    sum = choose(4 * images);
+  sum.in_part = sum.in_part || in_part;
+  return sum;
+}
+
+ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
+                                const DirectSettings& settings, std::uint32_t seed,
+                                DirectWorkspace& work) {
+  ArrivingLight sum = chosen_irradiance(light, receiver, settings, seed, work);
+  if (has_solid_light(light)) {
+    const SolidLight refracted =
+        solid_light(light,
+                    {{&receiver.position, 1},
+                     receiver.normal,
+                     receiver.plane_class,
+                     receiver.tangent,
+                     receiver.coat},
+                    settings.solid_rays, seed, work.shadow_rays, work.solids);
+    sum = sum + ArrivingLight{refracted.total, refracted.mirrored, Rgb(0.0), false};
+  }
+  if (light.punctual.empty())
+    return sum;
+  std::vector<PunctualArrival> arrivals;
+  punctual_arrivals(light, receiver, work, arrivals);
+  for (const PunctualArrival& arrival : arrivals) {
+    sum.total += arrival.irradiance;
+    sum.punctual += arrival.irradiance;
+    if (arrival.world != real_world)
+      sum.mirrored += arrival.irradiance;
+  }
+  return sum;
+}
+
+Rgb unblocked_irradiance(const LightScene& light, const DirectWorkspace& work) {
+  Rgb sum(0.0);
+  for (std::size_t k = 0; k < work.lights.size(); ++k)
+    sum += work.form_factors[k] * source_of(light, work.lights[k]);
+  return sum;
+}
+
+} // namespace meninas

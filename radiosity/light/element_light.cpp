@@ -1,0 +1,195 @@
+#include "radiosity/light/element_light.h"
+
+#include "radiosity/light/lamp_faces.h"
+#include "radiosity/light/shadow_legs.h"
+#include "radiosity/light/spot_parts.h"
+#include "scenes/sampling.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+
+namespace meninas {
+
+namespace {
+
+/// An element as it receives light.
+struct Receiving {
+  const LightScene& light;
+  ElementId element;
+  ReceiverArea area;
+  CoveredCells covered;
+  std::uint32_t seed;
+  const DirectSettings& settings;
+
+  Receiver at(const Point3& x) const {
+    return {x, area.normal, area.plane_class, Vec3(0.0), area.coat};
+  }
+};
+
+/// What all lights send.
+ArrivingLight shared_mean(const Receiving& r, SharedLightWorkspace& work) {
+  std::uint32_t next = 0;
+  const auto next_point = [&]() -> NumberedPoint {
+    const NumberedPlace place = exposed_place(r.light, r.area, r.covered, r.seed, next);
+    next = place.number + 1;
+    return {r.at(point_in(r.area, place.st)), place.number, r.element};
+  };
+  return shared_irradiance(r.light, next_point,
+                           {.points = r.settings.points,
+                            .most_points = r.settings.most_points,
+                            .images = r.settings.images_in_element,
+                            .rays = r.settings.rays_in_element,
+                            .solid_rays = r.settings.solid_rays_in_element},
+                           r.seed, work);
+}
+
+/// What one punctual light sends to a point in the worlds that are wanted.
+Rgb arriving_from(const LightScene& light, std::uint32_t number, const Receiver& receiver,
+                  const std::function<bool(WorldId)>& wanted, DirectWorkspace& work) {
+  constexpr double beyond = 8.0; // in the frame the scene is 2 wide
+  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  seen_worlds(light.worlds, observer, work.seen);
+  punctual_images(light.worlds, std::span(light.punctual).subspan(number, 1), work.seen, observer,
+                  beyond / light.rays.frame().scale, work.images);
+  Rgb sum(0.0);
+  for (const PunctualImage& image : work.images) {
+    if (!wanted(image.world))
+      continue;
+    fold(light, image.world, receiver.position, receiver.plane_class, image.position, none<PlaneId>,
+         work.folded[0]);
+    // No ray meets what has no extent: solids let it pass straight.
+    if (blocked(light, work.folded, 1, work.shadow_rays, nullptr, Solids::sheets) == 0)
+      sum += light.worlds.worlds[index(image.world)].throughput * image.irradiance *
+             left_between(light, end_of(receiver), {}, work.folded[0], Solids::sheets);
+  }
+  return sum;
+}
+
+/// The area on which nothing stands.
+double exposed_area(const Receiving& r) {
+  constexpr std::uint32_t places = 32;
+  const double whole = r.light.mesh.area[index(r.element)];
+  if (r.covered == 0)
+    return whole;
+  std::uint32_t next = 0;
+  for (std::uint32_t k = 0; k < places; ++k)
+    next = exposed_place(r.light, r.area, r.covered, r.seed, next).number + 1;
+  return whole * places / next;
+}
+
+/// The light of a spot over its part, W: where something stands its shadow rays end.
+Rgb power_on(const Receiving& r, const SpotPart& part, DirectWorkspace& work) {
+  ReceiverArea lit = r.area;
+  lit.region = &part.lit;
+  constexpr int points = 256;
+  const std::uint32_t seed = hash(r.seed, part.light, index(part.world));
+  Rgb sum(0.0);
+  for (int k = 0; k < points; ++k) {
+    const Vec2 st(sobol2(static_cast<std::uint32_t>(k), seed, SobolPair::first));
+    sum += arriving_from(
+        r.light, part.light, r.at(point_in(lit, st)),
+        [&](WorldId world) { return world == part.world; }, work);
+  }
+  return part.lit.area_up_to.back() / points * sum;
+}
+
+/// The mean of punctual lights and their images but for those of `parts`.
+Rgb mean_of_others(const Receiving& r, std::span<const SpotPart> parts, DirectWorkspace& work) {
+  constexpr int points = 64;
+  Rgb sum(0.0);
+  std::uint32_t next = 0;
+  for (int k = 0; k < points; ++k) {
+    const NumberedPlace place = exposed_place(r.light, r.area, r.covered, r.seed, next);
+    next = place.number + 1;
+    for (std::uint32_t number = 0; number < r.light.punctual.size(); ++number) {
+      const auto wanted = [&](WorldId world) {
+        return std::ranges::none_of(parts, [&](const SpotPart& part) {
+          return part.light == number && part.world == world;
+        });
+      };
+      sum += arriving_from(r.light, number, r.at(point_in(r.area, place.st)), wanted, work);
+    }
+  }
+  return sum / static_cast<double>(points);
+}
+
+} // namespace
+
+MeanLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
+                            const DirectSettings& asked, SharedLightWorkspace& work) {
+  if (covered == wholly_covered)
+    return {};
+  DirectSettings settings = asked;
+  if (is_face_of_lamp(light, element)) {
+    settings.points = std::min(settings.points, 1);
+    settings.most_points = std::min(settings.most_points, 1);
+    settings.images_in_element = std::min(settings.images_in_element, 16);
+  }
+  const Receiving r{light,
+                    element,
+                    receiver_of(light, element),
+                    covered,
+                    hash(index(element), settings.seed, 0xd17ec7),
+                    settings};
+  const ArrivingLight shared = shared_mean(r, work);
+  auto parts = narrow_spots(light.mesh, light.worlds, light.punctual, element);
+  std::erase_if(parts, [](const SpotPart& part) { return part.is_whole(); });
+  if (parts.empty())
+    return {shared.total, shared.punctual};
+  Rgb power(0.0);
+  for (const SpotPart& part : parts)
+    power += power_on(r, part, work.point);
+  const Rgb punctual = power / exposed_area(r) + mean_of_others(r, parts, work.point);
+  return {glm::max(shared.total - shared.punctual, Rgb(0.0)) + punctual, punctual};
+}
+
+MeansOfAreas
+means_of_areas(std::size_t count,
+               const std::function<MeanLight(std::size_t, SharedLightWorkspace&)>& mean,
+               const Progress& progress) {
+  constexpr std::size_t chunk_size = 64;
+  const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
+  MeansOfAreas means;
+  means.light.resize(count);
+  tbb::enumerable_thread_specific<SharedLightWorkspace> workspaces;
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    SharedLightWorkspace& work = workspaces.local();
+    for (std::size_t k = c * chunk_size; k < std::min(count, (c + 1) * chunk_size); ++k)
+      means.light[k] = mean(k, work);
+    if (progress)
+      progress("direct light", static_cast<double>(++done) / static_cast<double>(chunks));
+  });
+  for (const auto& work : workspaces)
+    means.shadow_rays += work.point.shadow_rays;
+  return means;
+}
+
+DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
+                                   const DirectSettings& settings, const Progress& progress) {
+  const std::size_t size = element_count(light.mesh);
+  DirectIrradiance result;
+  result.irradiance.assign(size, Rgb(0.0));
+  if (light.emitters.empty() && light.punctual.empty())
+    return result;
+  result.punctual.resize(light.punctual.empty() ? 0 : size);
+  const MeansOfAreas means = means_of_areas(
+      size,
+      [&](std::size_t i, SharedLightWorkspace& work) {
+        return direct_irradiance(light, static_cast<ElementId>(i), covered.empty() ? 0 : covered[i],
+                                 settings, work);
+      },
+      progress);
+  for (std::size_t i = 0; i < size; ++i) {
+    result.irradiance[i] = means.light[i].total;
+    if (!result.punctual.empty())
+      result.punctual[i] = means.light[i].punctual;
+  }
+  result.shadow_rays = means.shadow_rays;
+  return result;
+}
+
+} // namespace meninas

@@ -1,0 +1,49 @@
+// Direct irradiance of elements:
+// the mean over an element of what emitters and their images send (direct_irradiance.h),
+//
+//   D_i = 1/A_i integral over element i of D(x)
+//
+// at the points of a low-discrepancy sequence over the element,
+// which share their shadow rays (shared_light.h).
+#pragma once
+
+#include "radiosity/transport/gather_rays.h"
+#include "radiosity/light/shared_light.h"
+
+namespace meninas {
+
+/// A mean over an element, and the part of it that punctual lights sent, W/m^2.
+struct MeanLight {
+  Rgb total{0.0}, punctual{0.0};
+};
+
+/// The mean over the exposed part of an element: points are doubled until it settles. Punctual lights
+/// where a narrow spot meets the element in part: 256 points of each such part (spot_parts.h).
+MeanLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
+                            const DirectSettings& settings, SharedLightWorkspace& workspace);
+
+/// `mean(k, workspace)` of so many areas, by all threads, and the shadow rays they took.
+struct MeansOfAreas {
+  std::vector<MeanLight> light;
+  std::uint64_t shadow_rays = 0;
+};
+MeansOfAreas
+means_of_areas(std::size_t count,
+               const std::function<MeanLight(std::size_t, SharedLightWorkspace&)>& mean,
+               const Progress& progress);
+
+struct DirectIrradiance {
+  std::vector<Rgb> irradiance; ///< by ElementId, the mean over the element
+  std::vector<Rgb>
+      punctual; ///< the part of it that punctual lights sent; empty where there are none
+  std::vector<std::uint8_t>
+      shared; ///< 1 where it is that of the corners (hierarchical/node_light.h); empty: nowhere
+  std::uint64_t shadow_rays = 0;
+};
+
+/// `covered` by ElementId (gather_rays.h):
+/// the mean is over the exposed part. Empty: all is exposed.
+DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
+                                   const DirectSettings& settings, const Progress& progress = {});
+
+} // namespace meninas

@@ -1,0 +1,33 @@
+// Light that no element has reflected yet: the source of eq. 1, S = rho (D + G).
+//
+//   D   from emitters and punctual lights, also by way of enumerated mirror worlds, in closed form (element_light.h)
+//   G   emission that the transport's rays have gathered, and the background: pi L for the share of an element's rays that escape
+//
+// The analytic method gathers all emission itself;
+// only punctual lights, which are no surfaces, are left to D then.
+#pragma once
+
+#include "radiosity/light/element_light.h"
+
+namespace meninas {
+
+struct FirstLight {
+  std::vector<Rgb> irradiance, source, reflectance; ///< D + G, S = rho (D + G), rho by ElementId
+  std::vector<Rgb> from_source;                     ///< D; empty where it is not set apart
+  std::vector<Rgb> entering; ///< the part of D + G that no surface emits; empty where there is none
+  std::uint64_t shadow_rays = 0;
+};
+
+/// D + G of D that has been found.
+FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
+                       const std::vector<RowClosure>& closure, const DirectIrradiance& direct,
+                       FormFactorMethod method);
+
+/// `gathered` is the gathered emission;
+/// `closure` and `covered` are those of the elements' own rays.
+FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
+                       const std::vector<RowClosure>& closure,
+                       std::span<const std::uint64_t> covered, FormFactorMethod method,
+                       const DirectSettings& settings, const Progress& progress);
+
+} // namespace meninas

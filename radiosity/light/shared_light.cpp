@@ -1,0 +1,364 @@
+#include "radiosity/light/shared_light.h"
+
+#include "radiosity/light/lamp_faces.h"
+#include "form_factors/point_form_factor.h"
+#include "radiosity/light/shadow_legs.h"
+#include "scenes/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace meninas {
+
+namespace {
+
+/// Of the points so far.
+struct PointSum {
+  ArrivingLight punctual;
+  int points = 0, punctual_points = 0;
+};
+
+std::uint32_t sum_of(SharedLightWorkspace& work, const LightScene& light, const VirtualLight& image,
+                     const SharedLightSettings& settings) {
+  const std::uint64_t key = (std::uint64_t{index(image.world)} << 32) | image.emitter;
+  const auto [found, is_new] =
+      work.image_of.try_emplace(key, static_cast<std::uint32_t>(work.images.size()));
+  if (is_new)
+    work.images.push_back({.source = light.worlds.worlds[index(image.world)].throughput *
+                                     light.emitters[image.emitter].radiosity,
+                           .world = image.world,
+                           .emitter = image.emitter,
+                           .from_a_point = static_cast<std::uint32_t>(settings.rays),
+                           .blockers = settings.learns ? &work.blockers_of[key] : nullptr});
+  return found->second;
+}
+
+/// What an image brings to the point without blockers, its brightest channel.
+double brought_by(const ImageSum& image, double form_factor) {
+  return form_factor * largest(image.source);
+}
+
+/// Of the images at a point the most that one of them brings,
+/// as far as it is not known to be hidden.
+double most_brought(const SharedLightWorkspace& work) {
+  double most = 0.0;
+  for (const ImageAtPoint& at : work.at_point) {
+    const ImageSum& image = work.images[at.image];
+    if (image.rays == 0 || image.seen > 0.0)
+      most = std::max(most, brought_by(image, at.form_factor));
+  }
+  return most;
+}
+
+std::span<const ConvexPolygon> parts_of(const ImageAtPoint& at, const VirtualLight& image,
+                                        const SharedLightWorkspace& work) {
+  if (at.whole)
+    return {&image.polygon, 1};
+  return std::span(work.parts).subspan(at.first, at.parts);
+}
+
+double form_factor_of(const Receiver& receiver, std::span<const ConvexPolygon> parts) {
+  double sum = 0.0;
+  for (const ConvexPolygon& part : parts)
+    sum += point_form_factor(receiver.position, receiver.normal, part.span());
+  return sum;
+}
+
+/// What the point sees of an image past known blockers.
+ImageAtPoint image_at(const LightScene& light, const Receiver& receiver, const VirtualLight& image,
+                      std::uint32_t sum, SharedLightWorkspace& work) {
+  ImageAtPoint at{.image = sum};
+  const ImageBlockers* blockers = work.images[sum].blockers;
+  if (blockers && !blockers->known.empty()) {
+    work.cutting.assign(1, image.polygon);
+    for (const KnownBlocker& blocker : blockers->known)
+      subtract(work.cutting, receiver.position, blocker, light.surfaces.tolerance);
+    at.whole = work.cutting.size() == 1 &&
+               std::ranges::equal(work.cutting.front().span(), image.polygon.span());
+    if (!at.whole) {
+      at.first = work.parts.size();
+      at.parts = work.cutting.size();
+      work.parts.insert(work.parts.end(), work.cutting.begin(), work.cutting.end());
+    }
+  }
+  at.form_factor = image.weight * form_factor_of(receiver, parts_of(at, image, work));
+  return at;
+}
+
+double area_of(std::span<const ConvexPolygon> parts) {
+  double sum = 0.0;
+  for (const ConvexPolygon& part : parts)
+    sum += glm::length(area_vector(part.span()));
+  return sum;
+}
+
+/// A point of polygons that share a plane, with density one over their area:
+/// of a part by its share of the area. `last` is the area vector of the last one.
+Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& last, Vec2 sample) {
+  double before = 0.0;
+  for (const ConvexPolygon& part : parts.first(parts.size() - 1)) {
+    const Vec3 own = area_vector(part.span());
+    const double share = glm::length(own) / area;
+    if (sample.x < before + share)
+      return point_on(part, own, Vec2((sample.x - before) / share, sample.y));
+    before += share;
+  }
+  const double within =
+      before < 1.0 ? std::clamp((sample.x - before) / (1.0 - before), 0.0, 1.0) : 0.5;
+  return point_on(parts.back(), last, Vec2(within, sample.y));
+}
+
+/// Sends the rays of one point towards what it sees of an image,
+/// as many as that is worth beside the brightest image.
+void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLight& image,
+              const ImageAtPoint& at, double worth, std::uint32_t seed,
+              SharedLightWorkspace& work) {
+  ImageSum& total = work.images[at.image];
+  const auto parts = parts_of(at, image, work);
+  // One that stands for others of its lamp has them to share its rays with.
+  const auto rays =
+      image.weight > 1.0
+          ? 1U
+          : std::max(1U, static_cast<std::uint32_t>(std::lround(total.from_a_point * worth)));
+  const Emitter& emitter = light.emitters[image.emitter];
+  const Vec3 last = area_vector(parts.back().span());
+  const double area = area_of(parts.first(parts.size() - 1)) + glm::length(last);
+  const auto image_seed = hash(seed, image.emitter, index(image.world));
+  const int mirrors = light.worlds.worlds[index(image.world)].depth;
+  for (std::uint32_t k = 0; k < rays; ++k) {
+    const Vec2 sample(sobol2(total.rays++, image_seed, SobolPair::second));
+    const Point3 y = point_on(parts, area, last, sample);
+    const double weight = image.weight * area / rays * form_factor_share(receiver, image, y);
+    work.waiting.push_back(
+        {image.world, mirrors, at.image, emitter.plane_class, weight, receiver.position, y});
+  }
+}
+
+/// The images that a point may see, or a choice of them.
+void find_lights(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
+                 std::size_t most, SharedLightWorkspace& work) {
+  work.point.lights.clear();
+  if (light.emitters.empty())
+    return;
+  const Receiver& receiver = point.receiver;
+  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const bool all = light.emitters.size() * light.worlds.worlds.size() <= most;
+  const RegionImages* region = all && point.element != none<ElementId>
+                                   ? images_of_element(light, point.element, work.elements)
+                                   : nullptr;
+  if (region) {
+    lights_in_region(light.worlds, light.emitters, *region, observer, work.point.choice.seen,
+                     work.point.lights);
+    return;
+  }
+  // Where images are chosen, the steps through them begin elsewhere at every point,
+  // evenly by the golden section.
+  constexpr std::uint32_t golden_section = 0x9e3779b9;
+  const LightChoice choice{most, 0x1p-32 * (hash(seed, 0xc401ce) + point.number * golden_section)};
+  chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice,
+                work.point.choice, work.point.lights);
+}
+
+/// Adds what every image brings to a point past known blockers,
+/// and the shadow rays that will tell how much of it arrives.
+void add_point(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
+               const SharedLightSettings& settings, SharedLightWorkspace& work) {
+  const Receiver& receiver = point.receiver;
+  find_lights(light, point, seed,
+              images_to_choose(light, static_cast<std::size_t>(settings.images)), work);
+  work.at_point.clear();
+  work.parts.clear();
+  for (const VirtualLight& image : work.point.lights)
+    work.at_point.push_back(
+        image_at(light, receiver, image, sum_of(work, light, image, settings), work));
+  const double most = settings.brightest_most ? most_brought(work) : 0.0;
+
+  for (std::size_t i = 0; i < work.at_point.size(); ++i) {
+    const ImageAtPoint& at = work.at_point[i];
+    if (at.form_factor <= 0.0)
+      continue;
+    ImageSum& total = work.images[at.image];
+    total.form_factor += at.form_factor;
+    const double worth = most > 0.0 ? std::min(brought_by(total, at.form_factor) / most, 1.0) : 1.0;
+    add_rays(light, receiver, work.point.lights[i], at, worth, seed, work);
+  }
+}
+
+/// Keeps what has blocked a ray to the image.
+void meet_blocker(const LightScene& light, const LegBlocker& by, ImageSum& image) {
+  ImageBlockers& blockers = *image.blockers;
+  if (by.triangle == none<TriangleId> || blockers.too_many())
+    return;
+  const PatchId patch = light.surfaces.patch_of_triangle[index(by.triangle)];
+  const auto is_it = [&](const KnownBlocker& blocker) {
+    return blocker.patch == patch && blocker.leg == by.leg;
+  };
+  if (std::ranges::any_of(blockers.known, is_it) || std::ranges::any_of(blockers.met, is_it))
+    return;
+  if (auto blocker = blocker_of(light, image.world, light.emitters[image.emitter], by))
+    blockers.met.push_back(*std::move(blocker));
+}
+
+/// Later means know what rays have met.
+/// Where that is ever more, as it is of finely divided things, rays alone are better.
+void learn(std::vector<ImageSum>& images) {
+  constexpr std::size_t most_known = 8;
+  for (ImageSum& image : images) {
+    if (!image.blockers || image.blockers->met.empty())
+      continue;
+    auto& [known, met, learned] = *image.blockers;
+    learned += met.size();
+    known.insert(known.begin(), met.begin(), met.end());
+    known.resize(image.blockers->too_many() ? 0 : std::min(known.size(), most_known));
+    met.clear();
+  }
+}
+
+/// The waiting rays by their number of mirrors, fewest first, in order where these are as many.
+void order_waiting(SharedLightWorkspace& work) {
+  std::vector<std::uint32_t>& begin = work.first_with;
+  begin.assign(1, 0);
+  for (const WaitingRay& ray : work.waiting) {
+    const auto next = static_cast<std::size_t>(ray.mirrors) + 1;
+    if (begin.size() <= next)
+      begin.resize(next + 1, 0);
+    ++begin[next];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  work.order.resize(work.waiting.size());
+  for (std::uint32_t k = 0; k < work.waiting.size(); ++k)
+    work.order[begin[static_cast<std::size_t>(work.waiting[k].mirrors)]++] = k;
+}
+
+/// Traces the waiting rays, those of as many legs together.
+/// They come from points of one surface, as the receiver is.
+void trace_waiting(const LightScene& light, const Receiver& receiver, SharedLightWorkspace& work) {
+  order_waiting(work);
+  std::array<LegBlocker, 16> blockers;
+  for (std::size_t first = 0; first < work.waiting.size();) {
+    const auto count =
+        static_cast<std::uint32_t>(std::min<std::size_t>(16, work.waiting.size() - first));
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const WaitingRay& ray = work.waiting[work.order[first + k]];
+      fold(light, ray.world, ray.from, receiver.plane_class, ray.to, ray.arriving,
+           work.point.folded[k]);
+    }
+    const std::uint32_t dark =
+        blocked(light, work.point.folded, count, work.point.shadow_rays, &blockers);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const WaitingRay& ray = work.waiting[work.order[first + k]];
+      ImageSum& image = work.images[ray.image];
+      image.all += ray.weight;
+      if (((dark >> k) & 1U) != 0U) {
+        if (image.blockers)
+          meet_blocker(light, blockers[k], image);
+        continue;
+      }
+      image.seen += ray.weight;
+      image.left += ray.weight * left_between(light, end_of(receiver), {}, work.point.folded[k]);
+    }
+    first += count;
+  }
+  work.waiting.clear();
+}
+
+/// The mean so far.
+ArrivingLight mean_of(const SharedLightWorkspace& work, const PointSum& sum) {
+  const double points = sum.points, lit = std::max(sum.punctual_points, 1);
+  ArrivingLight mean{sum.punctual.total / lit, sum.punctual.mirrored / lit,
+                     sum.punctual.punctual / lit};
+  for (const ImageSum& image : work.images) {
+    const Rgb visible = image.all > 0.0 ? image.left / image.all : Rgb(0.0);
+    const Rgb arrived = visible * image.form_factor / points * image.source;
+    mean.total += arrived;
+    if (image.world != real_world)
+      mean.mirrored += arrived;
+  }
+  return mean;
+}
+
+/// About the error of the mean by the shadow rays' choice.
+double penumbra_error(const SharedLightWorkspace& work, const PointSum& sum) {
+  double error = 0.0;
+  for (const ImageSum& image : work.images) {
+    const double visible = image.all > 0.0 ? image.seen / image.all : 0.0;
+    const double brought = brought_by(image, image.form_factor / sum.points);
+    error += visible * (1.0 - visible) * std::pow(image.rays, -1.5) * brought * brought;
+  }
+  return std::sqrt(error);
+}
+
+void add_punctual(const LightScene& light, const Receiver& receiver, PointSum& sum,
+                  SharedLightWorkspace& work) {
+  if (light.punctual.empty())
+    return;
+  ++sum.punctual_points;
+  punctual_arrivals(light, receiver, work.point, work.arrivals);
+  for (const PunctualArrival& arrival : work.arrivals)
+    sum.punctual =
+        sum.punctual + ArrivingLight{arrival.irradiance,
+                                     arrival.world != real_world ? arrival.irradiance : Rgb(0.0),
+                                     arrival.irradiance};
+}
+
+/// The mean over the points that have been collected, all in the receiver's plane.
+ArrivingLight light_by_solids(const LightScene& light, const Receiver& last, int rays,
+                              std::uint32_t seed, DirectWorkspace& work) {
+  if (!has_solid_light(light))
+    return {};
+  const SolidLight found = solid_light(
+      light, {work.solids.points, last.normal, last.plane_class, last.tangent, last.coat}, rays,
+      seed, work.shadow_rays, work.solids);
+  return {found.total, found.mirrored, Rgb(0.0)};
+}
+
+} // namespace
+
+ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_point,
+                                const SharedLightSettings& settings, std::uint32_t seed,
+                                SharedLightWorkspace& work) {
+  work.images.clear();
+  work.image_of.clear();
+  PointSum sum;
+  auto& solid_points = work.point.solids.points;
+  solid_points.clear();
+  Rgb before(0.0);
+  int wanted = std::min(settings.points, settings.most_points);
+  for (;;) {
+    const NumberedPoint next = next_point();
+    add_point(light, next, seed, settings, work);
+    solid_points.push_back(next.receiver.position);
+    add_punctual(light, next.receiver, sum, work);
+    if (++sum.points < wanted)
+      continue;
+
+    // Between the first half of the points and all
+    // of them the mean has moved by about its own error.
+    trace_waiting(light, next.receiver, work);
+    const ArrivingLight mean = mean_of(work, sum);
+    const double brightest = largest(mean.total);
+    const bool settled = sum.points > settings.points &&
+                         largest(glm::abs(mean.total - before)) <= settings.unsure * brightest &&
+                         penumbra_error(work, sum) <= settings.unsure_shadow * brightest;
+    const bool dark = sum.points >= 2 * settings.points && brightest == 0.0;
+    if (settled || dark || sum.points >= settings.most_points) {
+      learn(work.images);
+      const ArrivingLight by_solids =
+          light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);
+      if (!settings.punctual_everywhere || light.punctual.empty())
+        return mean + by_solids;
+      while (sum.punctual_points < settings.most_points)
+        add_punctual(light, next_point().receiver, sum, work);
+      return mean_of(work, sum) + by_solids;
+    }
+    before = mean.total;
+    for (ImageSum& image : work.images)
+      image.from_a_point = image.seen > 0.0 && image.seen < image.all
+                               ? static_cast<std::uint32_t>(settings.penumbra_rays)
+                               : 1;
+    wanted = std::min(2 * sum.points, settings.most_points);
+  }
+}
+
+} // namespace meninas

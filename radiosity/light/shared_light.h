@@ -1,0 +1,125 @@
+// Direct irradiance where several points of one plane share their shadow rays:
+// points of an element, or those on which the samples of a pixel land.
+//
+//   mean_p D(x_p)  ~  sum_w tau_w sum_e E_e  mean_p F(x_p, T_w e past known blockers)  sum_pk g_pk V_pk / sum_pk g_pk
+//
+// The points on each image that shadow rays go to are one low-discrepancy sequence,
+// counted on from point to point: a few rays from each do what many would from one.
+// g is the share of the form factor a ray stands for, so that a fully visible image comes
+// out as the closed form's mean, without noise. Points are doubled until the mean settles.
+// How many rays a point sends depends on those of earlier points alone, which keeps means true:
+// a point that sent more where its own first rays disagree, and believed them where they agree,
+// would darken the outer half of every penumbra and brighten the inner one. What is left of that
+// is that means may settle on the first points: light or shade that all of their rays have missed.
+//
+// What blocks rays is known to the means that come after,
+// as long as they share a workspace (known_blockers.h).
+// They take the shadows of known blockers out of F exactly and send their rays past them:
+// once all are known V is 1, and a penumbra has no noise.
+// Means are true whatever is known, as it was learned from other rays.
+//
+// Shadows of punctual lights have no penumbra: a mean that settles where four points of sixteen
+// agree takes an edge that leaves them on one side for none, always the same way, so that no
+// number of means makes up for it. Where that shows, in pixels, all points ask for these lights.
+#pragma once
+
+#include "radiosity/light/element_images.h"
+#include "radiosity/light/known_blockers.h"
+#include "radiosity/light/light_samples.h"
+
+#include <functional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace meninas {
+
+struct SharedLightSettings {
+  int points = 2;       ///< to begin with
+  int most_points = 16; ///< doubled up to this while the mean is unsure
+  int images = 256;     ///< emitter images computed at a point; of more, a choice
+  int rays = 4;         ///< from each point to an image, to begin with
+  int penumbra_rays =
+      4; ///< from each of the later points to an image that is seen in part; one goes to others
+  int solid_rays = 256; ///< from all points together to a body of solid glass that fills the hemisphere (solid_light.h)
+  double unsure = 0.01;         ///< relative change of the mean by the last doubling
+  double unsure_shadow = 0.005; ///< error of the mean by shadow rays, relative
+  bool brightest_most =
+      false; ///< images that bring less than the brightest one in sight take fewer rays
+  /// Punctual lights are asked for from all of `most_points`, also where the mean has settled.
+  bool punctual_everywhere = false;
+  bool learns = false; ///< what blocks its rays, and uses what others have learned
+};
+
+/// What is in the way to one emitter in one world.
+struct ImageBlockers {
+  std::vector<KnownBlocker> known;
+  std::vector<KnownBlocker> met; ///< by the mean in hand
+  std::size_t learned = 0;       ///< so far, forgotten ones too
+
+  /// Things as finely divided as this are left to rays.
+  bool too_many() const { return learned > 32; }
+};
+
+/// One emitter in one world, over all points so far.
+struct ImageSum {
+  Rgb source{0.0}; ///< tau E
+  WorldId world = real_world;
+  std::uint32_t emitter = 0;
+  double form_factor = 0.0;          ///< sum over points, past known blockers
+  double all = 0.0, seen = 0.0;      ///< weights of its shadow rays, and of those that arrive
+  Rgb left{0.0};                     ///< of the latter, what glass on their way leaves
+  std::uint32_t rays = 0;            ///< shadow rays so far
+  std::uint32_t from_a_point = 1;    ///< from each of the next points
+  ImageBlockers* blockers = nullptr; ///< null where none are learned
+};
+
+/// A shadow ray that waits for others by way of about as many mirrors.
+struct WaitingRay {
+  WorldId world = real_world;
+  int mirrors = 0;
+  std::uint32_t image = 0; ///< index of its ImageSum
+  PlaneId arriving = none<PlaneId>;
+  double weight = 0.0;
+  Point3 from, to;
+};
+
+/// What one point sees of an image past known blockers.
+struct ImageAtPoint {
+  std::uint32_t image = 0;          ///< index of its ImageSum
+  double form_factor = 0.0;         ///< times how many images it stands for
+  bool whole = true;                ///< nothing known is in the way
+  std::size_t first = 0, parts = 0; ///< otherwise: in SharedLightWorkspace::parts
+};
+
+/// Storage reused from one mean to the next; one for each thread.
+struct SharedLightWorkspace {
+  DirectWorkspace point;
+  std::vector<ImageSum> images;
+  std::unordered_map<std::uint64_t, std::uint32_t> image_of; ///< by world and emitter
+  std::vector<ImageAtPoint> at_point;                        ///< the images of one point
+  std::vector<ConvexPolygon> parts;                          ///< of these
+  std::vector<ConvexPolygon> cutting;                        ///< of one of them
+  std::vector<WaitingRay> waiting;
+  std::vector<std::uint32_t> order, first_with; ///< of these
+  ElementImages elements;
+  std::vector<PunctualArrival> arrivals;
+  /// By world and emitter. Kept from mean to mean until it is cleared:
+  /// to be done where results are not to depend on what came before.
+  std::unordered_map<std::uint64_t, ImageBlockers> blockers_of;
+};
+
+struct NumberedPoint {
+  Receiver receiver;
+  std::uint32_t number;                ///< in its sequence, of which some may be left out
+  ElementId element = none<ElementId>; ///< the one it is in, if many other points are
+};
+/// The next of the points, all in one plane.
+using NextPoint = std::function<NumberedPoint()>;
+
+/// The mean over as many points as it takes.
+ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_point,
+                                const SharedLightSettings& settings, std::uint32_t seed,
+                                SharedLightWorkspace& workspace);
+
+} // namespace meninas

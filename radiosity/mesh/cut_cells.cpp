@@ -1,0 +1,344 @@
+#include "radiosity/mesh/cut_cells.h"
+
+#include "radiosity/mesh/contact_segments.h"
+#include "radiosity/mesh/mesh_cells.h"
+#include "scenes/surfaces/disjoint_sets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace meninas {
+
+namespace {
+
+constexpr double min_reach = 0.25; ///< of a leaf, of the runs that cut it
+
+/// A leaf in the plane of its side.
+struct PlaneCell {
+  std::vector<Vec2> corners; ///< by number
+  std::vector<Segment2> segments;
+  double size = 0.0, grain = 0.0;
+  double step = 0.0; ///< the same for all leaves of the surface
+
+  std::size_t next(std::size_t c) const { return (c + 1) % corners.size(); }
+};
+
+PlaneCell plane_cell(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& cell,
+                     std::uint32_t root, const PlanePlace& place) {
+  constexpr std::array<Vec2, 4> quad{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
+  constexpr std::array<Vec2, 3> triangle{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  PlaneCell result;
+  for (const Vec2 st : side.triangle ? std::span<const Vec2>(triangle) : std::span<const Vec2>(quad))
+    result.corners.push_back(place(point_in(mesh, surfaces, cell, st)));
+  std::vector<Vec2> outline = result.corners;
+  if (area_of(outline) < 0.0)
+    std::ranges::reverse(outline);
+  result.size = std::sqrt(area_of(outline));
+  const SurfaceId surface = surfaces.patches[index(side.patch)].surface;
+  result.grain = 2e-4 * result.size + 8.0 * surfaces.surfaces[index(surface)].tolerance;
+  result.step = 0.1 * mesh.element_size;
+  const ContactSegments& contacts = *mesh.contacts;
+  for (std::uint32_t k = contacts.begin[root]; k < contacts.begin[root + 1]; ++k) {
+    const ContactSegment& segment = contacts.segments[contacts.in_cell[k]];
+    Segment2 inside = segment.at;
+    if (segment.reach >= min_reach * result.size && clip_to(outline, result.grain, inside))
+      result.segments.push_back(segment.at);
+  }
+  return result;
+}
+
+/// What is left of an edge of a leaf between the places where something stands on it.
+struct OpenEdge {
+  bool met = false; ///< something stands on it, its ends included
+  bool met_at_start = false, met_at_end = false;
+  bool walled = false; ///< along some of it
+  std::vector<Stretch> open;
+};
+OpenEdge open_edge(const PlaneCell& cell, std::size_t k) {
+  const Vec2 a = cell.corners[k], b = cell.corners[cell.next(k)];
+  const double length = glm::distance(a, b), near = 2.0 * cell.grain / length;
+  OpenEdge edge;
+  double from = 0.0;
+  for (const Stretch& stretch : met_along(a, b, cell.segments, cell.grain)) {
+    edge.met = true;
+    edge.met_at_start = edge.met_at_start || stretch.from <= near;
+    edge.met_at_end = edge.met_at_end || stretch.to >= 1.0 - near;
+    edge.walled = edge.walled || stretch.to - stretch.from > 4.0 * near;
+    if (stretch.from - from > near)
+      edge.open.push_back({from, stretch.from});
+    from = stretch.to;
+  }
+  if (1.0 - from > near)
+    edge.open.push_back({from, 1.0});
+  return edge;
+}
+
+/// The stretches of edge k along which the pieces of a region lie.
+std::vector<Stretch> stretches_of(const PlaneCell& cell, const CutPolygon& cut,
+                                  std::uint32_t region, std::size_t k) {
+  const Vec2 a = cell.corners[k], b = cell.corners[cell.next(k)];
+  const double length = glm::distance(a, b);
+  const Vec2 along = (b - a) / length, aside(-along.y, along.x);
+  std::vector<Stretch> found;
+  for (std::size_t p = 0; p < cut.pieces.size(); ++p) {
+    if (cut.region[p] != region)
+      continue;
+    const auto& points = cut.pieces[p];
+    for (std::size_t c = 0; c < points.size(); ++c) {
+      const Vec2 x = points[c] - a, y = points[(c + 1) % points.size()] - a;
+      if (std::abs(glm::dot(aside, x)) > cell.grain || std::abs(glm::dot(aside, y)) > cell.grain)
+        continue;
+      const double s = glm::dot(along, x) / length, t = glm::dot(along, y) / length;
+      if (std::abs(s - t) * length > 2.0 * cell.grain)
+        found.push_back({std::min(s, t), std::max(s, t)});
+    }
+  }
+  return found;
+}
+
+bool overlap(const Stretch& a, const Stretch& b, double by) {
+  return std::min(a.to, b.to) - std::max(a.from, b.from) > by;
+}
+
+bool has_corner(const PlaneCell& cell, const CutPolygon& cut, std::uint32_t region,
+                std::size_t corner) {
+  for (std::size_t p = 0; p < cut.pieces.size(); ++p)
+    if (cut.region[p] == region &&
+        std::ranges::any_of(cut.pieces[p], [&](Vec2 x) {
+          return glm::distance(x, cell.corners[corner]) <= cell.grain;
+        }))
+      return true;
+  return false;
+}
+
+/// Names for vertices: of those that are the same all are joined.
+class VertexGroups {
+public:
+  explicit VertexGroups(double grain) : welder_(grain) {}
+
+  /// The vertex at a corner that all share which have it for their own.
+  std::uint32_t shared(std::uint64_t surface_side, const Point3& corner) {
+    return named({place(surface_side, corner), all});
+  }
+  /// That of those who know it by the same landmark.
+  std::uint32_t beside(std::uint64_t surface_side, const Point3& corner, const Point3& landmark) {
+    return named({place(surface_side, corner), place(surface_side, landmark)});
+  }
+  void join(std::uint32_t a, std::uint32_t b) { joined_.emplace_back(a, b); }
+
+  /// By name: the group, or RegionCorner::shared. No more names after this.
+  std::vector<std::uint32_t> groups() const {
+    DisjointSets sets(names_.size());
+    for (const auto& [a, b] : joined_)
+      sets.join(a, b);
+    std::vector<std::uint32_t> result(names_.size());
+    std::vector<std::uint8_t> is_shared(names_.size(), 0);
+    for (const auto& [name, number] : names_)
+      if (name.second == all)
+        is_shared[sets.root(number)] = 1;
+    for (std::uint32_t n = 0; n < result.size(); ++n)
+      result[n] = is_shared[sets.root(n)] != 0 ? RegionCorner::shared : sets.root(n);
+    return result;
+  }
+
+private:
+  static constexpr std::uint32_t all = 0xffffffffU;
+  using Name = std::pair<std::uint32_t, std::uint32_t>;
+
+  std::uint32_t place(std::uint64_t surface_side, const Point3& x) {
+    return index(welder_.vertex_at(surface_side, x, places_));
+  }
+  std::uint32_t named(const Name& name) {
+    return names_.try_emplace(name, static_cast<std::uint32_t>(names_.size())).first->second;
+  }
+
+  VertexWelder welder_;
+  std::vector<Point3> places_;
+  std::map<Name, std::uint32_t> names_;
+  std::vector<Name> joined_;
+};
+
+/// What tells an open stretch of edge k from others, at its end c, in leaves of any size beside it:
+/// the place nearest to the corner where something stands, or the way that leads from the corner.
+Vec2 landmark(const PlaneCell& cell, std::size_t k, std::size_t corner, const Stretch& stretch) {
+  const Vec2 a = cell.corners[k], b = cell.corners[cell.next(k)];
+  const double near = 2.0 * cell.grain / glm::distance(a, b);
+  const bool at_start = k == corner;
+  if (at_start ? stretch.from <= near : stretch.to >= 1.0 - near)
+    return cell.corners[corner] +
+           cell.step * glm::normalize(at_start ? b - a : a - b);
+  return glm::mix(a, b, at_start ? stretch.from : stretch.to);
+}
+
+/// Names the corners of a region.
+void name_corners(const PlaneCell& cell, const CutPolygon& cut, std::uint32_t region,
+                  const PlanePlace& place, std::uint64_t surface_side,
+                  std::span<const OpenEdge> edges, VertexGroups& groups, CutRegion& result) {
+  const std::size_t count = cell.corners.size();
+  for (std::size_t c = 0; c < count; ++c) {
+    const Point3 corner = place.at(cell.corners[c]);
+    const std::size_t before = (c + count - 1) % count;
+    const bool own = has_corner(cell, cut, region, c);
+    const bool at_contact = edges[c].met_at_start || edges[before].met_at_end;
+    std::vector<std::uint32_t> names;
+    if (own && !at_contact)
+      names.push_back(groups.shared(surface_side, corner));
+    for (const std::size_t k : {c, before}) {
+      const std::vector<Stretch> here = stretches_of(cell, cut, region, k);
+      if (here.empty())
+        continue;
+      if (!edges[k].met) {
+        names.push_back(groups.shared(surface_side, corner));
+        continue;
+      }
+      // The open stretch next to the corner on which the region lies.
+      const Stretch* nearest = nullptr;
+      for (const Stretch& open : edges[k].open) {
+        const bool lies_there = std::ranges::any_of(here, [&](const Stretch& stretch) {
+          return overlap(open, stretch, 1e-3);
+        });
+        if (lies_there && (nearest == nullptr || k == before))
+          nearest = &open;
+      }
+      if (nearest != nullptr)
+        names.push_back(
+            groups.beside(surface_side, corner, place.at(landmark(cell, k, c, *nearest))));
+    }
+    if (names.empty())
+      names.push_back(groups.beside(surface_side, corner, result.element.centroid));
+    for (const std::uint32_t name : names)
+      groups.join(names.front(), name);
+    result.corners[c].group = names.front();
+    if (own)
+      result.element.own_corners |= static_cast<std::uint8_t>(1U << c);
+  }
+}
+
+/// The region's area, its middle, and what a bilinear value is there.
+void measure(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& cell,
+             const PlanePlace& place, const CutPolygon& cut, std::uint32_t region,
+             RegionElement& element) {
+  double area = 0.0;
+  Point3 moment(0.0);
+  for (std::size_t p = 0; p < cut.pieces.size(); ++p) {
+    if (cut.region[p] != region)
+      continue;
+    const auto& points = cut.pieces[p];
+    for (std::size_t k = 2; k < points.size(); ++k) {
+      const std::array<Vec2, 3> flat{points[0], points[k - 1], points[k]};
+      const std::array<Point3, 3> triangle{place.at(flat[0]), place.at(flat[1]), place.at(flat[2])};
+      const double own = area_of(flat);
+      if (!(own > 0.0))
+        continue;
+      area += own;
+      moment += own / 3.0 * (triangle[0] + triangle[1] + triangle[2]);
+      element.triangles.push_back(triangle);
+      element.area_up_to.push_back(area);
+    }
+  }
+  element.centroid = area > 0.0 ? moment / area : place.at(cut.pieces[0][0]);
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  const Vec2 uv = uv_at(surfaces.patches[index(side.patch)], element.centroid);
+  const double sign = cell.flipped ? -1.0 : 1.0;
+  const Vec2 st = glm::clamp(sign * (uv * Vec2(side.nu << cell.level, side.nv << cell.level) -
+                                     Vec2(cell.i, cell.j)),
+                             0.0, 1.0);
+  if (side.triangle)
+    element.corner_weights = {1.0 - st.x - st.y, st.x, st.y, 0.0};
+  else
+    element.corner_weights = {(1.0 - st.x) * (1.0 - st.y), st.x * (1.0 - st.y), st.x * st.y,
+                              (1.0 - st.x) * st.y};
+}
+
+/// The line in the leaf's own (s, t), by what it is at the corners.
+CellLine cell_line(const PlaneCell& cell, const CutLine& line) {
+  const auto at = [&](std::size_t c) {
+    return glm::dot(line.normal, cell.corners[c]) - line.offset;
+  };
+  if (cell.corners.size() == 3)
+    return {{at(0), at(1) - at(0), at(2) - at(0), 0.0}, {}};
+  return {{at(0), at(1) - at(0), at(3) - at(0), at(2) - at(1) - at(3) + at(0)}, {}};
+}
+
+/// Appends the lines of a leaf that is cut. Returns the first.
+std::uint32_t add_lines(const PlaneCell& cell, const CutPolygon& cut,
+                        std::vector<CellLine>& lines) {
+  const auto first = static_cast<std::uint32_t>(lines.size());
+  for (const CutLine& line : cut.lines) {
+    CellLine here = cell_line(cell, line);
+    for (std::size_t k = 0; k < 2; ++k)
+      here.next[k] = (line.next[k] & CutLine::piece) != 0
+                         ? CellLine::region | cut.region[line.next[k] & ~CutLine::piece]
+                         : first + line.next[k];
+    lines.push_back(here);
+  }
+  return first;
+}
+
+/// The leaves of a mesh with the roots they are in.
+template <typename Use>
+void for_each_leaf(const ElementMesh& mesh, std::uint32_t number, std::uint32_t root,
+                   const Use& use) {
+  const MeshCell& cell = mesh.cells[number];
+  if (is_leaf(cell)) {
+    use(number, root);
+    return;
+  }
+  for (std::uint32_t k = 0; k < 4; ++k)
+    for_each_leaf(mesh, index(cell.first_child) + k, root, use);
+}
+
+} // namespace
+
+CutCells cut_leaves(const ElementMesh& mesh, const SurfaceModel& surfaces) {
+  CutCells cuts;
+  if (!mesh.contacts || mesh.contacts->segments.empty())
+    return cuts;
+  cuts.of_cell.assign(mesh.cells.size(), uncut);
+  VertexGroups groups(vertex_grain(mesh, surfaces));
+  const auto cut_leaf = [&](std::uint32_t number, std::uint32_t root) {
+    const MeshCell& cell = mesh.cells[number];
+    const MeshSide& side = mesh.sides[index(cell.side)];
+    const PlanePlace place(surfaces.patches[index(side.patch)], side);
+    const PlaneCell flat = plane_cell(mesh, surfaces, cell, root, place);
+    if (flat.segments.empty())
+      return;
+    std::vector<Vec2> outline = flat.corners;
+    if (area_of(outline) < 0.0)
+      std::ranges::reverse(outline);
+    const CutPolygon cut = cut_polygon(outline, flat.segments, flat.grain);
+    std::vector<OpenEdge> edges;
+    for (std::size_t k = 0; k < flat.corners.size(); ++k)
+      edges.push_back(open_edge(flat, k));
+    CutCell result;
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      if (edges[k].walled)
+        result.walled_edges |= static_cast<std::uint8_t>(1U << k);
+    if (cut.regions > 1)
+      result.first_line = add_lines(flat, cut, cuts.lines);
+    for (std::uint32_t region = 0; region < cut.regions; ++region) {
+      CutRegion& added = result.regions.emplace_back();
+      measure(mesh, surfaces, cell, place, cut, region, added.element);
+      name_corners(flat, cut, region, place, surface_side(mesh, surfaces, cell), edges, groups,
+                   added);
+    }
+    cuts.of_cell[number] = static_cast<std::uint32_t>(cuts.cells.size());
+    cuts.cells.push_back(std::move(result));
+  };
+  for (std::uint32_t root = 0; root + 1 < mesh.contacts->begin.size(); ++root)
+    if (mesh.contacts->begin[root] != mesh.contacts->begin[root + 1])
+      for_each_leaf(mesh, root, root, cut_leaf);
+
+  const std::vector<std::uint32_t> group = groups.groups();
+  for (CutCell& cell : cuts.cells)
+    for (CutRegion& region : cell.regions)
+      for (RegionCorner& corner : region.corners)
+        if (corner.group != RegionCorner::shared)
+          corner.group = group[corner.group];
+  return cuts;
+}
+
+} // namespace meninas

@@ -1,0 +1,49 @@
+// Leaves of the mesh cut along what stands on them, and the vertices of the regions that are left.
+//
+// A leaf that segments of contact_segments.h pass is cut by them (cut_polygon.h), as far as the run
+// to which a segment belongs extends over a quarter of the leaf: smaller feet are left whole, and
+// what stands on them is found by rays (covered_cells.h). Every region is an element.
+//
+// A region keeps the corners of its leaf, between which light is interpolated as in any element.
+// A corner is its own where it lies in the region and nothing stands there. Another one is a vertex
+// apart, with the light that the region has next to it. Of leaves side by side regions share such a
+// vertex when they meet on an open stretch of the edge that leads to the corner: so light is
+// continuous along a wall and round its end, and never through it.
+#pragma once
+
+#include "radiosity/mesh/element_mesh.h"
+#include "radiosity/mesh/vertex_welder.h"
+
+#include <optional>
+
+namespace meninas {
+
+/// A corner of a region: the vertex at its place that all share (`shared`),
+/// or one of those that are told apart there, by number.
+struct RegionCorner {
+  static constexpr std::uint32_t shared = 0xffffffffU;
+  std::uint32_t group = shared;
+};
+
+struct CutRegion {
+  std::array<RegionCorner, 4> corners;
+  RegionElement element; ///< without triangles where it is the whole leaf
+};
+
+struct CutCell {
+  std::uint8_t walled_edges = 0; ///< bit k: something stands along edge k
+  std::uint32_t first_line = uncut; ///< in CutCells::lines; `uncut` where there is one region
+  std::vector<CutRegion> regions;
+};
+
+/// The leaves that segments touch.
+struct CutCells {
+  std::vector<std::uint32_t> of_cell; ///< by CellId; `uncut` where nothing touches. Empty: nowhere
+  std::vector<CutCell> cells;
+  std::vector<CellLine> lines;
+};
+
+/// For the cells of a mesh, which need no elements yet.
+CutCells cut_leaves(const ElementMesh& mesh, const SurfaceModel& surfaces);
+
+} // namespace meninas

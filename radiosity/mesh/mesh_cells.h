@@ -1,0 +1,49 @@
+// The forest of cells under an element mesh, and the elements and vertices that follow from it.
+//
+// Steps of make_element_mesh() and divide_elements(); who uses a mesh needs neither.
+#pragma once
+
+#include "radiosity/mesh/element_mesh.h"
+#include "radiosity/mesh/vertex_numbers.h"
+
+#include <span>
+
+namespace meninas {
+
+/// The root cells of all sides, which know their divisions: in the order of the sides.
+void add_root_cells(ElementMesh& mesh);
+
+/// Whether a cell may have a vertex on the border of its patch. There others may have another
+/// division, where they would want far more, and may end in the middle of an edge
+/// (edge_divisions.h); within a patch neighbours are cells of one forest.
+bool is_at_border(const ElementMesh& mesh, const MeshCell& cell);
+
+/// Divides cell number `cell` into four, which are appended.
+void divide_cell(ElementMesh& mesh, std::uint32_t cell);
+
+/// Points closer than about this are one vertex, metres.
+double vertex_grain(const ElementMesh& mesh, const SurfaceModel& surfaces);
+
+/// The mesh that has been divided, and by cell of the new one
+/// the same cell of it: none for those that are new.
+struct MeshBefore {
+  const ElementMesh& mesh;
+  std::span<const CellId> cells;
+};
+
+/// Numbers the leaves, depth first, and makes their corners, vertices and areas.
+/// Returns the vertices by place: all of them, or of a mesh that was another before
+/// those at corners of divided cells' parts and on the borders of patches.
+/// That spares the time, and is the same mesh.
+VertexNumbers add_elements(ElementMesh& mesh, const SurfaceModel& surfaces,
+                           const MeshBefore* before = nullptr);
+
+/// The point (s, t) of a cell.
+Point3 point_in(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& cell,
+                Vec2 st);
+
+/// What keeps the vertices of different surfaces and sides apart.
+std::uint64_t surface_side(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                           const MeshCell& cell);
+
+} // namespace meninas

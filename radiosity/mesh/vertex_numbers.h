@@ -1,0 +1,68 @@
+// The numbers of a mesh's vertices: in the order in which its elements mention them.
+//
+// Of a mesh that is divided most elements stay as they are, and say which of the vertices before
+// are theirs. Only what is new asks for vertices by place, and only those vertices before
+// have one that it may share. The numbers are those of a mesh that is made anew.
+#pragma once
+
+#include "radiosity/mesh/vertex_welder.h"
+
+namespace meninas {
+
+class VertexNumbers {
+public:
+  /// Points are the same within about `grain`, metres; `before`: so many vertices there were,
+  /// `expected`: about as many places there will be.
+  VertexNumbers(double grain, std::size_t before, std::size_t expected)
+      : welder_(grain, expected), numbers_(before, none<ElementVertexId>) {}
+
+  /// Vertex `before` is where new elements may have a corner.
+  void place(std::uint64_t surface_side, const Point3& x, ElementVertexId before) {
+    slot_at(surface_side, x, index(before));
+  }
+
+  /// The number of a vertex there was, which is appended if no element has mentioned it so far.
+  ElementVertexId number_of(ElementVertexId before, const Point3& x,
+                            std::vector<Point3>& vertices) {
+    return numbered(index(before), x, vertices);
+  }
+
+  /// The vertex at a point, likewise.
+  ElementVertexId vertex_at(std::uint64_t surface_side, const Point3& x,
+                            std::vector<Point3>& vertices) {
+    const std::uint32_t slot =
+        slot_at(surface_side, x, static_cast<std::uint32_t>(numbers_.size()));
+    if (slot == numbers_.size())
+      numbers_.push_back(none<ElementVertexId>);
+    return numbered(slot, x, vertices);
+  }
+
+  /// The vertex there, of those that have a place; none if there is none.
+  ElementVertexId find(std::uint64_t surface_side, const Point3& x) const {
+    const ElementVertexId place = welder_.find(surface_side, x);
+    return place == none<ElementVertexId> ? place : numbers_[slots_[index(place)]];
+  }
+
+private:
+  /// The slot at a place, which is `otherwise` where there was none.
+  std::uint32_t slot_at(std::uint64_t surface_side, const Point3& x, std::uint32_t otherwise) {
+    const ElementVertexId place = welder_.vertex_at(surface_side, x, places_);
+    if (index(place) == slots_.size())
+      slots_.push_back(otherwise);
+    return slots_[index(place)];
+  }
+  ElementVertexId numbered(std::uint32_t slot, const Point3& x, std::vector<Point3>& vertices) {
+    if (numbers_[slot] == none<ElementVertexId>) {
+      numbers_[slot] = static_cast<ElementVertexId>(vertices.size());
+      vertices.push_back(x);
+    }
+    return numbers_[slot];
+  }
+
+  VertexWelder welder_;
+  std::vector<Point3> places_;
+  std::vector<std::uint32_t> slots_;     ///< by place
+  std::vector<ElementVertexId> numbers_; ///< by slot: of the vertices before, then of new ones
+};
+
+} // namespace meninas

@@ -1,0 +1,70 @@
+// Which sides of the faces of nodes count in form factors between them.
+//
+// A single-sided face has its front. A double-sided one has two sides, and exporters make nearly
+// everything double-sided. `facing` counts of each double-sided face of A those sides that see B:
+//   1. sides that see nodes other than A; if neither does, both are looked at;
+//   2. of two, one of which sees out of the scene and one does not, the latter:
+//      the inside of a room, which outer walls have besides;
+//   3. of these the sides that see B, directly or in mirrors; both where both do;
+//      a face that sees nothing of B counts once, as it would if it were single-sided.
+// So F = 1/A sum A_s F_s over these sides s, the sides of B are all there are, and
+// reciprocity holds for A and B that lie on the same sides of everything between.
+// By (1) the inside of a closed double-sided box does not dilute what its outside sends.
+// Of several B together (rows of a matrix) a side counts when it sees any of them.
+//
+// What a side sees is found by cosine-distributed rays, also in mirrors, and by straight lines
+// between points of A and B. It counts as seen from a thousandth of what the other side sees on:
+// seams between faces let through less. With few rays for each of very many faces
+// (below 64) a side that sees next to nothing may be missed.
+#pragma once
+
+#include "mirror/mirrors.h"
+#include "form_factors/visible_parts.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace meninas {
+
+/// `facing` is above. `front` and `back` are those of A and B; `both` is all of A and B.
+enum class NodeSides { facing, front, back, both };
+
+/// Nodes that are asked for as one.
+using NodeSet = std::vector<NodeId>;
+
+/// By NodeId, the first of the sets that has the node.
+inline constexpr std::uint32_t none_of_sets = 0xffffffffU;
+std::vector<std::uint32_t> sets_of_nodes(const Scene& scene, std::span<const NodeSet> sets);
+
+/// Whether a front, or a back, may count at all.
+inline bool may_count(NodeSides sides, bool front) {
+  return sides != (front ? NodeSides::back : NodeSides::front);
+}
+
+/// The same face seen from behind.
+Face turned_round(const Face& face);
+
+/// The sides of faces that may count, fronts first; those of backs are turned round.
+std::vector<Face> sides_of_faces(const Scene& scene, std::span<const Face> faces, NodeSides sides);
+
+struct CountedSides {
+  std::vector<Face> faces;
+  double fronts = 0.0, backs = 0.0; ///< their areas, m^2
+  std::vector<std::string> not_counted;
+};
+
+struct SideQuestion {
+  const Scene& scene;
+  const SurfaceModel& surfaces;
+  const MirrorSet& mirrors;
+  const std::vector<Face>& all;  ///< faces of the scene
+  std::span<const NodeSet> to;
+  int max_depth = 0;
+  NodeSides sides = NodeSides::facing;
+};
+
+/// The sides of `from`, none of which is a mirror, that count.
+CountedSides counted_sides(const SideQuestion& question, const std::vector<Face>& from);
+
+} // namespace meninas

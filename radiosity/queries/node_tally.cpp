@@ -1,0 +1,117 @@
+#include "radiosity/queries/node_tally.h"
+
+#include "scenes/errors.h"
+
+#include <algorithm>
+
+namespace meninas {
+
+namespace {
+
+/// By SideId: the place of its set among those asked for, where its side is.
+constexpr std::uint32_t not_asked = 0xffffffffU;
+std::vector<std::uint32_t> groups_of_sides(const Scene& scene, const ElementMesh& mesh,
+                                           const AskedSides& to) {
+  const std::vector<std::uint32_t> sets = sets_of_nodes(scene, to.nodes);
+  std::vector<std::uint32_t> groups(mesh.sides.size(), not_asked);
+  for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
+    const std::uint32_t set = sets[index(mesh.sides[s].node)];
+    if (set != none_of_sets && may_count(to.sides, mesh.sides[s].facing == Facing::front))
+      groups[s] = set;
+  }
+  return groups;
+}
+
+WorldTree named_worlds(const MirrorSet& mirrors, int max_depth) {
+  WorldSettings settings;
+  settings.max_depth = std::min(settings.max_depth, max_depth);
+  return mirror_worlds(mirrors, settings);
+}
+
+} // namespace
+
+NodeScene::NodeScene(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
+                     const AskedSides& to, int max_depth)
+    : group_count(to.nodes.size()), mesh(make_element_mesh(scene, surfaces, {.target_elements = 1.0})),
+      groups(groups_of_sides(scene, mesh, to)), rays(make_ray_scene(scene, surfaces)),
+      worlds(named_worlds(mirrors, max_depth)),
+      light(make_light_scene(scene, surfaces, rays, mirrors, worlds, mesh)) {
+  settings.max_bounces = std::min(settings.max_bounces, max_depth);
+}
+
+void require_landings(const NodeScene& scene, const AskedSides& to) {
+  for (std::uint32_t g = 0; g < to.nodes.size(); ++g)
+    if (std::ranges::find(scene.groups, g) == scene.groups.end())
+      throw UsageError(scene.light.scene.file,
+                       "node '" + scene.light.scene.nodes[index(to.nodes[g].front())].name +
+                           "' is a mirror: rays go on through it");
+}
+
+void add(const NodeScene& scene, const GatheredRays& gathered, double share, NodeTally& tally) {
+  tally.totals.resize(scene.group_count, 0.0);
+  const double weight = share / gathered.rays;
+  tally.cut += weight * mean_of(Rgb(gathered.cut_light));
+  for (const RayLanding& landing : gathered.landings) {
+    const std::uint32_t group = scene.groups[index(scene.mesh.side_of_element[landing.element])];
+    if (group == not_asked)
+      continue;
+    const double arrived = weight * mean_of(Rgb(landing.light));
+    tally.by_world[{group, index(landing.world)}] += arrived;
+    tally.totals[group] += arrived;
+  }
+}
+
+void add(const NodeTally& part, NodeTally& tally) {
+  tally.totals.resize(std::max(tally.totals.size(), part.totals.size()), 0.0);
+  for (std::size_t g = 0; g < part.totals.size(); ++g)
+    tally.totals[g] += part.totals[g];
+  for (const auto& [key, value] : part.by_world)
+    tally.by_world[key] += value;
+  tally.cut += part.cut;
+}
+
+std::vector<ExtendedFactor> node_factors_of(const NodeScene& scene,
+                                            std::span<const NodeTally> tallies,
+                                            const Combine& combine) {
+  std::vector<ExtendedFactor> factors(scene.group_count);
+  double cut = 0.0;
+  for (const NodeTally& tally : tallies)
+    cut += tally.cut / static_cast<double>(tallies.size());
+  // What lies beyond the depth asked for is not asked for;
+  // all that is missing then is what has grown too faint on the way.
+  if (scene.settings.max_bounces < FormFactorSettings{}.max_bounces)
+    cut = std::min(cut, scene.settings.min_throughput);
+  for (std::size_t g = 0; g < factors.size(); ++g) {
+    std::vector<double> totals;
+    for (const NodeTally& tally : tallies)
+      totals.push_back(tally.totals[g]);
+    factors[g].total = combine(totals);
+    factors[g].total.error += cut;
+  }
+
+  std::map<NodeTally::Key, std::vector<double>> by_world;
+  for (std::size_t k = 0; k < tallies.size(); ++k)
+    for (const auto& [key, value] : tallies[k].by_world) {
+      auto& values = by_world[key];
+      values.resize(tallies.size(), 0.0);
+      values[k] = value;
+    }
+  for (const auto& [key, values] : by_world) {
+    // Worlds beyond the enumerated ones, and what is behind solids, have no chain to be told by:
+    // they are in the total alone.
+    const auto world = static_cast<WorldId>(key.second);
+    if (world == none<WorldId> || is_by_solids(world))
+      continue;
+    const Rgb& throughput = scene.worlds.worlds[key.second].throughput;
+    factors[key.first].worlds.push_back(
+        {chain_of(scene.worlds, world), throughput, (1.0 / mean_of(throughput)) * combine(values)});
+  }
+  for (auto& factor : factors)
+    std::stable_sort(
+        factor.worlds.begin(), factor.worlds.end(), [](const WorldFactor& a, const WorldFactor& b) {
+          return mean_of(a.throughput) * a.factor.value > mean_of(b.throughput) * b.factor.value;
+        });
+  return factors;
+}
+
+} // namespace meninas

@@ -1,0 +1,139 @@
+#include "radiosity/scene/light_scene.h"
+
+#include "radiosity/scene/mirror_holes.h"
+#include "radiosity/scene/surface_colour.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace meninas {
+
+namespace {
+
+constexpr double large_emitter_share = 0.5;
+
+bool emits(const MeshSide& side) { return glm::any(glm::greaterThan(side.emission, Rgb(0.0))); }
+
+Emitter make_emitter(const MeshSide& side, std::span<const Point3> polygon, const Rgb& radiosity,
+                     double area) {
+  Emitter emitter;
+  emitter.polygon = ConvexPolygon(polygon);
+  if (side.facing == Facing::back)
+    std::reverse(emitter.polygon.vertices.begin(),
+                 emitter.polygon.vertices.begin() +
+                     static_cast<std::ptrdiff_t>(emitter.polygon.size));
+  emitter.plane = side.plane;
+  emitter.plane_class = side.plane_class;
+  emitter.radiosity = radiosity;
+  emitter.area = area;
+  return emitter;
+}
+
+/// A side that glows evenly is one emitter; of a textured one every element is.
+void add_emitters(const SurfaceModel& surfaces, const ElementMesh& mesh, const MeshSide& side,
+                  std::vector<Emitter>& emitters) {
+  if (!side.textured) {
+    const Patch& patch = surfaces.patches[index(side.patch)];
+    emitters.push_back(make_emitter(side, polygon_of(patch), side.emission, patch.area));
+    return;
+  }
+  for (std::uint32_t e = side.first_element; e < side.first_element + side.element_count; ++e) {
+    if (mesh.emission[e] == Rgb(0.0) || mesh.solid[e] == 0.0F)
+      continue;
+    if (const RegionElement* region = region_of(mesh, ElementId{e})) {
+      for (auto triangle : region->triangles) {
+        if (side.facing == Facing::back) // they turn as seen from the side's own light
+          std::swap(triangle[1], triangle[2]);
+        emitters.push_back(make_emitter(side, triangle, double{mesh.solid[e]} * mesh.emission[e],
+                                        glm::length(area_vector(triangle))));
+      }
+      continue;
+    }
+    std::vector<Point3> corners;
+    for (std::size_t c = 0; c < (side.triangle ? 3U : 4U); ++c)
+      corners.push_back(mesh.vertices[index(mesh.corners[e][c])]);
+    emitters.push_back(
+        make_emitter(side, corners, double{mesh.solid[e]} * mesh.emission[e], mesh.area[e]));
+  }
+}
+
+} // namespace
+
+bool grey_mirrors(const Scene& scene) {
+  const auto is_grey = [](const Rgb& c) { return c.r == c.g && c.g == c.b; };
+  const bool colored = std::ranges::any_of(
+      scene.vertices, [&](const Vertex& vertex) { return !is_grey(Rgb(vertex.color)); });
+  return std::ranges::all_of(scene.materials, [&](const Material& material) {
+    if (has_mirror_coat(material))
+      return is_grey(material.specular_color);
+    if (!is_glass(material))
+      return is_grey(mirror_reflectance(material));
+    return is_grey(material.base_color) && is_grey(material.specular_color) &&
+           is_grey(material.attenuation_color) && !is_textured(material) && !colored;
+  });
+}
+
+/// As `LightScene::by_angle`.
+static std::vector<Bsdf> reflecting_by_angle(const Scene& scene) {
+  std::vector<Bsdf> bsdfs;
+  if (std::ranges::any_of(scene.materials, is_glass) ||
+      std::ranges::any_of(scene.materials, has_mirror_coat))
+    for (const Material& material : scene.materials)
+      bsdfs.push_back(has_mirror_coat(material) ? mirror_coat(material)
+                                                : clear_glass(material, untextured(material)));
+  return bsdfs;
+}
+
+LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
+                            const MirrorSet& mirrors, const WorldTree& worlds,
+                            const ElementMesh& mesh, const DecodedTextures& textures) {
+  const RayFrame& frame = rays.frame();
+  LightScene light{scene,
+                   surfaces,
+                   rays,
+                   mirrors,
+                   worlds,
+                   mesh,
+                   textures,
+                   make_landing_table(scene, surfaces, mirrors, mesh, frame.centre, frame.scale),
+                   {},
+                   {},
+                   {},
+                   scene.lights,
+                   std::numbers::pi * scene.background,
+                   reflecting_by_angle(scene),
+                   std::ranges::any_of(scene.materials, is_glass),
+                   cut_out_mirrors(surfaces, rays, mirrors),
+                   find_solid_bodies(scene, frame)};
+  light.from_source.assign(mesh.sides.size(), 0);
+
+  double area = 0.0, emitting_area = 0.0;
+  for (const auto& side : mesh.sides) {
+    const double side_area = surfaces.patches[index(side.patch)].area;
+    area += side_area;
+    if (emits(side))
+      emitting_area += side_area;
+  }
+  if (emitting_area > large_emitter_share * area)
+    return light;
+
+  for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
+    if (!emits(mesh.sides[s]))
+      continue;
+    light.from_source[s] = 1;
+    add_emitters(surfaces, mesh, mesh.sides[s], light.emitters);
+  }
+  light.emitter_tree = make_emitter_tree(light.emitters);
+  return light;
+}
+
+std::unique_ptr<RefinedScene> make_refined_scene(const LightScene& light, ElementMesh mesh) {
+  auto refined = std::make_unique<RefinedScene>();
+  refined->mesh = std::move(mesh);
+  average_textures(light.scene, light.surfaces, light.textures, refined->mesh);
+  refined->light.emplace(make_light_scene(light.scene, light.surfaces, light.rays, light.mirrors,
+                                          light.worlds, refined->mesh, light.textures));
+  return refined;
+}
+
+} // namespace meninas

@@ -1,0 +1,62 @@
+// Everything light is looked up in while it is gathered:
+// geometry, rays, mirrors, mesh, and who computes which emitter.
+//
+// Emitters are taken from the source (closed form,
+// direct_irradiance.h) when they are small, as lamps and windows are.
+// However many they are, a point computes a bounded number of them (mirror/light_choice.h).
+// When emitters make up more than half of the meshed area they are gathered by rays like everything
+// else, which is exact where all walls glow. No light path is in both: `from_source` says which.
+#pragma once
+
+#include "mirror/virtual_lights.h"
+#include "radiosity/mesh/element_mesh.h"
+#include "radiosity/mesh/landing.h"
+#include "scenes/surfaces/solid_bodies.h"
+#include "scenes/materials/lobes.h"
+#include "scenes/rays/ray_scene.h"
+#include "scenes/materials/texture_lookup.h"
+
+#include <memory>
+#include <optional>
+
+namespace meninas {
+
+/// Refers to objects that outlive it.
+struct LightScene {
+  const Scene& scene;
+  const SurfaceModel& surfaces;
+  const RayScene& rays;
+  const MirrorSet& mirrors;
+  const WorldTree& worlds;
+  const ElementMesh& mesh;
+  const DecodedTextures& textures;
+  LandingTable landing;
+  std::vector<Emitter> emitters; ///< those whose light is computed from the source
+  std::vector<std::uint8_t>
+      from_source; ///< by SideId: 1 where the closed form owns its emission in the enumerated worlds
+  EmitterTree emitter_tree;            ///< over the emitters
+  std::vector<PunctualLight> punctual; ///< always from the source
+  Rgb background{0.0}; ///< irradiance pi L of the whole sky, gathered by rays that escape
+  std::vector<Bsdf>
+      by_angle; ///< by MaterialId, clear glass and coats that are mirrors (scenes/materials/lobes.h), without textures; empty where there are none
+  bool has_glass = false;
+  std::vector<std::uint8_t> cut_out_mirrors; ///< by MirrorId (mirror_holes.h); empty where there is none
+  SolidBodies solids;
+};
+
+/// Whether mirrors and glass treat all channels alike: transport needs but one band.
+bool grey_mirrors(const Scene& scene);
+
+LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
+                            const MirrorSet& mirrors, const WorldTree& worlds,
+                            const ElementMesh& mesh,
+                            const DecodedTextures& textures = no_textures());
+
+/// The same scene on a finer mesh, kept together. Stays where it was made.
+struct RefinedScene {
+  ElementMesh mesh;
+  std::optional<LightScene> light; ///< refers to the mesh, and to what the first scene refers to
+};
+std::unique_ptr<RefinedScene> make_refined_scene(const LightScene& light, ElementMesh mesh);
+
+} // namespace meninas

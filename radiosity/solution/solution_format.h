@@ -1,0 +1,39 @@
+// What the writer and the reader of solution files share (solution_file.h).
+#pragma once
+
+#include "radiosity/field/interpolation.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace meninas {
+
+inline constexpr std::size_t vec3_size = sizeof(glm::vec3);
+static_assert(vec3_size == 12);
+
+/// The attributes that keep a field; all but the first may be missing.
+struct FieldPart {
+  const char* attribute;
+  std::vector<glm::vec3> DiffuseField::*values;
+};
+inline constexpr FieldPart field_parts[] = {
+    {"_IRRADIANCE", &DiffuseField::irradiance},
+    {"_IRRADIANCE_MIRRORED", &DiffuseField::mirrored},
+    {"_IRRADIANCE_INDIRECT", &DiffuseField::indirect},
+    {"_IRRADIANCE_INDIRECT_MIRRORED", &DiffuseField::indirect_mirrored}};
+
+/// FNV-1a: any changed byte changes it.
+inline std::uint64_t data_hash(std::span<const std::byte> bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const std::byte byte : bytes) {
+    hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3ULL;
+  }
+  return hash;
+}
+
+inline std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+} // namespace meninas

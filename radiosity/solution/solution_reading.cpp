@@ -1,0 +1,209 @@
+#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/solution/solution_file.h"
+#include "radiosity/solution/solution_format.h"
+#include "scenes/errors.h"
+#include "scenes/gltf/glb_file.h"
+#include "scenes/version.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace meninas {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw InputError(file.string(), "", what);
+}
+
+/// JSON has no infinity: an error bound that does not exist is null.
+double number_or_infinity(const json& value) {
+  return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+}
+
+Rgb colour_of(const json& value) {
+  const auto numbers = value.get<std::array<double, 3>>();
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+SolverMethod method_of(const std::filesystem::path& file, const std::string& name) {
+  for (const SolverMethod method : solver_methods) {
+    if (name == name_of(method)) {
+      return method;
+    }
+  }
+  refuse(file, "damaged: it names no solver");
+}
+
+std::vector<Rgb> colours_of(const json& list) {
+  std::vector<Rgb> colours;
+  for (const json& value : list) {
+    colours.emplace_back(number_or_infinity(value.at(0)), number_or_infinity(value.at(1)),
+                         number_or_infinity(value.at(2)));
+  }
+  return colours;
+}
+
+SolverResult read_solver(const std::filesystem::path& file, const json& solve) {
+  SolverResult solver;
+  solver.method = method_of(file, solve.at("solver"));
+  solver.end = static_cast<SolverEnd>(solve.at("end").get<int>());
+  solver.bands = solve.at("bands");
+  solver.iterations = solve.at("iterations");
+  solver.residual = number_or_infinity(solve.at("residual"));
+  solver.error_bound = number_or_infinity(solve.at("error_bound"));
+  solver.converged = solve.at("converged");
+  for (const json& residual : solve.at("residuals")) {
+    solver.residuals.push_back(number_or_infinity(residual));
+  }
+  solver.channel_residuals = colours_of(solve.at("channel_residuals"));
+  solver.channel_error_bounds = colours_of(solve.at("channel_error_bounds"));
+  return solver;
+}
+
+void read_figures(const std::filesystem::path& file, const json& figures, StoredSolution& stored) {
+  stored.solver = read_solver(file, figures.at("solve"));
+  const json& energy = figures.at("energy");
+  stored.energy.emitted = colour_of(energy.at("emitted"));
+  stored.energy.absorbed = colour_of(energy.at("absorbed"));
+  stored.energy.escaped = colour_of(energy.at("escaped"));
+  stored.energy.mirror_absorbed = colour_of(energy.at("mirror_absorbed"));
+  stored.energy.imbalance = number_or_infinity(energy.at("imbalance"));
+  const json& closure = figures.at("closure");
+  stored.closure = {closure.at("mean_error"), closure.at("max_error"), closure.at("cut")};
+}
+
+const json& attributes_of(const GlbContent& glb) {
+  return glb.root.at("meshes").at(0).at("primitives").at(0).at("attributes");
+}
+
+std::vector<glm::vec3> read_irradiance(const std::filesystem::path& file, const GlbContent& glb,
+                                       std::size_t accessor_index, std::size_t vertices) {
+  const json& root = glb.root;
+  const json& accessor = root.at("accessors").at(accessor_index);
+  const json& view = root.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
+  const std::size_t offset = view.at("byteOffset");
+  // Points on outlines of regions, which viewers show, come after the vertices.
+  const bool fits = accessor.at("count").get<std::size_t>() >= vertices &&
+                    offset <= glb.binary.size() &&
+                    vertices <= (glb.binary.size() - offset) / vec3_size;
+  if (!fits) {
+    refuse(file, "damaged: it does not hold the irradiance it announces");
+  }
+  std::vector<glm::vec3> irradiance(vertices);
+  if (vertices > 0) {
+    std::memcpy(irradiance.data(), glb.binary.data() + offset, vertices * vec3_size);
+  }
+  for (const glm::vec3& value : irradiance) {
+    if (!std::isfinite(value.x + value.y + value.z)) {
+      refuse(file, "damaged: an irradiance is not finite");
+    }
+  }
+  return irradiance;
+}
+
+/// The forest of the field's mesh, where it has one of its own.
+std::vector<std::uint8_t> read_division(const std::filesystem::path& file, const GlbContent& glb,
+                                        const json& extras) {
+  if (!extras.contains("division")) {
+    return {};
+  }
+  const json& view = glb.root.at("bufferViews").at(extras.at("division").get<std::size_t>());
+  const std::size_t offset = view.at("byteOffset"), size = view.at("byteLength");
+  if (offset > glb.binary.size() || size > glb.binary.size() - offset) {
+    refuse(file, "damaged: it does not hold the mesh it announces");
+  }
+  std::vector<std::uint8_t> division(size);
+  if (size > 0) {
+    std::memcpy(division.data(), glb.binary.data() + offset, size);
+  }
+  return division;
+}
+
+/// The bytes the hash was made of: the binary chunk without its padding.
+std::span<const std::byte> data_of(const std::filesystem::path& file, const GlbContent& glb) {
+  const std::size_t size = glb.root.at("buffers").at(0).at("byteLength");
+  if (size > glb.binary.size()) {
+    refuse(file, "damaged: it does not hold the data it announces");
+  }
+  return std::as_bytes(std::span(glb.binary)).first(size);
+}
+
+MeshSettings read_mesh_settings(const std::filesystem::path& file, const json& mesh) {
+  const MeshSettings settings{.element_size = mesh.at("element_size"),
+                              .target_elements = mesh.at("target_elements"),
+                              .max_elements = mesh.at("max_elements")};
+  if (!(settings.element_size >= 0.0) || !(settings.target_elements > 0.0) ||
+      settings.max_elements == 0) {
+    refuse(file, "damaged: the settings of its mesh make no sense");
+  }
+  return settings;
+}
+
+StoredSolution read_checked(const std::filesystem::path& file, const GlbContent& glb,
+                            const Scene& scene) {
+  const json& extras = glb.root.at("asset").at("extras").at("meninas");
+  if (extras.at("version") != program_version()) {
+    refuse(file,
+           fmt::format("was written by version {}, this is {}: solve again",
+                       extras.at("version").get<std::string>().substr(0, 32), program_version()));
+  }
+  if (extras.at("scene_hash") != hex(content_hash(scene))) {
+    refuse(file, fmt::format("is not a solution of {}: solve again", scene.file));
+  }
+  if (extras.at("data_hash") != hex(data_hash(data_of(file, glb)))) {
+    refuse(file, "damaged: its data do not have the hash it announces");
+  }
+  StoredSolution stored;
+  stored.mesh = read_mesh_settings(file, extras.at("mesh"));
+  stored.elements = extras.at("elements");
+  stored.division = read_division(file, glb, extras);
+  const json& attributes = attributes_of(glb);
+  const std::size_t vertices = extras.at("vertices");
+  for (const FieldPart& part : field_parts) {
+    if (part.values == &DiffuseField::irradiance || attributes.contains(part.attribute)) {
+      stored.field.*part.values =
+          read_irradiance(file, glb, attributes.at(part.attribute), vertices);
+    }
+  }
+  read_figures(file, extras.at("figures"), stored);
+  return stored;
+}
+
+} // namespace
+
+StoredSolution read_solution(const std::filesystem::path& file, const Scene& scene) {
+  const GlbContent glb = read_glb(file);
+  try {
+    return read_checked(file, glb, scene);
+  } catch (const json::exception&) {
+    refuse(file, "not a solution written by 'meninas solve'");
+  }
+}
+
+std::unique_ptr<RefinedScene> refined_scene_of(const std::filesystem::path& file,
+                                               const StoredSolution& solution,
+                                               const LightScene& light) {
+  if (solution.division.empty()) {
+    return nullptr;
+  }
+  if (!is_division_of(light.mesh, solution.division)) {
+    refuse(file, "damaged: its elements are no division of its mesh");
+  }
+  return make_refined_scene(light, divided_mesh(light.mesh, light.surfaces, solution.division));
+}
+
+void check_belongs(const std::filesystem::path& file, const StoredSolution& solution,
+                   const ElementMesh& mesh) {
+  if (solution.field.irradiance.size() != mesh.vertices.size() ||
+      solution.elements != element_count(mesh)) {
+    refuse(file, fmt::format("damaged: it has {} vertices and {} elements, its mesh has {} and {}",
+                             solution.field.irradiance.size(), solution.elements,
+                             mesh.vertices.size(), element_count(mesh)));
+  }
+}
+
+} // namespace meninas

@@ -1,0 +1,30 @@
+// How much light further shots can bring,
+// and whether they would ever end, from the elements' own rays.
+//
+// A unit of power that j shoots makes, with all that it becomes,
+// the power h_j = 1 + sum_i F_ji rho_i h_i. So with q_m = (F rho)^m 1,
+//   ||B - B_k|| <= kappa G ||U_k||,   kappa = ||q_1||,   G = ||h|| <= ||q_0 + ... + q_(m-1)|| / (1 - ||q_m||)  for any m
+// in the power norm of what is shot and the maximum norm of the rest: error_bound.h, transposed.
+// m = 1 gives 1 / (1 - kappa). Where some elements see hardly anything but bright
+// walls the rays are traced again for a larger m, until that is no better.
+// Only what may ever shoot counts: elements that reflect, of parts of the scene that have light.
+#pragma once
+
+#include "radiosity/solvers/hemisphere_survey.h"
+
+namespace meninas {
+
+/// By channel.
+struct ShotBound {
+  Rgb kept{0.0};          ///< kappa
+  Rgb amplification{1.0}; ///< G; infinite where none was found
+  bool trapped = false;   ///< there is light in a part that loses none: there is no solution
+  std::uint64_t rays_traced = 0;
+};
+
+/// Source S and reflectance are by ElementId.
+ShotBound bound_of_shots(const LightScene& light, const HemisphereSurvey& survey,
+                         const FormFactorSettings& rays, const std::vector<Rgb>& source,
+                         const std::vector<Rgb>& reflectance);
+
+} // namespace meninas

@@ -1,0 +1,112 @@
+#include "radiosity/solvers/solve.h"
+
+#include "radiosity/solvers/report.h"
+#include "radiosity/solvers/solvers.h"
+#include "scenes/errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace meninas {
+
+namespace {
+
+template <typename Value>
+void run(SolverMethod method, const LinearSystem<Value>& system, const ShotPlan& plan,
+         std::vector<Value>& x, Convergence<Value>& convergence) {
+  switch (method) {
+  case SolverMethod::direct:
+    return factorise_and_solve(system, x, convergence);
+  case SolverMethod::jacobi:
+    return relax(system, Relaxation::jacobi, x, convergence);
+  case SolverMethod::gauss_seidel:
+    return relax(system, Relaxation::gauss_seidel, x, convergence);
+  case SolverMethod::bicgstab:
+    return bicgstab(system, x, convergence);
+  case SolverMethod::progressive:
+    return shoot_stored(system, plan, x, convergence);
+  case SolverMethod::hierarchical: // solves for nodes
+    break;
+  }
+}
+
+/// B - S >= 0 in the solution: what is below S can only come nearer when it is raised to it.
+template <typename Value>
+void raise_to_source(const std::vector<Value>& source, std::vector<Value>& x) {
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = glm::max(x[i], source[i]);
+}
+
+template <typename Value>
+SolverResult solve_system(const LinearSystem<Value>& system, const SolverSettings& settings,
+                          const ShotPlan& plan) {
+  const bool trapped = has_lit_trap(system);
+  const Value unbounded(std::numeric_limits<double>::infinity());
+  const bool by_shots = settings.method == SolverMethod::progressive;
+  const std::size_t shooters =
+      plan.shooters.begin.empty() ? system.transport.size : plan.shooters.size();
+  std::vector<Value> x = system.source;
+  auto convergence = stopping_rule(settings, trapped ? unbounded : amplification_bound(system),
+                                   by_shots ? std::max<std::size_t>(1, shooters) : 1);
+  SolverEnd end = SolverEnd::unsolvable;
+  if (trapped) {
+    record(convergence, maximum_norm(residual_of(system, x)), maximum_norm(x));
+  } else {
+    run(settings.method, system, plan, x, convergence);
+    raise_to_source(system.source, x);
+    end = end_of(convergence);
+  }
+  SolverResult result = report_of(settings, convergence, end);
+  result.radiosity = colours_of(x);
+  return result;
+}
+
+} // namespace
+
+const char* name_of(SolverMethod method) {
+  switch (method) {
+  case SolverMethod::direct:
+    return "direct";
+  case SolverMethod::jacobi:
+    return "jacobi";
+  case SolverMethod::gauss_seidel:
+    return "gauss-seidel";
+  case SolverMethod::bicgstab:
+    return "cg";
+  case SolverMethod::progressive:
+    return "progressive";
+  case SolverMethod::hierarchical:
+    return "hierarchical";
+  }
+  return "";
+}
+
+void check_size(SolverMethod method, std::size_t unknowns) {
+  if (method == SolverMethod::direct && unknowns > most_direct_unknowns)
+    throw UsageError("--solver direct", fmt::format("solves for at most {} elements, here are {}",
+                                                    most_direct_unknowns, unknowns));
+}
+
+std::vector<Rgb> apply_transport(const Transport& transport, const std::vector<Rgb>& x) {
+  expects(x.size() == transport.size, "the transport applies to one value per element");
+  return transport_product(transport, x);
+}
+
+SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
+                   const std::vector<Rgb>& reflectance, const SolverSettings& settings,
+                   const ShotPlan& plan) {
+  expects(source.size() == transport.size && reflectance.size() == transport.size,
+          "source and reflectance have one value per element");
+  expects(settings.method != SolverMethod::hierarchical, "nodes have no rows of elements");
+  check_size(settings.method, transport.size);
+  const bool grey = transport.bands == 1 && std::ranges::all_of(source, is_grey) &&
+                    std::ranges::all_of(reflectance, is_grey);
+  if (grey)
+    return solve_system<double>(
+        {transport, values_of<double>(source), values_of<double>(reflectance)}, settings, plan);
+  return solve_system<Rgb>({transport, source, reflectance}, settings, plan);
+}
+
+} // namespace meninas

@@ -1,0 +1,89 @@
+#include "raytrace/error/error_map.h"
+
+#include "scenes/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+/// The mean over the square of 2 reach + 1 pixels around each, as far as it is in the picture;
+/// one direction after the other.
+Image mean_around(const Image& image, int reach) {
+  const auto along = [reach](const Image& from, bool across) {
+    Image to(from.width, from.height);
+    for (int y = 0; y < from.height; ++y)
+      for (int x = 0; x < from.width; ++x) {
+        const int at = across ? x : y, end = across ? from.width : from.height;
+        const int first = std::max(at - reach, 0), last = std::min(at + reach, end - 1);
+        for (int k = first; k <= last; ++k)
+          to.at(x, y) += across ? from.at(k, y) : from.at(x, k);
+        to.at(x, y) /= static_cast<float>(last - first + 1);
+      }
+    return to;
+  };
+  return along(along(image, true), false);
+}
+
+/// (a - c)(b - c), pixel by pixel.
+Image product_about(const Image& a, const Image& b, const Image& c) {
+  Image product(c.width, c.height);
+  for (std::size_t p = 0; p < c.pixels.size(); ++p)
+    product.pixels[p] = (a.pixels[p] - c.pixels[p]) * (b.pixels[p] - c.pixels[p]);
+  return product;
+}
+
+} // namespace
+
+Image error_map(const LightScene& light, const DiffuseField& field, const Camera& camera,
+                const TwoPassSettings& settings, const Image& picture, const PictureError& error) {
+  constexpr int reach_of_edges = 1, reach_of_noise = 1;
+  RenderSettings shown = settings.render;
+  shown.layers = WithLayers::no;
+  const auto picture_of = [&](const RenderSettings& render_settings) {
+    return render(light, field, camera, render_settings).image;
+  };
+
+  RenderSettings again = shown;
+  again.seed = hash(again.seed, 0xa9a17);
+  const Image other = picture_of(again);
+  const Image noise = mean_around(product_about(other, other, picture), reach_of_noise);
+
+  Image edges(picture.width, picture.height);
+  if (shown.diffuse.term == DiffuseTerm::interpolated && !field.indirect.empty()) {
+    RenderSettings source = shown;
+    source.samples = 1;
+    const Image interpolated = picture_of(source);
+    source.diffuse.term = DiffuseTerm::direct;
+    source.diffuse.direct = settings.pass_one.direct;
+    const Image first = picture_of(source);
+    source.diffuse.draw = 1;
+    edges = mean_around(product_about(first, picture_of(source), interpolated), reach_of_edges);
+  }
+
+  // What is left of the field's error when that
+  // of the edges is taken off is a share of the radiance.
+  double edges2 = 0.0, radiance2 = 0.0;
+  for (std::size_t p = 0; p < picture.pixels.size(); ++p) {
+    const glm::dvec3 l(picture.pixels[p]), e(edges.pixels[p]);
+    edges2 += std::max(e.r + e.g + e.b, 0.0);
+    radiance2 +=
+        glm::dot(glm::min(l, 4.0 * error.mean_radiance), glm::min(l, 4.0 * error.mean_radiance));
+  }
+  const double field2 = (std::pow(error.total, 2.0) - std::pow(error.pixels, 2.0)) *
+                        std::pow(error.mean_radiance, 2.0) * 3.0 * double(picture.pixels.size());
+  const double share2 = radiance2 > 0.0 ? std::max(field2 - edges2, 0.0) / radiance2 : 0.0;
+
+  Image map(picture.width, picture.height);
+  for (std::size_t p = 0; p < map.pixels.size(); ++p) {
+    const glm::vec3& l = picture.pixels[p];
+    const glm::vec3 square = glm::max(edges.pixels[p], 0.0F) + 0.5F * noise.pixels[p] +
+                             static_cast<float>(share2) * l * l;
+    map.pixels[p] = glm::sqrt(square);
+  }
+  return map;
+}
+
+} // namespace meninas

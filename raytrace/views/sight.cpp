@@ -1,0 +1,71 @@
+#include "raytrace/views/sight.h"
+
+#include "radiosity/scene/surface_colour.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace meninas {
+
+/// Where glass is taken for not being there.
+static bool passes_most(const LightScene& light, const Hit& hit) {
+  const Material& material = material_of(light.scene, hit.triangle);
+  const double transmission =
+      material.transmission_texture
+          ? material_at(light.scene, light.textures, hit.triangle, hit.barycentric).transmission
+          : material.transmission;
+  return transmission >= 0.5;
+}
+
+Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
+           int max_mirrors) {
+  const CameraRay start = camera_ray(camera, picture_aspect, at.x, at.y);
+  Ray ray{start.origin, start.direction};
+  Sight sight;
+  double step = 0.0;
+  for (Backs backs = Backs::transparent, next = Backs::absorb;;
+       backs = std::exchange(next, Backs::absorb)) {
+    const auto hit = closest_hit(light.rays, ray, backs);
+    if (!hit)
+      return {.mirrors = sight.mirrors};
+    const FaceRecord& face =
+        light.landing.faces[2 * std::size_t{index(hit->triangle)} + (hit->front ? 0 : 1)];
+    sight.triangle = hit->triangle;
+    sight.barycentric = hit->barycentric;
+    sight.position = ray.origin + hit->distance * ray.direction;
+    sight.normal = face.normal;
+    if (face.side != FaceRecord::nothing) {
+      sight.side = face.side;
+      const glm::vec2 b(hit->barycentric);
+      sight.place = field_point(light.landing, face.side,
+                                landing_uv(face, light.surfaces, index(hit->triangle), b.x, b.y));
+    }
+    const bool clear = face.glass && passes_most(light, *hit);
+    if (!clear && (!face.mirrors || face.glass || sight.mirrors >= max_mirrors))
+      return sight;
+    ray.origin = sight.position;
+    ray.leaving = static_cast<PlaneId>(face.plane_class);
+    if (clear) {
+      next = backs;
+      // Where panes meet in an edge the one that was left before is met again,
+      // unless the eye goes on: in steps that double.
+      step = hit->distance > step ? 0.0 : std::max(2.0 * step, 1e-15 / light.rays.frame().scale);
+      ray.origin += step * ray.direction;
+    } else {
+      ++sight.mirrors;
+      ray.direction -= 2.0 * glm::dot(face.normal, ray.direction) * face.normal;
+    }
+    sight.side = FaceRecord::nothing;
+  }
+}
+
+Rgb albedo_at(const LightScene& light, const Sight& sight) {
+  if (sight.side == FaceRecord::nothing)
+    return Rgb(0.0);
+  const MeshSide& side = light.mesh.sides[sight.side];
+  if (!side.textured)
+    return side.reflectance;
+  return surface_colour(light.scene, light.textures, sight.triangle, sight.barycentric).reflectance;
+}
+
+} // namespace meninas

@@ -1,0 +1,82 @@
+#include "runs/report/comparison.h"
+
+#include "image/display.h"
+#include "scenes/errors.h"
+#include "scenes/names.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace meninas {
+
+namespace fs = std::filesystem;
+
+static Image take_layer(ImageFile& file, const fs::path& path, const std::string& name) {
+  if (!file.picture_name.empty() && name == file.picture_name) {
+    return std::move(file.picture);
+  }
+  std::vector<std::string> names;
+  if (!file.picture_name.empty()) {
+    names.push_back(file.picture_name);
+  }
+  for (Layer& layer : file.layers) {
+    if (layer.name == name) {
+      return std::move(layer.image);
+    }
+    names.push_back(layer.name);
+  }
+  std::string hint = "; it has no layers";
+  if (const auto nearest = nearest_name(name, names)) {
+    hint = fmt::format(", did you mean '{}'?", *nearest);
+  } else if (!names.empty()) {
+    hint = fmt::format(", there is {}", fmt::join(names, ", "));
+  }
+  throw InputError(path.string(), "", fmt::format("no layer '{}'{}", name, hint));
+}
+
+ComparedPicture read_compared(const fs::path& path, const std::optional<std::string>& layer) {
+  ImageFile file = read_image(path, layer ? Picture::not_needed : Picture::needed);
+  ComparedPicture result{.image = layer ? take_layer(file, path, *layer) : std::move(file.picture),
+                         .encoding = file.encoding,
+                         .remarks = std::move(file.remarks)};
+  if (const auto bad = first_bad_pixel(result.image)) {
+    throw InputError(path.string(), layer ? fmt::format("layer '{}'", *layer) : "", *bad);
+  }
+  return result;
+}
+
+void check_same_size(const Image& picture, const fs::path& picture_file, const Image& reference,
+                     const fs::path& reference_file) {
+  if (picture.width != reference.width || picture.height != reference.height) {
+    throw InputError(picture_file.string(), "",
+                     fmt::format("is {}x{} pixels, {} is {}x{}", picture.width, picture.height,
+                                 reference_file.string(), reference.width, reference.height));
+  }
+}
+
+MetricSettings metric_settings(const ComparedPicture& reference, std::optional<double> exposure) {
+  MetricSettings settings;
+  if (reference.encoding == Encoding::srgb) {
+    settings.peak = 1.0;
+    settings.exposure = exposure.value_or(0.0);
+  } else {
+    settings.exposure = exposure ? *exposure : automatic_exposure(reference.image);
+  }
+  return settings;
+}
+
+std::vector<std::string> broken_limits(const PictureDifference& difference,
+                                       const std::vector<MetricLimit>& limits) {
+  std::vector<std::string> broken;
+  for (const auto& [metric, limit] : limits) {
+    const double value = value_of(difference, metric);
+    const bool held = larger_is_nearer(metric) ? value >= limit : value <= limit;
+    if (!held) {
+      broken.push_back(fmt::format("{} {:.4g} {} {:.4g}", name_of(metric), value,
+                                   larger_is_nearer(metric) ? "is below" : "exceeds", limit));
+    }
+  }
+  return broken;
+}
+
+} // namespace meninas

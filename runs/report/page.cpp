@@ -1,0 +1,49 @@
+#include "runs/report/page.h"
+
+#include "image/image_file.h"
+#include "scenes/types.h"
+
+#include <cstdint>
+
+namespace meninas {
+
+std::string fill_page(std::string_view page, std::string_view json) {
+  constexpr std::string_view place = "@DATA@";
+  const auto at = page.find(place);
+  expects(at != std::string_view::npos, "a page has a place for its data");
+  std::string filled(page.substr(0, at));
+  for (const char c : json) {
+    // In JSON this sign occurs in texts alone, where its code stands for it.
+    if (c == '<') {
+      filled += "\\u003c";
+    } else {
+      filled += c;
+    }
+  }
+  filled += page.substr(at + place.size());
+  return filled;
+}
+
+std::string base64(std::span<const std::byte> bytes) {
+  constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t first = 0; first < bytes.size(); first += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - first);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8U | (k < count ? std::to_integer<std::uint32_t>(bytes[first + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= count ? digits[group >> (18U - 6U * k) & 63U] : '=';
+    }
+  }
+  return text;
+}
+
+std::string png_address(const Image& picture, double exposure, Compression compression) {
+  return "data:image/png;base64," + base64(encode_png(picture, exposure, compression));
+}
+
+} // namespace meninas

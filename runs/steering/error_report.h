@@ -1,0 +1,45 @@
+// What a run says about the error of its picture:
+// in a line, in its figures, as a layer of the picture.
+#pragma once
+
+#include "raytrace/error/picture_error.h"
+#include "runs/run_events.h"
+#include "runs/report/stats.h"
+
+#include <optional>
+#include <string>
+
+namespace meninas {
+
+enum class WithErrorMap { no, yes };
+
+/// What is to be found out.
+enum class ErrorReport {
+  none,
+  figures, ///< and the line
+  map      ///< these, and the layer `error`
+};
+
+/// What a picture was made of.
+struct PictureSource {
+  const LightScene& light;
+  const DiffuseField& field;
+  const Camera& camera;
+  const TwoPassSettings& settings;
+  const SolverResult& solver;
+};
+
+/// "error about 1.3 % of the mean radiance:
+/// mesh 1.2 %, camera rays 0.5 %", the larger parts first, no part that does not matter.
+std::string describe_error(const PictureError& error);
+
+/// What to turn first where the error can be seen (2 %): the option that makes the largest
+/// part smaller, as "--diffuse direct would help most". Nothing where it cannot.
+std::optional<std::string> first_turn(const PictureError& error, const TwoPassSettings& settings);
+
+/// Fills in the figures and says the line as a note, with what to turn first;
+/// the map is appended to the layers.
+void report_error(const PictureSource& source, ErrorReport wanted, const SampledPicture& picture,
+                  std::vector<Layer>& layers, const RunEvents& events, RunFigures& figures);
+
+} // namespace meninas

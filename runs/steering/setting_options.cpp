@@ -1,0 +1,98 @@
+#include "runs/steering/setting_options.h"
+
+#include <fmt/format.h>
+
+namespace meninas {
+
+const char* name_of(Quality quality) {
+  switch (quality) {
+  case Quality::draft:
+    return "draft";
+  case Quality::normal:
+    return "normal";
+  case Quality::fine:
+    return "fine";
+  }
+  return "";
+}
+
+const char* name_of(DiffuseTerm term) {
+  switch (term) {
+  case DiffuseTerm::interpolated:
+    return "interpolated";
+  case DiffuseTerm::direct:
+    return "direct";
+  case DiffuseTerm::gather:
+    return "gather";
+  }
+  return "";
+}
+
+const char* name_of(FormFactorMethod method) {
+  switch (method) {
+  case FormFactorMethod::rays:
+    return "rays";
+  case FormFactorMethod::hemicube:
+    return "hemicube";
+  case FormFactorMethod::analytic:
+    return "analytic";
+  }
+  return "";
+}
+
+const char* name_of(Interpolation method) {
+  return method == Interpolation::average ? "average" : "gather";
+}
+
+std::vector<std::string> options_of(const RunSettings& settings) {
+  const RunSettings standard;
+  std::vector<std::string> options;
+  const auto add = [&](const char* option, std::string value) {
+    options.emplace_back(option);
+    if (!value.empty())
+      options.push_back(std::move(value));
+  };
+  const auto add_given = [&](const char* option, const auto& value) {
+    if (value)
+      add(option,
+          fmt::format("{}", *value)); // the shortest text that reads back as the same number
+  };
+  if (settings.quality != standard.quality)
+    add("--quality", name_of(settings.quality));
+  if (settings.background)
+    add("--background", fmt::format("{},{},{}", settings.background->r, settings.background->g,
+                                    settings.background->b));
+  add_given("--element-size", settings.element_size);
+  add_given("--elements", settings.elements);
+  if (settings.adaptive == WithAdaptivity::yes)
+    add("--adaptive", settings.adaptive_error ? fmt::format("{}", *settings.adaptive_error) : "");
+  add_given("--bends", settings.bends);
+  if (settings.form_factors != standard.form_factors)
+    add("--form-factors", name_of(settings.form_factors));
+  add_given("--rays", settings.rays);
+  add_given("--hemicube-resolution", settings.hemicube_resolution);
+  if (settings.solver != standard.solver)
+    add("--solver", name_of(settings.solver));
+  add_given("--tolerance", settings.tolerance);
+  add_given("--steps", settings.steps);
+  add_given("--link-error", settings.link_error);
+  add_given("--mirror-depth", settings.mirror_depth);
+  if (settings.interpolation)
+    add("--interpolation", name_of(*settings.interpolation));
+  if (settings.mode == PictureMode::radiosity)
+    add("--mode", "radiosity");
+  RunSettings by_preset = settings;
+  by_preset.diffuse.reset();
+  if (diffuse_term(settings) != diffuse_term(by_preset))
+    add("--diffuse", name_of(diffuse_term(settings)));
+  add_given("--samples", settings.samples);
+  if (settings.filter != standard.filter)
+    add("--filter", std::string(name_of(settings.filter)));
+  add_given("--pixel-error", settings.pixel_error);
+  add_given("--glossy-samples", settings.glossy_samples);
+  if (settings.seed != standard.seed)
+    add("--seed", fmt::format("{}", settings.seed));
+  return options;
+}
+
+} // namespace meninas

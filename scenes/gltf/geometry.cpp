@@ -1,0 +1,319 @@
+// Triangles of every mesh node, in world space.
+#include "scenes/gltf/accessors.h"
+#include "scenes/gltf/deformation.h"
+#include "scenes/gltf/instances.h"
+#include "scenes/gltf/primitives.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas::gltf {
+
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+/// One primitive as it stands in the file, in the coordinates of its mesh.
+struct Part {
+  std::vector<Vec3> positions;
+  std::vector<std::array<glm::vec2, 2>> texcoords;
+  std::vector<glm::vec4> colors; ///< empty without COLOR_0
+  std::vector<Corners> triangles;
+  MaterialId material = none<MaterialId>;
+  double step = 0.0; ///< of integer positions; 0: floats
+};
+
+/// What is read, and by vertex half the step of integer positions, in metres.
+struct Geometry {
+  Scene& scene;
+  std::vector<float> half_steps;
+};
+
+// Coordinates whose fourth powers leave the range of doubles cannot be computed with.
+constexpr double largest_coordinate = 1e60;
+
+} // namespace
+
+static std::vector<Vec3> decode_positions(const PrimitivePlace& at, std::size_t accessor) {
+  const auto decoded = decode_vectors(at.document, accessor, 3);
+  std::vector<Vec3> positions(decoded.size());
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    const auto* p = &decoded.values[3 * k];
+    positions[k] = {p[0], p[1], p[2]};
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+      at.fail(fmt::format("POSITION {} (of {}) is not finite", k,
+                          place(at.document.root, "accessors", accessor)));
+  }
+  return positions;
+}
+
+static std::vector<std::array<glm::vec2, 2>>
+decode_texcoords(const PrimitivePlace& at, std::size_t count, Findings& findings) {
+  std::vector<std::array<glm::vec2, 2>> texcoords(count);
+  for (std::size_t set = 0; set < 2; ++set) {
+    const auto accessor = index_at(at.json["attributes"], fmt::format("TEXCOORD_{}", set));
+    if (!accessor)
+      continue;
+    const auto decoded = decode_vectors(at.document, *accessor, 2);
+    for (std::size_t k = 0; k < count; ++k) {
+      const glm::vec2 uv(decoded.values[2 * k], decoded.values[2 * k + 1]);
+      if (std::isfinite(uv.x) && std::isfinite(uv.y))
+        texcoords[k][set] = uv;
+      else
+        findings.about("texture coordinates that are not finite are read as 0 in nodes",
+                       at.in.node);
+    }
+  }
+  return texcoords;
+}
+
+/// A material with textures on what has no coordinates for them.
+static void check_texcoords(const PrimitivePlace& at, Findings& findings) {
+  const auto material = index_at(at.json, "material");
+  if (!material)
+    return;
+  for (const auto set : texcoord_sets(element(at.document.root, "materials", *material)))
+    if (!at.json["attributes"].contains(fmt::format("TEXCOORD_{}", set)))
+      findings.about("texture coordinates that their materials ask for are missing in nodes",
+                     at.in.node);
+}
+
+/// COLOR_0, RGB or RGBA, in [0, 1]: linear factors of the base colour.
+static std::vector<glm::vec4> decode_colors(const PrimitivePlace& at, Findings& findings) {
+  const auto accessor = index_at(at.json["attributes"], "COLOR_0");
+  if (!accessor)
+    return {};
+  const bool with_alpha =
+      text_or(element(at.document.root, "accessors", *accessor), "type", "") == "VEC4";
+  const auto decoded = decode_vectors(at.document, *accessor, with_alpha ? 4 : 3);
+  std::vector<glm::vec4> colors(decoded.size(), glm::vec4(1.0F));
+  for (std::size_t k = 0; k < colors.size(); ++k) {
+    for (std::size_t c = 0; c < decoded.width; ++c) {
+      const double value = decoded.values[decoded.width * k + c];
+      if (!(value >= 0.0 && value <= 1.0))
+        findings.about("vertex colours outside [0, 1] are clamped in nodes", at.in.node);
+      colors[k][static_cast<glm::length_t>(c)] =
+          static_cast<float>(value > 0.0 ? std::min(value, 1.0) : 0.0);
+    }
+  }
+  return colors;
+}
+
+static void check_attribute_counts(const PrimitivePlace& at, std::size_t position) {
+  const auto expected = accessor_count(at.document, position);
+  for (const auto& [name, accessor] : at.json["attributes"].items()) {
+    const auto count = accessor_count(at.document, size_value(accessor));
+    if (count != expected)
+      at.fail(fmt::format("{} has {} elements, POSITION has {}", one_line(name), count, expected));
+  }
+}
+
+static std::vector<std::uint32_t> decode_corners(const PrimitivePlace& at, std::size_t vertices) {
+  std::vector<std::uint32_t> corners;
+  const auto accessor = index_at(at.json, "indices");
+  if (!accessor) {
+    corners.resize(vertices);
+    for (std::size_t k = 0; k < vertices; ++k)
+      corners[k] = static_cast<std::uint32_t>(k);
+    return corners;
+  }
+  corners = decode_indices(at.document, *accessor);
+  const auto outside =
+      std::ranges::find_if(corners, [&](std::uint32_t corner) { return corner >= vertices; });
+  if (outside != corners.end())
+    at.fail(fmt::format("index {} ({} of {}) is out of range: there are {} vertices", *outside,
+                        outside - corners.begin(), place(at.document.root, "accessors", *accessor),
+                        vertices));
+  return corners;
+}
+
+/// glTF 2.0, 3.7.2.1:
+/// every second triangle of a strip is turned round, so that all face the same way.
+static std::vector<Corners> triangulate(Mode mode, std::span<const std::uint32_t> corners) {
+  std::vector<Corners> triangles(triangles_in(mode, corners.size()));
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    if (mode == Mode::triangles)
+      triangles[k] = {corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]};
+    else if (mode == Mode::strip)
+      triangles[k] = {corners[k], corners[k + 1 + k % 2], corners[k + 2 - k % 2]};
+    else
+      triangles[k] = {corners[k + 1], corners[k + 2], corners[0]};
+  }
+  return triangles;
+}
+
+static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& findings) {
+  const auto mode = mode_of(at);
+  if (mode < Mode::triangles) {
+    findings.about("points and lines are left out in nodes", at.in.node);
+    return std::nullopt;
+  }
+  const auto accessor = position_accessor(at);
+  if (!accessor) {
+    findings.about("primitives without positions are left out in nodes", at.in.node);
+    return std::nullopt;
+  }
+  check_attribute_counts(at, *accessor);
+
+  Part part;
+  part.positions = decode_positions(at, *accessor);
+  part.step = step_of_values(at.document, *accessor);
+  if (const auto* targets = find(at.json, "targets"); targets && !targets->empty()) {
+    findings.about("morph targets stand still, by their default weights, in nodes", at.in.node);
+    apply_morph_targets(at.document, at.where(), at.json, at.in.morph_weights, part.positions);
+  }
+  part.texcoords = decode_texcoords(at, part.positions.size(), findings);
+  check_texcoords(at, findings);
+  part.colors = decode_colors(at, findings);
+  const auto corners = decode_corners(at, part.positions.size());
+  if (mode == Mode::triangles && corners.size() % 3 != 0)
+    findings.about("vertices over after the last whole triangle are left out in nodes", at.in.node);
+  part.triangles = triangulate(mode, corners);
+  if (const auto material = index_at(at.json, "material"))
+    part.material = static_cast<MaterialId>(*material);
+  return part;
+}
+
+static double largest_of(const Vec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// Half the distance between neighbouring floats at x.
+static double half_ulp(double x) {
+  return x > 0.0 ? std::ldexp(1.0, std::max(std::ilogb(x), -126) - 24) : 0.0;
+}
+
+/// Rounding of local coordinates to floats, stretched by the matrix,
+/// and of the product with the matrix in doubles, by the largest of the coordinates.
+class PositionError {
+public:
+  explicit PositionError(const glm::dmat4& world) : away_(largest_of(Vec3(world[3]))) {
+    const auto rows = glm::transpose(glm::dmat3(world));
+    // The largest sum of a row bounds the change of any coordinate.
+    for (int row = 0; row < 3; ++row)
+      stretch_ =
+          std::max(stretch_, std::abs(rows[row].x) + std::abs(rows[row].y) + std::abs(rows[row].z));
+  }
+
+  /// Of coordinates that are rounded to multiples of a step.
+  double of_step(double step) const { return 0.5 * step * stretch_; }
+  double of(double local) const {
+    return half_ulp(local) * stretch_ + 4e-16 * (stretch_ * local + away_);
+  }
+  double of(const Part& part) const {
+    double local = 0.0;
+    for (const auto& p : part.positions)
+      local = std::max(local, largest_of(p));
+    return of(local);
+  }
+
+private:
+  double stretch_ = 0.0, away_ = 0.0;
+};
+
+/// A mirrored node shows its triangles turned round,
+/// unless they are turned round once more (glTF 2.0, 3.7.4).
+static bool is_mirrored(const glm::dmat4& world) {
+  const glm::dmat3 linear(world);
+  const auto largest =
+      std::max({largest_of(linear[0]), largest_of(linear[1]), largest_of(linear[2])});
+  return largest > 0.0 && glm::determinant(linear / largest) < 0.0;
+}
+
+/// Its shortest height is below the error of the corners: neither a plane nor a front can be told.
+static bool is_degenerate(const std::array<Point3, 3>& p, double error) {
+  const auto longest =
+      std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
+  return !(2.0 * glm::length(area_vector(p)) > error * longest);
+}
+
+static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat4& world,
+                     NodeId node, Geometry& into, Findings& findings) {
+  Scene& scene = into.scene;
+  const PositionError position_error(world);
+  const auto error = position_error.of(part);
+  const bool mirrored = is_mirrored(world);
+  std::vector<Point3> placed(part.positions.size());
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    placed[k] = Point3(world * glm::dvec4(part.positions[k], 1.0));
+    if (!(largest_of(placed[k]) < largest_coordinate))
+      at.fail(fmt::format("vertex {} is over {:g} m away in node {}", k, largest_coordinate,
+                          at.in.node));
+  }
+
+  // Vertices join the scene when the first triangle that stays needs them.
+  std::vector<VertexId> ids(placed.size(), none<VertexId>);
+  std::size_t kept = 0;
+  for (auto corners : part.triangles) {
+    if (mirrored)
+      std::swap(corners[1], corners[2]);
+    if (is_degenerate({placed[corners[0]], placed[corners[1]], placed[corners[2]]}, error))
+      continue;
+    Triangle triangle{.material = part.material, .node = node};
+    for (std::size_t c = 0; c < 3; ++c) {
+      auto& id = ids[corners[c]];
+      if (id == none<VertexId>) {
+        id = static_cast<VertexId>(scene.vertices.size());
+        scene.vertices.push_back({placed[corners[c]], part.texcoords[corners[c]]});
+        scene.position_errors.push_back(
+            static_cast<float>(position_error.of(largest_of(part.positions[corners[c]]))));
+        into.half_steps.push_back(static_cast<float>(position_error.of_step(part.step)));
+        if (!part.colors.empty())
+          scene.vertices.back().color = part.colors[corners[c]];
+      }
+      triangle.vertices[c] = id;
+    }
+    scene.triangles.push_back(triangle);
+    ++kept;
+  }
+  if (kept > 0)
+    scene.position_error = std::max(scene.position_error, error);
+  const auto dropped = part.triangles.size() - kept;
+  scene.degenerate_triangles += dropped;
+  if (dropped > 0)
+    findings.about("triangles without area are in nodes", at.in.node);
+}
+
+/// A primitive where its node puts it: moved by the joints, or by the matrix of each instance.
+static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& node, NodeId id,
+                       Skins& skins, Geometry& into, Findings& findings) {
+  if (const auto skin = index_at(element(at.document.root, "nodes", node.index), "skin")) {
+    if (apply_skin(at.document, at.where(), at.json, skins.joints(*skin), part.positions)) {
+      findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
+      return add_part(at, part, glm::dmat4(1.0), id, into, findings);
+    }
+    findings.about("skins without joints in the scene are left out in nodes", at.in.node);
+  }
+  const auto copies = instance_matrices(at.document, node);
+  if (copies.empty())
+    findings.about("instanced nodes without an instance are left out", at.in.node);
+  for (const auto& world : copies)
+    add_part(at, part, world, id, into, findings);
+}
+
+std::vector<float> read_geometry(const Document& document, std::span<const PlacedNode> nodes,
+                                 Scene& scene, Findings& findings) {
+  check_geometry_size(document, nodes);
+  Skins skins(document, nodes);
+  Geometry geometry{scene, {}};
+  std::vector<std::string> names;
+  for (const auto& node : nodes) {
+    const auto mesh = index_at(element(document.root, "nodes", node.index), "mesh");
+    if (!mesh)
+      continue;
+    const auto id = static_cast<NodeId>(names.size());
+    const auto place = mesh_place(document, node.index, *mesh);
+    names.push_back(place.node);
+    each_primitive(place, [&](const PrimitivePlace& at) {
+      if (auto part = decode_primitive(at, findings))
+        place_part(at, std::move(*part), node, id, skins, geometry, findings);
+    });
+  }
+  for (auto& name : unique_names(names))
+    scene.nodes.push_back({std::move(name)});
+  return std::move(geometry.half_steps);
+}
+
+} // namespace meninas::gltf

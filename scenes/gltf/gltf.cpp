@@ -1,0 +1,170 @@
+#include "scenes/gltf/gltf.h"
+
+#include "scenes/repair/glass_plates.h"
+#include "scenes/gltf/stages.h"
+#include "scenes/repair/hairline_gaps.h"
+#include "scenes/repair/nearly_flat.h"
+#include "scenes/materials/smooth_surfaces.h"
+#include "scenes/repair/touching.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meninas {
+
+using namespace gltf;
+
+static constexpr std::string_view extensions_read[] = {
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",
+    "KHR_lights_punctual",
+    "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+};
+
+static bool is_read(const std::string& extension) {
+  return std::ranges::find(extensions_read, extension) != std::end(extensions_read);
+}
+
+/// Extensions in use anywhere below, declared or not.
+/// The nesting was bounded when the text was parsed.
+static void collect_extensions(const Json& json, std::set<std::string>& names) {
+  if (!json.is_structured())
+    return;
+  for (const auto& [key, value] : json.items()) {
+    if (json.is_object() && key == "extras")
+      continue;
+    if (json.is_object() && key == "extensions" && value.is_object())
+      for (const auto& extension : value.items())
+        names.insert(extension.key());
+    collect_extensions(value, names);
+  }
+}
+
+/// What a file loses without it: the look of its materials, no more.
+/// Then a picture is better than none, though the file calls it required.
+static bool is_of_looks_only(const std::string& extension) {
+  constexpr std::string_view prefixes[] = {"KHR_materials_", "EXT_materials_", "MSFT_materials_",
+                                           "KHR_texture_",   "EXT_texture_",   "MSFT_texture_",
+                                           "KHR_xmp",        "KHR_animation_", "KHR_techniques_"};
+  return std::ranges::any_of(
+      prefixes, [&](std::string_view prefix) { return extension.starts_with(prefix); });
+}
+
+static void check_required(const Document& document, Findings& findings) {
+  const auto* needed = find(document.root, "extensionsRequired");
+  if (!needed)
+    return;
+  for (const auto& json : *needed) {
+    const auto name = one_line(json.get<std::string>());
+    if (is_read(name))
+      continue;
+    if (is_of_looks_only(name)) {
+      findings.about("extensions that the file calls required are left out", name);
+      continue;
+    }
+    const bool is_compression = name.find("compression") != std::string::npos;
+    throw InputError(document.file, "extensionsRequired",
+                     fmt::format("the file needs {}, which is not read{}", name,
+                                 is_compression ? ": save it without mesh compression" : ""));
+  }
+}
+
+static void check_extensions(const Document& document, Scene& scene, Findings& findings) {
+  std::set<std::string> names;
+  check_required(document, findings);
+  if (const auto* used = find(document.root, "extensionsUsed"))
+    for (const auto& name : *used)
+      names.insert(name.get<std::string>());
+  collect_extensions(document.root, names);
+  for (const auto& name : names) {
+    if (is_read(name))
+      continue;
+    scene.ignored.push_back(one_line(name));
+    findings.about("extensions are left out", scene.ignored.back());
+  }
+}
+
+static void report_animations(const Document& document, Scene& scene, Findings& findings) {
+  const auto count = count_of(document.root, "animations");
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto name = name_of(element(document.root, "animations", k));
+    findings.about("animations are left out, the rest pose is shown",
+                   name.empty() ? fmt::format("animation{}", k) : name);
+  }
+  if (count > 0)
+    scene.ignored.push_back("animations");
+}
+
+static void make_flat(Scene& scene, std::span<const float> half_steps, Findings& findings) {
+  constexpr double a_float = 1e-6; // of the scene's size: what nobody is told of
+  const Flattening made = flatten_nearly_flat(scene, half_steps);
+  const Bounds bounds = bounds_of(scene);
+  if (made.farthest > a_float * glm::distance(bounds.low, bounds.high))
+    findings.say(fmt::format("surfaces that are flat but for rounding are made flat: {} (vertices "
+                             "moved by at most {:.2g} m)",
+                             made.surfaces, made.farthest));
+}
+
+static void put_apart(Scene& scene, Findings& findings) {
+  for (const NodeId node : plates_to_panes(scene))
+    findings.about("plates of glass that lie on a face count as panes in nodes",
+                   scene.nodes[index(node)].name);
+  for (const NodeId node : separate_touching(scene))
+    findings.about(
+        "glass or lamps that lie in the plane of a face are put a hair before it in nodes",
+        scene.nodes[index(node)].name);
+}
+
+Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings) {
+  auto content = read_whole_file(file, settings.memory_limit);
+  if (!content.problem.empty())
+    throw UserError(content.kind, file.string(), "", content.problem);
+  return read_gltf(std::move(content.bytes), file, settings);
+}
+
+Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& file,
+                const GltfSettings& settings) {
+  const auto document = read_document(std::move(bytes), file, settings);
+  Scene scene;
+  scene.file = document.file;
+  Findings findings;
+  check_extensions(document, scene, findings);
+
+  const auto nodes = place_nodes(document, findings);
+  const std::vector<float> half_steps = read_geometry(document, nodes, scene, findings);
+  if (scene.triangles.empty())
+    throw InputError(document.file, "",
+                     scene.degenerate_triangles == 0
+                         ? "nothing to render: no triangles in the scene"
+                         : fmt::format("nothing to render: all {} triangles are without area",
+                                       scene.degenerate_triangles));
+  read_materials(document, scene, findings);
+  make_flat(scene, half_steps, findings);
+  if (const auto joints = close_hairline_gaps(scene); !joints.empty())
+    findings.say(describe_joints(scene, joints));
+  put_apart(scene, findings);
+  mark_smooth_surfaces(scene);
+  read_cameras(document, nodes, scene, findings);
+  read_lights(document, nodes, scene, findings);
+  for (const std::string& light : settle_lights(scene))
+    findings.about("lights in the plane of a face are put before it", light);
+
+  report_animations(document, scene, findings);
+  if (scene.degenerate_triangles > 0)
+    findings.say(
+        fmt::format("triangles without area that are left out: {}", scene.degenerate_triangles));
+  scene.warnings = findings.lines();
+  return scene;
+}
+
+} // namespace meninas

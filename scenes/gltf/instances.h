@@ -1,0 +1,15 @@
+// One mesh in many places:
+// EXT_mesh_gpu_instancing, whose accessors hold a translation, rotation and scale for each copy.
+#pragma once
+
+#include "scenes/gltf/stages.h"
+
+namespace meninas::gltf {
+
+/// How often a node shows its mesh: 1 without the extension.
+std::uint64_t instance_count(const Document& document, std::size_t node);
+
+/// World matrices of the copies; the node's own without the extension.
+std::vector<glm::dmat4> instance_matrices(const Document& document, const PlacedNode& node);
+
+} // namespace meninas::gltf

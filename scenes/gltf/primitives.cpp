@@ -1,0 +1,125 @@
+#include "scenes/gltf/primitives.h"
+
+#include "scenes/gltf/accessors.h"
+#include "scenes/gltf/instances.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace meninas::gltf {
+
+std::string PrimitivePlace::where() const {
+  return fmt::format("{}, primitive {}", place(document.root, "meshes", in.mesh), number);
+}
+
+void PrimitivePlace::fail(const std::string& what) const {
+  throw InputError(document.file, where(), what);
+}
+
+MeshPlace mesh_place(const Document& document, std::size_t node, std::size_t mesh) {
+  const auto& json = element(document.root, "nodes", node);
+  const auto name = name_of(json);
+  auto weights = numbers_at(json, "weights");
+  if (weights.empty())
+    weights = numbers_at(element(document.root, "meshes", mesh), "weights");
+  return {document, mesh, name.empty() ? fmt::format("node{}", node) : name, std::move(weights)};
+}
+
+Mode mode_of(const PrimitivePlace& at) {
+  const auto mode = size_or(at.json, "mode", 4);
+  if (mode > 6)
+    at.fail(fmt::format("mode {} does not exist", mode));
+  return static_cast<Mode>(mode);
+}
+
+std::optional<std::size_t> position_accessor(const PrimitivePlace& at) {
+  const auto accessor = index_at(at.json["attributes"], "POSITION");
+  if (!accessor)
+    return std::nullopt;
+  const auto& json = element(at.document.root, "accessors", *accessor);
+  if (!json.contains("bufferView") && find(at.json, {"extensions", "KHR_draco_mesh_compression"}))
+    at.fail("its data is only there in KHR_draco_mesh_compression, which is not decoded: save the "
+            "file without mesh compression");
+  return *accessor;
+}
+
+std::size_t triangles_in(Mode mode, std::uint64_t corners) {
+  if (corners < 3)
+    return 0;
+  return mode == Mode::triangles ? corners / 3 : corners - 2;
+}
+
+/// Bytes a vertex takes while its targets and joints are decoded.
+static double deformation_bytes(const PrimitivePlace& at, bool is_skinned) {
+  const auto* targets = find(at.json, "targets");
+  return sizeof(double) *
+         (3.0 * static_cast<double>(targets ? targets->size() : 0) + (is_skinned ? 8.0 : 0.0));
+}
+
+namespace {
+
+struct Needs {
+  double bytes = 0.0;
+  double vertices = 0.0;
+};
+
+} // namespace
+
+static Needs needs_of(const PrimitivePlace& at, double copies, bool is_skinned) {
+  constexpr double per_vertex = sizeof(Vertex) + 2 * sizeof(Point3) +
+                                sizeof(std::array<glm::vec2, 2>) + sizeof(glm::vec4) +
+                                4 * sizeof(double) + sizeof(VertexId);
+  constexpr double per_corner = sizeof(std::uint32_t);
+  constexpr double per_triangle = sizeof(Triangle) + 3 * sizeof(std::uint32_t);
+  const auto mode = mode_of(at);
+  const auto accessor = mode < Mode::triangles ? std::nullopt : position_accessor(at);
+  if (!accessor)
+    return {};
+  const auto count = accessor_count(at.document, *accessor);
+  const auto indices = index_at(at.json, "indices");
+  const auto corners = indices ? accessor_count(at.document, *indices) : count;
+  return {(copies * per_vertex + deformation_bytes(at, is_skinned)) * static_cast<double>(count) +
+              per_corner * static_cast<double>(corners) +
+              copies * per_triangle * static_cast<double>(triangles_in(mode, corners)),
+          copies * static_cast<double>(count)};
+}
+
+void check_geometry_size(const Document& document, std::span<const PlacedNode> nodes) {
+  // Primitives with their attributes;
+  // each takes a fraction of a microsecond to look at, also where nothing of it is seen.
+  constexpr std::size_t most_looks = 50000000;
+  const auto limit = static_cast<double>(document.settings.memory_limit);
+  std::size_t looks = 0;
+  Needs all;
+  std::set<std::size_t> skins;
+  for (const auto& node : nodes) {
+    const auto& json = element(document.root, "nodes", node.index);
+    const auto mesh = index_at(json, "mesh");
+    if (!mesh)
+      continue;
+    const auto skin = index_at(json, "skin");
+    if (skin && skins.insert(*skin).second)
+      all.bytes += sizeof(glm::dmat4) *
+                   static_cast<double>(element(document.root, "skins", *skin)["joints"].size());
+    const auto copies = static_cast<double>(instance_count(document, node.index));
+    all.bytes += sizeof(glm::dmat4) * copies;
+    each_primitive(mesh_place(document, node.index, *mesh), [&](const PrimitivePlace& at) {
+      looks += 1 + at.json["attributes"].size();
+      if (looks > most_looks)
+        throw OutputError(document.file, place(document.root, "nodes", node.index),
+                          fmt::format("up to here the nodes' meshes have over {} primitives and "
+                                      "attributes, more than are read",
+                                      most_looks));
+      const auto needs = needs_of(at, copies, skin.has_value());
+      all.bytes += needs.bytes;
+      all.vertices += needs.vertices;
+    });
+  }
+  if (all.bytes > limit || all.vertices >= static_cast<double>(index(none<VertexId>)))
+    throw OutputError(document.file, "geometry",
+                      fmt::format("needs about {:.0f} MiB, the memory limit is {:.0f} MiB",
+                                  all.bytes / (1 << 20), limit / (1 << 20)));
+}
+
+} // namespace meninas::gltf

@@ -1,0 +1,60 @@
+// The stages of the loader after the document is read:
+// nodes, geometry, materials, cameras and lights.
+#pragma once
+
+#include "scenes/gltf/document.h"
+
+#include <glm/mat4x4.hpp>
+
+namespace meninas::gltf {
+
+/// A node of the chosen scene with the product of the matrices down to it.
+struct PlacedNode {
+  std::size_t index = 0; ///< into the file's nodes
+  glm::dmat4 world{1.0};
+};
+
+/// The nodes of the chosen scene, parents before children, in the order of the file.
+std::vector<PlacedNode> place_nodes(const Document& document, Findings& findings);
+
+/// Makes names unique: the first keeps its name, others get the first free suffix .1, .2, ...
+std::vector<std::string> unique_names(const std::vector<std::string>& names);
+
+/// Fills vertices, triangles, nodes and their error bound.
+/// Materials of triangles are still indices into the file, none for a primitive without.
+/// Returns, by vertex, half the step of positions that the file rounds to integers, in metres;
+/// 0 of floats.
+std::vector<float> read_geometry(const Document& document, std::span<const PlacedNode> nodes,
+                                 Scene& scene, Findings& findings);
+
+/// Replaces the file's material indices by the materials that triangles use,
+/// and adds these and their textures.
+void read_materials(const Document& document, Scene& scene, Findings& findings);
+
+/// Base colour, metallic, roughness and alpha from KHR_materials_pbrSpecularGlossiness.
+void read_specular_glossiness(const Document& document, const Json& model, Material& material,
+                              Findings& findings);
+
+/// The coat of KHR_materials_clearcoat (clear_coat.h), which textures may leave to be settled.
+void read_clear_coat(const Document& document, const Json& extension, Material& material,
+                     Findings& findings);
+
+/// `use.texture` is the file's texture;
+/// null when there is no image to be had, which is then in the findings.
+std::optional<TextureUse> read_texture_use(const Document& document, const Json& owner,
+                                           std::string_view key, const std::string& material,
+                                           Findings& findings);
+
+/// Which sets of texture coordinates the textures of a material ask for.
+std::set<std::uint64_t> texcoord_sets(const Json& material);
+
+/// Replaces the file's texture indices in the materials by textures of the scene,
+/// one per image and wrapping.
+void read_textures(const Document& document, Scene& scene, Findings& findings);
+
+void read_cameras(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
+                  Findings& findings);
+void read_lights(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
+                 Findings& findings);
+
+} // namespace meninas::gltf

@@ -1,0 +1,231 @@
+// The table of what the loader reads from a glTF file:
+// which properties, of which type, pointing where.
+#include "scenes/gltf/rules.h"
+
+namespace meninas::gltf {
+
+using enum Kind;
+using enum Presence;
+
+namespace {
+
+constexpr Rule name_rule{.name = "name", .kind = text};
+
+constexpr Rule texture_transform[] = {
+    {.name = "offset", .kind = numbers, .length = 2},
+    {.name = "rotation", .kind = number},
+    {.name = "scale", .kind = numbers, .length = 2},
+    {.name = "texCoord", .kind = size},
+};
+constexpr Rule texture_extensions[] = {
+    {.name = "KHR_texture_transform", .kind = object, .fields = texture_transform}};
+constexpr Rule texture_use[] = {
+    {.name = "index", .kind = index, .presence = required, .target = "textures"},
+    {.name = "texCoord", .kind = size},
+    {.name = "extensions", .kind = object, .fields = texture_extensions},
+};
+
+constexpr Rule metallic_roughness[] = {
+    {.name = "baseColorFactor", .kind = numbers, .length = 4},
+    {.name = "metallicFactor", .kind = number},
+    {.name = "roughnessFactor", .kind = number},
+    {.name = "baseColorTexture", .kind = object, .fields = texture_use},
+    {.name = "metallicRoughnessTexture", .kind = object, .fields = texture_use},
+};
+constexpr Rule clear_coat[] = {
+    {.name = "clearcoatFactor", .kind = number},
+    {.name = "clearcoatRoughnessFactor", .kind = number},
+};
+constexpr Rule emissive_strength[] = {{.name = "emissiveStrength", .kind = number}};
+constexpr Rule ior[] = {{.name = "ior", .kind = number}};
+constexpr Rule specular[] = {
+    {.name = "specularFactor", .kind = number},
+    {.name = "specularColorFactor", .kind = numbers, .length = 3},
+};
+constexpr Rule transmission[] = {
+    {.name = "transmissionFactor", .kind = number},
+    {.name = "transmissionTexture", .kind = object, .fields = texture_use},
+};
+constexpr Rule volume[] = {
+    {.name = "thicknessFactor", .kind = number},
+    {.name = "thicknessTexture", .kind = object, .fields = texture_use},
+    {.name = "attenuationDistance", .kind = number},
+    {.name = "attenuationColor", .kind = numbers, .length = 3},
+};
+constexpr Rule specular_glossiness[] = {
+    {.name = "diffuseFactor", .kind = numbers, .length = 4},
+    {.name = "specularFactor", .kind = numbers, .length = 3},
+    {.name = "glossinessFactor", .kind = number},
+    {.name = "diffuseTexture", .kind = object, .fields = texture_use},
+};
+constexpr Rule material_extensions[] = {
+    {.name = "KHR_materials_clearcoat", .kind = object, .fields = clear_coat},
+    {.name = "KHR_materials_pbrSpecularGlossiness", .kind = object, .fields = specular_glossiness},
+    {.name = "KHR_materials_emissive_strength", .kind = object, .fields = emissive_strength},
+    {.name = "KHR_materials_ior", .kind = object, .fields = ior},
+    {.name = "KHR_materials_specular", .kind = object, .fields = specular},
+    {.name = "KHR_materials_transmission", .kind = object, .fields = transmission},
+    {.name = "KHR_materials_unlit", .kind = object},
+    {.name = "KHR_materials_volume", .kind = object, .fields = volume},
+};
+constexpr Rule material[] = {
+    name_rule,
+    {.name = "pbrMetallicRoughness", .kind = object, .fields = metallic_roughness},
+    {.name = "emissiveFactor", .kind = numbers, .length = 3},
+    {.name = "emissiveTexture", .kind = object, .fields = texture_use},
+    {.name = "alphaMode", .kind = text},
+    {.name = "alphaCutoff", .kind = number},
+    {.name = "doubleSided", .kind = boolean},
+    {.name = "extensions", .kind = object, .fields = material_extensions},
+};
+
+constexpr Rule buffer[] = {
+    {.name = "uri", .kind = text},
+    {.name = "byteLength", .kind = size, .presence = required},
+};
+constexpr Rule buffer_view[] = {
+    {.name = "buffer", .kind = index, .presence = required, .target = "buffers"},
+    {.name = "byteOffset", .kind = size},
+    {.name = "byteLength", .kind = size, .presence = required},
+    {.name = "byteStride", .kind = size},
+    {.name = "extensions", .kind = object},
+};
+constexpr Rule sparse_indices[] = {
+    {.name = "bufferView", .kind = index, .presence = required, .target = "bufferViews"},
+    {.name = "byteOffset", .kind = size},
+    {.name = "componentType", .kind = size, .presence = required},
+};
+constexpr Rule sparse_values[] = {
+    {.name = "bufferView", .kind = index, .presence = required, .target = "bufferViews"},
+    {.name = "byteOffset", .kind = size},
+};
+constexpr Rule sparse[] = {
+    {.name = "count", .kind = size, .presence = required},
+    {.name = "indices", .kind = object, .presence = required, .fields = sparse_indices},
+    {.name = "values", .kind = object, .presence = required, .fields = sparse_values},
+};
+constexpr Rule accessor[] = {
+    {.name = "bufferView", .kind = index, .target = "bufferViews"},
+    {.name = "byteOffset", .kind = size},
+    {.name = "componentType", .kind = size, .presence = required},
+    {.name = "normalized", .kind = boolean},
+    {.name = "count", .kind = size, .presence = required},
+    {.name = "type", .kind = text, .presence = required},
+    {.name = "sparse", .kind = object, .fields = sparse},
+};
+
+constexpr Rule image[] = {
+    name_rule,
+    {.name = "uri", .kind = text},
+    {.name = "bufferView", .kind = index, .target = "bufferViews"},
+};
+constexpr Rule sampler[] = {{.name = "wrapS", .kind = size}, {.name = "wrapT", .kind = size}};
+constexpr Rule texture_source[] = {{.name = "source", .kind = index, .target = "images"}};
+constexpr Rule texture_formats[] = {
+    {.name = "EXT_texture_webp", .kind = object, .fields = texture_source}};
+constexpr Rule texture[] = {
+    name_rule,
+    {.name = "sampler", .kind = index, .target = "samplers"},
+    {.name = "source", .kind = index, .target = "images"},
+    {.name = "extensions", .kind = object, .fields = texture_formats},
+};
+
+constexpr Rule primitive[] = {
+    {.name = "attributes", .kind = attributes, .presence = required, .target = "accessors"},
+    {.name = "indices", .kind = index, .target = "accessors"},
+    {.name = "material", .kind = index, .target = "materials"},
+    {.name = "mode", .kind = size},
+    {.name = "targets", .kind = attribute_sets, .target = "accessors"},
+    {.name = "extensions", .kind = object},
+};
+constexpr Rule mesh[] = {
+    name_rule,
+    {.name = "primitives", .kind = objects, .presence = required, .fields = primitive},
+    {.name = "weights", .kind = numbers},
+};
+constexpr Rule skin[] = {
+    name_rule,
+    {.name = "joints", .kind = indices, .presence = required, .target = "nodes"},
+    {.name = "inverseBindMatrices", .kind = index, .target = "accessors"},
+};
+
+constexpr Rule node_light[] = {
+    {.name = "light", .kind = index, .presence = required, .target = "lights"}};
+constexpr Rule instancing[] = {
+    {.name = "attributes", .kind = attributes, .presence = required, .target = "accessors"}};
+constexpr Rule node_extensions[] = {
+    {.name = "KHR_lights_punctual", .kind = object, .fields = node_light},
+    {.name = "EXT_mesh_gpu_instancing", .kind = object, .fields = instancing},
+};
+constexpr Rule node[] = {
+    name_rule,
+    {.name = "children", .kind = indices, .target = "nodes"},
+    {.name = "mesh", .kind = index, .target = "meshes"},
+    {.name = "camera", .kind = index, .target = "cameras"},
+    {.name = "skin", .kind = index, .target = "skins"},
+    {.name = "matrix", .kind = numbers, .length = 16},
+    {.name = "translation", .kind = numbers, .length = 3},
+    {.name = "rotation", .kind = numbers, .length = 4},
+    {.name = "scale", .kind = numbers, .length = 3},
+    {.name = "weights", .kind = numbers},
+    {.name = "extensions", .kind = object, .fields = node_extensions},
+};
+constexpr Rule scene[] = {name_rule, {.name = "nodes", .kind = indices, .target = "nodes"}};
+
+constexpr Rule perspective[] = {
+    {.name = "yfov", .kind = number, .presence = required},
+    {.name = "aspectRatio", .kind = number},
+};
+constexpr Rule orthographic[] = {
+    {.name = "xmag", .kind = number, .presence = required},
+    {.name = "ymag", .kind = number, .presence = required},
+};
+constexpr Rule camera[] = {
+    name_rule,
+    {.name = "type", .kind = text, .presence = required},
+    {.name = "perspective", .kind = object, .fields = perspective},
+    {.name = "orthographic", .kind = object, .fields = orthographic},
+};
+
+constexpr Rule spot[] = {{.name = "innerConeAngle", .kind = number},
+                         {.name = "outerConeAngle", .kind = number}};
+constexpr Rule light[] = {
+    name_rule,
+    {.name = "type", .kind = text, .presence = required},
+    {.name = "color", .kind = numbers, .length = 3},
+    {.name = "intensity", .kind = number},
+    {.name = "range", .kind = number},
+    {.name = "spot", .kind = object, .fields = spot},
+};
+constexpr Rule lights[] = {
+    {.name = "lights", .kind = objects, .presence = required, .fields = light}};
+constexpr Rule root_extensions[] = {
+    {.name = "KHR_lights_punctual", .kind = object, .fields = lights}};
+
+constexpr Rule named[] = {name_rule};
+
+constexpr Rule root[] = {
+    {.name = "extensionsUsed", .kind = texts},
+    {.name = "extensionsRequired", .kind = texts},
+    {.name = "extensions", .kind = object, .fields = root_extensions},
+    {.name = "buffers", .kind = objects, .fields = buffer},
+    {.name = "bufferViews", .kind = objects, .fields = buffer_view},
+    {.name = "accessors", .kind = objects, .fields = accessor},
+    {.name = "images", .kind = objects, .fields = image},
+    {.name = "samplers", .kind = objects, .fields = sampler},
+    {.name = "textures", .kind = objects, .fields = texture},
+    {.name = "materials", .kind = objects, .fields = material},
+    {.name = "meshes", .kind = objects, .fields = mesh},
+    {.name = "cameras", .kind = objects, .fields = camera},
+    {.name = "skins", .kind = objects, .fields = skin},
+    {.name = "animations", .kind = objects, .fields = named},
+    {.name = "nodes", .kind = objects, .fields = node},
+    {.name = "scenes", .kind = objects, .fields = scene},
+    {.name = "scene", .kind = index, .target = "scenes"},
+};
+
+} // namespace
+
+std::span<const Rule> root_rules() { return root; }
+
+} // namespace meninas::gltf

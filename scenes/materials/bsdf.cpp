@@ -1,0 +1,367 @@
+#include "scenes/materials/bsdf.h"
+
+#include "scenes/materials/lobes.h"
+#include "scenes/materials/microfacets.h"
+#include "scenes/materials/refraction.h"
+#include "scenes/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meninas {
+
+namespace {
+
+/// The coat's Fresnel reflectance for light that meets a facet at this cosine (Schlick 1994),
+/// over the whole surface.
+Rgb coat_fresnel(const Bsdf& bsdf, double cosine) {
+  if (bsdf.coat == 0.0)
+    return Rgb(0.0);
+  const double x = 1.0 - std::clamp(cosine, 0.0, 1.0);
+  return glm::mix(bsdf.coat_f0, Rgb(bsdf.coat_f90), x * x * x * x * x);
+}
+
+/// 1 - E of the facets: the share of light from a direction that meets them more than once.
+double met_again(const Bsdf& bsdf, double cosine) {
+  const SchlickAlbedo e = schlick_albedo(bsdf.roughness, cosine);
+  return std::max(0.0, 1.0 - e.f0 - e.f90);
+}
+
+bool has_facets_of_metal(const Bsdf& bsdf) { return bsdf.alpha > 0.0 && bsdf.metal != Rgb(0.0); }
+
+/// What comes out of it in the end:
+/// rho^2 E_avg / (1 - rho (1 - E_avg)), as every further meeting reflects rho again.
+Rgb spread_by_facets(const Bsdf& bsdf, double mean_again) {
+  return bsdf.metal * bsdf.metal * (1.0 - mean_again) / (1.0 - bsdf.metal * mean_again);
+}
+
+double mean_met_again(const Bsdf& bsdf) {
+  const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
+  return std::max(0.0, 1.0 - mean.f0 - mean.f90);
+}
+
+/// Chances to choose the lobes: what they reflect, about.
+struct LobeChances {
+  double diffuse = 0.0, reflection = 0.0, transmission = 0.0;
+};
+LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
+  const double e = coat_albedo(bsdf, out.z);
+  LobeChances chances{largest(bsdf.diffuse) * (1.0 - e), largest(bsdf.metal) + bsdf.coat * e};
+  if (bsdf.glass > 0.0) {
+    const GlassShares glass = glass_shares(bsdf.pane, out.z);
+    chances.reflection += bsdf.glass * largest(glass.reflected);
+    chances.transmission = bsdf.glass * largest(glass.passed);
+  }
+  if (has_facets_of_metal(bsdf)) {
+    const double again = met_again(bsdf, out.z);
+    chances.diffuse += again * largest(spread_by_facets(bsdf, mean_met_again(bsdf)));
+    chances.reflection -= again * largest(bsdf.metal);
+  }
+  const double sum = chances.diffuse + chances.reflection + chances.transmission;
+  if (sum > 0.0) {
+    chances.diffuse /= sum;
+    chances.reflection /= sum;
+    chances.transmission /= sum;
+  }
+  return chances;
+}
+
+/// 1 - e_avg: the share of even light that gets below the coat.
+double mean_below_coat(const Bsdf& bsdf) {
+  const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
+  return std::max(0.0, 1.0 - mean.f0 * largest(bsdf.coat_f0) - mean.f90 * bsdf.coat_f90);
+}
+
+/// What the coat reflects of even light.
+Rgb mean_of_coat(const Bsdf& bsdf) {
+  if (bsdf.coat == 0.0)
+    return Rgb(0.0);
+  const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
+  return bsdf.coat * (mean.f0 * bsdf.coat_f0 + Rgb(mean.f90 * bsdf.coat_f90));
+}
+
+/// rho_d (1 - e(o)) (1 - e(i)) / (1 - e_avg)
+Rgb diffuse_coupled(const Bsdf& bsdf, double cos_out, double cos_in) {
+  if (bsdf.coat == 0.0)
+    return bsdf.diffuse;
+  const double below = mean_below_coat(bsdf);
+  if (below == 0.0)
+    return Rgb(0.0);
+  return bsdf.diffuse *
+         ((1.0 - coat_albedo(bsdf, cos_out)) * (1.0 - coat_albedo(bsdf, cos_in)) / below);
+}
+
+/// (1 - E(o)) (1 - E(i)) / (pi (1 - E_avg)) of what facets of metal spread.
+Rgb spread_metal(const Bsdf& bsdf, double cos_out, double cos_in) {
+  const double mean_again = mean_met_again(bsdf);
+  if (mean_again < 1e-6)
+    return Rgb(0.0);
+  return spread_by_facets(bsdf, mean_again) *
+         (met_again(bsdf, cos_out) * met_again(bsdf, cos_in) / (std::numbers::pi * mean_again));
+}
+
+/// D G2 / (4 cos_o cos_i) and the density of sampling visible facets and reflecting at them.
+struct FacetLobe {
+  double f = 0.0, density = 0.0, cosine = 0.0; ///< cosine: o.h
+};
+FacetLobe facet_lobe(double alpha, const Direction& out, const Direction& in) {
+  const Direction h = glm::normalize(out + in);
+  const double d = facet_density(alpha, h);
+  const double lambda_out = smith_lambda(alpha, out), lambda_in = smith_lambda(alpha, in);
+  const double quarter = 0.25 / out.z;
+  return {d * quarter / (in.z * (1.0 + lambda_out + lambda_in)), d * quarter / (1.0 + lambda_out),
+          glm::dot(out, h)};
+}
+
+BsdfSample spread_sample(const Bsdf& bsdf, const Direction& out, const Direction& in) {
+  const double density = sample_density(bsdf, out, in);
+  const Rgb weight =
+      density > 0.0 ? evaluate(bsdf, out, in) * (std::abs(in.z) / density) : Rgb(0.0);
+  return {in, weight, density, Lobe::spread};
+}
+
+} // namespace
+
+/// To the light of punctual lights a solid is two sheets,
+/// each of which takes half of what its thickness does.
+static Rgb left_by_half(const Material& material, const MaterialPoint& point) {
+  return is_solid_glass(material) ? attenuation(material, 0.5 * point.thickness) : Rgb(1.0);
+}
+
+MaterialPoint untextured(const Material& material) {
+  return {material.base_color, material.alpha,        material.metallic, material.roughness,
+          material.emission,   material.transmission, material.thickness};
+}
+
+Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
+  Bsdf bsdf;
+  const double dielectric = 1.0 - point.metallic;
+  bsdf.metal = point.base_color * point.metallic;
+  bsdf.diffuse = point.base_color * (dielectric * (1.0 - point.transmission));
+  const bool solid = is_solid_glass(material);
+  bsdf.roughness = solid && point.transmission > 0.0 ? 0.0 : point.roughness;
+  bsdf.alpha = bsdf.roughness <= ideal_mirror_roughness ? 0.0 : bsdf.roughness * bsdf.roughness;
+  // KHR_materials_ior and KHR_materials_specular; ior 0 stands for F0 = 1.
+  const double ratio = (material.ior - 1.0) / (material.ior + 1.0);
+  const Rgb f0 = glm::min(ratio * ratio * material.specular_color, Rgb(1.0)) * material.specular;
+  if (bsdf.roughness <= visible_coat_roughness) {
+    bsdf.coat_f0 = f0;
+    bsdf.coat_f90 = material.specular;
+    bsdf.coat = material.specular > 0.0 ? dielectric * (1.0 - point.transmission) : 0.0;
+  }
+  bsdf.glass = dielectric * point.transmission;
+  if (bsdf.glass > 0.0)
+    bsdf.pane = {material.ior, f0, material.specular, point.base_color,
+                 solid ? GlassFaces::one : GlassFaces::both};
+  return bsdf;
+}
+
+double coat_albedo(const Bsdf& bsdf, double cosine) {
+  if (bsdf.coat == 0.0)
+    return 0.0;
+  const SchlickAlbedo e = schlick_albedo(bsdf.roughness, cosine);
+  return std::min(1.0, e.f0 * largest(bsdf.coat_f0) + e.f90 * bsdf.coat_f90);
+}
+
+Rgb straight_transmission(const Bsdf& bsdf, double cosine) {
+  return bsdf.alpha == 0.0 && bsdf.pane.faces == GlassFaces::both
+             ? facet_transmittance(bsdf, cosine)
+             : Rgb(0.0);
+}
+
+Rgb ideal_reflection(const Bsdf& bsdf, double cosine) {
+  return bsdf.alpha == 0.0 ? facet_reflectance(bsdf, cosine) : Rgb(0.0);
+}
+
+Rgb facet_reflectance(const Bsdf& bsdf, double cosine) {
+  Rgb reflected = bsdf.metal + bsdf.coat * coat_fresnel(bsdf, cosine);
+  if (bsdf.glass > 0.0)
+    reflected += bsdf.glass * glass_shares(bsdf.pane, cosine).reflected;
+  return reflected;
+}
+
+Rgb facet_transmittance(const Bsdf& bsdf, double cosine) {
+  return bsdf.glass > 0.0 ? bsdf.glass * glass_shares(bsdf.pane, cosine).passed : Rgb(0.0);
+}
+
+Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in) {
+  if (bsdf.alpha == 0.0 || (bsdf.coat == 0.0 && bsdf.glass == 0.0 && bsdf.metal == Rgb(0.0)))
+    return Rgb(0.0);
+  const FacetLobe lobe = facet_lobe(bsdf.alpha, out, in);
+  return lobe.f * facet_reflectance(bsdf, lobe.cosine);
+}
+
+LobeShares lobe_shares(const Bsdf& bsdf, const Direction& out, const Direction& in) {
+  const Rgb lobe = reflection_lobe(bsdf, out, in);
+  if (lobe == Rgb(0.0))
+    return {};
+  const Rgb f = evaluate(bsdf, out, in);
+  LobeShares shares;
+  for (int band = 0; band < 3; ++band)
+    shares.gloss[band] = f[band] > 0.0 ? std::min(1.0, lobe[band] / f[band]) : 0.0;
+  if (bsdf.glass == 0.0)
+    return shares;
+  Bsdf alone = bsdf;
+  alone.metal = Rgb(0.0);
+  alone.coat = 0.0;
+  const Rgb of_glass = reflection_lobe(alone, out, in) / glm::max(lobe, Rgb(1e-300));
+  shares.glass = shares.gloss * glm::min(of_glass, Rgb(1.0));
+  shares.gloss -= shares.glass;
+  return shares;
+}
+
+Rgb even_reflectance(const Bsdf& bsdf, double cosine) {
+  Rgb share = bsdf.diffuse * (1.0 - coat_albedo(bsdf, cosine));
+  if (has_facets_of_metal(bsdf))
+    share += spread_by_facets(bsdf, mean_met_again(bsdf)) * met_again(bsdf, cosine);
+  return share;
+}
+
+Rgb metal_all_in_lobe(const Bsdf& bsdf, double cosine) {
+  if (!has_facets_of_metal(bsdf))
+    return bsdf.metal;
+  const double again = met_again(bsdf, cosine);
+  return bsdf.metal + spread_by_facets(bsdf, mean_met_again(bsdf)) * (again / (1.0 - again));
+}
+
+Rgb mean_reflectance(const Bsdf& bsdf) {
+  Rgb share = bsdf.diffuse;
+  if (bsdf.coat > 0.0)
+    share = share * mean_below_coat(bsdf) + mean_of_coat(bsdf);
+  if (!has_facets_of_metal(bsdf))
+    return share + bsdf.metal;
+  const double again = mean_met_again(bsdf);
+  return share + bsdf.metal * (1.0 - again) + spread_by_facets(bsdf, again) * again;
+}
+
+bool has_lobes(const Material& material) {
+  const bool is_painted_mirror = is_mirror(material) && material.base_color_texture;
+  return is_glass(material) || is_glossy(material) || has_visible_coat(material) ||
+         is_painted_mirror;
+}
+
+bool has_visible_coat(const Material& material) {
+  if (material.specular == 0.0 || (material.transmission == 1.0 && !material.transmission_texture))
+    return false;
+  return material.metallic_roughness_texture ||
+         (material.metallic < 1.0 && material.roughness <= visible_coat_roughness);
+}
+
+Rgb diffuse_reflectance(const Material& material) {
+  return diffuse_reflectance(material, untextured(material));
+}
+
+Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point) {
+  Bsdf bsdf = make_bsdf(material, point);
+  if (is_mirror(material))
+    bsdf.metal = Rgb(0.0);
+  if (!has_mirror_coat(material))
+    return mean_reflectance(bsdf);
+  bsdf.roughness = bsdf.alpha = 0.0;
+  return bsdf.diffuse * mean_below_coat(bsdf);
+}
+
+Bsdf clear_glass(const Material& material, const MaterialPoint& point) {
+  Bsdf clear = make_bsdf(material, point);
+  if (!is_mirror(material))
+    clear.metal = Rgb(0.0);
+  clear.diffuse = Rgb(0.0);
+  clear.coat = 0.0;
+  clear.roughness = clear.alpha = 0.0;
+  clear.pane.tint *= left_by_half(material, point);
+  return clear;
+}
+
+Bsdf mirror_coat(const Material& material) {
+  Bsdf coat = make_bsdf(material, untextured(material));
+  coat.diffuse = coat.metal = Rgb(0.0);
+  coat.glass = 0.0;
+  coat.roughness = coat.alpha = 0.0;
+  return coat;
+}
+
+Rgb let_out_by_coat(const Bsdf& coat, double cosine) {
+  const double below = mean_below_coat(coat);
+  return Rgb(below > 0.0 ? (1.0 - coat_albedo(coat, cosine)) / below : 0.0);
+}
+
+GlassShares mean_shares(const Bsdf& clear) {
+  const GlassShares mean = mean_glass_shares(clear.pane);
+  return {clear.metal + mean_of_coat(clear) + clear.glass * mean.reflected,
+          clear.glass * mean.passed};
+}
+
+Direction to_local(const Direction& normal, const Direction& w) {
+  const TangentFrame frame = tangent_frame(normal);
+  return {glm::dot(frame.tangent, w), glm::dot(frame.bitangent, w), glm::dot(normal, w)};
+}
+
+Direction to_world(const Direction& normal, const Direction& w) {
+  const TangentFrame frame = tangent_frame(normal);
+  return glm::normalize(w.x * frame.tangent + w.y * frame.bitangent + w.z * normal);
+}
+
+Direction local_out(const Direction& normal, const Vec3& ray) {
+  const Direction out = to_local(normal, -ray);
+  return glm::normalize(Vec3(out.x, out.y, std::max(1e-9, out.z)));
+}
+
+Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
+  if (out.z <= 0.0 || in.z == 0.0)
+    return Rgb(0.0);
+  if (in.z < 0.0) {
+    if (bsdf.alpha == 0.0 || bsdf.glass == 0.0)
+      return Rgb(0.0);
+    const FacetLobe lobe = facet_lobe(bsdf.alpha, out, {in.x, in.y, -in.z});
+    return lobe.f * facet_transmittance(bsdf, lobe.cosine);
+  }
+  Rgb f = diffuse_coupled(bsdf, out.z, in.z) * std::numbers::inv_pi;
+  f += reflection_lobe(bsdf, out, in);
+  if (has_facets_of_metal(bsdf))
+    f += spread_metal(bsdf, out.z, in.z);
+  return f;
+}
+
+double sample_density(const Bsdf& bsdf, const Direction& out, const Direction& in) {
+  if (out.z <= 0.0 || in.z == 0.0)
+    return 0.0;
+  const LobeChances chances = lobe_chances(bsdf, out);
+  const double facet_chance = in.z > 0.0 ? chances.reflection : chances.transmission;
+  double density = in.z > 0.0 ? chances.diffuse * in.z * std::numbers::inv_pi : 0.0;
+  if (bsdf.alpha > 0.0 && facet_chance > 0.0)
+    density += facet_chance * facet_lobe(bsdf.alpha, out, {in.x, in.y, std::abs(in.z)}).density;
+  return density;
+}
+
+std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
+                                 const std::array<double, 3>& u) {
+  const LobeChances chances = lobe_chances(bsdf, out);
+  if (out.z <= 0.0 || chances.diffuse + chances.reflection + chances.transmission == 0.0)
+    return std::nullopt;
+  if (u[0] < chances.diffuse) {
+    const glm::vec3 in = cosine_hemisphere(static_cast<float>(u[1]), static_cast<float>(u[2]));
+    return spread_sample(bsdf, out, glm::normalize(Vec3(in)));
+  }
+  const bool through = u[0] >= chances.diffuse + chances.reflection && chances.transmission > 0.0;
+  if (bsdf.alpha == 0.0) {
+    if (through) {
+      const auto behind = direction_behind(bsdf.pane, out);
+      if (!behind)
+        return std::nullopt;
+      return BsdfSample{*behind, facet_transmittance(bsdf, out.z) / chances.transmission, 0.0,
+                        Lobe::straight};
+    }
+    return BsdfSample{{-out.x, -out.y, out.z},
+                      facet_reflectance(bsdf, out.z) / chances.reflection,
+                      0.0,
+                      Lobe::ideal_reflection};
+  }
+  const Direction h = visible_facet(bsdf.alpha, out, u[1], u[2]);
+  const Direction in = 2.0 * glm::dot(out, h) * h - out;
+  if (in.z <= 0.0)
+    return std::nullopt;
+  return spread_sample(bsdf, out, {in.x, in.y, through ? -in.z : in.z});
+}
+
+} // namespace meninas

@@ -1,0 +1,74 @@
+// Parts and shares of the bidirectional functions (bsdf.h), as the two passes need them:
+// pass one scatters evenly what a material reflects in the mean,
+// pass two follows the lobe that has a direction and takes the rest from the field.
+#pragma once
+
+#include "scenes/materials/bsdf.h"
+
+namespace meninas {
+
+/// Whether light leaves it otherwise than evenly or by a mirror of constant reflectance:
+/// by a lobe, be it a mirror's whose reflectance is a picture, or through it.
+bool has_lobes(const Material& material);
+
+/// A dielectric whose coat shows, by its factors or, where there is one,
+/// at some texel of its textures of roughness and metalness or of transmission.
+bool has_visible_coat(const Material& material);
+
+/// S of a facet that is met at this cosine.
+Rgb facet_reflectance(const Bsdf& bsdf, double cosine);
+
+/// What stands in the place of S in transmission: of glass alone.
+Rgb facet_transmittance(const Bsdf& bsdf, double cosine);
+
+/// The reflection lobe alone, S D G2 / (4 cos_o cos_i), of directions above the surface;
+/// 0 where it is ideal.
+Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in);
+
+/// The parts of f(o, i), ideal lobes left out, in the lobe that has a direction of its own:
+/// of metal and coat, and of glass. What is left is even.
+struct LobeShares {
+  Rgb gloss{0.0}, glass{0.0};
+};
+LobeShares lobe_shares(const Bsdf& bsdf, const Direction& out, const Direction& in);
+
+/// The lobes without a direction of their own, diffuse and what facets of metal spread:
+/// the share that they reflect towards this cosine of light that comes evenly from everywhere.
+Rgb even_reflectance(const Bsdf& bsdf, double cosine);
+
+/// The rho_s with which the reflection lobe alone reflects, towards this cosine,
+/// what metal reflects in all: for surfaces without light to be spread.
+Rgb metal_all_in_lobe(const Bsdf& bsdf, double cosine);
+
+/// The share of light from everywhere that is reflected to anywhere,
+/// by all lobes together but those of glass.
+Rgb mean_reflectance(const Bsdf& bsdf);
+
+/// diffuse_reflectance() (material.h) of a point.
+Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point);
+
+/// Glass as pass one takes it: it does not scatter what it reflects and passes, however rough.
+/// What the surface is besides is left out, but for ideal reflection of metal.
+Bsdf clear_glass(const Material& material, const MaterialPoint& point);
+
+/// The coat of a diffuse surface as pass one takes it where it is a mirror:
+/// alone, and ideal however rough.
+Bsdf mirror_coat(const Material& material);
+
+/// What is scattered below a coat leaves it by (1 - R(cos)) / (1 - R_mean), 1 in the mean:
+/// together with what the coat reflects, a white surface shows what is around it, from everywhere.
+Rgb let_out_by_coat(const Bsdf& coat, double cosine);
+
+/// What clear glass, or a coat, reflects and passes of light from everywhere.
+GlassShares mean_shares(const Bsdf& clear);
+
+// --- The frame of a surface, +z along its normal
+
+Direction to_local(const Direction& normal, const Direction& w);
+Direction to_world(const Direction& normal, const Direction& w);
+
+/// Towards where a ray of this unit direction has come from;
+/// rounding must not take a grazing ray below the surface.
+Direction local_out(const Direction& normal, const Vec3& ray);
+
+} // namespace meninas

@@ -1,0 +1,75 @@
+// Materials at a point: textures decoded, wrapped as their samplers say, and interpolated
+// bilinearly between texels; vertex colours, interpolated linearly over their triangle.
+//
+// A point that stands for a part of its surface, as a sample of a pixel does,
+// gets the mean over that part, its footprint: by trilinear look-ups in a pyramid of means,
+// as many along the footprint's longer axis as it is longer than the other (McCormack,
+// Perry, Farkas, Jouppi 1999, "Feline"), at most 16;
+// so textures far away come out as their mean, without moire. Holes are never averaged.
+//
+// KHR_texture_transform takes (u, v) to offset + R (scale (u, v)) with R = (cos, sin;
+// -sin, cos), counter-clockwise as glTF sees it: v runs down the image.
+// Texel (i, j) of a w x h image has its centre at ((i + 1/2) / w, (j + 1/2) / h).
+//
+// Images are decoded by the caller's function, because this folder reads no pictures:
+// image/'s decode_image, usually.
+#pragma once
+
+#include "scenes/materials/bsdf.h"
+#include "scenes/scene.h"
+
+#include <functional>
+
+namespace meninas {
+
+/// Rows from the top; red, green, blue and alpha.
+struct TexturePixels {
+  int width = 0, height = 0;
+  std::vector<glm::vec4> texels;
+  std::vector<TexturePixels> coarser = {}; ///< the pyramid's further levels (texture_pyramid.h)
+};
+
+/// Colours are stored as sRGB and wanted linear; metalness and roughness are numbers as they are.
+enum class TextureContent { colour, numbers };
+
+using DecodeTexture = std::function<TexturePixels(const Texture&, TextureContent)>;
+
+/// By TextureId; without texels where no material uses it so.
+struct DecodedTextures {
+  std::vector<TexturePixels> colours, numbers;
+};
+
+/// Of a scene in which nothing is textured.
+const DecodedTextures& no_textures();
+
+DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode);
+
+/// Where on the image a texture coordinate falls.
+Vec2 transformed_texcoord(const TextureUse& use, Vec2 texcoord);
+
+/// The part of a surface that a point stands for:
+/// a parallelogram about it, by its sides. What they are counted in, the function says.
+struct Footprint {
+  Vec2 longer{0.0}, shorter{0.0};
+};
+
+/// The texture's value; `texture` says how it wraps. The footprint is in texture coordinates.
+glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Vec2 uv,
+                         const Footprint& footprint = {});
+
+bool is_textured(const Material& material);
+
+/// Whether COLOR_0 changes anything on a triangle.
+bool has_vertex_colors(const Scene& scene, TriangleId triangle);
+
+/// Factors times textures times vertex colours at a point of a triangle,
+/// given by the weights of its second and third corner, as the footprint is.
+MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
+                          Vec2 barycentric, const Footprint& footprint = {});
+
+/// A hole of a cut-out material (alphaMode MASK): nothing is there.
+inline bool is_cut_out(const Material& material, const MaterialPoint& point) {
+  return material.alpha_mode == AlphaMode::mask && point.alpha < material.alpha_cutoff;
+}
+
+} // namespace meninas

@@ -1,0 +1,39 @@
+// Which planes come near a surface: a point of it that is off all of them touches nothing else.
+//
+// That settles, for sixteen rays at a time,
+// what otherwise takes a search for contacts per ray (careful_rays.h).
+#pragma once
+
+#include "scenes/rays/frame_geometry.h"
+#include "scenes/rays/lanes.h"
+
+namespace meninas {
+
+/// The points whose height over the plane through 0 of the normal (x,
+/// y, z) is within `half_width` of `height`.
+struct Slab {
+  float x = 0.0F, y = 0.0F, z = 0.0F;
+  float height = 0.0F, half_width = 0.0F;
+};
+
+/// By plane class, the slabs outside of which a point of its surfaces touches nothing else.
+struct NearPlanes {
+  static constexpr std::uint32_t unknown = no_index;
+
+  struct Range {
+    std::uint32_t begin = 0, end = unknown;
+  };
+  std::vector<Range> ranges;
+  std::vector<Slab> slabs;
+};
+
+/// Slabs around all that comes within `reach` of a surface.
+/// Where that is too much to look for, or too many planes to be worth a test, it is left unknown.
+NearPlanes find_near_planes(const FrameGeometry& geometry, double reach);
+
+/// The lanes among `asked` whose origin,
+/// on the plane its ray leaves, certainly touches nothing else.
+std::uint32_t lanes_off_all_else(const NearPlanes& near, const RayPacket& packet,
+                                 std::uint32_t asked);
+
+} // namespace meninas
