@@ -2,6 +2,8 @@
 
 #include "radiosity/light/first_light.h"
 #include "radiosity/transport/gathered_emission.h"
+#include "radiosity/field/interpolation.h"
+#include "radiosity/hierarchical/node_field.h"
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/solvers/shooting_blocks.h"
 #include "radiosity/scene/surface_colour.h"
@@ -126,8 +128,12 @@ void complete(const LightScene& light, const PassOneSettings& settings, const Fi
   }
 
   const ElementLight elements{std::move(reflected), solution.irradiance, first.from_source};
-  auto interpolated = interpolate(light, elements, settings.form_factors, settings.direct,
-                                  settings.interpolation, receivers);
+  auto interpolated =
+      receivers != nullptr
+          ? field_by_nodes(light, elements, *receivers,
+                           {settings.form_factors, settings.direct, settings.interpolation})
+          : interpolate(light, elements, settings.form_factors, settings.direct,
+                        settings.interpolation);
   solution.field = std::move(interpolated.field);
   solution.interpolation_error = interpolated.error;
   if (interpolated.mesh)

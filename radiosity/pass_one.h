@@ -2,7 +2,8 @@
 #pragma once
 
 #include "radiosity/hierarchical/link_figures.h"
-#include "radiosity/field/interpolation.h"
+#include "radiosity/field/interpolation_settings.h"
+#include "radiosity/field/irradiance_field.h"
 #include "radiosity/scene/plan.h"
 #include "radiosity/solvers/progressive.h"
 

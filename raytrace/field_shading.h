@@ -3,7 +3,7 @@
 // the one place where radiosity becomes radiance.
 #pragma once
 
-#include "radiosity/field/interpolation.h"
+#include "radiosity/field/irradiance_field.h"
 #include "radiosity/scene/light_scene.h"
 
 #include <span>

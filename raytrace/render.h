@@ -9,7 +9,7 @@
 #pragma once
 
 #include "image/image.h"
-#include "radiosity/field/interpolation.h"
+#include "radiosity/field/irradiance_field.h"
 #include "radiosity/pass_one.h"
 #include "raytrace/diffuse_term.h"
 #include "raytrace/pixel_filter.h"

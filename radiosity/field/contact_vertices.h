@@ -16,7 +16,7 @@
 // Vertices without such an edge are left to fill_vertices() (vertex_fill.h).
 #pragma once
 
-#include "radiosity/field/interpolation.h"
+#include "radiosity/field/irradiance_field.h"
 #include "radiosity/field/vertex_light.h"
 
 #include <functional>

@@ -7,7 +7,7 @@
 // and contact_vertices.h goes before: its edges have an open end.
 #pragma once
 
-#include "radiosity/field/interpolation.h"
+#include "radiosity/field/irradiance_field.h"
 #include "radiosity/field/vertex_light.h"
 
 #include <optional>

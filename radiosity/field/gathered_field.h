@@ -11,17 +11,17 @@
 // the foot of a lit wall takes a few small elements instead of small ones everywhere.
 #pragma once
 
-#include "radiosity/field/interpolation.h"
+#include "radiosity/field/interpolation_settings.h"
+#include "radiosity/field/irradiance_field.h"
+#include "radiosity/light/direct_irradiance.h"
+#include "radiosity/transport/form_factors.h"
 
 namespace meninas {
 
 /// As interpolate(). The result has a mesh of its own where any element was divided.
-/// With `receivers`, whose vertices are taken, indirect light is gathered at the corners of nodes
-/// (hierarchical/node_field.h).
 InterpolatedField gathered_field(const LightScene& light, const ElementLight& elements,
                                  const FormFactorSettings& form_factors,
                                  const DirectSettings& direct,
-                                 const InterpolationSettings& settings,
-                                 ReceiverNodes* receivers);
+                                 const InterpolationSettings& settings);
 
 } // namespace meninas

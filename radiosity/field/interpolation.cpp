@@ -76,16 +76,12 @@ static DiffuseField averaged_field(const ElementMesh& mesh, const ElementLight& 
 
 InterpolatedField interpolate(const LightScene& light, const ElementLight& elements,
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
-                              const InterpolationSettings& settings, ReceiverNodes* receivers) {
+                              const InterpolationSettings& settings) {
   if (settings.method == Interpolation::average)
     return {.field = averaged_field(light.mesh, elements)};
   if (settings.adaptive)
     return adaptive_field(light, elements, form_factors, direct, settings);
-  return gathered_field(light, elements, form_factors, direct, settings, receivers);
-}
-
-glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv) {
-  return value_in(mesh, field.irradiance, locate(mesh, side, uv));
+  return gathered_field(light, elements, form_factors, direct, settings);
 }
 
 } // namespace meninas

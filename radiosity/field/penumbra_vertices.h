@@ -7,7 +7,7 @@
 // and so do those of the vertices around it, and on outwards until all of these agree.
 #pragma once
 
-#include "radiosity/field/found_field.h"
+#include "radiosity/field/vertex_samples.h"
 
 namespace meninas {
 

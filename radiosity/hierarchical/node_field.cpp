@@ -177,11 +177,10 @@ std::vector<Rgb> reflected_by_field(const VertexSource& few, const ReceiverNodes
   return reflected;
 }
 
-} // namespace
-
-InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
-                                 const ReceiverNodes& receivers, const VertexGathering& how,
-                                 FoundField found, PointWorkspaces& workspaces) {
+/// `found` has light from the source, and the values of vertices that take means of facets.
+InterpolatedField gathered_at_corners(const LightScene& light, const ElementLight& elements,
+                                      const ReceiverNodes& receivers, const VertexGathering& how,
+                                      FoundField found, PointWorkspaces& workspaces) {
   const PointGathering solved =
       gathering_from(light, elements.reflected, how, first_share, first_spared);
   KeptRays kept;
@@ -205,6 +204,22 @@ InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& el
   const BendScale scale = bend_scale(light.mesh, elements.reflected);
   divide_bent(light, source, scale, how.interpolation.bend, found, result);
   divide_at_shadows(light, source, scale, how.interpolation.shadow_bend, std::move(found), result);
+  return result;
+}
+
+} // namespace
+
+InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
+                                 ReceiverNodes& receivers, const VertexGathering& how) {
+  PointWorkspaces workspaces;
+  const VertexElements facets =
+      elements.from_source.empty() ? VertexElements{} : facets_around(light);
+  FoundField found = std::move(receivers.vertices);
+  if (!facets.elements.empty())
+    average_facets(light, elements, facets, how.form_factors, workspaces, found.field);
+  InterpolatedField result =
+      gathered_at_corners(light, elements, receivers, how, std::move(found), workspaces);
+  count_rays(workspaces, result);
   return result;
 }
 

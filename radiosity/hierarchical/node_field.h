@@ -21,9 +21,8 @@
 namespace meninas {
 
 /// Where light bends within elements these are divided, as in fields that are gathered everywhere.
-/// `found` has light from the source, and the values of vertices that take means of facets.
+/// The vertices of the receivers, which have light from the source, become the field.
 InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
-                                 const ReceiverNodes& receivers, const VertexGathering& how,
-                                 FoundField found, PointWorkspaces& workspaces);
+                                 ReceiverNodes& receivers, const VertexGathering& how);
 
 } // namespace meninas

@@ -1,7 +1,7 @@
 // What the writer and the reader of solution files share (solution_file.h).
 #pragma once
 
-#include "radiosity/field/interpolation.h"
+#include "radiosity/field/irradiance_field.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 // pass two follows the lobe that has a direction and takes the rest from the field.
 #pragma once
 
-#include "scenes/materials/bsdf.h"
+#include "scenes/materials/bsdf_parameters.h"
 
 namespace meninas {
 

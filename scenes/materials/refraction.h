@@ -8,7 +8,7 @@
 // one direction each is reflected and refracted.
 #pragma once
 
-#include "scenes/materials/bsdf.h"
+#include "scenes/materials/bsdf_parameters.h"
 
 namespace meninas {
 

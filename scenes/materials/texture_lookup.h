@@ -15,19 +15,13 @@
 // image/'s decode_image, usually.
 #pragma once
 
-#include "scenes/materials/bsdf.h"
+#include "scenes/materials/bsdf_parameters.h"
+#include "scenes/materials/texture_pixels.h"
 #include "scenes/scene.h"
 
 #include <functional>
 
 namespace meninas {
-
-/// Rows from the top; red, green, blue and alpha.
-struct TexturePixels {
-  int width = 0, height = 0;
-  std::vector<glm::vec4> texels;
-  std::vector<TexturePixels> coarser = {}; ///< the pyramid's further levels (texture_pyramid.h)
-};
 
 /// Colours are stored as sRGB and wanted linear; metalness and roughness are numbers as they are.
 enum class TextureContent { colour, numbers };

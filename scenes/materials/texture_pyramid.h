@@ -6,7 +6,7 @@
 // whatever its size; a filter that weighs whole texels, as resampling libraries do, has not.
 #pragma once
 
-#include "scenes/materials/texture_lookup.h"
+#include "scenes/materials/texture_pixels.h"
 
 namespace meninas {
 

@@ -20,7 +20,8 @@
 // for: vertices that are few do not average out one another's noise as those of fine meshes do.
 #pragma once
 
-#include "radiosity/field/interpolation.h"
+#include "radiosity/field/interpolation_settings.h"
+#include "radiosity/field/irradiance_field.h"
 
 namespace meninas {
 

@@ -32,49 +32,19 @@
 // they are known (mirror_outlines.h), and elements on them are looked at there too.
 #pragma once
 
-#include "radiosity/field/adaptive/mirror_outlines.h"
-#include "radiosity/field/vertex_light.h"
+#include "radiosity/field/adaptive/field_sampler.h"
 
-#include <functional>
 
 namespace meninas {
 
 /// What arrives at a point; it counts where nothing is over it,
 /// and under a low cover where nothing around is open.
-struct PointSample {
-  ArrivingLight light;
-  Cover cover = Cover::open;
-  double variance =
-      0.0; ///< of the brightest channel of all light, as far as it is known: between vertices only
-};
-
-/// The sample at a point in elements of a size.
-/// Called from any thread; the same for the same arguments.
-using SamplePoint =
-    std::function<PointSample(const Receiver& receiver, double element_size, std::uint32_t seed)>;
-/// Whether a point is neither covered nor nearly so, under an edge.
-using IsOpenPoint =
-    std::function<bool(const Receiver& receiver, double element_size, std::uint32_t seed)>;
-struct FieldSampler {
-  SamplePoint at_vertices, between;
-  IsOpenPoint is_open;
-  SamplePoint quick =
-      {}; ///< between vertices, for less, with variance 0; none: nothing is quicker
-};
-
 struct RefinementSettings {
   double error = 0.02;  ///< X
   int root_points = 15; ///< between the vertices, besides the centre: in root cells and on outlines
   int points = 4;       ///< in what is divided from them
   int most_levels = 6;
   std::size_t max_elements = 1'000'000;
-};
-
-struct SampledField {
-  ElementMesh mesh;
-  std::vector<glm::vec3> total, mirrored; ///< by ElementVertexId, W/m^2
-  double error = 0.0;                     ///< the root of sum eta^2 / A, as far as points tell
-  double noise = 0.0;                     ///< sigma / H, the root of its mean square
 };
 
 /// `weight` is w by CellId of the roots of light.mesh, whose elements are looked at first.

@@ -5,7 +5,7 @@
 // those under a low cover count where nothing open is around them (vertex_light.h).
 #pragma once
 
-#include "radiosity/field/adaptive/field_refinement.h"
+#include "radiosity/field/adaptive/field_sampler.h"
 
 #include <map>
 #include <span>

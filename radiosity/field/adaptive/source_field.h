@@ -5,7 +5,8 @@
 #pragma once
 
 #include "radiosity/field/adaptive/field_refinement.h"
-#include "radiosity/field/interpolation.h"
+#include "radiosity/field/interpolation_settings.h"
+#include "radiosity/field/irradiance_field.h"
 
 namespace meninas {
 

@@ -1,0 +1,9 @@
+#include "radiosity/field/irradiance_field.h"
+
+namespace meninas {
+
+glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv) {
+  return value_in(mesh, field.irradiance, locate(mesh, side, uv));
+}
+
+} // namespace meninas

@@ -1,0 +1,47 @@
+// The irradiance field: values at the vertices of a mesh, bilinear in quads, linear in triangles.
+//
+// It is irradiance H, W/m^2, on every side of every patch; reflectance is applied at the hit:
+//
+//   B(x) = E(x) + rho(x) H(x)
+#pragma once
+
+#include "radiosity/mesh/element_mesh.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace meninas {
+
+/// By ElementVertexId. The mesh it belongs to must outlive it.
+struct DiffuseField {
+  std::vector<glm::vec3> irradiance;
+  std::vector<glm::vec3>
+      mirrored; ///< the part of it whose last leg came by way of mirrors; empty from `average`
+
+  /// The part without what is computed from the source (direct_irradiance.h), for those who compute
+  /// that themselves; empty where that is not known: from `average` with form factors `analytic`.
+  std::vector<glm::vec3> indirect;
+  std::vector<glm::vec3> indirect_mirrored; ///< likewise of `mirrored`
+};
+
+struct InterpolatedField {
+  DiffuseField field;
+  std::optional<ElementMesh> mesh = {}; ///< where it is finer than that of the elements
+  std::vector<Rgb> received = {}; ///< H by ElementId where elements receive what their corners do, by nodes; empty otherwise
+  std::optional<double> error = {}; ///< of an adaptive field: estimated, of what its settings bound
+  std::uint64_t form_factor_rays = 0;
+  std::uint64_t shadow_rays = 0;
+};
+
+/// The light of the elements, by ElementId, W/m^2.
+struct ElementLight {
+  std::vector<Rgb> reflected;   ///< B without emission
+  std::vector<Rgb> irradiance;  ///< H
+  std::vector<Rgb> from_source; ///< the part of H found from the source; empty: not known
+};
+
+/// The field at a point of a side.
+glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv);
+
+} // namespace meninas

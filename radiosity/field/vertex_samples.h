@@ -1,0 +1,72 @@
+// What is known of the vertices of a mesh while the irradiance field is found, and how they gather.
+//
+// Each vertex is one sample: irradiance, W/m^2, by ElementVertexId, with the state it is in.
+#pragma once
+
+#include "radiosity/field/interpolation_settings.h"
+#include "radiosity/field/irradiance_field.h"
+#include "radiosity/field/vertex_places.h"
+#include "radiosity/light/kept_rays.h"
+#include "radiosity/light/point_gathering.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+namespace meninas {
+
+/// What a vertex has; `lit`: light from the source alone;
+/// `low`: all light, under a low cover that goes on all around (vertex_light.h).
+enum class VertexState : std::uint8_t { unknown, covered, averaged, lit, low, gathered };
+
+inline bool has_value(VertexState state) {
+  return state == VertexState::averaged || state == VertexState::low ||
+         state == VertexState::gathered;
+}
+
+/// How a vertex sees the images of emitters: each wholly or not at all, as few samples tell,
+/// or as many do, or one in part (penumbra_vertices.h).
+enum class SourceSeen : std::uint8_t { alike, surely_alike, in_part };
+
+/// A mesh with the values of vertices as they were found; hanging vertices may be unknown.
+struct FoundField {
+  ElementMesh mesh;
+  DiffuseField field;
+  std::vector<VertexState> states; ///< by ElementVertexId
+  std::vector<SourceSeen> seen;    ///< likewise, of those that have light from the source
+  std::vector<Receiver> receivers; ///< where they gather (vertex_places.h)
+  VertexElements around;
+  std::vector<glm::vec3> punctual; ///< what punctual lights send; empty: not asked for
+};
+
+using PointWorkspaces = tbb::enumerable_thread_specific<PointWorkspace>;
+
+/// Adds the rays that were traced with the workspaces.
+inline void count_rays(const PointWorkspaces& workspaces, InterpolatedField& result) {
+  for (const PointWorkspace& work : workspaces) {
+    result.form_factor_rays += work.rays;
+    result.shadow_rays += work.direct.shadow_rays;
+  }
+}
+
+/// How vertices gather.
+struct VertexGathering {
+  const FormFactorSettings& form_factors;
+  const DirectSettings& direct;
+  const InterpolationSettings& interpolation;
+};
+
+/// Of the rays that are asked for one `part`th, of 128 at least where there are so many,
+/// so many `times`.
+struct RayShare {
+  int part = 1, times = 1;
+};
+
+/// What vertices gather from.
+struct VertexSource {
+  const std::vector<Rgb>& irradiance; ///< by ElementId: tells which elements are lit
+  const PointGathering& gathering;
+  PointWorkspaces& workspaces;
+  KeptRays* kept = nullptr; ///< of gather_at_lit()
+  bool keeps_more = false;
+};
+
+} // namespace meninas

@@ -1,0 +1,35 @@
+// What the bidirectional functions of a point depend on (bsdf.h).
+#pragma once
+
+#include "scenes/material.h"
+#include "scenes/materials/glass.h"
+
+namespace meninas {
+
+/// A material at one point, after its textures.
+struct MaterialPoint {
+  Rgb base_color{0.8};
+  double alpha = 1.0;
+  double metallic = 0.0;
+  double roughness = 1.0;
+  Rgb emission{0.0}; ///< radiance
+  double transmission = 0.0;
+  double thickness = 0.0; ///< metres
+};
+
+/// The factors alone, as where there is no texture.
+MaterialPoint untextured(const Material& material);
+
+struct Bsdf {
+  Rgb diffuse{0.0};  ///< rho_d
+  Rgb metal{0.0};    ///< rho_s
+  double coat = 0.0; ///< share of the surface under the coat
+  Rgb coat_f0{0.0};
+  double coat_f90 = 0.0;
+  double roughness = 1.0;
+  double alpha = 1.0; ///< 0 stands for ideal reflection and transmission
+  double glass = 0.0; ///< share of the surface that is glass
+  Glass pane;         ///< what it is there
+};
+
+} // namespace meninas

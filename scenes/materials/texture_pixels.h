@@ -1,0 +1,17 @@
+// The pixels of a texture, decoded.
+#pragma once
+
+#include "scenes/types.h"
+
+#include <vector>
+
+namespace meninas {
+
+/// Rows from the top; red, green, blue and alpha.
+struct TexturePixels {
+  int width = 0, height = 0;
+  std::vector<glm::vec4> texels;
+  std::vector<TexturePixels> coarser = {}; ///< the pyramid's further levels (texture_pyramid.h)
+};
+
+} // namespace meninas
