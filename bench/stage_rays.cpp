@@ -1,6 +1,6 @@
 #include "bench/stage_rays.h"
 
-#include "raytrace/camera_rays.h"
+#include "raytrace/pixels/camera_rays.h"
 #include "scenes/rays/frame_geometry.h"
 #include "scenes/sampling.h"
 

@@ -12,7 +12,7 @@
 // tau F(A, wall) of the walls that lead to one bounds all that lies behind them.
 #pragma once
 
-#include "form_factors/extended_form_factor.h"
+#include "form_factors/world_factors.h"
 
 #include <optional>
 

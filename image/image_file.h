@@ -9,6 +9,7 @@
 #pragma once
 
 #include "image/image.h"
+#include "image/picture_options.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -20,15 +21,6 @@
 #include <vector>
 
 namespace meninas {
-
-enum class PixelType { half, float32 };
-
-/// Key and value written into the file's header (program version,
-/// settings, samples, ...), as `meninas:KEY`.
-/// Keys are not empty and different from each other;
-/// neither part holds a zero byte. Empty values are not written.
-using Attributes = std::vector<std::pair<std::string, std::string>>;
-inline constexpr std::string_view attribute_prefix = "meninas:";
 
 /// Opens the module that reads on a thread of its own, so that it is there when it is needed.
 /// Worth calling once it is clear that a picture will be read; never needed.
@@ -50,8 +42,6 @@ void write_exr(const std::filesystem::path& file, const Image& picture,
 /// clipped at white and rounded to the nearest code value.
 /// No value may be NaN.
 void write_png(const std::filesystem::path& file, const Image& picture, double exposure);
-/// How hard compression tries; the pixels are the same.
-enum class Compression { small, quick };
 std::vector<std::byte> encode_png(const Image& picture, double exposure,
                                   Compression compression = Compression::small);
 

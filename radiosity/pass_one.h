@@ -4,6 +4,7 @@
 #include "radiosity/hierarchical/link_figures.h"
 #include "radiosity/field/interpolation_settings.h"
 #include "radiosity/field/irradiance_field.h"
+#include "radiosity/light/direct_samples.h"
 #include "radiosity/scene/plan.h"
 #include "radiosity/solvers/progressive.h"
 

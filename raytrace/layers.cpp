@@ -1,4 +1,4 @@
-#include "raytrace/sample_choice.h"
+#include "raytrace/pixels/sample_choice.h"
 
 namespace meninas {
 

@@ -1,5 +1,6 @@
 #include "raytrace/lobe_grid.h"
 
+#include "scenes/materials/bsdf.h"
 #include "scenes/materials/microfacets.h"
 #include "scenes/materials/refraction.h"
 

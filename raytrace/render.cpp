@@ -1,5 +1,7 @@
+#include "raytrace/render.h"
+
 #include "raytrace/views/features.h"
-#include "raytrace/sample_choice.h"
+#include "raytrace/pixels/sample_choice.h"
 
 #include <algorithm>
 #include <iterator>

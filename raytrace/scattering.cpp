@@ -2,8 +2,9 @@
 
 #include "raytrace/footprint.h"
 #include "raytrace/quad_lanes.h"
-#include "raytrace/shading.h"
-#include "raytrace/specular_paths.h"
+#include "raytrace/lane_surface.h"
+#include "raytrace/lamp_weights.h"
+#include "raytrace/specular_rays.h"
 #include "scenes/materials/refraction.h"
 
 #include <algorithm>
@@ -51,11 +52,6 @@ Vec2 shift_of(const SpecularRay& ray, std::uint32_t seed_of_pixel) {
 bool samples_lamps(const RenderContext& context, const Bsdf& bsdf, const SpecularRay& ray) {
   return bsdf.alpha > 0.0 && ray.lobes == 0 && !context.light.emitters.empty() &&
          (bsdf.coat > 0.0 || bsdf.glass > 0.0 || bsdf.metal != Rgb(0.0));
-}
-
-/// q
-double density_of_points(int points, double distance, double cosine, double area) {
-  return points * distance * distance / std::max(cosine * area, 1e-300);
 }
 
 void queue_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
@@ -155,30 +151,6 @@ void add_lamps_in_lobe(const RenderContext& context, const Bsdf& bsdf, const Dir
 }
 
 } // namespace
-
-int points_per_lamp(const RenderContext& context) {
-  return std::clamp(context.settings.glossy_samples / 4, 1, 16);
-}
-
-float share_of_rays(const RenderContext& context, const LaneState& state, const FaceRecord& face,
-                    const HitPacket& hits, std::uint32_t k) {
-  const LightScene& light = context.light;
-  if (!state.specular || state.specular[k].density == 0.0F ||
-      state.specular[k].world == none<WorldId> || light.from_source[face.side] == 0)
-    return 1.0F;
-  const SpecularRay& ray = state.specular[k];
-  const MeshSide& side = light.mesh.sides[face.side];
-  const double area =
-      side.textured
-          ? light.mesh
-                .area[field_point(light.landing, face.side, uv_of(light, face, hits, k)).element]
-          : light.surfaces.patches[index(side.patch)].area;
-  const double distance =
-      double{ray.since_lobe} + double{hits.distance[k]} / light.rays.frame().scale;
-  const double q = density_of_points(points_per_lamp(context), distance,
-                                     std::abs(glm::dot(face.normal, ray.direction)), area);
-  return static_cast<float>(double{ray.density} / (double{ray.density} + q));
-}
 
 glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& packet,
                              const LaneState& state, const FaceRecord& face, const HitPacket& hits,

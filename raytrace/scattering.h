@@ -39,13 +39,6 @@ inline bool meets_lobes(const RenderContext& context, const FaceRecord& face, co
          has_lobes(material_of(context.light.scene, TriangleId{hits.triangle[k]}));
 }
 
-/// N for each emitter's image.
-int points_per_lamp(const RenderContext& context);
-
-/// The share p / (p + q) in which lane k shows the emission of a side: 1 where no points are on it.
-float share_of_rays(const RenderContext& context, const LaneState& state, const FaceRecord& face,
-                    const HitPacket& hits, std::uint32_t k);
-
 /// The radiance of L_e and of the field where lane k has landed. The rays of its lobe are queued;
 /// light of punctual lights and of points on emitters in the lobe goes to the pixel,
 /// as if seen in a mirror, and by way of the mirrors of its world.

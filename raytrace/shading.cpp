@@ -1,73 +1,15 @@
 #include "raytrace/shading.h"
 
-#include "radiosity/scene/surface_colour.h"
-#include "raytrace/footprint.h"
+#include "raytrace/lamp_weights.h"
+#include "raytrace/lane_surface.h"
 #include "raytrace/quad_lanes.h"
 #include "raytrace/scattering.h"
-#include "raytrace/specular_paths.h"
+#include "raytrace/specular_rays.h"
 
 #include <limits>
 #include <numbers>
 
 namespace meninas {
-
-Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
-                     std::uint32_t k) {
-  const auto [a, b, c] = corners(light.scene, TriangleId{hits.triangle[k]});
-  const Point3 at = a + double{hits.b1[k]} * (b - a) + double{hits.b2[k]} * (c - a);
-  const auto plane = static_cast<PlaneId>(face.plane_class);
-  if (face.side == FaceRecord::nothing)
-    return {at, face.normal, plane};
-  const MeshSide& side = light.mesh.sides[face.side];
-  return {at, face.normal, plane, side.tangent, side.coat};
-}
-
-SideShading shading_at(const RenderContext& context, const RayPacket& packet,
-                       const LaneState& state, const FaceRecord& face, const HitPacket& hits,
-                       std::uint32_t k) {
-  const SideShading& side = context.visible.shading[face.side];
-  if (!side.textured)
-    return side;
-  const LightScene& light = context.light;
-  const SurfaceColour colour =
-      surface_colour(light.scene, light.textures, TriangleId{hits.triangle[k]},
-                     {hits.b1[k], hits.b2[k]}, footprint_of(context, packet, state, face, hits, k));
-  const ReflectedPart part = context.visible.part;
-  const bool emits = part == ReflectedPart::all || part == ReflectedPart::none;
-  SideShading shading;
-  if (emits)
-    shading.emitted = colour.emission / std::numbers::pi;
-  if (part != ReflectedPart::none)
-    shading.albedo_over_pi = colour.reflectance / std::numbers::pi;
-  return shading;
-}
-
-glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& state,
-                             const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
-                             TileWorkspace& work) {
-  const LightScene& light = context.light;
-  const FieldPoint at = field_point(light.landing, face.side, uv_of(light, face, hits, k));
-  const glm::vec3 field =
-      field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
-  const bool in_lobe = state.specular && state.specular[k].lobes > 0;
-  const DiffuseSettings& diffuse = in_lobe ? context.behind_lobes : context.settings.diffuse;
-  const std::uint32_t key = state.key(k, context.settings.seed);
-  return irradiance_at_point(light, diffuse, context.gathering, context.visible.part, field,
-                             receiver_at(light, face, hits, k),
-                             diffuse.draw == 0 ? key : hash(key, diffuse.draw), work.point);
-}
-
-glm::vec3 radiance_of_lane(const RenderContext& context, const RayPacket& packet,
-                           const LaneState& state, const FaceRecord& face, const HitPacket& hits,
-                           std::uint32_t k, TileWorkspace& work) {
-  SideShading shading = shading_at(context, packet, state, face, hits, k);
-  shading.emitted *= share_of_rays(context, state, face, hits, k);
-  if (context.settings.diffuse.term != DiffuseTerm::interpolated)
-    return shading.emitted +
-           shading.albedo_over_pi * irradiance_of_lane(context, state, face, hits, k, work);
-  return field_radiance(context.light.mesh, context.visible.irradiance, shading,
-                        context.light.landing, face.side, uv_of(context.light, face, hits, k));
-}
 
 namespace {
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "radiosity/light/light_samples.h"
-#include "raytrace/camera_rays.h"
+#include "raytrace/pixels/camera_rays.h"
 #include "raytrace/diffuse_term.h"
 #include "raytrace/lobe_grid.h"
-#include "raytrace/render.h"
-#include "raytrace/beams/sure_paths.h"
+#include "raytrace/render_settings.h"
+#include "raytrace/beams/sure_path.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>

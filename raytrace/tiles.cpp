@@ -1,6 +1,7 @@
 #include "raytrace/tiles.h"
 
-#include "raytrace/pixel_samples.h"
+#include "raytrace/beams/sure_paths.h"
+#include "raytrace/pixels/pixel_samples.h"
 #include "raytrace/specular_paths.h"
 #include "scenes/materials/lobes.h"
 

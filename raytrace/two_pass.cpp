@@ -1,6 +1,7 @@
 #include "raytrace/two_pass.h"
 
 #include "radiosity/light/spot_parts.h"
+#include "radiosity/mesh/make_mesh.h"
 #include "radiosity/scene/surface_colour.h"
 #include "raytrace/scene_textures.h"
 #include "scenes/rays/mixed_scales.h"

@@ -1,6 +1,7 @@
 #include "reference/light_images.h"
 
-#include "reference/mirrored_lights.h"
+#include "reference/mirror_planes.h"
+#include "scenes/materials/bsdf.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/punctual_light.h"
 

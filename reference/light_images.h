@@ -14,25 +14,12 @@
 // by what they would bring (systematic sampling, Madow 1949): the expectation is that of all.
 #pragma once
 
-#include "scenes/materials/bsdf.h"
-#include "scenes/camera.h"
-#include "scenes/surfaces/surfaces.h"
-
-#include <vector>
+#include "reference/traced_scene.h"
 
 namespace meninas::reference {
 
-struct SurfacePoint;
-struct TracedScene;
-
 inline constexpr std::size_t most_images = 1024;
 inline constexpr std::size_t most_connections = 8;
-
-struct LightImage {
-  PunctualLight light;         ///< reflected: as it is seen straight
-  std::vector<PlaneId> planes; ///< in the order in which a path from the point meets them
-  std::vector<Bounds> extents; ///< of what may mirror in each
-};
 
 /// Of all lights over chains of at most `longest_chain` of the planes.
 std::vector<LightImage> make_light_images(const Scene& scene, const SurfaceModel& surfaces,

@@ -13,27 +13,12 @@
 // or in scenes with more than `most_mirror_planes` of them (curved mirrors), is only met.
 #pragma once
 
+#include "reference/mirror_planes.h"
 #include "reference/traced_scene.h"
 
 #include <optional>
 
 namespace meninas::reference {
-
-inline constexpr std::size_t longest_chain = 2;
-inline constexpr std::size_t most_mirror_planes = 16;
-
-struct MirrorPlanes {
-  std::vector<PlaneId> planes; ///< sorted
-  std::ptrdiff_t metals_left_out = 0; ///< planes of metal mirrors that are not among them
-};
-
-/// The planes on which some metal, be it by texels alone, some pane,
-/// or some coat that pass one takes for a mirror mirrors ideally; where they are too many,
-/// without coats, then without panes, then without what texels make of metals, then none.
-MirrorPlanes find_mirror_planes(const Scene& scene, const SurfaceModel& surfaces,
-                                const std::vector<Bsdf>& bsdfs, const DecodedTextures& textures);
-
-Point3 reflected_in(const Plane& plane, const Point3& x);
 
 /// Planes in the order in which a path from a point meets them, and the point's image x'.
 struct Chain {

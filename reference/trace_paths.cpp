@@ -1,5 +1,6 @@
 #include "reference/trace_paths.h"
 
+#include "reference/light_images.h"
 #include "reference/mirrored_lights.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/sampling.h"

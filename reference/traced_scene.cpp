@@ -1,60 +1,8 @@
 #include "reference/traced_scene.h"
 
-#include "image/image_file.h"
-#include "reference/mirrored_lights.h"
-#include "scenes/materials/constant_textures.h"
-#include "scenes/rays/mixed_scales.h"
 #include "scenes/materials/refraction.h"
 
-#include <algorithm>
-#include <iterator>
-#include <string>
-
 namespace meninas::reference {
-
-namespace {
-
-TexturePixels decode(const Texture& texture, TextureContent content) {
-  Bitmap bitmap = decode_image(
-      texture.encoded, content == TextureContent::colour ? Encoding::srgb : Encoding::linear,
-      texture.name);
-  return {bitmap.width, bitmap.height, std::move(bitmap.pixels)};
-}
-
-bool is_see_through(const Material& material) {
-  return material.alpha_mode == AlphaMode::mask || material.transmission > 0.0;
-}
-
-} // namespace
-
-TracedScene make_traced_scene(Scene scene) {
-  DecodedTextures textures = decode_textures(scene, decode);
-  std::ranges::move(fold_constant_textures(scene, textures), std::back_inserter(scene.warnings));
-  SurfaceModel surfaces = find_surfaces(scene);
-  RayScene rays = make_ray_scene(scene, surfaces);
-  std::ranges::move(warnings_of_mixed_scales(scene, surfaces, rays),
-                    std::back_inserter(scene.warnings));
-  std::vector<Direction> normals;
-  normals.reserve(scene.triangles.size());
-  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
-    normals.push_back(glm::normalize(area_vector(corners(scene, TriangleId{t}))));
-  std::vector<Bsdf> bsdfs;
-  bsdfs.reserve(scene.materials.size());
-  for (const Material& material : scene.materials)
-    bsdfs.push_back(make_bsdf(material, untextured(material)));
-  LightTable lights = make_light_table(scene, textures);
-  auto [mirror_planes, metals_left_out] = find_mirror_planes(scene, surfaces, bsdfs, textures);
-  if (metals_left_out > 0 && !scene.lights.empty())
-    scene.warnings.push_back(
-        "light of punctual lights by way of " + std::to_string(metals_left_out) +
-        " planes of mirrors is left out: of at most " + std::to_string(most_mirror_planes) +
-        " it is followed");
-  std::vector<LightImage> light_images = make_light_images(scene, surfaces, bsdfs, mirror_planes);
-  const bool see_through = std::ranges::any_of(scene.materials, is_see_through);
-  return {std::move(scene),        std::move(surfaces), std::move(rays),   std::move(normals),
-          std::move(textures),     std::move(bsdfs),    std::move(lights), std::move(mirror_planes),
-          std::move(light_images), see_through};
-}
 
 SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 barycentric,
                            bool front) {

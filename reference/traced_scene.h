@@ -4,7 +4,7 @@
 // no mesh, no mirror worlds, no form factors.
 #pragma once
 
-#include "reference/light_images.h"
+#include "reference/light_image.h"
 #include "reference/light_table.h"
 #include "scenes/materials/bsdf.h"
 #include "scenes/rays/ray_scene.h"
@@ -27,9 +27,6 @@ struct TracedScene {
   std::vector<LightImage> light_images;
   bool see_through = false; ///< there are panes or cut-outs that light passes straight
 };
-
-/// Throws InputError for a texture that cannot be decoded.
-TracedScene make_traced_scene(Scene scene);
 
 /// Where a ray has met a surface, as that surface is there.
 struct SurfacePoint {

@@ -1,5 +1,6 @@
 #include "runs/reference_run.h"
 
+#include "reference/scene_setup.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>

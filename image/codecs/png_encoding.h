@@ -2,7 +2,7 @@
 // what writes needs none of the 260 shared objects that OpenImageIO brings.
 #pragma once
 
-#include "image/image_file.h"
+#include "image/picture_options.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "radiosity/field/facets.h"
 
 #include "radiosity/mesh/mesh_cells.h"
+#include "radiosity/mesh/vertex_welder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -46,10 +46,6 @@ FoundField unknown_field(const ElementMesh& mesh, const VertexElements& facets) 
   return found;
 }
 
-std::uint32_t vertex_seed(const VertexSource& source, std::uint32_t vertex, std::uint32_t level) {
-  return hash(vertex, source.gathering.form_factors.seed, 0x7e27 + level);
-}
-
 PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
                               const VertexGathering& how, RayShare share, double spared,
                               std::optional<RayShare> before) {

@@ -24,9 +24,6 @@ FoundField unknown_field(ElementMesh mesh);
 /// Of the scene's mesh. Vertices of these facets (facets.h) are `averaged`, their values to come.
 FoundField unknown_field(const ElementMesh& mesh, const VertexElements& facets);
 
-/// Of a vertex's samples. `level` tells apart vertices whose numbers are the same.
-std::uint32_t vertex_seed(const VertexSource& source, std::uint32_t vertex, std::uint32_t level);
-
 /// Gathers at the vertices that are unknown and do not hang.
 void gather_at_vertices(const VertexSource& source, std::uint32_t level, FoundField& found);
 

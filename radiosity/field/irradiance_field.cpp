@@ -1,5 +1,7 @@
 #include "radiosity/field/irradiance_field.h"
 
+#include "radiosity/field/vertex_places.h"
+
 namespace meninas {
 
 glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv) {

@@ -8,6 +8,7 @@
 #include "radiosity/field/vertex_places.h"
 #include "radiosity/light/kept_rays.h"
 #include "radiosity/light/point_gathering.h"
+#include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -68,5 +69,11 @@ struct VertexSource {
   KeptRays* kept = nullptr; ///< of gather_at_lit()
   bool keeps_more = false;
 };
+
+/// Of a vertex's samples. `level` tells apart vertices whose numbers are the same.
+inline std::uint32_t vertex_seed(const VertexSource& source, std::uint32_t vertex,
+                                 std::uint32_t level) {
+  return hash(vertex, source.gathering.form_factors.seed, 0x7e27 + level);
+}
 
 } // namespace meninas

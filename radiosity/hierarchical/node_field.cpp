@@ -1,6 +1,8 @@
 #include "radiosity/hierarchical/node_field.h"
 
 #include "radiosity/field/curved_means.h"
+#include "radiosity/field/facet_means.h"
+#include "radiosity/field/facets.h"
 #include "radiosity/light/gather_noise.h"
 #include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/hierarchical/node_edges.h"

@@ -7,7 +7,7 @@
 // direct_irradiance.h has the same for f = 1 / pi, in closed form.
 #pragma once
 
-#include "radiosity/light/direct_irradiance.h"
+#include "radiosity/light/direct_samples.h"
 
 namespace meninas {
 

@@ -2,6 +2,7 @@
 
 #include "radiosity/light/lamp_faces.h"
 #include "form_factors/point_form_factor.h"
+#include "radiosity/light/direct_irradiance.h"
 #include "radiosity/light/shadow_legs.h"
 #include "scenes/sampling.h"
 

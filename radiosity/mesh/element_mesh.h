@@ -145,11 +145,6 @@ inline bool is_at_contact(const ElementMesh& mesh, std::size_t vertex) {
   return !mesh.at_contact.empty() && mesh.at_contact[vertex] != 0;
 }
 
-/// Sides marked in `dark` get no elements; empty: all are meshed. No cell is divided; those are cut
-/// on which something stands.
-ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces,
-                              const MeshSettings& settings = {}, const DarkSides& dark = {});
-
 inline std::size_t element_count(const ElementMesh& mesh) { return mesh.area.size(); }
 
 /// Whether any cell of the side is divided or cut.

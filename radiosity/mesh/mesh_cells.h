@@ -1,12 +1,9 @@
-// The forest of cells under an element mesh, and the elements and vertices that follow from it.
+// The forest of cells under an element mesh.
 //
 // Steps of make_element_mesh() and divide_elements(); who uses a mesh needs neither.
 #pragma once
 
 #include "radiosity/mesh/element_mesh.h"
-#include "radiosity/mesh/vertex_numbers.h"
-
-#include <span>
 
 namespace meninas {
 
@@ -23,20 +20,6 @@ void divide_cell(ElementMesh& mesh, std::uint32_t cell);
 
 /// Points closer than about this are one vertex, metres.
 double vertex_grain(const ElementMesh& mesh, const SurfaceModel& surfaces);
-
-/// The mesh that has been divided, and by cell of the new one
-/// the same cell of it: none for those that are new.
-struct MeshBefore {
-  const ElementMesh& mesh;
-  std::span<const CellId> cells;
-};
-
-/// Numbers the leaves, depth first, and makes their corners, vertices and areas.
-/// Returns the vertices by place: all of them, or of a mesh that was another before
-/// those at corners of divided cells' parts and on the borders of patches.
-/// That spares the time, and is the same mesh.
-VertexNumbers add_elements(ElementMesh& mesh, const SurfaceModel& surfaces,
-                           const MeshBefore* before = nullptr);
 
 /// The point (s, t) of a cell.
 Point3 point_in(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& cell,

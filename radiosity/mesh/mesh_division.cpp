@@ -1,5 +1,6 @@
 #include "radiosity/mesh/mesh_division.h"
 
+#include "radiosity/mesh/mesh_elements.h"
 #include "radiosity/mesh/mesh_cells.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "radiosity/queries/node_form_factors.h"
 
+#include "radiosity/queries/node_sides.h"
 #include "scenes/errors.h"
 
 #include <fmt/format.h>

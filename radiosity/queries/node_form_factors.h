@@ -14,7 +14,8 @@
 #pragma once
 
 #include "form_factors/extended_form_factor.h"
-#include "radiosity/queries/node_sides.h"
+#include "mirror/mirrors.h"
+#include "radiosity/queries/node_sets.h"
 
 #include <span>
 #include <string>

@@ -1,6 +1,7 @@
 #include "radiosity/queries/node_sides.h"
 
-#include "radiosity/queries/node_tally.h"
+#include "radiosity/queries/node_scene.h"
+#include "radiosity/transport/gather_rays.h"
 #include "scenes/sampling.h"
 
 #include <fmt/format.h>
@@ -260,15 +261,6 @@ std::vector<std::string> lines_of(const LeftOut& left) {
 }
 
 } // namespace
-
-std::vector<std::uint32_t> sets_of_nodes(const Scene& scene, std::span<const NodeSet> sets) {
-  std::vector<std::uint32_t> result(scene.nodes.size(), none_of_sets);
-  for (std::uint32_t s = 0; s < sets.size(); ++s)
-    for (const NodeId node : sets[s])
-      if (result[index(node)] == none_of_sets)
-        result[index(node)] = s;
-  return result;
-}
 
 Face turned_round(const Face& face) {
   Face turned = face;

@@ -1,51 +1,8 @@
 #include "radiosity/queries/node_tally.h"
 
-#include "scenes/errors.h"
-
 #include <algorithm>
 
 namespace meninas {
-
-namespace {
-
-/// By SideId: the place of its set among those asked for, where its side is.
-constexpr std::uint32_t not_asked = 0xffffffffU;
-std::vector<std::uint32_t> groups_of_sides(const Scene& scene, const ElementMesh& mesh,
-                                           const AskedSides& to) {
-  const std::vector<std::uint32_t> sets = sets_of_nodes(scene, to.nodes);
-  std::vector<std::uint32_t> groups(mesh.sides.size(), not_asked);
-  for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
-    const std::uint32_t set = sets[index(mesh.sides[s].node)];
-    if (set != none_of_sets && may_count(to.sides, mesh.sides[s].facing == Facing::front))
-      groups[s] = set;
-  }
-  return groups;
-}
-
-WorldTree named_worlds(const MirrorSet& mirrors, int max_depth) {
-  WorldSettings settings;
-  settings.max_depth = std::min(settings.max_depth, max_depth);
-  return mirror_worlds(mirrors, settings);
-}
-
-} // namespace
-
-NodeScene::NodeScene(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
-                     const AskedSides& to, int max_depth)
-    : group_count(to.nodes.size()), mesh(make_element_mesh(scene, surfaces, {.target_elements = 1.0})),
-      groups(groups_of_sides(scene, mesh, to)), rays(make_ray_scene(scene, surfaces)),
-      worlds(named_worlds(mirrors, max_depth)),
-      light(make_light_scene(scene, surfaces, rays, mirrors, worlds, mesh)) {
-  settings.max_bounces = std::min(settings.max_bounces, max_depth);
-}
-
-void require_landings(const NodeScene& scene, const AskedSides& to) {
-  for (std::uint32_t g = 0; g < to.nodes.size(); ++g)
-    if (std::ranges::find(scene.groups, g) == scene.groups.end())
-      throw UsageError(scene.light.scene.file,
-                       "node '" + scene.light.scene.nodes[index(to.nodes[g].front())].name +
-                           "' is a mirror: rays go on through it");
-}
 
 void add(const NodeScene& scene, const GatheredRays& gathered, double share, NodeTally& tally) {
   tally.totals.resize(scene.group_count, 0.0);
@@ -53,7 +10,7 @@ void add(const NodeScene& scene, const GatheredRays& gathered, double share, Nod
   tally.cut += weight * mean_of(Rgb(gathered.cut_light));
   for (const RayLanding& landing : gathered.landings) {
     const std::uint32_t group = scene.groups[index(scene.mesh.side_of_element[landing.element])];
-    if (group == not_asked)
+    if (group == none_of_sets)
       continue;
     const double arrived = weight * mean_of(Rgb(landing.light));
     tally.by_world[{group, index(landing.world)}] += arrived;

@@ -1,3 +1,4 @@
+#include "radiosity/queries/node_form_factors.h"
 #include "radiosity/queries/node_tally.h"
 #include "scenes/sampling.h"
 

@@ -1,6 +1,6 @@
 #include "radiosity/scene/light_scene.h"
 
-#include "radiosity/scene/mirror_holes.h"
+#include "radiosity/scene/cut_out_mirrors.h"
 #include "radiosity/scene/surface_colour.h"
 
 #include <algorithm>

@@ -9,10 +9,6 @@
 
 namespace meninas {
 
-/// By MirrorId, 1 where some of it may be cut out; empty where nothing of any is.
-std::vector<std::uint8_t> cut_out_mirrors(const SurfaceModel& surfaces, const RayScene& rays,
-                                          const MirrorSet& mirrors);
-
 /// Whether there is any of the mirror, and no hole, at a point of its plane.
 bool is_solid_at(const LightScene& light, MirrorId mirror, const Point3& x);
 

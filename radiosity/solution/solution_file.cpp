@@ -5,7 +5,7 @@
 #include "radiosity/solution/element_triangles.h"
 #include "radiosity/mesh/mesh_division.h"
 #include "radiosity/solution/solution_format.h"
-#include "scenes/gltf/glb_file.h"
+#include "scenes/glb_file.h"
 #include "scenes/version.h"
 
 #include <fmt/format.h>

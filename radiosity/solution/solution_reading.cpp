@@ -2,7 +2,7 @@
 #include "radiosity/solution/solution_file.h"
 #include "radiosity/solution/solution_format.h"
 #include "scenes/errors.h"
-#include "scenes/gltf/glb_file.h"
+#include "scenes/glb_file.h"
 #include "scenes/version.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+#include "radiosity/solvers/error_bound.h"
 #include "radiosity/solvers/solvers.h"
 
 #include <algorithm>

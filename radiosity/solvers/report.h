@@ -2,8 +2,8 @@
 // and what a solver says at its end.
 #pragma once
 
-#include "radiosity/solvers/solve.h"
-#include "radiosity/solvers/error_bound.h"
+#include "radiosity/solvers/solver_settings.h"
+#include "radiosity/solvers/convergence.h"
 
 namespace meninas {
 

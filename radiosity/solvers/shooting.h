@@ -15,7 +15,7 @@
 //            have some: then the brightest is next.
 #pragma once
 
-#include "radiosity/solvers/error_bound.h"
+#include "radiosity/solvers/convergence.h"
 #include "radiosity/solvers/shooters.h"
 
 #include <concepts>

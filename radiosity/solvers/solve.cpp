@@ -1,5 +1,6 @@
 #include "radiosity/solvers/solve.h"
 
+#include "radiosity/solvers/error_bound.h"
 #include "radiosity/solvers/report.h"
 #include "radiosity/solvers/solvers.h"
 #include "scenes/errors.h"

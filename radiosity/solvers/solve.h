@@ -22,64 +22,9 @@
 // Grey systems are solved in one band. Deterministic for any thread count.
 #pragma once
 
-#include "radiosity/transport/form_factors.h"
-#include "radiosity/solvers/shooters.h"
-
-#include <array>
-#include <optional>
-#include <vector>
+#include "radiosity/solvers/solver_settings.h"
 
 namespace meninas {
-
-enum class SolverMethod { direct, jacobi, gauss_seidel, bicgstab, progressive, hierarchical };
-inline constexpr std::array solver_methods{SolverMethod::direct,       SolverMethod::jacobi,
-                                           SolverMethod::gauss_seidel, SolverMethod::bicgstab,
-                                           SolverMethod::progressive,  SolverMethod::hierarchical};
-/// Those that solve for a transport with a row for every element.
-inline constexpr std::array row_solvers{SolverMethod::direct, SolverMethod::jacobi,
-                                        SolverMethod::gauss_seidel, SolverMethod::bicgstab,
-                                        SolverMethod::progressive};
-/// As users call it.
-const char* name_of(SolverMethod method);
-
-struct SolverSettings {
-  SolverMethod method = SolverMethod::bicgstab;
-  double tolerance = 1e-4; ///< on ||B - B_k|| / ||B_k||, maximum norm, every channel
-  int max_iterations =
-      10'000; ///< a safety net; reaching it is reported. Of `progressive`: by shooter
-  std::optional<int> max_shots = {}; ///< of `progressive`, whose iterations are shots
-};
-
-/// Of `progressive`.
-struct ShotPlan {
-  Shooters shooters; ///< none: every unknown for itself
-  ShotWatch watch;
-};
-
-/// Why a solver stopped.
-enum class SolverEnd {
-  converged,
-  iteration_limit,
-  rounding, ///< the residual is as small as rounding lets it be (without a bound: as the tolerance), the bound is not
-  unsolvable ///< light enters a closed part of the scene that absorbs nothing: it would grow without end
-};
-
-struct SolverResult {
-  SolverMethod method = SolverMethod::bicgstab;
-  std::vector<Rgb> radiosity;
-  int iterations = 0;
-  int bands = 3;            ///< solved for: one when everything is grey
-  double residual = 0.0;    ///< ||r|| / ||B|| at the end, worst channel
-  double error_bound = 0.0; ///< G ||r|| / ||B||, worst channel; infinite when there is no bound
-  bool converged = false;
-  SolverEnd end = SolverEnd::converged;
-  std::vector<double>
-      residuals; ///< of every iterate, first one first, worst channel; of many shots every second, fourth, ...
-  std::vector<Rgb> channel_residuals, channel_error_bounds; ///< the same for every channel
-};
-
-/// LU factors of that many unknowns take 128 MiB and some ten seconds a band.
-inline constexpr std::size_t most_direct_unknowns = 4096;
 
 /// Throws UsageError when the method is not for systems of that size.
 void check_size(SolverMethod method, std::size_t unknowns);

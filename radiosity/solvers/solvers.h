@@ -2,8 +2,8 @@
 // and records every iterate there, the first one included.
 #pragma once
 
-#include "radiosity/solvers/solve.h"
-#include "radiosity/solvers/error_bound.h"
+#include "radiosity/solvers/solver_settings.h"
+#include "radiosity/solvers/convergence.h"
 
 #include <functional>
 

@@ -1,6 +1,7 @@
 #include "radiosity/transport/analytic_transport.h"
 
 #include "scenes/surfaces/closedness.h"
+#include "form_factors/extended_form_factor.h"
 #include "form_factors/kaleidoscope.h"
 #include "scenes/errors.h"
 

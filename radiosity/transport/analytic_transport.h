@@ -18,7 +18,9 @@
 // times faces that stand between: for few of them.
 #pragma once
 
-#include "radiosity/transport/form_factors.h"
+#include "radiosity/scene/light_scene.h"
+#include "radiosity/transport/form_factor_rows.h"
+#include "scenes/progress.h"
 
 namespace meninas {
 

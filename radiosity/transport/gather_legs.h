@@ -4,7 +4,7 @@
 // All say the weight of lane k, its throughput and its world, and all that it carries.
 #pragma once
 
-#include "radiosity/transport/gather_rays.h"
+#include "radiosity/transport/gathered_rays.h"
 #include "radiosity/transport/solid_paths.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/sampling.h"

@@ -5,7 +5,7 @@
 // Sums run in a fixed order.
 #pragma once
 
-#include "radiosity/transport/form_factors.h"
+#include "radiosity/transport/form_factor_rows.h"
 
 #include <vector>
 

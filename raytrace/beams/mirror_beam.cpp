@@ -2,7 +2,7 @@
 
 #include "raytrace/scattering.h"
 #include "raytrace/shading.h"
-#include "raytrace/specular_paths.h"
+#include "raytrace/specular_rays.h"
 #include "scenes/rays/lanes.h"
 
 #include <algorithm>

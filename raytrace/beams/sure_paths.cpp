@@ -1,7 +1,7 @@
 #include "raytrace/beams/sure_paths.h"
 
 #include "raytrace/scattering.h"
-#include "raytrace/specular_paths.h"
+#include "raytrace/specular_rays.h"
 #include "raytrace/tile.h"
 #include "raytrace/wide_lanes.h"
 #include "scenes/rays/frame_geometry.h"

@@ -1,6 +1,6 @@
 #include "raytrace/error/noise_choice.h"
 
-#include "raytrace/pixel_neighbours.h"
+#include "raytrace/pixels/pixel_neighbours.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "raytrace/error/probes.h"
 
-#include "raytrace/sample_choice.h"
+#include "raytrace/pixels/sample_choice.h"
 
 #include <algorithm>
 

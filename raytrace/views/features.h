@@ -3,7 +3,7 @@
 // of the first surface the eye meets there, a mirror among them; 0 where there is none.
 #pragma once
 
-#include "raytrace/render.h"
+#include "raytrace/render_settings.h"
 
 namespace meninas {
 

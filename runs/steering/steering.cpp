@@ -1,6 +1,6 @@
 #include "runs/steering/steering.h"
 
-#include "raytrace/sample_choice.h"
+#include "raytrace/pixels/sample_choice.h"
 #include "runs/steering/error_report.h"
 #include "runs/preparation.h"
 #include "runs/steering/setting_options.h"

@@ -6,7 +6,7 @@
 // and again, until the estimate is below what was wanted or the time is over.
 // A run that changes pass two alone keeps pass one. Knobs whose turning did not help are let alone.
 // Of several pictures the one with the smallest estimate is kept.
-// Samples of pixels are adaptive (raytrace/sample_choice.h), to the wanted error in every pixel.
+// Samples of pixels are adaptive (raytrace/pixels/sample_choice.h), to the wanted error in every pixel.
 #pragma once
 
 #include "runs/steering/steering_model.h"

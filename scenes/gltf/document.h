@@ -6,7 +6,8 @@
 #pragma once
 
 #include "scenes/errors.h"
-#include "scenes/gltf/gltf.h"
+#include "scenes/gltf/settings.h"
+#include "scenes/scene.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-// A file held against the table of gltf/structure.cpp:
+// A file held against the table of gltf/rules.cpp:
 // every property of its type, every index into its array.
 #include "scenes/gltf/document.h"
 #include "scenes/gltf/rules.h"

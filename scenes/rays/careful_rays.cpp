@@ -48,21 +48,6 @@ LaneHit facing_side(const RayScene& rays, const LaneRay& ray, const LaneHit& bac
 
 } // namespace
 
-void add_contact(const FrameGeometry& geometry, std::uint32_t triangle, std::uint32_t leaving,
-                 Contacts& contacts) {
-  const auto& facts = geometry.facts[triangle];
-  // What touches glass is not blocked by it.
-  if (facts.glass && facts.plane != leaving)
-    return;
-  auto& list = facts.plane == leaving ? contacts.own : contacts.others;
-  const auto known = std::ranges::any_of(
-      list, [&](const ContactTriangle& contact) { return index(contact.triangle) == triangle; });
-  if (!known)
-    list.push_back({TriangleId{triangle}, PlaneId{facts.plane},
-                    facts.single_sided ? Sidedness::single : Sidedness::both,
-                    corners_of(geometry, triangle)});
-}
-
 LaneHit careful_hit(const RayScene& rays, const LaneRay& ray, Backs backs, ContactMemory& memory) {
   RayRule rule{.geometry = &rays.geometry(), .leaving = &ray.leaving};
   rule.backs = backs == Backs::transparent ? BackRule::ignore : BackRule::hit;

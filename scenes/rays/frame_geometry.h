@@ -5,7 +5,9 @@
 // there floats are finer, and all that is said of rounding is meant times the grain of the place.
 #pragma once
 
-#include "scenes/rays/ray_scene.h"
+#include "scenes/rays/rays.h"
+#include "scenes/scene.h"
+#include "scenes/surfaces/surfaces.h"
 
 #include <algorithm>
 #include <cmath>

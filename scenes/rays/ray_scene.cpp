@@ -1,10 +1,8 @@
 #include "scenes/rays/ray_scene.h"
 
 #include "scenes/rays/careful_rays.h"
-#include "scenes/errors.h"
-#include "scenes/rays/near_planes.h"
-
-#include <embree3/rtcore.h>
+#include "scenes/rays/embree_filters.h"
+#include "scenes/rays/embree_handles.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,152 +13,6 @@
 namespace meninas {
 
 namespace {
-// Surfaces nearer to an origin than `reach` times its grain touch it.
-constexpr double reach = 2e-6;
-
-struct Release {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-template <typename Handle>
-using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
-
-} // namespace
-
-struct RayScene::Impl {
-  Owned<RTCDevice> device;
-  Owned<RTCScene> scene;
-  FrameGeometry geometry;
-  NearPlanes near_planes;
-  float noise = 0.0F; ///< of the geometry, and the lift
-};
-
-namespace {
-
-using Impl = RayScene::Impl;
-
-// --- Filters
-
-/// Embree's context, with the rule that its filter applies.
-struct RayContext : RTCIntersectContext {
-  RayRule rule;
-};
-struct LegContext : RTCIntersectContext {
-  LegJudge judge;
-};
-
-/// The lanes whose hit is to be judged.
-std::uint32_t hit_lanes(const RTCFilterFunctionNArguments& args) {
-  LaneFlags valid{};
-  if (args.N == packet_size)
-    std::memcpy(valid.data(), args.valid, sizeof valid);
-  else
-    std::copy_n(args.valid, std::min<std::size_t>(args.N, packet_size), valid.begin());
-  return bits_of(valid);
-}
-
-Candidate candidate(const RTCFilterFunctionNArguments& args, unsigned lane) {
-  const auto n = args.N;
-  return {RTCHitN_primID(args.hit, n, lane),
-          RTCRayN_id(args.ray, n, lane),
-          {RTCHitN_Ng_x(args.hit, n, lane), RTCHitN_Ng_y(args.hit, n, lane),
-           RTCHitN_Ng_z(args.hit, n, lane)},
-          {RTCRayN_dir_x(args.ray, n, lane), RTCRayN_dir_y(args.ray, n, lane),
-           RTCRayN_dir_z(args.ray, n, lane)},
-          RTCRayN_tfar(args.ray, n, lane)};
-}
-
-void filter_rays(const RTCFilterFunctionNArguments* args) {
-  const auto& context = *static_cast<const RayContext*>(args->context);
-  for (auto rest = hit_lanes(*args); rest != 0; rest &= rest - 1) {
-    const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-    if (!is_hit(context.rule, candidate(*args, lane)))
-      args->valid[lane] = 0;
-  }
-}
-
-void filter_legs(const RTCFilterFunctionNArguments* args) {
-  auto& context = *static_cast<LegContext*>(args->context);
-  for (auto rest = hit_lanes(*args); rest != 0; rest &= rest - 1) {
-    const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-    if (!context.judge.blocks(candidate(*args, lane)))
-      args->valid[lane] = 0;
-  }
-}
-
-/// Of every query, before its own filter: nothing is met in a hole.
-void filter_holes(const RTCFilterFunctionNArguments* args) {
-  const auto& [valid, geometry, context, ray, hit, n] = *args;
-  for (auto rest = hit_lanes(*args); rest != 0; rest &= rest - 1) {
-    const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-    if (is_hole(*static_cast<const FrameGeometry*>(geometry), RTCHitN_primID(hit, n, lane),
-                {RTCHitN_u(hit, n, lane), RTCHitN_v(hit, n, lane)}))
-      valid[lane] = 0;
-  }
-}
-
-RTCIntersectContextFlags flags_for(Coherence coherence) {
-  return coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                          : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-}
-
-RayContext make_context(const RayRule& rule, RTCIntersectContextFlags flags) {
-  RayContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = flags;
-  context.filter = filter_rays;
-  context.rule = rule;
-  return context;
-}
-
-// --- Contacts: what touches the origin of a ray
-
-struct ContactQuery {
-  const FrameGeometry* geometry;
-  Point3 origin;
-  std::uint32_t leaving;
-  double reach;
-  Contacts found;
-};
-
-bool collect_contact(RTCPointQueryFunctionArguments* args) {
-  auto& query = *static_cast<ContactQuery*>(args->userPtr);
-  if (is_within(corners_of(*query.geometry, args->primID), query.origin, query.reach))
-    add_contact(*query.geometry, args->primID, query.leaving, query.found);
-  return false;
-}
-
-} // namespace
-
-Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving,
-                     double least_reach) {
-  ContactQuery query{&rays.geometry(), Point3(origin), leaving, std::max(reach, least_reach), {}};
-  query.reach *= double{grain_at(rays.geometry(), origin)};
-  RTCPointQuery point{origin.x, origin.y, origin.z, 0.0F, static_cast<float>(2.0 * query.reach)};
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(rays.impl().scene.get(), &point, &context, collect_contact, &query);
-  return std::move(query.found);
-}
-
-LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule) {
-  const auto& [origin, direction, near, far, leaving] = ray;
-  RTCRayHit query{};
-  query.ray = {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
-               direction.z, 0.0F,     far,      ~0U,  0U,          0U};
-  query.hit.primID = no_index;
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  auto context = make_context(rule, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
-  rtcIntersect1(rays.impl().scene.get(), &context, &query);
-  const glm::vec3 normal{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
-  return {query.hit.primID, query.ray.tfar, query.hit.u, query.hit.v,
-          glm::dot(normal, direction) < 0.0F};
-}
-
-namespace {
-
-// --- Packets
 
 template <typename Value>
 void copy_lanes(const Value* from, Value* to) {
@@ -215,7 +67,7 @@ void load_legs(const FrameGeometry& geometry, const RayPacket& packet, const Lan
 }
 
 /// `touching` are the lanes whose hit lies in a plane that their origin lies in as well.
-void read_hits(const RTCRayHit16& traced, const Impl& impl, HitPacket& hits, LaneFlags& touching) {
+void read_hits(const RTCRayHit16& traced, const EmbreeHandles& impl, HitPacket& hits, LaneFlags& touching) {
   const auto& [ray, hit] = traced;
   copy_lanes(hit.primID, hits.triangle);
   copy_lanes(ray.tfar, hits.distance);
@@ -243,7 +95,7 @@ void clear(RTCHit16& hit) {
 }
 
 /// Goes on behind the backs that the lanes of `through` met.
-void trace_through(const Impl& impl, const RayPacket& packet, Coherence coherence,
+void trace_through(const EmbreeHandles& impl, const RayPacket& packet, Coherence coherence,
                    std::uint32_t through, RTCRayHit16& traced) {
   alignas(64) LaneFlags valid;
   for (std::size_t k = 0; k < packet_size; ++k) {
@@ -324,77 +176,5 @@ std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence 
   }
   return blocked;
 }
-
-// --- Construction
-
-namespace {
-
-void check(RTCDevice device) {
-  const auto code = rtcGetDeviceError(device);
-  if (code == RTC_ERROR_NONE)
-    return;
-  throw OutputError("", "ray queries",
-                    code == RTC_ERROR_OUT_OF_MEMORY
-                        ? "not enough memory for the triangles of the scene"
-                        : "Embree cannot be used on this machine");
-}
-
-Owned<RTCGeometry> make_mesh(RTCDevice device, const FrameGeometry& geometry) {
-  Owned<RTCGeometry> mesh(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-  check(device);
-  auto* positions = static_cast<glm::vec3*>(
-      rtcSetNewGeometryBuffer(mesh.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              sizeof(glm::vec3), geometry.positions.size()));
-  check(device);
-  std::ranges::transform(geometry.positions, positions,
-                         [](const Point3& x) { return glm::vec3(x); });
-  auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(
-      rtcSetNewGeometryBuffer(mesh.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), geometry.triangles.size()));
-  check(device);
-  std::ranges::transform(geometry.triangles, geometry.facts, triangles, met_by_rays);
-  rtcSetGeometryBuildQuality(mesh.get(), RTC_BUILD_QUALITY_HIGH);
-  // Filters cost time at every hit: none where nothing is cut out.
-  if (std::ranges::any_of(geometry.facts, &TriangleFacts::cut_out)) {
-    rtcSetGeometryUserData(mesh.get(), const_cast<FrameGeometry*>(&geometry));
-    rtcSetGeometryIntersectFilterFunction(mesh.get(), filter_holes);
-    rtcSetGeometryOccludedFilterFunction(mesh.get(), filter_holes);
-  }
-  rtcCommitGeometry(mesh.get());
-  check(device);
-  return mesh;
-}
-
-} // namespace
-
-RayScene::RayScene(const Scene& scene, const SurfaceModel& surfaces, Holes holes)
-    : impl_(std::make_unique<Impl>()) {
-  impl_->geometry = make_frame_geometry(scene, surfaces, std::move(holes));
-  impl_->near_planes = find_near_planes(impl_->geometry, reach);
-  impl_->noise = static_cast<float>(impl_->geometry.noise) + lift;
-  impl_->device.reset(rtcNewDevice(nullptr));
-  check(impl_->device.get());
-  impl_->scene.reset(rtcNewScene(impl_->device.get()));
-  check(impl_->device.get());
-
-  // Robust traversal is watertight along shared edges.
-  rtcSetSceneFlags(
-      impl_->scene.get(),
-      static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  rtcSetSceneBuildQuality(impl_->scene.get(), RTC_BUILD_QUALITY_HIGH);
-  if (!impl_->geometry.triangles.empty()) {
-    const auto mesh = make_mesh(impl_->device.get(), impl_->geometry);
-    rtcAttachGeometry(impl_->scene.get(), mesh.get());
-  }
-  rtcCommitScene(impl_->scene.get());
-  check(impl_->device.get());
-}
-
-RayScene::~RayScene() = default;
-RayScene::RayScene(RayScene&&) noexcept = default;
-RayScene& RayScene::operator=(RayScene&&) noexcept = default;
-
-const RayFrame& RayScene::frame() const { return impl_->geometry.frame; }
-const FrameGeometry& RayScene::geometry() const { return impl_->geometry; }
 
 } // namespace meninas

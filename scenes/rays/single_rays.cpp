@@ -1,6 +1,7 @@
 // Queries of one ray in double metres:
 // carried into the frame, asked there, and measured again in double.
 #include "scenes/rays/frame_geometry.h"
+#include "scenes/rays/ray_scene.h"
 
 #include <algorithm>
 #include <cmath>

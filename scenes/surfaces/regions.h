@@ -3,7 +3,8 @@
 // (Used by find_surfaces alone.)
 #pragma once
 
-#include "scenes/surfaces/surfaces.h"
+#include "scenes/surfaces/plane.h"
+#include "scenes/surfaces/precision.h"
 #include "scenes/surfaces/topology.h"
 
 namespace meninas {

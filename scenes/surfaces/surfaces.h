@@ -12,23 +12,12 @@
 // of a triangle patch the affine map p(u,v) = p0 + u (p1 - p0) + v (p2 - p0), u + v <= 1.
 #pragma once
 
+#include "scenes/surfaces/plane.h"
 #include "scenes/surfaces/precision.h"
 
 #include <span>
 
 namespace meninas {
-
-/// { x : dot(normal, x) = offset }
-struct Plane {
-  Direction normal{0.0, 0.0, 1.0};
-  double offset = 0.0;
-};
-
-inline double signed_distance(const Plane& plane, const Point3& x) {
-  return glm::dot(plane.normal, x) - plane.offset;
-}
-/// The point of the plane next to the origin of space.
-inline Point3 origin_of(const Plane& plane) { return plane.offset * plane.normal; }
 
 struct Surface {
   Plane plane; ///< normal towards the front

@@ -1,6 +1,6 @@
 #include "tests/cli/tiny_room.h"
 
-#include "scenes/gltf/glb_file.h"
+#include "scenes/glb_file.h"
 
 #include <array>
 #include <fstream>

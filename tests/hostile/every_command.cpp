@@ -5,6 +5,7 @@
 #include "raytrace/views/features.h"
 #include "raytrace/error/picture_error.h"
 #include "reference/reference_picture.h"
+#include "reference/scene_setup.h"
 #include "runs/steering/expected_cost.h"
 #include "scenes/errors.h"
 #include "scenes/materials/lobes.h"

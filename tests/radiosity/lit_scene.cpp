@@ -1,5 +1,7 @@
 #include "tests/radiosity/lit_scene.h"
 
+#include "radiosity/mesh/make_mesh.h"
+
 namespace meninas::test {
 
 std::unique_ptr<LitScene> lit(Scene scene, const MeshSettings& mesh, const PlanSettings& plan) {

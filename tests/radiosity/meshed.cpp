@@ -1,5 +1,7 @@
 #include "tests/radiosity/meshed.h"
 
+#include "radiosity/mesh/make_mesh.h"
+
 namespace meninas::test {
 
 Meshed meshed(Scene scene, const MeshSettings& settings) {

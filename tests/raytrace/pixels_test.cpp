@@ -1,6 +1,6 @@
 // How samples make a pixel: filters, adaptive sampling, and layers that show the scene.
 #include "raytrace/views/features.h"
-#include "raytrace/sample_choice.h"
+#include "raytrace/pixels/sample_choice.h"
 #include "raytrace/two_pass.h"
 #include "tests/raytrace/pictures.h"
 #include "tests/support/rooms.h"

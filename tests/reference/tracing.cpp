@@ -1,5 +1,7 @@
 #include "tests/reference/tracing.h"
 
+#include "reference/scene_setup.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

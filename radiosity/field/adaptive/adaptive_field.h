@@ -22,6 +22,8 @@
 
 #include "radiosity/field/interpolation_settings.h"
 #include "radiosity/field/irradiance_field.h"
+#include "radiosity/light/direct_irradiance.h"
+#include "radiosity/transport/form_factors.h"
 
 namespace meninas {
 

@@ -37,8 +37,6 @@
 
 namespace meninas {
 
-/// What arrives at a point; it counts where nothing is over it,
-/// and under a low cover where nothing around is open.
 struct RefinementSettings {
   double error = 0.02;  ///< X
   int root_points = 15; ///< between the vertices, besides the centre: in root cells and on outlines

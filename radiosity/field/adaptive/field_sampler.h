@@ -8,6 +8,8 @@
 
 namespace meninas {
 
+/// What arrives at a point; it counts where nothing is over it,
+/// and under a low cover where nothing around is open.
 struct PointSample {
   ArrivingLight light;
   Cover cover = Cover::open;

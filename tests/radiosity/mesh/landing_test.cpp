@@ -1,4 +1,5 @@
 #include "radiosity/mesh/landing.h"
+#include "radiosity/mesh/make_mesh.h"
 #include "radiosity/scene/plan.h"
 #include "tests/support/random.h"
 #include "tests/support/scene_builder.h"

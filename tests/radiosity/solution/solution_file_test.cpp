@@ -1,8 +1,9 @@
+#include "radiosity/mesh/make_mesh.h"
 #include "radiosity/mesh/mesh_division.h"
 #include "radiosity/solution/solution_file.h"
 #include "radiosity/solution/solution_format.h"
 #include "scenes/errors.h"
-#include "scenes/gltf/glb_file.h"
+#include "scenes/glb_file.h"
 #include "scenes/gltf/gltf.h"
 #include "tests/support/scene_builder.h"
 

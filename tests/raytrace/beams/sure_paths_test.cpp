@@ -1,5 +1,5 @@
 // Pixels that are sure of their path show what their rays would have met.
-#include "raytrace/sample_choice.h"
+#include "raytrace/pixels/sample_choice.h"
 #include "raytrace/tiles.h"
 #include "scenes/rays/frame_geometry.h"
 #include "tests/raytrace/pictures.h"

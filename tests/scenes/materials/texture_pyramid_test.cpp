@@ -1,5 +1,6 @@
 // Textures over footprints:
 // means in the pyramid, and look-ups that average as much as they are told and no more.
+#include "scenes/materials/texture_lookup.h"
 #include "scenes/materials/texture_pyramid.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "raytrace/camera_rays.h"
+#include "raytrace/pixels/camera_rays.h"
 
 #include "raytrace/wide_lanes.h"
 

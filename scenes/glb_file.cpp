@@ -1,4 +1,4 @@
-#include "scenes/gltf/glb_file.h"
+#include "scenes/glb_file.h"
 
 #include "scenes/errors.h"
 #include "scenes/gltf/document.h"

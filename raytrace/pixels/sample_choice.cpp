@@ -1,6 +1,6 @@
-#include "raytrace/sample_choice.h"
+#include "raytrace/pixels/sample_choice.h"
 
-#include "raytrace/pixel_neighbours.h"
+#include "raytrace/pixels/pixel_neighbours.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,6 +1,7 @@
-#include "raytrace/pixel_samples.h"
+#include "raytrace/pixels/pixel_samples.h"
 
 #include "raytrace/beams/mirror_beam.h"
+#include "raytrace/beams/sure_paths.h"
 #include "raytrace/specular_paths.h"
 #include "raytrace/wide_lanes.h"
 #include "scenes/sampling.h"

@@ -1,4 +1,4 @@
-#include "raytrace/pixel_filter.h"
+#include "raytrace/pixels/pixel_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,62 @@
+#include "radiosity/solvers/convergence.h"
+
+#include <limits>
+
+namespace meninas {
+
+template <typename Value>
+void record(Convergence<Value>& convergence, const Value& residual_norm, const Value& size) {
+  // A residual computed from values of that size is itself not known better than their rounding.
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  Value bound(0.0);
+  for (int band = 0; band < channel_count<Value>; ++band)
+    if (channel(size, band) > 0.0)
+      channel(bound, band) = channel(convergence.amplification, band) *
+                             (channel(residual_norm, band) / channel(size, band) + rounding);
+  convergence.residuals.push_back(share_of(residual_norm, size));
+  convergence.error_bounds.push_back(bound);
+}
+
+template <typename Value>
+void record_again(Convergence<Value>& convergence, const Value& residual_norm, const Value& size) {
+  convergence.residuals.pop_back();
+  convergence.error_bounds.pop_back();
+  record(convergence, residual_norm, size);
+}
+
+template <typename Value>
+Value unfinished_channels(const Convergence<Value>& convergence) {
+  Value unfinished(0.0);
+  for (int band = 0; band < channel_count<Value>; ++band)
+    channel(unfinished, band) = !finished(convergence) && channel(convergence.error_bounds.back(),
+                                                                  band) > convergence.tolerance
+                                    ? 1.0
+                                    : 0.0;
+  return unfinished;
+}
+
+template <typename Value>
+bool converged(const Convergence<Value>& convergence) {
+  return worst(convergence.error_bounds.back()) <= convergence.tolerance;
+}
+
+template <typename Value>
+bool exhausted(const Convergence<Value>& convergence) {
+  const bool bounded = worst(convergence.amplification) < std::numeric_limits<double>::infinity();
+  const double least =
+      bounded ? 4.0 * std::numeric_limits<double>::epsilon() : convergence.tolerance;
+  return worst(convergence.residuals.back()) <= least;
+}
+
+template void record(Convergence<Rgb>&, const Rgb&, const Rgb&);
+template void record(Convergence<double>&, const double&, const double&);
+template void record_again(Convergence<Rgb>&, const Rgb&, const Rgb&);
+template void record_again(Convergence<double>&, const double&, const double&);
+template Rgb unfinished_channels(const Convergence<Rgb>&);
+template double unfinished_channels(const Convergence<double>&);
+template bool converged(const Convergence<Rgb>&);
+template bool converged(const Convergence<double>&);
+template bool exhausted(const Convergence<Rgb>&);
+template bool exhausted(const Convergence<double>&);
+
+} // namespace meninas

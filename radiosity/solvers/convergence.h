@@ -1,0 +1,47 @@
+// How far a solver has come: residuals, and the bound on the error that follows from them,
+//
+//   ||B - B_k|| <= G ||r_k||,     G of error_bound.h
+#pragma once
+
+#include "radiosity/transport/linear_system.h"
+
+namespace meninas {
+
+/// The iterates of a solver, as far as the stopping rule is concerned.
+template <typename Value>
+struct Convergence {
+  Value amplification; ///< G
+  double tolerance = 0.0;
+  int max_iterations = 0;
+  int iterations = 0;
+  std::vector<Value> residuals, error_bounds; ///< ||r_k|| / ||B_k|| and G times that
+};
+
+template <typename Value>
+void record(Convergence<Value>& convergence, const Value& residual_norm, const Value& size);
+
+/// The last iterate once more, measured.
+template <typename Value>
+void record_again(Convergence<Value>& convergence, const Value& residual_norm, const Value& size);
+
+/// No channel may be further from the solution than asked.
+template <typename Value>
+bool converged(const Convergence<Value>& convergence);
+
+/// The residual is that of rounding;
+/// or, where no bound tells what a smaller one would be good for, it is within the tolerance.
+template <typename Value>
+bool exhausted(const Convergence<Value>& convergence);
+
+template <typename Value>
+bool finished(const Convergence<Value>& convergence) {
+  return converged(convergence) || exhausted(convergence) ||
+         convergence.iterations >= convergence.max_iterations;
+}
+
+/// 1 for every channel that is further from the solution than asked,
+/// or 0 for all when there is nothing more to do.
+template <typename Value>
+Value unfinished_channels(const Convergence<Value>& convergence);
+
+} // namespace meninas

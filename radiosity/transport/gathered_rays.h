@@ -1,0 +1,75 @@
+// Rays that receivers have gathered by, and those that are on their way (gather_rays.h).
+#pragma once
+
+#include "radiosity/transport/covered_cells.h"
+#include "radiosity/transport/form_factor_rows.h"
+#include "radiosity/transport/solid_paths.h"
+
+#include <utility>
+#include <vector>
+
+namespace meninas {
+
+struct RayLanding {
+  std::uint32_t element;
+  WorldId world;   ///< none beyond the enumerated worlds; by way of solids one of solid_paths.h
+  glm::vec3 light; ///< weight times tau, the product of the mirrors' reflectances
+};
+
+/// All rays of one receiver; storage reused from one to the next.
+/// A ray with its weight w ends in one place:
+///   landed + escaped + black + cut = rays, exactly where all weigh 1, to rounding otherwise.
+struct GatheredRays {
+  std::vector<RayLanding> landings;
+  double rays = 0.0; ///< how many there are
+  double landed = 0.0, escaped = 0.0, black = 0.0,
+         cut = 0.0;                ///< sums of w over those that ended so
+  double escaped_straight = 0.0;   ///< of `escaped`, the rays that met no mirror
+  glm::vec3 mirror_absorbed{0.0F}; ///< sum of w (1 - tau) over all rays
+  glm::vec3 escaped_light{0.0F}, black_light{0.0F},
+      cut_light{0.0F}; ///< sums of w tau over the rays that ended so
+  std::uint64_t traced = 0;
+  CoveredCells covered = 0;
+  double covered_rays = 0.0; ///< of `black`, those from where something stands
+  float exposed = 1.0F;      ///< the share of the receiver's area on which nothing does
+
+  void clear() {
+    auto storage = std::move(landings);
+    storage.clear();
+    *this = {};
+    landings = std::move(storage);
+  }
+};
+
+/// How many rays' light was followed to its end:
+/// what is cut is left out, what a mirror has absorbed on the way is not.
+inline Rgb kept_light(const GatheredRays& gathered) {
+  return glm::max(Rgb(1.0), gathered.rays - gathered.covered_rays - Rgb(gathered.cut_light));
+}
+
+/// A continuing ray between mirrors and glass; kept by the caller so that its storage is reused.
+struct MirroredRay {
+  glm::dvec3 origin, direction; ///< in the frame of the ray scene
+  float weight;
+  glm::vec3 throughput;
+  WorldId world;
+  MaterialId medium = none<MaterialId>; ///< the solid that it was refracted into
+  std::uint32_t leaving;
+  std::uint32_t number;   ///< among the rays of its receiver
+  std::uint32_t meetings; ///< with mirrors and glass, so far
+  int reflections;        ///< of them
+};
+
+struct GatherWorkspace {
+  GatheredRays result;
+  std::uint32_t seed = 0; ///< of what glass does with its rays
+  bool counts_rays = false;
+  std::vector<std::uint32_t> numbers; ///< by landing, that of the ray, where they are asked for
+  bool keeps_places = false;
+  std::vector<glm::vec2> places; ///< by landing, (s, t) in the element, where they are asked for
+  std::vector<std::uint32_t>
+      black_lanes; ///< by packet of the net: the rays that met a black back at once
+  std::vector<MirroredRay> current, next;
+};
+
+} // namespace meninas

@@ -1,0 +1,28 @@
+// The surface on which a lane of a packet has landed: where light is received, and how it is reflected.
+#pragma once
+
+#include "raytrace/tile.h"
+
+namespace meninas {
+
+/// Where lane k has landed, as one who receives light there.
+Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
+                     std::uint32_t k);
+
+/// What the surface is like where lane k has landed on it:
+/// of a textured one the point itself, in the part that is shown.
+SideShading shading_at(const RenderContext& context, const RayPacket& packet,
+                       const LaneState& state, const FaceRecord& face, const HitPacket& hits,
+                       std::uint32_t k);
+
+/// H where lane k has landed on a side.
+glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& state,
+                             const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
+                             TileWorkspace& work);
+
+/// L_e + rho H / pi where lane k has landed on a side, rho as in pass one.
+glm::vec3 radiance_of_lane(const RenderContext& context, const RayPacket& packet,
+                           const LaneState& state, const FaceRecord& face, const HitPacket& hits,
+                           std::uint32_t k, TileWorkspace& work);
+
+} // namespace meninas

@@ -1,0 +1,59 @@
+// What is rendered and how exactly, and what comes of it (render.h).
+#pragma once
+
+#include "image/image.h"
+#include "raytrace/diffuse_term.h"
+#include "raytrace/pixels/pixel_filter.h"
+
+#include <array>
+#include <string_view>
+
+namespace meninas {
+
+enum class RenderMode {
+  radiosity, ///< pass one alone, Gouraud-shaded: mirrors are black
+  hybrid     ///< mirrors followed
+};
+
+/// What layers beside those of light show (features.h).
+enum class Feature { depth, normal, albedo, element, irradiance };
+inline constexpr std::array all_features{Feature::depth, Feature::normal, Feature::albedo,
+                                         Feature::element, Feature::irradiance};
+/// "depth"
+std::string_view name_of(Feature feature);
+
+struct RenderSettings {
+  RenderMode mode = RenderMode::hybrid;
+  int width = 512;
+  int height = 512;
+  int samples = 16;                     ///< per pixel, a power of two
+  double min_throughput = 1.0 / 1024.0; ///< of a specular path, below which it ends
+  int max_bounces = 1000;
+  int glossy_samples =
+      16; ///< directions of a camera ray into the widest and brightest lobes (lobe_grid.h)
+  std::uint32_t seed = 0;
+  PixelFilter filter = PixelFilter::box;
+  /// Above 0: no more samples than it takes for pixels to be right
+  /// to this share of themselves or of the mean (sample_choice.h).
+  double pixel_error = 0.0;
+  WithLayers layers = WithLayers::no; ///< as `render_layers` makes them
+  std::vector<Feature> features;      ///< layers after those
+  DiffuseSettings diffuse;
+};
+
+/// By pixel, row by row; empty: all have as many as the settings say.
+using SampleCounts = std::vector<std::uint32_t>;
+
+struct Rendering {
+  Image image; ///< radiance
+  SampleCounts samples;
+  std::vector<Layer>
+      layers; ///< of render_layers: they add up to the image, in their order; then features
+  std::uint64_t camera_rays = 0;
+  std::uint64_t specular_rays = 0;
+  std::uint64_t sure_rays = 0;   ///< of these two, not traced (sure_paths.h)
+  std::uint64_t shadow_rays = 0; ///< of diffuse terms computed at the hit
+  std::uint64_t gather_rays = 0;
+};
+
+} // namespace meninas

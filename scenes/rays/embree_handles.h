@@ -1,0 +1,30 @@
+// What is behind a RayScene: Embree's own handles. Only this folder sees them.
+#pragma once
+
+#include "scenes/rays/frame_geometry.h"
+#include "scenes/rays/near_planes.h"
+
+#include <embree3/rtcore.h>
+
+namespace meninas {
+
+/// Surfaces nearer to an origin than this times its grain touch it.
+inline constexpr double reach = 2e-6;
+
+struct Release {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+template <typename Handle>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
+
+struct EmbreeHandles {
+  Owned<RTCDevice> device;
+  Owned<RTCScene> scene;
+  FrameGeometry geometry;
+  NearPlanes near_planes;
+  float noise = 0.0F; ///< of the geometry, and the lift
+};
+
+} // namespace meninas

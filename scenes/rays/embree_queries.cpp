@@ -1,0 +1,69 @@
+#include "scenes/rays/embree_queries.h"
+
+#include "scenes/rays/embree_filters.h"
+#include "scenes/rays/embree_handles.h"
+
+#include <algorithm>
+
+namespace meninas {
+
+void add_contact(const FrameGeometry& geometry, std::uint32_t triangle, std::uint32_t leaving,
+                 Contacts& contacts) {
+  const auto& facts = geometry.facts[triangle];
+  // What touches glass is not blocked by it.
+  if (facts.glass && facts.plane != leaving)
+    return;
+  auto& list = facts.plane == leaving ? contacts.own : contacts.others;
+  const auto known = std::ranges::any_of(
+      list, [&](const ContactTriangle& contact) { return index(contact.triangle) == triangle; });
+  if (!known)
+    list.push_back({TriangleId{triangle}, PlaneId{facts.plane},
+                    facts.single_sided ? Sidedness::single : Sidedness::both,
+                    corners_of(geometry, triangle)});
+}
+
+namespace {
+
+struct ContactQuery {
+  const FrameGeometry* geometry;
+  Point3 origin;
+  std::uint32_t leaving;
+  double reach;
+  Contacts found;
+};
+
+bool collect_contact(RTCPointQueryFunctionArguments* args) {
+  auto& query = *static_cast<ContactQuery*>(args->userPtr);
+  if (is_within(corners_of(*query.geometry, args->primID), query.origin, query.reach))
+    add_contact(*query.geometry, args->primID, query.leaving, query.found);
+  return false;
+}
+
+} // namespace
+
+Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving,
+                     double least_reach) {
+  ContactQuery query{&rays.geometry(), Point3(origin), leaving, std::max(reach, least_reach), {}};
+  query.reach *= double{grain_at(rays.geometry(), origin)};
+  RTCPointQuery point{origin.x, origin.y, origin.z, 0.0F, static_cast<float>(2.0 * query.reach)};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(rays.impl().scene.get(), &point, &context, collect_contact, &query);
+  return std::move(query.found);
+}
+
+LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule) {
+  const auto& [origin, direction, near, far, leaving] = ray;
+  RTCRayHit query{};
+  query.ray = {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
+               direction.z, 0.0F,     far,      ~0U,  0U,          0U};
+  query.hit.primID = no_index;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  auto context = make_context(rule, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+  rtcIntersect1(rays.impl().scene.get(), &context, &query);
+  const glm::vec3 normal{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
+  return {query.hit.primID, query.ray.tfar, query.hit.u, query.hit.v,
+          glm::dot(normal, direction) < 0.0F};
+}
+
+} // namespace meninas

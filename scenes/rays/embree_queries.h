@@ -1,0 +1,20 @@
+// One ray, and the surroundings of one point: what careful rays are made of (careful_rays.h).
+#pragma once
+
+#include "scenes/rays/embree_scene.h"
+#include "scenes/rays/hit_rules.h"
+
+namespace meninas {
+
+LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule);
+
+/// The triangles within reach of a point that leaves a plane,
+/// or nearer than `least_reach` times its grain if that is further.
+Contacts contacts_of(const RayScene& rays, const glm::vec3& origin, std::uint32_t leaving,
+                     double least_reach = 0.0);
+
+/// Adds a triangle within reach, once, of a point that leaves a plane.
+void add_contact(const FrameGeometry& geometry, std::uint32_t triangle, std::uint32_t leaving,
+                 Contacts& contacts);
+
+} // namespace meninas
