@@ -34,7 +34,7 @@ using namespace meninas::bench;
 namespace {
 
 constexpr int samples = 1024;
-constexpr int most_runs = 5; // the shortest counts
+constexpr int max_runs = 5; // the shortest counts
 constexpr double enough_seconds = 20.0;
 
 struct Measured {
@@ -50,7 +50,7 @@ Measured measure(const Scene& scene, const Truth& truth, int rays, TwoPassSettin
   double seconds = std::numeric_limits<double>::infinity(), all = 0.0;
   std::unique_ptr<PreparedScene> prepared;
   RadiositySolution solution;
-  for (int run = 0; run < most_runs && all < enough_seconds; ++run) {
+  for (int run = 0; run < max_runs && all < enough_seconds; ++run) {
     const double before = processor_seconds();
     prepared = prepare_scene(scene, settings.pass_one);
     solution = solve_pass_one(*prepared->light, settings.pass_one);

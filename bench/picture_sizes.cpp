@@ -6,7 +6,7 @@
 // Square pictures from 64 to LARGEST pixels (4096), of SAMPLES camera rays a pixel (16)
 // with mirrors followed, on one thread, in processor time. Bare loops (Embree's default
 // flags) find the rays ready in packets, and look at nothing but whether they met something.
-// Of the picture's rays some are sure of what they meet and are not traced (raytrace/beams/sure_paths.h);
+// Of the picture's rays some are sure of what they meet and are not traced (raytrace/beams/coherent_beams.h);
 // of its time, the others' queries take what our own queries take for as many such rays.
 // The rest finds paths, makes rays, shades what they meet, and adds up pixels.
 // The three take turns, and a share is the median of those of all turns,
@@ -50,7 +50,7 @@ RayLoop query_loop(const LightScene& light, const StageRays& rays) {
   };
 }
 
-void measure_size(const LightScene& light, const DiffuseField& field, const Camera& camera,
+void measure_size(const LightScene& light, const IrradianceField& field, const Camera& camera,
                   const BareScene& bare, RenderSettings settings, int size) {
   settings.width = settings.height = size;
   const StageRays rays = camera_rays_of(light, camera, settings, packet_count);
@@ -94,7 +94,7 @@ void run(const char* file, int samples, int largest) {
   const Scene& scene = prepared->scene;
   const Camera camera =
       scene.cameras.empty() ? default_camera(bounds_of(scene)) : scene.cameras.front();
-  const DiffuseField field = solve_pass_one(light, settings.pass_one).field;
+  const IrradianceField field = solve_pass_one(light, settings.pass_one).field;
   const BareScene bare = make_bare_scene(light.rays.geometry(), RTC_SCENE_FLAG_NONE);
   fmt::print("{}: {} triangles, {} samples a pixel; million rays/s on one thread\n"
              "{:>6} {:>10} {:>12} {:>12} {:>12} {:>12}\n",

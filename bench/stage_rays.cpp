@@ -62,7 +62,7 @@ void add_reflected(const LightScene& light, Backs backs, StageRays& rays) {
 } // namespace
 
 StageRays gather_rays_of(const LightScene& light, int rays, std::size_t packets) {
-  const DirectionNet net = make_direction_net(rays);
+  const HemisphereSamples net = make_direction_net(rays);
   const std::size_t elements = light.mesh.area.size();
   const std::size_t used = std::max<std::size_t>(1, packets * packet_size / net.points.size());
   const RayFrame& frame = light.rays.frame();

@@ -3,7 +3,7 @@
 // a share of all that is large enough to be typical and small enough to stay in the caches.
 #pragma once
 
-#include "radiosity/transport/gather_rays.h"
+#include "radiosity/transport/hemisphere_rays.h"
 #include "raytrace/render.h"
 
 namespace meninas::bench {

@@ -58,7 +58,7 @@ void run(const char* file) {
   const Scene& scene = prepared->scene;
   const Camera camera =
       scene.cameras.empty() ? default_camera(bounds_of(scene)) : scene.cameras.front();
-  const DiffuseField field = solve_pass_one(light, settings.pass_one).field;
+  const IrradianceField field = solve_pass_one(light, settings.pass_one).field;
   const FormFactorSettings& form_factors = settings.pass_one.form_factors;
 
   const StageRays gathered = gather_rays_of(light, form_factors.rays, packet_count);

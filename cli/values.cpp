@@ -98,7 +98,7 @@ Rgb parse_colour(const std::string& option, const std::string& text) {
 
 PictureSize parse_size(const std::string& option, const std::string& text) {
   constexpr int longest_side = 65'536;
-  constexpr std::int64_t most_pixels = std::int64_t{1} << 27;
+  constexpr std::int64_t max_pixels = std::int64_t{1} << 27;
   const auto cross = text.find('x');
   const auto width = whole_number_in<int>(std::string_view(text).substr(0, cross));
   const auto height = cross == std::string::npos
@@ -108,9 +108,9 @@ PictureSize parse_size(const std::string& option, const std::string& text) {
     throw UsageError(option, fmt::format("'{}' is not a size such as 640x480", text));
   }
   if (*width > longest_side || *height > longest_side ||
-      std::int64_t{*width} * *height > most_pixels) {
+      std::int64_t{*width} * *height > max_pixels) {
     throw UsageError(option, fmt::format("'{}' is larger than {} pixels on a side or {} in all",
-                                         text, longest_side, most_pixels));
+                                         text, longest_side, max_pixels));
   }
   return {*width, *height};
 }

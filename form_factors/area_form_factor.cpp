@@ -163,7 +163,7 @@ Sphere sphere_around(const ConvexPolygon& polygon) {
 
 /// Least distance of the polygon's vertices from a plane:
 /// no point of it is nearer to anything in that plane.
-double least_height(const ConvexPolygon& polygon, const Point3& origin, const Vec3& front) {
+double min_height(const ConvexPolygon& polygon, const Point3& origin, const Vec3& front) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& vertex : polygon.span())
     least = std::min(least, glm::dot(vertex - origin, front) / glm::length(front));
@@ -204,8 +204,8 @@ Estimate area_form_factor(const ConvexPolygon& a, const ConvexPolygon& b) {
   const Estimate integral =
       contour_integral(scaled(lit, around_a.centre, scale), scaled(seen, around_a.centre, scale));
   const Estimate factor = 1.0 / (2.0 * std::numbers::pi * whole_area * scale * scale) * integral;
-  const double apart = std::max(least_height(lit, seen.vertices[0], front_b),
-                                least_height(seen, lit.vertices[0], front_a));
+  const double apart = std::max(min_height(lit, seen.vertices[0], front_b),
+                                min_height(seen, lit.vertices[0], front_a));
   if (apart > 0.25 * size && by_points.error < factor.error)
     return by_points;
   return {std::max(0.0, factor.value), factor.error};

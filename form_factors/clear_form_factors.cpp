@@ -28,13 +28,13 @@ ClearFormFactors clear_form_factors(const WorldView& view, const std::vector<Fac
                                     std::size_t group_count) {
   // Beyond this many triples of faces the search for clear
   // pairs would take longer than the points it saves.
-  constexpr double most_triples = 2e7;
+  constexpr double max_triples = 2e7;
   ClearFormFactors clear;
   clear.known.assign(from.size(), std::vector<std::uint8_t>(view.targets.size(), 0));
   clear.factors.assign(group_count, {});
   const double triples = static_cast<double>(from.size() * view.targets.size()) *
                          static_cast<double>(view.blockers.size());
-  if (triples > most_triples)
+  if (triples > max_triples)
     return clear;
   double area = 0.0;
   for (const Face& face : from)

@@ -56,9 +56,9 @@ std::vector<const Face*> asked_targets(const WorldView& view,
 std::vector<Sight> sights_of(const Face& face, const WorldView& view,
                              const std::vector<std::uint8_t>& known,
                              std::span<const Mirror> mirrors) {
-  constexpr std::size_t most_faces = 64;
+  constexpr std::size_t max_faces = 64;
   std::vector<Sight> sights;
-  for (const Face* target : asked_targets(view, known, most_faces))
+  for (const Face* target : asked_targets(view, known, max_faces))
     append_sights(target->polygon, target->plane, target->plane_class, face.plane, sights);
   for (const Mirror& mirror : mirrors)
     for (const ConvexPolygon& part : mirror.window)
@@ -68,9 +68,9 @@ std::vector<Sight> sights_of(const Face& face, const WorldView& view,
 
 /// The targets as they are seen in a mirror.
 std::vector<Sight> images_in(const Plane& mirror, const Face& face, const WorldView& view) {
-  constexpr std::size_t most_faces = 16;
+  constexpr std::size_t max_faces = 16;
   std::vector<Sight> sights;
-  for (const Face* target : asked_targets(view, {}, most_faces)) {
+  for (const Face* target : asked_targets(view, {}, max_faces)) {
     ConvexPolygon image;
     for (const Point3& corner : target->polygon.span())
       image.push_back(reflect_point(mirror, corner));
@@ -300,19 +300,19 @@ std::vector<BlockerEdge> edges_of(const std::vector<Face>& blockers) {
 
 void cut_at_shadows(std::vector<ConvexPolygon>& parts, const Face& face, const WorldView& view,
                     const std::vector<BlockerEdge>& edges, const std::vector<std::uint8_t>& known,
-                    bool by_mirrors, std::size_t most_lines) {
+                    bool by_mirrors, std::size_t max_lines) {
   // Some tens of parts are needed for a blocker; each has about a hundred points.
-  constexpr std::size_t most_parts = 128, most_mirrors = 16, least_sights = 16;
+  constexpr std::size_t max_parts = 128, most_mirrors = 16, min_sights = 16;
   const std::span<const Mirror> mirrors(
       view.mirrors.mirrors.data(),
       by_mirrors ? std::min(most_mirrors, view.mirrors.mirrors.size()) : 0);
-  const std::size_t most_sights =
-      most_lines / std::max<std::size_t>(1, edges.size() * (1 + 2 * mirrors.size()));
-  if (most_sights < least_sights)
+  const std::size_t max_sights =
+      max_lines / std::max<std::size_t>(1, edges.size() * (1 + 2 * mirrors.size()));
+  if (max_sights < min_sights)
     return;
   std::vector<Cut> cuts;
   const auto add = [&](const std::vector<BlockerEdge>& these, std::vector<Sight> sights) {
-    thin_out(sights, most_sights);
+    thin_out(sights, max_sights);
     add_cuts(face, these, sights, view.tolerance, cuts);
   };
   add(edges, sights_of(face, view, known, mirrors));
@@ -323,7 +323,7 @@ void cut_at_shadows(std::vector<ConvexPolygon>& parts, const Face& face, const W
   }
   std::ranges::stable_sort(cuts, std::greater{}, &Cut::amount);
   for (const Cut& cut : cuts) {
-    if (parts.size() >= most_parts)
+    if (parts.size() >= max_parts)
       return;
     cut_along(parts, cut.from, cut.to, face.plane.normal, view.tolerance);
   }

@@ -78,16 +78,16 @@ private:
   }
 
   std::vector<Region> first_regions() const {
-    const std::size_t most_lines = settings_.shadow_lines / std::max<std::size_t>(1, from_.size());
+    const std::size_t max_lines = settings_.shadow_lines / std::max<std::size_t>(1, from_.size());
     std::vector<BlockerEdge> edges;
-    if (view_.blockers.size() < most_lines)
+    if (view_.blockers.size() < max_lines)
       edges = edges_of(view_.blockers);
     std::vector<Region> regions;
     for (std::size_t f = 0; f < from_.size(); ++f) {
       if (!needs_points(f))
         continue;
       std::vector<ConvexPolygon> parts = cut_at_contacts(from_[f], view_.blockers, view_.tolerance);
-      cut_at_shadows(parts, from_[f], view_, edges, clear_.known[f], uses_mirrors(), most_lines);
+      cut_at_shadows(parts, from_[f], view_, edges, clear_.known[f], uses_mirrors(), max_lines);
       for (const ConvexPolygon& polygon : parts)
         for (std::size_t k = 2; k < polygon.size; ++k) {
           Region region;
@@ -116,7 +116,7 @@ private:
   /// What may be left out at each point:
   /// a part of the wanted accuracy, by a first look from a few points.
   void choose_tail(const std::vector<Region>& regions) {
-    constexpr double part = 0.2, first_look = 1e-2, least_factor = 1e-4;
+    constexpr double part = 0.2, first_look = 1e-2, min_factor = 1e-4;
     constexpr std::size_t looks = 8;
     walk_.max_depth = settings_.max_depth;
     walk_.tail = first_look;
@@ -131,7 +131,7 @@ private:
     double factor = total_of(seen) / static_cast<double>(std::max<std::size_t>(count, 1));
     for (const Estimate& closed : clear_.factors)
       factor += closed.value;
-    walk_.tail = part * settings_.accuracy * std::max(factor, least_factor);
+    walk_.tail = part * settings_.accuracy * std::max(factor, min_factor);
   }
 
   /// Fills in the integrals over the regions, some hundred at a time.
@@ -156,8 +156,8 @@ private:
       points_ += walks.size();
       // What the points have seen is kept until it is added up:
       // as many at once as memory has room for.
-      batch_ = std::clamp<std::size_t>(most_kept * points_ / (radon.size() * (visits_ + 1)), 1,
-                                       most_regions);
+      batch_ = std::clamp<std::size_t>(max_kept * points_ / (radon.size() * (visits_ + 1)), 1,
+                                       max_regions);
     }
   }
 
@@ -268,7 +268,7 @@ private:
         weights_[g] = 1.0 + settings_.importance[g] * all / important;
   }
 
-  bool settled() const {
+  bool complete_field() const {
     constexpr double part = 0.7, rounding = 1e-15;
     double error = 0.0;
     for (std::size_t g = 0; g < groups_; ++g)
@@ -277,11 +277,11 @@ private:
   }
 
   void refine() {
-    constexpr std::size_t most_at_once = 8;
-    while (!settled() && points_ < settings_.max_points && visits_ < settings_.max_visits) {
+    constexpr std::size_t max_at_once = 8;
+    while (!complete_field() && points_ < settings_.max_points && visits_ < settings_.max_visits) {
       std::vector<Region> parents;
       const double largest = heap_.top().first;
-      while (parents.size() < most_at_once && !heap_.empty() && heap_.top().first >= 0.25 * largest)
+      while (parents.size() < max_at_once && !heap_.empty() && heap_.top().first >= 0.25 * largest)
         parents.push_back(pop());
       split(parents);
     }
@@ -353,7 +353,7 @@ private:
   double area_ = 0.0;
   WorldIndex index_;
   WalkSettings walk_;
-  static constexpr std::size_t most_kept = 4'000'000, most_regions = 64;
+  static constexpr std::size_t max_kept = 4'000'000, max_regions = 64;
   std::size_t batch_ = 2; ///< regions evaluated at once
   ClearFormFactors clear_;
   std::vector<double> weights_; ///< by group: how much its errors count

@@ -84,15 +84,15 @@ public:
   }
 
   ExtendedFactors run() {
-    while (!heap_.empty() && !settled() && visited_ < most_images)
+    while (!heap_.empty() && !complete_field() && visited_ < max_images)
       visit_best();
     return result();
   }
 
 private:
-  static constexpr std::size_t most_images = 200'000, most_at_once = 64;
+  static constexpr std::size_t max_images = 200'000, max_at_once = 64;
 
-  bool settled() const {
+  bool complete_field() const {
     constexpr double part = 0.5, rounding = 1e-15;
     return waiting_bound_ <= part * settings_.accuracy * value_ + rounding;
   }
@@ -126,7 +126,7 @@ private:
   void visit_best() {
     std::vector<std::uint32_t> chosen;
     double least = 0.0;
-    while (!heap_.empty() && chosen.size() < most_at_once) {
+    while (!heap_.empty() && chosen.size() < max_at_once) {
       const auto [bound, image] = heap_.front();
       if (!chosen.empty() && bound < least)
         break;

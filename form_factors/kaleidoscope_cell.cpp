@@ -10,7 +10,7 @@ namespace meninas {
 namespace {
 
 /// More corners or mirrors than rooms and ducts have are left to the general method.
-constexpr std::size_t most_corners = 40, most_mirrors = 12;
+constexpr std::size_t max_corners = 40, most_mirrors = 12;
 
 struct Hull {
   std::vector<Point3> corners;
@@ -142,7 +142,7 @@ Hull hull_of(const WorldView& view, const std::vector<Face>& from) {
   for (const Mirror& mirror : view.mirrors.mirrors)
     for (const ConvexPolygon& part : mirror.window)
       append_new(hull.corners, part, view.tolerance);
-  if (hull.corners.size() <= most_corners)
+  if (hull.corners.size() <= max_corners)
     hull.sides = supporting_planes(hull.corners, view.tolerance);
   return hull;
 }

@@ -66,13 +66,13 @@ bool misses(const ConvexPolygon& part, const Point3& x, const Cone& cone) {
 }
 
 /// Slivers of the rounding of a cut.
-constexpr double least_share = 1e-14;
+constexpr double min_share = 1e-14;
 
 /// Appends what of the part lies outside the cone.
 void cut_out(const ConvexPolygon& part, const Point3& x, const Cone& cone,
              std::vector<ConvexPolygon>& outside) {
   const std::size_t before = outside.size();
-  const double least = least_share * glm::length(area_vector(part.span()));
+  const double least = min_share * glm::length(area_vector(part.span()));
   ConvexPolygon rest = part;
   for (std::size_t k = 0; k < cone.size && !rest.empty(); ++k) {
     const ConvexPolygon piece = clip(rest, x, -cone.inward[k]);
@@ -148,7 +148,7 @@ std::vector<Face> joined_faces(const SurfaceModel& surfaces) {
 std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<Face>& others,
                                            double tolerance) {
   // A face on which very many things stand is left to the integration.
-  constexpr std::size_t most_parts = 256;
+  constexpr std::size_t max_parts = 256;
   std::vector<ConvexPolygon> parts{face.polygon};
   for (const Face& other : others) {
     if (other.plane_class == face.plane_class ||
@@ -159,7 +159,7 @@ std::vector<ConvexPolygon> cut_at_contacts(const Face& face, const std::vector<F
                    &to = other.polygon.vertices[k + 1 < other.polygon.size ? k + 1 : 0];
       const bool touches = std::abs(signed_distance(face.plane, from)) <= tolerance &&
                            std::abs(signed_distance(face.plane, to)) <= tolerance;
-      if (touches && parts.size() < most_parts)
+      if (touches && parts.size() < max_parts)
         cut_along(parts, from, to, face.plane.normal, tolerance);
     }
   }

@@ -20,7 +20,7 @@ Point3 centre_of(const ConvexPolygon& polygon) {
 struct Builder {
   std::span<const Emitter> emitters;
   std::vector<Point3> centres; ///< by emitter
-  EmitterTree tree;
+  LightTree tree;
 
   std::span<std::uint32_t> range(std::uint32_t first, std::uint32_t count) {
     return std::span(tree.order).subspan(first, count);
@@ -70,7 +70,7 @@ struct Builder {
 
 } // namespace
 
-EmitterTree make_emitter_tree(std::span<const Emitter> emitters) {
+LightTree make_emitter_tree(std::span<const Emitter> emitters) {
   if (emitters.empty())
     return {};
   Builder builder{emitters, {}, {}};

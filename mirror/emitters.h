@@ -30,15 +30,15 @@ struct EmitterNode {
   Direction axis{0.0, 0.0, 1.0};
   double cos_spread =
       1.0; ///< of the angle around the axis that holds all normals; -1: they point anywhere
-  std::uint32_t first = 0, count = 0; ///< range of EmitterTree::order
+  std::uint32_t first = 0, count = 0; ///< range of LightTree::order
   std::uint32_t second_child = 0; ///< the first one follows its parent; 0: a leaf, of one emitter
 };
 
-struct EmitterTree {
+struct LightTree {
   std::vector<EmitterNode> nodes; ///< depth first, [0] the root; empty when there are no emitters
   std::vector<std::uint32_t> order;
 };
 
-EmitterTree make_emitter_tree(std::span<const Emitter> emitters);
+LightTree make_emitter_tree(std::span<const Emitter> emitters);
 
 } // namespace meninas

@@ -13,7 +13,7 @@ using CutNode = LightChoiceWorkspace::CutNode;
 struct Chooser {
   const WorldTree& worlds;
   std::span<const Emitter> emitters;
-  const EmitterTree& tree;
+  const LightTree& tree;
   const Observer& observer;
   LightChoiceWorkspace& work;
   std::vector<VirtualLight>& lights;
@@ -195,8 +195,8 @@ struct Chooser {
 
 } // namespace
 
-void chosen_lights(const WorldTree& worlds, std::span<const Emitter> emitters,
-                   const EmitterTree& tree, const Observer& observer, const LightChoice& choice,
+void sample_light_tree(const WorldTree& worlds, std::span<const Emitter> emitters,
+                   const LightTree& tree, const Observer& observer, const LightChoice& choice,
                    LightChoiceWorkspace& work, std::vector<VirtualLight>& lights) {
   lights.clear();
   if (emitters.empty())

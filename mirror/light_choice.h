@@ -33,8 +33,8 @@ struct LightChoiceWorkspace {
 
 /// Like virtual_lights(), with at most about `choice.most` emitters' images,
 /// each with its weight 1/q.
-void chosen_lights(const WorldTree& worlds, std::span<const Emitter> emitters,
-                   const EmitterTree& tree, const Observer& observer, const LightChoice& choice,
+void sample_light_tree(const WorldTree& worlds, std::span<const Emitter> emitters,
+                   const LightTree& tree, const Observer& observer, const LightChoice& choice,
                    LightChoiceWorkspace& work, std::vector<VirtualLight>& lights);
 
 } // namespace meninas

@@ -119,7 +119,7 @@ MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces,
                             std::pair(a.mirror.is_coat, b.mirror.area);
                    });
   const double smallest_coat =
-      least_coat_share *
+      min_coat_share *
       std::accumulate(surfaces.surfaces.begin(), surfaces.surfaces.end(), 0.0,
                       [](double sum, const Surface& surface) { return sum + surface.area; });
   double total_area = 0.0;

@@ -8,7 +8,7 @@ namespace meninas {
 
 namespace {
 
-constexpr std::size_t most_corners = 16; ///< of a merged polygon: room for the clips of a chain
+constexpr std::size_t max_corners = 16; ///< of a merged polygon: room for the clips of a chain
 
 using Cell = std::array<std::int64_t, 3>;
 using EdgeKey = std::pair<Cell, Cell>;
@@ -56,7 +56,7 @@ std::optional<ConvexPolygon> merged(const ConvexPolygon& a, std::size_t i, const
   for (std::size_t k = 2; k < b.size; ++k)
     corners.push_back(b.vertices[(j + k) % b.size]);
   const ConvexPolygon both = without_straight_corners(corners, tolerance);
-  if (both.size > most_corners || !is_convex(both))
+  if (both.size > max_corners || !is_convex(both))
     return std::nullopt;
   return both;
 }

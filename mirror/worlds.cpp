@@ -1,6 +1,6 @@
 #include "mirror/worlds.h"
 
-#include "mirror/penumbra.h"
+#include "mirror/antipenumbra.h"
 
 #include <algorithm>
 #include <cmath>

@@ -114,7 +114,7 @@ void take_received(const ElementMesh& mesh, const std::vector<Rgb>& received,
 /// and elements receive what vertices do, but for spots (hierarchical/node_light.h).
 void complete(const LightScene& light, const PassOneSettings& settings, const FirstLight& first,
               const std::vector<Rgb>& arrived, const ElementRays& rays, RadiositySolution& solution,
-              ReceiverNodes* receivers = nullptr) {
+              HierarchicalSolution* receivers = nullptr) {
   const ElementMesh& mesh = light.mesh;
   Stopwatch watch;
 
@@ -223,7 +223,7 @@ bool gathers_by_nodes(const PassOneSettings& settings) {
 
 bool shoots_rays(const PassOneSettings& settings, std::size_t elements) {
   return settings.solver.method == SolverMethod::progressive &&
-         settings.form_factors.method == FormFactorMethod::rays && elements > most_direct_unknowns;
+         settings.form_factors.method == FormFactorMethod::rays && elements > max_direct_unknowns;
 }
 
 RadiositySolution solve_pass_one(const LightScene& light, const PassOneSettings& settings,

@@ -40,7 +40,7 @@ struct RadiositySolution {
   std::vector<Rgb> radiosity; ///< B by ElementId, emission included: the mean over the exposed part
   std::vector<Rgb> irradiance; ///< H by ElementId, likewise
   std::vector<float> exposed;  ///< by ElementId: the share of the area that is there and on which nothing stands
-  DiffuseField field;          ///< on field_scene()
+  IrradianceField field;          ///< on field_scene()
   std::unique_ptr<RefinedScene> refined; ///< adaptive: the scene on the field's mesh
   std::optional<double> interpolation_error; ///< adaptive: estimated, of what its settings bound
   SolverResult solver; ///< its radiosity is moved out
@@ -71,7 +71,7 @@ std::vector<NodeLight> light_by_node(const Scene& scene, const ElementMesh& mesh
 /// and what the light yet to be shot may add to it.
 struct PassOneSoFar {
   int shots = 0;
-  DiffuseField field;
+  IrradianceField field;
   Rgb ambient{0.0}; ///< irradiance, everywhere
 };
 struct PassOneWatch {
@@ -79,7 +79,7 @@ struct PassOneWatch {
   std::function<void(const PassOneSoFar&)> look;
 };
 
-/// `progressive` can be watched. In scenes of more than `most_direct_unknowns` elements it shoots
+/// `progressive` can be watched. In scenes of more than `max_direct_unknowns` elements it shoots
 /// rays, with no transport in memory (progressive.h), unless the form factors are not by rays;
 /// in smaller ones, where they take a few megabytes,
 /// blocks shoot by the columns of the transport that the other solvers have, so that all agree.

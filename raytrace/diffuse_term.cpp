@@ -5,14 +5,14 @@
 
 namespace meninas {
 
-FieldContent field_content(const DiffuseField& field, const DiffuseSettings& settings) {
+FieldContent field_content(const IrradianceField& field, const DiffuseSettings& settings) {
   if (settings.term != DiffuseTerm::direct)
     return FieldContent::all;
   expects(field.indirect.size() == field.irradiance.size(), "the field knows its indirect part");
   return FieldContent::indirect;
 }
 
-std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const DiffuseField& field) {
+std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const IrradianceField& field) {
   std::vector<Rgb> reflected = corner_means(mesh, field.irradiance);
   for (std::size_t e = 0; e < reflected.size(); ++e)
     reflected[e] *= mesh.reflectance[e];
@@ -20,7 +20,7 @@ std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const DiffuseFie
 }
 
 std::unique_ptr<const PointGathering> make_gathering(const LightScene& light,
-                                                     const DiffuseField& field,
+                                                     const IrradianceField& field,
                                                      const DiffuseSettings& settings) {
   if (settings.term != DiffuseTerm::gather)
     return nullptr;
@@ -68,7 +68,7 @@ glm::vec3 direct_of_pixel(const LightScene& light, const DiffuseSettings& settin
   constexpr double alike = 0.005; // relative: too little to be seen
   std::uint32_t next = 0;
   const auto next_point = [&] { return points[next++]; };
-  return part_of(shared_irradiance(light, next_point,
+  return part_of(mean_direct_irradiance(light, next_point,
                                    {.points = 2,
                                     .most_points = static_cast<int>(points.size()),
                                     .images = settings.direct.images,

@@ -6,10 +6,10 @@
 //   gather         H = D(x) + one gathering over the hemisphere, from elements as bright as the field says
 //
 // D(x) owns the same paths in all three (direct_irradiance.h,
-// point_gathering.h), so that none is counted twice.
+// point_irradiance.h), so that none is counted twice.
 #pragma once
 
-#include "radiosity/light/point_gathering.h"
+#include "radiosity/light/point_irradiance.h"
 #include "radiosity/light/shared_light.h"
 #include "raytrace/field_shading.h"
 
@@ -38,15 +38,15 @@ struct DiffuseSettings {
 
 /// Which values of the field the term builds on;
 /// `direct` expects a field that knows its indirect part.
-FieldContent field_content(const DiffuseField& field, const DiffuseSettings& settings);
+FieldContent field_content(const IrradianceField& field, const DiffuseSettings& settings);
 
 /// The reflected radiosity of the elements, as a field says:
 /// rho times the mean of H at their corners.
-std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const DiffuseField& field);
+std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const IrradianceField& field);
 
 /// What the term needs besides the field; for `gather` alone.
 std::unique_ptr<const PointGathering>
-make_gathering(const LightScene& light, const DiffuseField& field, const DiffuseSettings& settings);
+make_gathering(const LightScene& light, const IrradianceField& field, const DiffuseSettings& settings);
 
 /// H at a point. `field` is what the interpolated part of it says there.
 glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& settings,

@@ -13,14 +13,14 @@ std::vector<SideShading> make_side_shading(const ElementMesh& mesh) {
   return shading;
 }
 
-VisibleLight visible_light(const LightScene& light, const DiffuseField& field,
+VisibleLight visible_light(const LightScene& light, const IrradianceField& field,
                            FieldContent content) {
   return {make_side_shading(light.mesh),
           content == FieldContent::all ? field.irradiance : field.indirect, ReflectedPart::all,
           glm::vec3(light.scene.background)};
 }
 
-std::vector<LightPart> light_parts(const LightScene& light, const DiffuseField& field,
+std::vector<LightPart> light_parts(const LightScene& light, const IrradianceField& field,
                                    FieldContent content) {
   const VisibleLight all = visible_light(light, field, content);
   const auto& mirrored = content == FieldContent::all ? field.mirrored : field.indirect_mirrored;

@@ -3,7 +3,7 @@
 namespace meninas {
 
 /// The samples that all layers are of, chosen by all light.
-static std::vector<SampleRound> chosen_samples(const LightScene& light, const DiffuseField& field,
+static std::vector<SampleRound> chosen_samples(const LightScene& light, const IrradianceField& field,
                                                const PointGathering* gathering,
                                                const Camera& camera, const RenderSettings& settings,
                                                Rendering& totals) {
@@ -17,7 +17,7 @@ static std::vector<SampleRound> chosen_samples(const LightScene& light, const Di
       picture);
 }
 
-Rendering render_layers(const LightScene& light, const DiffuseField& field, const Camera& camera,
+Rendering render_layers(const LightScene& light, const IrradianceField& field, const Camera& camera,
                         const RenderSettings& settings, const Progress& progress) {
   expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
   expects(field.mirrored.size() == field.irradiance.size(), "the field knows its mirrored part");

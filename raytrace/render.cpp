@@ -8,7 +8,7 @@
 
 namespace meninas {
 
-static Rendering render_light(const LightScene& light, const DiffuseField& field,
+static Rendering render_light(const LightScene& light, const IrradianceField& field,
                               const Camera& camera, const RenderSettings& settings,
                               const Progress& progress) {
   Rendering result;
@@ -29,7 +29,7 @@ static Rendering render_light(const LightScene& light, const DiffuseField& field
   return result;
 }
 
-Rendering render(const LightScene& light, const DiffuseField& field, const Camera& camera,
+Rendering render(const LightScene& light, const IrradianceField& field, const Camera& camera,
                  const RenderSettings& settings, const Progress& progress) {
   expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
   Rendering result = settings.layers == WithLayers::yes

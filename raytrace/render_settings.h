@@ -51,7 +51,7 @@ struct Rendering {
       layers; ///< of render_layers: they add up to the image, in their order; then features
   std::uint64_t camera_rays = 0;
   std::uint64_t specular_rays = 0;
-  std::uint64_t sure_rays = 0;   ///< of these two, not traced (sure_paths.h)
+  std::uint64_t sure_rays = 0;   ///< of these two, not traced (coherent_beams.h)
   std::uint64_t shadow_rays = 0; ///< of diffuse terms computed at the hit
   std::uint64_t gather_rays = 0;
 };

@@ -103,7 +103,7 @@ void queue_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction&
     }
     ray.throughput = throughput * glm::vec3(work.lobe[cell].weight);
     ray.key = hash(key, cell, 1);
-    go_on(context, ray, work);
+    queue_if_visible(context, ray, work);
   }
 }
 
@@ -159,11 +159,11 @@ glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& pack
   const bool has_field = face.side != FaceRecord::nothing;
   Bsdf bsdf = bsdf_at(context, packet, state, face, hits, k);
   const SpecularRay ray = ray_from(state, k, face.plane_class, context.settings.seed);
-  const bool spent = bsdf.alpha > 0.0 && ray.lobes >= most_lobes;
+  const bool spent = bsdf.alpha > 0.0 && ray.lobes >= max_lobes;
   const Meeting at = meeting_of(context, face, packet, state, k, hits.distance[k]);
   const Direction out = local_out(face.normal, glm::normalize(at.direction));
   const bool smooth =
-      material_of(context.light.scene, TriangleId{hits.triangle[k]}).throws_as_mirror;
+      material_of(context.light.scene, TriangleId{hits.triangle[k]}).specular_in_pass_one;
   // The field stands for what is left out, but it knows nothing of what glass,
   // smooth metals and coats that are mirrors reflect: they are ideal from there on.
   const bool goes_on_ideally = smooth || bsdf.glass > 0.0;

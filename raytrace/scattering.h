@@ -17,7 +17,7 @@
 //
 // The first lobe of a path has a grid of up to `RenderSettings::glossy_samples` rays to each
 // camera ray, shifted evenly among those of the pixel. Lobes behind it have one ray each.
-// After `most_lobes` the field stands for the rest: pass one scatters evenly what lobes reflect.
+// After `max_lobes` the field stands for the rest: pass one scatters evenly what lobes reflect.
 //
 // What comes through a pane is seen as if the pane were not there: it is no mirror on the way.
 // Solids bend what goes into them, and take their part of it by the metres (glass.h).
@@ -30,7 +30,7 @@
 
 namespace meninas {
 
-inline constexpr int most_lobes = 4;
+inline constexpr int max_lobes = 4;
 
 /// Whether lane k has met a material with lobes, on a side where they show.
 inline bool meets_lobes(const RenderContext& context, const FaceRecord& face, const HitPacket& hits,

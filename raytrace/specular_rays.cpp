@@ -24,7 +24,7 @@ Meeting meeting_of(const RenderContext& context, const FaceRecord& face, const R
           state.travelled(k) + static_cast<float>(t)};
 }
 
-void go_on(const RenderContext& context, const SpecularRay& ray, TileWorkspace& work) {
+void queue_if_visible(const RenderContext& context, const SpecularRay& ray, TileWorkspace& work) {
   if (goes_on(context, ray.bounces, ray.throughput, ray.share))
     work.next.push_back(ray);
 }
@@ -57,7 +57,7 @@ void reflect(const RenderContext& context, const FaceRecord& face, const RayPack
   ray.direction = at.direction - 2.0 * at.approach * face.normal;
   ray.travelled = at.travelled;
   ray.since_lobe += static_cast<float>(at.distance);
-  go_on(context, ray, work);
+  queue_if_visible(context, ray, work);
 }
 
 } // namespace meninas

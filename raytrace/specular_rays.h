@@ -31,7 +31,7 @@ inline bool goes_on(const RenderContext& context, std::int32_t bounces, const gl
 }
 
 /// Queues a path, unless it is too faint for its share.
-void go_on(const RenderContext& context, const SpecularRay& ray, TileWorkspace& work);
+void queue_if_visible(const RenderContext& context, const SpecularRay& ray, TileWorkspace& work);
 
 /// Queues the path behind the mirror that lane k has hit,
 /// from where it meets the mirror's exact plane.

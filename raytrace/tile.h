@@ -6,7 +6,7 @@
 #include "raytrace/diffuse_term.h"
 #include "raytrace/lobe_grid.h"
 #include "raytrace/render_settings.h"
-#include "raytrace/beams/sure_path.h"
+#include "raytrace/beams/coherent_beam.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -97,7 +97,7 @@ struct RenderContext {
   DiffuseSettings behind_lobes; ///< where many rays of a pixel land by way of one
   std::vector<std::uint8_t>
       blurred; ///< by WorldId: 1 where one of its mirrors has a lobe of its own, which rays follow
-  std::vector<FrustumFace> frustum_faces; ///< for sure_paths.h; empty: all rays are traced
+  std::vector<FrustumFace> frustum_faces; ///< for coherent_beams.h; empty: all rays are traced
 };
 
 inline bool is_chosen(const RenderContext& context, int x, int y) {
@@ -106,7 +106,7 @@ inline bool is_chosen(const RenderContext& context, int x, int y) {
                                               static_cast<std::size_t>(x)] != 0;
 }
 
-/// Sixteen camera rays behind the mirrors that all of them have met (mirror_beam.h),
+/// Sixteen camera rays behind the mirrors that all of them have met (packet_reflection.h),
 /// in the frame of the ray scene.
 struct alignas(64) MirrorBeam {
   double origin_x[packet_size], origin_y[packet_size], origin_z[packet_size];

@@ -1,6 +1,6 @@
 #include "raytrace/tiles.h"
 
-#include "raytrace/beams/sure_paths.h"
+#include "raytrace/beams/coherent_beams.h"
 #include "raytrace/pixels/pixel_samples.h"
 #include "raytrace/specular_paths.h"
 #include "scenes/materials/lobes.h"
@@ -87,7 +87,7 @@ static RenderContext context_of(const LightScene& light, const VisibleLight& vis
 
 /// Beyond so many triangles a tile's rays are traced sooner than it is known what comes near it,
 /// or little of that would be certain.
-static std::size_t most_frustum_faces(const RenderSettings& settings, std::size_t samples) {
+static std::size_t max_frustum_faces(const RenderSettings& settings, std::size_t samples) {
   constexpr std::size_t pixels = std::size_t{tile_size} * tile_size;
   const std::size_t tiles =
       std::max<std::size_t>(1, static_cast<std::size_t>(settings.width) *
@@ -113,7 +113,7 @@ RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
                         const Progress& progress, const StorePixel& store) {
   const FilterPlaces places = places_of(settings);
   RenderContext context = context_of(light, visible, gathering, camera, settings, share, places);
-  context.frustum_faces = frustum_faces(light, most_frustum_faces(settings, context.net_x.size()));
+  context.frustum_faces = frustum_faces(light, max_frustum_faces(settings, context.net_x.size()));
   const int columns = (settings.width + tile_size - 1) / tile_size,
             rows = (settings.height + tile_size - 1) / tile_size;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;

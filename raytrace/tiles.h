@@ -12,7 +12,7 @@ using StorePixel = std::function<void(int x, int y, const SeenRadiance&)>;
 
 struct RayTotals {
   std::uint64_t camera = 0, specular = 0, shadow = 0, gather = 0;
-  std::uint64_t sure = 0; ///< of the camera and specular ones, not traced (sure_paths.h)
+  std::uint64_t sure = 0; ///< of the camera and specular ones, not traced (coherent_beams.h)
 };
 
 /// Some samples of some pixels.

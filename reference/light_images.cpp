@@ -55,13 +55,13 @@ bool passes_mirrors(const TracedScene& traced, const LightImage& image, Point3 x
   return true;
 }
 
-/// Keeps `most_connections` or fewer:
+/// Keeps `max_connections` or fewer:
 /// those on which equal steps through the sum of what all would bring end.
 void thin_out(std::vector<ImageConnection>& chosen, double u) {
   double sum = 0.0;
   for (const ImageConnection& connection : chosen)
     sum += largest(connection.radiance);
-  const double step = sum / double(most_connections);
+  const double step = sum / double(max_connections);
   double next = u * step, below = 0.0;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
@@ -115,7 +115,7 @@ std::vector<LightImage> make_light_images(const Scene& scene, const SurfaceModel
 void choose_images(const TracedScene& traced, const SurfacePoint& x, const Direction& out, Vec2 u,
                    std::vector<ImageConnection>& chosen) {
   chosen.clear();
-  const std::size_t all = traced.light_images.size(), asked = std::min(all, most_images);
+  const std::size_t all = traced.light_images.size(), asked = std::min(all, max_images);
   const double reach = 8.0 / traced.rays.frame().scale;
   const double stride = asked > 0 ? double(all) / double(asked) : 1.0;
   for (std::size_t k = 0; k < asked; ++k) {
@@ -132,7 +132,7 @@ void choose_images(const TracedScene& traced, const SurfacePoint& x, const Direc
     if (radiance != Rgb(0.0))
       chosen.push_back({&image, target, radiance});
   }
-  if (chosen.size() > most_connections)
+  if (chosen.size() > max_connections)
     thin_out(chosen, u.y);
 }
 

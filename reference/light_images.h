@@ -9,8 +9,8 @@
 // may enter by a slit. If one light is chosen by a chance c it brings E / c where it does reach,
 // of variance E^2 (1 / c - 1): no chance that is the same everywhere is good.
 // So every image that can reach x is asked for; what tells the others costs no ray:
-// cones, horizons, a mirror's extent missed by the straight line. Of more than `most_images`
-// images so many are chosen evenly, of more than `most_connections` that remain so many
+// cones, horizons, a mirror's extent missed by the straight line. Of more than `max_images`
+// images so many are chosen evenly, of more than `max_connections` that remain so many
 // by what they would bring (systematic sampling, Madow 1949): the expectation is that of all.
 #pragma once
 
@@ -18,8 +18,8 @@
 
 namespace meninas::reference {
 
-inline constexpr std::size_t most_images = 1024;
-inline constexpr std::size_t most_connections = 8;
+inline constexpr std::size_t max_images = 1024;
+inline constexpr std::size_t max_connections = 8;
 
 /// Of all lights over chains of at most `longest_chain` of the planes.
 std::vector<LightImage> make_light_images(const Scene& scene, const SurfaceModel& surfaces,

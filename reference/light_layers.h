@@ -9,7 +9,7 @@
 // what has a direction of its own is a specular path). What x1 emits is `emission`;
 // what it reflects is `diffuse.mirrored` if mirrors are between x1 and x2 (the light itself,
 // when there is nothing between), else `diffuse.direct`. There mirrors are ideal metals,
-// all glass, and the gloss and coats that pass one takes for mirrors (Material::throws_as_mirror);
+// all glass, and the gloss and coats that pass one takes for mirrors (Material::specular_in_pass_one);
 // other gloss and coats are x2, as pass one spreads what they reflect.
 // What glass passes, straight, bent or blurred, is no part of the way.
 //

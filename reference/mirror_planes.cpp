@@ -46,7 +46,7 @@ MirrorPlanes find_mirror_planes(const Scene& scene, const SurfaceModel& surfaces
   MirrorPlanes result;
   for (const Kind last : {Kind::coat, Kind::pane, Kind::texels, Kind::metal}) {
     result.planes = planes_up_to(last);
-    if (result.planes.size() <= most_mirror_planes)
+    if (result.planes.size() <= max_mirror_planes)
       break;
     result.planes.clear();
   }

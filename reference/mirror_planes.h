@@ -10,7 +10,7 @@
 namespace meninas::reference {
 
 inline constexpr std::size_t longest_chain = 2;
-inline constexpr std::size_t most_mirror_planes = 16;
+inline constexpr std::size_t max_mirror_planes = 16;
 
 struct MirrorPlanes {
   std::vector<PlaneId> planes; ///< sorted

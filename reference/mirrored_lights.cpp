@@ -31,7 +31,7 @@ Point3 first_target(const TracedScene& traced, const Chain& chain, Point3 y) {
 
 Rgb chain_throughput(const TracedScene& traced, const SurfacePoint& x, const Chain& chain,
                      const Point3& y, PlaneId arriving) {
-  constexpr int most_layers = 256;
+  constexpr int max_layers = 256;
   // Nothing in the plane of a mirror is seen in it.
   if (!chain.planes.empty() && chain.planes.back() == arriving)
     return Rgb(0.0);
@@ -39,7 +39,7 @@ Rgb chain_throughput(const TracedScene& traced, const SurfacePoint& x, const Cha
   Point3 from = x.position, target = first_target(traced, chain, y);
   PlaneId leaving = x.plane;
   std::size_t reflections = 0;
-  for (int layer = 0; layer < most_layers && throughput != Rgb(0.0); ++layer) {
+  for (int layer = 0; layer < max_layers && throughput != Rgb(0.0); ++layer) {
     const bool last_leg = reflections == chain.planes.size();
     const double length = glm::length(target - from);
     const Direction direction = (target - from) / length;

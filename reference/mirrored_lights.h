@@ -10,7 +10,7 @@
 // is met by chance with density p_s: both are weighted as for direct light (trace_paths.h),
 // so the estimate stays unbiased. Punctual lights are looked for in light_images.h.
 // Chains are at most `longest_chain` long; light over longer ones,
-// or in scenes with more than `most_mirror_planes` of them (curved mirrors), is only met.
+// or in scenes with more than `max_mirror_planes` of them (curved mirrors), is only met.
 #pragma once
 
 #include "reference/mirror_planes.h"

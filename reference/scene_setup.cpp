@@ -47,7 +47,7 @@ TracedScene make_traced_scene(Scene scene) {
   if (metals_left_out > 0 && !scene.lights.empty())
     scene.warnings.push_back(
         "light of punctual lights by way of " + std::to_string(metals_left_out) +
-        " planes of mirrors is left out: of at most " + std::to_string(most_mirror_planes) +
+        " planes of mirrors is left out: of at most " + std::to_string(max_mirror_planes) +
         " it is followed");
   std::vector<LightImage> light_images = make_light_images(scene, surfaces, bsdfs, mirror_planes);
   const bool see_through = std::ranges::any_of(scene.materials, is_see_through);

@@ -154,7 +154,7 @@ LightRoutes routes_on(const TracedScene& traced, const Path& path, const Directi
     return path.routes;
   LobeShares shares = lobe_shares(path.at.bsdf, out, in);
   // What pass one takes for a mirror is one on the way of light, as glass is.
-  if (material_of(traced.scene, path.at.triangle).throws_as_mirror)
+  if (material_of(traced.scene, path.at.triangle).specular_in_pass_one)
     shares.glass += std::exchange(shares.gloss, Rgb(0.0));
   return path.routes.scattered(shares);
 }
@@ -295,7 +295,7 @@ void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& 
     ++path.chain_length;
     // A coat that throws no light as a mirror is one to the eye alone.
     const bool is_coat = path.at.bsdf.metal == Rgb(0.0) && path.at.bsdf.glass == 0.0 &&
-                         !material_of(traced.scene, path.at.triangle).throws_as_mirror;
+                         !material_of(traced.scene, path.at.triangle).specular_in_pass_one;
     path.routes = is_coat ? path.routes.scattered({.gloss = Rgb(1.0)}) : path.routes.reflected(1);
   } else {
     path.density = drawn->density;

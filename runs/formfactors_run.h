@@ -2,7 +2,7 @@
 // as JSON, or all of them as a CSV matrix with row sums.
 #pragma once
 
-#include "radiosity/queries/node_form_factors.h"
+#include "radiosity/queries/gltf_node_factors.h"
 #include "runs/run_events.h"
 #include "scenes/gltf/gltf.h"
 

@@ -37,7 +37,7 @@ void check_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::
 /// Half floats, where they hold the picture:
 /// its brightest value, and those a hundred times darker without loss.
 PixelType type_for(const Image& picture, std::span<const Layer> layers, PixelType wanted) {
-  constexpr float largest_half = 65504.0F, least_normal_half = 0x1p-14F;
+  constexpr float largest_half = 65504.0F, min_normal_half = 0x1p-14F;
   const auto brightest_of = [](const Image& image) {
     float brightest = 0.0F;
     for (const glm::vec3& pixel : image.pixels)
@@ -49,7 +49,7 @@ PixelType type_for(const Image& picture, std::span<const Layer> layers, PixelTyp
   for (const Layer& layer : layers)
     brightest = std::max(brightest, brightest_of(layer.image));
   const bool fits = brightest <= largest_half &&
-                    (picture_brightest == 0.0F || picture_brightest >= 100.0F * least_normal_half);
+                    (picture_brightest == 0.0F || picture_brightest >= 100.0F * min_normal_half);
   return fits ? wanted : PixelType::float32;
 }
 

@@ -60,14 +60,14 @@ Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
 }
 
 /// The preset asks for no more than a stored field knows.
-RunSettings settings_for(const DiffuseField& field, RunSettings settings) {
+RunSettings settings_for(const IrradianceField& field, RunSettings settings) {
   if (!settings.diffuse && field.indirect.empty())
     settings.diffuse = DiffuseTerm::interpolated;
   return settings;
 }
 
 /// Throws InputError where the field does not know what the picture builds on.
-void check_field(const std::filesystem::path& solution, const DiffuseField& field,
+void check_field(const std::filesystem::path& solution, const IrradianceField& field,
                  const RenderSettings& settings) {
   if (settings.layers == WithLayers::yes && field.mirrored.empty()) {
     throw InputError(solution.string(), "",

@@ -26,7 +26,7 @@ public:
   }
 
   void operator()(const PassOneSoFar& state) {
-    DiffuseField lit = state.field;
+    IrradianceField lit = state.field;
     for (auto* irradiances : {&lit.irradiance, &lit.indirect}) {
       for (glm::vec3& irradiance : *irradiances) {
         irradiance += glm::vec3(state.ambient);
@@ -42,7 +42,7 @@ public:
   }
 
 private:
-  Image picture(const DiffuseField& field) const {
+  Image picture(const IrradianceField& field) const {
     return render(*prepared_.light, field, camera_, render_).image;
   }
   void write(const std::string& name, const Image& image, int shots) const {

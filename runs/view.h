@@ -18,7 +18,7 @@ namespace meninas {
 /// A scene with its diffuse light, as far as pass one finds it.
 struct LitScene {
   std::unique_ptr<PreparedScene> prepared;
-  DiffuseField field;
+  IrradianceField field;
   std::unique_ptr<RefinedScene> refined; ///< where the field has a mesh of its own
 
   /// On the mesh of the field.

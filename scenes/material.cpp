@@ -10,12 +10,12 @@ static bool has_texels_of_metal(const Material& material) {
 
 bool is_mirror(const Material& material) {
   const bool is_smooth = material.roughness <= ideal_mirror_roughness && !has_texels_of_metal(material);
-  return material.metallic > 0.0 && (is_smooth || material.throws_as_mirror) &&
+  return material.metallic > 0.0 && (is_smooth || material.specular_in_pass_one) &&
          glm::any(glm::greaterThan(material.base_color, Rgb(0.0)));
 }
 
 bool has_mirror_coat(const Material& material) {
-  return material.throws_as_mirror && material.metallic == 0.0;
+  return material.specular_in_pass_one && material.metallic == 0.0;
 }
 
 bool is_emitter(const Material& material) {

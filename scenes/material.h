@@ -49,7 +49,7 @@ struct Material {
   double metallic = 0.0; ///< in [0, 1]
   double roughness = 1.0;
   Rgb emission{0.0}; ///< emitted radiance L, W/m^2/sr; emitted radiosity is E = pi L
-  bool throws_as_mirror =
+  bool specular_in_pass_one =
       false; ///< what this rough metal, or this coat, throws, pass one carries as an ideal mirror does (smooth_surfaces.h)
   bool double_sided =
       false; ///< false: the front reflects, emits and mirrors, the back is opaque and black
@@ -69,7 +69,7 @@ struct Material {
   std::optional<TextureUse> transmission_texture; ///< red
   std::optional<TextureUse> thickness_texture;    ///< green
 
-  // What is settled before anything is decided by the material, and gone by then:
+  // What is complete_field before anything is decided by the material, and gone by then:
   // of these textures the constant ones become factors, the others are left out
   // (constant_textures.h).
   double clear_coat = 0.0, clear_coat_roughness = 0.0; ///< lacquer, in [0, 1] (clear_coat.h)

@@ -28,7 +28,7 @@ void add_material(ContentHash& hash, const Material& material) {
   hash.add(material.alpha);
   hash.add(material.metallic);
   hash.add(material.roughness);
-  if (material.throws_as_mirror)
+  if (material.specular_in_pass_one)
     hash.add(std::uint64_t{1});
   hash.add(material.emission);
   hash.add(word(material.double_sided));

@@ -272,9 +272,9 @@ void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) 
   }
 
   // Pages of a TIFF are pictures of their own: the first is meant.
-  constexpr int most_parts = 256;
+  constexpr int max_parts = 256;
   auto storage = std::make_unique<DecodedStorage>();
-  for (int part = 0; part < most_parts && input->seek_subimage(part, 0); ++part) {
+  for (int part = 0; part < max_parts && input->seek_subimage(part, 0); ++part) {
     add_part(*input, part, {bytes, name, limits}, *storage);
     if (name != "openexr" || limits.use == Use::texture)
       break;

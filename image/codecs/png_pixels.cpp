@@ -13,10 +13,10 @@ namespace meninas::decoder {
 /// of the rest libpng would speak on stderr.
 static bool belongs(const PngHeader& header, std::string_view type, std::size_t length,
                     std::size_t colours) {
-  constexpr std::size_t most_colours = 256;
+  constexpr std::size_t max_colours = 256;
   if (type == "PLTE")
     return header.colour_type == palette_png && colours == 0 && length > 0 && length % 3 == 0 &&
-           length / 3 <= std::min(most_colours, std::size_t{1} << header.depth);
+           length / 3 <= std::min(max_colours, std::size_t{1} << header.depth);
   if (type == "tRNS") // of a palette an alpha for each colour, else one colour that is clear
     return header.colour_type == palette_png ? length > 0 && length <= colours
            : header.colour_type == grey_png  ? length == 2

@@ -1,6 +1,6 @@
 #include "radiosity/field/facet_edges.h"
 
-#include "radiosity/field/facets.h"
+#include "radiosity/field/smoothing_groups.h"
 #include "radiosity/field/vertex_light.h"
 
 #include <tbb/parallel_for.h>
@@ -26,7 +26,7 @@ std::optional<double> visible_part(const VertexSource& source, const Receiver& r
 }
 
 /// max V - min V over the corners.
-double unevenly_seen(const VertexSource& source, std::uint32_t level, const FoundField& found,
+double unevenly_seen(const VertexSource& source, std::uint32_t level, const VertexSamples& found,
                      ElementId facet) {
   std::optional<double> least, most;
   for (const ElementVertexId corner : found.mesh.corners[index(facet)]) {
@@ -42,14 +42,14 @@ double unevenly_seen(const VertexSource& source, std::uint32_t level, const Foun
 
 } // namespace
 
-std::vector<ElementId> facets_with_edges(const LightScene& light, const VertexSource& source,
-                                         std::uint32_t level, const FoundField& found,
+std::vector<ElementId> faces_with_shadow_edges(const LightScene& light, const VertexSource& source,
+                                         std::uint32_t level, const VertexSamples& found,
                                          std::span<const ElementId> facets) {
   constexpr double most_even = 0.1;
   if (facets.empty())
     return {};
   const std::vector<std::uint8_t> turn =
-      sides_that_turn(light.mesh, facets_around(light), most_smooth_turn);
+      sides_above_crease_angle(light.mesh, facets_around(light), most_smooth_turn);
   std::vector<std::uint8_t> has_edge(facets.size(), 0);
   tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t k) {
     has_edge[k] = turn[index(found.mesh.side_of_element[index(facets[k])])] != 0 ||

@@ -1,6 +1,6 @@
 // Facets on which edges of light are to be seen.
 //
-// A vertex of facets takes the mean of what these receive (facets.h), which is smooth over a curve.
+// A vertex of facets takes the mean of what these receive (smoothing_groups.h), which is smooth over a curve.
 // Two things it hides. The shadow that falls on one of them is spread over all around it: where the
 // visible part of the source differs between the corners of a facet,
 //
@@ -8,12 +8,12 @@
 //
 // a shadow ends on it. And a curve of few facets, as are to be told apart in its outline, has as
 // many shades. Of facets over which the means bend by more than the bound these get light from the
-// source of their own (shadow_edges.h). How a finer curve turns changes D, and not V: in full light
+// source of their own (refine_direct.h). How a finer curve turns changes D, and not V: in full light
 // it stays smooth.
 // Limit: the shadows of punctual lights, and of light by way of solids of glass, are not looked for.
 #pragma once
 
-#include "radiosity/field/found_field.h"
+#include "radiosity/field/vertex_gathering.h"
 
 namespace meninas {
 
@@ -22,8 +22,8 @@ inline constexpr double most_smooth_turn = 15.0;
 
 /// Of these elements with averaged corners those on which a shadow ends, or which turn much.
 /// `level` tells samples apart, as in light_vertices().
-std::vector<ElementId> facets_with_edges(const LightScene& light, const VertexSource& source,
-                                         std::uint32_t level, const FoundField& found,
+std::vector<ElementId> faces_with_shadow_edges(const LightScene& light, const VertexSource& source,
+                                         std::uint32_t level, const VertexSamples& found,
                                          std::span<const ElementId> facets);
 
 } // namespace meninas

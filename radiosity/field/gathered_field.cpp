@@ -1,8 +1,8 @@
 #include "radiosity/field/gathered_field.h"
 
-#include "radiosity/field/bent_field.h"
-#include "radiosity/field/facet_means.h"
-#include "radiosity/field/facets.h"
+#include "radiosity/field/refine_indirect.h"
+#include "radiosity/field/smooth_vertices.h"
+#include "radiosity/field/smoothing_groups.h"
 
 
 namespace meninas {
@@ -10,14 +10,14 @@ namespace meninas {
 namespace {
 
 /// At every vertex, and at those that elements get where the field bends.
-void gather_everywhere(const LightScene& light, const ElementLight& elements,
-                       const VertexGathering& how, FoundField found, PointWorkspaces& workspaces,
+void gather_at_all_vertices(const LightScene& light, const ElementLight& elements,
+                       const VertexGathering& how, VertexSamples found, PointWorkspaces& workspaces,
                        InterpolatedField& result) {
   const PointGathering gathering = gathering_from(light, elements.reflected, how);
   const VertexSource source{elements.irradiance, gathering, workspaces};
   gather_at_vertices(source, 0, found);
-  result.field = settled(source, found);
-  divide_bent(light, source, bend_scale(light.mesh, elements.reflected), how.interpolation.bend,
+  result.field = complete_field(source, found);
+  refine_indirect(light, source, bend_scale(light.mesh, elements.reflected), how.interpolation.bend,
               found, result);
 }
 
@@ -30,12 +30,12 @@ InterpolatedField gathered_field(const LightScene& light, const ElementLight& el
   PointWorkspaces workspaces;
   const VertexElements facets =
       elements.from_source.empty() ? VertexElements{} : facets_around(light);
-  FoundField found = unknown_field(light.mesh, facets);
+  VertexSamples found = make_samples(light.mesh, facets);
   if (!facets.elements.empty())
     average_facets(light, elements, facets, form_factors, workspaces, found.field);
 
   InterpolatedField result;
-  gather_everywhere(light, elements, {form_factors, direct, settings}, std::move(found), workspaces,
+  gather_at_all_vertices(light, elements, {form_factors, direct, settings}, std::move(found), workspaces,
                     result);
   count_rays(workspaces, result);
   return result;

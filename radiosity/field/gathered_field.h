@@ -3,10 +3,10 @@
 //
 //   H(x) = D(x) + sum_w tau_w sum_j F^w_xj B_j      at every vertex x
 //
-// light from the source in closed form, the rest by rays (point_gathering.h).
-// Facets of curved surfaces take means instead (facets.h),
+// light from the source in closed form, the rest by rays (point_irradiance.h).
+// Facets of curved surfaces take means instead (smoothing_groups.h),
 // vertices on which something stands what is gathered beside it (contact_vertices.h).
-// Where the indirect part bends by more than the settings allow (bends.h),
+// Where the indirect part bends by more than the settings allow (interpolation_error.h),
 // elements are divided and light is gathered at what vertices they get, up to three times:
 // the foot of a lit wall takes a few small elements instead of small ones everywhere.
 #pragma once

@@ -2,7 +2,7 @@
 
 #include "radiosity/field/adaptive/adaptive_field.h"
 #include "radiosity/field/gathered_field.h"
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/mesh/subdivision.h"
 #include "radiosity/field/vertex_places.h"
 
 #include <algorithm>
@@ -62,8 +62,8 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
 
 /// The means of elements know nothing of mirrors;
 /// what emitters send is known where it was found from the source.
-static DiffuseField averaged_field(const ElementMesh& mesh, const ElementLight& elements) {
-  DiffuseField field;
+static IrradianceField averaged_field(const ElementMesh& mesh, const ElementLight& elements) {
+  IrradianceField field;
   field.irradiance = average_at_vertices(mesh, elements.irradiance);
   if (elements.from_source.empty())
     return field;

@@ -6,7 +6,7 @@
 // the rest by rays over the element radiosities (the cells of a hemicube,
 // where form factors are found so): the field is right at its vertices.
 // Vertices of curved surfaces, whose facets are smaller than half an element,
-// take the mean of the facets around instead (facets.h).
+// take the mean of the facets around instead (smoothing_groups.h).
 // Vertices that see nothing but the black insides of things that stand on
 // them hold no value of their own (contact_vertices.h, vertex_fill.h).
 // Between vertices the field is bilinear in quads, linear in triangles.

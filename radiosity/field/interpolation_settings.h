@@ -18,11 +18,11 @@ struct InterpolationSettings {
   Interpolation method = Interpolation::gather;
   int rays = 512; ///< per vertex, for `gather`
   int cluster_shadow_rays =
-      8; ///< per bright cluster (bright_clusters.h) and vertex, where it matters most
+      8; ///< per bright cluster (secondary_emitters.h) and vertex, where it matters most
   double bend =
       0.0; ///< X: elements in which indirect light bends by more are divided (gathered_field.h); 0: none
   double shadow_bend =
-      0.0; ///< likewise of light from the source, by nodes (shadow_edges.h); 0: none
+      0.0; ///< likewise of light from the source, by nodes (refine_direct.h); 0: none
   std::optional<AdaptiveSettings> adaptive =
       {}; ///< `gather` on a mesh of its own (adaptive_field.h)
 };

@@ -14,7 +14,7 @@
 namespace meninas {
 
 /// By ElementVertexId. The mesh it belongs to must outlive it.
-struct DiffuseField {
+struct IrradianceField {
   std::vector<glm::vec3> irradiance;
   std::vector<glm::vec3>
       mirrored; ///< the part of it whose last leg came by way of mirrors; empty from `average`
@@ -26,7 +26,7 @@ struct DiffuseField {
 };
 
 struct InterpolatedField {
-  DiffuseField field;
+  IrradianceField field;
   std::optional<ElementMesh> mesh = {}; ///< where it is finer than that of the elements
   std::vector<Rgb> received = {}; ///< H by ElementId where elements receive what their corners do, by nodes; empty otherwise
   std::optional<double> error = {}; ///< of an adaptive field: estimated, of what its settings bound
@@ -42,6 +42,6 @@ struct ElementLight {
 };
 
 /// The field at a point of a side.
-glm::vec3 irradiance_at(const ElementMesh& mesh, const DiffuseField& field, SideId side, Vec2 uv);
+glm::vec3 irradiance_at(const ElementMesh& mesh, const IrradianceField& field, SideId side, Vec2 uv);
 
 } // namespace meninas

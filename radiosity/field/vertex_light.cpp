@@ -42,7 +42,7 @@ bool is_nearly_under_something(const LightScene& light, const Receiver& receiver
   return blocked_nearby(light, receiver, element_size) > most_blocked;
 }
 
-bool is_at_foot(const LightScene& light, const Receiver& receiver) {
+bool touches_wall(const LightScene& light, const Receiver& receiver) {
   constexpr double steep = 0.7; // sine of the wall's slope: facets of a curved surface are less
   const Point3 origin = to_frame(light.rays.frame(), receiver.position);
   const Contacts contacts = contacts_of(light.rays, glm::vec3(origin), index(receiver.plane_class));
@@ -60,8 +60,8 @@ bool is_at_foot(const LightScene& light, const Receiver& receiver) {
 
 /// Whether nearly all that a point sees is black.
 static bool sees_black(const GatheredRays& gathered) {
-  constexpr double most_black = 0.9;
-  return gathered.black > most_black * gathered.rays;
+  constexpr double max_black = 0.9;
+  return gathered.black > max_black * gathered.rays;
 }
 
 /// What is over a point, by what it sees.
@@ -77,13 +77,13 @@ static Cover cover_of(bool is_shut, const LightScene& light, const Receiver& rec
 static bool is_shut_in(const LightScene& light, const FormFactorSettings& form_factors,
                        const Receiver& receiver, std::uint32_t seed, PointWorkspace& work) {
   constexpr int few_rays = 32;
-  static const DirectionNet net = make_direction_net(few_rays);
+  static const HemisphereSamples net = make_direction_net(few_rays);
   gather_rays(light, net, area_of(receiver), seed, form_factors, work.gather);
   work.rays += work.gather.result.traced;
   return sees_black(work.gather.result);
 }
 
-Cover cover_in_the_dark(const LightScene& light, const FormFactorSettings& form_factors,
+Cover clearance_of_unlit(const LightScene& light, const FormFactorSettings& form_factors,
                         const Receiver& receiver, double element_size, std::uint32_t seed,
                         PointWorkspace& work) {
   return cover_of(is_shut_in(light, form_factors, receiver, seed, work), light, receiver,
@@ -93,7 +93,7 @@ Cover cover_in_the_dark(const LightScene& light, const FormFactorSettings& form_
 /// Whether what was gathered is that of a point inside something,
 /// or behind it, where no light comes.
 static bool is_enclosed(const GatheredRays& gathered, const std::vector<Rgb>& irradiance) {
-  const auto lit = [&](const RayLanding& landing) {
+  const auto lit = [&](const ElementHit& landing) {
     return irradiance[landing.element] != Rgb(0.0);
   };
   return sees_black(gathered) ||
@@ -110,7 +110,7 @@ bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance
              const Receiver& receiver, double element_size, std::uint32_t seed,
              PointWorkspace& work) {
   constexpr int few_rays = 16;
-  static const DirectionNet net = make_direction_net(few_rays);
+  static const HemisphereSamples net = make_direction_net(few_rays);
   if (is_nearly_under_something(gathering.light, receiver, element_size))
     return false;
   gather_rays(gathering.light, net, area_of(receiver), seed, gathering.form_factors, work.gather);

@@ -2,8 +2,8 @@
 // where something stands on a surface there is no light to interpolate.
 #pragma once
 
-#include "radiosity/light/kept_rays.h"
-#include "radiosity/light/point_gathering.h"
+#include "radiosity/light/row_cache.h"
+#include "radiosity/light/point_irradiance.h"
 
 namespace meninas {
 
@@ -44,7 +44,7 @@ ArrivingLight light_beside_penumbra(const PointGathering& gathering, const Recei
 /// Whether a wall stands on the surface along a line through this very point.
 /// Where nothing is covered the point still sees neither side of the wall, whose light
 /// is brightest beside it: a form factor that is 1/2 on one side of the line is 0 on it.
-bool is_at_foot(const LightScene& light, const Receiver& receiver);
+bool touches_wall(const LightScene& light, const Receiver& receiver);
 
 /// Whether more than half of what a point sees is blocked within a fraction of an element:
 /// it is covered or nearly so, under an edge.
@@ -62,7 +62,7 @@ bool is_under_something(const LightScene& light, const Receiver& receiver, doubl
 
 /// What is over a point to which no light comes from the source, as far as few rays tell:
 /// `shut` where nearly all that it sees is black, as inside something that stands on its surface.
-Cover cover_in_the_dark(const LightScene& light, const FormFactorSettings& form_factors,
+Cover clearance_of_unlit(const LightScene& light, const FormFactorSettings& form_factors,
                         const Receiver& receiver, double element_size, std::uint32_t seed,
                         PointWorkspace& work);
 

@@ -6,8 +6,8 @@
 #include "radiosity/field/interpolation_settings.h"
 #include "radiosity/field/irradiance_field.h"
 #include "radiosity/field/vertex_places.h"
-#include "radiosity/light/kept_rays.h"
-#include "radiosity/light/point_gathering.h"
+#include "radiosity/light/row_cache.h"
+#include "radiosity/light/point_irradiance.h"
 #include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -24,15 +24,15 @@ inline bool has_value(VertexState state) {
 }
 
 /// How a vertex sees the images of emitters: each wholly or not at all, as few samples tell,
-/// or as many do, or one in part (penumbra_vertices.h).
-enum class SourceSeen : std::uint8_t { alike, surely_alike, in_part };
+/// or as many do, or one in part (penumbra_resampling.h).
+enum class Visibility : std::uint8_t { alike, confirmed, in_part };
 
 /// A mesh with the values of vertices as they were found; hanging vertices may be unknown.
-struct FoundField {
+struct VertexSamples {
   ElementMesh mesh;
-  DiffuseField field;
+  IrradianceField field;
   std::vector<VertexState> states; ///< by ElementVertexId
-  std::vector<SourceSeen> seen;    ///< likewise, of those that have light from the source
+  std::vector<Visibility> seen;    ///< likewise, of those that have light from the source
   std::vector<Receiver> receivers; ///< where they gather (vertex_places.h)
   VertexElements around;
   std::vector<glm::vec3> punctual; ///< what punctual lights send; empty: not asked for
@@ -66,7 +66,7 @@ struct VertexSource {
   const std::vector<Rgb>& irradiance; ///< by ElementId: tells which elements are lit
   const PointGathering& gathering;
   PointWorkspaces& workspaces;
-  KeptRays* kept = nullptr; ///< of gather_at_lit()
+  RowCache* kept = nullptr; ///< of gather_at_lit()
   bool keeps_more = false;
 };
 

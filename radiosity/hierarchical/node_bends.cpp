@@ -79,7 +79,7 @@ std::vector<TreeNodeId> parts_at_bent_edges(const ElementMesh& mesh, const NodeT
                                             const GatheredVertices& gathered,
                                             const BendBound& bound,
                                             std::vector<TreeNodeId>& straight) {
-  const std::vector<NodeCross> crosses = crosses_of(mesh, tree, straight);
+  const std::vector<MidpointStencil> crosses = crosses_of(mesh, tree, straight);
   const std::vector<glm::vec3> bends = edge_bends(crosses, gathered.valid, gathered.indirect);
   std::vector<TreeNodeId> parts, left;
   auto cross = crosses.begin();

@@ -14,7 +14,7 @@
 // if light in the middle of that is as far from the mean of its ends (node_edges.h).
 #pragma once
 
-#include "radiosity/field/bends.h"
+#include "radiosity/field/interpolation_error.h"
 #include "radiosity/hierarchical/node_vertices.h"
 
 namespace meninas {

@@ -168,8 +168,8 @@ static bool tells_of_elements(const NodeTree& tree, const NodeCut& cut, std::siz
          cut.covered[receiver] == wholly_covered;
 }
 
-std::vector<CoveredCells> covered_elements(const NodeTree& tree, const NodeCut& cut) {
-  std::vector<CoveredCells> covered(tree.elements.size(), 0);
+std::vector<ContactMask> covered_elements(const NodeTree& tree, const NodeCut& cut) {
+  std::vector<ContactMask> covered(tree.elements.size(), 0);
   for (std::size_t r = 0; r < cut.receivers.size(); ++r)
     if (tells_of_elements(tree, cut, r))
       for (const ElementId element : elements_below(tree, cut.receivers[r]))

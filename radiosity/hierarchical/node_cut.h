@@ -6,12 +6,12 @@
 // So rows are as many as the light asks for, however fine the elements are.
 // Rows are kept when the cut moves down: only nodes that are new to it are traced.
 //
-// What stands on a surface is found by the rows too (covered_cells.h): a node of which
+// What stands on a surface is found by the rows too (contact_mask.h): a node of which
 // a part is covered is divided until its parts are free or covered as a whole, or elements;
 // one that meets black backs, which may be those of something small, until it has few elements.
 #pragma once
 
-#include "radiosity/transport/node_tree.h"
+#include "radiosity/transport/element_hierarchy.h"
 
 namespace meninas {
 
@@ -22,13 +22,13 @@ struct NodeCut {
   Transport rows;                                 ///< by receiver; columns are elements
   std::vector<RowClosure> closure;                ///< by receiver
   std::vector<Rgb> emission;                      ///< by receiver: gathered_emission.h, W/m^2
-  std::vector<CoveredCells> covered;              ///< by receiver, of itself
+  std::vector<ContactMask> covered;              ///< by receiver, of itself
   std::vector<float> exposed;                     ///< by receiver: the share of it on which nothing stands
   std::uint64_t rays_traced = 0;                  ///< for all nodes that have ever been receivers
 };
 
 /// By ElementId: the cells on which something stands.
-std::vector<CoveredCells> covered_elements(const NodeTree& tree, const NodeCut& cut);
+std::vector<ContactMask> covered_elements(const NodeTree& tree, const NodeCut& cut);
 
 /// By ElementId: the share of its area that is there and on which nothing stands.
 std::vector<float> exposed_shares(const ElementMesh& mesh, const NodeTree& tree,

@@ -24,12 +24,12 @@ std::optional<std::size_t> edge_at(Vec2 st) {
   return std::nullopt;
 }
 
-std::optional<NodeCross> cross_of(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId id) {
+std::optional<MidpointStencil> cross_of(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId id) {
   const TreeNode& node = tree.nodes[index(id)];
   constexpr auto unknown = none<ElementVertexId>;
   if (node.triangle || node.child_count != 4)
     return std::nullopt;
-  NodeCross cross{id,         corners_of(mesh, node),
+  MidpointStencil cross{id,         corners_of(mesh, node),
                   unknown,    {unknown, unknown, unknown, unknown},
                   node.side,  Vec2(0.5),
                   node.extent};
@@ -57,7 +57,7 @@ struct EdgeSide {
 };
 
 /// The distances of a cross's middle to one of its edges and to the one opposite, in (u, v).
-Vec2 distances(const NodeCross& cross, std::size_t edge) {
+Vec2 distances(const MidpointStencil& cross, std::size_t edge) {
   const double along = edge % 2 == 0 ? cross.st.y : cross.st.x;
   const double width = edge % 2 == 0 ? cross.extent.y : cross.extent.x;
   const double low = along * width, high = (1.0 - along) * width;
@@ -67,7 +67,7 @@ Vec2 distances(const NodeCross& cross, std::size_t edge) {
 /// Bends of the edges of crosses, from values at vertices.
 class EdgeBends {
 public:
-  EdgeBends(std::span<const NodeCross> crosses, std::span<const std::uint8_t> valid,
+  EdgeBends(std::span<const MidpointStencil> crosses, std::span<const std::uint8_t> valid,
             std::span<const glm::vec3> values)
       : crosses_(crosses), valid_(valid), values_(values) {}
 
@@ -76,7 +76,7 @@ public:
     return middle - between_ends(side);
   }
 
-  bool is_known(const NodeCross& cross) const {
+  bool is_known(const MidpointStencil& cross) const {
     return is_valid(cross.middle) &&
            std::ranges::all_of(cross.corners, [&](ElementVertexId c) { return is_valid(c); });
   }
@@ -105,7 +105,7 @@ private:
   bool is_valid(ElementVertexId v) const { return valid_[index(v)] != 0; }
 
   std::pair<ElementVertexId, ElementVertexId> ends(const EdgeSide& side) const {
-    const NodeCross& cross = crosses_[side.cross];
+    const MidpointStencil& cross = crosses_[side.cross];
     return {cross.corners[side.edge], cross.corners[(side.edge + 1) % 4]};
   }
 
@@ -116,29 +116,29 @@ private:
     return glm::mix(at(from), at(to), float(side.edge < 2 ? along : 1.0 - along));
   }
 
-  glm::vec3 off_corners(const NodeCross& cross) const {
+  glm::vec3 off_corners(const MidpointStencil& cross) const {
     const auto s = float(cross.st.x), t = float(cross.st.y);
     return at(cross.middle) - glm::mix(glm::mix(at(cross.corners[0]), at(cross.corners[1]), s),
                                        glm::mix(at(cross.corners[3]), at(cross.corners[2]), s), t);
   }
 
-  std::span<const NodeCross> crosses_;
+  std::span<const MidpointStencil> crosses_;
   std::span<const std::uint8_t> valid_;
   std::span<const glm::vec3> values_;
 };
 
 } // namespace
 
-std::vector<NodeCross> crosses_of(const ElementMesh& mesh, const NodeTree& tree,
+std::vector<MidpointStencil> crosses_of(const ElementMesh& mesh, const NodeTree& tree,
                                   std::span<const TreeNodeId> nodes) {
-  std::vector<NodeCross> crosses;
+  std::vector<MidpointStencil> crosses;
   for (const TreeNodeId id : nodes)
     if (const auto cross = cross_of(mesh, tree, id))
       crosses.push_back(*cross);
   return crosses;
 }
 
-std::vector<glm::vec3> edge_bends(std::span<const NodeCross> crosses,
+std::vector<glm::vec3> edge_bends(std::span<const MidpointStencil> crosses,
                                   std::span<const std::uint8_t> gathered,
                                   std::span<const glm::vec3> values) {
   const EdgeBends edges(crosses, gathered, values);

@@ -23,13 +23,13 @@
 // and those beside middles or corners without light of their own.
 #pragma once
 
-#include "radiosity/field/found_field.h"
+#include "radiosity/field/vertex_gathering.h"
 #include "radiosity/hierarchical/node_vertices.h"
 
 namespace meninas {
 
 /// A node of four parts with its vertices. Edge k runs between corners k and k + 1.
-struct NodeCross {
+struct MidpointStencil {
   TreeNodeId node;
   ElementCorners corners;
   ElementVertexId middle;
@@ -40,12 +40,12 @@ struct NodeCross {
 };
 
 /// Of those nodes that have four parts and are not triangles, in their order.
-std::vector<NodeCross> crosses_of(const ElementMesh& mesh, const NodeTree& tree,
+std::vector<MidpointStencil> crosses_of(const ElementMesh& mesh, const NodeTree& tree,
                                   std::span<const TreeNodeId> nodes);
 
 /// By ElementVertexId, in the middle of edges that have not gathered: what `values` have there more
 /// than the linear mean of the edge's ends; 0 elsewhere. `gathered`: 1 where values are known.
-std::vector<glm::vec3> edge_bends(std::span<const NodeCross> crosses,
+std::vector<glm::vec3> edge_bends(std::span<const MidpointStencil> crosses,
                                   std::span<const std::uint8_t> gathered,
                                   std::span<const glm::vec3> values);
 

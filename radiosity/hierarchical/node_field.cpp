@@ -1,12 +1,12 @@
 #include "radiosity/hierarchical/node_field.h"
 
 #include "radiosity/field/curved_means.h"
-#include "radiosity/field/facet_means.h"
-#include "radiosity/field/facets.h"
+#include "radiosity/field/smooth_vertices.h"
+#include "radiosity/field/smoothing_groups.h"
 #include "radiosity/light/gather_noise.h"
 #include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/hierarchical/node_edges.h"
-#include "radiosity/field/shadow_edges.h"
+#include "radiosity/field/refine_direct.h"
 #include "radiosity/field/vertex_places.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct NodeSource {
 /// Noise counts with the area: in an eighth of a receiver a quarter of the rays adds
 /// no more to the squared error than all do in a receiver (gather_noise.h).
 void gather_at_wanted(const NodeSource& source, const std::vector<double>& wanted, double receiver,
-                      FoundField& found) {
+                      VertexSamples& found) {
   const double small = std::pow(few_rays, -2.0 * noise_order);
   std::vector<std::uint8_t> large(wanted.size(), 0), rest(wanted.size(), 0);
   for (std::size_t v = 0; v < wanted.size(); ++v) {
@@ -44,15 +44,15 @@ void gather_at_wanted(const NodeSource& source, const std::vector<double>& wante
 
 /// How vertices take from those that gather.
 struct NodeInterpolation {
-  VertexShares shares;
-  std::vector<NodeCross> crosses;
+  InterpolationWeights shares;
+  std::vector<MidpointStencil> crosses;
 };
 
 /// The rest at the corners and in the middle of nodes as small as it asks for, with a bound of X.
 /// Middles alone do not see light that bends one way along a node and the other way across:
 /// what edges between nodes tell of that divides once more.
-NodeInterpolation gather_at_nodes(const NodeSource& source, const ReceiverNodes& receivers,
-                                  double x, FoundField& found) {
+NodeInterpolation gather_at_nodes(const NodeSource& source, const HierarchicalSolution& receivers,
+                                  double x, VertexSamples& found) {
   const ElementMesh& mesh = found.mesh;
   const NodeTree& tree = receivers.tree;
   BendBound bound{bend_scale(mesh, source.many.gathering.reflected), x};
@@ -75,8 +75,8 @@ NodeInterpolation gather_at_nodes(const NodeSource& source, const ReceiverNodes&
 }
 
 /// What a vertex takes from those that its shares name, as far as these have values.
-void take_shares(const VertexShares& shares, std::size_t v, FoundField& found) {
-  DiffuseField& field = found.field;
+void take_shares(const InterpolationWeights& shares, std::size_t v, VertexSamples& found) {
+  IrradianceField& field = found.field;
   glm::vec3 total(0.0F), mirrored(0.0F);
   float weights = 0.0F;
   for (std::size_t c = 0; c < 4; ++c) {
@@ -101,8 +101,8 @@ void take_shares(const VertexShares& shares, std::size_t v, FoundField& found) {
 /// Adds what is curved to vertices between corners, of those that have a value;
 /// light is not negative, and the mirrors' part no more than all.
 void bend_between(const NodeInterpolation& by, std::span<const std::uint8_t> valid,
-                  FoundField& found) {
-  DiffuseField& field = found.field;
+                  VertexSamples& found) {
+  IrradianceField& field = found.field;
   const std::vector<glm::vec3> bends = edge_bends(by.crosses, valid, field.indirect),
                                of_mirrored = edge_bends(by.crosses, valid, field.indirect_mirrored);
   const auto add = [](const glm::vec3& more, glm::vec3& indirect, glm::vec3& all) {
@@ -120,8 +120,8 @@ void bend_between(const NodeInterpolation& by, std::span<const std::uint8_t> val
 
 /// Vertices that were only asked how light bends, or whose nodes have given way,
 /// take from others as those around them do, or they would stand out by what nodes are off.
-void forget_what_was_asked(const VertexShares& shares, FoundField& found) {
-  DiffuseField& field = found.field;
+void drop_indicator_samples(const InterpolationWeights& shares, VertexSamples& found) {
+  IrradianceField& field = found.field;
   for (std::size_t v = 0; v < found.states.size(); ++v)
     if (found.states[v] == VertexState::gathered && !gathers(shares, v)) {
       field.irradiance[v] -= field.indirect[v];
@@ -132,8 +132,8 @@ void forget_what_was_asked(const VertexShares& shares, FoundField& found) {
 
 /// Gives vertices that are lit the rest of their light:
 /// first those between corners of nodes, which others take from.
-void share_out(const NodeInterpolation& by, FoundField& found) {
-  forget_what_was_asked(by.shares, found);
+void share_out(const NodeInterpolation& by, VertexSamples& found) {
+  drop_indicator_samples(by.shares, found);
   const std::vector<std::uint8_t> valid = with_values(found);
   const auto take = [&](bool between) {
     for (std::size_t v = 0; v < found.states.size(); ++v)
@@ -147,8 +147,8 @@ void share_out(const NodeInterpolation& by, FoundField& found) {
 
 /// What elements receive, by their corners: all of it where they share points for light from the
 /// source (node_light.h), or the rest. Of a spot of a few elements corners do not tell the light.
-std::vector<Rgb> received_at_corners(const ElementLight& elements, const ReceiverNodes& receivers,
-                                     const FoundField& found,
+std::vector<Rgb> received_at_corners(const ElementLight& elements, const HierarchicalSolution& receivers,
+                                     const VertexSamples& found,
                                      const std::vector<glm::vec3>& irradiance,
                                      const std::vector<glm::vec3>& indirect) {
   const VertexEdges edges = edges_of(found.mesh);
@@ -162,9 +162,9 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Receive
 
 /// The radiosity of the elements by the field that they make themselves, found with few rays:
 /// `found` has it in between.
-std::vector<Rgb> reflected_by_field(const VertexSource& few, const ReceiverNodes& receivers,
-                                    const ElementLight& elements, FoundField& found) {
-  DiffuseField lit = found.field;
+std::vector<Rgb> reflected_by_field(const VertexSource& few, const HierarchicalSolution& receivers,
+                                    const ElementLight& elements, VertexSamples& found) {
+  IrradianceField lit = found.field;
   std::vector<VertexState> states = found.states;
   share_out(gather_at_nodes({few, few}, receivers, few_rays * receivers.bend, found), found);
   const std::vector<Rgb> received =
@@ -181,14 +181,14 @@ std::vector<Rgb> reflected_by_field(const VertexSource& few, const ReceiverNodes
 
 /// `found` has light from the source, and the values of vertices that take means of facets.
 InterpolatedField gathered_at_corners(const LightScene& light, const ElementLight& elements,
-                                      const ReceiverNodes& receivers, const VertexGathering& how,
-                                      FoundField found, PointWorkspaces& workspaces) {
+                                      const HierarchicalSolution& receivers, const VertexGathering& how,
+                                      VertexSamples found, PointWorkspaces& workspaces) {
   const PointGathering solved =
       gathering_from(light, elements.reflected, how, first_share, first_spared);
-  KeptRays kept;
+  RowCache kept;
   const VertexSource few{elements.irradiance, solved, workspaces, &kept, true};
   const std::vector<Rgb> reflected = reflected_by_field(few, receivers, elements, found);
-  const int times = times_of_rays(element_count(light.mesh), receivers.receivers.size());
+  const int times = ray_multiplier(element_count(light.mesh), receivers.receivers.size());
   const PointGathering seen = gathering_from(light, reflected, how, {}, 0.0, first_share),
                        seen_by_small = gathering_from(light, reflected, how, {few_rays, times},
                                                       small_spared, first_share);
@@ -200,23 +200,23 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
       by_small{elements.irradiance, seen_by_small, workspaces, &kept},
       by_large{elements.irradiance, seen_by_large ? *seen_by_large : seen, workspaces, &kept};
   share_out(gather_at_nodes({by_large, by_small}, receivers, receivers.bend, found), found);
-  InterpolatedField result{.field = settled(source, found)};
+  InterpolatedField result{.field = complete_field(source, found)};
   result.received = received_at_corners(elements, receivers, found, result.field.irradiance,
                                         result.field.indirect);
   const BendScale scale = bend_scale(light.mesh, elements.reflected);
-  divide_bent(light, source, scale, how.interpolation.bend, found, result);
-  divide_at_shadows(light, source, scale, how.interpolation.shadow_bend, std::move(found), result);
+  refine_indirect(light, source, scale, how.interpolation.bend, found, result);
+  refine_direct(light, source, scale, how.interpolation.shadow_bend, std::move(found), result);
   return result;
 }
 
 } // namespace
 
 InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
-                                 ReceiverNodes& receivers, const VertexGathering& how) {
+                                 HierarchicalSolution& receivers, const VertexGathering& how) {
   PointWorkspaces workspaces;
   const VertexElements facets =
       elements.from_source.empty() ? VertexElements{} : facets_around(light);
-  FoundField found = std::move(receivers.vertices);
+  VertexSamples found = std::move(receivers.vertices);
   if (!facets.elements.empty())
     average_facets(light, elements, facets, how.form_factors, workspaces, found.field);
   InterpolatedField result =

@@ -15,7 +15,7 @@
 // that is too even: corners of rooms come out too bright.
 #pragma once
 
-#include "radiosity/field/bent_field.h"
+#include "radiosity/field/refine_indirect.h"
 #include "radiosity/hierarchical/receiver_nodes.h"
 
 namespace meninas {
@@ -23,6 +23,6 @@ namespace meninas {
 /// Where light bends within elements these are divided, as in fields that are gathered everywhere.
 /// The vertices of the receivers, which have light from the source, become the field.
 InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
-                                 ReceiverNodes& receivers, const VertexGathering& how);
+                                 HierarchicalSolution& receivers, const VertexGathering& how);
 
 } // namespace meninas

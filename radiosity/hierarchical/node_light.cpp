@@ -1,8 +1,8 @@
 #include "radiosity/hierarchical/node_light.h"
 
 #include "radiosity/field/curved_means.h"
-#include "radiosity/field/facets.h"
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/mesh/subdivision.h"
 #include "radiosity/light/spot_parts.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace meninas {
 
 LitVertices lit_vertices(const LightScene& light, const VertexGathering& how) {
-  LitVertices lit{unknown_field(light.mesh, facets_around(light))};
+  LitVertices lit{make_samples(light.mesh, facets_around(light))};
   if (!light.punctual.empty())
     lit.found.punctual.assign(lit.found.states.size(), glm::vec3(0.0F));
   PointWorkspaces workspaces;
@@ -30,8 +30,8 @@ constexpr std::size_t groups = 512;
 
 /// Elements that have something on them, at a corner too, those in a narrow spot, or whose
 /// means are seen.
-std::vector<ElementId> by_themselves(const LightScene& light, std::span<const CoveredCells> covered,
-                                     const FoundField& vertices) {
+std::vector<ElementId> by_themselves(const LightScene& light, std::span<const ContactMask> covered,
+                                     const VertexSamples& vertices) {
   const ElementMesh& mesh = light.mesh;
   const auto tells = [&](ElementVertexId v) {
     const VertexState state = vertices.states[index(v)];
@@ -108,7 +108,7 @@ std::vector<Rgb> at_corners(const ElementMesh& mesh, const VertexEdges& edges,
 } // namespace
 
 DirectIrradiance light_by_corners(const LightScene& light, const NodeTree& tree,
-                                  std::span<const CoveredCells> covered, const FoundField& vertices,
+                                  std::span<const ContactMask> covered, const VertexSamples& vertices,
                                   const DirectSettings& settings, const Progress& progress) {
   const std::size_t size = element_count(light.mesh);
   DirectIrradiance result;
@@ -122,13 +122,13 @@ DirectIrradiance light_by_corners(const LightScene& light, const NodeTree& tree,
   if (!light.punctual.empty())
     result.punctual = at_corners(light.mesh, edges, vertices.punctual);
   result.shared.assign(size, 1);
-  light_again(light, by_themselves(light, covered, vertices), covered, settings, progress, result);
-  light_again(light, brightest(light.mesh, tree, result), covered, settings, progress, result);
+  recompute_direct(light, by_themselves(light, covered, vertices), covered, settings, progress, result);
+  recompute_direct(light, brightest(light.mesh, tree, result), covered, settings, progress, result);
   return result;
 }
 
-void light_again(const LightScene& light, std::span<const ElementId> elements,
-                 std::span<const CoveredCells> covered, const DirectSettings& settings,
+void recompute_direct(const LightScene& light, std::span<const ElementId> elements,
+                 std::span<const ContactMask> covered, const DirectSettings& settings,
                  const Progress& progress, DirectIrradiance& direct) {
   const MeansOfAreas means = means_of_areas(
       elements.size(),

@@ -113,14 +113,14 @@ struct NodeProblem {
   const LightScene& light;
   const NodeTree& tree;
   const DirectSettings& direct;
-  const FoundField* vertices; ///< that are seen; null: elements are
+  const VertexSamples* vertices; ///< that are seen; null: elements are
   const Progress& progress;
 };
 
 /// A cut, what stands on the elements, and their first light.
 struct LitCut {
   NodeCut cut;
-  std::vector<CoveredCells> covered; ///< by ElementId, as are those below
+  std::vector<ContactMask> covered; ///< by ElementId, as are those below
   std::vector<float> exposed;
   std::vector<double> areas; ///< exposed, m^2
   DirectIrradiance direct;
@@ -128,19 +128,19 @@ struct LitCut {
 };
 
 /// The light of those elements whose covered part is another than `before`.
-void light_changed(const NodeProblem& problem, const std::vector<CoveredCells>& before,
+void light_changed(const NodeProblem& problem, const std::vector<ContactMask>& before,
                    LitCut& lit) {
   std::vector<ElementId> changed;
   for (std::uint32_t e = 0; e < before.size(); ++e)
     if (lit.covered[e] != before[e])
       changed.push_back(static_cast<ElementId>(e));
-  light_again(problem.light, changed, lit.covered, problem.direct, problem.progress, lit.direct);
+  recompute_direct(problem.light, changed, lit.covered, problem.direct, problem.progress, lit.direct);
 }
 
 void light_up(const NodeProblem& problem, LitCut& lit) {
   const LightScene& light = problem.light;
   // Smaller receivers may find that something stands on elements: then less of them is lit.
-  if (std::vector<CoveredCells> now = covered_elements(problem.tree, lit.cut); now != lit.covered) {
+  if (std::vector<ContactMask> now = covered_elements(problem.tree, lit.cut); now != lit.covered) {
     std::swap(lit.covered, now);
     lit.exposed = exposed_shares(light.mesh, problem.tree, lit.cut);
     lit.areas.clear();
@@ -188,9 +188,9 @@ LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_
     find(form_factors, lit);
     return lit;
   }
-  find(rays_shared_out(form_factors, rows, 1.0), lit);
+  find(rays_per_row(form_factors, rows, 1.0), lit);
   const double uneven = unevenness(lit.areas, lit.first.source);
-  const FormFactorSettings more = rays_shared_out(form_factors, rows, uneven);
+  const FormFactorSettings more = rays_per_row(form_factors, rows, uneven);
   if (form_factors.method == FormFactorMethod::rays && uneven > very_uneven &&
       more.rays > of_rows.rays)
     find(more, lit);
@@ -205,7 +205,7 @@ std::uint64_t bytes_of(const Transport& transport) {
 
 } // namespace
 
-FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows,
+FormFactorSettings rays_per_row(FormFactorSettings settings, std::size_t rows,
                                    double unevenness) {
   // The noise of N rays is sqrt(unevenness) N^-3/4 (gather_noise.h).
   constexpr double few = 128.0, most = 1024.0, even = 2.0;

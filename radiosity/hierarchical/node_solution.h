@@ -52,7 +52,7 @@ struct NodeSolution {
   FirstLight first;
   std::vector<RowClosure> closure; ///< by ElementId: its receiver's
   std::vector<float> exposed;      ///< by ElementId
-  ReceiverNodes receivers;         ///< with the bound for what vertices interpolate
+  HierarchicalSolution receivers;         ///< with the bound for what vertices interpolate
   LinkFigures figures;
   std::uint64_t rays_traced = 0;
   double seconds_gathering = 0.0, seconds_solving = 0.0;
@@ -61,7 +61,7 @@ struct NodeSolution {
 /// The settings for each row of so many that only light others: of more than 128 they share
 /// the rays of so many, or of more, up to 1,024, where light is so uneven that few rays find it.
 /// `unevenness` is the mean of the squares of first light over the square of its mean.
-FormFactorSettings rays_shared_out(FormFactorSettings settings, std::size_t rows,
+FormFactorSettings rays_per_row(FormFactorSettings settings, std::size_t rows,
                                    double unevenness = 1.0);
 
 /// With vertices, which then gather what is seen, elements only light others;

@@ -145,9 +145,9 @@ std::vector<Cell> cells_of(const NodeTree& tree, std::span<const TreeNodeId> nod
 
 } // namespace
 
-VertexShares vertex_shares(const ElementMesh& mesh, const NodeTree& tree,
+InterpolationWeights vertex_shares(const ElementMesh& mesh, const NodeTree& tree,
                            std::span<const TreeNodeId> nodes) {
-  VertexShares shares;
+  InterpolationWeights shares;
   shares.from.resize(mesh.vertices.size());
   shares.weight.resize(mesh.vertices.size(), {1.0F, 0.0F, 0.0F, 0.0F});
   shares.between.assign(mesh.vertices.size(), 0);
@@ -186,7 +186,7 @@ VertexShares vertex_shares(const ElementMesh& mesh, const NodeTree& tree,
     for (const ElementVertexId corner : corners_of(mesh, node))
       keeps_its_own(corner);
     for (const NodeProbe& probe : probes_of(mesh, tree, node))
-      if (!probe.only_asked)
+      if (!probe.indicator_only)
         keeps_its_own(probe.vertex);
   }
   return shares;

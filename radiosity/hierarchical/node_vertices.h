@@ -11,19 +11,19 @@
 // every vertex has one value, so that there is no crack.
 #pragma once
 
-#include "radiosity/transport/node_tree.h"
+#include "radiosity/transport/element_hierarchy.h"
 
 namespace meninas {
 
 /// By ElementVertexId. A vertex that gathers takes all of its own value.
-struct VertexShares {
+struct InterpolationWeights {
   std::vector<std::array<ElementVertexId, 4>> from;
   std::vector<std::array<float, 4>> weight; ///< sum 1
   std::vector<std::uint8_t> between; ///< 1: a corner of a part, between corners that gather; others take from it
 };
 
 /// Whether a vertex takes from itself alone.
-inline bool gathers(const VertexShares& shares, std::size_t vertex) {
+inline bool gathers(const InterpolationWeights& shares, std::size_t vertex) {
   return index(shares.from[vertex][0]) == vertex;
 }
 
@@ -31,7 +31,7 @@ inline bool gathers(const VertexShares& shares, std::size_t vertex) {
 struct NodeProbe {
   ElementVertexId vertex;
   std::array<float, 4> weight; ///< of the corners
-  bool only_asked = false;     ///< no part has it for a corner
+  bool indicator_only = false;     ///< no part has it for a corner
 };
 
 double area_below(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId node);
@@ -50,7 +50,7 @@ std::vector<double> wanted_vertices(const ElementMesh& mesh, const NodeTree& tre
                                     std::span<const TreeNodeId> nodes);
 
 /// Of a cut through the tree: no node is above another.
-VertexShares vertex_shares(const ElementMesh& mesh, const NodeTree& tree,
+InterpolationWeights vertex_shares(const ElementMesh& mesh, const NodeTree& tree,
                            std::span<const TreeNodeId> nodes);
 
 } // namespace meninas

@@ -1,6 +1,6 @@
 #include "radiosity/light/cluster_cut.h"
 
-#include "radiosity/light/shadow_legs.h"
+#include "radiosity/light/shadow_paths.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -107,11 +107,11 @@ void cut_plane(const PlaneImage& image, const Observer& observer, ClusterWorkspa
 void share_rays(int rays, int per_cluster, const Rgb& arrived, const LightScene& light,
                 const ClusterTree& tree, ClusterWorkspace& work) {
   double all = largest(arrived);
-  for (const ClusterStandIn& part : work.stand_ins)
+  for (const LightcutNode& part : work.stand_ins)
     all += largest(part.light);
   work.rays.clear();
   for (std::uint32_t k = 0; k < work.stand_ins.size(); ++k) {
-    const ClusterStandIn& part = work.stand_ins[k];
+    const LightcutNode& part = work.stand_ins[k];
     const double own = std::min(rays * (largest(part.light) / all),
                                 static_cast<double>(per_cluster) * tree.nodes[part.node].count);
     const auto count = static_cast<std::uint32_t>(std::max(1L, std::lround(own)));
@@ -137,7 +137,7 @@ void trace_rays(const LightScene& light, const ClusterTree& tree, const Receiver
     std::array<Rgb, 16> weight;
     for (std::uint32_t k = 0; k < count; ++k) {
       const auto [stand_in, number] = work.rays[first + k];
-      const ClusterStandIn& part = work.stand_ins[stand_in];
+      const LightcutNode& part = work.stand_ins[stand_in];
       const ClusterPlane& plane = tree.planes[part.plane];
       const Isometry& image = light.worlds.worlds[index(part.world)].image;
       const Vec2 sample(sobol2(number, hash(seed, part.node, index(part.world)), SobolPair::first));
@@ -214,7 +214,7 @@ ArrivingLight cluster_irradiance(const LightScene& light, const ClusterTree& tre
   share_rays(cut.rays, settings.shadow_rays, sum.total, light, tree, work);
   trace_rays(light, tree, receiver, seed, work, direct);
   for (std::size_t k = 0; k < work.stand_ins.size(); ++k) {
-    const ClusterStandIn& part = work.stand_ins[k];
+    const LightcutNode& part = work.stand_ins[k];
     const Rgb arrived = part.light * visible_share(work.sent[k], work.arrived[k]);
     sum.total += arrived;
     if (part.world != real_world)

@@ -35,7 +35,7 @@ struct ClusterCut {
 };
 
 /// A node, or its image in a mirror world.
-struct ClusterStandIn {
+struct LightcutNode {
   std::uint32_t node = 0, plane = 0; ///< of the tree
   WorldId world = real_world;
   Rgb light{0.0}; ///< what it would bring without blockers, W/m^2
@@ -47,7 +47,7 @@ struct ClusterWorkspace {
   std::vector<Direction> sides;         ///< of the cones through openings: unit normals inwards
   std::vector<std::uint32_t> cone_ends; ///< by opening, in `sides`
   std::vector<std::uint32_t> open;      ///< nodes still to be looked at
-  std::vector<ClusterStandIn> stand_ins;
+  std::vector<LightcutNode> stand_ins;
   struct Ray {
     std::uint32_t stand_in, number; ///< number among its own
   };

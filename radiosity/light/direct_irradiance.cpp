@@ -3,7 +3,7 @@
 #include "radiosity/light/lamp_faces.h"
 #include "radiosity/light/light_samples.h"
 #include "form_factors/point_form_factor.h"
-#include "radiosity/light/shadow_legs.h"
+#include "radiosity/light/shadow_paths.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -235,7 +235,7 @@ static ArrivingLight chosen_irradiance(const LightScene& light, const Receiver& 
   const auto images = images_to_choose(light, static_cast<std::size_t>(settings.images));
   const auto choose = [&](std::size_t most) {
     const LightChoice choice{most, 0x1p-32 * hash(seed, 0xc401ce, 0)};
-    chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
+    sample_light_tree(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
                   work.lights);
     return images_irradiance(light, receiver, settings, seed, work);
   };

@@ -7,7 +7,7 @@
 // low-discrepancy points on the clipped image, weighted by the cosines and distance
 // of the form factor they stand for, each tested along every leg of the folded path.
 // Few points where all agree, more in penumbrae; panes and coats on the legs take their
-// part of each, and what emitters send by way of solids is added (solid_light.h).
+// part of each, and what emitters send by way of solids is added (glass_light.h).
 // Punctual lights, and their images, add I f cos / d^2 where the one segment to them is free.
 #pragma once
 

@@ -3,8 +3,8 @@
 
 #include "mirror/light_choice.h"
 #include "mirror/punctual_images.h"
-#include "radiosity/light/shadow_legs.h"
-#include "radiosity/light/solid_light.h"
+#include "radiosity/light/shadow_paths.h"
+#include "radiosity/light/glass_light.h"
 
 namespace meninas {
 
@@ -24,7 +24,7 @@ struct DirectSettings {
   int images =
       256; ///< emitter images computed at a point; of more, a choice (mirror/light_choice.h)
   int images_in_element = 32; ///< likewise, at each of an element's many points
-  int solid_rays = 256; ///< to a body of solid glass that fills the hemisphere, at a point (solid_light.h)
+  int solid_rays = 256; ///< to a body of solid glass that fills the hemisphere, at a point (glass_light.h)
   int solid_rays_in_element = 128; ///< likewise, of all of an element's points together
   std::uint32_t seed = 0;
 };

@@ -1,7 +1,7 @@
 #include "radiosity/light/element_light.h"
 
 #include "radiosity/light/lamp_faces.h"
-#include "radiosity/light/shadow_legs.h"
+#include "radiosity/light/shadow_paths.h"
 #include "radiosity/light/spot_parts.h"
 #include "scenes/sampling.h"
 
@@ -20,7 +20,7 @@ struct Receiving {
   const LightScene& light;
   ElementId element;
   ReceiverArea area;
-  CoveredCells covered;
+  ContactMask covered;
   std::uint32_t seed;
   const DirectSettings& settings;
 
@@ -33,11 +33,11 @@ struct Receiving {
 ArrivingLight shared_mean(const Receiving& r, SharedLightWorkspace& work) {
   std::uint32_t next = 0;
   const auto next_point = [&]() -> NumberedPoint {
-    const NumberedPlace place = exposed_place(r.light, r.area, r.covered, r.seed, next);
+    const NumberedPlace place = next_open_point(r.light, r.area, r.covered, r.seed, next);
     next = place.number + 1;
     return {r.at(point_in(r.area, place.st)), place.number, r.element};
   };
-  return shared_irradiance(r.light, next_point,
+  return mean_direct_irradiance(r.light, next_point,
                            {.points = r.settings.points,
                             .most_points = r.settings.most_points,
                             .images = r.settings.images_in_element,
@@ -76,7 +76,7 @@ double exposed_area(const Receiving& r) {
     return whole;
   std::uint32_t next = 0;
   for (std::uint32_t k = 0; k < places; ++k)
-    next = exposed_place(r.light, r.area, r.covered, r.seed, next).number + 1;
+    next = next_open_point(r.light, r.area, r.covered, r.seed, next).number + 1;
   return whole * places / next;
 }
 
@@ -102,7 +102,7 @@ Rgb mean_of_others(const Receiving& r, std::span<const SpotPart> parts, DirectWo
   Rgb sum(0.0);
   std::uint32_t next = 0;
   for (int k = 0; k < points; ++k) {
-    const NumberedPlace place = exposed_place(r.light, r.area, r.covered, r.seed, next);
+    const NumberedPlace place = next_open_point(r.light, r.area, r.covered, r.seed, next);
     next = place.number + 1;
     for (std::uint32_t number = 0; number < r.light.punctual.size(); ++number) {
       const auto wanted = [&](WorldId world) {
@@ -118,7 +118,7 @@ Rgb mean_of_others(const Receiving& r, std::span<const SpotPart> parts, DirectWo
 
 } // namespace
 
-MeanLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
+MeanLight direct_irradiance(const LightScene& light, ElementId element, ContactMask covered,
                             const DirectSettings& asked, SharedLightWorkspace& work) {
   if (covered == wholly_covered)
     return {};

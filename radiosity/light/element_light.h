@@ -7,7 +7,7 @@
 // which share their shadow rays (shared_light.h).
 #pragma once
 
-#include "radiosity/transport/gather_rays.h"
+#include "radiosity/transport/hemisphere_rays.h"
 #include "radiosity/light/shared_light.h"
 
 namespace meninas {
@@ -19,7 +19,7 @@ struct MeanLight {
 
 /// The mean over the exposed part of an element: points are doubled until it settles. Punctual lights
 /// where a narrow spot meets the element in part: 256 points of each such part (spot_parts.h).
-MeanLight direct_irradiance(const LightScene& light, ElementId element, CoveredCells covered,
+MeanLight direct_irradiance(const LightScene& light, ElementId element, ContactMask covered,
                             const DirectSettings& settings, SharedLightWorkspace& workspace);
 
 /// `mean(k, workspace)` of so many areas, by all threads, and the shadow rays they took.
@@ -41,7 +41,7 @@ struct DirectIrradiance {
   std::uint64_t shadow_rays = 0;
 };
 
-/// `covered` by ElementId (gather_rays.h):
+/// `covered` by ElementId (hemisphere_rays.h):
 /// the mean is over the exposed part. Empty: all is exposed.
 DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
                                    const DirectSettings& settings, const Progress& progress = {});

@@ -1,5 +1,5 @@
 // How gathered light gets less noisy with more rays.
-// Of N that are spread evenly over the hemisphere (receiver_rays.h) the error falls as N^-p:
+// Of N that are spread evenly over the hemisphere (hemisphere_samples.h) the error falls as N^-p:
 // p = 3/4 where what they see has edges, as in rooms, better where it is smooth (D.
 // Mitchell, Consequences of stratified sampling in graphics, SIGGRAPH 1996).
 #pragma once
@@ -17,7 +17,7 @@ inline constexpr double noise_order = 0.75;
 /// as many of the elements, by its middle and a share of its corners: noise lies over all of them.
 /// It leaves a squared error of N^-2p, so that as many rays in all do most where N goes with the
 /// area to the power of 1 / (1 + 2p) = 0.4; a power of two, as nets are even then.
-inline int times_of_rays(std::size_t elements, std::size_t receivers) {
+inline int ray_multiplier(std::size_t elements, std::size_t receivers) {
   constexpr double vertices_of_receiver = 2.0;
   const double elements_of_vertex =
       double(elements) / (vertices_of_receiver * double(std::max<std::size_t>(receivers, 1)));
@@ -26,6 +26,6 @@ inline int times_of_rays(std::size_t elements, std::size_t receivers) {
 }
 
 /// Where noise has a bound, a sample takes at the most so many times the rays that are asked for.
-inline constexpr int most_times_asked = 16;
+inline constexpr int max_times_asked = 16;
 
 } // namespace meninas

@@ -1,6 +1,6 @@
 #include "radiosity/light/light_samples.h"
 
-#include "radiosity/light/shadow_legs.h"
+#include "radiosity/light/shadow_paths.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ void emission_samples(const LightScene& light, const Receiver& receiver,
   const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
   const LightChoice choice{static_cast<std::size_t>(sampling.images),
                            0x1p-32 * hash(sampling.seed, 0xc401ce, sampling.first)};
-  chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
+  sample_light_tree(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
                 work.lights);
   const auto count = static_cast<std::uint32_t>(std::clamp(sampling.per_image, 1, 16));
   for (const VirtualLight& image : work.lights) {

@@ -3,7 +3,7 @@
 #include "radiosity/light/lamp_faces.h"
 #include "form_factors/point_form_factor.h"
 #include "radiosity/light/direct_irradiance.h"
-#include "radiosity/light/shadow_legs.h"
+#include "radiosity/light/shadow_paths.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ double brought_by(const ImageSum& image, double form_factor) {
 
 /// Of the images at a point the most that one of them brings,
 /// as far as it is not known to be hidden.
-double most_brought(const SharedLightWorkspace& work) {
+double max_brought(const SharedLightWorkspace& work) {
   double most = 0.0;
   for (const ImageAtPoint& at : work.at_point) {
     const ImageSum& image = work.images[at.image];
@@ -73,7 +73,7 @@ ImageAtPoint image_at(const LightScene& light, const Receiver& receiver, const V
   const ImageBlockers* blockers = work.images[sum].blockers;
   if (blockers && !blockers->known.empty()) {
     work.cutting.assign(1, image.polygon);
-    for (const KnownBlocker& blocker : blockers->known)
+    for (const CachedOccluder& blocker : blockers->known)
       subtract(work.cutting, receiver.position, blocker, light.surfaces.tolerance);
     at.whole = work.cutting.size() == 1 &&
                std::ranges::equal(work.cutting.front().span(), image.polygon.span());
@@ -157,7 +157,7 @@ void find_lights(const LightScene& light, const NumberedPoint& point, std::uint3
   // evenly by the golden section.
   constexpr std::uint32_t golden_section = 0x9e3779b9;
   const LightChoice choice{most, 0x1p-32 * (hash(seed, 0xc401ce) + point.number * golden_section)};
-  chosen_lights(light.worlds, light.emitters, light.emitter_tree, observer, choice,
+  sample_light_tree(light.worlds, light.emitters, light.emitter_tree, observer, choice,
                 work.point.choice, work.point.lights);
 }
 
@@ -173,7 +173,7 @@ void add_point(const LightScene& light, const NumberedPoint& point, std::uint32_
   for (const VirtualLight& image : work.point.lights)
     work.at_point.push_back(
         image_at(light, receiver, image, sum_of(work, light, image, settings), work));
-  const double most = settings.brightest_most ? most_brought(work) : 0.0;
+  const double most = settings.brightest_most ? max_brought(work) : 0.0;
 
   for (std::size_t i = 0; i < work.at_point.size(); ++i) {
     const ImageAtPoint& at = work.at_point[i];
@@ -192,7 +192,7 @@ void meet_blocker(const LightScene& light, const LegBlocker& by, ImageSum& image
   if (by.triangle == none<TriangleId> || blockers.too_many())
     return;
   const PatchId patch = light.surfaces.patch_of_triangle[index(by.triangle)];
-  const auto is_it = [&](const KnownBlocker& blocker) {
+  const auto is_it = [&](const CachedOccluder& blocker) {
     return blocker.patch == patch && blocker.leg == by.leg;
   };
   if (std::ranges::any_of(blockers.known, is_it) || std::ranges::any_of(blockers.met, is_it))
@@ -316,7 +316,7 @@ ArrivingLight light_by_solids(const LightScene& light, const Receiver& last, int
 
 } // namespace
 
-ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_point,
+ArrivingLight mean_direct_irradiance(const LightScene& light, const NextPoint& next_point,
                                 const SharedLightSettings& settings, std::uint32_t seed,
                                 SharedLightWorkspace& work) {
   work.images.clear();
@@ -339,11 +339,11 @@ ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_p
     trace_waiting(light, next.receiver, work);
     const ArrivingLight mean = mean_of(work, sum);
     const double brightest = largest(mean.total);
-    const bool settled = sum.points > settings.points &&
+    const bool complete_field = sum.points > settings.points &&
                          largest(glm::abs(mean.total - before)) <= settings.unsure * brightest &&
                          penumbra_error(work, sum) <= settings.unsure_shadow * brightest;
     const bool dark = sum.points >= 2 * settings.points && brightest == 0.0;
-    if (settled || dark || sum.points >= settings.most_points) {
+    if (complete_field || dark || sum.points >= settings.most_points) {
       learn(work.images);
       const ArrivingLight by_solids =
           light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);

@@ -13,7 +13,7 @@
 // is that means may settle on the first points: light or shade that all of their rays have missed.
 //
 // What blocks rays is known to the means that come after,
-// as long as they share a workspace (known_blockers.h).
+// as long as they share a workspace (occluder_cache.h).
 // They take the shadows of known blockers out of F exactly and send their rays past them:
 // once all are known V is 1, and a penumbra has no noise.
 // Means are true whatever is known, as it was learned from other rays.
@@ -24,7 +24,7 @@
 #pragma once
 
 #include "radiosity/light/element_images.h"
-#include "radiosity/light/known_blockers.h"
+#include "radiosity/light/occluder_cache.h"
 #include "radiosity/light/light_samples.h"
 
 #include <functional>
@@ -41,20 +41,20 @@ struct SharedLightSettings {
   int rays = 4;         ///< from each point to an image, to begin with
   int penumbra_rays =
       4; ///< from each of the later points to an image that is seen in part; one goes to others
-  int solid_rays = 256; ///< from all points together to a body of solid glass that fills the hemisphere (solid_light.h)
+  int solid_rays = 256; ///< from all points together to a body of solid glass that fills the hemisphere (glass_light.h)
   double unsure = 0.01;         ///< relative change of the mean by the last doubling
   double unsure_shadow = 0.005; ///< error of the mean by shadow rays, relative
   bool brightest_most =
       false; ///< images that bring less than the brightest one in sight take fewer rays
-  /// Punctual lights are asked for from all of `most_points`, also where the mean has settled.
+  /// Punctual lights are asked for from all of `most_points`, also where the mean has complete_field.
   bool punctual_everywhere = false;
   bool learns = false; ///< what blocks its rays, and uses what others have learned
 };
 
 /// What is in the way to one emitter in one world.
 struct ImageBlockers {
-  std::vector<KnownBlocker> known;
-  std::vector<KnownBlocker> met; ///< by the mean in hand
+  std::vector<CachedOccluder> known;
+  std::vector<CachedOccluder> met; ///< by the mean in hand
   std::size_t learned = 0;       ///< so far, forgotten ones too
 
   /// Things as finely divided as this are left to rays.
@@ -118,7 +118,7 @@ struct NumberedPoint {
 using NextPoint = std::function<NumberedPoint()>;
 
 /// The mean over as many points as it takes.
-ArrivingLight shared_irradiance(const LightScene& light, const NextPoint& next_point,
+ArrivingLight mean_direct_irradiance(const LightScene& light, const NextPoint& next_point,
                                 const SharedLightSettings& settings, std::uint32_t seed,
                                 SharedLightWorkspace& workspace);
 

@@ -1,6 +1,6 @@
 #include "radiosity/light/spot_parts.h"
 
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/mesh/subdivision.h"
 #include "scenes/sampling.h"
 
 #include <tbb/parallel_for.h>
@@ -157,12 +157,12 @@ std::vector<SpotPart> narrow_spots(const ElementMesh& mesh, const WorldTree& wor
 
 ElementMesh divide_under_spots(ElementMesh mesh, const Scene& scene, const SurfaceModel& surfaces,
                                const WorldTree& worlds, std::size_t max_elements) {
-  constexpr int most_divisions = 6;
+  constexpr int max_divisions = 6;
   constexpr std::size_t few = 2000;
   if (scene.lights.empty())
     return mesh;
   const std::size_t most = std::min(2 * element_count(mesh) + few, max_elements);
-  for (int k = 0; k < most_divisions; ++k) {
+  for (int k = 0; k < max_divisions; ++k) {
     const auto marked = under_narrow_spots(mesh, scene, worlds);
     if (std::ranges::find(marked, 1) == marked.end())
       break;

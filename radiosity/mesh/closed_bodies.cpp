@@ -109,8 +109,8 @@ Bodies find_bodies(const Scene& scene, double tolerance) {
 
 /// The loops of the loose edges, or nothing where they do not make loops.
 std::optional<std::vector<std::vector<VertexId>>> loops_of(const Body& body) {
-  constexpr std::size_t most_edges = 4096;
-  if (body.loose.size() > most_edges)
+  constexpr std::size_t max_edges = 4096;
+  if (body.loose.size() > max_edges)
     return std::nullopt;
   std::map<VertexId, VertexId> next;
   for (const LooseEdge& edge : body.loose)
@@ -213,7 +213,7 @@ public:
       });
   }
 
-  bool are_asked_too_much() const { return compared > most_compared; }
+  bool are_asked_too_much() const { return compared > max_compared; }
 
   /// Those in planes as far from the origin as a point's plane, and as steep; each is counted.
   template <typename Visit>
@@ -235,7 +235,7 @@ public:
   std::size_t compared = 0;
 
 private:
-  static constexpr std::size_t most_compared = 20'000'000;
+  static constexpr std::size_t max_compared = 20'000'000;
   const SurfaceModel& surfaces_;
   std::vector<std::pair<double, std::uint32_t>> by_distance_; ///< of planes from the origin
   std::vector<std::vector<TriangleId>> triangles_;            ///< by PlaneId

@@ -92,10 +92,10 @@ private:
 
   std::uint32_t build(std::span<std::uint32_t> members, std::uint32_t first,
                       const std::vector<Point3>& middles) {
-    constexpr std::size_t most_in_leaf = 4;
+    constexpr std::size_t max_in_leaf = 4;
     const auto number = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back();
-    if (members.size() <= most_in_leaf) {
+    if (members.size() <= max_in_leaf) {
       for (const std::uint32_t t : members)
         nodes_[number].box.add(boxes_[t]);
       nodes_[number].first = first;

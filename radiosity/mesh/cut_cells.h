@@ -2,7 +2,7 @@
 //
 // A leaf that segments of contact_segments.h pass is cut by them (cut_polygon.h), as far as the run
 // to which a segment belongs extends over a quarter of the leaf: smaller feet are left whole, and
-// what stands on them is found by rays (covered_cells.h). Every region is an element.
+// what stands on them is found by rays (contact_mask.h). Every region is an element.
 //
 // A region keeps the corners of its leaf, between which light is interpolated as in any element.
 // A corner is its own where it lies in the region and nothing stands there. Another one is a vertex

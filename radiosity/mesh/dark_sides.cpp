@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t probe_rays = 256;
 constexpr std::uint32_t probe_points = 8;
-constexpr std::size_t most_emitter_probes = 4'000'000; ///< beyond that every side is meshed
+constexpr std::size_t max_emitter_probes = 4'000'000; ///< beyond that every side is meshed
 
 Vec2 spread(const Patch& patch, float s, float t) {
   Vec2 uv(s, t);
@@ -114,7 +114,7 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
 
   DarkSides dark = enclosed_patches(surfaces, find_enclosed_sides(scene, surfaces));
   const std::size_t sources = emitters.size() + scene.lights.size();
-  if (double_sided * sources * 2 * probe_points > most_emitter_probes ||
+  if (double_sided * sources * 2 * probe_points > max_emitter_probes ||
       scene.background != Rgb(0.0))
     return dark;
   tbb::parallel_for(std::size_t{0}, surfaces.patches.size(), [&](std::size_t p) {

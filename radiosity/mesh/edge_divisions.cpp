@@ -53,7 +53,7 @@ EdgeKey edge_key(const Patch& patch, int a, int b, double cell) {
 } // namespace
 
 std::vector<Divisions> divide_edges(const SurfaceModel& surfaces,
-                                    std::span<const double> element_size, double most_times) {
+                                    std::span<const double> element_size, double max_times) {
   const auto& patches = surfaces.patches;
 
   // Class 2p holds the edges of patch p along u, class 2p + 1 those along v.
@@ -88,13 +88,13 @@ std::vector<Divisions> divide_edges(const SurfaceModel& surfaces,
   for (std::uint32_t p = 0; p < patches.size(); ++p) {
     const int u = largest[classes.root(2 * p)], v = largest[classes.root(2 * p + 1)];
     if (patches[p].corner_count == 3) {
-      if (u <= most_times * divisions[p].u)
+      if (u <= max_times * divisions[p].u)
         divisions[p] = {u, u};
       continue;
     }
-    if (u <= most_times * divisions[p].u)
+    if (u <= max_times * divisions[p].u)
       divisions[p].u = u;
-    if (v <= most_times * divisions[p].v)
+    if (v <= max_times * divisions[p].v)
       divisions[p].v = v;
   }
   return divisions;

@@ -5,7 +5,7 @@
 // A quad side has nu x nv root cells, cell (i, j) covers u in [i, i+1]/nu, v in [j, j+1]/nv;
 // a triangle side has n rows of triangles, n = nu = nv, row j holds 2 (n - j) - 1 of them,
 // lower and upper alternating. Every root cell may be divided, into four by the middles
-// of its edges, and so may its quarters (mesh_division.h): the mesh is a forest of quadtrees,
+// of its edges, and so may its quarters (subdivision.h): the mesh is a forest of quadtrees,
 // its leaves are the elements. Those of a side are numbered in a row, depth first.
 // So the element of a hit (patch, u, v) is index arithmetic and a descent by halves,
 // and no ray is ever traced against elements.
@@ -77,7 +77,7 @@ struct MeshCell {
   double area = 0.0;    ///< m^2
 };
 /// Cells may be divided as often as that.
-inline constexpr int most_levels = 12;
+inline constexpr int max_levels = 12;
 
 inline bool is_leaf(const MeshCell& cell) { return cell.first_child == none<CellId>; }
 

@@ -61,7 +61,7 @@ std::vector<TriangleCorners> lamps_of(const Scene& scene, double above) {
 
 /// Whether a lamp is in the body, or it takes too long to tell.
 bool may_hold(const ClosedBody& body, const std::vector<TriangleCorners>& lamps,
-              std::size_t most_compared) {
+              std::size_t max_compared) {
   const Bounds around = bounds_of(body.shell);
   std::size_t compared = 0;
   return std::ranges::any_of(lamps, [&](const TriangleCorners& lamp) {
@@ -69,7 +69,7 @@ bool may_hold(const ClosedBody& body, const std::vector<TriangleCorners>& lamps,
     if (!overlap(own, around))
       return false;
     compared += body.shell.size();
-    return compared > most_compared || winding_number(body.shell, lamp[0]) > 0.5 ||
+    return compared > max_compared || winding_number(body.shell, lamp[0]) > 0.5 ||
            std::ranges::any_of(body.shell, [&](const TriangleCorners& part) {
              return overlap(own, bounds_of({&part, 1})) && cross(lamp, part);
            });
@@ -79,10 +79,10 @@ bool may_hold(const ClosedBody& body, const std::vector<TriangleCorners>& lamps,
 /// Whether the body winds around what is behind its triangles once, and around what is before
 /// them not, at some triangles all over it.
 bool is_simple(const ClosedBody& body, double depth) {
-  constexpr std::size_t most_angles = 1'000'000, least = 4, most = 256;
+  constexpr std::size_t max_angles = 1'000'000, least = 4, most = 256;
   const std::size_t size = body.triangles.size();
   const std::size_t asked =
-      std::min(size, std::clamp(most_angles / body.shell.size(), least, most));
+      std::min(size, std::clamp(max_angles / body.shell.size(), least, most));
   for (std::size_t k = 0; k < asked; ++k) {
     const TriangleCorners& part = body.shell[k * size / asked];
     const Point3 middle = (part[0] + part[1] + part[2]) / 3.0;
@@ -98,7 +98,7 @@ bool is_simple(const ClosedBody& body, double depth) {
 } // namespace
 
 EnclosedSides find_enclosed_sides(const Scene& scene, const SurfaceModel& surfaces) {
-  constexpr std::size_t most_compared = 20'000'000;
+  constexpr std::size_t max_compared = 20'000'000;
   EnclosedSides enclosed(scene.triangles.size(), {0, 0});
   std::vector<std::uint8_t> double_sided;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
@@ -110,7 +110,7 @@ EnclosedSides find_enclosed_sides(const Scene& scene, const SurfaceModel& surfac
   const std::vector<TriangleCorners> lamps = lamps_of(scene, above);
   tbb::parallel_for(std::size_t{0}, bodies.size(), [&](std::size_t b) {
     const ClosedBody& body = bodies[b];
-    if (!is_simple(body, above) || may_hold(body, lamps, most_compared / bodies.size()))
+    if (!is_simple(body, above) || may_hold(body, lamps, max_compared / bodies.size()))
       return;
     for (std::size_t k = 0; k < body.triangles.size(); ++k)
       enclosed[index(body.triangles[k])][body.looks_in[k] != 0 ? 0 : 1] = 1;

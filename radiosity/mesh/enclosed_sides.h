@@ -2,7 +2,7 @@
 //
 // Exporters write furniture double-sided. Inside of a cupboard there is nothing to see,
 // but its inner sides would have elements of their own, and the floor under a box, dark
-// as it is, would count with the lit floor beside its foot (covered_cells.h knows it by the black
+// as it is, would count with the lit floor beside its foot (contact_mask.h knows it by the black
 // backs of single-sided bodies). Where a closed body has no light in it,
 // its double-sided triangles are therefore what single-sided ones would be.
 //

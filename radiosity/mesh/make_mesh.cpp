@@ -125,16 +125,16 @@ void fit_to_target(double asked, const std::function<Division(double)>& divide,
   constexpr double most = 2.0, enough = 1.25;
   if (division.elements <= most * asked)
     return;
-  double most_times = 4.0;
+  double max_times = 4.0;
   for (const double fewer : {2.0, 1.5}) {
     if (division.elements <= enough * asked)
       return;
-    most_times = fewer;
-    division = divide(most_times);
+    max_times = fewer;
+    division = divide(max_times);
   }
   for (int k = 0; k < 8 && division.elements > enough * asked; ++k) {
     enlarge(sizes, std::max(1.05, std::sqrt(division.elements / asked)));
-    division = divide(most_times);
+    division = divide(max_times);
   }
 }
 
@@ -143,8 +143,8 @@ void fit_to_target(double asked, const std::function<Division(double)>& divide,
 ElementMesh make_element_mesh(const Scene& scene, const SurfaceModel& surfaces,
                               const MeshSettings& settings, const DarkSides& dark) {
   ElementSizes sizes = sizes_of(scene, surfaces, settings, dark);
-  const auto divide = [&](double most_times) {
-    Division division{divide_edges(surfaces, sizes.of_surface, most_times)};
+  const auto divide = [&](double max_times) {
+    Division division{divide_edges(surfaces, sizes.of_surface, max_times)};
     division.elements =
         static_cast<double>(elements_of(scene, surfaces, division.of_patch, dark));
     return division;

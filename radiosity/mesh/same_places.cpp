@@ -1,5 +1,5 @@
-// What is the same in two meshes of the same roots (mesh_division.h).
-#include "radiosity/mesh/mesh_division.h"
+// What is the same in two meshes of the same roots (subdivision.h).
+#include "radiosity/mesh/subdivision.h"
 
 #include <algorithm>
 

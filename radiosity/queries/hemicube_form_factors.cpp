@@ -1,4 +1,4 @@
-#include "radiosity/queries/node_form_factors.h"
+#include "radiosity/queries/gltf_node_factors.h"
 #include "radiosity/queries/node_tally.h"
 
 #include <tbb/parallel_for.h>

@@ -1,7 +1,7 @@
 #include "radiosity/queries/node_sides.h"
 
 #include "radiosity/queries/node_scene.h"
-#include "radiosity/transport/gather_rays.h"
+#include "radiosity/transport/hemisphere_rays.h"
 #include "scenes/sampling.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace meninas {
 namespace {
 
 /// What is seen in a share less than this is seen through a seam.
-constexpr double least_share = 1e-3;
+constexpr double min_share = 1e-3;
 
 bool is_double_sided(const Scene& scene, const Face& face) {
   return scene.materials[index(face.material)].double_sided;
@@ -121,7 +121,7 @@ private:
   static constexpr int most_mirrors = 8;
 
   /// Rays for each triangle of a fan.
-  const DirectionNet& net_of(std::size_t corners) {
+  const HemisphereSamples& net_of(std::size_t corners) {
     const int each = std::max(16, rays_ / static_cast<int>(corners - 2) / 16 * 16);
     auto& net = nets_[corners];
     if (net.points.empty())
@@ -155,7 +155,7 @@ private:
     const double each = share / gathered.rays;
     view.escaped += each * gathered.escaped;
     view.black += each * gathered.black;
-    for (const RayLanding& landing : gathered.landings) {
+    for (const ElementHit& landing : gathered.landings) {
       const SideId side = node_scene_.mesh.side_of_element[landing.element];
       if (in_from_[index(node_scene_.mesh.sides[index(side)].node)] == 0)
         view.others += each;
@@ -196,7 +196,7 @@ private:
   NodeScene node_scene_;
   Targets targets_;
   std::vector<std::uint8_t> in_from_; ///< by NodeId
-  std::map<std::size_t, DirectionNet> nets_; ///< by the number of corners
+  std::map<std::size_t, HemisphereSamples> nets_; ///< by the number of corners
   int rays_ = 0, lines_ = 0;
 };
 
@@ -208,20 +208,20 @@ std::array<bool, 2> facing_sides(const FaceViews& views, bool& outside_left_out)
     if (kept[0] || kept[1])
       counts = kept;
   };
-  keep_where([](const SideView& v) { return v.others > least_share || v.other_lines > 0.0; });
+  keep_where([](const SideView& v) { return v.others > min_share || v.other_lines > 0.0; });
   const double seen = std::max(views[0].of_b(), views[1].of_b());
   if (counts[0] && counts[1]) {
     // A hundredth: a window would not make a room open.
     constexpr double open = 1e-2;
     for (std::size_t s = 0; s < 2; ++s)
-      if (views[s].escaped < least_share && views[1 - s].escaped > open) {
+      if (views[s].escaped < min_share && views[1 - s].escaped > open) {
         counts[1 - s] = false;
-        outside_left_out = outside_left_out || views[1 - s].of_b() > least_share * seen;
+        outside_left_out = outside_left_out || views[1 - s].of_b() > min_share * seen;
       }
   }
   const double most = std::max(counts[0] ? views[0].of_b() : 0.0, counts[1] ? views[1].of_b() : 0.0);
   if (most > 0.0)
-    keep_where([&](const SideView& v) { return v.of_b() > least_share * most; });
+    keep_where([&](const SideView& v) { return v.of_b() > min_share * most; });
   else if (counts[0] && counts[1])
     counts[1] = false;
   return counts;
@@ -250,7 +250,7 @@ std::vector<std::string> lines_of(const LeftOut& left) {
                        "they do not count");
   if (left.of_behind > 0.01 * all)
     lines.emplace_back("backs of the receiver that are single-sided are seen: they do not count");
-  if (left.black > least_share * left.area)
+  if (left.black > min_share * left.area)
     lines.push_back(fmt::format("{:.2g} % of what is sent ends on backs of single-sided surfaces, "
                                 "which do not count",
                                 100.0 * left.black / left.area));

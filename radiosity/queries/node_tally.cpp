@@ -8,7 +8,7 @@ void add(const NodeScene& scene, const GatheredRays& gathered, double share, Nod
   tally.totals.resize(scene.group_count, 0.0);
   const double weight = share / gathered.rays;
   tally.cut += weight * mean_of(Rgb(gathered.cut_light));
-  for (const RayLanding& landing : gathered.landings) {
+  for (const ElementHit& landing : gathered.landings) {
     const std::uint32_t group = scene.groups[index(scene.mesh.side_of_element[landing.element])];
     if (group == none_of_sets)
       continue;

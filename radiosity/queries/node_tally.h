@@ -1,8 +1,8 @@
-// What the methods of node_form_factors.h that trace rays share:
+// What the methods of gltf_node_factors.h that trace rays share:
 // the scene they look light up in, and tallies of landings.
 #pragma once
 
-#include "radiosity/transport/gather_rays.h"
+#include "radiosity/transport/hemisphere_rays.h"
 #include "form_factors/extended_form_factor.h"
 #include "radiosity/queries/node_scene.h"
 

@@ -1,4 +1,4 @@
-#include "radiosity/queries/node_form_factors.h"
+#include "radiosity/queries/gltf_node_factors.h"
 #include "radiosity/queries/node_tally.h"
 #include "scenes/sampling.h"
 
@@ -46,10 +46,10 @@ NodeTally run_replica(const NodeScene& scene, const std::vector<Sender>& senders
                       std::uint32_t seed) {
   NodeTally tally;
   GatherWorkspace work;
-  std::map<int, DirectionNet> nets;
+  std::map<int, HemisphereSamples> nets;
   for (std::uint32_t s = 0; s < senders.size(); ++s) {
     const Sender& sender = senders[s];
-    DirectionNet& net = nets[sender.rays];
+    HemisphereSamples& net = nets[sender.rays];
     if (net.points.empty())
       net = make_direction_net(sender.rays);
     gather_rays(scene.light, net, sender.area, hash(seed, s, 0xf0f), scene.settings, work);

@@ -10,7 +10,7 @@
 
 #include "mirror/virtual_lights.h"
 #include "radiosity/mesh/element_mesh.h"
-#include "radiosity/mesh/landing.h"
+#include "radiosity/mesh/element_lookup.h"
 #include "scenes/surfaces/solid_bodies.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/rays/ray_scene.h"
@@ -34,7 +34,7 @@ struct LightScene {
   std::vector<Emitter> emitters; ///< those whose light is computed from the source
   std::vector<std::uint8_t>
       from_source; ///< by SideId: 1 where the closed form owns its emission in the enumerated worlds
-  EmitterTree emitter_tree;            ///< over the emitters
+  LightTree emitter_tree;            ///< over the emitters
   std::vector<PunctualLight> punctual; ///< always from the source
   Rgb background{0.0}; ///< irradiance pi L of the whole sky, gathered by rays that escape
   std::vector<Bsdf>

@@ -2,7 +2,7 @@
 
 #include "scenes/surfaces/closedness.h"
 #include "radiosity/scene/enclosed_lights.h"
-#include "radiosity/scene/world_tail.h"
+#include "radiosity/scene/mirror_depth_bound.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/materials/smooth_surfaces.h"
 #include "scenes/materials/texture_lookup.h"
@@ -23,7 +23,7 @@ bool is_grey(const Rgb& colour) { return colour.r == colour.g && colour.g == col
 /// So smooth that what the metal throws has a shape, though pass one spreads it.
 bool throws_shapes(const Material& material) {
   return is_glossy(material) && material.roughness <= smooth_metal_roughness &&
-         !material.throws_as_mirror;
+         !material.specular_in_pass_one;
 }
 
 /// The factor is rough, but texels may be smooth.
@@ -33,11 +33,11 @@ bool may_throw_shapes(const Material& material) {
 }
 
 bool throws_sharply(const Material& material) {
-  return is_glossy(material) && material.throws_as_mirror;
+  return is_glossy(material) && material.specular_in_pass_one;
 }
 
 bool throws_evenly(const Material& material) {
-  return is_glossy(material) && !material.throws_as_mirror;
+  return is_glossy(material) && !material.specular_in_pass_one;
 }
 
 bool has_even_coat(const Material& material) {

@@ -20,7 +20,7 @@ struct TransportPlan {
   MirrorSet mirrors;
   WorldTree worlds;
   std::vector<PlannedMirror> mirror_list;
-  double world_tail = 0.0; ///< bound on the mean share of light from beyond the worlds (world_tail.h)
+  double world_tail = 0.0; ///< bound on the mean share of light from beyond the worlds (mirror_depth_bound.h)
   std::size_t emitters = 0; ///< emitting patch sides
   std::size_t punctual_lights = 0;
   std::size_t glossy = 0;       ///< materials that are metals too rough for a mirror

@@ -13,13 +13,13 @@ namespace meninas {
 namespace {
 
 /// Points of an element, and of a triangle at least. Where there are very many, so that a scene
-/// would take more than `all_points`, they have fewer, down to `least_points`: each is a small part
+/// would take more than `all_points`, they have fewer, down to `min_points`: each is a small part
 /// of what others see of them together.
-constexpr double points_per_element = 64.0, points_per_triangle = 256.0, least_points = 16.0;
+constexpr double points_per_element = 64.0, points_per_triangle = 256.0, min_points = 16.0;
 constexpr double all_points = 1 << 21, most_points = 1 << 26;
 
 double points_for_each_of(std::size_t count, double wanted) {
-  return std::clamp(all_points / double(std::max<std::size_t>(1, count)), least_points, wanted);
+  return std::clamp(all_points / double(std::max<std::size_t>(1, count)), min_points, wanted);
 }
 
 struct ColourSum {

@@ -3,7 +3,7 @@
 #include "image/display.h"
 #include "image/whole_file.h"
 #include "radiosity/solution/element_triangles.h"
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/mesh/subdivision.h"
 #include "radiosity/solution/solution_format.h"
 #include "scenes/glb_file.h"
 #include "scenes/version.h"
@@ -48,7 +48,7 @@ std::vector<glm::vec3> with_points(const ElementMesh& mesh, const ElementTriangl
 }
 
 std::vector<glm::vec3> display_colours(const ElementMesh& mesh, const ElementTriangles& triangles,
-                                       const DiffuseField& field) {
+                                       const IrradianceField& field) {
   Image radiosity;
   const std::vector<glm::vec3> irradiance = with_points(mesh, triangles, field.irradiance);
   for (std::size_t v = 0; v < irradiance.size(); ++v) {
@@ -161,7 +161,7 @@ json extras_json(std::uint64_t scene_hash, const ElementMesh& mesh, const MeshSe
 }
 
 /// The parts of the file a viewer needs; positions are relative to `centre`.
-json viewer_json(Geometry& geometry, const ElementMesh& mesh, const DiffuseField& field) {
+json viewer_json(Geometry& geometry, const ElementMesh& mesh, const IrradianceField& field) {
   const Point3 centre = centre_of(mesh);
   std::vector<glm::vec3> positions;
   for (const Point3& vertex : mesh.vertices) {

@@ -4,7 +4,7 @@
 //
 // One mesh of one primitive holds all element vertices (POSITION,
 // COLOR_0, _IRRADIANCE, and the parts of the field that are known:
-// _IRRADIANCE_MIRRORED, _IRRADIANCE_INDIRECT, _IRRADIANCE_INDIRECT_MIRRORED, see DiffuseField;
+// _IRRADIANCE_MIRRORED, _IRRADIANCE_INDIRECT, _IRRADIANCE_INDIRECT_MIRRORED, see IrradianceField;
 // VEC3 float) and the elements' triangles. COLOR_0 is the radiosity, exposed for display
 // and linear. `extras` of the asset holds {"meninas": {version, scene_hash, data_hash,
 // mesh settings, counts, figures of the solve}}, and where the field has a mesh of its own,
@@ -27,7 +27,7 @@ struct StoredSolution {
   MeshSettings mesh;
   std::size_t elements = 0;
   std::vector<std::uint8_t> division; ///< of the mesh made with these settings; empty: none
-  DiffuseField field;
+  IrradianceField field;
   SolverResult solver; ///< without its radiosity
   EnergyBalance energy;
   ClosureError closure;

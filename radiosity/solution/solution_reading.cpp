@@ -1,4 +1,4 @@
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/mesh/subdivision.h"
 #include "radiosity/solution/solution_file.h"
 #include "radiosity/solution/solution_format.h"
 #include "scenes/errors.h"
@@ -164,7 +164,7 @@ StoredSolution read_checked(const std::filesystem::path& file, const GlbContent&
   const json& attributes = attributes_of(glb);
   const std::size_t vertices = extras.at("vertices");
   for (const FieldPart& part : field_parts) {
-    if (part.values == &DiffuseField::irradiance || attributes.contains(part.attribute)) {
+    if (part.values == &IrradianceField::irradiance || attributes.contains(part.attribute)) {
       stored.field.*part.values =
           read_irradiance(file, glb, attributes.at(part.attribute), vertices);
     }

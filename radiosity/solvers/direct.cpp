@@ -58,7 +58,7 @@ void correct(const Lu& lu, const std::vector<Value>& residual, int band, std::ve
 template <typename Value>
 void factorise_and_solve(const LinearSystem<Value>& system, std::vector<Value>& x,
                          Convergence<Value>& convergence) {
-  constexpr int most_corrections = 3; // the first is the solution, the others refine it
+  constexpr int max_corrections = 3; // the first is the solution, the others refine it
   std::vector<Value> residual = residual_of(system, x);
   record(convergence, maximum_norm(residual), maximum_norm(x));
   if (finished(convergence))
@@ -71,7 +71,7 @@ void factorise_and_solve(const LinearSystem<Value>& system, std::vector<Value>& 
       factors.emplace_back(dense(system, lit, band));
     factors_of.push_back(factors.size() - 1);
   }
-  while (!finished(convergence) && convergence.iterations < most_corrections) {
+  while (!finished(convergence) && convergence.iterations < max_corrections) {
     for (int band = 0; band < channel_count<Value>; ++band)
       correct(factors[factors_of[static_cast<std::size_t>(band)]], residual, band, x);
     ++convergence.iterations;

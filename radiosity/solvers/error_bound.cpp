@@ -96,10 +96,10 @@ Value amplification_bound(const LinearSystem<Value>& system) {
   constexpr double sharp = 0.1;   // of ||q||: leaves the bound within a factor (1 + q) / (1 - q)
   constexpr int most_bounces = 4; // of the Neumann series, which suffices for dark rooms
   // A bound is worth some seconds, and not more than the solution.
-  constexpr double affordable_entries = 2e9, fewest_iterations = 40.0, most_iterations = 200.0;
+  constexpr double affordable_entries = 2e9, min_iterations = 40.0, most_iterations = 200.0;
   const double entries = 1.0 + double(system.transport.columns.size());
   const auto enough_iterations = static_cast<int>(
-      std::clamp(affordable_entries / entries, fewest_iterations, most_iterations));
+      std::clamp(affordable_entries / entries, min_iterations, most_iterations));
   const LinearSystem<Value> ones{system.transport, lit_rows(system), system.reflectance};
 
   // The sum of m bounces of ones leaves q = (rho T)^m 1.

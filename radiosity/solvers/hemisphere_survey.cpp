@@ -1,7 +1,7 @@
 #include "radiosity/solvers/hemisphere_survey.h"
 
 #include "radiosity/transport/element_hemicube.h"
-#include "radiosity/transport/gather_rays.h"
+#include "radiosity/transport/hemisphere_rays.h"
 #include "scenes/surfaces/disjoint_sets.h"
 #include "scenes/sampling.h"
 
@@ -34,20 +34,20 @@ bool gathers_emission(const LightScene& light) {
                              [](const FaceRecord& f) { return f.mirrors || f.coat; });
 }
 
-void gather_own_rays(const LightScene& light, const DirectionNet& net, std::size_t element,
+void gather_own_rays(const LightScene& light, const HemisphereSamples& net, std::size_t element,
                      const FormFactorSettings& settings, GatherWorkspace& work) {
   gather_rays(light, net, receiver_of(light, static_cast<ElementId>(element)),
               hash(static_cast<std::uint32_t>(element), settings.seed, 0x9a7e), settings, work);
 }
 
-DirectionNet own_rays(const LightScene& light, const FormFactorSettings& settings) {
-  DirectionNet few = make_coverage_net();
+HemisphereSamples own_rays(const LightScene& light, const FormFactorSettings& settings) {
+  HemisphereSamples few = make_coverage_net();
   return gathers_emission(light) || static_cast<std::size_t>(settings.rays) < few.points.size()
              ? make_direction_net(settings.rays)
              : few;
 }
 
-void survey_element(const LightScene& light, const DirectionNet& net, std::size_t element,
+void survey_element(const LightScene& light, const HemisphereSamples& net, std::size_t element,
                     const FormFactorSettings& settings, Workspace& work, HemisphereSurvey& survey) {
   gather_own_rays(light, net, element, settings, work.gather);
   const GatheredRays& rays = work.gather.result;
@@ -56,7 +56,7 @@ void survey_element(const LightScene& light, const DirectionNet& net, std::size_
   survey.exposed[element] = light.mesh.solid[element] * rays.exposed;
   const std::uint32_t own = index(light.mesh.side_of_element[element]);
   Rgb gathered(0.0), returned(0.0);
-  for (const RayLanding& landing : rays.landings) {
+  for (const ElementHit& landing : rays.landings) {
     const SideId side = light.mesh.side_of_element[landing.element];
     gathered += gathered_emission(light, landing);
     returned += Rgb(landing.light) * light.mesh.reflectance[landing.element];
@@ -87,7 +87,7 @@ void for_each_element(std::size_t size, const Visit& visit, const Progress& prog
 HemisphereSurvey survey_hemispheres(const LightScene& light, const FormFactorSettings& settings,
                                     const Progress& progress) {
   const std::size_t size = element_count(light.mesh);
-  const DirectionNet net = own_rays(light, settings);
+  const HemisphereSamples net = own_rays(light, settings);
   HemisphereSurvey survey;
   survey.closure.resize(size);
   survey.covered.resize(size);
@@ -120,7 +120,7 @@ Returned returned_share(const LightScene& light, const FormFactorSettings& setti
     std::uint64_t rays = 0;
   };
   Returned result{std::vector<Rgb>(worth.size()), 0};
-  const DirectionNet net = own_rays(light, settings);
+  const HemisphereSamples net = own_rays(light, settings);
   tbb::enumerable_thread_specific<Counted> workspaces;
   for_each_element(worth.size(),
                    [&](std::size_t e) {
@@ -128,7 +128,7 @@ Returned returned_share(const LightScene& light, const FormFactorSettings& setti
                      gather_own_rays(light, net, e, settings, work.gather);
                      const GatheredRays& rays = work.gather.result;
                      Rgb returned(0.0);
-                     for (const RayLanding& landing : rays.landings) {
+                     for (const ElementHit& landing : rays.landings) {
                        returned += Rgb(landing.light) * light.mesh.reflectance[landing.element] *
                                    worth[landing.element];
                      }

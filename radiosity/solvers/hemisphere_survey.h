@@ -13,7 +13,7 @@ namespace meninas {
 struct HemisphereSurvey {
   std::vector<RowClosure> closure; ///< by ElementId
   std::vector<std::uint64_t>
-      covered;                ///< by ElementId: the cells on which something stands (gather_rays.h)
+      covered;                ///< by ElementId: the cells on which something stands (hemisphere_rays.h)
   std::vector<float> exposed; ///< by ElementId: the share of the area that is there and on which nothing stands
   std::vector<Rgb> gathered;  ///< G by ElementId, W/m^2
   std::vector<Rgb>

@@ -13,16 +13,16 @@ namespace meninas {
 namespace {
 
 constexpr std::uint32_t chunk_rays = 512;
-constexpr std::uint32_t least_rays = 64;
-constexpr std::uint32_t most_rays = 1U << 22U;
+constexpr std::uint32_t min_rays = 64;
+constexpr std::uint32_t max_rays = 1U << 22U;
 
 /// Where on an element a ray starts: where `sample` says, or, of an element on which
 /// something stands, at a place of its own.
-Vec2 start_of(const LightScene& light, std::uint32_t element, CoveredCells covered, Vec2 sample,
+Vec2 start_of(const LightScene& light, std::uint32_t element, ContactMask covered, Vec2 sample,
               std::uint32_t own_seed) {
   if (covered == 0 || covered == wholly_covered)
     return sample;
-  return exposed_place(light, receiver_of(light, static_cast<ElementId>(element)), covered,
+  return next_open_point(light, receiver_of(light, static_cast<ElementId>(element)), covered,
                        own_seed, 0)
       .st;
 }
@@ -34,7 +34,7 @@ void pass_coat(const LightScene& light, std::uint32_t element, const LaneDirecti
   if (coat == none<MaterialId>)
     return;
   for (std::uint32_t k = 0; k < packet.rays.count; ++k)
-    packet.light[k] *= glm::vec3(let_out_by_coat(light.by_angle[index(coat)], local.z[k]));
+    packet.light[k] *= glm::vec3(coat_transmittance(light.by_angle[index(coat)], local.z[k]));
 }
 
 /// The element's area in the frame of the rays;
@@ -131,8 +131,8 @@ void RayShots<Value>::shoot(std::size_t block, ShotState<Value>& state) {
   if (!(weight > 0.0))
     return;
   const double wanted = weight * static_cast<double>(state.reflectance.size()) * settings_.rays;
-  shot.rays = least_rays * static_cast<std::uint32_t>(std::clamp(wanted / least_rays, 1.0,
-                                                                 double{most_rays} / least_rays));
+  shot.rays = min_rays * static_cast<std::uint32_t>(std::clamp(wanted / min_rays, 1.0,
+                                                                 double{max_rays} / min_rays));
 
   const std::uint32_t chunks = (shot.rays + chunk_rays - 1) / chunk_rays;
   std::vector<ChunkResult> results(chunks);
@@ -148,7 +148,7 @@ void RayShots<Value>::shoot(std::size_t block, ShotState<Value>& state) {
   }
   const Value per_light = share_of(power, value_of<Value>(glm::max(kept, Rgb(0.0))));
   for (const ChunkResult& result : results)
-    for (const RayLanding& landing : result.landings)
+    for (const ElementHit& landing : result.landings)
       if (const double area = state.shooters.measure[landing.element]; area > 0.0)
         state.arrive(landing.element, per_light * value_of<Value>(Rgb(landing.light)) / area);
 }

@@ -3,7 +3,7 @@
 // Block J shoots N rays. Ray r starts on the element of the block that the r-th of N equal parts
 // of its unshot power belongs to, at a point and into a cosine-distributed direction of Sobol's
 // sequence, so that the directions of the whole block and those of every element are spread evenly.
-// Rays are reflected exactly by mirrors (gather_rays.h). What lands on i is power / A_i
+// Rays are reflected exactly by mirrors (hemisphere_rays.h). What lands on i is power / A_i
 // of irradiance there. All rays of a shot carry together what its elements have to shoot, exactly;
 // what is cut at the last mirror is shared out among the rest.
 //
@@ -14,7 +14,7 @@
 // and do not wait to be hit; means over many elements, as vertices gather, are as good.
 #pragma once
 
-#include "radiosity/transport/gather_rays.h"
+#include "radiosity/transport/hemisphere_rays.h"
 #include "radiosity/solvers/hemisphere_survey.h"
 #include "radiosity/solvers/shooting.h"
 
@@ -36,7 +36,7 @@ public:
 private:
   /// What a chunk of the rays has brought.
   struct ChunkResult {
-    std::vector<RayLanding> landings;
+    std::vector<ElementHit> landings;
     Rgb kept{0.0}; ///< light that has left and was not cut
     std::uint64_t traced = 0;
   };

@@ -5,18 +5,18 @@
 namespace meninas {
 
 static constexpr int block_edge = 8;
-static constexpr std::size_t most_in_block = 64;
+static constexpr std::size_t max_in_block = 64;
 
 /// Sides of fewer elements than that share blocks:
 /// meshes of many small patches have no more than some ten thousand shooters.
 static std::size_t shared_elements(std::size_t elements) {
-  return std::clamp<std::size_t>(elements / 16384, 1, most_in_block);
+  return std::clamp<std::size_t>(elements / 16384, 1, max_in_block);
 }
 
 /// The block of a root cell; both are counted from the side's first.
 static std::uint32_t block_of_root(const MeshSide& side, std::uint32_t root) {
   if (side.triangle)
-    return root / static_cast<std::uint32_t>(most_in_block);
+    return root / static_cast<std::uint32_t>(max_in_block);
   const auto nu = static_cast<std::uint32_t>(side.nu);
   const std::uint32_t across = (nu + block_edge - 1) / block_edge;
   return root / nu / block_edge * across + root % nu / block_edge;
@@ -28,7 +28,7 @@ Shooters make_shooting_blocks(const ElementMesh& mesh, const std::vector<float>&
   blocks.of_unknown.resize(size);
   blocks.measure.resize(size);
   const std::size_t shared = shared_elements(size);
-  std::size_t in_last = most_in_block; // elements in the last block, if more may join
+  std::size_t in_last = max_in_block; // elements in the last block, if more may join
   std::uint32_t count = 0;
   for (const MeshSide& side : mesh.sides) {
     const std::size_t elements = side.element_count;
@@ -36,7 +36,7 @@ Shooters make_shooting_blocks(const ElementMesh& mesh, const std::vector<float>&
       continue;
     const bool joins = in_last + elements <= shared;
     count -= joins ? 1 : 0;
-    in_last = elements < shared ? elements + (joins ? in_last : 0) : most_in_block;
+    in_last = elements < shared ? elements + (joins ? in_last : 0) : max_in_block;
     std::uint32_t in_side = 0;
     for (std::uint32_t root = 0; root < side.root_count; ++root) {
       const MeshCell& cell = mesh.cells[side.first_cell + root];

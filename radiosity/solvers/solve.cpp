@@ -85,9 +85,9 @@ const char* name_of(SolverMethod method) {
 }
 
 void check_size(SolverMethod method, std::size_t unknowns) {
-  if (method == SolverMethod::direct && unknowns > most_direct_unknowns)
+  if (method == SolverMethod::direct && unknowns > max_direct_unknowns)
     throw UsageError("--solver direct", fmt::format("solves for at most {} elements, here are {}",
-                                                    most_direct_unknowns, unknowns));
+                                                    max_direct_unknowns, unknowns));
 }
 
 std::vector<Rgb> apply_transport(const Transport& transport, const std::vector<Rgb>& x) {

@@ -2,7 +2,7 @@
 //
 // Input: source in W/m^2, reflectance dimensionless, transport rows T >= 0.
 // Output: B in W/m^2, by ElementId.
-//   direct        dense LU of 1 - rho T, for at most `most_direct_unknowns`: the oracle of the others
+//   direct        dense LU of 1 - rho T, for at most `max_direct_unknowns`: the oracle of the others
 //   jacobi        B_{k+1} = S + rho T B_k: one bounce of light a sweep
 //   gauss-seidel  the same, in 32 steps that use what the steps before have found
 //   cg            a Krylov method that needs neither areas nor symmetry, which sampled form factors lack: BiCGStab (van der

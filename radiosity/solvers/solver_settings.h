@@ -58,6 +58,6 @@ struct SolverResult {
 };
 
 /// LU factors of that many unknowns take 128 MiB and some ten seconds a band.
-inline constexpr std::size_t most_direct_unknowns = 4096;
+inline constexpr std::size_t max_direct_unknowns = 4096;
 
 } // namespace meninas

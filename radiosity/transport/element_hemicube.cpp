@@ -6,7 +6,7 @@
 namespace meninas {
 
 std::optional<Point3> hemicube_position(const LightScene& light, const ReceiverArea& element,
-                                        CoveredCells covered) {
+                                        ContactMask covered) {
   if (covered == 0 && element.region == nullptr)
     return point_in(element, Vec2(element.triangle ? 1.0 / 3.0 : 0.5));
   if (covered == wholly_covered)
@@ -15,7 +15,7 @@ std::optional<Point3> hemicube_position(const LightScene& light, const ReceiverA
   Point3 middle(0.0);
   std::uint32_t next = 0;
   for (Point3& point : exposed) {
-    const NumberedPlace place = exposed_place(light, element, covered, 0, next);
+    const NumberedPlace place = next_open_point(light, element, covered, 0, next);
     next = place.number + 1;
     point = point_in(element, place.st);
     middle += point / double(exposed.size());
@@ -24,9 +24,9 @@ std::optional<Point3> hemicube_position(const LightScene& light, const ReceiverA
       exposed, {}, [&](const Point3& point) { return glm::distance(point, middle); });
 }
 
-DirectionNet make_coverage_net() { return make_direction_net(256); }
+HemisphereSamples make_coverage_net() { return make_direction_net(256); }
 
-void gather_element(const LightScene& light, const Hemicube& cube, const DirectionNet& coverage,
+void gather_element(const LightScene& light, const Hemicube& cube, const HemisphereSamples& coverage,
                     const ReceiverArea& element, std::uint32_t seed,
                     const FormFactorSettings& settings, GatherWorkspace& work) {
   const Covered covered = covered_part(light, coverage, element, seed, settings, work);

@@ -1,7 +1,7 @@
 // Rows of form factors: what receivers get of what elements send (form_factors.h).
 #pragma once
 
-#include "radiosity/transport/receiver_rays.h"
+#include "radiosity/transport/hemisphere_samples.h"
 
 #include <cstdint>
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace meninas {
 
-/// `analytic` is analytic_transport.h.
+/// `analytic` is analytic_rows.h.
 enum class FormFactorMethod { rays, hemicube, analytic };
 
 struct FormFactorSettings {
@@ -45,13 +45,13 @@ struct FormFactors {
   Transport transport;
   Transport beyond; ///< the part in which no closed form owns emission: beyond the enumerated worlds (deep chains, facets); all of `analytic`
   std::vector<RowClosure> closure;      ///< by ElementId
-  std::vector<std::uint64_t> covered;   ///< by ElementId: the cells on which something stands (gather_rays.h)
+  std::vector<std::uint64_t> covered;   ///< by ElementId: the cells on which something stands (hemisphere_rays.h)
   std::vector<float> exposed;           ///< by ElementId: the share of the area that is there and on which nothing stands
   std::uint64_t rays_traced = 0;        ///< legs, reflected ones included
 };
 
 /// What a row may speak of besides an element:
-/// a part of a surface (receiver_rays.h), by row. Called from any thread.
+/// a part of a surface (hemisphere_samples.h), by row. Called from any thread.
 using RowReceiver = std::function<ReceiverArea(std::size_t row)>;
 
 } // namespace meninas

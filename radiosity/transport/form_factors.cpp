@@ -1,6 +1,6 @@
 #include "radiosity/transport/form_factors.h"
 
-#include "radiosity/transport/analytic_transport.h"
+#include "radiosity/transport/analytic_rows.h"
 #include "radiosity/transport/element_hemicube.h"
 #include "scenes/sampling.h"
 
@@ -140,7 +140,7 @@ void append_rows(const RowList& more, Transport& transport) {
 struct Assembly {
   const LightScene& light;
   const FormFactorSettings& settings;
-  DirectionNet net; ///< `rays`: what is traced; `hemicube`: what finds the covered part
+  HemisphereSamples net; ///< `rays`: what is traced; `hemicube`: what finds the covered part
   Hemicube cube;    ///< `hemicube`
   std::vector<std::uint8_t>
       beyond; ///< by ElementId: 1 where its row beyond the enumerated worlds is kept

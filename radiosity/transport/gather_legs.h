@@ -1,11 +1,11 @@
-// The rays of one step of gathering (gather_rays.h), lane by lane of a packet:
+// The rays of one step of gathering (hemisphere_rays.h), lane by lane of a packet:
 // from the receiver, from where something has shot them, or from mirrors.
 //
 // All say the weight of lane k, its throughput and its world, and all that it carries.
 #pragma once
 
 #include "radiosity/transport/gathered_rays.h"
-#include "radiosity/transport/solid_paths.h"
+#include "radiosity/transport/glass_rays.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/sampling.h"
 
@@ -65,7 +65,7 @@ let_in_by(const Bsdf& coat, const RaySource& source, const RayPacket& packet) {
   for (std::uint32_t k = 0; k < packet.count; ++k) {
     const Vec3 direction(packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]);
     light[k] = glm::vec3(
-        let_out_by_coat(coat, glm::dot(direction, source.area.normal) / glm::length(direction)));
+        coat_transmittance(coat, glm::dot(direction, source.area.normal) / glm::length(direction)));
   }
   return light;
 }
@@ -77,9 +77,9 @@ constexpr auto weights_of(const NetPacket&) {
 inline auto weights_of(const HemicubePacket& cells) {
   return [&cells](std::uint32_t k) { return cells.weight[k]; };
 }
-inline std::size_t ray_count(const DirectionNet& net) { return net.points.size(); }
+inline std::size_t ray_count(const HemisphereSamples& net) { return net.points.size(); }
 inline std::size_t ray_count(const Hemicube& cube) { return cube.cells; }
-inline std::uint32_t first_of(const DirectionNet& net) { return net.first; }
+inline std::uint32_t first_of(const HemisphereSamples& net) { return net.first; }
 inline std::uint32_t first_of(const Hemicube&) { return 0; }
 
 /// Rays that left with light of their own.

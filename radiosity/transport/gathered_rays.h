@@ -1,18 +1,18 @@
-// Rays that receivers have gathered by, and those that are on their way (gather_rays.h).
+// Rays that receivers have gathered by, and those that are on their way (hemisphere_rays.h).
 #pragma once
 
-#include "radiosity/transport/covered_cells.h"
+#include "radiosity/transport/contact_mask.h"
 #include "radiosity/transport/form_factor_rows.h"
-#include "radiosity/transport/solid_paths.h"
+#include "radiosity/transport/glass_rays.h"
 
 #include <utility>
 #include <vector>
 
 namespace meninas {
 
-struct RayLanding {
+struct ElementHit {
   std::uint32_t element;
-  WorldId world;   ///< none beyond the enumerated worlds; by way of solids one of solid_paths.h
+  WorldId world;   ///< none beyond the enumerated worlds; by way of solids one of glass_rays.h
   glm::vec3 light; ///< weight times tau, the product of the mirrors' reflectances
 };
 
@@ -20,7 +20,7 @@ struct RayLanding {
 /// A ray with its weight w ends in one place:
 ///   landed + escaped + black + cut = rays, exactly where all weigh 1, to rounding otherwise.
 struct GatheredRays {
-  std::vector<RayLanding> landings;
+  std::vector<ElementHit> landings;
   double rays = 0.0; ///< how many there are
   double landed = 0.0, escaped = 0.0, black = 0.0,
          cut = 0.0;                ///< sums of w over those that ended so
@@ -29,7 +29,7 @@ struct GatheredRays {
   glm::vec3 escaped_light{0.0F}, black_light{0.0F},
       cut_light{0.0F}; ///< sums of w tau over the rays that ended so
   std::uint64_t traced = 0;
-  CoveredCells covered = 0;
+  ContactMask covered = 0;
   double covered_rays = 0.0; ///< of `black`, those from where something stands
   float exposed = 1.0F;      ///< the share of the receiver's area on which nothing does
 

@@ -14,14 +14,14 @@
 // y1] is T(x1, y1) - T(x0, y1) - T(x1, y0) + T(x0, y0), and the same of S on a side:
 // neighbours share their corners, so all cells of the five faces add up to one, to rounding.
 //
-// Each cell is looked up by one ray through its centre (gather_rays.h),
+// Each cell is looked up by one ray through its centre (hemisphere_rays.h),
 // so a form factor is the sum of the dF of the cells whose ray lands.
 // Its error is that of the cells along the outline, each of which counts as a whole or not at all:
 // at most their sum / 2, of order 1 in 1 / resolution when an outline runs along the rows of cells,
 // of order 3/2 when it crosses them at random.
 #pragma once
 
-#include "radiosity/transport/receiver_rays.h"
+#include "radiosity/transport/hemisphere_samples.h"
 
 namespace meninas {
 

@@ -8,7 +8,7 @@ namespace meninas {
 namespace {
 
 constexpr double margin = frustum_margin;
-constexpr double least_slope = 0.02; ///< cosine at which faces are met
+constexpr double min_slope = 0.02; ///< cosine at which faces are met
 
 AffineForm operator+(const AffineForm& a, const AffineForm& b) {
   return {a.constant + b.constant, a.x + b.x, a.y + b.y};
@@ -39,7 +39,7 @@ double sign_over(const AffineForm& form, const PictureBlock& block) {
   return range.low > 0.0 ? 1.0 : range.high < 0.0 ? -1.0 : 0.0;
 }
 
-double least_over(double sign, const AffineForm& form, const PictureBlock& block) {
+double min_over(double sign, const AffineForm& form, const PictureBlock& block) {
   const FormRange range = range_over(form, block);
   return sign > 0.0 ? range.low : -range.high;
 }
@@ -120,18 +120,18 @@ bool is_outside(const FaceView& view, const PictureBlock& block, double longest)
   return sign != 0.0 &&
          std::ranges::any_of(std::span(view.edges).first(view.edge_count),
                              [&](const AffineForm& edge) {
-                               return least_over(-sign, edge, block) > margin * longest;
+                               return min_over(-sign, edge, block) > margin * longest;
                              });
 }
 
 bool covers(const FaceView& view, const PictureBlock& block, double longest) {
   const double sign = sign_over(view.slope, block);
   // The foot's height over an edge is its distance by the cosine at which rays of that length come.
-  return sign != 0.0 && least_over(sign, view.slope, block) > least_slope * longest &&
-         least_over(sign, view.near + (-margin) * view.slope, block) > 0.0 &&
+  return sign != 0.0 && min_over(sign, view.slope, block) > min_slope * longest &&
+         min_over(sign, view.near + (-margin) * view.slope, block) > 0.0 &&
          std::ranges::all_of(std::span(view.edges).first(view.edge_count),
                              [&](const AffineForm& edge) {
-                               return least_over(sign, edge, block) > margin * longest;
+                               return min_over(sign, edge, block) > margin * longest;
                              });
 }
 
@@ -142,8 +142,8 @@ bool is_behind(const FaceView& face, const FaceView& other, const PictureBlock& 
   const AffineForm farther = other.height * face.slope + (-1.0) * (face.height * other.slope);
   const AffineForm apart = sign * theirs * farther;
   return sign * theirs != 0.0 &&
-         least_over(1.0, apart + (-margin * theirs) * other.slope, block) > 0.0 &&
-         least_over(1.0, apart + (-margin * sign) * face.slope, block) > 0.0;
+         min_over(1.0, apart + (-margin * theirs) * other.slope, block) > 0.0 &&
+         min_over(1.0, apart + (-margin * sign) * face.slope, block) > 0.0;
 }
 
 } // namespace meninas

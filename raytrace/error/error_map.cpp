@@ -37,7 +37,7 @@ Image product_about(const Image& a, const Image& b, const Image& c) {
 
 } // namespace
 
-Image error_map(const LightScene& light, const DiffuseField& field, const Camera& camera,
+Image error_map(const LightScene& light, const IrradianceField& field, const Camera& camera,
                 const TwoPassSettings& settings, const Image& picture, const PictureError& error) {
   constexpr int reach_of_edges = 1, reach_of_noise = 1;
   RenderSettings shown = settings.render;

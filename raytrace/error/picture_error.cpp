@@ -21,7 +21,7 @@ using Radiances = std::vector<glm::vec3>;
 /// Pixels on demand, and what they have taken.
 struct Probing {
   const LightScene& light;
-  const DiffuseField& field;
+  const IrradianceField& field;
   const Camera& camera;
   const TwoPassSettings& settings;
   std::uint64_t rays = 0;
@@ -82,7 +82,7 @@ bool is_capped(const TwoPassSettings& settings) {
          settings.pass_one.form_factors.max_bounces < FormFactorSettings{}.max_bounces;
 }
 
-RenderSettings drawn_again(RenderSettings settings, std::uint32_t draw) {
+RenderSettings redrawn(RenderSettings settings, std::uint32_t draw) {
   settings.diffuse.draw = draw;
   return settings;
 }
@@ -94,7 +94,7 @@ struct SquaredErrors {
 
 /// What gathered light is off by, squared, because of what it is gathered from.
 /// The gatherings that are compared are the same but for that.
-double believed_error(Probing& probe, std::span<const glm::ivec2> pixels,
+double estimated_error(Probing& probe, std::span<const glm::ivec2> pixels,
                       std::span<const double> weight) {
   constexpr int places = 16;
   RenderSettings shown = probe.settings.render;
@@ -102,8 +102,8 @@ double believed_error(Probing& probe, std::span<const glm::ivec2> pixels,
   RenderSettings again = shown;
   again.diffuse.places = places;
   const auto change = [&](std::uint32_t draw) {
-    Radiances more = probe(drawn_again(again, draw), pixels);
-    const Radiances as_shown = probe(drawn_again(shown, draw), pixels);
+    Radiances more = probe(redrawn(again, draw), pixels);
+    const Radiances as_shown = probe(redrawn(shown, draw), pixels);
     std::ranges::transform(more, as_shown, more.begin(), std::minus<>{});
     return more;
   };
@@ -123,16 +123,16 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   const bool interpolated = shown.diffuse.term == DiffuseTerm::interpolated;
   const auto first = pixels.first(std::min(gathered, pixels.size()));
   if (shown.diffuse.term == DiffuseTerm::gather) {
-    errors.field = believed_error(probe, first, choice.weight);
+    errors.field = estimated_error(probe, first, choice.weight);
     return;
   }
   // What is computed at the hit is drawn alike in L_k, and is not in the difference:
   // its noise is the pixels'.
-  const Radiances l1 = probe(drawn_again(shown, 3), interpolated ? pixels : first);
-  const Radiances l2 = interpolated ? l1 : probe(drawn_again(shown, 4), first);
+  const Radiances l1 = probe(redrawn(shown, 3), interpolated ? pixels : first);
+  const Radiances l2 = interpolated ? l1 : probe(redrawn(shown, 4), first);
   probe.watch.lap();
-  const Radiances g1 = probe(drawn_again(gathering, 3), first),
-                  g2 = probe(drawn_again(gathering, 4), first);
+  const Radiances g1 = probe(redrawn(gathering, 3), first),
+                  g2 = probe(redrawn(gathering, 4), first);
   error.gather_seconds = probe.seconds_each(2 * first.size());
   const auto weight = [&](std::size_t k) { return static_cast<float>(choice.weight[k]); };
   const auto off = [&](std::size_t k) { return weight(k) * (g1[k] - l1[k]) * (g2[k] - l2[k]); };
@@ -145,8 +145,8 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
     RenderSettings source = gathering;
     source.max_bounces = shown.max_bounces;
     source.diffuse.term = DiffuseTerm::direct;
-    s1 = probe(drawn_again(source, 3), pixels);
-    s2 = probe(drawn_again(source, 4), pixels);
+    s1 = probe(redrawn(source, 3), pixels);
+    s2 = probe(redrawn(source, 4), pixels);
     error.direct_seconds = probe.seconds_each(2 * pixels.size());
     const auto product = [&](std::size_t k) {
       return weight(k) * (s1[k] - l1[k]) * (s2[k] - l1[k]);
@@ -163,8 +163,8 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
     RenderSettings capped = gathering;
     capped.max_bounces = shown.max_bounces;
     capped.diffuse.gather.max_bounces = probe.settings.pass_one.form_factors.max_bounces;
-    const Radiances c1 = probe(drawn_again(capped, 3), first),
-                    c2 = probe(drawn_again(capped, 4), first);
+    const Radiances c1 = probe(redrawn(capped, 3), first),
+                    c2 = probe(redrawn(capped, 4), first);
     const auto beyond = [&](std::size_t k) {
       return weight(k) * (g1[k] - c1[k]) * (g2[k] - c2[k]);
     };
@@ -216,7 +216,7 @@ void probe_samples(Probing& probe, const SampledPicture& picture,
 }
 
 /// The largest radiosity that surfaces reflect.
-double largest_reflected(const LightScene& light, const DiffuseField& field) {
+double largest_reflected(const LightScene& light, const IrradianceField& field) {
   double largest = 0.0;
   for (const Rgb& b : reflected_by_elements(light.mesh, field))
     largest = std::max({largest, b.r, b.g, b.b});
@@ -234,7 +234,7 @@ PictureErrorSettings error_settings(const TwoPassSettings& settings, std::size_t
   return how;
 }
 
-PictureError estimate_error(const LightScene& light, const DiffuseField& field,
+PictureError estimate_error(const LightScene& light, const IrradianceField& field,
                             const Camera& camera, const TwoPassSettings& settings,
                             const SolverResult& solver, const SampledPicture& picture,
                             const PictureErrorSettings& how) {

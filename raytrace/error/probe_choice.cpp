@@ -46,11 +46,11 @@ static std::vector<glm::vec3> bends(const ElementMesh& mesh,
 }
 
 /// V, by one ray a pixel. Of a large picture a smaller one is good enough.
-static Image bend_picture(const LightScene& scene, const DiffuseField& field, FieldContent light,
+static Image bend_picture(const LightScene& scene, const IrradianceField& field, FieldContent light,
                           const Camera& camera, RenderSettings settings) {
-  constexpr double most_pixels = 20'000.0;
+  constexpr double max_pixels = 20'000.0;
   const double smaller =
-      std::min(1.0, std::sqrt(most_pixels / (double(settings.width) * settings.height)));
+      std::min(1.0, std::sqrt(max_pixels / (double(settings.width) * settings.height)));
   settings.width = static_cast<int>(std::ceil(smaller * settings.width));
   settings.height = static_cast<int>(std::ceil(smaller * settings.height));
   settings.samples = 1;
@@ -119,7 +119,7 @@ private:
 
 } // namespace
 
-ProbeChoice choose_probes(const LightScene& scene, const DiffuseField& field, FieldContent light,
+ProbeChoice choose_probes(const LightScene& scene, const IrradianceField& field, FieldContent light,
                           const Camera& camera, const RenderSettings& settings,
                           std::span<const std::uint8_t> emits, int wanted) {
   const std::vector<glm::ivec2> even =

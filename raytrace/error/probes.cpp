@@ -6,7 +6,7 @@
 
 namespace meninas {
 
-ProbedPixels render_pixels(const LightScene& light, const DiffuseField& field, const Camera& camera,
+ProbedPixels render_pixels(const LightScene& light, const IrradianceField& field, const Camera& camera,
                            const RenderSettings& settings, std::span<const glm::ivec2> pixels) {
   ProbedPixels probed;
   probed.radiance.resize(pixels.size());
@@ -32,7 +32,7 @@ Image first_picture(const LightScene& light, const VisibleLight& visible, const 
 }
 
 /// The emission that pixels show.
-static Image emission_picture(const LightScene& light, const DiffuseField& field,
+static Image emission_picture(const LightScene& light, const IrradianceField& field,
                               const Camera& camera, const RenderSettings& settings) {
   VisibleLight glow = visible_light(light, field, FieldContent::all);
   glow.part = ReflectedPart::none;
@@ -41,7 +41,7 @@ static Image emission_picture(const LightScene& light, const DiffuseField& field
   return first_picture(light, glow, camera, settings);
 }
 
-std::vector<std::uint8_t> emitter_pixels(const LightScene& light, const DiffuseField& field,
+std::vector<std::uint8_t> emitter_pixels(const LightScene& light, const IrradianceField& field,
                                          const Camera& camera, RenderSettings settings,
                                          const Image& picture, int samples) {
   constexpr float share = 0.05F;

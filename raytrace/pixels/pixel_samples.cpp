@@ -1,7 +1,7 @@
 #include "raytrace/pixels/pixel_samples.h"
 
-#include "raytrace/beams/mirror_beam.h"
-#include "raytrace/beams/sure_paths.h"
+#include "raytrace/beams/packet_reflection.h"
+#include "raytrace/beams/coherent_beams.h"
 #include "raytrace/specular_paths.h"
 #include "raytrace/wide_lanes.h"
 #include "scenes/sampling.h"
@@ -64,8 +64,8 @@ void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileW
   set_camera_rays(packet, context.camera, x, y);
   trace_together(context, packet, state, work);
   // Lobes send many rays on: what is under way stays within memory.
-  constexpr std::size_t most_queued = 1 << 17;
-  if (work.next.size() > most_queued)
+  constexpr std::size_t max_queued = 1 << 17;
+  if (work.next.size() > max_queued)
     follow_mirrors(context, work);
 }
 

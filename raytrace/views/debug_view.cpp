@@ -46,7 +46,7 @@ float closure_error(const RowClosure& row) {
       std::abs(1.0 - (double{row.landed} + row.escaped + row.black + row.cut)));
 }
 
-std::optional<float> value_of(DebugView view, const LightScene& light, const DiffuseField& field,
+std::optional<float> value_of(DebugView view, const LightScene& light, const IrradianceField& field,
                               std::span<const RowClosure> rows, const Sight& sight) {
   if (view == DebugView::mirror_depth)
     return static_cast<float>(sight.mirrors);
@@ -63,7 +63,7 @@ std::optional<float> value_of(DebugView view, const LightScene& light, const Dif
 
 } // namespace
 
-PaintedView paint_view(DebugView view, const LightScene& light, const DiffuseField& field,
+PaintedView paint_view(DebugView view, const LightScene& light, const IrradianceField& field,
                        std::span<const RowClosure> rows, const Camera& camera,
                        const RenderSettings& settings) {
   expects(view != DebugView::closure || rows.size() == element_count(light.mesh),

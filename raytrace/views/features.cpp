@@ -22,7 +22,7 @@ std::string_view name_of(Feature feature) {
   return "irradiance";
 }
 
-static glm::vec3 value_of(Feature feature, const LightScene& light, const DiffuseField& field,
+static glm::vec3 value_of(Feature feature, const LightScene& light, const IrradianceField& field,
                           const Camera& camera, const Sight& sight) {
   const bool on_field = sight.side != FaceRecord::nothing;
   switch (feature) {
@@ -43,7 +43,7 @@ static glm::vec3 value_of(Feature feature, const LightScene& light, const Diffus
                   : glm::vec3(0.0F);
 }
 
-std::vector<Layer> render_features(const LightScene& light, const DiffuseField& field,
+std::vector<Layer> render_features(const LightScene& light, const IrradianceField& field,
                                    const Camera& camera, const RenderSettings& settings) {
   std::vector<Layer> layers;
   for (const Feature feature : settings.features)

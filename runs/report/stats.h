@@ -37,7 +37,7 @@ struct ReferenceFigures {
 /// considered = kept + unseen + faint + beyond the limits.
 struct WorldFigures {
   std::size_t considered = 0, kept = 0, pruned_unseen = 0, pruned_throughput = 0, pruned_limit = 0;
-  double tail_bound = 0.0; ///< radiosity/scene/world_tail.h
+  double tail_bound = 0.0; ///< radiosity/scene/mirror_depth_bound.h
 };
 
 /// Of a run that chose its own settings (steering.h), what it tried.

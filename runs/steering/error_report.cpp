@@ -31,7 +31,7 @@ std::string describe_error(const PictureError& error) {
   return text;
 }
 
-std::optional<std::string> first_turn(const PictureError& error, const TwoPassSettings& settings) {
+std::optional<std::string> suggest_option(const PictureError& error, const TwoPassSettings& settings) {
   constexpr double visible = 0.02;
   if (error.total < visible)
     return std::nullopt;
@@ -68,7 +68,7 @@ void report_error(const PictureSource& source, ErrorReport wanted, const Sampled
   figures.error_estimate = error;
   // A black picture has a warning of its own, and nothing that an error could be relative to.
   if (error.mean_radiance > 0.0) {
-    const auto turn = first_turn(error, settings);
+    const auto turn = suggest_option(error, settings);
     note(events, describe_error(error) + (turn ? "; " + *turn : ""));
   }
   if (wanted == ErrorReport::map)

@@ -23,7 +23,7 @@ enum class ErrorReport {
 /// What a picture was made of.
 struct PictureSource {
   const LightScene& light;
-  const DiffuseField& field;
+  const IrradianceField& field;
   const Camera& camera;
   const TwoPassSettings& settings;
   const SolverResult& solver;
@@ -35,7 +35,7 @@ std::string describe_error(const PictureError& error);
 
 /// What to turn first where the error can be seen (2 %): the option that makes the largest
 /// part smaller, as "--diffuse direct would help most". Nothing where it cannot.
-std::optional<std::string> first_turn(const PictureError& error, const TwoPassSettings& settings);
+std::optional<std::string> suggest_option(const PictureError& error, const TwoPassSettings& settings);
 
 /// Fills in the figures and says the line as a note, with what to turn first;
 /// the map is appended to the layers.

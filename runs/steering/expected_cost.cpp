@@ -1,10 +1,10 @@
 #include "runs/steering/expected_cost.h"
 
 #include "radiosity/light/element_light.h"
-#include "radiosity/field/facets.h"
+#include "radiosity/field/smoothing_groups.h"
 #include "radiosity/light/gather_noise.h"
 #include "radiosity/hierarchical/node_solution.h"
-#include "radiosity/light/point_gathering.h"
+#include "radiosity/light/point_irradiance.h"
 #include "radiosity/field/vertex_places.h"
 #include "raytrace/error/probes.h"
 #include "runs/steering/memory.h"
@@ -78,7 +78,7 @@ Counts counted_by_nodes(const LightScene& light, const PassOneSettings& settings
   all.rows = std::min(all.elements, rows_of_first * double(first));
   if (!gathers_by_nodes(settings))
     return all;
-  all.of_rays = double(rays_shared_out(settings.form_factors, first).rays) /
+  all.of_rays = double(rays_per_row(settings.form_factors, first).rays) /
                 double(std::max(1, settings.form_factors.rays));
   all.gathers = std::min(all.gathers, gathers_of_row * all.rows);
   all.elements = by_themselves * all.elements;
@@ -104,7 +104,7 @@ Counts counted_adaptive(const PassOneSettings& settings, Counts all) {
   constexpr double root_sources = 60.0, sources = 20.0; // ones with many shadow rays for two
   const double x = settings.interpolation.adaptive->error, asked = settings.interpolation.rays;
   const double rays =
-      std::clamp(std::pow(of_noise / x, 1.0 / noise_order), asked, most_times_asked * asked);
+      std::clamp(std::pow(of_noise / x, 1.0 / noise_order), asked, max_times_asked * asked);
   const double roots = all.gathers, elements = roots * (1.0 + ordinary / x);
   all.gathers = 1.5 * (0.25 * roots + std::sqrt(roots * elements) * rays / asked);
   all.sources = root_sources * roots + sources * (elements - roots);
@@ -115,7 +115,7 @@ Counts counted_adaptive(const PassOneSettings& settings, Counts all) {
 double camera_ray_seconds(const PreparedScene& prepared, const Camera& camera,
                           RenderSettings settings) {
   constexpr std::uint32_t some = 1024;
-  DiffuseField field;
+  IrradianceField field;
   field.irradiance.assign(prepared.mesh.vertices.size(), glm::vec3(1.0F));
   field.mirrored = field.indirect = field.indirect_mirrored = field.irradiance;
   settings.samples = std::min(settings.samples, 16);

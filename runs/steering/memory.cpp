@@ -1,7 +1,7 @@
 #include "runs/steering/memory.h"
 
-#include "radiosity/light/kept_rays.h"
-#include "radiosity/field/shadow_edges.h"
+#include "radiosity/light/row_cache.h"
+#include "radiosity/field/refine_direct.h"
 #include "scenes/errors.h"
 #include "scenes/materials/image_size.h"
 
@@ -80,7 +80,7 @@ std::uint64_t scene_memory(const SceneSizes& scene, const RunSettings& settings)
                                     : 0.0;
   const double elements = expected_elements(scene, settings);
   const double at_shadows = settings.solver == SolverMethod::hierarchical
-                                ? double(most_at_shadows(static_cast<std::size_t>(elements)))
+                                ? double(max_at_shadows(static_cast<std::size_t>(elements)))
                                 : 0.0;
   return whole(per_vertex * static_cast<double>(scene.vertices) +
                per_triangle * static_cast<double>(scene.triangles) +
@@ -127,8 +127,8 @@ std::uint64_t solve_memory(const SceneSizes& scene, const RunSettings& settings)
         4.0 * sizeof(double) * elements * elements; // the factors of three channels and a matrix
   }
   if (settings.solver == SolverMethod::hierarchical) // what rays of vertices have met
-    bytes += double(sizeof(RayLanding)) *
-             std::min<double>(most_kept_rays,
+    bytes += double(sizeof(ElementHit)) *
+             std::min<double>(max_kept_rays,
                               elements * two_pass_settings(settings).pass_one.form_factors.rays);
   return whole(bytes);
 }

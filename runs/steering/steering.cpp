@@ -24,7 +24,7 @@ struct OutOfTime {};
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// The settings as they are with these knobs.
-RunSettings with_knobs(RunSettings settings, const FreeKnobs& free, const Knobs& knobs) {
+RunSettings with_knobs(RunSettings settings, const FreeKnobs& free, const Parameters& knobs) {
   settings.quality = Quality::draft;
   if (free.elements)
     settings.elements = static_cast<int>(knobs.elements);
@@ -45,8 +45,8 @@ FreeKnobs free_knobs(const RunSettings& settings) {
                   tells_light_apart(settings)};
 }
 
-Knobs first_knobs(const RunSettings& settings) {
-  Knobs knobs;
+Parameters first_knobs(const RunSettings& settings) {
+  Parameters knobs;
   const QualityPreset draft = preset_of(Quality::draft);
   if (settings.element_size || settings.adaptive == WithAdaptivity::yes)
     knobs.elements = draft.target_elements;
@@ -82,7 +82,7 @@ struct Steering {
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
   std::optional<LitScene> lit = {};
   RunFigures figures = {}; ///< of `lit`
-  std::optional<Knobs> lit_with = {};
+  std::optional<Parameters> lit_with = {};
   bool warned = false;
 
   double left() const {
@@ -115,7 +115,7 @@ RunEvents events_of(Steering& steering, bool may_end) {
 }
 
 /// Pass one as these knobs want it, unless it is there.
-void light_scene(Steering& steering, const Knobs& knobs, const TwoPassSettings& settings,
+void light_scene(Steering& steering, const Parameters& knobs, const TwoPassSettings& settings,
                  const RunEvents& events) {
   if (steering.lit_with && steering.lit_with->elements == knobs.elements &&
       steering.lit_with->rays == knobs.rays)
@@ -152,7 +152,7 @@ std::array<double, 4> uncertain_shares(const Image& picture, const RenderSetting
   return shares;
 }
 
-SteeredRun run_with(Steering& steering, const Knobs& knobs, bool may_end) {
+SteeredRun run_with(Steering& steering, const Parameters& knobs, bool may_end) {
   const SteeringRequest& request = steering.request;
   const RunSettings settings = with_knobs(steering.settings, free_knobs(steering.settings), knobs);
   TwoPassSettings two_pass = two_pass_settings(settings);
@@ -220,14 +220,14 @@ void say_end(const SteeredChoice& choice, const RunEvents& events) {
 }
 
 /// What did not do once will not do by being made again.
-bool was_made(const SteeredChoice& choice, const Knobs& knobs) {
+bool was_made(const SteeredChoice& choice, const Parameters& knobs) {
   return std::ranges::any_of(choice.steps, [&](const SteeredStep& step) {
-    return Knobs{step.wanted_elements, step.rays, step.samples, step.term} == knobs;
+    return Parameters{step.wanted_elements, step.rays, step.samples, step.term} == knobs;
   });
 }
 
-/// Knobs whose turning did not help: the estimate does not know what is wrong.
-void leave_alone(FreeKnobs& free, const Knobs& before, const Knobs& turned) {
+/// Parameters whose turning did not help: the estimate does not know what is wrong.
+void leave_alone(FreeKnobs& free, const Parameters& before, const Parameters& turned) {
   free.elements = free.elements && turned.elements == before.elements;
   free.rays = free.rays && turned.rays == before.rays;
   free.samples = free.samples && turned.samples == before.samples;
@@ -293,10 +293,10 @@ struct Search {
 } // namespace
 
 ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFigures& figures) {
-  constexpr int most_steps = 8;
+  constexpr int max_steps = 8;
   constexpr double error_margin = 0.7,
                    time_margin = 0.7;  // of a goal, that a forecast is held against
-  constexpr double most_growth = 20.0; // of the time so far: the next run takes no longer
+  constexpr double max_growth = 20.0; // of the time so far: the next run takes no longer
   constexpr double at_once =
       0.125; // of the error: parts so much smaller are not known well enough to be met yet
   const RunSettings settings = settings_of(request);
@@ -308,14 +308,14 @@ ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFi
   choice.wanted_error = request.goal.error;
   choice.wanted_seconds = request.goal.seconds;
   NextRun next{first_knobs(settings), {}, "a quick look"};
-  for (int k = 0; k < most_steps && search.step(next); ++k) {
+  for (int k = 0; k < max_steps && search.step(next); ++k) {
     choice.reached = !request.goal.error || search.error() <= wanted;
     if (request.goal.error && choice.reached)
       break;
     const MeasuredRun& measured = search.best->measured;
     next =
         next_run(measured, steering.free, std::max(error_margin * wanted, at_once * search.error()),
-                 std::min(time_margin * steering.left(), most_growth * steering.spent()));
+                 std::min(time_margin * steering.left(), max_growth * steering.spent()));
     if (next.knobs == measured.knobs || was_made(choice, next.knobs))
       break;
     note(events, fmt::format("next, because of {}", next.why));

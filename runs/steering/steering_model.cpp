@@ -13,7 +13,7 @@ namespace meninas {
 namespace {
 
 constexpr double most_elements = 250'000.0;
-constexpr int most_rays = 4096, least_samples = 4, most_samples = 1024;
+constexpr int max_rays = 4096, min_samples = 4, most_samples = 1024;
 
 // Exponents: of pixels whose light is a smooth function between edges,
 // of light from the source, and of what rays gather.
@@ -35,7 +35,7 @@ double samples_a_pixel(const MeasuredRun& run, int samples) {
 
 /// Of the square of what camera rays are off by;
 /// nothing is left to gain where no pixel would take more.
-double pixel_decline(const MeasuredRun& run, const Knobs& knobs) {
+double pixel_decline(const MeasuredRun& run, const Parameters& knobs) {
   const int samples = knobs.samples;
   const double exponent = knobs.term == DiffuseTerm::interpolated ? at_edges
                           : knobs.term == DiffuseTerm::direct     ? of_shadows
@@ -57,7 +57,7 @@ double gather_seconds(const MeasuredRun& run) {
   return run.error.gather_seconds * (source_rays + rays_of_a_hit) / (source_rays + run.knobs.rays);
 }
 
-double pass_two_seconds(const MeasuredRun& run, const Knobs& knobs) {
+double pass_two_seconds(const MeasuredRun& run, const Parameters& knobs) {
   const double samples = samples_a_pixel(run, knobs.samples);
   const double share = samples / run.samples_a_pixel;
   if (knobs.term == run.knobs.term)
@@ -75,25 +75,25 @@ double pass_two_seconds(const MeasuredRun& run, const Knobs& knobs) {
 /// Samples drawn again to find out, of a pixel that is looked at:
 /// as many pixels of each number of samples, more of those of few (raytrace/error/picture_error.cpp).
 double samples_drawn_again(int samples) {
-  constexpr int least_drawn = 16, most_rounds = 64; // first samples to last
+  constexpr int min_drawn = 16, max_rounds = 64; // first samples to last
   double drawn = 0.0, groups = 0.0;
-  for (int n = std::max(least_samples, samples / most_rounds); n <= samples; n *= 4) {
-    drawn += std::max(n, least_drawn);
+  for (int n = std::max(min_samples, samples / max_rounds); n <= samples; n *= 4) {
+    drawn += std::max(n, min_drawn);
     groups += 1.0;
   }
-  return groups > 0.0 ? drawn / groups : least_drawn;
+  return groups > 0.0 ? drawn / groups : min_drawn;
 }
 
 /// What finding out the error takes.
-double estimate_seconds(const MeasuredRun& run, const Knobs& knobs) {
+double estimate_seconds(const MeasuredRun& run, const Parameters& knobs) {
   constexpr double of_camera_rays = 1.0 / 3.0; // the share drawn again, with four samples a pixel
   constexpr double source_rays = 128.0;        // that cost as much as light from the source
   const auto pixels = [](double elements) {
     return error_settings(TwoPassSettings{}, static_cast<std::size_t>(elements)).gathered_pixels;
   };
-  const auto of_a_pixel = [](const Knobs& k) {
-    return (1.0 - of_camera_rays) * (source_rays + k.rays) / (source_rays + Knobs{}.rays) +
-           of_camera_rays * samples_drawn_again(k.samples) / samples_drawn_again(Knobs{}.samples);
+  const auto of_a_pixel = [](const Parameters& k) {
+    return (1.0 - of_camera_rays) * (source_rays + k.rays) / (source_rays + Parameters{}.rays) +
+           of_camera_rays * samples_drawn_again(k.samples) / samples_drawn_again(Parameters{}.samples);
   };
   return run.estimate_seconds * pixels(knobs.elements) / pixels(run.knobs.elements) *
          of_a_pixel(knobs) / of_a_pixel(run.knobs);
@@ -123,17 +123,17 @@ std::vector<DiffuseTerm> terms(const MeasuredRun& run, const FreeKnobs& free) {
 }
 
 /// All that may be tried next.
-std::vector<Knobs> knobs_after(const MeasuredRun& run, const FreeKnobs& free) {
-  constexpr double most_growth = 16.0; // how the mesh's error falls is not known further than that
-  const Knobs& now = run.knobs;
-  const double finest = std::min(most_elements, most_growth * now.elements);
-  std::vector<Knobs> all;
+std::vector<Parameters> knobs_after(const MeasuredRun& run, const FreeKnobs& free) {
+  constexpr double max_growth = 16.0; // how the mesh's error falls is not known further than that
+  const Parameters& now = run.knobs;
+  const double finest = std::min(most_elements, max_growth * now.elements);
+  std::vector<Parameters> all;
   for (const DiffuseTerm term : terms(run, free))
     for (const double elements : steps_up(free.elements, now.elements, 2.0, finest))
-      for (const double rays : steps_up(free.rays, now.rays, 2.0, most_rays)) {
+      for (const double rays : steps_up(free.rays, now.rays, 2.0, max_rays)) {
         // Camera rays that cost next to nothing so far are worth less where each computes light.
         double fewest = now.samples;
-        while (free.samples && term != now.term && fewest / 4.0 >= least_samples)
+        while (free.samples && term != now.term && fewest / 4.0 >= min_samples)
           fewest /= 4.0;
         for (const double samples : steps_up(free.samples, fewest, 4.0, most_samples))
           all.push_back({elements, static_cast<int>(rays), static_cast<int>(samples), term});
@@ -142,7 +142,7 @@ std::vector<Knobs> knobs_after(const MeasuredRun& run, const FreeKnobs& free) {
 }
 
 /// "camera rays are 4.6 %: 16 samples a pixel", for every knob that was turned.
-std::string reasons(const MeasuredRun& run, const Knobs& next) {
+std::string reasons(const MeasuredRun& run, const Parameters& next) {
   const PictureError& e = run.error;
   std::vector<std::string> all;
   const auto because = [&](bool turned, const char* part, double error, std::string remedy) {
@@ -192,7 +192,7 @@ double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine
 }
 
 /// What the field is off by, squared.
-static double field_error(const MeasuredRun& run, const Knobs& knobs) {
+static double field_error(const MeasuredRun& run, const Parameters& knobs) {
   const PictureError& e = run.error;
   const auto square = [](double x) { return x * x; };
   const double elements = knobs.elements / run.knobs.elements,
@@ -216,7 +216,7 @@ static double field_error(const MeasuredRun& run, const Knobs& knobs) {
          square(e.form_factors) * std::pow(rays, -1.2) + square(e.mirror_tail);
 }
 
-Forecast forecast(const MeasuredRun& run, const Knobs& knobs) {
+Forecast forecast(const MeasuredRun& run, const Parameters& knobs) {
   const PictureError& e = run.error;
   const double elements = knobs.elements / run.knobs.elements,
                rays = double(knobs.rays) / run.knobs.rays;
@@ -239,7 +239,7 @@ NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, do
     return same;
   std::vector<NextRun> better;
   double least = same.forecast.error;
-  for (const Knobs& knobs : knobs_after(run, free)) {
+  for (const Parameters& knobs : knobs_after(run, free)) {
     const Forecast then = forecast(run, knobs);
     if (then.seconds > seconds || !(then.error < same.forecast.error))
       continue;

@@ -21,22 +21,22 @@
 
 namespace meninas {
 
-struct Knobs {
+struct Parameters {
   double elements = 600.0; ///< wanted
   int rays = 64;
   int samples = 4; ///< of a pixel, at most: sampling is adaptive
   DiffuseTerm term = DiffuseTerm::interpolated;
 
-  bool operator==(const Knobs&) const = default;
+  bool operator==(const Parameters&) const = default;
 };
 
-/// Knobs a user has set are not turned.
+/// Parameters a user has set are not turned.
 struct FreeKnobs {
   bool elements = true, rays = true, samples = true, term = true;
 };
 
 struct MeasuredRun {
-  Knobs knobs;
+  Parameters knobs;
   PictureError error;
   double pass_one_seconds = 0.0, pass_two_seconds = 0.0, estimate_seconds = 0.0;
   double pixels = 0.0;
@@ -59,11 +59,11 @@ struct Forecast {
   double seconds =
       0.0; ///< of what has to be done anew: nothing of pass one where only pass two changes
 };
-Forecast forecast(const MeasuredRun& run, const Knobs& knobs);
+Forecast forecast(const MeasuredRun& run, const Parameters& knobs);
 
 /// What is turned next, and why.
 struct NextRun {
-  Knobs knobs;
+  Parameters knobs;
   Forecast forecast;
   std::string why;
 };

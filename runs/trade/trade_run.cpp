@@ -2,7 +2,7 @@
 
 #include "image/metrics/relative_error.h"
 #include "image/whole_file.h"
-#include "radiosity/scene/world_tail.h"
+#include "radiosity/scene/mirror_depth_bound.h"
 #include "raytrace/error/probes.h"
 #include "runs/report/comparison.h"
 #include "runs/outputs.h"

@@ -88,7 +88,7 @@ static Needs needs_of(const PrimitivePlace& at, double copies, bool is_skinned) 
 void check_geometry_size(const Document& document, std::span<const PlacedNode> nodes) {
   // Primitives with their attributes;
   // each takes a fraction of a microsecond to look at, also where nothing of it is seen.
-  constexpr std::size_t most_looks = 50000000;
+  constexpr std::size_t max_looks = 50000000;
   const auto limit = static_cast<double>(document.settings.memory_limit);
   std::size_t looks = 0;
   Needs all;
@@ -106,11 +106,11 @@ void check_geometry_size(const Document& document, std::span<const PlacedNode> n
     all.bytes += sizeof(glm::dmat4) * copies;
     each_primitive(mesh_place(document, node.index, *mesh), [&](const PrimitivePlace& at) {
       looks += 1 + at.json["attributes"].size();
-      if (looks > most_looks)
+      if (looks > max_looks)
         throw OutputError(document.file, place(document.root, "nodes", node.index),
                           fmt::format("up to here the nodes' meshes have over {} primitives and "
                                       "attributes, more than are read",
-                                      most_looks));
+                                      max_looks));
       const auto needs = needs_of(at, copies, skin.has_value());
       all.bytes += needs.bytes;
       all.vertices += needs.vertices;

@@ -200,8 +200,8 @@ private:
   }
 
   TextureId leave_out(const std::string& where, const std::string& why) {
-    constexpr std::size_t most_lines = 20;
-    if (++left_out_ <= most_lines)
+    constexpr std::size_t max_lines = 20;
+    if (++left_out_ <= max_lines)
       findings_.say(fmt::format("{}: {}; the factor alone is used", where, why));
     else
       findings_.about("more images cannot be used", where);

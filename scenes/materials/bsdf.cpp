@@ -281,7 +281,7 @@ Bsdf mirror_coat(const Material& material) {
   return coat;
 }
 
-Rgb let_out_by_coat(const Bsdf& coat, double cosine) {
+Rgb coat_transmittance(const Bsdf& coat, double cosine) {
   const double below = mean_below_coat(coat);
   return Rgb(below > 0.0 ? (1.0 - coat_albedo(coat, cosine)) / below : 0.0);
 }

@@ -149,8 +149,8 @@ public:
   }
 
 private:
-  static constexpr std::int64_t most_work = 20'000'000;
-  static constexpr std::size_t most_copies = 64;
+  static constexpr std::int64_t max_work = 20'000'000;
+  static constexpr std::size_t max_copies = 64;
 
   const TexelRanges& ranges_of(const TextureUse& use, TextureContent content) {
     const auto& list = content == TextureContent::colour ? textures_.colours : textures_.numbers;
@@ -176,7 +176,7 @@ private:
   /// and their pyramids need not be made.
   bool differs(const TextureUse& use, TextureContent content, const Triangles& triangles,
                const AllowedRange& allowed) const {
-    constexpr std::size_t most_looks = 16;
+    constexpr std::size_t max_looks = 16;
     const auto& list = content == TextureContent::colour ? textures_.colours : textures_.numbers;
     const TexturePixels& pixels = list[index(use.texture)];
     if (pixels.texels.empty())
@@ -188,7 +188,7 @@ private:
       range.low = glm::min(range.low, value);
       range.high = glm::max(range.high, value);
     };
-    const std::size_t stride = (triangles.size() + most_looks - 1) / most_looks;
+    const std::size_t stride = (triangles.size() + max_looks - 1) / max_looks;
     for (std::size_t k = 0; k < triangles.size(); k += stride) {
       const auto uv = texcoords(triangles[k], use);
       for (const Vec2 corner : uv)
@@ -323,7 +323,7 @@ private:
           std::ranges::find(copies, values, &std::pair<Values, MaterialId>::first);
       MaterialId id = known != copies.end() ? known->second : none<MaterialId>;
       if (known == copies.end()) {
-        if (copies.size() == most_copies)
+        if (copies.size() == max_copies)
           continue;
         Material copy = material;
         fold(copy, values);
@@ -341,7 +341,7 @@ private:
   const DecodedTextures& textures_;
   std::map<std::pair<std::uint32_t, TextureContent>, TexelRanges> ranges_;
   std::optional<DisjointSets> sets_; ///< vertices of the scene, once they are asked for
-  std::int64_t work_ = most_work;
+  std::int64_t work_ = max_work;
   std::vector<std::uint8_t> nearly_smooth_; ///< by MaterialId
   gltf::Findings findings_;
   bool changed_ = false;

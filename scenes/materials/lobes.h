@@ -57,7 +57,7 @@ Bsdf mirror_coat(const Material& material);
 
 /// What is scattered below a coat leaves it by (1 - R(cos)) / (1 - R_mean), 1 in the mean:
 /// together with what the coat reflects, a white surface shows what is around it, from everywhere.
-Rgb let_out_by_coat(const Bsdf& coat, double cosine);
+Rgb coat_transmittance(const Bsdf& coat, double cosine);
 
 /// What clear glass, or a coat, reflects and passes of light from everywhere.
 GlassShares mean_shares(const Bsdf& clear);

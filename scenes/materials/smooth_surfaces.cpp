@@ -23,10 +23,10 @@ bool is_smooth_metal(const Material& material) {
 
 /// Pictures of the paint below a coat change nothing about it.
 bool is_smooth_coat(const Material& material) {
-  constexpr double least_reflectance = 0.01; // of light from everywhere, of a tenth of glass
+  constexpr double min_reflectance = 0.01; // of light from everywhere, of a tenth of glass
   return material.metallic == 0.0 && !material.metallic_roughness_texture &&
          has_visible_coat(material) && may_be_smooth(material) &&
-         largest(mean_shares(mirror_coat(material)).reflected) >= least_reflectance;
+         largest(mean_shares(mirror_coat(material)).reflected) >= min_reflectance;
 }
 
 /// Whether the planes may be one, whichever way they face: those of small triangles,
@@ -76,12 +76,12 @@ Extents extents_of(const Scene& scene) {
     const Vec3 area = area_vector(at);
     const double measure = glm::length(area);
     extents.area += measure;
-    if (measure == 0.0 || !material_of(scene, TriangleId{t}).throws_as_mirror)
+    if (measure == 0.0 || !material_of(scene, TriangleId{t}).specular_in_pass_one)
       continue;
     Extent& extent = extents.of_material[index(scene.triangles[t].material)];
     extent.colored = extent.colored || has_vertex_colors(scene, TriangleId{t});
     const Direction normal = area / measure;
-    if (extent.planes.size() <= most_smooth_planes)
+    if (extent.planes.size() <= max_smooth_planes)
       add_extent({normal, glm::dot(normal, at[0] - middle)}, measure, extents.size, extent.planes);
   }
   return extents;
@@ -95,9 +95,9 @@ void keep_large_coats(const Extents& extents, Scene& scene) {
       for (const PlaneExtent& own : extents.of_material[m].planes)
         add_extent(own.plane, own.area, extents.size, planes);
   std::ranges::stable_sort(planes, std::ranges::greater(), &PlaneExtent::area);
-  planes.resize(std::min(planes.size(), most_coat_planes));
+  planes.resize(std::min(planes.size(), max_coat_planes));
   std::erase_if(planes, [&](const PlaneExtent& plane) {
-    return plane.area < least_coat_share * extents.area;
+    return plane.area < min_coat_share * extents.area;
   });
   const auto is_large = [&](const PlaneExtent& own) {
     return std::ranges::any_of(planes, [&](const PlaneExtent& large) {
@@ -106,7 +106,7 @@ void keep_large_coats(const Extents& extents, Scene& scene) {
   };
   for (std::size_t m = 0; m < scene.materials.size(); ++m)
     if (has_mirror_coat(scene.materials[m]))
-      scene.materials[m].throws_as_mirror =
+      scene.materials[m].specular_in_pass_one =
           std::ranges::any_of(extents.of_material[m].planes, is_large);
 }
 
@@ -116,16 +116,16 @@ void mark_smooth_surfaces(Scene& scene, std::span<const std::uint8_t> nearly_smo
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     Material& material = scene.materials[m];
     const bool nearly = m < nearly_smooth.size() && nearly_smooth[m] != 0 && may_be_smooth(material);
-    material.throws_as_mirror = nearly || is_smooth_metal(material) || is_smooth_coat(material);
+    material.specular_in_pass_one = nearly || is_smooth_metal(material) || is_smooth_coat(material);
   }
-  if (std::ranges::none_of(scene.materials, &Material::throws_as_mirror))
+  if (std::ranges::none_of(scene.materials, &Material::specular_in_pass_one))
     return;
   const Extents extents = extents_of(scene);
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     Material& material = scene.materials[m];
     const Extent& extent = extents.of_material[m];
-    if (extent.planes.size() > most_smooth_planes || (extent.colored && !has_mirror_coat(material)))
-      material.throws_as_mirror = false;
+    if (extent.planes.size() > max_smooth_planes || (extent.colored && !has_mirror_coat(material)))
+      material.specular_in_pass_one = false;
   }
   keep_large_coats(extents, scene);
 }
@@ -133,7 +133,7 @@ void mark_smooth_surfaces(Scene& scene, std::span<const std::uint8_t> nearly_smo
 void spread_coats(Scene& scene) {
   for (Material& material : scene.materials)
     if (has_mirror_coat(material))
-      material.throws_as_mirror = false;
+      material.specular_in_pass_one = false;
 }
 
 } // namespace meninas

@@ -21,14 +21,14 @@ namespace meninas {
 /// coats show, and throw light, up to visible_coat_roughness (material.h).
 inline constexpr double smooth_metal_roughness = 0.3;
 /// And where the faces of the material lie in more planes than these.
-inline constexpr std::size_t most_smooth_planes = 8;
+inline constexpr std::size_t max_smooth_planes = 8;
 /// Of the scene's area, for each plane of coats that is worth mirror worlds,
 /// be they of many materials: a table top in a furnished room.
-inline constexpr double least_coat_share = 0.005;
+inline constexpr double min_coat_share = 0.005;
 /// The largest of them.
-inline constexpr std::size_t most_coat_planes = 16;
+inline constexpr std::size_t max_coat_planes = 16;
 
-/// Sets Material::throws_as_mirror for every material:
+/// Sets Material::specular_in_pass_one for every material:
 /// true of metals rougher than ideal mirrors, but smooth, and of the coats of diffuse surfaces,
 /// where their roughness has no texture, they are flat and, some of them, in a large plane.
 /// `nearly_smooth` names metals besides, by MaterialId: those whose textures of roughness

@@ -128,7 +128,7 @@ static glm::dvec4 trilinear(const TexturePixels& pixels, const Texture& texture,
 
 glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Vec2 uv,
                          const Footprint& footprint) {
-  constexpr double most_looks = 16.0;
+  constexpr double max_looks = 16.0;
   const Vec2 size(pixels.width, pixels.height);
   Vec2 along = footprint.longer;
   double length = glm::length(size * along), width = glm::length(size * footprint.shorter);
@@ -139,7 +139,7 @@ glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Ve
   if (!(length > 1.0) || !std::isfinite(length))
     return texture.magnified == TexelFilter::nearest ? nearest(pixels, texture, uv)
                                                      : bilinear(pixels, texture, uv);
-  const double looks = std::clamp(std::ceil(length / std::max(width, 1.0)), 1.0, most_looks);
+  const double looks = std::clamp(std::ceil(length / std::max(width, 1.0)), 1.0, max_looks);
   const double each = std::max({width, length / looks, 1.0});
   glm::dvec4 sum(0.0);
   for (double k = 0.5; k < looks; k += 1.0)

@@ -77,12 +77,12 @@ std::vector<bool> hidden_copies(const Scene& scene) {
     }
   };
   // Copies of one face are few; of very many the first ones settle it.
-  constexpr std::size_t most_copies = 64;
+  constexpr std::size_t max_copies = 64;
   for (std::size_t begin = 0, end = 0; begin < copies.size(); begin = end) {
     for (end = begin; end < copies.size() && copies[end].key == copies[begin].key;) {
       ++end;
     }
-    for (std::size_t a = begin; a < std::min(end, begin + most_copies); ++a) {
+    for (std::size_t a = begin; a < std::min(end, begin + max_copies); ++a) {
       for (std::size_t b = a + 1; b < end && !hidden[index(copies[a].triangle)]; ++b) {
         settle(copies[a].triangle, copies[b].triangle);
       }

@@ -55,8 +55,8 @@ LostGap gap_before(const Scene& scene, const SurfaceModel& surfaces, const RaySc
 
 LostGap narrowest_gap(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays) {
   // Of more patches than that every so manyth is asked.
-  constexpr std::size_t most_patches = 100'000;
-  const std::size_t stride = surfaces.patches.size() / most_patches + 1;
+  constexpr std::size_t max_patches = 100'000;
+  const std::size_t stride = surfaces.patches.size() / max_patches + 1;
   std::vector<LostGap> gaps((surfaces.patches.size() + stride - 1) / stride);
   tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t k) {
     gaps[k] = gap_before(scene, surfaces, rays, surfaces.patches[k * stride]);

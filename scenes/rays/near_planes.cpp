@@ -11,8 +11,8 @@ namespace meninas {
 
 namespace {
 
-constexpr double most_tests = 2e7; // of a triangle beside a plane: some hundredths of a second
-constexpr std::size_t most_slabs =
+constexpr double max_tests = 2e7; // of a triangle beside a plane: some hundredths of a second
+constexpr std::size_t max_slabs =
     64; // of a plane; to test more takes longer than to search for contacts
 constexpr double float_rounding = 1e-6; // of a height, generously, in [-1, 1]
 
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> planes_near(const FrameGeometry& geometry, const Exte
   const auto margin = extent.grain * (2.0 * reach + float_rounding);
   const auto& normal = geometry.plane_normals[plane];
   std::vector<std::uint32_t> found;
-  for (std::uint32_t t = 0; t < geometry.triangles.size() && found.size() <= most_slabs; ++t) {
+  for (std::uint32_t t = 0; t < geometry.triangles.size() && found.size() <= max_slabs; ++t) {
     const auto other = geometry.facts[t].plane;
     if (other == plane)
       continue;
@@ -119,7 +119,7 @@ NearPlanes find_near_planes(const FrameGeometry& geometry, double reach) {
   const auto extents = find_extents(geometry);
   const auto triangles = static_cast<double>(std::max<std::size_t>(1, geometry.triangles.size()));
   const auto tested =
-      std::min(extents.size(), static_cast<std::size_t>(std::ceil(most_tests / triangles)));
+      std::min(extents.size(), static_cast<std::size_t>(std::ceil(max_tests / triangles)));
   const auto order = by_size(extents);
   std::vector<std::vector<std::uint32_t>> found(tested);
   tbb::parallel_for(std::size_t{0}, tested, [&](std::size_t p) {
@@ -129,7 +129,7 @@ NearPlanes find_near_planes(const FrameGeometry& geometry, double reach) {
   NearPlanes near;
   near.ranges.resize(extents.size());
   for (std::size_t p = 0; p < tested; ++p) {
-    if (found[p].size() > most_slabs)
+    if (found[p].size() > max_slabs)
       continue;
     const auto begin = static_cast<std::uint32_t>(near.slabs.size());
     const double margin = extents[order[p]].grain * (reach + float_rounding);

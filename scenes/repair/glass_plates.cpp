@@ -20,7 +20,7 @@ constexpr double covered = 0.9;          ///< of the face that something is behi
 constexpr double faintest = 1.0 / 3.0;   ///< what a way through leaves
 constexpr double mean_way = 1.1;         ///< in thicknesses
 constexpr double parallel = 0.9999;      ///< cosine
-constexpr std::size_t most_faces = 4096; ///< of a plate
+constexpr std::size_t max_faces = 4096; ///< of a plate
 constexpr std::uint32_t points_asked = 64;
 
 struct Face {
@@ -64,7 +64,7 @@ std::optional<Plane> large_face(std::span<const Face> all, const Direction& norm
 
 std::optional<Plate> plate_of(const Scene& scene, std::span<const TriangleId> triangles,
                               double tolerance) {
-  if (triangles.size() > most_faces)
+  if (triangles.size() > max_faces)
     return std::nullopt;
   Plate plate;
   plate.triangles.assign(triangles.begin(), triangles.end());
@@ -193,14 +193,14 @@ std::vector<NodeId> plates_to_panes(Scene& scene) {
     if (!is_glass(material_of(scene, TriangleId{t})))
       opaque.push_back(face_of(scene, TriangleId{t}));
 
-  constexpr std::size_t most_plates = 256; // of which each looks at all faces
+  constexpr std::size_t max_plates = 256; // of which each looks at all faces
   std::size_t looked_at = 0;
   std::set<NodeId> nodes;
   std::set<TriangleId> gone;
   std::map<std::pair<MaterialId, double>, MaterialId> panes;
   for (const auto& [root, triangles] : bodies) {
     const auto plate = plate_of(scene, triangles, tolerance);
-    if (!plate || ++looked_at > most_plates)
+    if (!plate || ++looked_at > max_plates)
       continue;
     const Triangle& first = scene.triangles[index(triangles.front())];
     if (!stays_clear(scene.materials[index(first.material)], plate->thickness))

@@ -3,7 +3,7 @@
 // A slab of glass on a mirror or on a print is a solid of two large faces a thickness t apart and
 // of rims. Rays refracted at its faces leave it as they entered, moved by less than t, so the
 // slab is to light what a pane is, whose light is known in closed form where that of solids is
-// looked for by rays (radiosity/light/solid_light.h). A body of solid glass is replaced by a pane in
+// looked for by rays (radiosity/light/glass_light.h). A body of solid glass is replaced by a pane in
 // the place of its one large face if
 //   the two large faces lie in two parallel planes and are 4/5 of its surface,
 //   t is at most 1/50 of the root of the area of one, and

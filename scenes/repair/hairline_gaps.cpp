@@ -19,7 +19,7 @@ constexpr double widest = 4e-4;  ///< of the radius of the detail
 constexpr double longer = 20.0;  ///< than wide
 constexpr double steepest = 0.5; ///< sine of the angle between the faces, at least
 /// Of edges beside faces; in scenes of very many loose faces the first ones are closed.
-constexpr std::size_t most_tried = 20'000'000;
+constexpr std::size_t max_tried = 20'000'000;
 
 bool is_opaque(const Material& material) {
   return material.alpha_mode == AlphaMode::opaque && !is_glass(material);
@@ -79,7 +79,7 @@ private:
       middles.push_back(middle_of(edge));
     const PointTree tree(middles);
     std::size_t tried = 0;
-    for (std::uint32_t t = 0; t < scene_.triangles.size() && tried < most_tried; ++t) {
+    for (std::uint32_t t = 0; t < scene_.triangles.size() && tried < max_tried; ++t) {
       if (!is_opaque(material_of(scene_, TriangleId{t})))
         continue;
       const auto p = corners(scene_, TriangleId{t});
@@ -88,7 +88,7 @@ private:
       const Plane plane = plane_of(p);
       tree.visit_inside(box, [&](std::uint32_t k) {
         look_at(loose_[k], middles[k], TriangleId{t}, p, plane);
-        return ++tried < most_tried;
+        return ++tried < max_tried;
       });
     }
   }

@@ -18,11 +18,11 @@ constexpr double sharpest_turn = 0.35; ///< of a smooth part at an edge, radians
 constexpr double unseen_offset = 1e-4; ///< of the width
 constexpr double unseen_turn = 5e-3;   ///< of a facet, radians
 constexpr double noise_offset = 5e-4;  ///< of the width
-constexpr double most_alike = 0.5;     ///< Moran's I
+constexpr double max_alike = 0.5;     ///< Moran's I
 /// Of fewer vertices the plane takes so much that what is left always looks like noise.
 constexpr std::size_t few_vertices = 12;
 /// A share of the border across which a flat surface may go on smoothly.
-constexpr double most_going_on = 0.25;
+constexpr double max_going_on = 0.25;
 
 struct Edge {
   TriangleId a = none<TriangleId>, b = none<TriangleId>;
@@ -237,9 +237,9 @@ private:
     if (fit.offset <= unseen_offset * fit.width && fit.turn <= unseen_turn)
       return true;
     judge_edges(triangles, fit);
-    if (fit.surface.vertices.size() >= few_vertices && fit.alike <= most_alike)
+    if (fit.surface.vertices.size() >= few_vertices && fit.alike <= max_alike)
       return true;
-    return is_stated && fit.going_on <= most_going_on;
+    return is_stated && fit.going_on <= max_going_on;
   }
 
   void accept(FlatSurface surface) {

@@ -9,7 +9,7 @@ namespace meninas {
 namespace {
 
 constexpr std::uint32_t outline = PlaneTriangle::outline;
-constexpr double most_wanted = 3.0; ///< of a triangle's area
+constexpr double max_wanted = 3.0; ///< of a triangle's area
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -241,7 +241,7 @@ void refine(PlaneMesh& mesh, std::size_t most_points) {
   const auto look_at = [&](std::uint32_t t) {
     const double area =
         0.5 * twice_area(editor.corner(t, 0), editor.corner(t, 1), editor.corner(t, 2));
-    const double excess = wanted_area(mesh, mesh.triangles[t]) - most_wanted * area;
+    const double excess = wanted_area(mesh, mesh.triangles[t]) - max_wanted * area;
     if (excess > 0.0)
       queue.push({excess, t, mesh.triangles[t].corners});
   };

@@ -19,9 +19,9 @@ namespace {
 constexpr double touch_share = 1e-5; ///< of the radius of the detail
 constexpr double tolerances = 8.0;
 /// Of boxes: scenes of very many faces that move are left as they are beyond it.
-constexpr std::size_t most_pairs_tried = 50'000'000;
+constexpr std::size_t max_pairs_tried = 50'000'000;
 /// Of faces that one body is put before.
-constexpr std::size_t most_planes = 64;
+constexpr std::size_t max_planes = 64;
 
 double touch_of(const Scene& scene) {
   const Precision precision(scene);
@@ -62,7 +62,7 @@ public:
       const auto first = std::ranges::lower_bound(farthest, mover.bounds.low.x - touch_);
       for (auto k = static_cast<std::size_t>(first - farthest.begin());
            k < fixed.size() && fixed[k].bounds.low.x <= mover.bounds.high.x + touch_ &&
-           tried < most_pairs_tried;
+           tried < max_pairs_tried;
            ++k, ++tried)
         if (are_near(mover.bounds, fixed[k].bounds))
           touch(mover.triangle, fixed[k].triangle);
@@ -134,7 +134,7 @@ private:
   }
 
   bool is_known(const Body& body, const Plane& plane, const std::array<Point3, 3>& face) const {
-    return body.before.size() > most_planes ||
+    return body.before.size() > max_planes ||
            std::ranges::any_of(body.before, [&](const Plane& known) {
              const Plane alike = turned(known, glm::dot(known.normal, plane.normal));
              return std::ranges::all_of(face, [&](const Point3& x) {
@@ -175,7 +175,7 @@ private:
   void move(std::set<NodeId>& moved) {
     std::vector<Plane> planes;
     for (auto& [name, body] : bodies_) {
-      if (body.before.empty() || body.before.size() > most_planes)
+      if (body.before.empty() || body.before.size() > max_planes)
         continue;
       std::ranges::sort(body.vertices);
       body.vertices.erase(std::ranges::unique(body.vertices).begin(), body.vertices.end());
@@ -245,9 +245,9 @@ std::vector<NodeId> separate_touching(Scene& scene) {
 }
 
 std::vector<std::string> settle_lights(Scene& scene) {
-  std::vector<std::string> settled;
+  std::vector<std::string> complete_field;
   if (scene.triangles.empty() || scene.lights.empty())
-    return settled;
+    return complete_field;
   const Precision precision(scene);
   const double touch = touch_of(scene);
   std::vector<Point3> positions;
@@ -277,9 +277,9 @@ std::vector<std::string> settle_lights(Scene& scene) {
   for (std::size_t k = 0; k < planes.size(); ++k)
     if (!planes[k].empty()) {
       settle(scene.lights[k], std::move(planes[k]));
-      settled.push_back(scene.lights[k].name);
+      complete_field.push_back(scene.lights[k].name);
     }
-  return settled;
+  return complete_field;
 }
 
 } // namespace meninas

@@ -9,8 +9,8 @@ namespace meninas {
 namespace {
 
 constexpr double drawn_inwards = 0.01;
-constexpr double least_depth = 1e-3; ///< of the segment's length
-constexpr double least_weight = 5e-3; ///< of the corners at the hit: at an edge things only touch
+constexpr double min_depth = 1e-3; ///< of the segment's length
+constexpr double min_weight = 5e-3; ///< of the corners at the hit: at an edge things only touch
 
 /// The triangle that the segment passes through, if its first hit is one.
 TriangleId crossed(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
@@ -22,7 +22,7 @@ TriangleId crossed(const Scene& scene, const SurfaceModel& surfaces, const RaySc
     return none<TriangleId>;
   }
   const auto [b1, b2] = std::pair(hit->barycentric.x, hit->barycentric.y);
-  if (std::min({b1, b2, 1.0 - b1 - b2}) < least_weight) {
+  if (std::min({b1, b2, 1.0 - b1 - b2}) < min_weight) {
     return none<TriangleId>;
   }
   const auto p = corners(scene, hit->triangle);
@@ -33,7 +33,7 @@ TriangleId crossed(const Scene& scene, const SurfaceModel& surfaces, const RaySc
   const double tolerance = std::max(surface_of(surfaces, from).tolerance,
                                     surface_of(surfaces, hit->triangle).tolerance);
   const bool passes = (before > 0.0) != (behind > 0.0) &&
-                      depth > std::max(4.0 * tolerance, least_depth * length);
+                      depth > std::max(4.0 * tolerance, min_depth * length);
   return passes ? hit->triangle : none<TriangleId>;
 }
 

@@ -13,7 +13,7 @@ constexpr std::size_t crowd = 1000; ///< faces at one corner
 
 // Among loose triangles that all cross each other every edge has every corner near it;
 // what is looked at ends there.
-constexpr std::size_t most_points_tried = 20'000'000;
+constexpr std::size_t max_points_tried = 20'000'000;
 
 NodeId node_of(const Scene& scene, TriangleId triangle) {
   return scene.triangles[index(triangle)].node;
@@ -120,7 +120,7 @@ CountByNode divided_edges(const Scene& scene, const Topology& topology, double t
   CountByNode counts;
   std::size_t tried = 0;
   for (const EdgeUse& edge : loose) {
-    if (tried > most_points_tried) {
+    if (tried > max_points_tried) {
       break;
     }
     const Point3& a = position(scene, edge.low);

@@ -22,7 +22,7 @@ constexpr double unlike =
     500.0; ///< how often the usual extent of nodes one of them has before it is named
 
 constexpr double inwards = -0.6; ///< Shell::outwards of an open shape that shows its fronts inside
-constexpr std::ptrdiff_t most_neighbours = 16; ///< cameras, lamps or shapes that are tried
+constexpr std::ptrdiff_t max_neighbours = 16; ///< cameras, lamps or shapes that are tried
 
 std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
@@ -234,7 +234,7 @@ private:
                         glm::all(glm::lessThan(x, shell.bounds.high));
       return near && (!shell.closed || winding_number(scene_, shell, x) < -0.5);
     };
-    const auto few = std::views::take(most_neighbours);
+    const auto few = std::views::take(max_neighbours);
     if (std::ranges::any_of(scene_.cameras | few, holds, &Camera::position) ||
         std::ranges::any_of(scene_.lights | few, holds, &PunctualLight::position)) {
       return true;
@@ -243,13 +243,13 @@ private:
     std::ptrdiff_t tried = 0;
     tree.visit_inside(shell.bounds, [&](std::uint32_t other) {
       found = other != self && holds(middles[other]);
-      return !found && ++tried < most_neighbours;
+      return !found && ++tried < max_neighbours;
     });
     return found;
   }
 
   void report_cameras(const std::vector<Shell>& shells) {
-    for (const Camera& camera : scene_.cameras | std::views::take(most_neighbours)) {
+    for (const Camera& camera : scene_.cameras | std::views::take(max_neighbours)) {
       for (const Shell& shell : shells) {
         const Point3& x = camera.position;
         const bool near = shell.volume > 0.0 && glm::all(glm::lessThan(shell.bounds.low, x)) &&

@@ -9,7 +9,7 @@
 namespace meninas {
 namespace {
 
-constexpr std::size_t most_divided_edges = 4096;
+constexpr std::size_t max_divided_edges = 4096;
 
 /// Which faces meet at which edge. A long edge that others lie on is replaced by its pieces.
 struct Incidence {
@@ -89,7 +89,7 @@ Incidence find_incidence(const Scene& scene, double tolerance) {
   const auto edge_count = static_cast<std::uint32_t>(topology.first_use.size() - 1);
   const std::vector<LooseEdge> loose = loose_edges(topology);
   std::map<std::uint32_t, std::vector<std::uint32_t>> pieces;
-  if (loose.size() <= most_divided_edges) {
+  if (loose.size() <= max_divided_edges) {
     pieces = divide_loose_edges(scene, loose, edge_count, tolerance);
   }
 

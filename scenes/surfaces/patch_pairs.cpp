@@ -13,14 +13,14 @@ namespace {
 
 /// Sine of the least turn at a corner of a strictly convex quad; below it three corners are nearly
 /// in a line.
-constexpr double least_turn = 1e-3;
+constexpr double min_turn = 1e-3;
 
 /// Steps of |cosine| in which shapes differ: rounding must not decide between quads that are equal
 /// by construction.
 constexpr double quality_steps = 1000.0;
 
 /// Partners that are tried across one edge: more of them are duplicates of one another.
-constexpr int most_partners = 8;
+constexpr int max_partners = 8;
 
 struct Candidate {
   int deviation = 0; ///< from a rectangle: the largest |cosine| of a corner, in steps
@@ -37,7 +37,7 @@ std::optional<double> deviation_from_rectangle(const std::array<Point3, 4>& quad
     const Vec3 in = quad[k] - quad[(k + 3) % 4];
     const Vec3 out = quad[(k + 1) % 4] - quad[k];
     const double lengths = glm::length(in) * glm::length(out);
-    if (!(glm::dot(glm::cross(in, out), normal) > least_turn * lengths)) {
+    if (!(glm::dot(glm::cross(in, out), normal) > min_turn * lengths)) {
       return std::nullopt;
     }
     largest = std::max(largest, std::abs(glm::dot(in, out)) / lengths);
@@ -108,7 +108,7 @@ std::span<const UseOfKind> partners_of(const UseOfKind& one, std::span<const Use
                          return key < std::tie(other.kind, other.use.triangle);
                        });
   const auto end =
-      std::find_if(first, first + std::min<std::ptrdiff_t>(most_partners, sorted.end() - first),
+      std::find_if(first, first + std::min<std::ptrdiff_t>(max_partners, sorted.end() - first),
                    [&](const UseOfKind& other) { return other.kind != kind; });
   return {first, end};
 }

@@ -95,14 +95,14 @@ SolidBodies find_solid_bodies(const Scene& scene, const RayFrame& frame) {
     solids.faces.push_back(clear_glass(material, face));
   }
   std::vector<std::vector<TriangleId>> bodies = bodies_of(scene);
-  if (bodies.size() > most_bodies) {
+  if (bodies.size() > max_bodies) {
     std::vector<Group> groups;
     for (auto& triangles : bodies) {
       const SolidBody sphere = sphere_around(scene, frame, triangles);
       groups.push_back({std::move(triangles), sphere});
     }
     bodies.clear();
-    unite(groups, most_bodies, bodies);
+    unite(groups, max_bodies, bodies);
   }
   solids.body_of_triangle.assign(scene.triangles.size(), SolidBodies::no_body);
   for (const auto& triangles : bodies) {

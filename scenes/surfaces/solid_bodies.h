@@ -1,7 +1,7 @@
 // The solids of glass in a scene, for those who look for the light that they throw.
 //
 // A body is what triangles of solid glass form that share corners, be they several shells; where
-// there are more than `most_bodies`, those that lie together are one. Each has a sphere around it.
+// there are more than `max_bodies`, those that lie together are one. Each has a sphere around it.
 #pragma once
 
 #include "scenes/materials/bsdf.h"
@@ -11,7 +11,7 @@
 
 namespace meninas {
 
-inline constexpr std::size_t most_bodies = 16;
+inline constexpr std::size_t max_bodies = 16;
 
 /// In the frame of the ray scene.
 struct SolidBody {

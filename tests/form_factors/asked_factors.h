@@ -1,7 +1,7 @@
 // Form factors as the command gives them, for scenes written down in tests.
 #pragma once
 
-#include "radiosity/queries/node_form_factors.h"
+#include "radiosity/queries/gltf_node_factors.h"
 #include "tests/form_factors/known_form_factors.h"
 
 namespace meninas::test {

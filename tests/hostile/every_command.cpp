@@ -1,6 +1,6 @@
 #include "tests/hostile/every_command.h"
 
-#include "radiosity/queries/node_form_factors.h"
+#include "radiosity/queries/gltf_node_factors.h"
 #include "raytrace/views/debug_view.h"
 #include "raytrace/views/features.h"
 #include "raytrace/error/picture_error.h"
@@ -198,7 +198,7 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
   report_scene(there, prepared->surfaces, *prepared->rays);
   const ExpectedCost cost = expect_cost(*prepared, camera, {16, 16}, settings, 0.0, 1);
   require(std::isfinite(cost.total) && cost.total >= 0.0, "the cost that is foretold is no number");
-  if (there.triangles.size() > effort.most_triangles)
+  if (there.triangles.size() > effort.max_triangles)
     return;
 
   const RadiositySolution solution = solve_pass_one(*prepared->light, chosen.pass_one);

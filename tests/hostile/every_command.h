@@ -21,7 +21,7 @@ struct Finding : std::runtime_error {
 
 /// So many triangles or fewer are also asked for form factors, and drawn by the reference.
 struct Effort {
-  std::size_t most_triangles = 20'000; ///< more are planned and no more
+  std::size_t max_triangles = 20'000; ///< more are planned and no more
   std::size_t few_triangles = 150;
 };
 

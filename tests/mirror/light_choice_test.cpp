@@ -17,7 +17,7 @@ struct Lamps {
   MirrorSet mirrors;
   WorldTree worlds;
   std::vector<Emitter> emitters;
-  EmitterTree tree;
+  LightTree tree;
 };
 
 Lamps lamps_in(const std::array<bool, 6>& mirror_walls, std::vector<Emitter> emitters) {
@@ -119,7 +119,7 @@ Spread spread_of(const Lamps& lamps, const Observer& observer, std::size_t budge
   std::vector<VirtualLight> lights;
   double squares = 0.0;
   for (int k = 0; k < turns; ++k) {
-    chosen_lights(lamps.worlds, lamps.emitters, lamps.tree, observer, {budget, (k + 0.5) / turns},
+    sample_light_tree(lamps.worlds, lamps.emitters, lamps.tree, observer, {budget, (k + 0.5) / turns},
                   work, lights);
     const double found = light_of(lamps, observer, lights) / truth;
     spread.mean += found / turns;
@@ -130,9 +130,9 @@ Spread spread_of(const Lamps& lamps, const Observer& observer, std::size_t budge
   return spread;
 }
 
-TEST(EmitterTree, NodesHoldTheirEmitters) {
+TEST(LightTree, NodesHoldTheirEmitters) {
   const auto emitters = glowing_sphere(12);
-  const EmitterTree tree = make_emitter_tree(emitters);
+  const LightTree tree = make_emitter_tree(emitters);
   EXPECT_EQ(tree.nodes.size(), 2 * emitters.size() - 1);
   for (const auto& node : tree.nodes) {
     double power = 0.0;

@@ -190,14 +190,14 @@ TEST(PolishedFloor, BringsLittleLightByManyRaysBeyondTheWorlds) {
   PlanSettings plan;
   plan.worlds.max_depth = 0;
   const auto l = lit(polished_room(), coarse().mesh, plan);
-  const DirectionNet net = make_direction_net(256);
+  const HemisphereSamples net = make_direction_net(256);
   const std::vector<std::size_t> floor = elements_of(*l, "y0");
   GatherWorkspace work;
   double on_floor = 0.0, beyond = 0.0, light = 0.0;
   for (const std::size_t e : elements_of(*l, "y1")) {
     gather_rays(*l->light, net, receiver_of(*l->light, static_cast<ElementId>(e)),
                 hash(static_cast<std::uint32_t>(e), 3), {}, work);
-    for (const RayLanding& landing : work.result.landings) {
+    for (const ElementHit& landing : work.result.landings) {
       const bool is_beyond = landing.world == none<WorldId>;
       beyond += is_beyond ? 1.0 : 0.0;
       light += is_beyond ? double{landing.light.g} : 0.0;

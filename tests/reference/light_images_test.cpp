@@ -56,7 +56,7 @@ TEST(LightImages, OfMoreThanCanBeAskedForTheMeanIsThatOfAll) {
     sum += irradiance(light, Point3(0.0)) + 0.8 * irradiance(image, Point3(0.0));
     scene.lights.push_back(light);
   }
-  ASSERT_GT(2 * scene.lights.size(), reference::most_images);
+  ASSERT_GT(2 * scene.lights.size(), reference::max_images);
   expect_radiance(radiance_seen(scene, {2, 1, 1}, Point3(0.0), 64), sum * (rho / pi));
 }
 

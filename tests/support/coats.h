@@ -18,7 +18,7 @@ inline Material coated(Rgb reflectance, double roughness) {
 /// The same, whose coat pass one takes for a mirror.
 inline Material polished(Rgb reflectance) {
   Material material = coated(reflectance, 0.0);
-  material.throws_as_mirror = true;
+  material.specular_in_pass_one = true;
   return material;
 }
 

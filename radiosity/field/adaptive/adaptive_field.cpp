@@ -1,7 +1,7 @@
 #include "radiosity/field/adaptive/adaptive_field.h"
 
 #include "radiosity/light/gather_noise.h"
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/mesh/subdivision.h"
 #include "radiosity/field/adaptive/source_field.h"
 #include "radiosity/field/vertex_light.h"
 #include "radiosity/field/vertex_places.h"
@@ -137,7 +137,7 @@ public:
                   tbb::enumerable_thread_specific<PointWorkspace>& workspaces)
       : rays_(rays) {
     constexpr int step = 4;
-    for (int times = 1; times <= most_times_asked; times *= step) {
+    for (int times = 1; times <= max_times_asked; times *= step) {
       counts_.push_back(times * rays.asked);
       const PointGathering& gathering = gatherings_.emplace_back(
           lit, reflected, how.form_factors, how.direct,
@@ -227,7 +227,7 @@ InterpolatedField adaptive_field(const LightScene& light, const ElementLight& el
   const auto on_mesh = [&](const SampledField& field, const std::vector<glm::vec3>& values) {
     return carried(field.mesh, values, *result.mesh, light.surfaces);
   };
-  DiffuseField& field = result.field;
+  IrradianceField& field = result.field;
   field.indirect = on_mesh(gathered, gathered.total);
   field.indirect_mirrored = on_mesh(gathered, gathered.mirrored);
   field.irradiance = sum_of(on_mesh(from_source, from_source.total), field.indirect);

@@ -1,7 +1,7 @@
 #include "radiosity/field/adaptive/field_refinement.h"
 
 #include "radiosity/field/adaptive/field_samples.h"
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/mesh/subdivision.h"
 #include "radiosity/field/vertex_places.h"
 #include "scenes/sampling.h"
 
@@ -251,7 +251,7 @@ std::vector<std::uint8_t> to_divide(const Refinement& refinement, const Growing&
     const double noise =
         by_noise[e] * (1.0 + stands_out * std::sqrt(2.0 / std::max(1, found.points)));
     const MeshCell& cell = cell_of(mesh, static_cast<ElementId>(e));
-    const bool may_be = cell.level < refinement.settings.most_levels &&
+    const bool may_be = cell.level < refinement.settings.max_levels &&
                         is_divisible(mesh, refinement.light.surfaces, cell);
     marked[e] = found.off > share + noise && may_be ? 1 : 0;
   }

@@ -41,13 +41,13 @@ struct RefinementSettings {
   double error = 0.02;  ///< X
   int root_points = 15; ///< between the vertices, besides the centre: in root cells and on outlines
   int points = 4;       ///< in what is divided from them
-  int most_levels = 6;
+  int max_levels = 6;
   std::size_t max_elements = 1'000'000;
 };
 
 /// `weight` is w by CellId of the roots of light.mesh, whose elements are looked at first.
 /// The settings' error may not be reached: refinement ends at the limits of levels and elements,
-/// and where elements are hardly wider than the scene's tolerance (mesh_division.h).
+/// and where elements are hardly wider than the scene's tolerance (subdivision.h).
 SampledField refine_field(const LightScene& light, const FieldSampler& sampler,
                           std::span<const double> weight, const MirrorOutlines& outlines,
                           const RefinementSettings& settings);

@@ -1,7 +1,7 @@
 #include "radiosity/field/adaptive/field_samples.h"
 
 #include "radiosity/field/contact_vertices.h"
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/mesh/subdivision.h"
 #include "radiosity/field/vertex_fill.h"
 #include "radiosity/field/vertex_places.h"
 #include "scenes/sampling.h"
@@ -49,7 +49,7 @@ SampleState state_of(const LightScene& light, const Receiver& receiver, const Po
   case Cover::open:
     break;
   }
-  return is_at_foot(light, receiver) ? SampleState::at_foot : SampleState::exposed;
+  return touches_wall(light, receiver) ? SampleState::at_foot : SampleState::exposed;
 }
 
 void sample_vertices(const LightScene& light, const FieldSampler& sampler, const ElementMesh& mesh,

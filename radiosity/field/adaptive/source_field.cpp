@@ -40,7 +40,7 @@ SourceField field_from_source(const LightScene& light, std::span<const double> w
       // A dark point may be inside something that stands on its surface, which a few rays tell.
       if (arrived.total == Rgb(0.0))
         return {arrived,
-                cover_in_the_dark(light, form_factors, receiver, element_size, seed, work)};
+                clearance_of_unlit(light, form_factors, receiver, element_size, seed, work)};
       return {arrived,
               is_under_something(light, receiver, element_size) ? Cover::low : Cover::open};
     };

@@ -1,7 +1,7 @@
 // The field where something stands on a surface:
 // as bright at the foot of a bright wall as it is there, on either side of its lines.
 #include "radiosity/field/contact_vertices.h"
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/mesh/subdivision.h"
 #include "form_factors/point_form_factor.h"
 #include "radiosity/field/vertex_places.h"
 #include "tests/radiosity/lit_scene.h"
@@ -21,7 +21,7 @@ ContactLight light_of(double place, double direct) {
 }
 
 TEST(ContactVertices, FollowTheLineThroughWhatIsSeen) {
-  DiffuseField field;
+  IrradianceField field;
   field.irradiance.assign(6, glm::vec3(3.0F)); // 1 from the source, 2 by way of mirrors
   field.indirect = field.mirrored = field.indirect_mirrored = {6, glm::vec3(2.0F)};
   std::vector<std::uint8_t> valid(6, 0);
@@ -50,9 +50,9 @@ TEST(ContactVertices, FollowTheLineThroughWhatIsSeen) {
 
 // Light by way of mirrors is to be what it is in the room that they show.
 TEST(ContactVertices, TheWholeDoesNotDependOnItsParts) {
-  std::array<DiffuseField, 2> fields;
+  std::array<IrradianceField, 2> fields;
   for (const bool mirrors : {false, true}) {
-    DiffuseField& field = fields[mirrors ? 1 : 0];
+    IrradianceField& field = fields[mirrors ? 1 : 0];
     field.irradiance = {glm::vec3(5.0F), glm::vec3(0.0F)};
     field.mirrored = {glm::vec3(mirrors ? 1.0F : 0.0F), glm::vec3(0.0F)};
     field.indirect = field.indirect_mirrored = {2, glm::vec3(0.0F)};

@@ -96,7 +96,7 @@ TEST(Interpolation, NeverBelowZero) {
 
 TEST(Interpolation, FieldMeetsItsVerticesAndIsContinuous) {
   const auto l = lit(half_room(), {.element_size = 0.3});
-  DiffuseField field;
+  IrradianceField field;
   for (const auto& x : l->mesh.vertices)
     field.irradiance.emplace_back(x.x, x.y, x.z);
   for (std::uint32_t s = 0; s < l->mesh.sides.size(); ++s) {

@@ -41,7 +41,7 @@ std::vector<TreeNodeId> cut_below(const NodeTree& tree, int levels, bool uneven)
 }
 
 /// By ElementVertexId, 1 where a vertex gathers.
-std::vector<std::uint8_t> gathering(const VertexShares& shares) {
+std::vector<std::uint8_t> gathering(const InterpolationWeights& shares) {
   std::vector<std::uint8_t> marks;
   for (std::size_t v = 0; v < shares.from.size(); ++v)
     marks.push_back(gathers(shares, v) ? 1 : 0);
@@ -71,10 +71,10 @@ TEST(NodeEdges, FollowParabolas) {
   const std::vector<glm::vec3> light = parabolas(l->mesh);
   for (const bool uneven : {false, true}) {
     const std::vector<TreeNodeId> nodes = cut_below(tree, 2, uneven);
-    const VertexShares shares = vertex_shares(l->mesh, tree, nodes);
+    const InterpolationWeights shares = vertex_shares(l->mesh, tree, nodes);
     const std::vector<glm::vec3> bends =
         edge_bends(crosses_of(l->mesh, tree, nodes), gathering(shares), light);
-    float least_bend = 1.0F;
+    float min_bend = 1.0F;
     int between = 0;
     for (std::size_t v = 0; v < light.size(); ++v) {
       if (shares.between[v] == 0) {
@@ -86,11 +86,11 @@ TEST(NodeEdges, FollowParabolas) {
         linear += shares.weight[v][c] * light[index(shares.from[v][c])];
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(linear[c] + bends[v][c], light[v][c], 2e-5F) << v;
-      least_bend = std::min(least_bend, glm::length(bends[v]));
+      min_bend = std::min(min_bend, glm::length(bends[v]));
       ++between;
     }
     EXPECT_GT(between, 20);
-    EXPECT_GT(least_bend, 0.01F);
+    EXPECT_GT(min_bend, 0.01F);
   }
 }
 
@@ -100,7 +100,7 @@ TEST(NodeEdges, StayStraightWhereLightIsNotKnown) {
   const auto l = lit_floor(0.14);
   const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
   const std::vector<TreeNodeId> nodes = cut_below(tree, 2, false);
-  const std::vector<NodeCross> crosses = crosses_of(l->mesh, tree, nodes);
+  const std::vector<MidpointStencil> crosses = crosses_of(l->mesh, tree, nodes);
   std::vector<glm::vec3> light = parabolas(l->mesh);
   std::vector<std::uint8_t> valid = gathering(vertex_shares(l->mesh, tree, nodes));
   const std::vector<glm::vec3> all = edge_bends(crosses, valid, light);

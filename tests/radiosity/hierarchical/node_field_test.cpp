@@ -33,12 +33,12 @@ PassOneSettings by_rows(PassOneSettings settings, std::uint32_t seed) {
 // a^0.4 of the elements that a vertex stands for, of two vertices to a receiver,
 // down to a power of two.
 TEST(NodeField, VerticesTakeMoreRaysWhereTheyStandForMore) {
-  EXPECT_EQ(times_of_rays(0, 0), 1);
-  EXPECT_EQ(times_of_rays(1000, 1000), 1);
-  EXPECT_EQ(times_of_rays(11'300, 1000), 1); // 5.65^0.4 = 1.9997
-  EXPECT_EQ(times_of_rays(11'320, 1000), 2);
-  EXPECT_EQ(times_of_rays(63'900, 1000), 2);
-  EXPECT_EQ(times_of_rays(64'100, 1000), 4);
+  EXPECT_EQ(ray_multiplier(0, 0), 1);
+  EXPECT_EQ(ray_multiplier(1000, 1000), 1);
+  EXPECT_EQ(ray_multiplier(11'300, 1000), 1); // 5.65^0.4 = 1.9997
+  EXPECT_EQ(ray_multiplier(11'320, 1000), 2);
+  EXPECT_EQ(ray_multiplier(63'900, 1000), 2);
+  EXPECT_EQ(ray_multiplier(64'100, 1000), 4);
 }
 
 /// A closed room without furniture, one wall of which glows.

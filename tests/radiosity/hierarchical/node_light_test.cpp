@@ -35,7 +35,7 @@ LitVertices lit_vertices(const LitScene& l, std::uint32_t seed = 0) {
 /// The light on elements by their corners; nothing is covered.
 DirectIrradiance by_corners(const LitScene& l, std::uint32_t seed = 0) {
   const NodeTree tree = make_node_tree(l.mesh, l.surfaces);
-  return light_by_corners(*l.light, tree, std::vector<CoveredCells>(element_count(l.mesh), 0),
+  return light_by_corners(*l.light, tree, std::vector<ContactMask>(element_count(l.mesh), 0),
                           lit_vertices(l, seed).found, {.seed = seed}, {});
 }
 
@@ -147,7 +147,7 @@ TEST(NodeLight, CornersTakeNoShadowRays) {
       alone.push_back(static_cast<ElementId>(e));
   DirectIrradiance again = direct;
   again.shadow_rays = 0;
-  light_again(*l->light, alone, std::vector<CoveredCells>(direct.shared.size(), 0), {}, {}, again);
+  recompute_direct(*l->light, alone, std::vector<ContactMask>(direct.shared.size(), 0), {}, {}, again);
   EXPECT_EQ(direct.shadow_rays, again.shadow_rays);
   EXPECT_LT(alone.size(), direct.shared.size() / 2);
 }
@@ -177,12 +177,12 @@ TEST(NodeLight, CornersTellThePartOfPunctualLights) {
 TEST(NodeLight, ElementsThatAreCoveredInPartAreByThemselves) {
   const auto l = lit(plates(), {.element_size = 1.0 / 128.0});
   const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
-  std::vector<CoveredCells> covered(element_count(l->mesh), 0);
+  std::vector<ContactMask> covered(element_count(l->mesh), 0);
   std::vector<std::size_t> in_part, whole;
   for (std::size_t e = 0; e < covered.size(); e += 1000) {
     covered[e] = 0x0f0f0f0f0f0f0f0f;
     in_part.push_back(e);
-    covered[e + 1] = ~CoveredCells{0};
+    covered[e + 1] = ~ContactMask{0};
     whole.push_back(e + 1);
   }
   const DirectSettings settings;
@@ -202,7 +202,7 @@ TEST(NodeLight, ElementsThatAreCoveredInPartAreByThemselves) {
 // What is found to stand on an element later lights it anew. Others keep what they have.
 TEST(NodeLight, WhatChangesIsLitAgain) {
   const auto l = lit(plates(), {.element_size = 1.0 / 64.0});
-  std::vector<CoveredCells> covered(element_count(l->mesh), 0);
+  std::vector<ContactMask> covered(element_count(l->mesh), 0);
   const DirectSettings settings;
   const DirectIrradiance before = by_corners(*l);
   const std::vector<std::size_t> ceiling = elements_of(*l, "ceiling");
@@ -211,7 +211,7 @@ TEST(NodeLight, WhatChangesIsLitAgain) {
   covered[changed] = 0x0f0f0f0f0f0f0f0f;
 
   DirectIrradiance now = before;
-  light_again(*l->light, std::vector{static_cast<ElementId>(changed)}, covered, settings, {}, now);
+  recompute_direct(*l->light, std::vector{static_cast<ElementId>(changed)}, covered, settings, {}, now);
   const DirectIrradiance alone = direct_irradiance(*l->light, covered, settings);
   EXPECT_GT(now.shadow_rays, before.shadow_rays);
   for (std::size_t e = 0; e < covered.size(); ++e) {
@@ -226,7 +226,7 @@ TEST(NodeLight, RowsShareRaysAsLightAllows) {
   FormFactorSettings settings;
   settings.rays = 512;
   const auto rays = [&](std::size_t rows, double unevenness) {
-    return rays_shared_out(settings, rows, unevenness).rays;
+    return rays_per_row(settings, rows, unevenness).rays;
   };
   EXPECT_EQ(rays(100, 1.0), 512);
   EXPECT_EQ(rays(1024, 1.0), 64);

@@ -46,7 +46,7 @@ TEST(NodeVertices, SharesOfPositionsArePositions) {
     const auto l = lit(scene, {.element_size = 0.15});
     const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
     const std::vector<TreeNodeId> nodes = uneven_cut(l->mesh, tree);
-    const VertexShares shares = vertex_shares(l->mesh, tree, nodes);
+    const InterpolationWeights shares = vertex_shares(l->mesh, tree, nodes);
     std::size_t gathering = 0;
     for (std::size_t v = 0; v < l->mesh.vertices.size(); ++v) {
       Point3 interpolated(0.0);
@@ -70,7 +70,7 @@ TEST(NodeVertices, SharesEndAtVerticesThatGather) {
   for (const Scene& scene : rooms_and_figures()) {
     const auto l = lit(scene, {.element_size = 0.15});
     const NodeTree tree = make_node_tree(l->mesh, l->surfaces);
-    const VertexShares shares = vertex_shares(l->mesh, tree, uneven_cut(l->mesh, tree));
+    const InterpolationWeights shares = vertex_shares(l->mesh, tree, uneven_cut(l->mesh, tree));
     const auto takes_from_others = [&](std::size_t v) {
       return !gathers(shares, v) && shares.between[v] == 0;
     };
@@ -165,7 +165,7 @@ TEST(NodeVertices, NodesOfTwoPartsGiveWayToBendsAcrossThem) {
   EXPECT_EQ(parts([](const Point3& x) { return 1.0 + x.x + 3.0 * x.z; }), 0U);
 
   const std::vector<double> wanted = wanted_vertices(l->mesh, tree, top);
-  const VertexShares shares = vertex_shares(l->mesh, tree, top);
+  const InterpolationWeights shares = vertex_shares(l->mesh, tree, top);
   std::size_t asked = 0, gathering = 0;
   for (std::size_t v = 0; v < wanted.size(); ++v) {
     asked += wanted[v] > 0.0 ? 1 : 0;

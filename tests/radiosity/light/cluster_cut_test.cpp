@@ -44,7 +44,7 @@ struct Clustered {
     DirectWorkspace direct;
     return at(x, cut, direct);
   }
-  std::vector<ClusterStandIn> stand_ins(const Receiver& x, double theta,
+  std::vector<LightcutNode> stand_ins(const Receiver& x, double theta,
                                         std::vector<VirtualLight>& lights) const {
     ClusterWorkspace work;
     cut_clusters(*light, tree, x, theta, work, lights);
@@ -95,7 +95,7 @@ Scene open_floor() {
 
 /// 2.22 / pi W s^2 / (d - r)^4 by channel;
 /// s by quadrature over the triangles, where three middles of edges are exact for squares.
-Rgb error_bound(const Clustered& scene, const Receiver& x, const ClusterStandIn& part) {
+Rgb error_bound(const Clustered& scene, const Receiver& x, const LightcutNode& part) {
   const ClusterNode& node = scene.tree.nodes[part.node];
   const MirrorWorld& world = scene.light->worlds.worlds[index(part.world)];
   Rgb moments(0.0);
@@ -117,7 +117,7 @@ Rgb error_bound(const Clustered& scene, const Receiver& x, const ClusterStandIn&
 }
 
 /// The clusters of a node in closed form, without blockers.
-Rgb closed_form(const Clustered& scene, const Receiver& x, const ClusterStandIn& part) {
+Rgb closed_form(const Clustered& scene, const Receiver& x, const LightcutNode& part) {
   const ClusterNode& node = scene.tree.nodes[part.node];
   const MirrorWorld& world = scene.light->worlds.worlds[index(part.world)];
   Rgb sum(0.0);
@@ -145,7 +145,7 @@ TEST(ClusterCut, StaysWithinTheStatedErrorOfTheClosedForms) {
       const Receiver x = any_receiver(random);
       std::vector<VirtualLight> lights;
       Rgb allowed(1e-15), sum(0.0);
-      for (const ClusterStandIn& part : scene.stand_ins(x, theta, lights)) {
+      for (const LightcutNode& part : scene.stand_ins(x, theta, lights)) {
         const ClusterNode& node = scene.tree.nodes[part.node];
         together += node.count > 1;
         EXPECT_LE(node.radius, theta * glm::distance(node.middle, x.position));
@@ -237,7 +237,7 @@ TEST(ClusterCut, ComesByWayOfAMirrorAsItWouldInTheDoubledRoom) {
         random.in_box({0.5, 0.1, -1}, {3, 3, 1}), random.direction(), none<PlaneId>, {}};
     std::vector<VirtualLight> lights;
     Rgb allowed(1e-15);
-    for (const ClusterStandIn& part : half.stand_ins(x, 0.3, lights)) {
+    for (const LightcutNode& part : half.stand_ins(x, 0.3, lights)) {
       together += part.world != real_world && half.tree.nodes[part.node].count > 1;
       if (part.world != real_world)
         allowed += error_bound(half, x, part);
@@ -263,7 +263,7 @@ void expect_whole_clusters(const Clustered& scene, const Vec3& low, const Vec3& 
     for (const VirtualLight& image : all)
       seen[{image.emitter, image.world}] += glm::length(area_vector(image.polygon.span()));
 
-    for (const ClusterStandIn& part : scene.stand_ins(x, 0.5, lights)) {
+    for (const LightcutNode& part : scene.stand_ins(x, 0.5, lights)) {
       const ClusterNode& node = scene.tree.nodes[part.node];
       together += node.count > 1;
       mirrored += part.world != real_world;

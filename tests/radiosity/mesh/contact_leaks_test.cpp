@@ -1,7 +1,7 @@
 // Where walls stand on surfaces no light passes: elements and vertices of the two sides share nothing.
 #include "radiosity/mesh/contact_segments.h"
-#include "radiosity/mesh/mesh_division.h"
-#include "radiosity/transport/receiver_rays.h"
+#include "radiosity/mesh/subdivision.h"
+#include "radiosity/transport/hemisphere_samples.h"
 #include "radiosity/field/vertex_places.h"
 #include "scenes/sampling.h"
 #include "tests/radiosity/lit_scene.h"

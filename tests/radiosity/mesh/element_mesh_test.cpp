@@ -1,4 +1,4 @@
-#include "radiosity/mesh/landing.h"
+#include "radiosity/mesh/element_lookup.h"
 #include "scenes/errors.h"
 #include "tests/radiosity/meshed.h"
 #include "tests/support/random.h"

@@ -1,5 +1,5 @@
 // Which sides of double-sided nodes count in form factors, and what is said of the others.
-#include "radiosity/queries/node_form_factors.h"
+#include "radiosity/queries/gltf_node_factors.h"
 #include "tests/form_factors/asked_factors.h"
 #include "tests/support/scene_builder.h"
 

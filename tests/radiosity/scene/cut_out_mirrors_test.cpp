@@ -134,7 +134,7 @@ TEST(CutOutMirrors, ThrowTheLightOfSharedRaysAsPolygonsDo) {
     for (std::uint32_t mean = 0; mean < 64; ++mean) {
       std::uint32_t next = 0;
       const auto point = [&]() -> NumberedPoint { return {x, next++}; };
-      sum += shared_irradiance(*l.light, point, {.learns = true}, hash(7, mean), work).mirrored.g;
+      sum += mean_direct_irradiance(*l.light, point, {.learns = true}, hash(7, mean), work).mirrored.g;
     }
     return sum / 64.0;
   });
@@ -150,7 +150,7 @@ TEST(CutOutMirrors, ThrowTheLightOfClustersAsPolygonsDo) {
     DirectWorkspace direct;
     const auto light = cluster_irradiance(*l.light, tree, x, settings, {.theta = 0.3, .rays = 2048},
                                           3, work, direct);
-    for (const ClusterStandIn& part : work.stand_ins)
+    for (const LightcutNode& part : work.stand_ins)
       together += part.world != real_world && tree.nodes[part.node].count > 1;
     return light.mirrored.g;
   };

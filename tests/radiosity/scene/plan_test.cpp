@@ -97,7 +97,7 @@ TEST(Plan, LobesAreNamedAndWarnedAboutWhereTheyThrowShapes) {
       plan_of(room_with(rough)).warnings,
       Contains("light that smooth metals throw on other surfaces is spread evenly: 'first'"));
 
-  rough.throws_as_mirror = true;
+  rough.specular_in_pass_one = true;
   const TransportPlan smooth = plan_of(room_with(rough));
   EXPECT_EQ(smooth.glossy, 1U);
   EXPECT_EQ(smooth.mirror_list.size(), 1U);
@@ -110,13 +110,13 @@ TEST(Plan, LobesAreNamedAndWarnedAboutWhereTheyThrowShapes) {
   EXPECT_THAT(plan_of(room_with(coated)).stages,
               Contains("coats: rays over their lobes in the picture, spread evenly in pass one: "
                        "'first'"));
-  coated.throws_as_mirror = true;
+  coated.specular_in_pass_one = true;
   const TransportPlan polished = plan_of(room_with(coated));
   EXPECT_EQ(polished.mirror_list.size(), 1U);
   EXPECT_THAT(polished.stages, Contains("coats of large flat surfaces: rays over their lobes in "
                                         "the picture, mirrors by Schlick in pass one: 'first'"));
   EXPECT_THAT(polished.stages, testing::Not(Contains(HasSubstr("spread evenly"))));
-  coated.throws_as_mirror = false;
+  coated.specular_in_pass_one = false;
   coated.specular = 0.0;
   EXPECT_THAT(plan_of(room_with(coated)).stages, testing::Not(Contains(HasSubstr("coats"))));
 }

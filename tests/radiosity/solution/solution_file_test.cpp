@@ -1,5 +1,5 @@
 #include "radiosity/mesh/make_mesh.h"
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/mesh/subdivision.h"
 #include "radiosity/solution/solution_file.h"
 #include "radiosity/solution/solution_format.h"
 #include "scenes/errors.h"

@@ -1,7 +1,7 @@
 // Panes in every transport of pass one:
 // rows close, energy is accounted for, and all of them find the same light.
-#include "radiosity/transport/analytic_transport.h"
-#include "radiosity/queries/node_form_factors.h"
+#include "radiosity/transport/analytic_rows.h"
+#include "radiosity/queries/gltf_node_factors.h"
 #include "scenes/errors.h"
 #include "tests/radiosity/solved.h"
 #include "tests/support/glass_rooms.h"

@@ -177,11 +177,11 @@ TEST(ElementHemicube, StandsInTheMiddleOfWhatIsExposed) {
   quad.edge_u = {8.0, 0.0, 0.0};
   quad.edge_v = {0.0, 8.0, 0.0};
   EXPECT_EQ(hemicube_position(light, quad, 0), Point3(4.0, 4.0, 0.0));
-  constexpr CoveredCells half = 0xffffffffULL; // s < 1/2
+  constexpr ContactMask half = 0xffffffffULL; // s < 1/2
   const auto in_half = hemicube_position(light, quad, half);
   ASSERT_TRUE(in_half);
   EXPECT_LE(glm::distance(*in_half, Point3(6.0, 4.0, 0.0)), std::sqrt(0.5) + 1e-12);
-  EXPECT_FALSE(hemicube_position(light, quad, ~CoveredCells{0}));
+  EXPECT_FALSE(hemicube_position(light, quad, ~ContactMask{0}));
   ReceiverArea triangle = quad;
   triangle.triangle = true;
   EXPECT_LT(glm::distance(*hemicube_position(light, triangle, 0), Point3(8.0 / 3.0, 8.0 / 3.0, 0.0)),

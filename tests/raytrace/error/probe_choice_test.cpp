@@ -18,7 +18,7 @@ struct SpoiltRoom {
   TwoPassSettings settings;
   std::unique_ptr<PreparedScene> prepared;
   RadiositySolution solution;
-  DiffuseField field;
+  IrradianceField field;
   Image right, spoilt;
 
   SpoiltRoom() {
@@ -45,7 +45,7 @@ struct SpoiltRoom {
 
   const LightScene& light() const { return field_scene(*prepared->light, solution); }
   const Camera& camera() const { return prepared->scene.cameras.front(); }
-  Image picture(const DiffuseField& of) const {
+  Image picture(const IrradianceField& of) const {
     return render(light(), of, camera(), settings.render).image;
   }
   std::vector<std::uint8_t> emits() const {
@@ -123,7 +123,7 @@ TEST(ProbeChoice, AnyFirstOnesWillDo) {
 }
 
 TEST(ProbeChoice, IsEvenWhereNothingChanges) {
-  DiffuseField even = room().field;
+  IrradianceField even = room().field;
   for (auto* values : {&even.irradiance, &even.mirrored, &even.indirect, &even.indirect_mirrored})
     std::ranges::fill(*values, glm::vec3(1.0F));
   const ProbeChoice choice = choose_probes(room().light(), even, FieldContent::all, room().camera(),

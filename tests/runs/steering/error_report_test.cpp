@@ -19,40 +19,40 @@ const TwoPassSettings interpolated = settings_with(DiffuseTerm::interpolated),
                       direct = settings_with(DiffuseTerm::direct);
 
 TEST(FirstTurn, IsOfTheLargestPart) {
-  EXPECT_THAT(first_turn({.form_factors = 0.04, .pixels = 0.03, .total = 0.05}, interpolated),
+  EXPECT_THAT(suggest_option({.form_factors = 0.04, .pixels = 0.03, .total = 0.05}, interpolated),
               Optional(HasSubstr("--rays")));
-  EXPECT_THAT(first_turn({.form_factors = 0.03, .pixels = 0.04, .total = 0.05}, interpolated),
+  EXPECT_THAT(suggest_option({.form_factors = 0.03, .pixels = 0.04, .total = 0.05}, interpolated),
               Optional(HasSubstr("--samples")));
-  EXPECT_THAT(first_turn({.mirror_tail = 0.05, .total = 0.05}, interpolated),
+  EXPECT_THAT(suggest_option({.mirror_tail = 0.05, .total = 0.05}, interpolated),
               Optional(HasSubstr("--mirror-depth")));
-  EXPECT_THAT(first_turn({.solver = 0.05, .total = 0.05}, interpolated),
+  EXPECT_THAT(suggest_option({.solver = 0.05, .total = 0.05}, interpolated),
               Optional(HasSubstr("--tolerance")));
 }
 
 TEST(FirstTurn, TakesLightFromTheSourceWhereEdgesWithinElementsAreMostOfTheMesh) {
   const PictureError edges{.mesh = 0.1, .mesh_direct = 0.09, .total = 0.1},
       smooth{.mesh = 0.1, .mesh_direct = 0.05, .total = 0.1};
-  EXPECT_THAT(first_turn(edges, interpolated), Optional(HasSubstr("--diffuse direct")));
-  EXPECT_THAT(first_turn(smooth, interpolated), Optional(HasSubstr("more --elements")));
-  EXPECT_THAT(first_turn(edges, direct), Optional(HasSubstr("more --elements")));
+  EXPECT_THAT(suggest_option(edges, interpolated), Optional(HasSubstr("--diffuse direct")));
+  EXPECT_THAT(suggest_option(smooth, interpolated), Optional(HasSubstr("more --elements")));
+  EXPECT_THAT(suggest_option(edges, direct), Optional(HasSubstr("more --elements")));
 }
 
 TEST(FirstTurn, NamesTheOptionThatTheRunListensTo) {
   TwoPassSettings other = direct;
   other.pass_one.form_factors.method = FormFactorMethod::hemicube;
   other.pass_one.interpolation.adaptive = AdaptiveSettings{};
-  EXPECT_THAT(first_turn({.form_factors = 0.05, .total = 0.05}, other),
+  EXPECT_THAT(suggest_option({.form_factors = 0.05, .total = 0.05}, other),
               Optional(HasSubstr("--hemicube-resolution")));
-  EXPECT_THAT(first_turn({.mesh = 0.05, .total = 0.05}, other), Optional(HasSubstr("--adaptive")));
+  EXPECT_THAT(suggest_option({.mesh = 0.05, .total = 0.05}, other), Optional(HasSubstr("--adaptive")));
   TwoPassSettings sized = direct;
   sized.pass_one.mesh.element_size = 0.1;
-  EXPECT_THAT(first_turn({.mesh = 0.05, .total = 0.05}, sized),
+  EXPECT_THAT(suggest_option({.mesh = 0.05, .total = 0.05}, sized),
               Optional(HasSubstr("a smaller --element-size")));
 }
 
 TEST(FirstTurn, IsNotAskedForWhereTheErrorIsHardToSee) {
-  EXPECT_EQ(first_turn({.mesh = 0.019, .total = 0.019}, interpolated), std::nullopt);
-  EXPECT_NE(first_turn({.mesh = 0.021, .total = 0.021}, interpolated), std::nullopt);
+  EXPECT_EQ(suggest_option({.mesh = 0.019, .total = 0.019}, interpolated), std::nullopt);
+  EXPECT_NE(suggest_option({.mesh = 0.021, .total = 0.021}, interpolated), std::nullopt);
 }
 
 } // namespace

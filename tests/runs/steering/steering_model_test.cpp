@@ -59,7 +59,7 @@ TEST(Forecast, DoesNotTakeWhatIsUnknownForNothing) {
   // Nearly all of the mesh's error is edges, as far as these are known:
   // exact ones may leave a tenth of it.
   const MeasuredRun run = run_with(0.09, 0.09, 0.0, 0.0);
-  Knobs direct = run.knobs;
+  Parameters direct = run.knobs;
   direct.term = DiffuseTerm::direct;
   EXPECT_NEAR(forecast(run, direct).error, 0.009, 1e-12);
   EXPECT_NEAR(forecast(run_with(0.09, 0.05, 0.0, 0.0), direct).error, std::sqrt(0.0081 - 0.0025),
@@ -68,16 +68,16 @@ TEST(Forecast, DoesNotTakeWhatIsUnknownForNothing) {
 
 TEST(NextRun, TurnsTheKnobOfTheLargestPart) {
   const NextRun rays = next_run(run_with(0.001, 0.0, 0.1, 0.001), {}, 0.05, for_ever);
-  EXPECT_GT(rays.knobs.rays, Knobs{}.rays);
-  EXPECT_EQ(rays.knobs.samples, Knobs{}.samples);
+  EXPECT_GT(rays.knobs.rays, Parameters{}.rays);
+  EXPECT_EQ(rays.knobs.samples, Parameters{}.samples);
   EXPECT_THAT(rays.why, HasSubstr("form factors 10 %"));
   const NextRun samples = next_run(run_with(0.001, 0.0, 0.001, 0.1), {}, 0.05, for_ever);
-  EXPECT_GT(samples.knobs.samples, Knobs{}.samples);
-  EXPECT_EQ(samples.knobs.rays, Knobs{}.rays);
+  EXPECT_GT(samples.knobs.samples, Parameters{}.samples);
+  EXPECT_EQ(samples.knobs.rays, Parameters{}.rays);
   const NextRun edges = next_run(run_with(0.3, 0.3, 0.001, 0.001), {}, 0.05, for_ever);
   EXPECT_EQ(edges.knobs.term, DiffuseTerm::direct) << "thousands of elements would do no better";
   const NextRun smooth = next_run(run_with(0.1, 0.0, 0.001, 0.001), {}, 0.05, for_ever);
-  EXPECT_GT(smooth.knobs.elements, Knobs{}.elements);
+  EXPECT_GT(smooth.knobs.elements, Parameters{}.elements);
 }
 
 // 64 samples were next to nothing by interpolation;
@@ -130,7 +130,7 @@ TEST(NextRun, ForetellsWhatWasWanted) {
 
 TEST(NextRun, DividesNoFurtherAtOnceThanIsKnown) {
   const NextRun next = next_run(run_with(0.2, 0.0, 0.001, 0.001), {}, 0.001, for_ever);
-  EXPECT_LE(next.knobs.elements, 16.0 * Knobs{}.elements);
+  EXPECT_LE(next.knobs.elements, 16.0 * Parameters{}.elements);
 }
 
 TEST(NextRun, GathersWhereMeshesDoNotHelp) {
@@ -183,7 +183,7 @@ TEST(NextRun, SamplesCostWhatTheUncertainPixelsTake) {
   // and one in fifty 64 instead of those.
   MeasuredRun run = run_with(0.001, 0.0, 0.001, 0.1);
   run.uncertain = {0.05, 0.02, 0.0, 0.0};
-  Knobs more = run.knobs;
+  Parameters more = run.knobs;
   more.samples = 16;
   run.estimate_seconds = 0.0;
   const double picture = run.pass_two_seconds;
@@ -200,11 +200,11 @@ TEST(NextRun, TurnsNoKnobFurtherThanNeeded) {
   constexpr double wanted = 0.017;
   const NextRun next = next_run(run, {}, wanted, for_ever);
   ASSERT_LE(next.forecast.error, wanted);
-  std::vector<Knobs> less(3, next.knobs);
+  std::vector<Parameters> less(3, next.knobs);
   less[0].elements /= 2.0;
   less[1].rays /= 2;
   less[2].samples /= 4;
-  for (const Knobs& knobs : less)
+  for (const Parameters& knobs : less)
     if (knobs.elements >= run.knobs.elements && knobs.rays >= run.knobs.rays &&
         knobs.samples >= run.knobs.samples) {
       EXPECT_GT(forecast(run, knobs).error, wanted);
@@ -224,7 +224,7 @@ TEST(NextRun, LeavesKnobsThatWereSet) {
   const NextRun next =
       next_run(run_with(0.1, 0.05, 0.1, 0.1),
                {.elements = false, .rays = false, .samples = false, .term = false}, 0.01, for_ever);
-  EXPECT_EQ(next.knobs, Knobs{});
+  EXPECT_EQ(next.knobs, Parameters{});
   EXPECT_THAT(next.why, IsEmpty());
 }
 

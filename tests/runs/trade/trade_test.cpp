@@ -48,7 +48,7 @@ std::set<std::string> knobs_of(const RunSettings& settings, const TradeScene& sc
   return knobs;
 }
 
-TEST(Knobs, AreAllTurned) {
+TEST(Parameters, AreAllTurned) {
   EXPECT_THAT(knobs_of({}, room),
               ElementsAre("adaptive", "bends", "diffuse", "elements", "form-factors",
                           "interpolation", "mirror-depth", "pixel-error", "rays", "samples",
@@ -56,7 +56,7 @@ TEST(Knobs, AreAllTurned) {
   EXPECT_FALSE(knobs_of({}, {.mirrors = false}).contains("mirror-depth"));
 }
 
-TEST(Knobs, EveryTurnIsAnotherSettingAndSaysWhichValueItTook) {
+TEST(Parameters, EveryTurnIsAnotherSettingAndSaysWhichValueItTook) {
   const RunSettings settings = spelled_out({});
   std::set<std::vector<std::string>> all{options_of(settings)};
   for (const TurnedSettings& next : turned(settings, room)) {
@@ -65,7 +65,7 @@ TEST(Knobs, EveryTurnIsAnotherSettingAndSaysWhichValueItTook) {
   }
 }
 
-TEST(Knobs, ElementsAreDoubledAndHalvedWithinLimits) {
+TEST(Parameters, ElementsAreDoubledAndHalvedWithinLimits) {
   const auto elements = [](int from) {
     RunSettings settings = spelled_out({});
     settings.elements = from;
@@ -82,7 +82,7 @@ TEST(Knobs, ElementsAreDoubledAndHalvedWithinLimits) {
   EXPECT_EQ(elements(150'000), (Turns{{75'000, false}}));
 }
 
-TEST(Knobs, ManySamplesCanBeMadeAdaptiveAndThenMoreOrLessSo) {
+TEST(Parameters, ManySamplesCanBeMadeAdaptiveAndThenMoreOrLessSo) {
   const auto pixel_errors = [](const RunSettings& settings) {
     std::set<std::pair<std::string, bool>> all;
     for (const TurnedSettings& next : turned(settings, room))
@@ -100,7 +100,7 @@ TEST(Knobs, ManySamplesCanBeMadeAdaptiveAndThenMoreOrLessSo) {
   EXPECT_EQ(pixel_errors(settings), (Turns{{"0.025", true}, {"0.1", false}}));
 }
 
-TEST(Knobs, LightThatIsNotToldApartIsNotComputedAtHits) {
+TEST(Parameters, LightThatIsNotToldApartIsNotComputedAtHits) {
   const auto turns_diffuse = [](const RunSettings& settings) {
     return std::ranges::any_of(turned(spelled_out(settings), room),
                                [](const auto& next) { return next.turn.knob == "diffuse"; });
@@ -112,7 +112,7 @@ TEST(Knobs, LightThatIsNotToldApartIsNotComputedAtHits) {
   EXPECT_FALSE(turns_diffuse(settings));
 }
 
-TEST(Knobs, OptionsSayWhatDiffersFromTheDefaults) {
+TEST(Parameters, OptionsSayWhatDiffersFromTheDefaults) {
   EXPECT_THAT(options_of({}), IsEmpty());
   RunSettings settings;
   settings.quality = Quality::draft;

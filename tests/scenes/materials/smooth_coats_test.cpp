@@ -82,7 +82,7 @@ TEST(SmoothCoats, OfManyTheLargestAreTaken) {
                 coated(Rgb(0.5), 0.0));
   mark_smooth_surfaces(scene);
   for (std::size_t k = 0; k < 30; ++k)
-    EXPECT_EQ(has_mirror_coat(scene.materials[k]), k >= 30 - most_coat_planes) << k;
+    EXPECT_EQ(has_mirror_coat(scene.materials[k]), k >= 30 - max_coat_planes) << k;
 }
 
 TEST(SmoothCoats, TakeTheirShareFromWhatIsSpread) {
@@ -93,7 +93,7 @@ TEST(SmoothCoats, TakeTheirShareFromWhatIsSpread) {
   const Bsdf coat = mirror_coat(sharp);
   EXPECT_NEAR(mean_shares(coat).reflected.g, mean_coat_reflectance, 1e-12);
   for (const double cosine : {0.05, 0.3, 1.0})
-    EXPECT_NEAR(let_out_by_coat(coat, cosine).g,
+    EXPECT_NEAR(coat_transmittance(coat, cosine).g,
                 (1.0 - coat_reflectance(cosine)) / (1.0 - mean_coat_reflectance), 1e-12);
   Scene scene = sheet_of(coated(Rgb(0.5), 0.0));
   mark_smooth_surfaces(scene);

@@ -17,29 +17,29 @@ Scene plate_of(const Material& material) {
   return scene;
 }
 
-bool throws_as_mirror(Scene scene) {
+bool specular_in_pass_one(Scene scene) {
   mark_smooth_surfaces(scene);
-  return scene.materials[0].throws_as_mirror;
+  return scene.materials[0].specular_in_pass_one;
 }
 
 TEST(SmoothMetals, AreSmootherThanTheBoundAndNoIdealMirrors) {
-  EXPECT_TRUE(throws_as_mirror(plate_of(metal(Rgb(0.9), 0.05))));
-  EXPECT_TRUE(throws_as_mirror(plate_of(metal(Rgb(0.9), smooth_metal_roughness))));
-  EXPECT_FALSE(throws_as_mirror(plate_of(metal(Rgb(0.9), smooth_metal_roughness + 0.01))));
-  EXPECT_FALSE(throws_as_mirror(plate_of(metal(Rgb(0.9), 0.0)))) << "a mirror is one without";
-  EXPECT_FALSE(throws_as_mirror(plate_of(diffuse(0.5))));
+  EXPECT_TRUE(specular_in_pass_one(plate_of(metal(Rgb(0.9), 0.05))));
+  EXPECT_TRUE(specular_in_pass_one(plate_of(metal(Rgb(0.9), smooth_metal_roughness))));
+  EXPECT_FALSE(specular_in_pass_one(plate_of(metal(Rgb(0.9), smooth_metal_roughness + 0.01))));
+  EXPECT_FALSE(specular_in_pass_one(plate_of(metal(Rgb(0.9), 0.0)))) << "a mirror is one without";
+  EXPECT_FALSE(specular_in_pass_one(plate_of(diffuse(0.5))));
 }
 
 TEST(SmoothMetals, AreOfOneReflectance) {
   Material textured = metal(Rgb(0.9), 0.1);
   textured.metallic_roughness_texture = TextureUse{};
-  EXPECT_FALSE(throws_as_mirror(plate_of(textured)));
+  EXPECT_FALSE(specular_in_pass_one(plate_of(textured)));
   Material cut_out = metal(Rgb(0.9), 0.1);
   cut_out.alpha_mode = AlphaMode::mask;
-  EXPECT_FALSE(throws_as_mirror(plate_of(cut_out)));
+  EXPECT_FALSE(specular_in_pass_one(plate_of(cut_out)));
   Scene colored = plate_of(metal(Rgb(0.9), 0.1));
   colored.vertices[0].color = glm::vec4(0.5F, 1.0F, 1.0F, 1.0F);
-  EXPECT_FALSE(throws_as_mirror(colored));
+  EXPECT_FALSE(specular_in_pass_one(colored));
 }
 
 /// A ring of so many upright plates of one material.
@@ -59,8 +59,8 @@ Scene ring(int plates, const Material& material) {
 }
 
 TEST(SmoothMetals, LieInFewPlanes) {
-  EXPECT_TRUE(throws_as_mirror(ring(7, metal(Rgb(0.9), 0.2))));
-  EXPECT_FALSE(throws_as_mirror(ring(20, metal(Rgb(0.9), 0.2))))
+  EXPECT_TRUE(specular_in_pass_one(ring(7, metal(Rgb(0.9), 0.2))));
+  EXPECT_FALSE(specular_in_pass_one(ring(20, metal(Rgb(0.9), 0.2))))
       << "what it throws no one would find";
 }
 
@@ -87,19 +87,19 @@ TEST(SmoothMetals, AreFlatHoweverFinelyTheyAreDivided) {
       scene.triangles.push_back(
           {{at(i, j), at(i + 1, j + 1), at(i, j + 1)}, MaterialId{0}, NodeId{0}});
     }
-  EXPECT_TRUE(throws_as_mirror(scene));
+  EXPECT_TRUE(specular_in_pass_one(scene));
 }
 
 TEST(SmoothMetals, DoNotEmit) {
   Material glowing = metal(Rgb(0.9), 0.1);
   glowing.emission = Rgb(1.0);
-  EXPECT_FALSE(throws_as_mirror(plate_of(glowing)));
+  EXPECT_FALSE(specular_in_pass_one(plate_of(glowing)));
 }
 
 TEST(SmoothMetals, AreFoundWherever) {
   const Scene far =
       transformed(ring(7, metal(Rgb(0.9), 0.2)), glm::dmat3(1.0), 1e-3, {0.5, 0.5, 0.5});
-  EXPECT_TRUE(throws_as_mirror(far));
+  EXPECT_TRUE(specular_in_pass_one(far));
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 #include "radiosity/field/adaptive/adaptive_field.h"
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/mesh/subdivision.h"
 #include "radiosity/field/adaptive/mirror_outlines.h"
 #include "radiosity/field/vertex_places.h"
 #include "tests/radiosity/lit_scene.h"
@@ -61,8 +61,8 @@ TEST(AdaptiveField, HasNoCracks) {
   const Solved s = divided_room();
   const ElementMesh& mesh = s.solution.refined->mesh;
   ASSERT_GT(mesh.hanging.size(), 40U);
-  for (const auto part : {&DiffuseField::irradiance, &DiffuseField::mirrored,
-                          &DiffuseField::indirect, &DiffuseField::indirect_mirrored}) {
+  for (const auto part : {&IrradianceField::irradiance, &IrradianceField::mirrored,
+                          &IrradianceField::indirect, &IrradianceField::indirect_mirrored}) {
     const std::vector<glm::vec3>& values = s.solution.field.*part;
     ASSERT_EQ(values.size(), mesh.vertices.size());
     for (const HangingVertex& h : mesh.hanging) {
@@ -84,7 +84,7 @@ TEST(AdaptiveField, HasNoCracks) {
 
 TEST(AdaptiveField, IsLightThatAddsUp) {
   const Solved s = divided_room();
-  const DiffuseField& field = s.solution.field;
+  const IrradianceField& field = s.solution.field;
   for (std::size_t v = 0; v < field.irradiance.size(); ++v)
     for (int band = 0; band < 3; ++band) {
       const float all = field.irradiance[v][band], indirect = field.indirect[v][band];

@@ -1,5 +1,5 @@
 #include "radiosity/field/adaptive/field_refinement.h"
-#include "radiosity/mesh/mesh_division.h"
+#include "radiosity/mesh/subdivision.h"
 #include "radiosity/field/vertex_places.h"
 #include "scenes/sampling.h"
 #include "tests/radiosity/lit_scene.h"
@@ -78,7 +78,7 @@ TEST(FieldRefinement, WhatIsBilinearNeedsNoElements) {
 TEST(FieldRefinement, ErrorsAreAsEstimatedAndWithinTheBound) {
   const auto l = square_wall();
   for (const double bound : {0.1, 0.05, 0.025}) {
-    const SampledField field = refined(*l, step, {.error = bound, .most_levels = 8});
+    const SampledField field = refined(*l, step, {.error = bound, .max_levels = 8});
     EXPECT_LE(field.error, bound);
     const double error = true_error(*l, field, step);
     EXPECT_LT(error, 1.4 * bound); // five points see what they see
@@ -90,7 +90,7 @@ TEST(FieldRefinement, ErrorsAreAsEstimatedAndWithinTheBound) {
 // elements along it grow as h falls. Elements of one size would have to be as small everywhere.
 TEST(FieldRefinement, ElementsLieAlongTheStep) {
   const auto l = square_wall();
-  const SampledField field = refined(*l, step, {.error = 0.03, .most_levels = 8});
+  const SampledField field = refined(*l, step, {.error = 0.03, .max_levels = 8});
   const double smallest = *std::min_element(field.mesh.area.begin(), field.mesh.area.end());
   EXPECT_LT(3.0 * double(element_count(field.mesh)), 1.0 / smallest);
   for (std::size_t e = 0; e < element_count(field.mesh); ++e) {
@@ -109,7 +109,7 @@ TEST(FieldRefinement, EndsWhereElementsMayNotBeDivided) {
   const SampledField field = refined(*l, step, {.error = 1e-3});
   for (std::uint32_t e = 0; e < element_count(field.mesh); ++e) {
     const MeshCell& cell = cell_of(field.mesh, ElementId{e});
-    EXPECT_LT(cell.level, RefinementSettings{}.most_levels);
+    EXPECT_LT(cell.level, RefinementSettings{}.max_levels);
     EXPECT_TRUE(!is_divisible(field.mesh, l->surfaces, cell) || cell.level < 3);
   }
   EXPECT_GT(field.error, 1e-3);
@@ -142,7 +142,7 @@ TEST(FieldRefinement, NoiseIsKnownAndNoReasonToDivide) {
     return PointSample{{Rgb(0.5 * (a + b)), Rgb(0.0)}, Cover::open, 0.25 * (a - b) * (a - b)};
   };
   const std::vector<double> weight(element_count(l->mesh), 1.0);
-  const RefinementSettings settings{.error = 0.01, .most_levels = 4};
+  const RefinementSettings settings{.error = 0.01, .max_levels = 4};
   const SampledField field =
                          refine_field(*l->light, {whole, told, everywhere}, weight, {}, settings),
                      blind =
@@ -159,7 +159,7 @@ TEST(FieldRefinement, LimitsHold) {
   const SampledField few = refined(*l, step, {.error = 1e-6, .max_elements = 300});
   EXPECT_LE(element_count(few.mesh), 300U);
   EXPECT_GT(few.error, 1e-6); // and it says so
-  const SampledField flat = refined(*l, step, {.error = 1e-6, .most_levels = 2});
+  const SampledField flat = refined(*l, step, {.error = 1e-6, .max_levels = 2});
   for (std::size_t e = 0; e < element_count(flat.mesh); ++e)
     EXPECT_LE(cell_of(flat.mesh, static_cast<ElementId>(e)).level, 2);
 }
@@ -172,7 +172,7 @@ TEST(FieldRefinement, OutlinesAreLookedAtMoreClosely) {
   for (int k = 0; k <= 64; ++k)
     outlines.push_back({SideId{0}, Vec2(0.318, k / 64.0)});
   const std::vector<double> weight{1.0};
-  const RefinementSettings settings{.error = 0.08, .points = 0, .most_levels = 7};
+  const RefinementSettings settings{.error = 0.08, .points = 0, .max_levels = 7};
   const SampledField blind = refine_field(*l->light, sampled(strip), weight, {}, settings),
                      seeing = refine_field(*l->light, sampled(strip), weight, outlines, settings);
   EXPECT_LT(true_error(*l, seeing, strip), 0.5 * true_error(*l, blind, strip));

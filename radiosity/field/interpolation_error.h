@@ -1,0 +1,61 @@
+// Where a field bends within elements:
+// what interpolation between vertices hides, by second differences.
+//
+// Along two edges that go on from one another, from a by way of v to b, the second derivative is
+//
+//   f'' = 2 ((f_a - f_v) / |a - v| + (f_b - f_v) / |b - v|) / (|a - v| + |b - v|),
+//
+// and linear interpolation over an element of size s is off by e = s^2 |f''| / 8 in its middle:
+// of the irradiance of its corners, the largest, in the brightest channel. An element is bent where
+//
+//   rho max(e - k noise H, 0) sqrt(A / A_mean) / B_mean  >  X.
+//
+// What noise of the values makes of e / H is taken to be its median over all vertices:
+// most of a field is smooth. What is gathered by rays has to stand out three times from that;
+// light from the source, which has noise in penumbrae alone, once: that median is how smooth light
+// bends on large elements.
+// Limit: borders of a surface have no second difference across them;
+// elements there have it from their inner corners.
+//
+// An edge that goes on at neither end, on a surface of one element, has none at all:
+// if light is even at one end and from there a parabola, f'' = 2 |f_a - f_b| / s^2,
+// an element with such edges is off by e = |f_a - f_b| / 4, the largest.
+#pragma once
+
+#include "radiosity/mesh/element_mesh.h"
+
+#include <span>
+#include <vector>
+
+namespace meninas {
+
+/// What bends are held against.
+struct BendScale {
+  double area = 0.0;      ///< A_mean, m^2
+  double radiosity = 0.0; ///< B_mean, W/m^2, the brightest channel
+};
+
+/// Of the elements that were solved; `reflected` by ElementId.
+BendScale bend_scale(const ElementMesh& mesh, std::span<const Rgb> reflected);
+
+/// k.
+struct NoiseThreshold {
+  double times;
+};
+inline constexpr NoiseThreshold of_gathered{3.0}, of_source{1.0};
+
+/// By ElementId, what is held against X. `irradiance` by ElementVertexId.
+std::vector<double> interpolation_error(const ElementMesh& mesh,
+                                      std::span<const glm::vec3> irradiance, const BendScale& scale,
+                                      NoiseThreshold stands_out = of_gathered);
+
+/// The same by the edges that go on at neither end: what there may be at the most where light is
+/// no wilder than a parabola, and not what there is.
+std::vector<double> edge_difference_error(const ElementMesh& mesh,
+                                        std::span<const glm::vec3> irradiance,
+                                        const BendScale& scale);
+
+/// By ElementId, 1 where the element is bent by more than X.
+std::vector<std::uint8_t> bent_by_more(std::span<const double> bends, double x);
+
+} // namespace meninas

@@ -1,0 +1,53 @@
+#include "radiosity/field/penumbra_resampling.h"
+
+#include "radiosity/field/vertex_light.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace meninas {
+
+namespace {
+
+bool has_light(VertexState state) {
+  return state == VertexState::lit || state == VertexState::low || state == VertexState::gathered;
+}
+
+/// Vertices of few samples in one element with one that sees an image in part.
+std::vector<std::uint32_t> beside_penumbrae(const VertexSamples& found) {
+  std::vector<std::uint8_t> is_beside(found.states.size(), 0);
+  for (const ElementCorners& corners : found.mesh.corners)
+    if (std::ranges::any_of(corners, [&](ElementVertexId v) {
+          return found.seen[index(v)] == Visibility::in_part;
+        }))
+      for (const ElementVertexId v : corners)
+        is_beside[index(v)] = 1;
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t v = 0; v < is_beside.size(); ++v)
+    if (is_beside[v] != 0 && found.seen[v] == Visibility::alike && has_light(found.states[v]))
+      vertices.push_back(v);
+  return vertices;
+}
+
+} // namespace
+
+void resample_near_penumbrae(const VertexSource& source, std::uint32_t level, VertexSamples& found) {
+  IrradianceField& field = found.field;
+  for (;;) {
+    const std::vector<std::uint32_t> vertices = beside_penumbrae(found);
+    if (vertices.empty())
+      return;
+    tbb::parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t k) {
+      const std::uint32_t v = vertices[k];
+      const ArrivingLight light =
+          light_beside_penumbra(source.gathering, found.receivers[v], vertex_seed(source, v, level),
+                                source.workspaces.local());
+      field.irradiance[v] = field.indirect[v] + glm::vec3(light.total);
+      field.mirrored[v] = field.indirect_mirrored[v] + glm::vec3(light.mirrored);
+      found.seen[v] = light.in_part ? Visibility::in_part : Visibility::confirmed;
+    });
+  }
+}
+
+} // namespace meninas

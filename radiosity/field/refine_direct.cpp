@@ -1,0 +1,175 @@
+#include "radiosity/field/refine_direct.h"
+
+#include "radiosity/field/refine_indirect.h"
+#include "radiosity/field/facet_edges.h"
+#include "radiosity/mesh/subdivision.h"
+#include "radiosity/field/vertex_light.h"
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+
+namespace meninas {
+
+namespace {
+
+std::vector<glm::vec3> from_source(const IrradianceField& field) {
+  std::vector<glm::vec3> light = field.irradiance;
+  for (std::size_t v = 0; v < light.size(); ++v)
+    light[v] -= field.indirect[v];
+  return light;
+}
+
+bool has_means(const VertexSamples& found, std::size_t element) {
+  return std::ranges::any_of(found.mesh.corners[element], [&](ElementVertexId v) {
+    return found.states[index(v)] == VertexState::averaged;
+  });
+}
+
+/// By light from the source. Before the first division there are surfaces of one element:
+/// the difference between corners tells that there may be an edge on them.
+/// Where these have the mean of many facets it tells how the curve turns, and is left out.
+std::vector<double> bends_of(const VertexSamples& found, const BendScale& scale, bool first) {
+  const std::vector<glm::vec3> light = from_source(found.field);
+  std::vector<double> bends = interpolation_error(found.mesh, light, scale, of_source);
+  if (!first)
+    return bends;
+  const std::vector<double> at_lone_edges = edge_difference_error(found.mesh, light, scale);
+  for (std::size_t e = 0; e < bends.size(); ++e)
+    if (!has_means(found, e))
+      bends[e] = std::max(bends[e], at_lone_edges[e]);
+  return bends;
+}
+
+/// Those that are bent by more than x, of more than `most` the most bent.
+std::vector<std::uint8_t> max_bent(const std::vector<double>& bends, double x, std::size_t most) {
+  std::vector<double> bent;
+  std::ranges::copy_if(bends, std::back_inserter(bent), [x](double bend) { return bend > x; });
+  if (bent.size() > most) {
+    const auto first_left_out = bent.begin() + static_cast<std::ptrdiff_t>(most);
+    std::ranges::nth_element(bent, first_left_out, std::greater<>());
+    x = *first_left_out;
+  }
+  return bent_by_more(bends, x);
+}
+
+/// What the coarser mesh has there.
+struct CoarseLight {
+  glm::vec3 irradiance, mirrored, indirect, indirect_mirrored;
+  bool beside_covered; ///< in an element with a covered corner
+  double solved_size;  ///< of the element that was solved there, m
+};
+CoarseLight light_in(const VertexSamples& coarse, const SurfaceModel& surfaces,
+                     const ElementMesh& mesh, std::size_t v) {
+  const ElementPoint at =
+      place_in(coarse.mesh, surfaces, mesh, static_cast<ElementVertexId>(v));
+  const auto value = [&](const std::vector<glm::vec3>& values) {
+    return value_in(coarse.mesh, values, at);
+  };
+  const bool beside_covered =
+      std::ranges::any_of(coarse.mesh.corners[index(at.element)], [&](ElementVertexId corner) {
+        return coarse.states[index(corner)] == VertexState::covered;
+      });
+  const double times = double(1U << cell_of(coarse.mesh, at.element).level);
+  return {value(coarse.field.irradiance),
+          value(coarse.field.mirrored),
+          value(coarse.field.indirect),
+          value(coarse.field.indirect_mirrored),
+          beside_covered,
+          times * size_of(coarse.mesh, at.element)};
+}
+
+/// Light from the source at fresh vertices, and what else is there as the coarser mesh has it.
+/// Under things all is as that has it: what is gathered beside them. A cover that is low for the
+/// elements that were solved, some of whose corners it covers, is as low for smaller ones.
+void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::uint32_t level,
+                 const VertexSamples& coarse, VertexSamples& found) {
+  IrradianceField& field = found.field;
+  std::vector<std::uint32_t> fresh; // new, or has hung so far
+  for (std::uint32_t v = 0; v < found.states.size(); ++v)
+    if (found.states[v] == VertexState::unknown) {
+      fresh.push_back(v);
+      found.seen[v] = Visibility::alike;
+      field.irradiance[v] = field.mirrored[v] = field.indirect[v] = field.indirect_mirrored[v] =
+          glm::vec3(0.0F);
+    }
+  light_vertices(source, level, found);
+  for (const std::uint32_t v : fresh) {
+    if (found.states[v] == VertexState::unknown)
+      continue;
+    const CoarseLight before = light_in(coarse, surfaces, found.mesh, v);
+    const bool is_dark = field.irradiance[v] == glm::vec3(0.0F);
+    if (found.states[v] == VertexState::covered ||
+        (is_dark && before.beside_covered &&
+         is_under_something(source.gathering.light, found.receivers[v], before.solved_size))) {
+      found.states[v] = VertexState::covered;
+      field.irradiance[v] = before.irradiance;
+      field.mirrored[v] = before.mirrored;
+    } else {
+      found.states[v] = VertexState::gathered;
+      field.irradiance[v] += before.indirect;
+      field.mirrored[v] += before.indirect_mirrored;
+    }
+    field.indirect[v] = before.indirect;
+    field.indirect_mirrored[v] = before.indirect_mirrored;
+  }
+  for (auto* values :
+       {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored})
+    settle_hanging(found.mesh, *values);
+}
+
+/// Facets with edges have light from the source of their own at their corners.
+void light_facets_with_edges(const LightScene& light, const VertexSource& source,
+                             const BendScale& scale, double x, std::uint32_t level,
+                             VertexSamples& found) {
+  if (std::ranges::find(found.states, VertexState::averaged) == found.states.end())
+    return;
+  const std::vector<double> bends =
+      edge_difference_error(found.mesh, from_source(found.field), scale);
+  std::vector<ElementId> bent;
+  for (std::uint32_t e = 0; e < bends.size(); ++e)
+    if (bends[e] > x && has_means(found, e))
+      bent.push_back(ElementId{e});
+  const std::vector<ElementId> facets = faces_with_shadow_edges(light, source, level, found, bent);
+  if (facets.empty())
+    return;
+  const VertexSamples before = found;
+  for (const ElementId facet : facets)
+    for (const ElementVertexId corner : found.mesh.corners[index(facet)])
+      if (found.states[index(corner)] == VertexState::averaged)
+        found.states[index(corner)] = VertexState::unknown;
+  light_fresh(source, light.surfaces, level, before, found);
+}
+
+} // namespace
+
+void refine_direct(const LightScene& light, const VertexSource& source, const BendScale& scale,
+                       double x, VertexSamples found, InterpolatedField& result) {
+  constexpr std::uint32_t max_divisions = 3, first_level = 0xed9e;
+  constexpr std::size_t parts_more = 3;
+  if (!(x > 0.0))
+    return;
+  const std::size_t solved = element_count(found.mesh), most = solved + max_at_shadows(solved);
+  found.field = std::move(result.field);
+  std::ranges::replace(found.states, VertexState::low, VertexState::gathered);
+  light_facets_with_edges(light, source, scale, x, first_level - 1, found);
+  std::uint32_t level = 0;
+  for (; level < max_divisions; ++level) {
+    const std::size_t now = element_count(found.mesh), more = now < most ? most - now : 0;
+    if (more < parts_more)
+      break;
+    const auto marked = max_bent(bends_of(found, scale, level == 0), x, more / parts_more);
+    if (std::ranges::find(marked, 1) == marked.end())
+      break;
+    // Every vertex that has a value keeps it, and none asks anew how it sees the source.
+    std::ranges::replace(found.seen, Visibility::alike, Visibility::confirmed);
+    const VertexSamples coarse = std::move(found);
+    found = divided(coarse, light.surfaces, marked);
+    light_fresh(source, light.surfaces, first_level + level, coarse, found);
+  }
+  result.field = std::move(found.field);
+  if (level > 0)
+    result.mesh = std::move(found.mesh);
+}
+
+} // namespace meninas

@@ -1,0 +1,47 @@
+#include "radiosity/field/refine_indirect.h"
+
+#include "radiosity/mesh/subdivision.h"
+
+#include <algorithm>
+
+namespace meninas {
+
+VertexSamples divided(const VertexSamples& before, const SurfaceModel& surfaces,
+                   std::span<const std::uint8_t> marked) {
+  VertexSamples after = make_samples(divide_elements(before.mesh, surfaces, marked));
+  const std::vector<CellId> now = same_cells(before.mesh, after.mesh);
+  for (std::size_t e = 0; e < element_count(before.mesh); ++e) {
+    const ElementCorners corners =
+        same_corners(before.mesh, static_cast<ElementId>(e), after.mesh,
+                     now[index(before.mesh.cell_of_element[e])]);
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      if (corners[c] == none<ElementVertexId>)
+        continue;
+      const std::uint32_t from = index(before.mesh.corners[e][c]), to = index(corners[c]);
+      after.states[to] = before.states[from];
+      after.seen[to] = before.seen[from];
+      after.field.irradiance[to] = before.field.irradiance[from];
+      after.field.mirrored[to] = before.field.mirrored[from];
+      after.field.indirect[to] = before.field.indirect[from];
+      after.field.indirect_mirrored[to] = before.field.indirect_mirrored[from];
+    }
+  }
+  return after;
+}
+
+void refine_indirect(const LightScene& light, const VertexSource& source, const BendScale& scale,
+                 double x, VertexSamples& found, InterpolatedField& result) {
+  constexpr std::uint32_t max_divisions = 3;
+  for (std::uint32_t level = 1; level <= max_divisions && x > 0.0; ++level) {
+    const auto marked =
+        bent_by_more(interpolation_error(found.mesh, result.field.indirect, scale), x);
+    if (std::ranges::find(marked, 1) == marked.end())
+      return;
+    found = divided(found, light.surfaces, marked);
+    gather_at_vertices(source, level, found);
+    result.field = complete_field(source, found);
+    result.mesh = found.mesh;
+  }
+}
+
+} // namespace meninas

@@ -1,0 +1,68 @@
+#include "radiosity/field/smooth_vertices.h"
+
+#include "radiosity/field/smoothing_groups.h"
+#include "scenes/sampling.h"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+
+namespace meninas {
+
+/// Of each facet's light from the source, and of the rest, what comes by way of mirrors:
+/// in the share that a few rays find at its middle.
+static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
+                                                      const std::vector<std::uint8_t>& averaged,
+                                                      const std::array<std::vector<Rgb>, 2>& parts,
+                                                      const PointGathering& gathering,
+                                                      PointWorkspaces& workspaces) {
+  const ElementMesh& mesh = light.mesh;
+  std::array<std::vector<Rgb>, 2> mirrored;
+  for (auto& part : mirrored)
+    part.assign(element_count(mesh), Rgb(0.0));
+  const auto share = [](const ArrivingLight& arrived) {
+    return glm::clamp(arrived.mirrored / glm::max(arrived.total, Rgb(1e-300)), 0.0, 1.0);
+  };
+  tbb::parallel_for(std::size_t{0}, element_count(mesh), [&](std::size_t e) {
+    if (averaged[e] == 0)
+      return;
+    const MeshSide& side = mesh.sides[index(mesh.side_of_element[e])];
+    const Receiver middle{centre_of(mesh, static_cast<ElementId>(e)), side.normal, side.plane_class,
+                          side.tangent, side.coat};
+    const PointLight found = light_at(
+        gathering, middle, hash(static_cast<std::uint32_t>(e), 0xface7), workspaces.local());
+    mirrored[0][e] = share(found.from_source) * parts[0][e];
+    mirrored[1][e] = share(found.indirect()) * parts[1][e];
+  });
+  return mirrored;
+}
+
+void average_facets(const LightScene& light, const ElementLight& elements,
+                           const VertexElements& facets, const FormFactorSettings& form_factors,
+                           PointWorkspaces& workspaces, IrradianceField& field) {
+  constexpr int few_rays = 16;
+  const ElementMesh& mesh = light.mesh;
+  std::array<std::vector<Rgb>, 2> parts{elements.from_source, elements.irradiance}, mirrored;
+  for (std::size_t e = 0; e < element_count(mesh); ++e)
+    parts[1][e] -= parts[0][e];
+  if (!light.mirrors.mirrors.empty() || light.mirrors.facets > 0) {
+    const PointGathering gathering(light, elements.reflected, form_factors,
+                                   {.shadow_rays = 4, .penumbra_rays = 4},
+                                   {.rays = few_rays, .cluster_shadow_rays = 1});
+    mirrored = mirrored_parts(light, averaged_facets(mesh, facets), parts, gathering, workspaces);
+  }
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto own = around(facets, v);
+    if (own.empty())
+      continue;
+    const auto mean = [&](const std::vector<Rgb>& values) {
+      return values.empty() ? glm::vec3(0.0F) : facet_mean(mesh, own, elements.irradiance, values);
+    };
+    field.indirect[v] = mean(parts[1]);
+    field.irradiance[v] = field.indirect[v] + mean(parts[0]);
+    field.indirect_mirrored[v] = mean(mirrored[1]);
+    field.mirrored[v] = field.indirect_mirrored[v] + mean(mirrored[0]);
+  }
+}
+
+} // namespace meninas

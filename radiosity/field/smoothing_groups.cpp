@@ -1,0 +1,110 @@
+#include "radiosity/field/smoothing_groups.h"
+
+#include "radiosity/mesh/mesh_cells.h"
+#include "radiosity/mesh/vertex_welder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meninas {
+
+namespace {
+
+/// Small enough for a mean over its neighbours to be as fine as the mesh is elsewhere.
+bool is_facet(const ElementMesh& mesh, const MeshSide& side) {
+  constexpr double largest = 0.25; // of an element
+  return side.element_count == 1 &&
+         mesh.area[side.first_element] <= largest * side.element_size * side.element_size;
+}
+
+const MeshSide& side_of(const ElementMesh& mesh, ElementId element) {
+  return mesh.sides[index(mesh.side_of_element[index(element)])];
+}
+
+/// Corners of facets by the place they are at, as lists of vertices.
+std::vector<std::vector<ElementVertexId>> facet_places(const ElementMesh& mesh, double grain) {
+  VertexWelder welder(grain);
+  std::vector<Point3> places;
+  std::vector<std::vector<ElementVertexId>> at_place;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!is_facet(mesh, side_of(mesh, mesh.element_of_vertex[v])))
+      continue;
+    const std::size_t place = index(welder.vertex_at(0, mesh.vertices[v], places));
+    at_place.resize(places.size());
+    at_place[place].push_back(static_cast<ElementVertexId>(v));
+  }
+  return at_place;
+}
+
+} // namespace
+
+VertexElements facets_around(const LightScene& light) {
+  const ElementMesh& mesh = light.mesh;
+  const double min_cosine = std::cos(max_facet_turn * std::numbers::pi / 180.0);
+  constexpr std::size_t min_facets = 3;
+  const VertexElements own = elements_around(mesh);
+  const auto normal_at = [&mesh](ElementVertexId v) {
+    return side_of(mesh, mesh.element_of_vertex[index(v)]).normal;
+  };
+  std::vector<std::vector<ElementId>> taken(mesh.vertices.size());
+  for (const auto& vertices : facet_places(mesh, vertex_grain(mesh, light.surfaces))) {
+    if (vertices.size() < min_facets)
+      continue;
+    for (const ElementVertexId v : vertices) {
+      std::vector<ElementId>& facets = taken[index(v)];
+      std::size_t surfaces = 0;
+      for (const ElementVertexId other : vertices) {
+        if (glm::dot(normal_at(v), normal_at(other)) < min_cosine)
+          continue;
+        ++surfaces;
+        const auto elements = around(own, index(other));
+        facets.insert(facets.end(), elements.begin(), elements.end());
+      }
+      if (surfaces < min_facets)
+        facets.clear();
+    }
+  }
+  VertexElements result;
+  result.begin.push_back(0);
+  for (const auto& facets : taken) {
+    result.elements.insert(result.elements.end(), facets.begin(), facets.end());
+    result.begin.push_back(static_cast<std::uint32_t>(result.elements.size()));
+  }
+  return result;
+}
+
+std::vector<std::uint8_t> sides_above_crease_angle(const ElementMesh& mesh, const VertexElements& facets,
+                                          double degrees) {
+  const double min_cosine = std::cos(degrees * std::numbers::pi / 180.0);
+  std::vector<std::uint8_t> turn(mesh.sides.size(), 0);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const SideId own = mesh.side_of_element[index(mesh.element_of_vertex[v])];
+    for (const ElementId facet : around(facets, v))
+      if (glm::dot(mesh.sides[index(own)].normal, side_of(mesh, facet).normal) < min_cosine)
+        turn[index(own)] = 1;
+  }
+  return turn;
+}
+
+std::vector<std::uint8_t> averaged_facets(const ElementMesh& mesh, const VertexElements& facets) {
+  std::vector<std::uint8_t> averaged(element_count(mesh), 0);
+  for (const ElementId facet : facets.elements)
+    averaged[index(facet)] = 1;
+  return averaged;
+}
+
+glm::vec3 facet_mean(const ElementMesh& mesh, std::span<const ElementId> facets,
+                     std::span<const Rgb> irradiance, std::span<const Rgb> values) {
+  Rgb sum(0.0);
+  double area = 0.0;
+  for (const ElementId facet : facets) {
+    if (irradiance[index(facet)] == Rgb(0.0))
+      continue;
+    sum += mesh.area[index(facet)] * values[index(facet)];
+    area += mesh.area[index(facet)];
+  }
+  return area > 0.0 ? glm::vec3(sum / area) : glm::vec3(0.0F);
+}
+
+} // namespace meninas

@@ -1,0 +1,343 @@
+#include "radiosity/field/vertex_gathering.h"
+
+#include "radiosity/field/contact_vertices.h"
+#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/field/gap_vertices.h"
+#include "radiosity/mesh/subdivision.h"
+#include "radiosity/field/penumbra_resampling.h"
+#include "radiosity/field/vertex_fill.h"
+#include "radiosity/field/vertex_light.h"
+#include "scenes/sampling.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace meninas {
+
+namespace {
+
+template <typename Change>
+void for_each_array(IrradianceField& field, const Change& change) {
+  for (auto* values :
+       {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored})
+    change(*values);
+}
+
+} // namespace
+
+VertexSamples make_samples(ElementMesh mesh) {
+  VertexSamples found;
+  found.mesh = std::move(mesh);
+  found.around = elements_around(found.mesh);
+  found.receivers = vertex_receivers(found.mesh, found.around);
+  const std::size_t count = found.mesh.vertices.size();
+  found.states.assign(count, VertexState::unknown);
+  found.seen.assign(count, Visibility::alike);
+  for_each_array(found.field, [&](auto& values) { values.assign(count, glm::vec3(0.0F)); });
+  return found;
+}
+
+VertexSamples make_samples(const ElementMesh& mesh, const VertexElements& facets) {
+  VertexSamples found = make_samples(mesh);
+  for (std::size_t v = 0; v < found.states.size(); ++v)
+    if (is_averaged(facets, v))
+      found.states[v] = VertexState::averaged;
+  return found;
+}
+
+PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
+                              const VertexGathering& how, RayShare share, double spared,
+                              std::optional<RayShare> before) {
+  const auto rays_of = [asked = how.interpolation.rays](RayShare of) {
+    return of.times * std::max(std::min(asked, 128), asked / of.part);
+  };
+  DirectSettings direct = how.direct;
+  direct.penumbra_samples = PenumbraSamples::together;
+  return {light,
+          std::move(reflected),
+          how.form_factors,
+          direct,
+          {.rays = rays_of(share),
+           .rays_before = before ? rays_of(*before) : 0,
+           .cluster_shadow_rays = std::max(1, how.interpolation.cluster_shadow_rays / share.part),
+           .clusters_spared = spared}};
+}
+
+namespace {
+
+/// Whether a vertex is open that has light from the source alone, as few rays tell.
+bool is_open_so_far(const VertexSource& source, const VertexSamples& found, std::uint32_t v) {
+  const PointGathering& gathering = source.gathering;
+  const Receiver& receiver = found.receivers[v];
+  const double size = size_of(found.mesh, found.mesh.element_of_vertex[v]);
+  if (found.field.irradiance[v] != glm::vec3(0.0F))
+    return !is_under_something(gathering.light, receiver, size);
+  return clearance_of_unlit(gathering.light, gathering.form_factors, receiver, size,
+                           hash(v, gathering.form_factors.seed, 0xc07e),
+                           source.workspaces.local()) == Cover::open;
+}
+
+/// Whether any corner of the elements around a vertex is open. Those that hang do not count.
+bool has_open_beside(const VertexSource& source, const VertexSamples& found, std::uint32_t vertex) {
+  const auto is_open = [&](ElementVertexId v) {
+    switch (found.states[index(v)]) {
+    case VertexState::averaged:
+    case VertexState::gathered:
+      return true;
+    case VertexState::lit:
+      return is_open_so_far(source, found, index(v));
+    default:
+      return false;
+    }
+  };
+  return std::ranges::any_of(around(found.around, vertex), [&](ElementId element) {
+    return std::ranges::any_of(found.mesh.corners[index(element)], is_open);
+  });
+}
+
+/// Of vertices under a low cover those beside something open are covered.
+void cover_low(const VertexSource& source, VertexSamples& found) {
+  std::vector<std::uint32_t> low;
+  for (std::uint32_t v = 0; v < found.states.size(); ++v)
+    if (found.states[v] == VertexState::low)
+      low.push_back(v);
+  std::vector<std::uint8_t> beside_open(low.size(), 0);
+  tbb::parallel_for(std::size_t{0}, low.size(), [&](std::size_t k) {
+    beside_open[k] = has_open_beside(source, found, low[k]) ? 1 : 0;
+  });
+  for (std::size_t k = 0; k < low.size(); ++k)
+    if (beside_open[k] != 0)
+      found.states[low[k]] = VertexState::covered;
+}
+
+/// Takes what `value(v, size, seed, workspace)` finds for the vertices
+/// that do not hang and are in one state, as far as they are marked.
+template <typename Value>
+void light_each(const VertexSource& source, VertexState now, VertexState then,
+                std::span<const std::uint8_t> marked, std::uint32_t level, VertexSamples& found,
+                const Value& value) {
+  constexpr std::size_t chunk_size = 64;
+  const ElementMesh& mesh = found.mesh;
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t v = 0; v < found.states.size(); ++v)
+    if (found.states[v] == now && (marked.empty() || marked[v] != 0))
+      vertices.push_back(v);
+  std::vector<std::uint8_t> hangs(mesh.vertices.size(), 0);
+  for (const HangingVertex& hanging : mesh.hanging)
+    hangs[index(hanging.vertex)] = 1;
+  std::erase_if(vertices, [&](std::uint32_t v) { return hangs[v] != 0; });
+
+  const auto light_vertex = [&](std::uint32_t v, PointWorkspace& work) {
+    const double size = size_of(mesh, mesh.element_of_vertex[v]);
+    const VertexValue found_here = value(v, size, vertex_seed(source, v, level), work);
+    found.field.irradiance[v] += glm::vec3(found_here.irradiance.total);
+    found.field.mirrored[v] += glm::vec3(found_here.irradiance.mirrored);
+    found.field.indirect[v] = glm::vec3(found_here.indirect.total);
+    found.field.indirect_mirrored[v] = glm::vec3(found_here.indirect.mirrored);
+    if (!found.punctual.empty())
+      found.punctual[v] += glm::vec3(found_here.irradiance.punctual);
+    if (found_here.irradiance.in_part)
+      found.seen[v] = Visibility::in_part;
+    found.states[v] = found_here.cover == Cover::open  ? then
+                      : found_here.cover == Cover::low ? VertexState::low
+                                                       : VertexState::covered;
+  };
+  tbb::parallel_for(std::size_t{0}, (vertices.size() + chunk_size - 1) / chunk_size,
+                    [&](std::size_t c) {
+                      PointWorkspace& work = source.workspaces.local();
+                      for (std::size_t k = c * chunk_size;
+                           k < std::min(vertices.size(), (c + 1) * chunk_size); ++k)
+                        light_vertex(vertices[k], work);
+                    });
+  cover_low(source, found);
+}
+
+} // namespace
+
+void gather_at_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found) {
+  light_each(source, VertexState::unknown, VertexState::gathered, {}, level, found,
+             [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) {
+               return value_at(source.gathering, source.irradiance, found.receivers[v], size, seed,
+                               work);
+             });
+  resample_near_penumbrae(source, level, found);
+}
+
+/// Marks the dark vertices in one element with a bright one, one that is covered,
+/// or one that has all of its light;
+/// those once marked no more. Returns whether there are any.
+static bool mark_dark_beside_bright(const VertexSamples& found, std::vector<std::uint8_t>& marked,
+                                    std::vector<std::uint8_t>& asked) {
+  const auto is_dark = [&](std::size_t v) {
+    return found.states[v] == VertexState::lit && found.field.irradiance[v] == glm::vec3(0.0F);
+  };
+  const auto is_beside = [&](ElementVertexId v) {
+    return found.states[index(v)] == VertexState::covered ||
+           found.states[index(v)] == VertexState::gathered ||
+           (found.states[index(v)] == VertexState::lit && !is_dark(index(v)));
+  };
+  marked.assign(asked.size(), 0);
+  bool any = false;
+  for (const ElementCorners& corners : found.mesh.corners)
+    if (std::ranges::any_of(corners, is_beside))
+      for (const ElementVertexId v : corners)
+        if (is_dark(index(v)) && asked[index(v)] == 0) {
+          marked[index(v)] = asked[index(v)] = 1;
+          any = true;
+        }
+  return any;
+}
+
+/// Finds the dark vertices that are covered, inwards from where light ends.
+/// Deep in the dark, others hurt nobody.
+static void cover_shut_in(const VertexSource& source, VertexSamples& found) {
+  std::vector<std::uint8_t> marked, asked(found.states.size(), 0);
+  while (mark_dark_beside_bright(found, marked, asked))
+    light_each(
+        source, VertexState::lit, VertexState::lit, marked, 0, found,
+        [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) -> VertexValue {
+          return {{},
+                  {},
+                  clearance_of_unlit(source.gathering.light, source.gathering.form_factors,
+                                    found.receivers[v], size, seed, work)};
+        });
+  // Under a low cover that goes on all around the rest of the light is still to be gathered.
+  std::ranges::replace(found.states, VertexState::low, VertexState::lit);
+}
+
+void light_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found) {
+  light_each(source, VertexState::unknown, VertexState::lit, {}, level, found,
+             [&](std::uint32_t v, double, std::uint32_t seed, PointWorkspace& work) -> VertexValue {
+               return {light_from_source(source.gathering, found.receivers[v], seed, work), {}};
+             });
+  resample_near_penumbrae(source, level, found);
+  cover_shut_in(source, found);
+}
+
+void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> marked,
+                   VertexSamples& found) {
+  const PointGathering& gathering = source.gathering;
+  const bool keeps =
+      source.kept != nullptr && gathering.form_factors.method != FormFactorMethod::hemicube;
+  if (keeps && source.keeps_more) {
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t v = 0; v < marked.size(); ++v)
+      if (marked[v] != 0 && found.states[v] == VertexState::lit)
+        vertices.push_back(v);
+    source.kept->make_room(vertices, gathering.net.points.size());
+  }
+  light_each(source, VertexState::lit, VertexState::gathered, marked, 0, found,
+             [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) {
+               return indirect_value_at(gathering, source.irradiance, found.receivers[v], size,
+                                        seed, work, keeps ? source.kept->of(v) : nullptr);
+             });
+}
+
+namespace {
+
+/// Vertices on which something stands, or at whose side it does, take what is gathered beside it;
+/// those of facets keep their means.
+void light_contacts(const VertexSource& source, const VertexSamples& found,
+                    std::vector<std::uint8_t>& valid, IrradianceField& field) {
+  const ElementMesh& mesh = found.mesh;
+  const PointGathering& gathering = source.gathering;
+  const std::vector<Receiver>& receivers = found.receivers;
+  std::vector<std::uint8_t> open = valid;
+  tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t v) {
+    if (found.states[v] == VertexState::low ||
+        (found.states[v] == VertexState::gathered && touches_wall(gathering.light, receivers[v])))
+      open[v] = 0;
+  });
+  const std::vector<ContactEdge> edges = contact_edges(mesh, open);
+  std::vector<ContactLight> lights(edges.size());
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t k) {
+    const auto [covered, exposed] = edges[k];
+    lights[k] = light_at_contact(
+        gathering, source.irradiance, receivers[exposed], receivers[covered].position,
+        size_of(mesh, mesh.element_of_vertex[exposed]),
+        hash(covered, exposed, gathering.form_factors.seed), source.workspaces.local());
+  });
+  extend_to_contacts(edges, lights, valid, field);
+}
+
+/// Vertices beyond what cuts an element have the light of the place next to it. The line through
+/// that and the light at the element's own corners is followed to the vertex, so that light is
+/// right where it is seen.
+void extend_regions(const VertexSamples& found, std::vector<std::uint8_t>& valid,
+                    IrradianceField& field) {
+  const ElementMesh& mesh = found.mesh;
+  std::vector<ContactEdge> edges;
+  std::vector<ContactLight> lights;
+  for (std::uint32_t e = 0; e < element_count(mesh); ++e) {
+    const RegionElement* region = region_of(mesh, ElementId{e});
+    if (region == nullptr)
+      continue;
+    const ElementCorners& corners = mesh.corners[e];
+    const std::size_t count = corners[3] == corners[2] ? 3 : 4;
+    const auto is_own = [&](std::size_t c) { return ((region->own_corners >> c) & 1U) != 0; };
+    for (std::size_t c = 0; c < count; ++c)
+      for (const std::size_t beside : {(c + 1) % count, (c + count - 1) % count}) {
+        const std::uint32_t v = index(corners[c]), n = index(corners[beside]);
+        if (is_own(c) || !is_own(beside) || valid[v] == 0 || valid[n] == 0)
+          continue;
+        const Vec3 way = mesh.vertices[v] - mesh.vertices[n];
+        const Vec3 to = found.receivers[v].position - mesh.vertices[n];
+        const double place = glm::dot(to, way) / glm::dot(way, way);
+        // Of its edges the one on which light is gathered for the vertex (vertex_places.h).
+        if (!(place > 0.0 && place < 1.0 &&
+              glm::distance(to, place * way) < 0.05 * glm::length(way)))
+          continue;
+        edges.push_back({v, n});
+        lights.push_back(
+            {place,
+             {{Rgb(field.irradiance[v]), Rgb(field.mirrored[v])},
+              {Rgb(field.indirect[v]), Rgb(field.indirect_mirrored[v])}}});
+      }
+  }
+  extend_to_contacts(edges, lights, valid, field);
+}
+
+/// The corners of elements that are open only in between take what is gathered there.
+void light_gaps(const VertexSource& source, const ElementMesh& mesh,
+                std::vector<std::uint8_t>& valid, IrradianceField& field) {
+  const std::vector<ElementId> covered = covered_elements(mesh, valid);
+  std::vector<std::optional<GapLight>> lights(covered.size());
+  tbb::parallel_for(std::size_t{0}, covered.size(), [&](std::size_t k) {
+    lights[k] = light_in_gap(source.gathering, source.irradiance, mesh, covered[k],
+                             source.workspaces.local());
+  });
+  take_from_gaps(mesh, covered, lights, valid, field);
+}
+
+} // namespace
+
+std::vector<std::uint8_t> with_values(const VertexSamples& found) {
+  std::vector<std::uint8_t> valid;
+  for (const VertexState state : found.states)
+    valid.push_back(has_value(state) ? 1 : 0);
+  return valid;
+}
+
+IrradianceField complete_field(const VertexSource& source, const VertexSamples& found) {
+  IrradianceField field = found.field;
+  std::vector<std::uint8_t> valid = with_values(found);
+  for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
+  light_contacts(source, found, valid, field);
+  extend_regions(found, valid, field);
+  light_gaps(source, found.mesh, valid, field);
+  for_each_array(field, [&](auto& values) {
+    fill_vertices(found.mesh, valid, values);
+    settle_hanging(found.mesh, values);
+  });
+  return field;
+}
+
+std::vector<glm::vec3> filled(const VertexSamples& found, std::vector<glm::vec3> values) {
+  settle_hanging(found.mesh, values);
+  fill_vertices(found.mesh, with_values(found), values);
+  settle_hanging(found.mesh, values);
+  return values;
+}
+
+} // namespace meninas

@@ -1,0 +1,50 @@
+// A field while it is found: values of vertices one by one, and what is known of each.
+//
+// Light is gathered at vertices (vertex_light.h):
+// that from the source and the rest together, or the rest only where it is asked for.
+// Once all that are to have a value have one, the field is complete_field:
+// what stands on a surface takes what is gathered beside it (contact_vertices.h,
+// gap_vertices.h), vertices that hang take from their ends,
+// and those that are left from their neighbours (vertex_fill.h).
+#pragma once
+
+#include "radiosity/field/vertex_samples.h"
+
+namespace meninas {
+
+/// From elements of that reflected radiosity, with that share of the rays. `spared`:
+/// bright clusters that add so little to the noise of these are left to them (secondary_emitters.h).
+/// Where clusters lie in many planes their light takes longer than 128 rays.
+/// `before`: rays of as many as that share may have been traced before (row_cache.h).
+PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
+                              const VertexGathering& how, RayShare share = {}, double spared = 0.0,
+                              std::optional<RayShare> before = {});
+
+VertexSamples make_samples(ElementMesh mesh);
+/// Of the scene's mesh. Vertices of these facets (smoothing_groups.h) are `averaged`, their values to come.
+VertexSamples make_samples(const ElementMesh& mesh, const VertexElements& facets);
+
+/// Gathers at the vertices that are unknown and do not hang.
+void gather_at_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found);
+
+/// Light from the source alone at those vertices. Of dark ones beside bright ones it tells
+/// which are covered: that they get no light but what neighbours have besides would show.
+/// `level` as above.
+void light_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found);
+
+/// Adds the rest at those that are lit and marked, by ElementVertexId.
+/// Takes rays that the source has kept of them, and keeps those of others if it keeps more.
+void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> marked,
+                   VertexSamples& found);
+
+/// By ElementVertexId: 1 where there is a value.
+std::vector<std::uint8_t> with_values(const VertexSamples& found);
+
+/// The field with values at all vertices.
+IrradianceField complete_field(const VertexSource& source, const VertexSamples& found);
+
+/// Values by ElementVertexId for those that only gather from them:
+/// what has none, beside contacts too, is as its neighbours are.
+std::vector<glm::vec3> filled(const VertexSamples& found, std::vector<glm::vec3> values);
+
+} // namespace meninas

@@ -1,0 +1,64 @@
+// Light that emitters send to a point by way of solids of glass, refracted and reflected:
+// what no shadow ray can find.
+//
+//   S(x) = 1/pi integral over the directions in which a face of a solid is met first of tau(w) E(w) cos dw        W/m^2
+//
+// E is the emission of what the ray ends on, tau what faces, mirrors and the ways inside solids
+// leave of it (glass_rays.h); only emitters whose light is computed from the source count,
+// as others are gathered. S is a part of D: it is computed wherever
+// direct_irradiance.h and shared_light.h compute D, whose shadow rays end at solids.
+//
+// Rays go to each body of solids (solid_bodies.h):
+// cos dw is area on the unit disc below the hemisphere (Nusselt 1928),
+// where all directions to the sphere around the body lie within a rectangle, so that
+//
+//   S(x) = sum over bodies of  A / pi  mean of tau E over points of the rectangle, of area A
+//
+// where a ray counts if it meets this body first. Points are those of low-discrepancy sequences,
+// N to a body: N goes by the root of A, for the error is about A times 1 / sqrt(N).
+// Few of them find a lamp. So a quarter, spread evenly, tells which cells of the rectangle show any
+// light, and the others go to those and their neighbours, by a density q of which a part is even,
+// with tau E / q; S is a tenth of the mean of the first and nine tenths of that of the others,
+// whatever was found, so that its expectation is true.
+// The mean over several points of a plane takes as many rays as one.
+//
+// Limits: light of punctual lights, which no ray meets,
+// goes straight through solids, each face a sheet (shadow_paths.h).
+#pragma once
+
+#include "radiosity/transport/hemisphere_rays.h"
+
+#include <span>
+
+namespace meninas {
+
+/// Storage reused from one mean to the next; one for each thread.
+struct SolidWorkspace {
+  GatherWorkspace gather;
+  std::vector<LitPacket> packets;
+  std::vector<std::uint16_t> cell_of_ray; ///< of the rectangle, by number of the ray
+  std::vector<float> shown, density;      ///< by cell: light found, q over an even one
+  std::vector<Point3> points;             ///< for those who collect them
+};
+
+struct SolidLight {
+  Rgb total{0.0}, mirrored{0.0}; ///< irradiance, and the part that was reflected on its way
+};
+
+/// Points of one side of a plane, in metres.
+struct PlanePoints {
+  std::span<const Point3> positions;
+  Direction normal;
+  PlaneId plane_class = none<PlaneId>;
+  Vec3 tangent{0.0};                  ///< as of Receiver
+  MaterialId coat = none<MaterialId>; ///< likewise
+};
+
+/// Whether there is any such light.
+bool has_solid_light(const LightScene& light);
+
+/// The mean over the points, by `rays` to a body that fills the hemisphere. Adds to `traced`.
+SolidLight solid_light(const LightScene& light, const PlanePoints& points, int rays,
+                       std::uint32_t seed, std::uint64_t& traced, SolidWorkspace& workspace);
+
+} // namespace meninas

@@ -1,0 +1,171 @@
+#include "radiosity/light/point_irradiance.h"
+
+#include "radiosity/light/row_cache.h"
+#include "scenes/sampling.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace meninas {
+
+namespace {
+
+DirectSettings cluster_settings(DirectSettings direct, int shadow_rays) {
+  direct.shadow_rays = shadow_rays;
+  direct.penumbra_rays = 4 * shadow_rays;
+  direct.penumbra_samples = PenumbraSamples::own;
+  direct.images = std::numeric_limits<int>::max(); // there are not many, by construction
+  return direct;
+}
+
+/// What landed rays bring: light reflected by elements,
+/// where no cluster owns it, and emission, where no closed form owns that.
+ArrivingLight landed_light(const PointGathering& gathering, const GatheredRays& gathered) {
+  const std::size_t cluster_worlds = gathering.clusters.worlds.worlds.size();
+  ArrivingLight sum;
+  for (const auto& landing : gathered.landings) {
+    const bool owned =
+        gathering.clusters.owned[landing.element] != 0 && index(landing.world) < cluster_worlds;
+    Rgb arrived = gathered_emission(gathering.light, landing);
+    if (!owned)
+      arrived += Rgb(landing.light) * gathering.reflected[landing.element];
+    sum.total += arrived;
+    if (landing.world != real_world && landing.world != through_solids)
+      sum.mirrored += arrived;
+  }
+  const Rgb straight = gathering.light.background * gathered.escaped_straight;
+  const Rgb by_mirrors = gathering.light.background * Rgb(gathered.escaped_light) - straight;
+  sum.total += straight + by_mirrors;
+  sum.mirrored += by_mirrors;
+  const Rgb kept = kept_light(gathered);
+  return {sum.total / kept, sum.mirrored / kept};
+}
+
+} // namespace
+
+PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosity,
+                               const FormFactorSettings& factors,
+                               const DirectSettings& direct_light,
+                               const PointGatheringSettings& settings)
+    : light(scene), reflected(std::move(radiosity)), form_factors(factors), direct(direct_light),
+      secondary(cluster_settings(direct_light, settings.cluster_shadow_rays)),
+      cut{settings.cluster_theta, std::max(8 * settings.cluster_shadow_rays, settings.rays / 8)},
+      clusters(find_bright_clusters(scene, reflected, {.spared = settings.clusters_spared})),
+      cluster_tree(make_cluster_tree(clusters.emitters)), clustered{scene.scene,
+                                                                    scene.surfaces,
+                                                                    scene.rays,
+                                                                    scene.mirrors,
+                                                                    clusters.worlds,
+                                                                    scene.mesh,
+                                                                    scene.textures,
+                                                                    {},
+                                                                    clusters.emitters,
+                                                                    {},
+                                                                    make_emitter_tree(
+                                                                        clusters.emitters),
+                                                                    {},
+                                                                    Rgb(0.0),
+                                                                    scene.by_angle,
+                                                                    scene.has_glass,
+                                                                    scene.cut_out_mirrors,
+                                                                    scene.solids},
+      net(make_direction_net(settings.rays)),
+      others(settings.rays_before > 0 && settings.rays_before < settings.rays
+                 ? make_direction_net(settings.rays, settings.rays_before)
+                 : HemisphereSamples{}),
+      cube(factors.method == FormFactorMethod::hemicube ? make_hemicube(factors.hemicube_resolution)
+                                                        : Hemicube{}) {}
+
+ReceiverArea area_of(const Receiver& point) {
+  ReceiverArea area;
+  area.corner = point.position;
+  area.normal = point.normal;
+  area.plane_class = point.plane_class;
+  area.tangent = point.tangent;
+  area.coat = point.coat;
+  return area;
+}
+
+/// What all rays of the point meet, those that have been traced before among them.
+static void gather_rays_at(const PointGathering& gathering, const Receiver& receiver,
+                           std::uint32_t seed, const GatheredRays* before, PointWorkspace& work) {
+  const ReceiverArea point = area_of(receiver);
+  if (gathering.form_factors.method == FormFactorMethod::hemicube) {
+    gather_rays(gathering.light, gathering.cube, point, gathering.form_factors, work.gather);
+  } else if (before == nullptr) {
+    gather_rays(gathering.light, gathering.net, point, seed, gathering.form_factors, work.gather);
+  } else {
+    work.gather.result.clear();
+    if (before->rays < double(gathering.net.points.size()))
+      gather_rays(gathering.light, gathering.others, point, seed, gathering.form_factors,
+                  work.gather);
+    append(*before, work.gather.result);
+  }
+  work.rays += work.gather.result.traced;
+}
+
+PointLight indirect_light_at(const PointGathering& gathering, const Receiver& receiver,
+                             std::uint32_t seed, PointWorkspace& work, const GatheredRays* before) {
+  gather_rays_at(gathering, receiver, seed, before, work);
+
+  return {landed_light(gathering, work.gather.result),
+          {},
+          cluster_irradiance(gathering.clustered, gathering.cluster_tree, receiver,
+                             gathering.secondary, gathering.cut, hash(seed, 2), work.clusters,
+                             work.direct)};
+}
+
+PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
+                    PointWorkspace& work) {
+  PointLight light = indirect_light_at(gathering, receiver, seed, work);
+  light.from_source =
+      direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);
+  return light;
+}
+
+/// A point of an element.
+static Receiver point_of(const ElementMesh& mesh, const SurfaceModel& surfaces, ElementId element,
+                         const glm::vec2& st) {
+  const MeshCell& cell = cell_of(mesh, element);
+  const MeshSide& side = mesh.sides[index(cell.side)];
+  const Patch& patch = surfaces.patches[index(side.patch)];
+  return {point_at(patch, patch_uv_of(mesh, cell, Vec2(st))), side.normal, side.plane_class,
+          side.tangent, side.coat};
+}
+
+ArrivingLight one_more_bounce(const PointGathering& gathering, const Receiver& receiver, int places,
+                              std::uint32_t seed, PointWorkspace& work) {
+  GatherWorkspace& rays = work.gather;
+  rays.keeps_places = true;
+  gather_rays(gathering.light, gathering.net, area_of(receiver), seed, gathering.form_factors,
+              rays);
+  rays.keeps_places = false;
+  work.rays += rays.result.traced;
+  const Rgb kept = kept_light(rays.result);
+  const std::size_t landed = rays.result.landings.size(),
+                    some = std::min(landed, static_cast<std::size_t>(places));
+  // Landings stand in the order of directions: every so many-th are spread over the hemisphere.
+  std::vector<std::pair<ElementHit, glm::vec2>> chosen;
+  for (std::uint32_t k = 0; k < some; ++k) {
+    const double within = 0x1p-32 * hash(seed, 0xb0ce, k);
+    const auto at = static_cast<std::size_t>((k + within) * double(landed) / double(some));
+    chosen.emplace_back(rays.result.landings[at], rays.places[at]);
+  }
+  const ElementMesh& mesh = gathering.light.mesh;
+  ArrivingLight change;
+  for (std::uint32_t k = 0; k < some; ++k) {
+    const auto& [landing, place] = chosen[k];
+    const Receiver point =
+        point_of(mesh, gathering.light.surfaces, ElementId{landing.element}, place);
+    const Rgb gathered = light_at(gathering, point, hash(seed, 0xb0cf, k), work).all().total;
+    const Rgb told = mesh.reflectance[landing.element] * gathered;
+    const Rgb more = Rgb(landing.light) / kept * (told - gathering.reflected[landing.element]) *
+                     (double(landed) / double(some));
+    change.total += more;
+    if (landing.world != real_world && landing.world != through_solids)
+      change.mirrored += more;
+  }
+  return change;
+}
+
+} // namespace meninas

@@ -1,0 +1,81 @@
+// The light that arrives at one point:
+// from emitters by closed form, from everything else by rays over its hemisphere.
+//
+//   H(x) = D(x) + 1/N sum over rays of  tau B(landing)  + bright clusters
+//
+// D is the light from the source (direct_irradiance.h). Rays land on elements of known radiosity;
+// elements so bright that rays would find them by chance are taken from the source as well
+// (secondary_emitters.h), those far away together (cluster_cut.h). Each path is in one of the three.
+#pragma once
+
+#include "radiosity/light/secondary_emitters.h"
+#include "radiosity/light/cluster_cut.h"
+#include "radiosity/light/direct_irradiance.h"
+#include "radiosity/transport/hemisphere_rays.h"
+
+namespace meninas {
+
+struct PointGatheringSettings {
+  int rays = 512;              ///< over the hemisphere
+  int rays_before = 0; ///< of these, that points may have traced before (row_cache.h)
+  int cluster_shadow_rays = 8; ///< per bright cluster, where it matters most; eight times as many for all that are far away together, or an eighth of `rays`
+  double clusters_spared = 0.0; ///< ClusterSettings::spared
+  double cluster_theta = ClusterCut{}.theta; ///< which are (cluster_cut.h); 0: none
+};
+
+/// What light is gathered from, the same for all points. Stays where it was made.
+struct PointGathering {
+  /// `reflected` is B by ElementId, emission left out. Samples follow the methods of pass one.
+  PointGathering(const LightScene& light, std::vector<Rgb> reflected,
+                 const FormFactorSettings& form_factors, const DirectSettings& direct,
+                 const PointGatheringSettings& settings);
+  PointGathering(const PointGathering&) = delete;
+  PointGathering& operator=(const PointGathering&) = delete;
+
+  const LightScene& light;
+  std::vector<Rgb> reflected;
+  FormFactorSettings form_factors;
+  DirectSettings direct, secondary;
+  ClusterCut cut;
+  SecondaryEmitters clusters;
+  ClusterTree cluster_tree; ///< over their emitters
+  LightScene clustered; ///< the same scene with the bright clusters for emitters
+  HemisphereSamples net;
+  HemisphereSamples others; ///< of the net, without those before; empty where there are none
+  Hemicube cube; ///< where the form factors are found so
+};
+
+/// Storage reused from point to point; one for each thread.
+struct PointWorkspace {
+  GatherWorkspace gather;
+  DirectWorkspace direct;
+  ClusterWorkspace clusters;
+  std::uint64_t rays = 0;
+};
+
+struct PointLight {
+  ArrivingLight from_rays, from_source, from_clusters;
+
+  ArrivingLight all() const { return from_rays + from_source + from_clusters; }
+  ArrivingLight indirect() const { return from_rays + from_clusters; }
+};
+
+/// The point as an area, for its rays.
+ReceiverArea area_of(const Receiver& point);
+
+PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
+                    PointWorkspace& work);
+
+/// What the light at the receiver would change by if elements reflected in every point what is
+/// gathered there, in place of `reflected`: by so many of the places where its rays land.
+/// Light of clusters and of landed rays is told alike. Rays are those of the net.
+ArrivingLight one_more_bounce(const PointGathering& gathering, const Receiver& receiver, int places,
+                              std::uint32_t seed, PointWorkspace& work);
+
+/// light_at() without light from the source. `before`: what the rays before have met at this point
+/// with this seed, or all of the net; the others are traced. Not where cubes gather.
+PointLight indirect_light_at(const PointGathering& gathering, const Receiver& receiver,
+                             std::uint32_t seed, PointWorkspace& work,
+                             const GatheredRays* before = nullptr);
+
+} // namespace meninas

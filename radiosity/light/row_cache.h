@@ -1,0 +1,49 @@
+// What the rays of vertices have met, kept for when these gather once more.
+//
+// Where elements are lit by a field that they make themselves (hierarchical/node_field.h)
+// vertices gather twice: with few rays, then with many, from other radiosities.
+// A net of few rays is the beginning of one of many (hemisphere_samples.h) and a vertex has one seed:
+// what the few have met is a part of what the many meet, and only the others are traced then.
+// Sums are those of all rays traced at once, but for rounding and for the choices of glass.
+// Limit: of the vertices that ask first, with `max_kept_rays` in all, about 50 MB.
+#pragma once
+
+#include "radiosity/transport/hemisphere_rays.h"
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace meninas {
+
+inline constexpr std::size_t max_kept_rays = std::size_t{1} << 21U;
+
+/// What other rays of the same point have met besides, traced before: `traced` stays.
+void append(const GatheredRays& more, GatheredRays& result);
+
+/// Of one vertex.
+struct VertexRays {
+  GatheredRays rays;                      ///< none: not traced yet
+  std::optional<bool> is_under_something; ///< vertex_light.h; none: not asked yet
+};
+
+/// Of the vertices of one mesh.
+class RowCache {
+public:
+  /// Makes room for the rays of these vertices, so many each, as far as there is any.
+  void make_room(std::span<const std::uint32_t> vertices, std::size_t rays_each);
+
+  /// None where there was no room.
+  VertexRays* of(std::uint32_t vertex);
+
+private:
+  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+
+  std::vector<std::uint32_t> places_; ///< in `rays_`, by ElementVertexId
+  std::vector<VertexRays> rays_;
+  std::size_t room_ = max_kept_rays;
+};
+
+} // namespace meninas

@@ -1,0 +1,38 @@
+// Bright clusters: reflected light that is so uneven that gather rays would find it by chance
+// (the spot a mirror throws on a floor, the sill below a window). When vertices gather,
+// such elements are treated as emitters: closed form times shadow rays, also through mirrors.
+//
+// An element is bright when its reflected radiosity exceeds `contrast` times
+// the median over the lit area. Bright neighbours of like radiosity on one side
+// are joined into blocks of root cells of a quad, or into cells of the forest.
+// If there are more than `most` clusters those that would be noisiest are kept,
+// and the rest is gathered; so it is with those that would add little to the noise of rays,
+// the sum of A B^2 over what these find, where `spared` says how little.
+// No path is in both: `owned` says which elements are taken from the source.
+// An element that is cut out in part shines with its solid share from all of it.
+#pragma once
+
+#include "radiosity/scene/light_scene.h"
+
+#include <vector>
+
+namespace meninas {
+
+struct ClusterSettings {
+  double contrast = 3.0;
+  double evenness = 1.5;   ///< largest over smallest radiosity within a cluster, at most
+  std::size_t most = 1024; ///< clusters times worlds they are looked at in
+  double spared = 0.0;     ///< what the noise that is left to rays may grow by, squared, relative
+};
+
+struct SecondaryEmitters {
+  std::vector<Emitter> emitters;
+  std::vector<std::uint8_t> owned; ///< by ElementId: its reflected light is a cluster's
+  WorldTree worlds; ///< the first worlds of the tree, in which clusters are looked at
+};
+
+/// `reflected` by ElementId, W/m^2.
+SecondaryEmitters find_bright_clusters(const LightScene& light, const std::vector<Rgb>& reflected,
+                                    const ClusterSettings& settings = {});
+
+} // namespace meninas

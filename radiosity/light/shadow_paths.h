@@ -1,0 +1,70 @@
+// Shadow rays to points of emitters and of their images, leg by leg.
+#pragma once
+
+#include "radiosity/scene/light_scene.h"
+
+#include <array>
+#include <span>
+
+namespace meninas {
+
+/// A convex polygon as the fan of triangles about its first corner, of which points are chosen.
+struct PolygonFan {
+  const ConvexPolygon& polygon;
+  std::array<double, ConvexPolygon::capacity> shares; ///< of the area: of the triangle that ends in a corner
+
+  /// With the polygon's area vector.
+  PolygonFan(const ConvexPolygon& whole, const Vec3& area);
+};
+
+/// A point of a convex polygon with density one over its area:
+/// of a fan where many are asked for.
+Point3 point_on(const PolygonFan& fan, Vec2 sample);
+Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample);
+
+/// What blocks a segment, and on which of its legs:
+/// none where it touches an end of the leg, or a mirror has a hole.
+struct LegBlocker {
+  TriangleId triangle = none<TriangleId>;
+  std::uint32_t leg = 0;
+};
+
+/// The real legs of a segment from a point to one in the unfolded space of a world,
+/// as `fold_legs` tells them.
+struct FoldedSegment {
+  WorldId world = real_world;
+  std::vector<Leg> legs;
+};
+
+/// Folds the segment from x to y in its storage.
+void fold(const LightScene& light, WorldId world, const Point3& x, PlaneId leaving, const Point3& y,
+          PlaneId arriving, FoldedSegment& segment);
+
+/// Tests up to sixteen folded segments, best of about as many legs each; bit k of the result
+/// is set where segment k is blocked, `blockers[k]` by what, or meets a mirror in a hole.
+/// Solids of glass block them: what these bend, rays find (glass_light.h, hemisphere_rays.h); only for
+/// light without extent, which none would meet, each of their faces is a sheet. Adds to `rays`.
+std::uint32_t blocked(const LightScene& light, const std::array<FoldedSegment, 16>& folded,
+                      std::uint32_t count, std::uint64_t& rays,
+                      std::array<LegBlocker, 16>* blockers = nullptr,
+                      Solids solids = Solids::opaque);
+
+/// What glass and coats make of light on a free segment, beside the throughput of its world:
+/// the product of what passes each pane at the angle at which it is crossed,
+/// and of what each pane or coat that is a mirror of the world reflects at its angle over the mean
+/// that the world's throughput has for it. 1 where there are none. Solids as in `blocked`.
+Rgb left_by_angle(const LightScene& light, const FoldedSegment& segment,
+                  Solids solids = Solids::opaque);
+
+/// A surface at the end of a segment, and the coat above it where that is a mirror.
+struct SegmentEnd {
+  Direction normal;
+  MaterialId coat = none<MaterialId>;
+};
+
+/// The same, for light that is sent from below one coat and received below another:
+/// each lets through (1 - R(cos)) / (1 - R_mean) (coat_transmittance).
+Rgb left_between(const LightScene& light, const SegmentEnd& receiver, const SegmentEnd& sender,
+                 const FoldedSegment& segment, Solids solids = Solids::opaque);
+
+} // namespace meninas

@@ -1,0 +1,55 @@
+// The covered part of a receiver: what stands on it, no light can reach.
+//
+// It is found by cells, from the rays of the receiver; through some cells a foot goes.
+// There places are told apart one by one, so that means over what is exposed,
+// of light from the source as of what rays gather, are means over the open alone:
+// it is what others see of the receiver.
+#pragma once
+
+#include "radiosity/scene/light_scene.h"
+#include "radiosity/transport/hemisphere_samples.h"
+
+#include <span>
+
+namespace meninas {
+
+/// The covered part of a receiver, by cells of 8 x 8 over its (s, t): bit 8 i + j is cell (i, j).
+/// Where the rays of a cell, if it has any, meet black backs at once, and all along the surface do,
+/// something stands on that part of it: no light can reach it, and nothing sees it.
+using ContactMask = std::uint64_t;
+constexpr ContactMask wholly_covered = ~ContactMask{0};
+inline std::uint32_t cell_of(double s, double t) {
+  return 8U * static_cast<std::uint32_t>(8.0 * s) + static_cast<std::uint32_t>(8.0 * t);
+}
+inline bool contains(ContactMask cells, Vec2 st) {
+  return ((cells >> cell_of(st.x, st.y)) & 1U) != 0;
+}
+
+/// Those beside covered cells, also by a corner, which are not: a foot may go through them.
+ContactMask cells_at_foot(ContactMask covered);
+
+struct Covered {
+  ContactMask cells = 0;
+  double rays = 0.0; ///< of the net, from these cells and from covered places in those at the foot
+  float exposed = 1.0F; ///< the share of the receiver's area on which nothing stands
+};
+
+/// `black_lanes`: by packet of the net, the rays that met a black back at once.
+/// In a cell at the foot these are the ones from covered places, as far as they are
+/// a larger share than in exposed cells away from it.
+Covered find_covered(const LightScene& light, const HemisphereSamples& net, const RaySource& source,
+                     std::span<const std::uint32_t> black_lanes);
+
+/// A place on a receiver, and its number among those of a sequence.
+struct NumberedPlace {
+  Vec2 st;
+  std::uint32_t number;
+};
+
+/// Of a low-discrepancy sequence, of `first` and those after it, the first place that is exposed.
+/// Not all must be covered; where what is open is so small that 64 of the places at a foot
+/// are covered, one of these.
+NumberedPlace next_open_point(const LightScene& light, const ReceiverArea& receiver,
+                            ContactMask covered, std::uint32_t seed, std::uint32_t first);
+
+} // namespace meninas
