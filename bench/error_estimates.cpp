@@ -6,7 +6,7 @@
 // REFERENCES holds NAME.reference.exr for every scene, of any size:
 // of the path tracer (reference/images), whose variance is taken off, or of a run of the two passes
 // that is much finer. Every scene is rendered with a coarse and a fine mesh, few and many rays, by
-// interpolation and with light from the source computed at the hit, with few and many camera rays.
+// interpolation and with direct light computed at the hit, with few and many camera rays.
 // The last line counts how many estimates are within a factor of two,
 // or below 0.002 like the error, which is as far as the noise of reference/images lets one see.
 #include "bench/truth.h"

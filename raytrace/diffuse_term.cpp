@@ -56,7 +56,7 @@ glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& se
                    part);
   }
   // By the draw that light_at() makes:
-  // there and here light from the source is the same, to the bit.
+  // there and here direct light is the same, to the bit.
   return field +
          part_of(direct_irradiance(light, receiver, settings.direct, hash(seed, 1), work.direct),
                  part);

@@ -19,7 +19,7 @@ struct LaneRun {
 };
 
 /// The sum of H over a run, D from shadow rays that all share.
-glm::vec3 shared_irradiance_of(const RenderContext& context, const LaneState& state,
+glm::vec3 run_irradiance(const RenderContext& context, const LaneState& state,
                                const FaceRecord& face, const HitPacket& hits, LaneRun run,
                                TileWorkspace& work) {
   const LightScene& light = context.light;
@@ -66,7 +66,7 @@ glm::vec3 irradiance_of_run(const RenderContext& context, const LaneState& state
   const bool shares = context.settings.diffuse.term == DiffuseTerm::direct &&
                       run.end - run.first > 1 && part != ReflectedPart::none;
   const FaceRecord& face = face_of(context.light.landing, hits, run.first);
-  return shares ? shared_irradiance_of(context, state, face, hits, run, work)
+  return shares ? run_irradiance(context, state, face, hits, run, work)
                 : irradiance_of_each(context, state, hits, run, work);
 }
 

@@ -53,7 +53,7 @@ struct TileWorkspace {
   std::array<std::vector<glm::vec3>, seen_ways>
       sums; ///< by way of seeing, then by pixel of the tile
   std::vector<SpecularRay> current, next;
-  SurePaths sure;
+  CoherentBeams sure;
   TileArea area{};
   std::vector<LobeRay> lobe;
   std::vector<PunctualArrival> highlights;

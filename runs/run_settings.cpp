@@ -129,7 +129,7 @@ TwoPassSettings two_pass_settings(const RunSettings& settings) {
   pass_one.interpolation.rays = pass_one.form_factors.rays;
   pass_one.interpolation.bend = settings.bends.value_or(0.0);
   // Edges are few: what they are off by counts less than what all light is, and the more so
-  // the closer that is looked at. At hits light from the source has no vertices.
+  // the closer that is looked at. At hits direct light has no vertices.
   constexpr double of_edges = 0.02;
   if (settings.solver == SolverMethod::hierarchical &&
       diffuse_term(settings) == DiffuseTerm::interpolated)

@@ -7,7 +7,7 @@
 //
 //   H(v) = H(p) + min(|v - p| / |p - n|, 2) (H(p) - H(n)),  at least 0,
 //
-// for light from the source and for the rest,
+// for direct light and for the rest,
 // each with the part of it that comes by way of mirrors.
 //
 // Over the exposed part, from n to c, the line has the mean of any parabola (Radau's rule).

@@ -6,10 +6,9 @@
 //
 //   V = D / D unblocked,   max V - min V > 1/10,
 //
-// a shadow ends on it. And a curve of few facets, as are to be told apart in its outline, has as
-// many shades. Of facets over which the means bend by more than the bound these get light from the
-// source of their own (refine_direct.h). How a finer curve turns changes D, and not V: in full light
-// it stays smooth.
+// a shadow ends on it. Facets that meet at more than 15 degrees are visible as facets, so they are
+// not smoothed. Both get direct light of their own where the means bend by more than the bound
+// (refine_direct.h). V depends on occlusion only, so fully lit curved surfaces stay smooth.
 // Limit: the shadows of punctual lights, and of light by way of solids of glass, are not looked for.
 #pragma once
 

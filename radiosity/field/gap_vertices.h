@@ -1,10 +1,9 @@
 // Values for the ground of gaps: elements on all of whose corners something stands, but which are
 // open in between, as the floor is between two boxes closer together than its elements are wide.
 //
-// Of sixteen points of such an element those are open whose ray along the normal comes to light:
-// a few of them gather, first those under no low cover, and the corners take
-// the means of their elements. Under what stands there nothing is seen of that,
-// and contact_vertices.h goes before: its edges have an open end.
+// A point is open if a ray along the normal reaches a lit surface. Sixteen points are tested, up to
+// four gather, and the corners take the means of their elements.
+// Runs after contact_vertices.h, which handles elements with at least one open corner.
 #pragma once
 
 #include "radiosity/field/irradiance_field.h"

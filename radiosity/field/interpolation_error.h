@@ -10,10 +10,9 @@
 //
 //   rho max(e - k noise H, 0) sqrt(A / A_mean) / B_mean  >  X.
 //
-// What noise of the values makes of e / H is taken to be its median over all vertices:
-// most of a field is smooth. What is gathered by rays has to stand out three times from that;
-// light from the source, which has noise in penumbrae alone, once: that median is how smooth light
-// bends on large elements.
+// The noise of e / H is taken to be its median over all vertices, as most of a field is smooth.
+// The threshold is 3 times the median for gathered light (ray noise) and once the median for direct
+// light (noise only in penumbrae).
 // Limit: borders of a surface have no second difference across them;
 // elements there have it from their inner corners.
 //

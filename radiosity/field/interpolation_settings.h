@@ -22,7 +22,7 @@ struct InterpolationSettings {
   double bend =
       0.0; ///< X: elements in which indirect light bends by more are divided (gathered_field.h); 0: none
   double shadow_bend =
-      0.0; ///< likewise of light from the source, by nodes (refine_direct.h); 0: none
+      0.0; ///< likewise of direct light, by nodes (refine_direct.h); 0: none
   std::optional<AdaptiveSettings> adaptive =
       {}; ///< `gather` on a mesh of its own (adaptive_field.h)
 };

@@ -26,7 +26,7 @@ bool has_means(const VertexSamples& found, std::size_t element) {
   });
 }
 
-/// By light from the source. Before the first division there are surfaces of one element:
+/// By direct light. Before the first division there are surfaces of one element:
 /// the difference between corners tells that there may be an edge on them.
 /// Where these have the mean of many facets it tells how the curve turns, and is left out.
 std::vector<double> bends_of(const VertexSamples& found, const BendScale& scale, bool first) {
@@ -79,7 +79,7 @@ CoarseLight light_in(const VertexSamples& coarse, const SurfaceModel& surfaces,
           times * size_of(coarse.mesh, at.element)};
 }
 
-/// Light from the source at fresh vertices, and what else is there as the coarser mesh has it.
+/// Direct light at fresh vertices, and what else is there as the coarser mesh has it.
 /// Under things all is as that has it: what is gathered beside them. A cover that is low for the
 /// elements that were solved, some of whose corners it covers, is as low for smaller ones.
 void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::uint32_t level,
@@ -118,7 +118,7 @@ void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::
     settle_hanging(found.mesh, *values);
 }
 
-/// Facets with edges have light from the source of their own at their corners.
+/// Facets with edges have direct light of their own at their corners.
 void light_facets_with_edges(const LightScene& light, const VertexSource& source,
                              const BendScale& scale, double x, std::uint32_t level,
                              VertexSamples& found) {

@@ -1,17 +1,17 @@
-// A field that is found, made finer where light from the source bends:
-// at the edges of shadows, and of what mirrors throw.
+// Refinement of direct light: elements are divided at the edges of shadows and of mirrored light.
 //
-// Elements in which D bends by more than X of the scene's mean (interpolation_error.h) are divided,
-// up to three times. Surfaces of one element are where D differs between corners, as far as a bend
-// may hide in it: once they are divided they have bends of their own. Facets take the means of many
-// but where edges are to be seen on them (facet_edges.h).
-// At the vertices that elements get light from the source is found.
-// The rest is smooth there, or vertices would have asked for more of it:
-// it stays what it was between the corners of the elements that were divided.
-// So an edge costs shadow rays at few vertices and nothing is gathered.
-// Vertices that turn out to be covered, and dark ones as low under what covers a corner of their
-// element, keep all that was between the corners: light that is continued to where things stand.
-// There are at the most as many more as were solved, or 16,384: where more bend, the most bent.
+// An element is divided, up to three times, where the interpolation error of D exceeds X of the
+// scene's mean (interpolation_error.h). A surface of a single element has no second difference: it
+// is divided once if D at its corners differs enough to hide a parabola beyond the bound, and its
+// parts then have second differences. Facets take means of their smoothing group, except where an
+// edge shows on them (facet_edges.h).
+//
+// D is computed at the new vertices. Indirect light is smooth there and is interpolated between the
+// corners of the divided elements, so an edge costs shadow rays at few vertices and no gathering.
+// A new vertex that is covered, or dark under a low cover, keeps the interpolated value: light is
+// continued to where things stand.
+//
+// At most max(N, 16384) new elements are made; if more exceed the bound, the largest errors come first.
 #pragma once
 
 #include "radiosity/field/interpolation_error.h"

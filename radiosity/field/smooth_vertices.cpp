@@ -9,7 +9,7 @@
 
 namespace meninas {
 
-/// Of each facet's light from the source, and of the rest, what comes by way of mirrors:
+/// Of each facet's direct light, and of the rest, what comes by way of mirrors:
 /// in the share that a few rays find at its middle.
 static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
                                                       const std::vector<std::uint8_t>& averaged,

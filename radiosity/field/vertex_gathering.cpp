@@ -66,7 +66,7 @@ PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflecte
 
 namespace {
 
-/// Whether a vertex is open that has light from the source alone, as few rays tell.
+/// Whether a vertex is open that has direct light alone, as few rays tell.
 bool is_open_so_far(const VertexSource& source, const VertexSamples& found, std::uint32_t v) {
   const PointGathering& gathering = source.gathering;
   const Receiver& receiver = found.receivers[v];

@@ -27,7 +27,7 @@ VertexSamples make_samples(const ElementMesh& mesh, const VertexElements& facets
 /// Gathers at the vertices that are unknown and do not hang.
 void gather_at_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found);
 
-/// Light from the source alone at those vertices. Of dark ones beside bright ones it tells
+/// Direct light alone at those vertices. Of dark ones beside bright ones it tells
 /// which are covered: that they get no light but what neighbours have besides would show.
 /// `level` as above.
 void light_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found);

@@ -100,7 +100,7 @@ static bool is_enclosed(const GatheredRays& gathered, const std::vector<Rgb>& ir
          (!gathered.landings.empty() && std::ranges::none_of(gathered.landings, lit));
 }
 
-/// Whether any light from the source arrives.
+/// Whether any direct light arrives.
 static bool is_lit(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,
                    PointWorkspace& work) {
   return light_from_source(gathering, receiver, seed, work).total != Rgb(0.0);

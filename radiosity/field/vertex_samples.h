@@ -14,7 +14,7 @@
 
 namespace meninas {
 
-/// What a vertex has; `lit`: light from the source alone;
+/// What a vertex has; `lit`: direct light alone;
 /// `low`: all light, under a low cover that goes on all around (vertex_light.h).
 enum class VertexState : std::uint8_t { unknown, covered, averaged, lit, low, gathered };
 
@@ -32,7 +32,7 @@ struct VertexSamples {
   ElementMesh mesh;
   IrradianceField field;
   std::vector<VertexState> states; ///< by ElementVertexId
-  std::vector<Visibility> seen;    ///< likewise, of those that have light from the source
+  std::vector<Visibility> seen;    ///< likewise, of those that have direct light
   std::vector<Receiver> receivers; ///< where they gather (vertex_places.h)
   VertexElements around;
   std::vector<glm::vec3> punctual; ///< what punctual lights send; empty: not asked for
@@ -55,8 +55,7 @@ struct VertexGathering {
   const InterpolationSettings& interpolation;
 };
 
-/// Of the rays that are asked for one `part`th, of 128 at least where there are so many,
-/// so many `times`.
+/// Rays per vertex = times x max(min(N, 128), N / part).
 struct RayShare {
   int part = 1, times = 1;
 };

@@ -179,7 +179,7 @@ std::vector<Rgb> reflected_by_field(const VertexSource& few, const HierarchicalS
   return reflected;
 }
 
-/// `found` has light from the source, and the values of vertices that take means of facets.
+/// `found` has direct light, and the values of vertices that take means of facets.
 InterpolatedField gathered_at_corners(const LightScene& light, const ElementLight& elements,
                                       const HierarchicalSolution& receivers, const VertexGathering& how,
                                       VertexSamples found, PointWorkspaces& workspaces) {

@@ -1,5 +1,5 @@
 // The field where light is received by nodes:
-// light from the source at every vertex, the rest at the corners of nodes (node_bends.h).
+// direct light at every vertex, the rest at the corners of nodes (node_bends.h).
 //
 // The rest is gathered twice, as in adaptive fields:
 // from the elements as they were solved, with a quarter of the rays,
@@ -21,7 +21,7 @@
 namespace meninas {
 
 /// Where light bends within elements these are divided, as in fields that are gathered everywhere.
-/// The vertices of the receivers, which have light from the source, become the field.
+/// The vertices of the receivers, which have direct light, become the field.
 InterpolatedField field_by_nodes(const LightScene& light, const ElementLight& elements,
                                  HierarchicalSolution& receivers, const VertexGathering& how);
 

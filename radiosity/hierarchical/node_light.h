@@ -1,15 +1,11 @@
-// Light from the source where elements only light others and vertices are seen:
+// Direct light where elements only light others and vertices are seen:
 //
 //   D_j = mean of D over element j, as its corners and second differences tell (curved_means.h)
 //
-// Vertices have it anyway, and what such elements light takes the mean over many of them.
-// Elements whose corners do not tell have points of their own (element_light.h):
-// those of which something covers a part or a corner (contact_mask.h),
-// and facets of curved surfaces, whose means are seen (smoothing_groups.h).
-// So have groups of elements, a 512th of all, at which more than a 256th of all light arrives,
-// or that reflect as much of what is: a spot of the sun is some tens of elements,
-// and all light comes from there, and a black shade around a lamp absorbs more
-// than corners of its elements tell. And so has a mesh of no more elements than that.
+// Elements get samples of their own (element_light.h) if
+//   (a) they are partly covered (contact_mask.h) or are facets of a curve (smoothing_groups.h),
+//   (b) their group, a 512th of all elements, receives or reflects over 1/256 of the total,
+//   (c) the mesh has at most 512 elements.
 #pragma once
 
 #include "radiosity/light/element_light.h"
@@ -18,7 +14,7 @@
 
 namespace meninas {
 
-/// Vertices with light from the source alone, also that of punctual lights by itself,
+/// Vertices with direct light alone, also that of punctual lights by itself,
 /// and the rays that took. What takes the means of facets has no value yet.
 struct LitVertices {
   VertexSamples found;

@@ -14,8 +14,8 @@
 //
 //   rho max_d |H_d - H_parent| > X (B + B_mean),   d over the parts of the receiver's parent, H with G and what comes from the sky,
 //
-// (what parts differ from the whole by, their own parts differ from them by about half of,
-// and B + B_mean is twice what is there), and the larger system is solved, until none is:
+// and the larger system is solved, until none is. The difference between children and parent halves
+// per level, hence the factor 2 in the bound:
 // links are refined by the power they carry (Hanrahan, Salzman, Aupperle 1991).
 // The factors of links come from the rays of the receivers' rows and not from pairs of nodes:
 // rays follow every mirror to any depth and know what stands between,
@@ -27,7 +27,7 @@
 // as what receivers are off by is passed on so many times.
 // Where vertices gather what is seen (node_field.h), elements only light others,
 // on average over many, and what is seen of them is as vertices have it (node_field.h):
-// X is twenty link errors, light from the source is that of their corners (node_light.h),
+// X is twenty link errors, direct light is that of their corners (node_light.h),
 // and of more than 128 receivers the rows share the rays of so many,
 // or of up to 1,024 where light is uneven; where it is very uneven they are found twice.
 //

@@ -14,8 +14,8 @@ struct HierarchicalSolution {
   double bend = 0.0;                 ///< X (node_bends.h)
   std::vector<ContactMask> covered; ///< by ElementId: on what something stands
   std::vector<std::uint8_t>
-      share_light;     ///< by ElementId, 1: their light from the source is that of their corners
-  VertexSamples vertices; ///< with light from the source alone (node_light.h)
+      share_light;     ///< by ElementId, 1: their direct light is that of their corners
+  VertexSamples vertices; ///< with direct light alone (node_light.h)
 };
 
 } // namespace meninas

@@ -50,7 +50,7 @@ PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosi
     : light(scene), reflected(std::move(radiosity)), form_factors(factors), direct(direct_light),
       secondary(cluster_settings(direct_light, settings.cluster_shadow_rays)),
       cut{settings.cluster_theta, std::max(8 * settings.cluster_shadow_rays, settings.rays / 8)},
-      clusters(find_bright_clusters(scene, reflected, {.spared = settings.clusters_spared})),
+      clusters(find_secondary_emitters(scene, reflected, {.spared = settings.clusters_spared})),
       cluster_tree(make_cluster_tree(clusters.emitters)), clustered{scene.scene,
                                                                     scene.surfaces,
                                                                     scene.rays,

@@ -3,7 +3,7 @@
 //
 //   H(x) = D(x) + 1/N sum over rays of  tau B(landing)  + bright clusters
 //
-// D is the light from the source (direct_irradiance.h). Rays land on elements of known radiosity;
+// D is the direct light (direct_irradiance.h). Rays land on elements of known radiosity;
 // elements so bright that rays would find them by chance are taken from the source as well
 // (secondary_emitters.h), those far away together (cluster_cut.h). Each path is in one of the three.
 #pragma once
@@ -72,7 +72,7 @@ PointLight light_at(const PointGathering& gathering, const Receiver& receiver, s
 ArrivingLight one_more_bounce(const PointGathering& gathering, const Receiver& receiver, int places,
                               std::uint32_t seed, PointWorkspace& work);
 
-/// light_at() without light from the source. `before`: what the rays before have met at this point
+/// light_at() without direct light. `before`: what the rays before have met at this point
 /// with this seed, or all of the net; the others are traced. Not where cubes gather.
 PointLight indirect_light_at(const PointGathering& gathering, const Receiver& receiver,
                              std::uint32_t seed, PointWorkspace& work,

@@ -5,7 +5,7 @@
 // A net of few rays is the beginning of one of many (hemisphere_samples.h) and a vertex has one seed:
 // what the few have met is a part of what the many meet, and only the others are traced then.
 // Sums are those of all rays traced at once, but for rounding and for the choices of glass.
-// Limit: of the vertices that ask first, with `max_kept_rays` in all, about 50 MB.
+// Cache limit: 2^21 rays (about 50 MB); vertices beyond it are traced again.
 #pragma once
 
 #include "radiosity/transport/hemisphere_rays.h"
@@ -18,7 +18,7 @@
 
 namespace meninas {
 
-inline constexpr std::size_t max_kept_rays = std::size_t{1} << 21U;
+inline constexpr std::size_t max_cached_rays = std::size_t{1} << 21U;
 
 /// What other rays of the same point have met besides, traced before: `traced` stays.
 void append(const GatheredRays& more, GatheredRays& result);
@@ -43,7 +43,7 @@ private:
 
   std::vector<std::uint32_t> places_; ///< in `rays_`, by ElementVertexId
   std::vector<VertexRays> rays_;
-  std::size_t room_ = max_kept_rays;
+  std::size_t room_ = max_cached_rays;
 };
 
 } // namespace meninas

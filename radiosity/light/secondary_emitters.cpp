@@ -214,7 +214,7 @@ void keep_noisiest(const ElementMesh& mesh, const std::vector<Rgb>& sent,
 
 } // namespace
 
-SecondaryEmitters find_bright_clusters(const LightScene& light, const std::vector<Rgb>& reflected,
+SecondaryEmitters find_secondary_emitters(const LightScene& light, const std::vector<Rgb>& reflected,
                                     const ClusterSettings& settings) {
   const ElementMesh& mesh = light.mesh;
   SecondaryEmitters clusters;

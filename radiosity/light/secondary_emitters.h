@@ -32,7 +32,7 @@ struct SecondaryEmitters {
 };
 
 /// `reflected` by ElementId, W/m^2.
-SecondaryEmitters find_bright_clusters(const LightScene& light, const std::vector<Rgb>& reflected,
+SecondaryEmitters find_secondary_emitters(const LightScene& light, const std::vector<Rgb>& reflected,
                                     const ClusterSettings& settings = {});
 
 } // namespace meninas

@@ -1,9 +1,8 @@
 // The covered part of a receiver: what stands on it, no light can reach.
 //
-// It is found by cells, from the rays of the receiver; through some cells a foot goes.
-// There places are told apart one by one, so that means over what is exposed,
-// of light from the source as of what rays gather, are means over the open alone:
-// it is what others see of the receiver.
+// It is found by cells, from the rays of the receiver. Cells on the boundary of a contact are sampled
+// point by point, so that direct and gathered light are means over the open part alone, which is
+// what others see of the receiver.
 #pragma once
 
 #include "radiosity/scene/light_scene.h"

@@ -25,7 +25,7 @@ struct FrustumLeg {
 };
 
 /// What all camera rays of some pixels come to.
-struct SurePath {
+struct CoherentBeam {
   std::uint32_t leg = 0;
   std::uint32_t triangle = index(none<TriangleId>); ///< of the face, or nothing
   bool front = true;
@@ -38,10 +38,10 @@ struct SurePath {
 };
 
 /// The paths of a tile, and storage to find them.
-struct SurePaths {
+struct CoherentBeams {
   static constexpr std::uint16_t unknown = 0xffff;
 
-  std::vector<SurePath> paths;
+  std::vector<CoherentBeam> paths;
   std::vector<std::uint16_t> path_of; ///< by pixel of the tile
   std::vector<FrustumLeg> legs;
   std::vector<FrustumPiece> pieces;

@@ -28,7 +28,7 @@ PictureBlock picture_block(const Block& block) {
 struct Search {
   const RenderContext& context;
   const TileArea& tile;
-  SurePaths& sure;
+  CoherentBeams& sure;
   int min_pixels;
 
   /// Finds what reaches into the tile's frustum.
@@ -165,7 +165,7 @@ struct Search {
   void mark(const Block& block, std::uint32_t at, const FrustumFace* met, bool front) {
     const std::uint32_t id = met ? met->triangle : index(none<TriangleId>);
     const auto known = std::ranges::find_if(
-        sure.paths, [&](const SurePath& path) { return path.leg == at && path.triangle == id; });
+        sure.paths, [&](const CoherentBeam& path) { return path.leg == at && path.triangle == id; });
     const auto number = static_cast<std::uint16_t>(known - sure.paths.begin());
     if (known == sure.paths.end())
       sure.paths.push_back(path_to(at, met, front));
@@ -174,9 +174,9 @@ struct Search {
         sure.path_of[static_cast<std::size_t>(y * tile.width + x)] = number;
   }
 
-  SurePath path_to(std::uint32_t at, const FrustumFace* met, bool front) const {
+  CoherentBeam path_to(std::uint32_t at, const FrustumFace* met, bool front) const {
     const FrustumLeg& leg = sure.legs[at];
-    SurePath path{.leg = at, .front = front, .mirrors = leg.mirrors, .throughput = leg.throughput};
+    CoherentBeam path{.leg = at, .front = front, .mirrors = leg.mirrors, .throughput = leg.throughput};
     if (!met)
       return path;
     path.triangle = met->triangle;
@@ -225,11 +225,11 @@ std::size_t chosen_pixels(const RenderContext& context, const TileArea& tile) {
 
 } // namespace
 
-void find_sure_paths(const RenderContext& context, const TileArea& tile, SurePaths& sure) {
+void find_coherent_beams(const RenderContext& context, const TileArea& tile, CoherentBeams& sure) {
   const auto pixels = static_cast<std::size_t>(tile.width * tile.height);
   const std::size_t samples = context.net_x.size();
   sure.paths.clear();
-  sure.path_of.assign(pixels, SurePaths::unknown);
+  sure.path_of.assign(pixels, CoherentBeams::unknown);
   const std::size_t rays = samples * chosen_pixels(context, tile);
   if (context.filter || context.frustum_faces.empty() ||
       rays < rays_to_a_face * context.frustum_faces.size())
@@ -247,7 +247,7 @@ void find_sure_paths(const RenderContext& context, const TileArea& tile, SurePat
 }
 
 MENINAS_WIDE_LANES
-void land_surely(const SurePath& path, const std::array<float, packet_size>& x,
+void land_surely(const CoherentBeam& path, const std::array<float, packet_size>& x,
                  const std::array<float, packet_size>& y, HitPacket& hits) {
   const glm::vec3 f1 = path.b1, f2 = path.b2, over = path.over;
   const float x0 = path.corner.x, y0 = path.corner.y;

@@ -26,10 +26,10 @@ inline constexpr std::size_t rays_to_a_face = 4;
 inline constexpr std::size_t rays_to_a_piece = 64;
 
 /// Clears and fills `sure`.
-void find_sure_paths(const RenderContext& context, const TileArea& tile, SurePaths& sure);
+void find_coherent_beams(const RenderContext& context, const TileArea& tile, CoherentBeams& sure);
 
 /// Where the rays at (x, y) of the picture land.
-void land_surely(const SurePath& path, const std::array<float, packet_size>& x,
+void land_surely(const CoherentBeam& path, const std::array<float, packet_size>& x,
                  const std::array<float, packet_size>& y, HitPacket& hits);
 
 } // namespace meninas

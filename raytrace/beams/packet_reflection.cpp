@@ -110,7 +110,7 @@ void trace_together(const RenderContext& context, RayPacket& packet, LaneState s
 }
 
 void shade_behind_mirrors(const RenderContext& context, const RayPacket& packet, LaneState state,
-                          const SurePath& path, const HitPacket& hits, TileWorkspace& work) {
+                          const CoherentBeam& path, const HitPacket& hits, TileWorkspace& work) {
   MirrorBeam beam;
   if (path.mirrors > 0) {
     beam.throughput = path.throughput;

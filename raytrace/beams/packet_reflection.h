@@ -17,6 +17,6 @@ void trace_together(const RenderContext& context, RayPacket& packet, LaneState s
 
 /// Shades what a packet of camera rays has come to by a path that was known (coherent_beams.h).
 void shade_behind_mirrors(const RenderContext& context, const RayPacket& packet, LaneState state,
-                          const SurePath& path, const HitPacket& hits, TileWorkspace& work);
+                          const CoherentBeam& path, const HitPacket& hits, TileWorkspace& work);
 
 } // namespace meninas

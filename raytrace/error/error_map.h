@@ -1,7 +1,7 @@
 // Where a picture is how far off:
 // an estimate of the error of every pixel and channel, in units of radiance.
 //
-//   e(p)^2 = |error of light from the source,
+//   e(p)^2 = |error of direct light,
 //   there|^2 + |noise of camera rays, there|^2 + (share L(p))^2
 //
 // The first is what interpolation makes of the edges of light, by two independent computations at

@@ -28,8 +28,8 @@ std::vector<double> chances_by(std::span<const double> contrasts, std::size_t wa
 /// as its chances sum to, to less than one (the ordered pivotal method: Deville and Tillé 1998).
 std::vector<std::size_t> drawn_by(std::span<const double> chances, std::uint32_t seed);
 
-/// So many of these pixels of the picture, whose mean of a value is that over
-/// the choice of weight times value. `contrasts` is by pixel of the whole picture.
+/// Returns `wanted` pixels with weights such that the weighted mean over them is an unbiased estimate
+/// of the mean over all. `contrasts` is by pixel of the whole picture.
 ProbeChoice choose_redrawn(std::span<const glm::ivec2> pixels, std::span<const double> contrasts,
                            int width, std::size_t wanted, std::uint32_t seed);
 

@@ -113,7 +113,7 @@ double estimated_error(Probing& probe, std::span<const glm::ivec2> pixels,
 }
 
 /// What one camera ray a pixel shows is off:
-/// by two gatherings at the first pixels, and by light from the source at all.
+/// by two gatherings at the first pixels, and by direct light at all.
 void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered,
                  SquaredErrors& errors, PictureError& error) {
   const std::span<const glm::ivec2> pixels = choice.pixels;
@@ -138,7 +138,7 @@ void probe_field(Probing& probe, const ProbeChoice& choice, std::size_t gathered
   const auto off = [&](std::size_t k) { return weight(k) * (g1[k] - l1[k]) * (g2[k] - l2[k]); };
   errors.field = mean_of(first.size(), off);
 
-  // Without light from the source, whose noise is the pixels' or the mesh's,
+  // Without direct light, whose noise is the pixels' or the mesh's,
   // draw 3 and 4 are those of the gathering alone.
   Radiances s1 = l1, s2 = l2;
   if (interpolated && !probe.field.indirect.empty()) {

@@ -16,7 +16,7 @@
 // The first is mesh^2 + form_factors^2 + mirror_tail^2. Of it form_factors^2 = 4/9 sigma^2
 // is noise of vertices (4/9 is the mean of the sum of squared weights of bilinear interpolation),
 // mirror_tail^2 what a gathering with no cap on mirrors adds to one with that of the picture, and
-// mesh^2 is the rest: what interpolation hides. Light from the source is cheap and has the edges:
+// mesh^2 is the rest: what interpolation hides. Direct light is cheap and has the edges:
 // it is computed at many more pixels, and the difference that makes corrects the first mean.
 // pixels^2 is half the mean square of what another draw of all camera rays changes,
 // at pixels of each number of samples for themselves:

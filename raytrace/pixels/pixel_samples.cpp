@@ -21,9 +21,9 @@ struct alignas(64) SampleLanes {
 };
 
 /// The path of a full packet, if it has one and that is known.
-const SurePath* path_of_all(const SurePaths& sure, const SampleLanes& lanes) {
+const CoherentBeam* path_of_all(const CoherentBeams& sure, const SampleLanes& lanes) {
   const std::uint16_t path = sure.path_of[lanes.pixel[0]];
-  if (path == SurePaths::unknown || lanes.count != packet_size)
+  if (path == CoherentBeams::unknown || lanes.count != packet_size)
     return nullptr;
   // Pixels come in their order.
   if (lanes.pixel.front() != lanes.pixel.back())
@@ -55,7 +55,7 @@ void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileW
   RayPacket packet;
   packet.count = lanes.count;
   const LaneState state{lanes.pixel.data(), nullptr, lanes.bits_x.data(), lanes.number.data()};
-  if (const SurePath* path = path_of_all(work.sure, lanes)) {
+  if (const CoherentBeam* path = path_of_all(work.sure, lanes)) {
     HitPacket hits;
     land_surely(*path, x, y, hits);
     shade_behind_mirrors(context, packet, state, *path, hits, work);
@@ -83,7 +83,7 @@ void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileW
   const auto samples = static_cast<std::uint32_t>(context.net_x.size());
   const auto pixels = static_cast<std::uint32_t>(tile.width * tile.height);
   std::uint64_t traced = 0;
-  find_sure_paths(context, tile, work.sure);
+  find_coherent_beams(context, tile, work.sure);
   SampleLanes lanes{};
   for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
     const int px = tile.x0 + static_cast<int>(pixel) % tile.width,

@@ -27,7 +27,7 @@ double seconds_of_one(std::size_t all, std::size_t some, const Do& work) {
   return watch.lap() / double(count);
 }
 
-/// One gathering, and light from the source at one vertex and on one element;
+/// One gathering, and direct light at one vertex and on one element;
 /// seconds of one thread.
 struct PointSeconds {
   double gather = 0.0, source = 0.0, on_element = 0.0;
@@ -65,8 +65,8 @@ struct Counts {
   double rows = 0.0;     ///< of the transport
   double of_rays = 1.0;  ///< what share of a gathering's rays a row has
   double gathers = 0.0;  ///< by vertices, besides
-  double sources = 0.0;  ///< vertices with light from the source
-  double elements = 0.0; ///< whose light from the source is computed
+  double sources = 0.0;  ///< vertices with direct light
+  double elements = 0.0; ///< whose direct light is computed
 };
 
 /// Where light is received by nodes: about twice as many as at first, and a few vertices for each.
@@ -97,7 +97,7 @@ std::size_t gathering_vertices(const LightScene& light) {
 /// Where the field has a mesh of its own (adaptive_field.h),
 /// one that is finer the smaller the bound X is: indirect light is gathered twice,
 /// with a quarter of the rays and with as many as keep its noise within X,
-/// and looked at in the middle of elements with half as many; light from the source in more places.
+/// and looked at in the middle of elements with half as many; direct light in more places.
 Counts counted_adaptive(const PassOneSettings& settings, Counts all) {
   constexpr double of_noise = 0.9;  // of one ray, before it falls with their number
   constexpr double ordinary = 0.01; // the bound that doubles elements

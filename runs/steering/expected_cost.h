@@ -3,10 +3,10 @@
 // Stages are counted in what they do most of,
 // and a few of each are done to see how long one takes here, in this scene:
 //
-//   form factors   elements x (one gathering of N rays + some points of light from the source)
-//   interpolate    vertices x (one gathering + one point of light from the source)
+//   form factors   elements x (one gathering of N rays + some points of direct light)
+//   interpolate    vertices x (one gathering + one point of direct light)
 //                  `--solver hierarchical` gathers for nodes instead, of which there are about
-//                  twice those of its beginning, and finds light from the source for nodes
+//                  twice those of its beginning, and finds direct light for nodes
 //   solve          entries of the transport x products with it, at the rate of memory
 //   render         pixels x samples x one camera ray with its diffuse term
 //

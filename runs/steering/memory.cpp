@@ -128,7 +128,7 @@ std::uint64_t solve_memory(const SceneSizes& scene, const RunSettings& settings)
   }
   if (settings.solver == SolverMethod::hierarchical) // what rays of vertices have met
     bytes += double(sizeof(ElementHit)) *
-             std::min<double>(max_kept_rays,
+             std::min<double>(max_cached_rays,
                               elements * two_pass_settings(settings).pass_one.form_factors.rays);
   return whole(bytes);
 }

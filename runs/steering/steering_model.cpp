@@ -16,7 +16,7 @@ constexpr double most_elements = 250'000.0;
 constexpr int max_rays = 4096, min_samples = 4, most_samples = 1024;
 
 // Exponents: of pixels whose light is a smooth function between edges,
-// of light from the source, and of what rays gather.
+// of direct light, and of what rays gather.
 constexpr double at_edges = 1.7, of_shadows = 1.4, of_noise = 1.1;
 constexpr double rays_of_a_hit = 64.0; ///< of a hit that gathers, where sampling is adaptive
 
@@ -53,7 +53,7 @@ double pixel_decline(const MeasuredRun& run, const Parameters& knobs) {
 
 /// What one hit takes that gathers with rays of its own.
 double gather_seconds(const MeasuredRun& run) {
-  constexpr double source_rays = 128.0; // that cost as much as light from the source
+  constexpr double source_rays = 128.0; // that cost as much as direct light
   return run.error.gather_seconds * (source_rays + rays_of_a_hit) / (source_rays + run.knobs.rays);
 }
 
@@ -87,7 +87,7 @@ double samples_drawn_again(int samples) {
 /// What finding out the error takes.
 double estimate_seconds(const MeasuredRun& run, const Parameters& knobs) {
   constexpr double of_camera_rays = 1.0 / 3.0; // the share drawn again, with four samples a pixel
-  constexpr double source_rays = 128.0;        // that cost as much as light from the source
+  constexpr double source_rays = 128.0;        // that cost as much as direct light
   const auto pixels = [](double elements) {
     return error_settings(TwoPassSettings{}, static_cast<std::size_t>(elements)).gathered_pixels;
   };
@@ -223,7 +223,7 @@ Forecast forecast(const MeasuredRun& run, const Parameters& knobs) {
   const auto square = [](double x) { return x * x; };
   const double squared =
       field_error(run, knobs) + square(e.pixels) * pixel_decline(run, knobs) + square(e.solver);
-  constexpr double source_rays = 128.0; // that cost as much as light from the source
+  constexpr double source_rays = 128.0; // that cost as much as direct light
   const bool again = elements != 1.0 || rays != 1.0;
   const double pass_one = again ? run.pass_one_seconds * elements * (source_rays + knobs.rays) /
                                       (source_rays + run.knobs.rays)

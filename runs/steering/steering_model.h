@@ -2,8 +2,8 @@
 //
 // From a measured run with its parts of the error (raytrace/error/picture_error.h) and seconds:
 //   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide), the rest of mesh^2 r^-1; pass one r
-//   rays x r       form_factors^2 r^-1.2 (low-discrepancy rays); pass one (128 + rays), as light from the source costs about so much
-//   samples x 4    pixels^2 4^-1.7 (stratified samples at edges), 4^-1.4 with light from the source at hits, 4^-1.1 where they gather; pass two as the pixels that would take them
+//   rays x r       form_factors^2 r^-1.2 (low-discrepancy rays); pass one (128 + rays), as direct light costs about so much
+//   samples x 4    pixels^2 4^-1.7 (stratified samples at edges), 4^-1.4 with direct light at hits, 4^-1.1 where they gather; pass two as the pixels that would take them
 //   direct         mesh_direct^2 none, of which the rest of mesh^2 is not known to less than a hundredth; pass two six tenths of what the hits take that were made to find out, as those of a tile share, also with fewer samples, down to four
 //   gather         mesh^2 and form_factors^2 none, but the noise of a hit's own rays, a share in pixels^2; pass two as the hits say
 //                  and once light is gathered, mesh^2 is what it is gathered from, and falls with r^-e
@@ -46,7 +46,7 @@ struct MeasuredRun {
   /// 4, 16, 64 times as many samples as `knobs` say.
   std::array<double, 4> uncertain{1.0, 1.0, 1.0, 1.0};
   double mesh_exponent =
-      1.0; ///< e: the mesh's error squared falls with r^-e, what light from the source would not have aside
+      1.0; ///< e: the mesh's error squared falls with r^-e, what direct light would not have aside
 };
 
 /// How fast the mesh's error falls, by two runs with meshes of their own;

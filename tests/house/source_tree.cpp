@@ -53,6 +53,15 @@ constexpr std::array wrapped_libraries = {
     WrappedLibrary{"libpng", "png.h", "image"},
 };
 
+/// What things were called before they had the field's names.
+constexpr std::array retired = {
+    "FoundField", "found_field", "bent_field", "BrightClusters", "bright_clusters", "KnownBlocker",
+    "known_blockers", "KeptRays", "kept_rays", "StandsOut", "DirectionNet", "RayLanding",
+    "CoveredCells", "covered_cells", "ReceiverNodes", "VertexShares", "NodeCross", "DiffuseField",
+    "ClusterStandIn", "SourceSeen", "divide_bent", "divide_at_shadows", "follow_penumbrae",
+    "chosen_lights", "shared_irradiance", "throws_as_mirror", "let_out_by_coat", "sure_paths",
+    "shadow_lines.h", "standing_walls"};
+
 std::string folder_of(std::string_view path) {
   return std::string(path.substr(0, std::min(path.find('/'), path.size())));
 }
@@ -163,6 +172,24 @@ std::vector<std::string> include_direction_breaches(const std::vector<SourceFile
           fmt::format("{}:{}: {} may not include {}", file.path, line, folder, included));
     }
   });
+  return breaches;
+}
+
+std::vector<std::string> retired_words(const std::vector<SourceFile>& tree) {
+  std::vector<std::string> breaches;
+  for (const SourceFile& file : tree) {
+    if (file.path.starts_with("tests/house/")) {
+      continue;
+    }
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+      for (const std::string_view word : retired) {
+        if (file.lines[i].find(word) != std::string::npos) {
+          breaches.push_back(fmt::format("{}:{}: {} has another name in docs/glossary.md",
+                                         file.path, i + 1, word));
+        }
+      }
+    }
+  }
   return breaches;
 }
 

@@ -24,4 +24,7 @@ std::vector<std::string> include_direction_breaches(const std::vector<SourceFile
 std::vector<std::string> wrapped_library_breaches(const std::vector<SourceFile>& tree);
 std::vector<std::string> file_shape_breaches(const std::vector<SourceFile>& tree);
 
+/// Names that the published ones of docs/glossary.md have replaced.
+std::vector<std::string> retired_words(const std::vector<SourceFile>& tree);
+
 } // namespace meninas

@@ -37,6 +37,12 @@ TEST(SourceTree, FilesAreShortAndHeadersSayWhatTheyAre) {
   EXPECT_THAT(file_shape_breaches(read_source_tree(test::source_dir())), IsEmpty());
 }
 
+TEST(SourceTree, NamesAreThoseOfTheGlossary) {
+  EXPECT_THAT(retired_words(read_source_tree(test::source_dir())), IsEmpty());
+  EXPECT_THAT(retired_words({file("mirror/a.h", {"// one", "struct KeptRays;"})}),
+              ElementsAre(HasSubstr("mirror/a.h:2: KeptRays")));
+}
+
 TEST(SourceTree, TheScannerReadsThisTree) {
   std::vector<std::string> paths;
   for (const SourceFile& source : read_source_tree(test::source_dir())) {

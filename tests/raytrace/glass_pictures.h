@@ -7,7 +7,7 @@ namespace meninas::test {
 
 PassOneSettings coarse(double element_size = 0.25);
 
-/// With light from the source at the hit: nothing of it is interpolated.
+/// With direct light at the hit: nothing of it is interpolated.
 RenderSettings one_pixel();
 
 /// What leaves `target` towards the eye.

@@ -14,7 +14,7 @@ RunSettings with_quality(Quality quality) {
   return settings;
 }
 
-// README: `fine` computes light from the source at the hits, unless it is told otherwise.
+// README: `fine` computes direct light at the hits, unless it is told otherwise.
 TEST(DiffuseTerm, IsThePresets) {
   EXPECT_EQ(diffuse_term(with_quality(Quality::draft)), DiffuseTerm::interpolated);
   EXPECT_EQ(diffuse_term(with_quality(Quality::normal)), DiffuseTerm::interpolated);

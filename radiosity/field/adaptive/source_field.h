@@ -1,4 +1,4 @@
-// Light from the source on a mesh as fine as its edges ask for.
+// Direct light on a mesh as fine as its edges ask for.
 //
 // D(x) has the edges of shadows and of what mirrors throw, and takes a few shadow rays a point:
 // it is refined by itself (field_refinement.h), whatever is gathered besides.

@@ -65,7 +65,7 @@ TEST(Bends, OfWhatIsOrdinaryDoNotCount) {
 }
 
 // Twice as bent as most of the wall: for rays that is within what noise may be,
-// light from the source stands out.
+// direct light stands out.
 TEST(Bends, OfTheSourceStandOutSooner) {
   const auto f = [](const Point3& x) {
     return x.x * x.x + std::pow(std::max(x.x - 0.7, 0.0), 2.0);

@@ -31,7 +31,7 @@ std::unique_ptr<LitScene> shaded_floor(int lamps = 1) {
   return lit(std::move(scene), {.element_size = 0.08});
 }
 
-/// Light from the source at all vertices.
+/// Direct light at all vertices.
 VertexSamples lit_vertices(const LitScene& l) {
   const FormFactorSettings form_factors;
   const DirectSettings direct;

@@ -1,4 +1,4 @@
-// Elements divided where light from the source bends: shadows are nearer to what they are,
+// Elements divided where direct light bends: shadows are nearer to what they are,
 // for few vertices, and what is smooth stays as it was.
 #include "radiosity/field/smoothing_groups.h"
 #include "radiosity/mesh/subdivision.h"
@@ -61,7 +61,7 @@ std::vector<Place> middles_of(const LitScene& l, const std::string& node) {
   return places;
 }
 
-/// Light from the source there: by many shadow rays, and as the field has it.
+/// Direct light there: by many shadow rays, and as the field has it.
 double exactly(const LitScene& l, const Place& place, DirectWorkspace& work) {
   const MeshSide& side = l.mesh.sides[index(place.side)];
   const Patch& patch = l.surfaces.patches[index(side.patch)];
@@ -251,7 +251,7 @@ TEST(ShadowEdges, AreNotBetweenTheMeansOfFacets) {
   }
 }
 
-/// Light from the source at the corners of the tube's facets, over the mean of all:
+/// Direct light at the corners of the tube's facets, over the mean of all:
 /// how far at the most those at one place differ.
 double unevenness_at_places(const LitScene& l, const RadiositySolution& solution) {
   const ElementMesh& mesh = field_scene(*l.light, solution).mesh;

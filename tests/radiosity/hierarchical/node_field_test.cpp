@@ -232,7 +232,7 @@ TEST(NodeField, ElementsReceiveWhatTheirVerticesDo) {
   EXPECT_LT(std::abs(nodes.energy.imbalance), 0.01);
 }
 
-// Four times the elements: rays of vertices for light from the source grow as there are more
+// Four times the elements: rays of vertices for direct light grow as there are more
 // of these, rays of the rest hardly. Where vertices take more rays,
 // in penumbrae, there are as many more of them, to the rows of an element along the edges of these.
 TEST(NodeField, FinerElementsTakeLittleMore) {

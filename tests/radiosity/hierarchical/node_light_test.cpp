@@ -1,4 +1,4 @@
-// Light from the source on elements that only light others: what their corners receive brings these,
+// Direct light on elements that only light others: what their corners receive brings these,
 // all together, the light that the elements do.
 #include "radiosity/hierarchical/node_light.h"
 #include "radiosity/hierarchical/node_solution.h"

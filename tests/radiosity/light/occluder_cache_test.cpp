@@ -79,7 +79,7 @@ struct Plate {
   }
 };
 
-TEST(KnownBlockers, LeaveTheClosedFormOfWhatTheyDoNotHide) {
+TEST(OccluderCache, LeaveTheClosedFormOfWhatTheyDoNotHide) {
   const Plate plate;
   const auto room = lit(lamp_room({plate.polygon()}), {.element_size = 3.0});
   const auto lamp = facing_down(-1, 1, -1, 1, 2);
@@ -104,7 +104,7 @@ std::vector<Point3> behind_mirror(const std::vector<Point3>& polygon) {
   return image;
 }
 
-TEST(KnownBlockers, StandWhereMirrorsShowThem) {
+TEST(OccluderCache, StandWhereMirrorsShowThem) {
   // A plate in front of the mirror, on both legs of the path by way of it,
   // and one on the way from the mirror to the lamp.
   const auto lamp = facing_down(-1, 1, -1, 1, 2);
@@ -130,7 +130,7 @@ TEST(KnownBlockers, StandWhereMirrorsShowThem) {
   }
 }
 
-TEST(KnownBlockers, MeansAreTrueWhetherTheyAreKnownOrNot) {
+TEST(OccluderCache, MeansAreTrueWhetherTheyAreKnownOrNot) {
   // Slats of which no ray knows all: the mean over many seeds is that of the slats' shadows, of the
   // first that a workspace takes, which knows none, and of the second and third, which know some.
   std::vector<std::vector<Point3>> slats;

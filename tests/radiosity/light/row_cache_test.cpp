@@ -89,7 +89,7 @@ TEST(RowCache, AreLookedAtAnew) {
 
 TEST(RowCache, AreOfTheFirstThatAsk) {
   RowCache kept;
-  const std::uint32_t as_many = max_kept_rays / few_rays;
+  const std::uint32_t as_many = max_cached_rays / few_rays;
   std::vector<std::uint32_t> vertices;
   for (std::uint32_t v = 0; v < as_many + 10; ++v)
     vertices.push_back(3 * v);

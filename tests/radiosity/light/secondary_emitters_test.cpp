@@ -37,7 +37,7 @@ TEST(SecondaryEmitters, AreAsEvenHoweverFewThereMayBe) {
   const BrightWall wall;
   for (const std::size_t most : {1024U, 6U, 2U}) {
     const SecondaryEmitters clusters =
-        find_bright_clusters(*wall.l->light, wall.reflected, {.most = most});
+        find_secondary_emitters(*wall.l->light, wall.reflected, {.most = most});
     ASSERT_FALSE(clusters.emitters.empty());
     EXPECT_LE(clusters.emitters.size(), most);
     double owned = 0.0, sent = 0.0;
@@ -88,7 +88,7 @@ TEST(SecondaryEmitters, LightAPointBesideThemAsTheirElementsDo) {
 TEST(SecondaryEmitters, AreLeftToRaysWhereTheyAddLittleToTheirNoise) {
   const BrightWall wall;
   const auto clusters_with = [&](double spared) {
-    return find_bright_clusters(*wall.l->light, wall.reflected, {.spared = spared});
+    return find_secondary_emitters(*wall.l->light, wall.reflected, {.spared = spared});
   };
   const auto noise_of_rays = [&](const SecondaryEmitters& clusters) {
     double sum = 0.0;
@@ -133,7 +133,7 @@ TEST(SecondaryEmitters, HolesOfACutOutSendNoLight) {
   }
   ASSERT_NEAR(solid, 1.44 - 0.36, 1e-6);
   double sent = 0.0;
-  for (const Emitter& emitter : find_bright_clusters(*l->light, reflected).emitters)
+  for (const Emitter& emitter : find_secondary_emitters(*l->light, reflected).emitters)
     sent += emitter.area * emitter.radiosity.g;
   EXPECT_NEAR(sent, 10.0 * solid, 1e-6 * sent);
 

@@ -64,36 +64,36 @@ void expect_same(const Scene& scene, const Camera& camera, double min_sure, int 
   EXPECT_GE(share, min_sure);
 }
 
-TEST(SurePaths, ShowWhatRaysMeetInARoomWithAMirror) {
+TEST(CoherentBeams, ShowWhatRaysMeetInARoomWithAMirror) {
   expect_same(half_room(), look_at({1.7, 1.6, 2.7}, {0.2, 1.0, 0.8}, 1.0), 0.7);
   expect_same(half_room_with_small_mirror(), look_at({1.7, 1.6, 2.7}, {0.2, 1.0, 0.8}, 1.0), 0.7);
 }
 
-TEST(SurePaths, FollowFacingMirrors) {
+TEST(CoherentBeams, FollowFacingMirrors) {
   expect_same(facing_mirrors(Rgb(0.9, 0.8, 0.7)), look_at({0.5, 0.5, 0.5}, {0.45, 0.5, 0.0}, 1.2),
               0.4);
 }
 
-TEST(SurePaths, OfVeryWideViewsAreTheSame) {
+TEST(CoherentBeams, OfVeryWideViewsAreTheSame) {
   // The first tile goes far beyond the middle of the picture:
   // its last rays go back from the plane across its own middle.
   for (const double vertical_fov : {2.4, 2.6, 3.0})
     expect_same(half_room(), look_at({1.7, 1.6, 2.7}, {0.2, 1.0, 0.8}, vertical_fov), 0.2, 40);
 }
 
-TEST(SurePaths, OfParallelRaysAreTheSame) {
+TEST(CoherentBeams, OfParallelRaysAreTheSame) {
   Camera camera = look_at({1.8, 2.2, 2.8}, {0.1, 0.2, 0.4}, 1.0);
   camera.projection = Projection::orthographic;
   camera.half_height = 0.6;
   expect_same(half_room(), camera, 0.6);
 }
 
-TEST(SurePaths, LookThroughBacksFromOutside) {
+TEST(CoherentBeams, LookThroughBacksFromOutside) {
   // The walls between the eye and the room have their backs to it; through a mirror they are black.
   expect_same(half_room(), look_at({5.0, 3.0, 6.0}, {0.8, 1.0, 1.2}, 0.7), 0.6);
 }
 
-TEST(SurePaths, MissNoThinBarsNorSheetsNorHoles) {
+TEST(CoherentBeams, MissNoThinBarsNorSheetsNorHoles) {
   Scene scene = half_room();
   // Thinner than a pixel; in front of a wall by less than a margin;
   // two sides of a sheet; a plate across the mirror.
@@ -113,7 +113,7 @@ TEST(SurePaths, MissNoThinBarsNorSheetsNorHoles) {
   expect_same(scene, look_at({1.7, 1.6, 2.7}, {0.2, 1.0, 0.8}, 1.0), 0.5);
 }
 
-TEST(SurePaths, EdgeOnFromTheCornerOfATileIsNoDivisionByZero) {
+TEST(CoherentBeams, EdgeOnFromTheCornerOfATileIsNoDivisionByZero) {
   // The eye is as high as the box:
   // the middle of the picture, where four tiles meet, sees its lid edge on.
   Scene scene;

@@ -174,7 +174,7 @@ TEST(PictureError, OfGatheredLightIsThatOfWhatItIsGatheredFrom) {
 }
 
 TEST(PictureError, OfFormFactorsIsNotThatOfShadowRays) {
-  // One shadow ray a hit makes light from the source noisy, that of elements as it was.
+  // One shadow ray a hit makes direct light noisy, that of elements as it was.
   // Few pixels leave some per cent.
   TwoPassSettings settings = quick();
   const Lit lit(lit_room(), settings);

@@ -97,7 +97,7 @@ TEST(NextRun, TakesFewerCameraRaysWhereEachComputesLight) {
 }
 
 // Interpolated, camera rays cost next to nothing:
-// as many as there can be must not keep light from the source, which needs few, out of the time.
+// as many as there can be must not keep direct light, which needs few, out of the time.
 TEST(NextRun, ComputesLightAtHitsOfFewCameraRaysWhereTheTimeIsShort) {
   MeasuredRun run = run_with(0.089, 0.089, 0.01, 0.017);
   run.error.direct_seconds = 2e-5; // four hits a pixel take 5.2 s

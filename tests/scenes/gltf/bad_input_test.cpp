@@ -301,9 +301,9 @@ TEST(GltfBadInput, FilesOutsideAreReadOnlyWhenAllowed) {
 
 TEST(GltfBadInput, PointersOfGitLfsAreNamed) {
   const TemporaryFolder folder;
-  const std::string pointer = "version https://git-lfs.github.com/spec/v1\n"
-                              "oid sha256:" +
-                              std::string(64, 'a') + "\nsize 123456\n";
+  std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:";
+  pointer.append(64, 'a');
+  pointer += "\nsize 123456\n";
   EXPECT_EQ(error_of(folder.write("room.glb", pointer)),
             "room.glb: is a Git LFS pointer, not the data: run git lfs pull");
   auto file = square();
