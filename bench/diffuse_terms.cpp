@@ -1,5 +1,5 @@
 // What each diffuse term of pass two costs and what it brings:
-// error against the reference and seconds, scene by scene (ARCHITECTURE.md has the table).
+// error against the reference and seconds, scene by scene (docs/notes/pass_two.md has the table).
 //
 //   diffuse_terms REFERENCES SCENE.gltf ...
 //

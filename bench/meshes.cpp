@@ -1,6 +1,6 @@
 // What meshes cost and what they bring:
 // picture error against number of elements and time, for uniform and adaptive meshes,
-// and those of `--solver hierarchical`, which begin uniform (ARCHITECTURE.md has the table).
+// and those of `--solver hierarchical`, which begin uniform (docs/notes/hierarchical.md has the table).
 //
 //   meshes REFERENCES RAYS SCENE.gltf ...
 //

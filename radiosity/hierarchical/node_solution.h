@@ -20,7 +20,7 @@
 // The factors of links come from the rays of the receivers' rows and not from pairs of nodes:
 // rays follow every mirror to any depth and know what stands between,
 // there is no quadratic beginning, and rows close. Pairs with a closed form and shadow rays,
-// as in the paper, were slower and less accurate (ARCHITECTURE.md).
+// as in the paper, were slower and less accurate (docs/notes/hierarchical.md).
 //
 // X is the link error where elements are seen as they receive,
 // less where all light is more than four times what is reflected first: in proportion to that,

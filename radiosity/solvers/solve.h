@@ -7,7 +7,7 @@
 //   gauss-seidel  the same, in 32 steps that use what the steps before have found
 //   cg            a Krylov method that needs neither areas nor symmetry, which sampled form factors lack: BiCGStab (van der
 //                 Vorst 1992).
-//                 Conjugate gradients on the symmetrised system are no faster (ARCHITECTURE.md).
+//                 Conjugate gradients on the symmetrised system are no faster (docs/notes/solvers.md).
 //   progressive   shooting by columns, the largest unshot power first (solvers/shooting.h). In large scenes pass one shoots rays instead,
 //                 and stores no transport (progressive.h).
 //   hierarchical  `cg` for nodes that stand for many elements (hierarchical/node_solution.h): it has no rows of elements, and solve() is

@@ -2,7 +2,7 @@
 // In bytes.
 //
 // Estimates come from counts known before the work (triangles, elements, rays, pixels) times
-// sizes measured (ARCHITECTURE.md); they are meant to be exceeded by nothing that is common,
+// sizes measured (docs/notes/batch.md); they are meant to be exceeded by nothing that is common,
 // so that a limit holds, and to be within a factor of about two for what is large.
 #pragma once
 
