@@ -107,7 +107,7 @@ void bend_between(const NodeInterpolation& by, std::span<const std::uint8_t> val
                                of_mirrored = edge_bends(by.crosses, valid, field.indirect_mirrored);
   const auto add = [](const glm::vec3& more, glm::vec3& indirect, glm::vec3& all) {
     const glm::vec3 bent = glm::max(indirect + more, glm::vec3(0.0F));
-    all += bent - indirect;
+    all = glm::max(all + (bent - indirect), glm::vec3(0.0F));
     indirect = bent;
   };
   for (std::size_t v = 0; v < bends.size(); ++v)
@@ -124,8 +124,9 @@ void drop_indicator_samples(const InterpolationWeights& shares, VertexSamples& f
   IrradianceField& field = found.field;
   for (std::size_t v = 0; v < found.states.size(); ++v)
     if (found.states[v] == VertexState::gathered && !gathers(shares, v)) {
-      field.irradiance[v] -= field.indirect[v];
-      field.mirrored[v] -= field.indirect_mirrored[v];
+      // Sums of floats less one of their terms may be a rounding below the others.
+      field.irradiance[v] = glm::max(field.irradiance[v] - field.indirect[v], glm::vec3(0.0F));
+      field.mirrored[v] = glm::max(field.mirrored[v] - field.indirect_mirrored[v], glm::vec3(0.0F));
       found.states[v] = VertexState::lit;
     }
 }

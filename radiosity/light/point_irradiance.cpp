@@ -33,7 +33,7 @@ ArrivingLight landed_light(const PointGathering& gathering, const GatheredRays& 
     if (landing.world != real_world && landing.world != through_solids)
       sum.mirrored += arrived;
   }
-  const Rgb straight = gathering.light.background * gathered.escaped_straight;
+  const Rgb straight = gathering.light.background * Rgb(gathered.escaped_straight);
   const Rgb by_mirrors = gathering.light.background * Rgb(gathered.escaped_light) - straight;
   sum.total += straight + by_mirrors;
   sum.mirrored += by_mirrors;

@@ -24,10 +24,10 @@ struct GatheredRays {
   double rays = 0.0; ///< how many there are
   double landed = 0.0, escaped = 0.0, black = 0.0,
          cut = 0.0;                ///< sums of w over those that ended so
-  double escaped_straight = 0.0;   ///< of `escaped`, the rays that met no mirror
   glm::vec3 mirror_absorbed{0.0F}; ///< sum of w (1 - tau) over all rays
   glm::vec3 escaped_light{0.0F}, black_light{0.0F},
-      cut_light{0.0F}; ///< sums of w tau over the rays that ended so
+      cut_light{0.0F};              ///< sums of w tau over the rays that ended so
+  glm::vec3 escaped_straight{0.0F}; ///< of `escaped_light`, by rays that met no mirror
   std::uint64_t traced = 0;
   ContactMask covered = 0;
   double covered_rays = 0.0; ///< of `black`, those from where something stands

@@ -269,7 +269,7 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
     const auto let_in = let_in_by(light.by_angle[index(source.area.coat)], source, packet);
     work.black_lanes.push_back(sort([&](std::uint32_t k) { return let_in[k]; }));
   }
-  work.result.escaped_straight = work.result.escaped;
+  work.result.escaped_straight = work.result.escaped_light;
   work.result.traced += ray_count(rays);
 }
 

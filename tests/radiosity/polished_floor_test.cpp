@@ -67,6 +67,23 @@ TEST(PolishedFloor, ThrowsTheImageOfAPointLight) {
   EXPECT_GT(beside, 20);
 }
 
+// A coat keeps a part of the light of the sky, which is no light that mirrors brought or took.
+TEST(PolishedFloor, HasNoLightByMirrorsWhereThereAreNone) {
+  Scene scene = floor_and_ceiling(polished(Rgb(0.5)));
+  scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
+  scene.background = Rgb(1.0);
+  PassOneSettings settings = coarse();
+  settings.interpolation = {.method = Interpolation::gather, .rays = 256};
+  const Solved lit_floor = solved(scene, settings);
+  const DiffuseField& field = lit_floor.solution.field;
+  ASSERT_FALSE(field.mirrored.empty());
+  for (std::size_t v = 0; v < field.mirrored.size(); ++v) {
+    EXPECT_GT(field.irradiance[v].g, 1.0F);
+    EXPECT_EQ(field.mirrored[v].g, 0.0F);
+    EXPECT_EQ(field.indirect_mirrored[v].g, 0.0F);
+  }
+}
+
 TEST(PolishedFloor, LetsInWhatItDoesNotReflect) {
   // A sun at 70 degrees from the zenith: what gets below is H (1 - R) / (1 - R_mean).
   Scene scene = floor_and_ceiling(polished(Rgb(0.5)));
