@@ -24,7 +24,8 @@ static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
     return glm::clamp(arrived.mirrored / glm::max(arrived.total, Rgb(1e-300)), 0.0, 1.0);
   };
   tbb::parallel_for(std::size_t{0}, element_count(mesh), [&](std::size_t e) {
-    if (averaged[e] == 0)
+    // The irradiance of a black facet is seen by nobody: a neon tube has thousands of them.
+    if (averaged[e] == 0 || mesh.reflectance[e] == Rgb(0.0))
       return;
     const MeshSide& side = mesh.sides[index(mesh.side_of_element[e])];
     const Receiver middle{centre_of(mesh, static_cast<ElementId>(e)), side.normal, side.plane_class,
