@@ -12,7 +12,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
+#include <string_view>
 #include <new>
 
 namespace meninas {
@@ -29,6 +32,11 @@ void keep_standard_error_taken() {
   dup2(nowhere, STDERR_FILENO);
   close(nowhere);
 }
+
+/// The options that `-h` of a command shows, as CLI11 names them.
+constexpr std::array<std::string_view, 12> shown_options{
+    "--help", "-o,--output", "--output", "--quality", "--error", "--size", "--camera", "--exposure",
+    "--diffuse", "--mode", "--solution", "--stats"};
 
 int fail(ExitCode code, const std::string& line) {
   tell(stderr, fmt::format("meninas: {}\n", one_line(line)));
@@ -84,7 +92,7 @@ const Command* chosen_command(const CLI::App& program, const std::vector<Command
     }
   }
   refuse_leftovers(program, "");
-  throw UsageError("", "a command is needed, see meninas -h");
+  throw UsageError("", "a command is needed, see meninas help");
 }
 
 /// What CLI11 is to parse, last one first.
@@ -105,11 +113,51 @@ std::vector<std::string> arguments_of(int argc, char** argv) {
   return arguments;
 }
 
+/// `meninas help [COMMAND]` and `meninas version` mean what they say, nothing at all asks for help,
+/// and a scene without a command is rendered. The first argument comes last here.
+void take_words(std::vector<std::string>& arguments) {
+  if (arguments.empty()) {
+    arguments = {"--help"};
+    return;
+  }
+  const std::string first = arguments.back();
+  if (first == "version") {
+    arguments.back() = "--version";
+  } else if (first == "help") {
+    arguments.pop_back();
+    arguments.insert(arguments.begin(), "--help");
+  } else if (first.ends_with(".gltf") || first.ends_with(".glb")) {
+    arguments.push_back("render");
+  }
+}
+
+/// `-h` of a command of many options shows those that matter most; `--help-all` is `-h` with all.
+void show_what_matters(CLI::App& program, std::vector<std::string>& arguments) {
+  const auto all = std::ranges::find(arguments, "--help-all");
+  if (all != arguments.end()) {
+    *all = "--help";
+    return;
+  }
+  for (const char* name : {"render", "solve"}) {
+    CLI::App* command = program.get_subcommand(name);
+    for (CLI::Option* option : command->get_options()) {
+      if (!option->get_positional() && std::ranges::find(shown_options, option->get_name()) ==
+                                           shown_options.end()) {
+        option->group("");
+      }
+    }
+    command->footer("meninas " + std::string(name) + " --help-all lists all options.");
+  }
+}
+
 /// Parses, then runs; help and version are answered on standard output.
 int run(CLI::App& program, const std::vector<Command>& commands, int argc, char** argv) {
   std::optional<std::string> problem;
   try {
-    program.parse(arguments_of(argc, argv));
+    std::vector<std::string> arguments = arguments_of(argc, argv);
+    take_words(arguments);
+    show_what_matters(program, arguments);
+    program.parse(arguments);
   } catch (const CLI::Success& answer) {
     return program.exit(answer);
   } catch (const CLI::ParseError& error) {

@@ -29,9 +29,8 @@ void add_outputs(CLI::App& command, RenderOptions& options) {
   RenderRequest& request = options.request;
   command
       .add_option("-o,--output", request.pictures,
-                  "OUT.exr (linear) or OUT.png; may be given several times")
+                  "OUT.exr (linear) or OUT.png; may be given several times [SCENE.png]")
       ->type_name("FILE")
-      ->required()
       ->allow_extra_args(false);
   add_file(command, "--solution", request.solution,
            "a solution written by 'meninas solve'; pass one is skipped");
@@ -229,6 +228,9 @@ void take_snapshots(RenderOptions& options) {
 
 /// The request, after a check that all options given have an effect together.
 RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
+  if (options.request.pictures.empty()) {
+    options.request.pictures = {options.common.scene.filename().replace_extension(".png")};
+  }
   check_mode(command, options);
   check_error_map(options);
   check_goal(command, options);

@@ -132,6 +132,17 @@ double seconds_to_write(PictureSize size) {
   return at_least + a_pixel * size.width * size.height;
 }
 
+/// "room.exr, room.png: 640x480 in 1.2 s, about 0.9 % off (mesh 0.8 %)".
+std::string closing_line(const std::vector<std::filesystem::path>& pictures, PictureSize size,
+                         const RunFigures& figures) {
+  std::string names;
+  for (const auto& picture : pictures)
+    names += (names.empty() ? "" : ", ") + picture.string();
+  return fmt::format("{}: {}x{} in {:.{}f} s{}{}", names, size.width, size.height,
+                     figures.seconds.total, figures.seconds.total < 10.0 ? 1 : 0,
+                     figures.closing.empty() ? "" : ", ", figures.closing);
+}
+
 } // namespace
 
 RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
@@ -173,6 +184,7 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   if (request.stats) {
     write_text_file(*request.stats, stats_json(figures));
   }
+  note(events, closing_line(request.pictures, size, figures));
   return figures;
 }
 

@@ -78,6 +78,7 @@ struct RunFigures {
   RunSeconds seconds;
   std::uint64_t peak_memory_bytes = 0;
   int threads = 0;
+  std::string closing; ///< what is known of the error, in words, for the run's last line
 };
 
 struct ExpectedCost; // expected_cost.h

@@ -11,6 +11,13 @@
 
 namespace meninas {
 
+/// In whole percent from ten on, and no more than "over 100 %": beyond that it is a guess.
+static std::string percent(double share) {
+  if (share > 1.0)
+    return "over 100 %";
+  return share < 0.1 ? fmt::format("{:.2g} %", 100.0 * share) : fmt::format("{:.0f} %", 100.0 * share);
+}
+
 std::string describe_error(const PictureError& error) {
   struct Part {
     const char* name;
@@ -20,15 +27,15 @@ std::string describe_error(const PictureError& error) {
                    Part{"mirror depth", error.mirror_tail}, Part{"camera rays", error.pixels},
                    Part{"solver", error.solver}};
   std::ranges::stable_sort(parts, std::greater{}, &Part::error);
-  std::string text = fmt::format("error about {:.2g} % of the mean radiance", 100.0 * error.total);
+  std::string text = fmt::format("about {} off", percent(error.total));
   constexpr double matters = 0.2; // of the total: less adds a fiftieth to it
-  const char* between = ": ";
+  const char* between = " (";
   for (const Part& part : parts)
     if (part.error > matters * error.total) {
-      text += fmt::format("{}{} {:.2g} %", between, part.name, 100.0 * part.error);
+      text += fmt::format("{}{} {}", between, part.name, percent(part.error));
       between = ", ";
     }
-  return text;
+  return *between == ',' ? text + ")" : text;
 }
 
 std::optional<std::string> suggest_option(const PictureError& error, const TwoPassSettings& settings) {
@@ -68,8 +75,12 @@ void report_error(const PictureSource& source, ErrorReport wanted, const Sampled
   figures.error_estimate = error;
   // A black picture has a warning of its own, and nothing that an error could be relative to.
   if (error.mean_radiance > 0.0) {
-    const auto turn = suggest_option(error, settings);
-    note(events, describe_error(error) + (turn ? "; " + *turn : ""));
+    figures.closing = describe_error(error);
+    if (const auto option = suggest_option(error, settings))
+      figures.closing += "; " + *option;
+    constexpr double large = 0.1;
+    if (error.total > large)
+      warn(events, "the picture is " + describe_error(error));
   }
   if (wanted == ErrorReport::map)
     layers.push_back({"error", error_map(light, field, camera, settings, picture.image, error)});

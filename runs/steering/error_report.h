@@ -29,16 +29,16 @@ struct PictureSource {
   const SolverResult& solver;
 };
 
-/// "error about 1.3 % of the mean radiance:
-/// mesh 1.2 %, camera rays 0.5 %", the larger parts first, no part that does not matter.
+/// "about 1.3 % off (mesh 1.2 %, camera rays 0.5 %)", relative to the mean radiance, the larger parts
+/// first, no part that does not matter.
 std::string describe_error(const PictureError& error);
 
 /// What to turn first where the error can be seen (2 %): the option that makes the largest
 /// part smaller, as "--diffuse direct would help most". Nothing where it cannot.
 std::optional<std::string> suggest_option(const PictureError& error, const TwoPassSettings& settings);
 
-/// Fills in the figures and says the line as a note, with what to turn first;
-/// the map is appended to the layers.
+/// Fills in the figures, and for the run's closing line the error with the option that would help
+/// most; warns of an error above 10 %. The map is appended to the layers.
 void report_error(const PictureSource& source, ErrorReport wanted, const SampledPicture& picture,
                   std::vector<Layer>& layers, const RunEvents& events, RunFigures& figures);
 

@@ -32,7 +32,8 @@ protected:
 TEST_F(ErrorEstimate, IsInTheFiguresAndTheLine) {
   const Outcome outcome = render({"-o", "out.exr", "--stats", "out.json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("% of the mean radiance"));
+  EXPECT_THAT(outcome.err, HasSubstr("out.exr: 40x30 in "));
+  EXPECT_THAT(outcome.err, HasSubstr(" % off ("));
   const auto error = figures().at("error_estimate");
   double square = 0.0;
   for (const char* part : {"mesh", "form_factors", "mirror_tail", "pixels", "solver"})

@@ -39,7 +39,6 @@ protected:
 };
 
 TEST_F(Errors, UnknownCommandsAndOptionsGetAHint) {
-  expect(2, "a command is needed, see meninas -h", {});
   expect(2, "no command 'rendre', did you mean 'render'?", {"rendre", "room.glb"});
   expect(2, "no command 'xyzzy'", {"xyzzy"});
   expect(2, "render: no option '--smaples', did you mean '--samples'?",
@@ -51,7 +50,6 @@ TEST_F(Errors, UnknownCommandsAndOptionsGetAHint) {
 
 TEST_F(Errors, WhatIsMissingIsNamed) {
   expect(2, "render: SCENE is required", {"render", "-o", "out.png"});
-  expect(2, "render: --output is required", {"render", "room.glb"});
   expect(2, "solve: --output is required", {"solve", "room.glb"});
 }
 

@@ -20,6 +20,7 @@ using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::UnorderedElementsAre;
 
 class Outputs : public testing::Test {
@@ -70,6 +71,8 @@ TEST_F(Outputs, SeveralPicturesOfOneRun) {
 
 TEST_F(Outputs, QuietSaysNothing) {
   EXPECT_THAT(render({"-o", "a.png", "--quiet"}).err, IsEmpty());
+  EXPECT_THAT(render({"-o", "a.png", "-o", "a.exr"}).err,
+              testing::ContainsRegex("meninas: a.png, a.exr: [0-9]+x[0-9]+ in [0-9.]+ s\n$"));
 }
 
 TEST_F(Outputs, RoundedNumbersAreSaid) {
@@ -359,19 +362,49 @@ TEST(Help, ListsEveryOptionOfItsCommand) {
   }
   options["solve"].emplace_back("--per-node");
   for (const auto& [command, names] : options) {
-    const Outcome outcome = run_program(folder.path(), {command, "-h"});
+    const Outcome outcome = run_program(folder.path(), {command, "--help-all"});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_THAT(outcome.err, IsEmpty());
     for (const std::string& name : names) {
       EXPECT_THAT(outcome.out, HasSubstr(name)) << command;
     }
   }
-  const Outcome outcome = run_program(folder.path(), {"-h"});
-  for (const char* command : {"render", "solve", "plan", "--version"}) {
-    EXPECT_THAT(outcome.out, HasSubstr(command));
+  for (const std::vector<std::string>& asked :
+       {std::vector<std::string>{"-h"}, std::vector<std::string>{"help"}, {}}) {
+    const Outcome outcome = run_program(folder.path(), asked);
+    EXPECT_EQ(outcome.code, 0);
+    for (const char* command : {"render", "solve", "plan", "--version"}) {
+      EXPECT_THAT(outcome.out, HasSubstr(command));
+    }
   }
-  EXPECT_THAT(run_program(folder.path(), {"--version"}).out,
-              testing::MatchesRegex("meninas [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  for (const char* asked : {"--version", "version"}) {
+    EXPECT_THAT(run_program(folder.path(), {asked}).out,
+                testing::MatchesRegex("meninas [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  }
+}
+
+TEST(Help, ShowsWhatMattersFirst) {
+  const TemporaryFolder folder;
+  for (const std::vector<std::string>& asked :
+       {std::vector<std::string>{"render", "-h"}, std::vector<std::string>{"help", "render"}}) {
+    const Outcome few = run_program(folder.path(), asked);
+    EXPECT_THAT(few.out, HasSubstr("--quality"));
+    EXPECT_THAT(few.out, HasSubstr("--output"));
+    EXPECT_THAT(few.out, HasSubstr("--help-all"));
+    EXPECT_THAT(few.out, Not(HasSubstr("--hemicube-resolution")));
+  }
+}
+
+TEST_F(Outputs, ASceneAloneIsRenderedBesideItsName) {
+  for (const std::vector<std::string>& asked :
+       {std::vector<std::string>{"render", "room.glb"}, std::vector<std::string>{"room.glb"}}) {
+    std::vector<std::string> arguments = asked;
+    arguments.insert(arguments.end(), {"--quality", "draft", "--size", "40x30"});
+    const Outcome outcome = run_program(folder_.path(), arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(files_in(folder_.path()), ElementsAre("room.glb", "room.png"));
+    std::filesystem::remove(folder_ / "room.png");
+  }
 }
 
 } // namespace
