@@ -2,6 +2,7 @@
 // millions of rays a second, and the share of the bare robust loop that is reached.
 // Figures are of one core.
 #include "bench/bare_embree.h"
+#include "scenes/rays/ray_scene.h"
 #include "scenes/sampling.h"
 #include "tests/support/scene_builder.h"
 

@@ -1,5 +1,6 @@
 // Coats that are mirrors to the light of surfaces:
 // R(cos) of it over what is scattered below, in every transport of pass one.
+#include "radiosity/light/direct_irradiance.h"
 #include "radiosity/solvers/hemisphere_survey.h"
 #include "tests/radiosity/solved.h"
 #include "tests/support/coats.h"
@@ -75,7 +76,7 @@ TEST(PolishedFloor, HasNoLightByMirrorsWhereThereAreNone) {
   PassOneSettings settings = coarse();
   settings.interpolation = {.method = Interpolation::gather, .rays = 256};
   const Solved lit_floor = solved(scene, settings);
-  const DiffuseField& field = lit_floor.solution.field;
+  const IrradianceField& field = lit_floor.solution.field;
   ASSERT_FALSE(field.mirrored.empty());
   for (std::size_t v = 0; v < field.mirrored.size(); ++v) {
     EXPECT_GT(field.irradiance[v].g, 1.0F);

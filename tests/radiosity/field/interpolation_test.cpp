@@ -1,3 +1,4 @@
+#include "radiosity/field/interpolation.h"
 #include "radiosity/field/vertex_fill.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/rooms.h"

@@ -1,5 +1,6 @@
 // Light through solids of glass in pass one:
 // bent by closed forms, owned once, closed, and never without an end.
+#include "radiosity/light/direct_irradiance.h"
 #include "radiosity/queries/gltf_node_factors.h"
 #include "radiosity/pass_one.h"
 #include "radiosity/light/glass_light.h"

@@ -1,5 +1,6 @@
 // Light that no surface emits: of punctual lights, also by way of mirrors, and of the background.
 #include "form_factors/point_form_factor.h"
+#include "radiosity/light/direct_irradiance.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/scene_builder.h"
 
