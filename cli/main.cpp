@@ -138,6 +138,11 @@ void show_what_matters(CLI::App& program, std::vector<std::string>& arguments) {
     *all = "--help";
     return;
   }
+  // Hidden options have no name in messages: only where nothing but help is asked for.
+  if (std::ranges::find(arguments, "--help") == arguments.end() &&
+      std::ranges::find(arguments, "-h") == arguments.end()) {
+    return;
+  }
   for (const char* name : {"render", "solve"}) {
     CLI::App* command = program.get_subcommand(name);
     for (CLI::Option* option : command->get_options()) {

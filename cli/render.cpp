@@ -228,9 +228,6 @@ void take_snapshots(RenderOptions& options) {
 
 /// The request, after a check that all options given have an effect together.
 RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
-  if (options.request.pictures.empty()) {
-    options.request.pictures = {options.common.scene.filename().replace_extension(".png")};
-  }
   check_mode(command, options);
   check_error_map(options);
   check_goal(command, options);
@@ -252,6 +249,9 @@ RenderRequest& completed_request(const CLI::App& command, RenderOptions& options
 }
 
 void run(const CLI::App& command, RenderOptions& options) {
+  if (options.request.pictures.empty()) {
+    options.request.pictures = {options.common.scene.filename().replace_extension(".png")};
+  }
   completed_request(command, options);
   Console console(options.common.verbosity);
   console.say_rounding(options.request.settings);

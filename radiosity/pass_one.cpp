@@ -249,7 +249,7 @@ RadiositySolution solve_pass_one(const LightScene& light, const FormFactors& fac
   const ElementRays own{factors.closure, factors.exposed, factors.rays_traced};
 
   // Eq. 1, split by who owns the path:
-  // direct direct light, gathered emission, and reflected light by the transport.
+  // direct light, gathered emission, and reflected light by the transport.
   const FirstLight first =
       first_light(light, gathered_emission(light, factors), factors.closure, factors.covered,
                   settings.form_factors.method, settings.direct, progress);

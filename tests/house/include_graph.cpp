@@ -116,7 +116,9 @@ std::vector<std::string> chapter_breaches(const std::vector<SourceFile>& tree) {
 
 std::vector<std::string> knots(const std::vector<SourceFile>& tree) {
   std::vector<std::string> found;
-  for (std::vector<std::string> component : Components(graph_of(tree)).all())
+  const Graph graph = graph_of(tree);
+  const Components components(graph);
+  for (std::vector<std::string> component : components.all())
     if (component.size() > 1) {
       std::ranges::sort(component);
       found.push_back(fmt::format("{} include one another", fmt::join(component, ", ")));

@@ -1,5 +1,5 @@
 // The sum over terms equals the rays-only answer:
-// direct direct light and its images (D), gathered emission (G) and the transport (T)
+// direct light and its images (D), gathered emission (G) and the transport (T)
 // against a solution in which no closed form owns anything, so that rays alone find every path.
 #include "scenes/gltf/gltf.h"
 #include "scenes/sampling.h"

@@ -1,0 +1,67 @@
+// What the program says of itself.
+#include "tests/cli/program.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace meninas::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+TEST(Help, ListsEveryOptionOfItsCommand) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> pass_one{
+      "--elements",    "--element-size", "--form-factors",  "--rays",    "--solver",
+      "--tolerance",   "--mirror-depth", "--interpolation", "--quality", "--threads",
+      "--seed",        "--quiet",        "--stats",         "--output",  "--adaptive",
+      "--no-adaptive", "--bends"};
+  std::map<std::string, std::vector<std::string>> options{
+      {"render", pass_one},
+      {"solve", pass_one},
+      {"plan", {"--json", "--quality", "--element-size", "--elements"}}};
+  for (const char* option :
+       {"--samples", "--size", "--camera", "--exposure", "--mode", "--layers", "--solution"}) {
+    options["render"].emplace_back(option);
+  }
+  options["solve"].emplace_back("--per-node");
+  for (const auto& [command, names] : options) {
+    const Outcome outcome = run_program(folder.path(), {command, "--help-all"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.err, IsEmpty());
+    for (const std::string& name : names) {
+      EXPECT_THAT(outcome.out, HasSubstr(name)) << command;
+    }
+  }
+  for (const std::vector<std::string>& asked :
+       {std::vector<std::string>{"-h"}, std::vector<std::string>{"help"}, {}}) {
+    const Outcome outcome = run_program(folder.path(), asked);
+    EXPECT_EQ(outcome.code, 0);
+    for (const char* command : {"render", "solve", "plan", "--version"}) {
+      EXPECT_THAT(outcome.out, HasSubstr(command));
+    }
+  }
+  for (const char* asked : {"--version", "version"}) {
+    EXPECT_THAT(run_program(folder.path(), {asked}).out,
+                testing::MatchesRegex("meninas [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  }
+}
+
+TEST(Help, ShowsWhatMattersFirst) {
+  const TemporaryFolder folder;
+  for (const std::vector<std::string>& asked :
+       {std::vector<std::string>{"render", "-h"}, std::vector<std::string>{"help", "render"}}) {
+    const Outcome few = run_program(folder.path(), asked);
+    EXPECT_THAT(few.out, HasSubstr("--quality"));
+    EXPECT_THAT(few.out, HasSubstr("--output"));
+    EXPECT_THAT(few.out, HasSubstr("--help-all"));
+    EXPECT_THAT(few.out, Not(HasSubstr("--hemicube-resolution")));
+  }
+}
+
+} // namespace
+} // namespace meninas::test
