@@ -122,6 +122,26 @@ ContactMask cells_at_foot(ContactMask covered) {
   return around & ~covered;
 }
 
+/// (s, t) of the middle of a region's largest triangle: a point well within its outline.
+static Vec2 inside_of(const RegionElement& region) {
+  std::size_t largest = 0;
+  double area = 0.0, before = 0.0;
+  Vec2 st(0.5);
+  for (std::size_t k = 0; k < region.area_up_to.size(); ++k) {
+    const double own = region.area_up_to[k] - (k == 0 ? 0.0 : region.area_up_to[k - 1]);
+    if (own > area) {
+      largest = k;
+      area = own;
+    }
+  }
+  if (area > 0.0) {
+    before = largest == 0 ? 0.0 : region.area_up_to[largest - 1];
+    // The root of what is left of s is 2/3 there (point_in_region()).
+    st = Vec2((before + 4.0 / 9.0 * area) / region.area_up_to.back(), 0.5);
+  }
+  return st;
+}
+
 /// A region is cut along what stands there: all of it is covered, or none. Rays may begin at its
 /// very rim, on either side of the wall there, so nearly all of them have to meet black.
 static Covered covered_region(const LightScene& light, const HemisphereSamples& net,
@@ -133,7 +153,7 @@ static Covered covered_region(const LightScene& light, const HemisphereSamples& 
     black += std::popcount(lanes);
   const auto rays = static_cast<double>(net.points.size());
   if (black < nearly_all * rays ||
-      !is_enclosed(light, source, [](std::uint32_t) { return Vec2(0.5); }))
+      !is_enclosed(light, source, [st = inside_of(*source.area.region)](std::uint32_t) { return st; }))
     return {};
   return {wholly_covered, rays, 0.0F};
 }

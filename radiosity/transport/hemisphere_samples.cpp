@@ -73,10 +73,7 @@ Point3 point_in_region(const ReceiverArea& area, Vec2 st) {
   const double before = k == 0 ? 0.0 : up_to[k - 1];
   const double root = std::sqrt(std::clamp((wanted - before) / (up_to[k] - before), 0.0, 1.0));
   const auto& [a, b, c] = area.region->triangles[k];
-  // A point on the outline itself would see, by rounding, what is on the other side of a wall.
-  constexpr double inwards = 1e-4;
-  const Point3 x = glm::mix((1.0 - root) * a + root * ((1.0 - st.y) * b + st.y * c),
-                            (a + b + c) / 3.0, inwards);
+  const Point3 x = (1.0 - root) * a + root * ((1.0 - st.y) * b + st.y * c);
   return area.region_scale * (x - area.region_centre);
 }
 
