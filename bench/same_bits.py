@@ -5,8 +5,7 @@
 
 Both programs render every scene of the gallery in every mode and with every diffuse term, solve it
 by each of the solvers below, and print form factors between its first two nodes. The files must be
-equal byte for byte; figures in `--stats` are compared but for times, memory and rays of a machine's
-own. Ends with 1 when anything differs.
+equal byte for byte; figures in `--stats` are compared but for times, memory and threads. Ends with 1 when anything differs.
 """
 import argparse
 import json
@@ -46,14 +45,15 @@ def form_factors(program, scene, nodes):
     return without_times(json.loads(run.stdout)) if run.returncode == 0 else run.stderr
 
 
-def nodes_of(program, scene):
+def nodes_of(program, scene, folder):
+    nodes = folder / "nodes.json"
+    nodes.unlink(missing_ok=True)
     run = subprocess.run([program, "solve", scene, "--quality", "draft", "--element-size", "10",
-                          "-o", "x.glb", "--per-node", "nodes.json", "--quiet"],
-                         capture_output=True, cwd=tempfile.gettempdir(), timeout=600)
-    file = pathlib.Path(tempfile.gettempdir(), "nodes.json")
-    if run.returncode != 0 or not file.exists():
+                          "-o", folder / "nodes.glb", "--per-node", nodes, "--quiet"],
+                         capture_output=True, timeout=600)
+    if run.returncode != 0:
         return []
-    return [node["name"] for node in json.loads(file.read_text())["nodes"] if node["area"] > 0][:2]
+    return [node["name"] for node in json.loads(nodes.read_text())["nodes"] if node["area"] > 0][:2]
 
 
 def outcome(program, scene, arguments, kind, size, folder):
@@ -90,13 +90,13 @@ def main():
                 if parts:
                     different += 1
                     print(f"{scene.name}: {label}: {', '.join(parts)} differ", flush=True)
-            nodes = nodes_of(programs[0], scene)
-            if len(nodes) == 2:
-                answers = [form_factors(p, scene, nodes) for p in programs]
-                compared += 1
-                if answers[0] != answers[1]:
-                    different += 1
-                    print(f"{scene.name}: formfactors differ", flush=True)
+            nodes = nodes_of(programs[0], scene, pathlib.Path(name))
+        if len(nodes) == 2:
+            answers = [form_factors(p, scene, nodes) for p in programs]
+            compared += 1
+            if answers[0] != answers[1]:
+                different += 1
+                print(f"{scene.name}: formfactors differ", flush=True)
     print(f"{compared} compared, {different} different")
     return 1 if different or not compared else 0
 
