@@ -3,6 +3,14 @@
 // A node stands for a range of emitters: a sphere around them, their power,
 // and a cone that holds their normals. From any point it says how much of their light can arrive,
 // roughly and never nothing where there is something (Conty Estevez and Kulla 2018).
+//
+// From afar the emitters of a node, of powers P_i and normals n_i, have the intensity
+//
+//   I(omega) = 1 / pi sum_i P_i max(0, n_i . omega),     W/sr, of the brightest channel
+//
+// as a cluster has in hierarchical radiosity (Smits, Arvo, Greenberg 1994). Of many emitters
+// those whose normals fall into one cell of a cube of 6 x 8 x 8 are summed beforehand:
+// they face omega together or not at all, but for cells that see it edge-on, where all cosines are small.
 #pragma once
 
 #include "mirror/convex_polygon.h"
@@ -31,14 +39,21 @@ struct EmitterNode {
   double cos_spread =
       1.0; ///< of the angle around the axis that holds all normals; -1: they point anywhere
   std::uint32_t first = 0, count = 0; ///< range of LightTree::order
+  std::uint32_t first_flux = 0, flux_count = 0; ///< range of LightTree::flux
+  Point3 middle{0.0}; ///< mean of the emitters' middles by power
   std::uint32_t second_child = 0; ///< the first one follows its parent; 0: a leaf, of one emitter
 };
 
 struct LightTree {
   std::vector<EmitterNode> nodes; ///< depth first, [0] the root; empty when there are no emitters
   std::vector<std::uint32_t> order;
+  std::vector<Vec3> flux;   ///< sums of power times normal, W: first of each emitter, in order
+  std::vector<double> sent; ///< power of all emitters before each in order, W; one longer
 };
 
 LightTree make_emitter_tree(std::span<const Emitter> emitters);
+
+/// pi I(omega), W; omega away from the node.
+double intensity_times_pi(const LightTree& tree, const EmitterNode& node, const Direction& omega);
 
 } // namespace meninas

@@ -1,8 +1,10 @@
 #include "mirror/light_choice.h"
 
+#include "mirror/light_estimates.h"
+#include "scenes/sampling.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace meninas {
 
@@ -17,117 +19,140 @@ struct Chooser {
   const Observer& observer;
   LightChoiceWorkspace& work;
   std::vector<VirtualLight>& lights;
+  LightEstimates estimates{worlds, tree, observer, work.seen};
 
-  /// Whether a sphere of unfolded space is hidden from x:
-  /// outside the cones through all openings, or before the last mirror.
-  bool is_outside(const SeenWorld& seen, const Point3& centre, double radius) const {
-    const MirrorWorld& world = worlds.worlds[index(seen.world)];
-    if (world.depth == 0)
-      return false;
-    if (signed_distance(world.plane, centre) > radius)
-      return true;
-    for (std::uint32_t k = seen.first; k < seen.last; ++k)
-      if (!is_outside_cone(work.seen.openings[k], centre, radius))
-        return false;
-    return true;
+  const SeenWorld& seen_world(std::uint32_t world) const { return work.seen.worlds[world]; }
+  double estimate(std::uint32_t world, std::uint32_t node) const {
+    return estimates.estimate(seen_world(world), node);
   }
-
-  bool is_outside_cone(const ConvexPolygon& opening, const Point3& centre, double radius) const {
-    const double side =
-        glm::dot(area_vector(opening.span()), opening.vertices[0] - observer.position);
-    Vec3 from = opening.vertices[opening.size - 1] - observer.position;
-    for (std::size_t k = 0; k < opening.size; ++k) {
-      const Vec3 to = opening.vertices[k] - observer.position;
-      const Vec3 inward = side > 0.0 ? glm::cross(from, to) : glm::cross(to, from);
-      from = to;
-      const double distance = glm::dot(inward, centre - observer.position);
-      if (distance < 0.0 && distance * distance > radius * radius * glm::dot(inward, inward))
-        return true;
-    }
-    return false;
-  }
-
-  /// s: the power of the node, spread over what a sphere of its distance sees of it,
-  /// with cosines no smaller than any emitter of it has. 0 only if none of its light arrives.
-  double estimate(std::uint32_t at_world, std::uint32_t at_node) const {
-    const SeenWorld& seen = work.seen.worlds[at_world];
-    const MirrorWorld& world = worlds.worlds[index(seen.world)];
-    const EmitterNode& node = tree.nodes[at_node];
-    const Vec3 to = apply(world.image, node.centre) - observer.position;
-    const double height = glm::dot(to, observer.normal) + node.radius;
-    if (height <= 0.0)
-      return 0.0;
-    const double distance = glm::length(to);
-    double cosines = 1.0;
-    const double cos_axis = -glm::dot(apply_direction(world.image, node.axis), to) / distance;
-    if (is_leaf(at_node) && cos_axis <= 0.0)
-      return 0.0;
-    if (distance > node.radius) {
-      cosines = std::min(1.0, height / distance) * emitting_cosine(node, cos_axis, distance);
-      if (cosines <= 0.0 || is_outside(seen, observer.position + to, node.radius))
-        return 0.0;
-    }
-    const double reach = std::max(distance, node.radius);
-    const Rgb& tau = world.throughput;
-    return std::max({tau.r, tau.g, tau.b}) * node.power * cosines /
-           (std::numbers::pi * reach * reach);
-  }
-
-  /// The largest cosine any emitter of the node can have towards x: the angle to the axis,
-  /// less the spread of the normals and the angle at which x sees the sphere.
-  static double emitting_cosine(const EmitterNode& node, double cos_axis, double distance) {
-    if (node.cos_spread <= -1.0)
-      return 1.0;
-    // Angles of at most pi, as cosines and sines: nothing is left of them once it is subtracted.
-    const auto sine = [](double cosine) { return std::sqrt(std::max(0.0, 1.0 - cosine * cosine)); };
-    const double cos_angle = std::clamp(cos_axis, -1.0, 1.0), cos_spread = node.cos_spread;
-    if (cos_angle >= cos_spread)
-      return 1.0;
-    const double cos_beyond = cos_angle * cos_spread + sine(cos_angle) * sine(cos_spread);
-    const double sin_sphere = std::min(1.0, node.radius / distance), cos_sphere = sine(sin_sphere);
-    if (cos_beyond >= cos_sphere)
-      return 1.0;
-    return std::max(0.0, cos_beyond * cos_sphere + sine(cos_beyond) * sin_sphere);
-  }
-
   bool is_leaf(std::uint32_t node) const { return tree.nodes[node].second_child == 0; }
   std::array<std::uint32_t, 2> children(std::uint32_t node) const {
     return {node + 1, tree.nodes[node].second_child};
   }
 
-  /// Opens the brightest node again and again, until there are `most` or only emitters are left.
-  void refine(std::size_t most) {
-    const auto darker = [](const CutNode& a, const CutNode& b) { return a.estimate < b.estimate; };
+  static bool by_place(const CutNode& a, const CutNode& b) {
+    return std::pair(a.world, a.node) < std::pair(b.world, b.node);
+  }
+
+  static bool is_darker(const CutNode& a, const CutNode& b) { return a.estimate < b.estimate; }
+
+  /// Opens the brightest node of `work.open` again and again, until there are `2 most` or only emitters
+  /// are left, and nodes seen from afar. What brings far less than the mean of these stays closed.
+  void refine(const LightChoice& choice) {
+    constexpr double far_less = 0.25;
     auto& open = work.open;
     auto& cut = work.cut;
-    open.clear();
-    cut.clear();
-    const auto add = [&](std::uint32_t world, std::uint32_t node) {
-      const CutNode next{estimate(world, node), world, node};
-      if (next.estimate <= 0.0)
-        return;
-      if (is_leaf(node)) {
-        cut.push_back(next);
-        return;
-      }
-      open.push_back(next);
-      std::push_heap(open.begin(), open.end(), darker);
-    };
-    for (std::uint32_t w = 0; w < work.seen.worlds.size(); ++w)
-      add(w, 0);
-    while (!open.empty() && open.size() + cut.size() < most) {
-      std::pop_heap(open.begin(), open.end(), darker);
+    double sum = 0.0;
+    for (const auto* nodes : {&open, &cut, &work.afar})
+      for (const CutNode& node : *nodes)
+        sum += node.estimate;
+    while (!open.empty() && open.size() + cut.size() < 2 * choice.most) {
+      const std::size_t nodes = open.size() + cut.size() + work.afar.size();
+      if (!work.afar.empty() &&
+          open.front().estimate * static_cast<double>(nodes) < far_less * sum)
+        break;
+      std::pop_heap(open.begin(), open.end(), is_darker);
       const CutNode top = open.back();
       open.pop_back();
+      sum -= top.estimate;
       for (const auto child : children(top.node))
-        add(top.world, child);
+        sum += add(top.world, child, choice.afar > 0);
     }
-    cut.insert(cut.end(), open.begin(), open.end());
+  }
+
+  /// Puts a node where it belongs; returns its estimate.
+  double add(std::uint32_t world, std::uint32_t node, bool from_afar) {
+    CutNode next{estimate(world, node), world, node};
+    if (next.estimate <= 0.0)
+      return 0.0;
+    const SeenWorld& seen = seen_world(world);
+    if (is_leaf(node)) {
+      work.cut.push_back(next);
+    } else if (from_afar && estimates.is_small(seen, node) && estimates.is_wholly_seen(seen, node)) {
+      return add_afar(world, node);
+    } else {
+      work.open.push_back(next);
+      std::push_heap(work.open.begin(), work.open.end(), is_darker);
+    }
+    return next.estimate;
+  }
+
+  double add_afar(std::uint32_t world, std::uint32_t node) {
+    const double brought = estimates.light_from_afar(seen_world(world), node);
+    if (brought > 0.0 || estimates.extent > 0.0)
+      work.afar.push_back({brought, world, node});
+    return brought;
+  }
+
+  /// The cut from the roots of all worlds.
+  void cut_anew(const LightChoice& choice) {
+    for (std::uint32_t w = 0; w < work.seen.worlds.size(); ++w)
+      add(w, 0, choice.afar > 0);
+    refine(choice);
+  }
+
+  /// Finds the cut for all points of an area.
+  void find_area_cut(const LightChoice& choice) {
+    estimates.extent = choice.extent;
+    cut_anew(choice);
+    estimates.extent = 0.0;
+    work.area = choice.area;
+    work.of_area.clear();
+    work.worlds_of_area.clear();
+    for (const SeenWorld& seen : work.seen.worlds)
+      work.worlds_of_area.push_back(seen.world);
+    std::ranges::sort(work.worlds_of_area);
+    const auto keep = [&](std::span<const CutNode> nodes, bool small) {
+      for (const CutNode& node : nodes)
+        work.of_area.push_back({work.seen.worlds[node.world].world, node.node, small});
+    };
+    keep(work.open, false);
+    keep(work.cut, false);
+    keep(work.afar, true);
+    std::ranges::sort(work.of_area, {}, [](const auto& node) { return std::pair(node.world, node.node); });
+    work.open.clear();
+    work.cut.clear();
+    work.afar.clear();
+  }
+
+  /// What the nodes of the area's cut bring to x, and those of worlds that its first point did not see.
+  void cut_of_area(const LightChoice& choice) {
+    if (work.area != choice.area)
+      find_area_cut(choice);
+    for (std::uint32_t w = 0; w < work.seen.worlds.size(); ++w) {
+      const SeenWorld& seen = work.seen.worlds[w];
+      if (!std::ranges::binary_search(work.worlds_of_area, seen.world)) {
+        add(w, 0, true);
+        continue;
+      }
+      const auto nodes = std::ranges::equal_range(work.of_area, seen.world, {}, &LightChoiceWorkspace::AreaNode::world);
+      for (const auto& at : nodes) {
+        if (at.small && estimates.is_wholly_seen(seen, at.node)) {
+          add_afar(w, at.node);
+          continue;
+        }
+        const CutNode next{estimate(w, at.node), w, at.node};
+        if (next.estimate > 0.0)
+          work.cut.push_back(next);
+      }
+    }
+    refine(choice);
+  }
+
+  /// The cut at x: in `work.cut` what is chosen from, in `work.afar` what is seen from afar.
+  void find_cut(const LightChoice& choice) {
+    auto& cut = work.cut;
+    work.open.clear();
+    cut.clear();
+    work.afar.clear();
+    if (choice.area > 0 && choice.afar > 0)
+      cut_of_area(choice);
+    else
+      cut_anew(choice);
+    cut.insert(cut.end(), work.open.begin(), work.open.end());
 
     // In the order of the tree, neighbours take even steps together.
-    std::sort(cut.begin(), cut.end(), [](const CutNode& a, const CutNode& b) {
-      return std::pair(a.world, a.node) < std::pair(b.world, b.node);
-    });
+    std::sort(cut.begin(), cut.end(), by_place);
   }
 
   void take(std::uint32_t at_world, std::uint32_t leaf, double weight) {
@@ -157,14 +182,82 @@ struct Chooser {
       descend(world, second, begin + share, q - share);
   }
 
+  /// One of a node's emitters, by power times cosine; of those that face x any
+  /// where some tries do not tell. `x` in the lamp's own space.
+  std::uint32_t emitter_of(const EmitterNode& node, const Point3& x, std::uint32_t seed) const {
+    constexpr std::uint32_t tries = 16, nobody = 0xffffffffU;
+    const double* const begin = tree.sent.data() + node.first;
+    std::uint32_t facing = nobody, emitter = 0;
+    for (std::uint32_t k = 0; k < tries; ++k) {
+      const double at = glm::mix(begin[0], begin[node.count], 0x1p-32 * hash(seed, 2 * k));
+      const auto place = static_cast<std::size_t>(
+          std::upper_bound(begin + 1, begin + node.count, at) - tree.sent.data() - 1);
+      emitter = tree.order[place];
+      const Vec3 to = x - emitters[emitter].polygon.vertices[0];
+      const double cosine = glm::dot(emitters[emitter].plane.normal, to) / glm::length(to);
+      if (0x1p-32 * hash(seed, 2 * k + 1) < cosine)
+        return emitter;
+      if (cosine > 0.0 && facing == nobody)
+        facing = emitter;
+    }
+    return facing != nobody ? facing : emitter;
+  }
+
+  /// Emitters that stand for the nodes seen from afar, at even steps along what these bring:
+  /// `choice.afar` where they bring all of the light, or a quarter as many as there are nodes.
+  void take_afar(const LightChoice& choice, double afar, double all) {
+    const double asked = static_cast<double>(choice.afar) * (afar / all);
+    const double nodes = static_cast<double>(work.afar.size());
+    const double count = std::ceil(std::max(asked, nodes / 4.0));
+    const double step = afar / count;
+    const auto seed = static_cast<std::uint32_t>(0x1p32 * choice.offset);
+    std::sort(work.afar.begin(), work.afar.end(), by_place);
+    double sum = 0.0, next = choice.offset * step;
+    for (const CutNode& at : work.afar) {
+      sum += at.estimate;
+      for (; next < sum; next += step)
+        stand_for(at, step, hash(seed, at.node, at.world * 4096 + static_cast<std::uint32_t>(next / step)));
+    }
+  }
+
+  /// One of the node's emitters as an image that brings that much.
+  void stand_for(const CutNode& at, double brought, std::uint32_t seed) {
+    const EmitterNode& node = tree.nodes[at.node];
+    const WorldId id = work.seen.worlds[at.world].world;
+    const MirrorWorld& world = worlds.worlds[index(id)];
+    const Vec3 to = apply(world.image, node.middle) - observer.position;
+    const std::uint32_t e = emitter_of(node, node.middle - to * world.image.linear, seed);
+    const Rgb &tau = world.throughput, &radiosity = emitters[e].radiosity;
+    add_whole_image(worlds, emitters, id, e, lights);
+    lights.back().afar = brought / (std::max({tau.r, tau.g, tau.b}) *
+                                    std::max({radiosity.r, radiosity.g, radiosity.b}));
+  }
+
+  /// How many images are computed of those that are not seen from afar.
+  double budget_of(const LightChoice& choice, double all, double rest) const {
+    if (work.afar.empty())
+      return static_cast<double>(choice.most);
+    const auto leaves = std::ranges::count_if(
+        work.cut, [&](const CutNode& node) { return is_leaf(node.node); });
+    const double worth =
+        rest / all * (static_cast<double>(choice.afar) + static_cast<double>(work.afar.size()) / 4.0) +
+        2.0 * static_cast<double>(leaves);
+    return std::clamp(std::ceil(worth), 1.0, static_cast<double>(choice.most));
+  }
+
   void choose(const LightChoice& choice) {
-    refine(2 * choice.most);
+    find_cut(choice);
+    double sum = 0.0, afar = 0.0;
+    for (const auto& node : work.cut)
+      sum += node.estimate;
+    for (const auto& node : work.afar)
+      afar += node.estimate;
+    if (afar > 0.0)
+      take_afar(choice, afar, sum + afar);
 
     // Emitters that a step would meet for certain are computed;
     // what is left of the budget goes to the others.
-    double budget = static_cast<double>(choice.most), sum = 0.0;
-    for (const auto& node : work.cut)
-      sum += node.estimate;
+    double budget = budget_of(choice, sum + afar, sum);
     for (bool changed = true; changed && budget > 0.0;) {
       changed = false;
       const double sum_before = sum, budget_before = budget;

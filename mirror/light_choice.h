@@ -9,6 +9,18 @@
 // the rest is sampled at even steps along the tree of emitters (systematic sampling:
 // Madow 1949), in all mirror worlds together. The estimates come from a cut through the tree,
 // refined where most of the light is: the cost is O(K log n).
+//
+// Where irradiance is asked for, a node that is small for its distance d, above x's horizon
+// and within the window of its world is not opened: its emitters bring together
+//
+//   H = tau I(omega) cos / d^2     (emitters.h),
+//
+// off by the square of radius over distance, so that a lamp of thousands of faces costs like one
+// of few, and without noise (lightcuts: Walter et al. 2005). For shadow rays some of
+// its emitters stand for it, chosen by power.
+//
+// The points of one small area share the cut that the first of them finds, refined for all of them:
+// they ask its nodes alone what they bring.
 #pragma once
 
 #include "mirror/virtual_lights.h"
@@ -18,6 +30,9 @@ namespace meninas {
 struct LightChoice {
   std::size_t most = 256; ///< K; as many or fewer images are all computed
   double offset = 0.5;    ///< in [0, 1): of the even steps
+  std::size_t afar = 0; ///< above 0: nodes are seen from afar, by so many of their emitters in all at least
+  std::uint64_t area = 0; ///< above 0: a name of the area whose point x is
+  double extent = 0.0;    ///< largest distance of two points of it
 };
 
 /// Storage reused from point to point.
@@ -28,11 +43,21 @@ struct LightChoiceWorkspace {
     std::uint32_t world; ///< index into `seen`
     std::uint32_t node;
   };
-  std::vector<CutNode> open, cut;
+  std::vector<CutNode> open, cut, afar;
+
+  /// The nodes of a cut by world, in order, for all points of an area.
+  struct AreaNode {
+    WorldId world;
+    std::uint32_t node;
+    bool small; ///< for its distance
+  };
+  std::uint64_t area = 0;
+  std::vector<AreaNode> of_area;
+  std::vector<WorldId> worlds_of_area; ///< that its first point sees, in ascending order
 };
 
 /// Like virtual_lights(), with at most about `choice.most` emitters' images,
-/// each with its weight 1/q.
+/// each with its weight 1/q, and besides those that stand for nodes seen from afar.
 void sample_light_tree(const WorldTree& worlds, std::span<const Emitter> emitters,
                    const LightTree& tree, const Observer& observer, const LightChoice& choice,
                    LightChoiceWorkspace& work, std::vector<VirtualLight>& lights);

@@ -24,6 +24,9 @@ struct VirtualLight {
   ConvexPolygon polygon;
   Direction normal;    ///< of the image, towards the observer
   double weight = 1.0; ///< how many times it counts, where it stands for others (light_choice.h)
+  double afar = 0.0; ///< above 0: F of a group that it stands for, as if of its own radiosity
+
+  bool stands_for_others() const { return weight > 1.0 || afar > 0.0; }
 };
 
 /// Who looks: a point on a surface. A point within `tolerance` of an emitter's plane sees

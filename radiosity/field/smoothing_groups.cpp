@@ -2,6 +2,7 @@
 
 #include "radiosity/mesh/mesh_cells.h"
 #include "radiosity/mesh/vertex_welder.h"
+#include "radiosity/scene/small_elements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,13 @@ VertexElements facets_around(const LightScene& light) {
       if (surfaces < min_facets)
         facets.clear();
     }
+  }
+  for (std::size_t v = 0; v < taken.size(); ++v) {
+    const auto elements = around(own, v);
+    if (taken[v].empty() && std::ranges::all_of(elements, [&](ElementId element) {
+          return needs_few_samples(light, element);
+        }))
+      taken[v].assign(elements.begin(), elements.end());
   }
   VertexElements result;
   result.begin.push_back(0);

@@ -4,7 +4,8 @@
 // A vertex where at least three facets meet takes the mean of their elements,
 // weighted by area (Cohen and Greenberg 1985): light is smooth over the curve,
 // noise of single facets averages out, and what would be three gatherings for every facet is none.
-// Vertices of one surface are gathered for, as those are whose facets end at an edge.
+// Vertices of one surface are gathered for, as those are whose facets end at an edge,
+// but for small ones (scene/small_elements.h), which take the mean of their own elements.
 #pragma once
 
 #include "radiosity/field/vertex_places.h"

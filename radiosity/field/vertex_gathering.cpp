@@ -1,6 +1,7 @@
 #include "radiosity/field/vertex_gathering.h"
 
 #include "radiosity/field/contact_vertices.h"
+#include "radiosity/field/emission_kernels.h"
 #include "radiosity/field/smoothing_groups.h"
 #include "radiosity/field/gap_vertices.h"
 #include "radiosity/mesh/subdivision.h"
@@ -128,6 +129,7 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
     hangs[index(hanging.vertex)] = 1;
   std::erase_if(vertices, [&](std::uint32_t v) { return hangs[v] != 0; });
 
+  GatheredEmission emission(mesh.vertices.size());
   const auto light_vertex = [&](std::uint32_t v, PointWorkspace& work) {
     const double size = size_of(mesh, mesh.element_of_vertex[v]);
     const VertexValue found_here = value(v, size, vertex_seed(source, v, level), work);
@@ -135,6 +137,9 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
     found.field.mirrored[v] += glm::vec3(found_here.irradiance.mirrored);
     found.field.indirect[v] = glm::vec3(found_here.indirect.total);
     found.field.indirect_mirrored[v] = glm::vec3(found_here.indirect.mirrored);
+    emission.total[v] = glm::vec3(found_here.emission.total);
+    emission.mirrored[v] = glm::vec3(found_here.emission.mirrored);
+    emission.hits[v] = found_here.hits;
     if (!found.punctual.empty())
       found.punctual[v] += glm::vec3(found_here.irradiance.punctual);
     if (found_here.irradiance.in_part)
@@ -150,6 +155,11 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
                            k < std::min(vertices.size(), (c + 1) * chunk_size); ++k)
                         light_vertex(vertices[k], work);
                     });
+  // What is covered takes its light from beside it.
+  std::vector<std::uint8_t> taken(mesh.vertices.size(), 0);
+  for (const std::uint32_t v : vertices)
+    taken[v] = has_value(found.states[v]) ? 1 : 0;
+  spread_emission(emission, taken, found);
   cover_low(source, found);
 }
 

@@ -126,27 +126,28 @@ VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& ir
       is_enclosed(work.gather.result, irradiance) && arrived.from_source.total == Rgb(0.0);
   ArrivingLight all = arrived.all();
   all.in_part = arrived.from_source.in_part;
-  return {all, arrived.indirect(), cover_of(shut, gathering.light, receiver, element_size)};
+  return {all, arrived.indirect(), cover_of(shut, gathering.light, receiver, element_size),
+          arrived.emission, arrived.hits};
 }
 
 VertexValue indirect_value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
                               const Receiver& receiver, double element_size, std::uint32_t seed,
                               PointWorkspace& work, VertexRays* kept) {
   const bool are_there = kept != nullptr && kept->rays.rays > 0.0;
-  ArrivingLight indirect =
-      indirect_light_at(gathering, receiver, seed, work, are_there ? &kept->rays : nullptr)
-          .indirect();
+  const PointLight arrived =
+      indirect_light_at(gathering, receiver, seed, work, are_there ? &kept->rays : nullptr);
+  ArrivingLight indirect = arrived.indirect();
   indirect.in_part = false; // of bright clusters
   if (kept != nullptr && !are_there)
     kept->rays = work.gather.result;
   if (is_enclosed(work.gather.result, irradiance) && !is_lit(gathering, receiver, seed, work))
-    return {indirect, indirect, Cover::shut};
+    return {indirect, indirect, Cover::shut, arrived.emission, arrived.hits};
   const bool low = kept != nullptr && kept->is_under_something
                        ? *kept->is_under_something
                        : is_under_something(gathering.light, receiver, element_size);
   if (kept != nullptr)
     kept->is_under_something = low;
-  return {indirect, indirect, low ? Cover::low : Cover::open};
+  return {indirect, indirect, low ? Cover::low : Cover::open, arrived.emission, arrived.hits};
 }
 
 ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,

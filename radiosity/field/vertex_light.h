@@ -20,6 +20,8 @@ struct VertexValue {
   ArrivingLight irradiance;
   ArrivingLight indirect; ///< the part of it that does not come from the source
   Cover cover = Cover::open;
+  ArrivingLight emission{}; ///< of that part, what rays have met of emitters
+  std::uint32_t hits = 0;   ///< so many rays
 };
 
 /// At a point in elements of a size, metres.

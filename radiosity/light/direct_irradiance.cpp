@@ -1,6 +1,5 @@
 #include "radiosity/light/direct_irradiance.h"
 
-#include "radiosity/light/lamp_faces.h"
 #include "radiosity/light/light_samples.h"
 #include "form_factors/point_form_factor.h"
 #include "radiosity/light/shadow_paths.h"
@@ -98,7 +97,9 @@ void order_by_light(const LightScene& light, const Receiver& receiver, DirectWor
   for (std::uint32_t k = 0; k < work.lights.size(); ++k) {
     const VirtualLight& image = work.lights[k];
     work.form_factors.push_back(
-        image.weight * point_form_factor(receiver.position, receiver.normal, image.polygon.span()));
+        image.afar > 0.0 ? image.afar
+                         : image.weight * point_form_factor(receiver.position, receiver.normal,
+                                                            image.polygon.span()));
     work.brought.push_back(work.form_factors.back() * largest(source_of(light, image)));
     if (work.brought.back() > 0.0)
       work.order.push_back(k);
@@ -169,7 +170,7 @@ ArrivingLight images_irradiance(const LightScene& light, const Receiver& receive
     const VirtualLight& image = work.lights[k];
     const double worth = work.brought[k] / std::max(work.brought[k], largest(sum.total));
     const int samples = std::max(1, static_cast<int>(std::lround(settings.shadow_rays * worth)));
-    if (samples == 1 || image.weight > 1.0) {
+    if (samples == 1 || image.stands_for_others()) {
       work.dim.push_back(k);
       continue;
     }
@@ -202,51 +203,37 @@ ArrivingLight images_irradiance(const LightScene& light, const Receiver& receive
 
 static bool stand_for_others(const DirectWorkspace& work) {
   return std::ranges::any_of(work.lights,
-                             [](const VirtualLight& image) { return image.weight > 1.0; });
+                             [](const VirtualLight& image) { return image.stands_for_others(); });
 }
 
 /// Whether of the images that stand for others some are hidden and some are not.
 static bool groups_in_part(const DirectWorkspace& work) {
   bool hidden = false, seen = false;
   for (const std::uint32_t k : work.dim)
-    if (work.lights[k].weight > 1.0)
+    if (work.lights[k].stands_for_others())
       (work.visible[k] == Rgb(0.0) ? hidden : seen) = true;
   return hidden && seen;
 }
 
-/// Whether the point is on one of the faces of a lamp of thousands.
-static bool is_on_lamp(const LightScene& light, const Receiver& receiver) {
-  return has_lamp_of_many_faces(light) &&
-         std::ranges::any_of(light.emitters, [&](const Emitter& emitter) {
-           const Point3& corner = emitter.polygon.vertices[0];
-           const Vec3 to = receiver.position - corner;
-           return emitter.plane_class == receiver.plane_class &&
-                  glm::dot(to, to) <= 2.0 * emitter.area;
-         });
-}
-
-/// What the images of emitters bring, or a choice of them: one four times as large in the penumbra
-/// of lamps of many faces, which few images stand for. What such a face receives from the others is
-/// little beside what it emits: a few images do.
+/// What the images of emitters bring, or a choice of them. Where many stand for a lamp, and some
+/// are hidden and some are not, they are chosen anew, as many as a penumbra takes samples.
 static ArrivingLight chosen_irradiance(const LightScene& light, const Receiver& receiver,
                                        const DirectSettings& settings, std::uint32_t seed,
                                        DirectWorkspace& work) {
   const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
-  const auto images = images_to_choose(light, static_cast<std::size_t>(settings.images));
-  const auto choose = [&](std::size_t most) {
-    const LightChoice choice{most, 0x1p-32 * hash(seed, 0xc401ce, 0)};
+  const auto choose = [&](int rays) {
+    const LightChoice choice{static_cast<std::size_t>(settings.images),
+                             0x1p-32 * hash(seed, 0xc401ce, 0), static_cast<std::size_t>(rays)};
     sample_light_tree(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
                   work.lights);
     return images_irradiance(light, receiver, settings, seed, work);
   };
-  if (is_on_lamp(light, receiver))
-    return choose(std::max<std::size_t>(images / 16, 4));
-  ArrivingLight sum = choose(images);
+  ArrivingLight sum = choose(settings.shadow_rays);
   if (!stand_for_others(work))
     return sum;
   const bool in_part = groups_in_part(work);
   if (in_part || settings.penumbra_samples == PenumbraSamples::everywhere)
-    sum = choose(4 * images);
+    sum = choose(settings.penumbra_rays);
   sum.in_part = sum.in_part || in_part;
   return sum;
 }

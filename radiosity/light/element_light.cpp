@@ -1,8 +1,8 @@
 #include "radiosity/light/element_light.h"
 
-#include "radiosity/light/lamp_faces.h"
 #include "radiosity/light/shadow_paths.h"
 #include "radiosity/light/spot_parts.h"
+#include "radiosity/scene/small_elements.h"
 #include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -123,11 +123,8 @@ MeanLight direct_irradiance(const LightScene& light, ElementId element, ContactM
   if (covered == wholly_covered)
     return {};
   DirectSettings settings = asked;
-  if (is_face_of_lamp(light, element)) {
-    settings.points = std::min(settings.points, 1);
-    settings.most_points = std::min(settings.most_points, 1);
-    settings.images_in_element = std::min(settings.images_in_element, 16);
-  }
+  for (int* samples : {&settings.points, &settings.most_points, &settings.images_in_element})
+    *samples = samples_of(light, element, *samples);
   const Receiving r{light,
                     element,
                     receiver_of(light, element),

@@ -20,25 +20,38 @@ DirectSettings cluster_settings(DirectSettings direct, int shadow_rays) {
 
 /// What landed rays bring: light reflected by elements,
 /// where no cluster owns it, and emission, where no closed form owns that.
-ArrivingLight landed_light(const PointGathering& gathering, const GatheredRays& gathered) {
+PointLight landed_light(const PointGathering& gathering, const GatheredRays& gathered) {
   const std::size_t cluster_worlds = gathering.clusters.worlds.worlds.size();
-  ArrivingLight sum;
+  ArrivingLight sum, emission;
+  std::uint32_t hits = 0;
   for (const auto& landing : gathered.landings) {
     const bool owned =
         gathering.clusters.owned[landing.element] != 0 && index(landing.world) < cluster_worlds;
-    Rgb arrived = gathered_emission(gathering.light, landing);
+    const Rgb emitted = gathered_emission(gathering.light, landing);
+    Rgb arrived = emitted;
     if (!owned)
       arrived += Rgb(landing.light) * gathering.reflected[landing.element];
+    const bool by_mirrors = landing.world != real_world && landing.world != through_solids;
     sum.total += arrived;
-    if (landing.world != real_world && landing.world != through_solids)
+    if (by_mirrors)
       sum.mirrored += arrived;
+    if (emitted == Rgb(0.0))
+      continue;
+    ++hits;
+    emission.total += emitted;
+    if (by_mirrors)
+      emission.mirrored += emitted;
   }
   const Rgb straight = gathering.light.background * Rgb(gathered.escaped_straight);
   const Rgb by_mirrors = gathering.light.background * Rgb(gathered.escaped_light) - straight;
   sum.total += straight + by_mirrors;
   sum.mirrored += by_mirrors;
   const Rgb kept = kept_light(gathered);
-  return {sum.total / kept, sum.mirrored / kept};
+  PointLight light;
+  light.from_rays = {sum.total / kept, sum.mirrored / kept};
+  light.emission = {emission.total / kept, emission.mirrored / kept};
+  light.hits = hits;
+  return light;
 }
 
 } // namespace
@@ -108,11 +121,11 @@ PointLight indirect_light_at(const PointGathering& gathering, const Receiver& re
                              std::uint32_t seed, PointWorkspace& work, const GatheredRays* before) {
   gather_rays_at(gathering, receiver, seed, before, work);
 
-  return {landed_light(gathering, work.gather.result),
-          {},
-          cluster_irradiance(gathering.clustered, gathering.cluster_tree, receiver,
-                             gathering.secondary, gathering.cut, hash(seed, 2), work.clusters,
-                             work.direct)};
+  PointLight light = landed_light(gathering, work.gather.result);
+  light.from_clusters =
+      cluster_irradiance(gathering.clustered, gathering.cluster_tree, receiver, gathering.secondary,
+                         gathering.cut, hash(seed, 2), work.clusters, work.direct);
+  return light;
 }
 
 PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,

@@ -55,6 +55,8 @@ struct PointWorkspace {
 
 struct PointLight {
   ArrivingLight from_rays, from_source, from_clusters;
+  ArrivingLight emission;  ///< of what rays bring, that of emitters
+  std::uint32_t hits = 0;  ///< rays that met it
 
   ArrivingLight all() const { return from_rays + from_source + from_clusters; }
   ArrivingLight indirect() const { return from_rays + from_clusters; }

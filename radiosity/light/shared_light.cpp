@@ -1,6 +1,5 @@
 #include "radiosity/light/shared_light.h"
 
-#include "radiosity/light/lamp_faces.h"
 #include "form_factors/point_form_factor.h"
 #include "radiosity/light/direct_irradiance.h"
 #include "radiosity/light/shadow_paths.h"
@@ -70,6 +69,10 @@ double form_factor_of(const Receiver& receiver, std::span<const ConvexPolygon> p
 ImageAtPoint image_at(const LightScene& light, const Receiver& receiver, const VirtualLight& image,
                       std::uint32_t sum, SharedLightWorkspace& work) {
   ImageAtPoint at{.image = sum};
+  if (image.afar > 0.0) {
+    at.form_factor = image.afar;
+    return at;
+  }
   const ImageBlockers* blockers = work.images[sum].blockers;
   if (blockers && !blockers->known.empty()) {
     work.cutting.assign(1, image.polygon);
@@ -119,7 +122,7 @@ void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLi
   const auto parts = parts_of(at, image, work);
   // One that stands for others of its lamp has them to share its rays with.
   const auto rays =
-      image.weight > 1.0
+      image.stands_for_others()
           ? 1U
           : std::max(1U, static_cast<std::uint32_t>(std::lround(total.from_a_point * worth)));
   const Emitter& emitter = light.emitters[image.emitter];
@@ -130,20 +133,34 @@ void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLi
   for (std::uint32_t k = 0; k < rays; ++k) {
     const Vec2 sample(sobol2(total.rays++, image_seed, SobolPair::second));
     const Point3 y = point_on(parts, area, last, sample);
-    const double weight = image.weight * area / rays * form_factor_share(receiver, image, y);
+    const double weight = image.afar > 0.0
+                              ? image.afar
+                              : image.weight * area / rays * form_factor_share(receiver, image, y);
     work.waiting.push_back(
         {image.world, mirrors, at.image, emitter.plane_class, weight, receiver.position, y});
   }
 }
 
+/// The largest distance of two corners of an element.
+double extent_of(const ElementMesh& mesh, ElementId element) {
+  double most = 0.0;
+  const ElementCorners& corners = mesh.corners[index(element)];
+  for (std::size_t a = 0; a < corners.size(); ++a)
+    for (std::size_t b = a + 1; b < corners.size(); ++b)
+      most = std::max(most, glm::distance(mesh.vertices[index(corners[a])],
+                                          mesh.vertices[index(corners[b])]));
+  return most;
+}
+
 /// The images that a point may see, or a choice of them.
 void find_lights(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
-                 std::size_t most, SharedLightWorkspace& work) {
+                 const SharedLightSettings& settings, SharedLightWorkspace& work) {
   work.point.lights.clear();
   if (light.emitters.empty())
     return;
   const Receiver& receiver = point.receiver;
   const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const auto most = static_cast<std::size_t>(settings.images);
   const bool all = light.emitters.size() * light.worlds.worlds.size() <= most;
   const RegionImages* region = all && point.element != none<ElementId>
                                    ? images_of_element(light, point.element, work.elements)
@@ -156,7 +173,12 @@ void find_lights(const LightScene& light, const NumberedPoint& point, std::uint3
   // Where images are chosen, the steps through them begin elsewhere at every point,
   // evenly by the golden section.
   constexpr std::uint32_t golden_section = 0x9e3779b9;
-  const LightChoice choice{most, 0x1p-32 * (hash(seed, 0xc401ce) + point.number * golden_section)};
+  const double offset = 0x1p-32 * (hash(seed, 0xc401ce) + point.number * golden_section);
+  LightChoice choice{most, offset, static_cast<std::size_t>(settings.rays)};
+  if (point.element != none<ElementId>) {
+    choice.area = index(point.element) + std::uint64_t{1};
+    choice.extent = extent_of(light.mesh, point.element);
+  }
   sample_light_tree(light.worlds, light.emitters, light.emitter_tree, observer, choice,
                 work.point.choice, work.point.lights);
 }
@@ -166,8 +188,7 @@ void find_lights(const LightScene& light, const NumberedPoint& point, std::uint3
 void add_point(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
                const SharedLightSettings& settings, SharedLightWorkspace& work) {
   const Receiver& receiver = point.receiver;
-  find_lights(light, point, seed,
-              images_to_choose(light, static_cast<std::size_t>(settings.images)), work);
+  find_lights(light, point, seed, settings, work);
   work.at_point.clear();
   work.parts.clear();
   for (const VirtualLight& image : work.point.lights)

@@ -1,6 +1,7 @@
 #include "radiosity/scene/light_scene.h"
 
 #include "radiosity/scene/cut_out_mirrors.h"
+#include "radiosity/mesh/small_surfaces.h"
 #include "radiosity/scene/surface_colour.h"
 
 #include <algorithm>
@@ -105,6 +106,7 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    std::ranges::any_of(scene.materials, is_glass),
                    cut_out_mirrors(surfaces, rays, mirrors),
                    find_solid_bodies(scene, frame)};
+  light.finely_tessellated = is_finely_tessellated(mesh);
   light.from_source.assign(mesh.sides.size(), 0);
 
   double area = 0.0, emitting_area = 0.0;

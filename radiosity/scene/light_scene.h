@@ -42,6 +42,7 @@ struct LightScene {
   bool has_glass = false;
   std::vector<std::uint8_t> cut_out_mirrors; ///< by MirrorId (mirror_holes.h); empty where there is none
   SolidBodies solids;
+  bool finely_tessellated = false; ///< its small surfaces share samples (small_elements.h)
 };
 
 /// Whether mirrors and glass treat all channels alike: transport needs but one band.

@@ -1,5 +1,6 @@
 #include "radiosity/transport/form_factors.h"
 
+#include "radiosity/scene/small_elements.h"
 #include "radiosity/transport/analytic_rows.h"
 #include "radiosity/transport/element_hemicube.h"
 #include "scenes/sampling.h"
@@ -141,6 +142,7 @@ struct Assembly {
   const LightScene& light;
   const FormFactorSettings& settings;
   HemisphereSamples net; ///< `rays`: what is traced; `hemicube`: what finds the covered part
+  HemisphereSamples few; ///< `rays`: what is traced of receivers on which little depends
   Hemicube cube;    ///< `hemicube`
   std::vector<std::uint8_t>
       beyond; ///< by ElementId: 1 where its row beyond the enumerated worlds is kept
@@ -152,7 +154,8 @@ void gather(const Assembly& assembly, const ReceiverArea& element, std::uint32_t
             GatherWorkspace& work) {
   switch (assembly.settings.method) {
   case FormFactorMethod::rays:
-    gather_rays(assembly.light, assembly.net, element, seed, assembly.settings, work);
+    gather_rays(assembly.light, element.few_rays ? assembly.few : assembly.net, element, seed,
+                assembly.settings, work);
     break;
   case FormFactorMethod::hemicube:
     gather_element(assembly.light, assembly.cube, assembly.net, element, seed, assembly.settings,
@@ -236,7 +239,9 @@ FormFactors assemble_transport(const LightScene& light, const FormFactorSettings
   if (settings.method == FormFactorMethod::analytic)
     return analytic_transport(light, settings, progress);
   const auto element = [&](std::size_t row) {
-    return receiver_of(light, static_cast<ElementId>(row));
+    ReceiverArea receiver = receiver_of(light, static_cast<ElementId>(row));
+    receiver.few_rays = needs_few_samples(light, static_cast<ElementId>(row));
+    return receiver;
   };
   FormFactors factors =
       assemble_rows(light, element_count(light.mesh), element, settings, progress);
@@ -252,6 +257,7 @@ FormFactors assemble_rows(const LightScene& light, std::size_t size, const RowRe
   const Assembly assembly{light,
                           settings,
                           by_cubes ? make_coverage_net() : make_direction_net(settings.rays),
+                          make_direction_net(std::min(settings.rays, std::max(16, settings.rays / 8))),
                           by_cubes ? make_hemicube(settings.hemicube_resolution) : Hemicube{},
                           kept_beyond(light.mesh, settings),
                           grey_mirrors(light.scene) ? 1 : 3,

@@ -40,6 +40,7 @@ struct ReceiverArea {
   PlaneId plane_class = none<PlaneId>;
   Vec3 tangent{0.0}; ///< a direction in the plane that directions are counted from; zero: any
   MaterialId coat = none<MaterialId>; ///< above it, where that is a mirror
+  bool few_rays = false; ///< little depends on its row (scene/small_elements.h)
 
   const RegionElement* region = nullptr; ///< of the area; must outlive it
   Point3 region_centre{0.0}; ///< its points are (x - centre) scale

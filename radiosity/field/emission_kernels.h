@@ -1,0 +1,34 @@
+// The emission that rays find by chance, as a density estimate over the vertices.
+//
+// A vertex traces N rays. Where a lamp is seen by a deep chain of mirrors, or in the facets of
+// a curved one, no closed form owns its emission (transport/gathered_emission.h), and one ray in
+// some thousands meets it: one vertex has k of these hits, others have none, and what is right on
+// average is a white dot. As with photons (Jensen 1996) the light of a few hits is spread
+// over as large a neighbourhood as holds n of them,
+//
+//   G'_v = sum_u G_u A_u w_uv / sum_v A_v w_uv,     w_uv = 1 - ring of v around u / (R + 1),
+//
+// u over vertices with 0 < k < n hits, A the area around a vertex, R the number of rings. The sum
+// of A G stays as it is. Relative noise is about 1 / sqrt(n). Vertices of n hits and more are
+// left alone and give way to nothing: light that rays find well keeps its edges.
+// Limit: hits rarer than one in a neighbourhood of `max_rings` stay as faint spots of that size.
+#pragma once
+
+#include "radiosity/field/vertex_samples.h"
+
+namespace meninas {
+
+/// What vertices have gathered of emission, by ElementVertexId.
+struct GatheredEmission {
+  std::vector<glm::vec3> total, mirrored; ///< W/m^2
+  std::vector<std::uint32_t> hits;        ///< rays that met it
+
+  explicit GatheredEmission(std::size_t vertices)
+      : total(vertices, glm::vec3(0.0F)), mirrored(vertices, glm::vec3(0.0F)), hits(vertices, 0) {}
+};
+
+/// Spreads it among vertices that have gathered: `taken` by ElementVertexId.
+void spread_emission(const GatheredEmission& gathered, std::span<const std::uint8_t> taken,
+                     VertexSamples& found);
+
+} // namespace meninas

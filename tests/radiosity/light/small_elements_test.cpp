@@ -1,0 +1,107 @@
+// A lamp of many faces lights a room as all of its faces do, and small surfaces share samples.
+#include "radiosity/light/direct_irradiance.h"
+#include "radiosity/scene/small_elements.h"
+#include "tests/radiosity/lit_scene.h"
+#include "tests/support/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace meninas::test {
+namespace {
+
+/// A ball of 2 n^2 quads and triangles that glows, in a room.
+Scene room_with_bulb(int n) {
+  Scene scene;
+  std::array<Material, 6> walls;
+  walls.fill(diffuse(0.5));
+  add_room(scene, {0, 0, 0}, {4, 2.6, 4}, walls);
+  const auto at = [&](int i, int k) {
+    const double polar = std::numbers::pi * i / n, turn = std::numbers::pi * k / n;
+    return Point3(2.0, 1.6, 2.0) + 0.15 * Vec3(std::sin(polar) * std::cos(turn), std::cos(polar),
+                                               -std::sin(polar) * std::sin(turn));
+  };
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 2 * n; ++k) {
+      std::vector<Point3> face{at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)};
+      if (i == 0)
+        face.pop_back();
+      if (i == n - 1)
+        face.erase(face.begin() + 2);
+      add_polygon(scene, "bulb", face, diffuse(0.5, 10.0));
+    }
+  return scene;
+}
+
+// A lamp of many faces is seen from afar: without noise, and as all of its faces together.
+TEST(LampFaces, AreSeenTogetherFromAfar) {
+  const auto l = lit(room_with_bulb(24), {.element_size = 0.5});
+  DirectWorkspace work;
+  constexpr int points = 64;
+  for (int k = 0; k < points; ++k) {
+    const Receiver floor{{0.3 + 0.4 * (k % 8), 0.01, 0.3 + 0.4 * (k / 8)}, {0, 1, 0}};
+    const double few = direct_irradiance(*l->light, floor, {}, 17U + k, work).total.r;
+    const double all =
+        direct_irradiance(*l->light, floor, {.images = 1 << 24}, 17U + k, work).total.r;
+    // Nodes of a radius of a fifth of their distance: off by about a third of its square, 1.3 %.
+    EXPECT_NEAR(few, all, 0.015 * all) << k;
+    // And of few of its images: each face is none of its own.
+    EXPECT_LE(work.lights.size(), l->light->emitters.size());
+  }
+}
+
+// Hundreds of lamps that stand apart are chosen from as ever: half a shadow of each is not one of all.
+TEST(LampFaces, LampsThatStandApartAreNotOne) {
+  Scene scene;
+  std::array<Material, 6> walls;
+  walls.fill(diffuse(0.5));
+  add_room(scene, {0, 0, 0}, {4, 2.6, 4}, walls);
+  for (int i = 0; i < 20; ++i)
+    for (int k = 0; k < 20; ++k) {
+      const double x = 0.1 + 0.2 * i, z = 0.1 + 0.2 * k;
+      add_polygon(scene, "lamp",
+                  {{x, 2.5, z}, {x + 0.02, 2.5, z}, {x + 0.02, 2.5, z + 0.02}, {x, 2.5, z + 0.02}},
+                  diffuse(0.0, 10.0 + i));
+    }
+  const auto l = lit(std::move(scene), {.element_size = 0.5});
+  DirectWorkspace work;
+  double squares = 0.0;
+  constexpr int points = 64;
+  for (int k = 0; k < points; ++k) {
+    const Receiver floor{{0.3 + 0.4 * (k % 8), 0.01, 0.3 + 0.4 * (k / 8)}, {0, 1, 0}};
+    const double few = direct_irradiance(*l->light, floor, {}, 17U + k, work).total.r;
+    const double all =
+        direct_irradiance(*l->light, floor, {.images = 1 << 24}, 17U + k, work).total.r;
+    squares += (few / all - 1.0) * (few / all - 1.0);
+  }
+  EXPECT_LT(std::sqrt(squares / points), 0.01);
+}
+
+TEST(LampFaces, TakeFewSamples) {
+  const auto l = lit(room_with_bulb(24), {.element_size = 0.5});
+  const auto few = lit(room_with_bulb(3), {.element_size = 0.5});
+  for (std::uint32_t e = 0; e < element_count(l->mesh); ++e)
+    EXPECT_EQ(needs_few_samples(*l->light, ElementId{e}), l->mesh.emission[e] != Rgb(0.0));
+  for (std::uint32_t e = 0; e < element_count(few->mesh); ++e)
+    EXPECT_FALSE(needs_few_samples(*few->light, ElementId{e}));
+}
+
+// What is finely tessellated has no more samples than its area has: small surfaces share theirs.
+TEST(SmallElements, ShareSamplesWhereTheyAreMostOfAll) {
+  for (const int rings : {24, 50}) {
+    Scene scene = room_with_bulb(rings);
+    for (Material& material : scene.materials)
+      material.emission = Rgb(0.0);
+    const auto l = lit(std::move(scene), {.element_size = 0.5});
+    const double asked = 2.0 * (4.0 * 4.0 + 2.0 * 4.0 * 2.6) / 0.25;
+    EXPECT_EQ(l->light->finely_tessellated, 2.0 * rings * rings > std::max(4.0 * asked, 4096.0));
+    for (std::uint32_t e = 0; e < element_count(l->mesh); ++e)
+      EXPECT_EQ(needs_few_samples(*l->light, ElementId{e}),
+                l->light->finely_tessellated && l->mesh.area[e] < 0.25 / 16.0);
+  }
+}
+
+} // namespace
+} // namespace meninas::test
