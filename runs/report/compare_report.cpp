@@ -1,5 +1,6 @@
 #include "runs/report/compare_report.h"
 
+#include "image/display.h"
 #include "image/metrics/heat_map.h"
 #include "image/metrics/metrics.h"
 #include "runs/report/page.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace meninas {
 namespace {
@@ -145,6 +147,13 @@ Json header_json(const Comparison& comparison) {
           {"settings", settings_json(comparison)}};
 }
 
+/// Whole stops by which a layer is shown brighter than the pictures, so that it can be seen.
+int stops_of(const Layer& layer, double exposure) {
+  constexpr double most = 10.0;
+  return static_cast<int>(
+      std::clamp(std::floor(automatic_exposure(layer.image) - exposure), 0.0, most));
+}
+
 Json mechanisms_json(const Comparison& comparison) {
   const std::array<std::pair<const char*, const char*>, 3> rows{
       {{"emission", "light of emitters themselves"},
@@ -222,22 +231,27 @@ std::string compare_page_of(const Comparison& comparison) {
     }
     json["pictures"].push_back(picture);
   }
+  json["command"] = comparison.command;
   json["mechanisms"] = mechanisms_json(comparison);
   json["mirrored_text"] = mirrored_text(comparison);
   json["differences"] = Json::array();
   for (const DifferencePicture& difference : difference_pictures(comparison)) {
     json["differences"].push_back({{"name", difference.name},
                                    {"caption", difference.caption},
+                                   {"file", difference.name + ".png"},
                                    {"png", png_address(difference.image, 0.0)}});
   }
   json["layers"] = Json::array();
   for (const Layer& layer : comparison.layers) {
     const double share = share_of(comparison, layer);
     if (share > 0.0) {
+      const int stops = stops_of(layer, comparison.exposure);
       json["layers"].push_back({{"name", layer.name},
                                 {"share", share},
                                 {"meaning", meaning_of(layer.name)},
-                                {"png", png_address(layer.image, comparison.exposure)}});
+                                {"file", "hybrid.exr"},
+                                {"stops", stops},
+                                {"png", png_address(layer.image, comparison.exposure + stops)}});
     }
   }
   return fill_page(compare_page, text_of(json, -1));

@@ -101,5 +101,17 @@ TEST(Help, IsTheCommittedPageOfOptions) {
       << "make it anew: meninas help --markdown > docs/options.md";
 }
 
+TEST(FirstRoom, IsTheFileBesideItsPageAndHasNothingOdd) {
+  const std::string file = source_dir() + "/docs/first-room.gltf";
+  EXPECT_THAT(read_file(source_dir() + "/docs/first-room.md"),
+              HasSubstr("```json\n" + read_file(file) + "```"));
+  const TemporaryFolder folder;
+  const Outcome plan = run_program(folder.path(), {"plan", file});
+  EXPECT_EQ(plan.code, 0) << plan.err;
+  EXPECT_THAT(plan.out, HasSubstr("emitters          1 face glows"));
+  for (const char* trouble : {"ignored", "warnings", "odd"})
+    EXPECT_THAT(plan.out, Not(HasSubstr(trouble)));
+}
+
 } // namespace
 } // namespace meninas::test
