@@ -50,8 +50,8 @@ void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
   // A thousandth of the light is where a cut begins to show in a picture.
   constexpr double visible = 1e-3;
   if (closure.cut > visible) {
-    warn(events, fmt::format("{:.1f} % of the gathered light was cut at the last mirror",
-                             100.0 * closure.cut));
+    warn(events, fmt::format("{} of the gathered light was lost at the limit of mirrors in a row",
+                             readable_percent(closure.cut)));
   }
 }
 

@@ -76,7 +76,7 @@ Json share_json(const reference::Share& share) {
 
 std::string mirrored_text(const Comparison& comparison) {
   std::string text = fmt::format(
-      "Of the light that diffuse surfaces reflect here, mirrors throw {:.2f} %. {:.2f} "
+      "Of the light that diffuse surfaces reflect here, {:.2f} % came by way of mirrors. {:.2f} "
       "% of the picture's light is seen in mirrors.",
       100.0 * mirrored_of_diffuse(comparison), 100.0 * share_where(comparison, is_seen_in_mirrors));
   if (!comparison.reference.empty()) {
@@ -90,11 +90,11 @@ std::string mirrored_text(const Comparison& comparison) {
 }
 
 std::string meaning_of(std::string_view layer) {
-  std::string what = "what glows";
+  std::string what = "light of lamps themselves";
   if (layer.starts_with("diffuse.direct")) {
     what = "light that came straight to the surface";
   } else if (layer.starts_with("diffuse.mirrored")) {
-    what = "light that a mirror threw on the surface";
+    what = "light that came to the surface by way of mirrors";
   }
   if (layer.ends_with(".mirrors")) {
     return what + ", seen by way of several mirrors or glossy surfaces";
@@ -156,9 +156,9 @@ int stops_of(const Layer& layer, double exposure) {
 
 Json mechanisms_json(const Comparison& comparison) {
   const std::array<std::pair<const char*, const char*>, 3> rows{
-      {{"emission", "light of emitters themselves"},
+      {{"emission", "light of lamps themselves"},
        {"diffuse.direct", "diffuse, light that came straight"},
-       {"diffuse.mirrored", "diffuse, light that mirrors threw"}}};
+       {"diffuse.mirrored", "diffuse, light that came by way of mirrors"}}};
   Json mechanisms = Json::array();
   for (const auto& [layer, name] : rows) {
     Json shares = Json::array();
