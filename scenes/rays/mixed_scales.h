@@ -1,4 +1,4 @@
-// What is too small for rays beside how far the scene reaches: they are floats.
+// Details that are too small for rays, whose coordinates are floats, beside the size of the scene.
 //
 // Gaps narrower than the reach of contacts (ray_scene.cpp) count as closed, and a large face that
 // passes the detail at a slant is off its place there by the rounding of its far corners.
