@@ -148,32 +148,31 @@ void add_options(CLI::App& command, BatchOptions& options) {
       ->required();
   command.add_flag_callback(
       "--resume", [&] { request.resume = Resume::yes; },
-      "leave the pictures as they are that an earlier run has made from the same scene and "
-      "settings");
+      "keep pictures that an earlier run made from the same scene and settings");
   command.add_flag_callback(
       "--dry-run", [&] { options.task = BatchTask::outlook; },
-      "list what would be solved and rendered, and what is done already");
-  add("--shard", "K/N", "only part K of N; K may count from 0 or from 1",
+      "list what would be solved and rendered, and end");
+  add("--shard", "K/N", "make only part K of N, such as 1/4",
       [&](const std::string& text) { request.shard = parse_shard("--shard", text); });
-  add("--memory-limit", "SIZE", "what the process may need, such as 4G [all the machine has]",
+  add("--memory-limit", "SIZE", "memory that the process may need, such as 4G; fewer pictures run at a time to stay below [all the machine has]",
       [&](const std::string& text) { request.memory_limit = parse_bytes("--memory-limit", text); });
   add_allow_external(command, request.gltf);
-  add("--cache", "DIR", "where solutions are kept [.meninas/solutions in the output folder]",
+  add("--cache", "DIR", "folder for solutions [.meninas/solutions in the output folder]",
       [&](const std::string& text) { request.cache = text; });
-  add_file(command, "--junit", request.junit, "write the results as JUnit XML");
+  add_file(command, "--junit", request.junit, "write JUnit XML");
   command.add_flag_callback(
       "--schema",
       [] {
         print(schema_with_settings());
         throw CLI::Success();
       },
-      "print the JSON Schema of jobs files, with every setting, and end");
-  add("--threads", "N", "threads at work [all]", [&](const std::string& text) {
+      "print the JSON Schema of jobs files, and end");
+  add("--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
     request.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
   });
   command.add_flag_callback(
       "--quiet", [&] { options.verbosity = Verbosity::quiet; },
-      "no progress and no notes, only warnings and errors");
+      "print warnings and errors only");
 }
 
 } // namespace

@@ -10,7 +10,7 @@
 namespace meninas {
 namespace {
 
-constexpr const char* pass_one_group = "Pass one";
+constexpr const char* pass_one_group = "Accuracy of pass one";
 
 // As of emission in files:
 // its square is still in the range of the floats that pictures are made of.
@@ -65,9 +65,8 @@ void add_adaptive(CLI::App& command, RunSettings& settings) {
   CLI::Option* adaptive =
       add_text(
           command, "--adaptive", "[X]",
-          fmt::format("divides elements where the light asks for it, until radiosity is within "
-                      "X of itself, in the mean square; takes more --rays where their noise is "
-                      "above it [{}]",
+          fmt::format("subdivide elements, at shadow edges above all, until the RMS interpolation "
+                      "error is below X [{}]",
                       by_preset(&QualityPreset::adaptive_error)),
           [&](const std::string& text) {
             settings.adaptive = WithAdaptivity::yes;
@@ -77,20 +76,20 @@ void add_adaptive(CLI::App& command, RunSettings& settings) {
           })
           ->expected(0, 1)
           ->default_str(preset_value)
-          ->group(pass_one_group);
+          ->group(study_group);
   command
       .add_flag_callback(
           "--no-adaptive", [&] { settings.adaptive = WithAdaptivity::no; },
-          "elements of one size [so it is]")
+          "elements of one size [yes]")
       ->excludes(adaptive)
-      ->group(pass_one_group);
+      ->group(study_group);
   add_text(command, "--bends", "X",
-           "divides elements where indirect light bends by more than X of the scene's mean between "
-           "vertices, as at the feet of lit walls, up to three times [none]",
+           "refine where indirect light curves, as at contact edges, by more than X of the scene's "
+           "mean between vertices [off]",
            [&](const std::string& text) {
              settings.bends = parse_number("--bends", text, Sign::positive);
            })
-      ->group(pass_one_group);
+      ->group(study_group);
 }
 
 } // namespace
@@ -107,8 +106,8 @@ void add_scene(CLI::App& command, CommonOptions& options) {
   add_allow_external(command, gltf);
   add_text(
       command, "--memory-limit", "SIZE",
-      fmt::format("what the run may take, such as 800M; more is refused beforehand [{}G for the "
-                  "scene as it is read, all the machine has for the run]",
+      fmt::format("refuse a run that would need more memory, such as 800M [{}G to read the scene, "
+                  "all the machine has for the rest]",
                   gltf.memory_limit >> 30),
       [&](const std::string& text) {
         gltf.memory_limit = parse_bytes("--memory-limit", text);
@@ -119,27 +118,26 @@ void add_scene(CLI::App& command, CommonOptions& options) {
 void add_allow_external(CLI::App& command, GltfSettings& settings) {
   command.add_flag_callback(
       "--allow-external", [&] { settings.external_files = ExternalFiles::anywhere; },
-      "follow names of buffers and textures out of the scene's folder [refused]");
+      "read buffers and textures outside the scene's folder [refused]");
 }
 
 void add_quality(CLI::App& command, CommonOptions& options) {
   add_choice(command, "--quality", qualities, RunSettings{}.quality,
-             "preset; explicit options override it",
+             "preset of all options of accuracy; each can be given by itself",
              [&](Quality quality) { options.settings.quality = quality; });
 }
 
 void add_mesh_options(CLI::App& command, CommonOptions& options) {
   RunSettings& settings = options.settings;
   add_text(command, "--element-size", "METRES",
-           "wanted edge of the elements, of all surfaces [by --elements]",
+           "edge length of the mesh elements [as --elements says]",
            [&](const std::string& text) {
              settings.element_size = parse_number("--element-size", text, Sign::positive);
            })
       ->group(pass_one_group);
   add_text(command, "--elements", "N",
-           fmt::format("about how many elements share the surfaces, a very large one with no more "
-                       "than three quarters of them; with --adaptive undivided ones [{}; with "
-                       "--adaptive {}]",
+           fmt::format("number of mesh elements, about; with --adaptive before they are divided "
+                       "[{}; with --adaptive {}]",
                        by_preset(&QualityPreset::target_elements),
                        by_preset(&QualityPreset::root_elements)),
            [&](const std::string& text) {
@@ -148,7 +146,7 @@ void add_mesh_options(CLI::App& command, CommonOptions& options) {
            })
       ->group(pass_one_group);
   add_text(command, "--mirror-depth", "N",
-           "the most mirrors a path of light may meet [as many as can be seen to matter]",
+           "follow light over at most N mirrors [as many as matter]",
            [&](const std::string& text) {
              settings.mirror_depth =
                  static_cast<int>(parse_integer("--mirror-depth", text, 0, 1'000'000));
@@ -160,58 +158,57 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
   RunSettings& settings = options.settings;
   const PassOneSettings standard = two_pass_settings({}).pass_one;
   add_choice(command, "--form-factors", form_factor_methods, standard.form_factors.method,
-             "how form factors are found",
+             "how form factors are computed",
              [&](FormFactorMethod method) { settings.form_factors = method; })
-      ->group(pass_one_group);
+      ->group(study_group);
   add_text(command, "--rays", "N",
-           fmt::format("form-factor rays per element, a power of two [{}]",
+           fmt::format("rays per element for form factors, a power of two [{}]",
                        by_preset(&QualityPreset::rays)),
            [&](const std::string& text) {
              settings.rays = static_cast<int>(parse_integer("--rays", text, 1, 1 << 20));
            })
       ->group(pass_one_group);
   add_text(command, "--hemicube-resolution", "N",
-           fmt::format("cells along an edge of a hemicube's top, an even number [{}]",
+           fmt::format("cells along an edge of a hemicube's top face, an even number [{}]",
                        by_preset(&QualityPreset::hemicube_resolution)),
            [&](const std::string& text) {
              settings.hemicube_resolution = parse_resolution("--hemicube-resolution", text);
            })
-      ->group(pass_one_group);
-  add_choice(command, "--solver", solvers, standard.solver.method, "how radiosities are found",
+      ->group(study_group);
+  add_choice(command, "--solver", solvers, standard.solver.method, "how the radiosity system is solved",
              [&](SolverMethod method) { settings.solver = method; })
-      ->group(pass_one_group);
+      ->group(study_group);
   add_text(
       command, "--tolerance", "X",
-      fmt::format("bound on the relative error the solver leaves [{}]", standard.solver.tolerance),
+      fmt::format("relative error at which the solver stops [{}]", standard.solver.tolerance),
       [&](const std::string& text) {
         settings.tolerance = parse_number("--tolerance", text, Sign::positive);
       })
-      ->group(pass_one_group);
+      ->group(study_group);
   add_text(command, "--steps", "N",
-           "shots of --solver progressive, each of a block of elements [as many as the tolerance "
-           "takes]",
+           "stop --solver progressive after N shots [at --tolerance]",
            [&](const std::string& text) {
              settings.steps = static_cast<int>(parse_integer("--steps", text, 1, 1'000'000'000));
            })
-      ->group(pass_one_group);
+      ->group(study_group);
   add_text(command, "--link-error", "X",
-           fmt::format("of --solver hierarchical: how much interpolated light may bend, "
-                       "relative to what is there [{}]",
+           fmt::format("--solver hierarchical: interpolation error allowed, relative to the light "
+                       "there [{}]",
                        by_preset(&QualityPreset::link_error)),
            [&](const std::string& text) {
              settings.link_error = parse_number("--link-error", text, Sign::positive);
            })
-      ->group(pass_one_group);
+      ->group(study_group);
   add_adaptive(command, settings);
   add_choice(command, "--interpolation", interpolations, standard.interpolation.method,
-             "irradiance at the vertices: averaged from elements or gathered",
+             "irradiance at vertices: averaged over the elements around, or gathered there",
              [&](Interpolation method) { settings.interpolation = method; })
-      ->group(pass_one_group);
+      ->group(study_group);
 }
 
 void add_light_options(CLI::App& command, CommonOptions& options) {
   add_text(command, "--background", "L|R,G,B",
-           "radiance of everything beyond the scene, W/m^2/sr [0]", [&](const std::string& text) {
+           "radiance of the sky around the scene, W/m^2/sr [0]", [&](const std::string& text) {
              const Rgb radiance = parse_colour("--background", text);
              if (!glm::all(glm::lessThanEqual(radiance, Rgb(brightest_background)))) {
                throw UsageError("--background", fmt::format("'{}' is over {:g} W/m^2/sr", text,
@@ -222,17 +219,17 @@ void add_light_options(CLI::App& command, CommonOptions& options) {
 }
 
 void add_run_options(CLI::App& command, CommonOptions& options) {
-  add_text(command, "--threads", "N", "threads at work [all]", [&](const std::string& text) {
+  add_text(command, "--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
     options.settings.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
   });
-  add_text(command, "--seed", "N", fmt::format("of all sampling [{}]", RunSettings{}.seed),
+  add_text(command, "--seed", "N", fmt::format("seed of all sampling [{}]", RunSettings{}.seed),
            [&](const std::string& text) {
              options.settings.seed =
                  static_cast<std::uint32_t>(parse_integer("--seed", text, 0, 0xffffffffLL));
            });
   command.add_flag_callback(
       "--quiet", [&] { options.verbosity = Verbosity::quiet; },
-      "no progress and no notes, only warnings and errors");
+      "print warnings and errors only");
 }
 
 CLI::Option* add_file(CLI::App& command, const std::string& option,

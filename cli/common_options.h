@@ -14,6 +14,9 @@
 
 namespace meninas {
 
+/// The group of options that serve comparison with the literature.
+inline constexpr const char* study_group = "For study";
+
 /// Stands for the preset's number where an option may leave its value out.
 inline constexpr const char* preset_value = "preset";
 

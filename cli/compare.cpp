@@ -38,18 +38,18 @@ void add_view_options(CLI::App& command, CompareOptions& options) {
         ->type_name(shown)
         ->group("Picture");
   };
-  add("--camera", "NAME", "camera of the scene [its first]",
+  add("--camera", "NAME", "camera to render [the first]",
       [&](const std::string& text) { request.camera = text; });
   const PictureSize standard;
   add("--size", "WxH",
-      fmt::format("pixels [{}x{}, or as wide as the camera asks]", standard.width, standard.height),
+      fmt::format("size in pixels [{}x{}, or as wide as the camera asks]", standard.width, standard.height),
       [&](const std::string& text) { request.size = parse_size("--size", text); });
-  add("--samples", "N", "camera rays per pixel of both passes, a power of two [as render]",
+  add("--samples", "N", "camera rays per pixel, a power of two [as render]",
       [&](const std::string& text) {
         options.common.settings.samples =
             static_cast<int>(parse_integer("--samples", text, 1, 1 << 16));
       });
-  add("--exposure", "EV", "stops by which all pictures are brightened alike [automatic]",
+  add("--exposure", "EV", "brighten all pictures by so many stops [automatic]",
       [&](const std::string& text) {
         request.exposure = parse_number("--exposure", text, Sign::any);
       });
@@ -60,7 +60,7 @@ void add_reference_options(CLI::App& command, CompareOptions& options) {
   command
       .add_flag_callback(
           "--reference", [&] { options.request.reference = WithReference::yes; },
-          "with the picture of the path tracer")
+          "add the picture of the path tracer")
       ->group(group);
   const auto add = [&](const std::string& option, const std::string& shown,
                        const std::string& description, std::optional<double>& value) {
@@ -74,9 +74,9 @@ void add_reference_options(CLI::App& command, CompareOptions& options) {
         ->type_name(shown)
         ->group(group);
   };
-  add("--max-error", "X", "it ends when its standard error is X times its mean radiance",
+  add("--max-error", "X", "stop the path tracer at this standard error of the mean radiance",
       options.common.settings.max_error);
-  add("--max-seconds", "S", "it ends after about so long", options.common.settings.max_seconds);
+  add("--max-seconds", "S", "stop the path tracer after about so long", options.common.settings.max_seconds);
 }
 
 } // namespace
@@ -86,7 +86,7 @@ Command add_compare_command(CLI::App& program) {
       "compare", "Render a view in every mode, with differences, figures and a page to look at");
   const auto options = std::make_shared<CompareOptions>();
   add_scene(*command, options->common);
-  command->add_option("-o,--output", options->request.folder, "folder, made if it is not there")
+  command->add_option("-o,--output", options->request.folder, "folder of the page, made if it is not there")
       ->type_name("DIR")
       ->required();
   add_reference_options(*command, *options);

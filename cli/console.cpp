@@ -42,6 +42,9 @@ RunEvents Console::events() {
   events.progress = [state = state_](std::string_view stage, double fraction) {
     state->line.report(stage, fraction);
   };
+  events.stages = [state = state_](const std::vector<RunStage>& stages) {
+    state->line.begin(stages);
+  };
   return events;
 }
 

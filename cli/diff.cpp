@@ -66,7 +66,7 @@ void add_limits(CLI::App& command, DiffRequest& request) {
             },
             limit.description)
         ->type_name("X")
-        ->group("Limits: exit code 1 when one does not hold");
+        ->group("Limits (exit code 1 beyond one)");
   }
 }
 
@@ -76,19 +76,19 @@ void add_picture_options(CLI::App& command, DiffRequest& request) {
                        std::function<void(const std::string&)> take) {
     command.add_option_function<std::string>(option, take, description)->type_name(shown);
   };
-  add("--layer", "NAME", "compare this layer of both EXRs instead of their pictures",
+  add("--layer", "NAME", "compare this layer of both EXRs",
       [&](const std::string& text) { request.layer = text; });
   add("--heat", fmt::format("{}", fmt::join(names_of(metric_choices()), "|")),
-      "what the heat map shows of each pixel [flip]", [&](const std::string& text) {
+      "error that the heat map shows [flip]", [&](const std::string& text) {
         request.heat_metric = parse_choice("--heat", text, metric_choices());
       });
   add("--exposure", "EV",
-      "stops at which ssim and flip see radiance [automatic for B; PNGs are seen as they are]",
+      "exposure at which ssim and flip compare EXRs [automatic, for B]",
       [&](const std::string& text) {
         request.exposure = parse_number("--exposure", text, Sign::any);
       });
   add("--relmse-epsilon", "X",
-      fmt::format("of relmse, in units of radiance squared [{}]", request.relmse_epsilon),
+      fmt::format("epsilon of relmse, in units of radiance squared [{}]", request.relmse_epsilon),
       [&](const std::string& text) {
         request.relmse_epsilon = parse_number("--relmse-epsilon", text, Sign::positive);
       });
@@ -101,15 +101,15 @@ Command add_diff_command(CLI::App& program) {
       program.add_subcommand("diff", "Measure how far a picture is from a reference");
   const auto options = std::make_shared<DiffOptions>();
   DiffRequest& request = options->request;
-  command->add_option("A", request.picture, "picture: EXR of one or more layers and parts, TIFF, HDR, or PNG and JPEG (taken to linear light)")
+  command->add_option("A", request.picture, "picture: EXR, TIFF, HDR, PNG or JPEG")
       ->type_name("")
       ->required();
-  command->add_option("B", request.reference, "its reference")->type_name("")->required();
-  add_file(*command, "-o,--output", request.heat_map, "write the errors as colours, a .png");
+  command->add_option("B", request.reference, "reference picture")->type_name("")->required();
+  add_file(*command, "-o,--output", request.heat_map, "heat map of the errors, .png");
   add_picture_options(*command, request);
   add_limits(*command, request);
   command->add_flag_callback(
-      "--json", [=] { options->request.format = DiffFormat::json; }, "as JSON instead of text");
+      "--json", [=] { options->request.format = DiffFormat::json; }, "print JSON");
   return {command, [=] { run(*options); }};
 }
 

@@ -85,35 +85,34 @@ void add_method_options(CLI::App& command, NodeFactorSettings& settings) {
                        std::function<void(const std::string&)> take) {
     command.add_option_function<std::string>(option, take, description)->type_name(shown);
   };
-  add("--method", fmt::format("{}", fmt::join(names_of(methods), "|")), "[analytic]",
+  add("--method", fmt::format("{}", fmt::join(names_of(methods), "|")), "how form factors are computed [analytic]",
       [&](const std::string& text) { settings.method = parse_choice("--method", text, methods); });
   add("--sides", fmt::format("{}", fmt::join(names_of(side_choices), "|")),
-      "which sides of double-sided nodes count: those that see the other node, all fronts, all "
-      "backs, or all of both [facing]",
+      "sides of double-sided nodes that count; facing: those that see the other node [facing]",
       [&](const std::string& text) {
         settings.sides = parse_choice("--sides", text, side_choices);
       });
   add("--accuracy", "X",
-      fmt::format("wanted relative error of the analytic method [{}]", standard.accuracy),
+      fmt::format("--method analytic: relative error allowed [{}]", standard.accuracy),
       [&](const std::string& text) {
         settings.accuracy = parse_number("--accuracy", text, Sign::positive);
       });
-  add("--rays", "N", fmt::format("in all, with --method rays [{}]", standard.rays),
+  add("--rays", "N", fmt::format("--method rays: number of rays [{}]", standard.rays),
       [&](const std::string& text) {
         settings.rays = static_cast<int>(parse_integer("--rays", text, 16, 1 << 30));
       });
   add("--resolution", "N",
-      fmt::format("cells along an edge of a cube's top, with --method hemicube [{}]",
+      fmt::format("--method hemicube: cells along an edge of the top face, an even number [{}]",
                   standard.resolution),
       [&](const std::string& text) {
         settings.resolution = parse_resolution("--resolution", text);
       });
   add("--points", "N",
-      fmt::format("hemicubes over the sender, about, with --method hemicube [{}]", standard.points),
+      fmt::format("--method hemicube: number of hemicubes over the sender, about [{}]", standard.points),
       [&](const std::string& text) {
         settings.points = static_cast<int>(parse_integer("--points", text, 1, 1 << 20));
       });
-  add("--mirror-depth", "N", "the most mirrors a path may meet [as many as matter]",
+  add("--mirror-depth", "N", "follow light over at most N mirrors [as many as matter]",
       [&](const std::string& text) {
         settings.max_depth = static_cast<int>(parse_integer("--mirror-depth", text, 0, 1'000'000));
       });
@@ -127,14 +126,14 @@ Command add_formfactors_command(CLI::App& program) {
   const auto options = std::make_shared<FormFactorsOptions>();
   FormFactorsRequest& request = options->request;
   add_scene(*command, options->common);
-  command->add_option("--from", request.from, "node, or group of nodes, that sends light")->type_name("NODE");
-  command->add_option("--to", request.to, "node, or group of nodes, that receives it")->type_name("NODE");
+  command->add_option("--from", request.from, "node or group of nodes that sends light")->type_name("NODE");
+  command->add_option("--to", request.to, "node or group of nodes that receives it")->type_name("NODE");
   command->add_flag_callback(
       "--all", [=] { options->request.format = FormFactorsFormat::matrix; },
-      "the matrix of all nodes as CSV, with row sums");
+      "print the matrix of all nodes as CSV, with row sums");
   command->add_flag_callback(
       "--json", [=] { options->request.format = FormFactorsFormat::json; },
-      "as JSON instead of text");
+      "print JSON");
   add_method_options(*command, request.factors);
   add_run_options(*command, options->common);
   return {command, [=] { run(*command, *options); }};

@@ -4,6 +4,7 @@
 // on standard error, and an exit code that says whose fault it is.
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/help.h"
 #include "cli/values.h"
 #include "runs/report/progress_line.h"
 #include "scenes/version.h"
@@ -32,11 +33,6 @@ void keep_standard_error_taken() {
   dup2(nowhere, STDERR_FILENO);
   close(nowhere);
 }
-
-/// The options that `-h` of a command shows, as CLI11 names them.
-constexpr std::array<std::string_view, 12> shown_options{
-    "--help", "-o,--output", "--output", "--quality", "--error", "--size", "--camera", "--exposure",
-    "--diffuse", "--mode", "--solution", "--stats"};
 
 int fail(ExitCode code, const std::string& line) {
   tell(stderr, fmt::format("meninas: {}\n", one_line(line)));
@@ -131,37 +127,35 @@ void take_words(std::vector<std::string>& arguments) {
   }
 }
 
-/// `-h` of a command of many options shows those that matter most; `--help-all` is `-h` with all.
-void show_what_matters(CLI::App& program, std::vector<std::string>& arguments) {
+/// `--help-all` is `-h` with all options.
+void show_all_if_asked(std::vector<std::string>& arguments, HelpPage& page) {
   const auto all = std::ranges::find(arguments, "--help-all");
   if (all != arguments.end()) {
     *all = "--help";
-    return;
-  }
-  // Hidden options have no name in messages: only where nothing but help is asked for.
-  if (std::ranges::find(arguments, "--help") == arguments.end() &&
-      std::ranges::find(arguments, "-h") == arguments.end()) {
-    return;
-  }
-  for (const char* name : {"render", "solve"}) {
-    CLI::App* command = program.get_subcommand(name);
-    for (CLI::Option* option : command->get_options()) {
-      if (!option->get_positional() && std::ranges::find(shown_options, option->get_name()) ==
-                                           shown_options.end()) {
-        option->group("");
-      }
-    }
-    command->footer("meninas " + std::string(name) + " --help-all lists all options.");
+    page.show(HelpExtent::everything);
   }
 }
 
+/// A program of all commands, none of them chosen yet.
+struct Program {
+  CLI::App options{"Meninas renders rooms with mirrors without noise", "meninas"};
+  std::shared_ptr<HelpPage> page = std::make_shared<HelpPage>(terminal_width());
+  std::vector<Command> commands;
+};
+
 /// Parses, then runs; help and version are answered on standard output.
-int run(CLI::App& program, const std::vector<Command>& commands, int argc, char** argv) {
+int run(Program& whole, int argc, char** argv) {
+  auto& [program, page, commands] = whole;
   std::optional<std::string> problem;
   try {
     std::vector<std::string> arguments = arguments_of(argc, argv);
+    // For docs/options.md, in no help: last argument first.
+    if (arguments == std::vector<std::string>{"--markdown", "help"}) {
+      tell(stdout, options_page(program));
+      return static_cast<int>(ExitCode::success);
+    }
     take_words(arguments);
-    show_what_matters(program, arguments);
+    show_all_if_asked(arguments, *page);
     program.parse(arguments);
   } catch (const CLI::Success& answer) {
     return program.exit(answer);
@@ -181,24 +175,24 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc, char*
 }
 
 int guarded_main(int argc, char** argv) {
-  CLI::App program("Renders rooms with mirrors without noise.", "meninas");
+  Program whole;
+  CLI::App& program = whole.options;
+  program.formatter(whole.page);
+  program.set_help_flag("-h,--help", "print this help");
   program.set_version_flag("--version", "meninas " + std::string(program_version()),
                            "print the version");
-  program.get_formatter()->column_width(36);
-  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  program.get_formatter()->label("Subcommands", "Commands");
   program.footer("Exit codes: 1 a comparison beyond its limits, 2 wrong usage, 3 bad input, 4 "
                  "failed write or exhausted resource.");
   program.require_subcommand(0, 1);
   program.allow_extras();
-  const std::vector<Command> commands{
+  whole.commands = {
       add_render_command(program),  add_solve_command(program), add_plan_command(program),
       add_compare_command(program), add_batch_command(program), add_diff_command(program),
       add_regress_command(program), add_trade_command(program), add_formfactors_command(program)};
-  for (const Command& command : commands) {
+  for (const Command& command : whole.commands) {
     command.options->allow_extras();
   }
-  return run(program, commands, argc, argv);
+  return run(whole, argc, argv);
 }
 
 } // namespace

@@ -62,8 +62,8 @@ void add_layers(CLI::App& command, RunSettings& settings, const std::string& gro
           [&](const std::string& text) {
             parse_layers(text == preset_value ? light_layers : text, settings);
           },
-          fmt::format("what EXRs hold besides the picture, in 32 bits, several joined by commas: "
-                      "light (its nine parts, by how surfaces are seen and lit), {} [light]",
+          fmt::format("layers of an EXR besides the picture, joined by commas: light (nine layers "
+                      "that add up to the picture), {} [none; light without LIST]",
                       fmt::join(names_of(choices_of(all_features)), ", ")))
       ->expected(0, 1)
       ->default_str(preset_value)
@@ -131,27 +131,24 @@ void add_pixel_options(CLI::App& command, RunSettings& settings, const std::stri
   };
   add_layers(command, settings, group);
   add("--view", join_names(debug_views),
-      "paint this instead of light, for those who debug a scene: false colours, whose range is "
-      "said; EXRs hold the numbers as well",
+      "paint this in false colours instead of light",
       [&](const std::string& text) {
         settings.view = parse_choice("--view", text, choices_of(debug_views));
       });
   add("--filter", join_names(pixel_filters),
-      fmt::format("how samples count in a pixel [{}]", name_of(RenderSettings{}.filter)),
+      fmt::format("pixel filter [{}]", name_of(RenderSettings{}.filter)),
       [&](const std::string& text) {
         settings.filter = parse_choice("--filter", text, choices_of(pixel_filters));
       });
   add("--pixel-error", "X",
-      "adaptive sampling: a few samples first, then four times as many, up to --samples, in pixels "
-      "that look to be off by more than X of themselves or of the picture's mean [all of them "
-      "everywhere]",
+      "adaptive sampling: up to --samples where a pixel's error exceeds X of the pixel or of the "
+      "picture's mean [--samples everywhere]",
       [&](const std::string& text) {
         settings.pixel_error = parse_number("--pixel-error", text, Sign::positive);
       });
   add("--glossy-samples", "N",
       fmt::format(
-          "directions of a camera ray into the widest and brightest lobes of glossy metals, "
-          "coats and frosted glass; narrower and fainter ones get fewer [{}]",
+          "rays into the widest and brightest glossy lobes; others get fewer [{}]",
           RenderSettings{}.glossy_samples),
       [&](const std::string& text) {
         settings.glossy_samples =

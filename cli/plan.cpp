@@ -33,18 +33,18 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PlanOptions>& 
                        std::function<void(const std::string&)> take) {
     command.add_option_function<std::string>(option, take, description)
         ->type_name(shown)
-        ->group("Picture whose cost is foretold");
+        ->group("Picture whose cost is predicted");
   };
-  add("--camera", "NAME", "camera of the scene [its first]",
+  add("--camera", "NAME", "camera to render [the first]",
       [&request](const std::string& text) { request.camera = text; });
-  add("--size", "WxH", "pixels [as render]",
+  add("--size", "WxH", "size in pixels [as render]",
       [&request](const std::string& text) { request.size = parse_size("--size", text); });
   add("--samples", "N", "camera rays per pixel [as render]", [&settings](const std::string& text) {
     settings.samples = static_cast<int>(parse_integer("--samples", text, 1, 1 << 24));
   });
   add("--diffuse", "interpolated|direct|gather", "light on diffuse surfaces [as render]",
       [&settings](const std::string& text) { settings.diffuse = parse_diffuse(text); });
-  add("--threads", "N", "threads at work [all]", [&settings](const std::string& text) {
+  add("--threads", "N", "number of threads [all cores]", [&settings](const std::string& text) {
     settings.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
   });
 }
@@ -57,7 +57,7 @@ Command add_plan_command(CLI::App& program) {
   const auto options = std::make_shared<PlanOptions>();
   add_scene(*command, options->common);
   command->add_flag_callback(
-      "--json", [=] { options->request.format = PlanFormat::json; }, "as JSON instead of text");
+      "--json", [=] { options->request.format = PlanFormat::json; }, "print JSON");
   add_quality(*command, options->common);
   add_light_options(*command, options->common);
   add_mesh_options(*command, options->common);

@@ -104,21 +104,21 @@ Command add_regress_command(CLI::App& program) {
     command->add_option_function<std::string>(option, take, description)->type_name(shown);
   };
   add("-o,--output", "DIR",
-      fmt::format("where a failure leaves picture, reference and heat map [{}]",
+      fmt::format("folder for picture, reference and heat map of each failure [{}]",
                   request.output.string()),
       [&](const std::string& text) { request.output = text; });
-  add("--filter", "TEXT", "only the cases whose names contain it",
+  add("--filter", "TEXT", "run only the cases whose names contain TEXT",
       [=](const std::string& text) { options->filter = text; });
-  add_file(*command, "--junit", request.junit, "write the results as JUnit XML");
+  add_file(*command, "--junit", request.junit, "write JUnit XML");
   command->add_flag_callback(
       "--update", [=] { options->request.task = RegressTask::update; },
-      "render the references anew, and note in manifest.json how");
-  add("--threads", "N", "threads at work [all]", [&](const std::string& text) {
+      "make the references anew, and note the settings in manifest.json");
+  add("--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
     request.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
   });
   command->add_flag_callback(
       "--quiet", [=] { options->verbosity = Verbosity::quiet; },
-      "no progress and no notes, only results, warnings and errors");
+      "print results, warnings and errors only");
   return {command, [=] { run(*options); }};
 }
 

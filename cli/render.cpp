@@ -29,15 +29,15 @@ void add_outputs(CLI::App& command, RenderOptions& options) {
   RenderRequest& request = options.request;
   command
       .add_option("-o,--output", request.pictures,
-                  "OUT.exr (linear) or OUT.png; may be given several times [SCENE.png]")
+                  "picture, .exr (linear) or .png; may be given several times [SCENE.png]")
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_file(command, "--solution", request.solution,
-           "a solution written by 'meninas solve'; pass one is skipped");
-  add_file(command, "--stats", request.stats, "write the run's figures as JSON");
+           "render a solution written by `meninas solve` instead of solving");
+  add_file(command, "--stats", request.stats, "write the figures of the run as JSON");
   command.add_flag_callback(
       "--error-map", [&] { request.error_map = WithErrorMap::yes; },
-      "EXRs also hold the layer `error`: how far off each pixel is, as far as the run can tell");
+      "add the layer `error` to an EXR: the estimated error of each pixel");
   const auto add_goal = [&](const char* option, const char* shown,
                             std::optional<double> Goal::*goal, const char* description) {
     command
@@ -54,13 +54,14 @@ void add_outputs(CLI::App& command, RenderOptions& options) {
   };
   add_goal(
       "--error", "X", &Goal::error,
-      "relative error wanted of the picture, say 0.02; settings that are not given are chosen");
+      "choose settings until the picture's relative error is about X, such as 0.02");
   add_goal("--time", "SECONDS", &Goal::seconds,
-           "the best picture that this time allows; settings that are not given are chosen");
+           "choose the settings of the best picture within this time");
   add_file(command, "--snapshots", options.snapshots,
-           "a folder for pictures along the way of --solver progressive, without and with the "
-           "ambient light of what is still to be shot")
-      ->type_name("DIR");
+           "folder for pictures along the way of --solver progressive, without and with its "
+           "ambient term")
+      ->type_name("DIR")
+      ->group(study_group);
   command
       .add_option_function<std::string>(
           "--every",
@@ -68,9 +69,10 @@ void add_outputs(CLI::App& command, RenderOptions& options) {
             options.every = static_cast<int>(parse_integer("--every", text, 1, 1'000'000'000));
           },
           fmt::format(
-              "shots from one of the --snapshots to the next; the last state is always there [{}]",
+              "shots between --snapshots [{}]",
               SnapshotRequest{}.every))
-      ->type_name("N");
+      ->type_name("N")
+      ->group(study_group);
 }
 
 void add_picture_options(CLI::App& command, RenderOptions& options) {
@@ -83,24 +85,23 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
         ->group(picture_group);
   };
   add("--mode", "radiosity|hybrid|reference",
-      "pass one alone, with black mirrors, both passes, or path tracing [hybrid]",
+      "diffuse light only, with black mirrors; both passes; or path tracing [hybrid]",
       [&](const std::string& text) {
         options.common.settings.mode = parse_choice("--mode", text, modes);
       });
   add("--diffuse", "interpolated|direct|gather",
-      "light on diffuse surfaces: as pass one has it at vertices, with that of emitters and their "
-      "mirror images computed at every hit, or all of it gathered there [interpolated, fine "
-      "direct]",
+      "light on diffuse surfaces: interpolated between vertices, direct light computed at each "
+      "hit, or all light gathered there [interpolated; direct with --quality fine]",
       [&](const std::string& text) { options.common.settings.diffuse = parse_diffuse(text); });
-  add("--camera", "NAME", "camera of the scene [its first]",
+  add("--camera", "NAME", "camera to render [the first]",
       [&](const std::string& text) { request.camera = text; });
   const PictureSize standard;
   add("--size", "WxH",
-      fmt::format("pixels [{}x{}, or as wide as the camera asks]", standard.width, standard.height),
+      fmt::format("size in pixels [{}x{}, or as wide as the camera asks]", standard.width, standard.height),
       [&](const std::string& text) { request.size = parse_size("--size", text); });
   add("--samples", "N",
-      fmt::format("camera rays per pixel, a power of two [draft {}, normal {}, fine {}]; of a "
-                  "reference the most there are [no limit]",
+      fmt::format("camera rays per pixel, a power of two; with --mode reference an upper limit "
+                  "[draft {}, normal {}, fine {}; no limit]",
                   preset_of(Quality::draft).samples, preset_of(Quality::normal).samples,
                   preset_of(Quality::fine).samples),
       [&](const std::string& text) {
@@ -109,18 +110,18 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       });
   add("--max-error", "X",
       fmt::format(
-          "a reference ends when its standard error is X times its mean radiance [draft {}, "
-          "normal {}, fine {}, unless it has another limit]",
+          "--mode reference: stop at this standard error of the mean radiance [draft {}, "
+          "normal {}, fine {}, unless there is another limit]",
           preset_of(Quality::draft).max_error, preset_of(Quality::normal).max_error,
           preset_of(Quality::fine).max_error),
       [&](const std::string& text) {
         options.common.settings.max_error = parse_number("--max-error", text, Sign::positive);
       });
-  add("--max-seconds", "S", "a reference ends after about so long [no limit]",
+  add("--max-seconds", "S", "--mode reference: stop after about so long [no limit]",
       [&](const std::string& text) {
         options.common.settings.max_seconds = parse_number("--max-seconds", text, Sign::positive);
       });
-  add("--exposure", "EV", "stops by which a PNG is brightened [automatic]",
+  add("--exposure", "EV", "brighten a PNG by so many stops [automatic]",
       [&](const std::string& text) {
         request.picture.exposure = parse_number("--exposure", text, Sign::any);
       });
@@ -128,7 +129,7 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
   command
       .add_flag_callback(
           "--float", [&] { request.picture.exr_type = PixelType::float32; },
-          "32 bits per channel of an EXR instead of 16")
+          "write an EXR of 32 bits a channel [16]")
       ->group(picture_group);
 }
 

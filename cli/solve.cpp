@@ -26,17 +26,17 @@ Command add_solve_command(CLI::App& program) {
       program.add_subcommand("solve", "Solve pass one once, for any number of views");
   const auto options = std::make_shared<SolveOptions>();
   add_scene(*command, options->common);
-  command->add_option("-o,--output", options->request.solution, "OUT.glb, which viewers show too")
+  command->add_option("-o,--output", options->request.solution, "solution, .glb; any glTF viewer shows it")
       ->type_name("FILE")
       ->required();
   add_file(*command, "--per-node", options->request.per_node,
-           "write area, emitted radiosity, radiosity and irradiance per node as JSON");
-  add_file(*command, "--stats", options->request.stats, "write the run's figures as JSON");
+           "write area, emission, radiosity and irradiance of each glTF node as JSON");
+  add_file(*command, "--stats", options->request.stats, "write the figures of the run as JSON");
   add_file(*command, "--factors", options->request.factors,
-           "write the form factors, so that later runs need not find them");
+           "write the form factors for later runs");
   add_file(
       *command, "--reuse", options->request.reuse,
-      "form factors of an earlier run: only emission and diffuse reflectances may have changed");
+      "use the form factors of an earlier run; only emission and diffuse reflectances may have changed");
   add_quality(*command, options->common);
   add_light_options(*command, options->common);
   add_mesh_options(*command, options->common);

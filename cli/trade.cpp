@@ -33,19 +33,19 @@ Command add_trade_command(CLI::App& program) {
     command->add_option_function<std::string>(option, take, description)->type_name(shown);
   };
   add_scene(*command, options->common);
-  command->add_option("-o,--output", request.folder, "folder, made if it is not there")
+  command->add_option("-o,--output", request.folder, "folder of the page, made if it is not there")
       ->type_name("DIR")
       ->required();
   add_file(*command, "--reference", request.reference,
-           "a picture of this view to measure errors against, linear (with the layer `variance` of "
-           "a reference its noise is taken off) [the path tracer, for three tenths of the budget]");
-  add("--budget", "SECONDS", fmt::format("for all of it [{}]", request.budget),
+           "linear picture of this view to measure errors against [path tracing, for 30 % of the "
+           "budget]");
+  add("--budget", "SECONDS", fmt::format("time for all measurements [{}]", request.budget),
       [=](const std::string& text) {
         options->request.budget = parse_number("--budget", text, Sign::positive);
       });
-  add("--camera", "NAME", "camera of the scene [its first]",
+  add("--camera", "NAME", "camera to render [the first]",
       [=](const std::string& text) { options->request.camera = text; });
-  add("--size", "WxH", "pixels [those of the reference, or 256 rows]",
+  add("--size", "WxH", "size in pixels [as the reference, or 256 rows]",
       [=](const std::string& text) { options->request.size = parse_size("--size", text); });
   add_light_options(*command, options->common);
   add_run_options(*command, options->common);

@@ -29,7 +29,8 @@ std::vector<std::string> words_of(const std::string& name) {
   return words;
 }
 
-enum class Component { red, green, blue, alpha, luminance, other };
+/// `luminance` is the y of a vector, too.
+enum class Component { red, green, blue, alpha, luminance, x, z, other };
 
 Component component_of(const std::string& word) {
   const auto name = lower(word);
@@ -41,6 +42,10 @@ Component component_of(const std::string& word) {
     return Component::blue;
   if (name == "a" || name == "alpha")
     return Component::alpha;
+  if (name == "x")
+    return Component::x;
+  if (name == "z")
+    return Component::z;
   return name == "y" ? Component::luminance : Component::other;
 }
 
@@ -54,6 +59,14 @@ struct Group {
   bool has(Component component) const { return channels.contains(component); }
   bool is_colour() const {
     return has(Component::red) && has(Component::green) && has(Component::blue);
+  }
+  bool is_grey() const { return has(Component::luminance) && !has(Component::x); }
+  /// Layers that no picture is: of a normal, say, or of a depth.
+  bool is_vector() const {
+    return !plain && has(Component::x) && has(Component::luminance) && has(Component::z);
+  }
+  bool is_depth() const {
+    return !plain && has(Component::z) && !has(Component::x) && !has(Component::luminance);
   }
 };
 
@@ -116,6 +129,11 @@ ColourChannels colour_of(const Group& group) {
   if (group.is_colour())
     colour.components = {group.channels.at(Component::red), group.channels.at(Component::green),
                          group.channels.at(Component::blue)};
+  else if (group.is_vector())
+    colour.components = {group.channels.at(Component::x), group.channels.at(Component::luminance),
+                         group.channels.at(Component::z)};
+  else if (group.is_depth())
+    colour.components.fill(group.channels.at(Component::z));
   else
     colour.components.fill(group.channels.at(Component::luminance));
   if (group.has(Component::alpha))
@@ -151,7 +169,7 @@ std::optional<std::size_t> choose_picture(const Found& found, std::string& probl
   for (std::size_t g = 0; g < found.groups.size(); ++g) {
     if (found.groups[g].is_colour())
       colours.push_back(g);
-    else if (found.groups[g].has(Component::luminance))
+    else if (found.groups[g].is_grey())
       greys.push_back(g);
   }
   if (!colours.empty()) {
@@ -192,7 +210,7 @@ PictureChannels picture_channels(const decoder::Decoded& decoded) {
       result.picture = colour_of(group);
       if (group.plain && (decoded.part_count == 1 || group.part == 0))
         result.picture->name.clear();
-    } else if (group.is_colour()) {
+    } else if (group.is_colour() || group.is_vector() || group.is_depth()) {
       result.layers.push_back(colour_of(group));
     } else {
       continue;
@@ -203,10 +221,12 @@ PictureChannels picture_channels(const decoder::Decoded& decoded) {
   for (std::size_t k = 0; k < found.names.size(); ++k) {
     const auto& [name, component] = found.names[k];
     const Group& group = found.groups[found.group_of[k]];
-    const bool taken = used[found.group_of[k]] != 0 &&
-                       (group.is_colour() ? component < Component::alpha
-                                          : component == Component::luminance);
-    if (!taken)
+    const bool taken = group.is_colour() ? component < Component::alpha
+                       : group.is_vector()
+                           ? component >= Component::luminance && component < Component::other
+                       : group.is_depth() ? component == Component::z
+                                          : component == Component::luminance;
+    if (used[found.group_of[k]] == 0 || !taken)
       result.others.push_back(name);
   }
   std::ranges::sort(result.others);

@@ -1,11 +1,11 @@
-// Of many emitter images, those worth computing at one point.
+// The emitter images worth computing at one point, where there are many.
 //
-// What n images bring to x is  H = sum_k h_k. When n exceeds a budget of K, image k takes part with probability q_k and counts 1/q_k times:
+// The irradiance that n images bring to x is  H = sum_k h_k. When n exceeds a budget of K, image k takes part with probability q_k and counts 1/q_k times:
 //
 //   H ~ sum_chosen h_k / q_k,    q_k = min(1, K s_k / S),   s_k an estimate of h_k, S their sum,
 //
 // which is right on average whatever the estimates are, so that no light is counted
-// twice or left out. Images that bring much have q = 1 and are computed without error;
+// twice or left out. Bright images have q = 1 and are computed without error;
 // the rest is sampled at even steps along the tree of emitters (systematic sampling:
 // Madow 1949), in all mirror worlds together. The estimates come from a cut through the tree,
 // refined where most of the light is: the cost is O(K log n).

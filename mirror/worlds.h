@@ -12,8 +12,8 @@
 // The others are opened breadth first while their throughput is at least `min_throughput`,
 // their depth at most `max_depth` and their number at most `max_worlds`;
 // behind them those with a coat in their chain, by a number of their own.
-// Those that are not, `cut`, lose nothing: rays go on through mirrors and carry
-// what they throw (radiosity/scene/mirror_depth_bound.h says how much that can be).
+// Worlds that are cut lose no light: rays go on through mirrors and carry it
+// (radiosity/scene/mirror_depth_bound.h says how much that can be).
 #pragma once
 
 #include "mirror/mirrors.h"

@@ -58,8 +58,8 @@ struct PointSums {
 };
 
 /// The sum of the irradiances, and of the radiances, at points of an element.
-/// Those of a triangle have no sum of s t: its third corner stands for its fourth,
-/// so that the bilinear form without the product is its linear one.
+/// Points of a triangle have no sum of s t: its third corner stands for its fourth, so the bilinear
+/// form without the product s t is the linear one.
 inline glm::vec3 field_irradiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
                                   std::uint32_t element, const PointSums& p) {
   const auto& corners = mesh.corners[element];

@@ -11,7 +11,7 @@
 // however many samples there are, and be in every draw of them alike.
 // Plane mirrors change neither t nor d's length, so that this holds behind any chain.
 // On a surface met at cosine c the square becomes s by s / c, the longer side along the ray.
-// Of an orthographic camera s does not grow with t.
+// With an orthographic camera s does not grow with t.
 #pragma once
 
 #include "raytrace/tile.h"

@@ -19,8 +19,8 @@
 // camera ray, shifted evenly among those of the pixel. Lobes behind it have one ray each.
 // After `max_lobes` the field stands for the rest: pass one scatters evenly what lobes reflect.
 //
-// What comes through a pane is seen as if the pane were not there: it is no mirror on the way.
-// Solids bend what goes into them, and take their part of it by the metres (glass.h).
+// Light through a pane counts as if the pane were not there: a pane is no mirror on the way.
+// Solids refract light and absorb it by the metre (glass.h).
 // Without mirrors (`RenderMode::radiosity`) surfaces show the field,
 // and panes what is straight behind them.
 #pragma once

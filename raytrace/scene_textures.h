@@ -9,8 +9,7 @@
 namespace meninas {
 
 /// Constant ones become factors of the scene's materials (scenes/materials/constant_textures.h).
-/// What cannot be decoded changes nothing, and a line of the warnings says so, as one does of what
-/// is left out.
+/// A texture that cannot be decoded changes nothing; a warning names it, and whatever is left out.
 DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings);
 
 } // namespace meninas

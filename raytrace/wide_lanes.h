@@ -4,8 +4,8 @@
 // 256 and 512 bits, and the first call takes the widest that this one has.
 // The operations on a lane are the same in all of them,
 // none is contracted or reordered (cmake/ProjectOptions.cmake): hence the same bits.
-// What it is to call in its loops has to be inline. Other compilers and processors have
-// the first alone, and so have sanitizers, which are not ready yet when the choice is made.
+// Functions called in its loops must be inline. Other compilers and processors have only the first
+// version; so do sanitizers, which are not ready yet when the choice is made.
 #pragma once
 
 #include <cstddef> // for __GLIBC__

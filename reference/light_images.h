@@ -21,7 +21,7 @@ namespace meninas::reference {
 inline constexpr std::size_t max_images = 1024;
 inline constexpr std::size_t max_connections = 8;
 
-/// Of all lights over chains of at most `longest_chain` of the planes.
+/// The images of all lights over chains of at most `longest_chain` of the planes.
 std::vector<LightImage> make_light_images(const Scene& scene, const SurfaceModel& surfaces,
                                           const std::vector<Bsdf>& bsdfs,
                                           const std::vector<PlaneId>& mirror_planes);
@@ -34,7 +34,8 @@ struct ImageConnection {
   Rgb radiance{0.0};
 };
 
-/// What x scatters to `out` (from its normal), `u` evenly in [0, 1)^2. `chosen` is cleared first.
+/// Chooses images by the light that x scatters to `out` (from its normal); `u` is uniform in
+/// [0, 1)^2. `chosen` is cleared first.
 void choose_images(const TracedScene& traced, const SurfacePoint& x, const Direction& out, Vec2 u,
                    std::vector<ImageConnection>& chosen);
 

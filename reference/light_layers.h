@@ -11,7 +11,7 @@
 // when there is nothing between), else `diffuse.direct`. There mirrors are ideal metals,
 // all glass, and the gloss and coats that pass one takes for mirrors (Material::specular_in_pass_one);
 // other gloss and coats are x2, as pass one spreads what they reflect.
-// What glass passes, straight, bent or blurred, is no part of the way.
+// Glass that a path passes, straight, bent or blurred, does not count.
 //
 // One path may be of several layers:
 // where a surface reflects f by parts f_even + f_gloss + f_glass,
@@ -40,8 +40,8 @@ std::string layer_name(std::size_t layer);
 using LayerRadiance = std::array<Rgb, layer_count>;
 Rgb sum_of(const LayerRadiance& layers);
 
-/// What of a path, from the eye on, decides about its layer,
-/// each possibility with its share of the path's light.
+/// The layers that a path may belong to, as far as it is known from the eye on, each with its
+/// share of the path's light.
 class LightRoutes {
 public:
   /// Off that many mirrors.

@@ -32,7 +32,7 @@ std::optional<Chain> choose_chain(const TracedScene& traced, const Point3& x, st
 /// The image of y that x sees: where the path sets out to.
 Point3 first_target(const TracedScene& traced, const Chain& chain, Point3 y);
 
-/// What mirrors (and panes and holes on the way) leave of light from y to x over the chain;
+/// The share of light from y that reaches x over the chain, past mirrors, panes and holes;
 /// 0 where the path is blocked or misses a mirror.
 Rgb chain_throughput(const TracedScene& traced, const SurfacePoint& x, const Chain& chain,
                      const Point3& y, PlaneId arriving);

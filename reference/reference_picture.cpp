@@ -20,22 +20,41 @@ struct PixelEstimate {
   Rgb deviations{0.0};
 };
 
-void add_batch(PixelEstimate& pixel, const Rgb& batch, int batches) {
+/// How many batches there are, and their samples, in units of a whole batch.
+struct BatchCount {
+  int number = 0;
+  double whole = 0.0;
+};
+
+/// `weight` is what of a whole batch this one has.
+void add_batch(PixelEstimate& pixel, const Rgb& batch, double weight, BatchCount batches) {
   const Rgb from_old = batch - pixel.mean;
-  pixel.mean += from_old / double(batches);
-  pixel.deviations += from_old * (batch - pixel.mean);
+  pixel.mean += from_old / (batches.whole / weight);
+  pixel.deviations += weight * (from_old * (batch - pixel.mean));
 }
 
-Rgb variance_of_mean(const PixelEstimate& pixel, int batches) {
-  return pixel.deviations / (double(batches) * (batches - 1));
+Rgb variance_of_mean(const PixelEstimate& pixel, BatchCount batches) {
+  return pixel.deviations / (batches.whole * (batches.number - 1));
 }
+
+/// Samples of the next batch: few at first where time is limited,
+/// but for layers, whose shares are compared from batch to batch.
+int next_batch(const ReferenceSettings& settings, int samples) {
+  const bool is_limited = std::isfinite(settings.max_seconds) && settings.layers == WithLayers::no;
+  return is_limited ? std::clamp(samples, 1, batch_samples) : batch_samples;
+}
+
+struct Batch {
+  int number = 0;
+  int samples = batch_samples;
+};
 
 /// One batch of one pixel: stratified over its box.
 LayerRadiance trace_batch(const TracedScene& traced, const Camera& camera,
-                          const ReferenceSettings& settings, int pixel, int batch,
+                          const ReferenceSettings& settings, int pixel, Batch batch,
                           PathCounts& counts) {
-  const std::uint32_t seed =
-      hash(static_cast<std::uint32_t>(pixel), static_cast<std::uint32_t>(batch), settings.seed);
+  const std::uint32_t seed = hash(static_cast<std::uint32_t>(pixel),
+                                  static_cast<std::uint32_t>(batch.number), settings.seed);
   const double aspect = double(settings.width) / settings.height;
   std::array<CameraRay, packet_size> rays;
   for (std::uint32_t k = 0; k < packet_size; ++k) {
@@ -44,10 +63,11 @@ LayerRadiance trace_batch(const TracedScene& traced, const Camera& camera,
     const double y = pixel / settings.width + double(u[1]);
     rays[k] = camera_ray(camera, aspect, x / settings.width, y / settings.height);
   }
+  const auto count = static_cast<std::size_t>(batch.samples);
   LayerRadiance mean{};
-  for (const LayerRadiance& path : trace_paths(traced, rays, seed, settings.search, counts))
+  for (const LayerRadiance& path : trace_paths(traced, rays, seed, settings.search, counts, count))
     for (std::size_t layer = 0; layer < layer_count; ++layer)
-      mean[layer] += path[layer] / double(packet_size);
+      mean[layer] += path[layer] / double(count);
   return mean;
 }
 
@@ -71,7 +91,7 @@ LayerLuminances mean_luminances(const std::vector<LayerRadiance>& pixels) {
   return means;
 }
 
-double relative_error(const std::vector<PixelEstimate>& pixels, int batches) {
+double relative_error(const std::vector<PixelEstimate>& pixels, BatchCount batches) {
   double variance = 0.0, mean = 0.0;
   for (const PixelEstimate& pixel : pixels) {
     const Rgb v = variance_of_mean(pixel, batches);
@@ -99,14 +119,15 @@ std::optional<StoppedBy> reached_limit(const ReferenceSettings& settings, int sa
     return StoppedBy::samples;
   if (settings.max_error > 0.0 && samples >= fewest && error <= settings.max_error)
     return StoppedBy::error;
-  // One more round takes as long as those before have taken in the mean.
-  const double round = seconds * batch_samples / samples;
+  // One more round takes as long, by the sample, as those before have taken in the mean.
+  const double round = seconds * next_batch(settings, samples) / samples;
   if (seconds + round > settings.max_seconds)
     return StoppedBy::time;
   return std::nullopt;
 }
 
-void fill_images(const std::vector<PixelEstimate>& pixels, int batches, ReferencePicture& picture) {
+void fill_images(const std::vector<PixelEstimate>& pixels, BatchCount batches,
+                 ReferencePicture& picture) {
   for (std::size_t k = 0; k < pixels.size(); ++k) {
     picture.mean.pixels[k] = glm::vec3(pixels[k].mean);
     picture.variance.pixels[k] = glm::vec3(variance_of_mean(pixels[k], batches));
@@ -150,20 +171,24 @@ ReferencePicture reference_picture(const TracedScene& traced, const Camera& came
   tbb::enumerable_thread_specific<PathCounts> counts;
   Stopwatch watch;
   double seconds = 0.0;
-  for (int batches = 1;; ++batches) {
+  BatchCount batches;
+  for (;;) {
+    const Batch now{++batches.number, next_batch(settings, picture.samples)};
+    const double weight = double(now.samples) / batch_samples;
+    batches.whole += weight;
     tbb::parallel_for(0, static_cast<int>(pixels.size()), [&](int k) {
       const auto pixel = static_cast<std::size_t>(k);
-      const LayerRadiance batch = trace_batch(traced, camera, settings, k, batches, counts.local());
-      add_batch(pixels[pixel], sum_of(batch), batches);
+      const LayerRadiance batch = trace_batch(traced, camera, settings, k, now, counts.local());
+      add_batch(pixels[pixel], sum_of(batch), weight, batches);
       if (layered)
         add_batch(layers, pixel, batch);
     });
     if (layered)
       picture.batches.push_back(mean_luminances(layers.last));
     seconds += watch.lap();
-    if (batches < 2)
+    picture.samples += now.samples;
+    if (batches.number < 2)
       continue;
-    picture.samples = batches * batch_samples;
     picture.standard_error = relative_error(pixels, batches);
     if (progress)
       progress("paths", progress_of(settings, picture.samples, picture.standard_error, seconds));
@@ -172,7 +197,7 @@ ReferencePicture reference_picture(const TracedScene& traced, const Camera& came
       picture.stopped_by = *limit;
       fill_images(pixels, batches, picture);
       if (layered)
-        fill_layers(layers, batches, picture);
+        fill_layers(layers, batches.number, picture);
       break;
     }
   }

@@ -4,7 +4,9 @@
 // Samples come in batches of sixteen per pixel,
 // stratified within a batch and independent between batches. With m batches of means x_b,
 //   mean = sum x_b / m,   variance of the mean = sum (x_b - mean)^2 / (m (m - 1)),
-// so that stratification lowers the noise without spoiling its estimate.
+// so that stratification lowers the noise without spoiling its estimate. Where time is limited the
+// first batches have 1, 1, 2, 4 and 8 samples, so that there is a picture soon; with n_b samples of
+// N in all, mean = sum n_b x_b / N and variance = sum n_b (x_b - mean)^2 / (N (m - 1)).
 // The pixel is a box, as in pass two.
 //
 // Conventions of the two passes hold (sides, backs, ideal mirrors, what counts as diffuse),

@@ -325,10 +325,12 @@ void play_roulette(Path& path, std::uint32_t bounce, double u) {
 
 std::array<LayerRadiance, packet_size>
 trace_paths(const TracedScene& traced, const std::array<CameraRay, packet_size>& camera_rays,
-            std::uint32_t seed, LightSearch search, PathCounts& counts) {
+            std::uint32_t seed, LightSearch search, PathCounts& counts, std::size_t count) {
   Paths paths;
-  for (std::size_t k = 0; k < packet_size; ++k)
+  for (std::size_t k = 0; k < packet_size; ++k) {
     paths[k].ray = {.origin = camera_rays[k].origin, .direction = camera_rays[k].direction};
+    paths[k].alive = k < count;
+  }
 
   std::vector<Connection> connections;
   std::vector<ImageConnection> chosen;

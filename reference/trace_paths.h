@@ -28,10 +28,11 @@ struct PathCounts {
   std::uint64_t camera_rays = 0, path_rays = 0, shadow_rays = 0;
 };
 
-/// The radiance that arrives along sixteen camera rays, by layer (light_layers.h).
-/// Path k uses point k of low-discrepancy sequences that belong to `seed`.
+/// The radiance that arrives along sixteen camera rays, or the first `count` of them,
+/// by layer (light_layers.h). Path k uses point k of low-discrepancy sequences that belong to `seed`.
 std::array<LayerRadiance, packet_size>
 trace_paths(const TracedScene& traced, const std::array<CameraRay, packet_size>& camera_rays,
-            std::uint32_t seed, LightSearch search, PathCounts& counts);
+            std::uint32_t seed, LightSearch search, PathCounts& counts,
+            std::size_t count = packet_size);
 
 } // namespace meninas::reference

@@ -4,11 +4,15 @@
 #include "image/image_file.h"
 #include "image/whole_file.h"
 #include "runs/report/compare_report.h"
+#include "runs/report/page.h"
 #include "runs/steering/memory.h"
+#include "runs/steering/setting_options.h"
 #include "runs/outputs.h"
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
+#include "runs/report/percent.h"
 #include "runs/resources.h"
+#include "runs/run_stages.h"
 #include "scenes/errors.h"
 #include "scenes/stopwatch.h"
 
@@ -73,12 +77,45 @@ std::vector<std::pair<std::string, std::string>> settings_of(const TwoPassSettin
           {"threads", fmt::format("{}", figures.threads)}};
 }
 
+std::string command_of(const CompareRequest& request) {
+  std::string command = "meninas compare " + shell_quoted(request.scene.string()) + " -o " +
+                        shell_quoted(request.folder.string());
+  const auto add = [&](const char* option, const auto& value) {
+    if (value)
+      command += fmt::format(" {} {}", option, *value);
+  };
+  if (request.camera)
+    command += " --camera " + shell_quoted(*request.camera);
+  if (request.size)
+    command += fmt::format(" --size {}x{}", request.size->width, request.size->height);
+  add("--exposure", request.exposure);
+  if (request.reference == WithReference::yes)
+    command += " --reference";
+  add("--max-error", request.settings.max_error);
+  add("--max-seconds", request.settings.max_seconds);
+  for (const std::string& option : options_of(request.settings))
+    command += ' ' + shell_quoted(option);
+  return command;
+}
+
+/// Pass one, three pictures of it, and the path tracer's.
+std::vector<RunStage> stages_of(const CompareRequest& request) {
+  std::vector<RunStage> pictures(3, {"render", 25.0});
+  if (request.reference == WithReference::yes)
+    pictures.push_back({"paths", 300.0});
+  pictures.push_back({"writing", 5.0});
+  return joined(pass_one_stages(request.settings), pictures);
+}
+
 } // namespace
 
 void compare_run(const CompareRequest& request, const RunEvents& events) {
   make_folder(request.folder);
   check_writable_file(request.folder / "index.html");
   const ThreadLimit limit(request.settings.threads);
+  begin_stages(events, stages_of(request));
+  if (events.progress)
+    events.progress("scene", 0.0);
   RunFigures figures;
   figures.threads = limit.threads();
 
@@ -113,13 +150,14 @@ void compare_run(const CompareRequest& request, const RunEvents& events) {
     auto picture = run_reference(std::move(*for_reference), camera, limits, events, own);
     comparison.modes.push_back(
         {"reference", "reference",
-         fmt::format("path tracer, {:.2g} % noise", 100.0 * picture.standard_error),
+         fmt::format("path tracer, {} noise", readable_percent(picture.standard_error)),
          std::move(picture.mean), own.seconds.render});
     comparison.reference = std::move(picture.batches);
   }
 
   comparison.exposure =
       request.exposure ? *request.exposure : automatic_exposure(comparison.modes.back().image);
+  comparison.command = command_of(request);
   comparison.settings = settings_of(settings, figures);
   write_modes(request.folder, comparison);
   write_text_file(request.folder / "figures.json", compare_json(comparison));

@@ -4,6 +4,7 @@
 #include "runs/steering/memory.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
+#include "runs/report/percent.h"
 #include "runs/report/stats.h"
 #include "scenes/report/scene_report.h"
 #include "scenes/stopwatch.h"
@@ -47,12 +48,17 @@ std::vector<std::string> describe_worlds(const TransportPlan& plan) {
   if (worlds.considered == 0) {
     return lines;
   }
-  lines.front() += fmt::format(
-      " of {} considered; left out: {} unseen, {} too faint, {} too deep or too many",
-      worlds.considered, worlds.pruned_unseen, worlds.pruned_throughput, worlds.pruned_limit);
+  lines.front() += fmt::format(" of {} considered", worlds.considered);
+  const auto leave_out = [&](std::size_t count, const char* why) {
+    if (count > 0)
+      lines.front() += fmt::format("; {} {}", count, why);
+  };
+  leave_out(worlds.pruned_unseen, "that no surface sees");
+  leave_out(worlds.pruned_throughput, "too faint to matter");
+  leave_out(worlds.pruned_limit, "with more mirrors in a row than are followed");
   if (plan.world_tail > 0.0) {
-    lines.push_back(
-        fmt::format("beyond them at most {:.2g} of the light, followed by rays", plan.world_tail));
+    lines.push_back(fmt::format("longer rows of mirrors bring at most {} of the light; rays follow them",
+                                readable_percent(plan.world_tail)));
   }
   return lines;
 }
@@ -87,13 +93,14 @@ std::string plan_text(const std::string& file, const TransportPlan& plan, std::s
   std::string text = fact("scene", file);
   text += list("mirrors", describe_mirrors(plan));
   text += list("mirror worlds", describe_worlds(plan));
-  text += fact("emitters", fmt::format("{} patch sides", plan.emitters));
+  text += fact("emitters", fmt::format("{} {}", plan.emitters,
+                                    plan.emitters == 1 ? "face glows" : "faces glow"));
   text += fact("punctual lights", std::to_string(plan.punctual_lights));
   text += fact("materials", fmt::format("{} glossy, {} transmissive, {} textured", plan.glossy,
                                         plan.transmissive, plan.textured));
-  text += fact("bands", plan.bands == 1 ? "1, all is grey" : "3");
+  text += fact("colours", plan.bands == 1 ? "one channel: everything is grey" : "three channels");
   text += fact("closed", plan.closed ? "yes, no light can escape" : "no, light can escape");
-  text += fact("mesh", fmt::format("{} patches, {} elements", patches, elements));
+  text += fact("mesh", fmt::format("{} faces divided into {} elements", patches, elements));
   text += fact("expected", describe_cost(expected, threads));
   text += list("stages", plan.stages);
   text += list("ignored", plan.ignored);

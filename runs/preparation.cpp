@@ -1,6 +1,7 @@
 #include "runs/preparation.h"
 
 #include "image/image_file.h"
+#include "runs/report/percent.h"
 #include "scenes/gltf/gltf.h"
 
 #include <fmt/format.h>
@@ -49,8 +50,8 @@ void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
   // A thousandth of the light is where a cut begins to show in a picture.
   constexpr double visible = 1e-3;
   if (closure.cut > visible) {
-    warn(events, fmt::format("{:.1f} % of the gathered light was cut at the last mirror",
-                             100.0 * closure.cut));
+    warn(events, fmt::format("{} of the gathered light was lost at the limit of mirrors in a row",
+                             readable_percent(closure.cut)));
   }
 }
 
@@ -61,9 +62,9 @@ void warn_of_interpolation(const std::optional<double>& error, const PassOneSett
   const auto& adaptive = settings.interpolation.adaptive;
   if (error && adaptive && *error > much_more * adaptive->error) {
     warn(events,
-         fmt::format("adaptive: interpolation is off by about {:.2g} % and not within {:.2g} %, "
-                     "elements are as small or as many as they may be",
-                     100.0 * *error, 100.0 * adaptive->error));
+         fmt::format("adaptive: interpolation is off by about {}, not within {}: elements are as "
+                     "small or as many as they may be",
+                     readable_percent(*error), readable_percent(adaptive->error)));
   }
 }
 

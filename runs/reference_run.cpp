@@ -1,6 +1,7 @@
 #include "runs/reference_run.h"
 
 #include "reference/scene_setup.h"
+#include "runs/report/percent.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
@@ -33,8 +34,8 @@ reference::ReferencePicture run_reference(Scene scene, const Camera& camera,
   figures.seconds.render = watch.lap();
   add_reference(figures, picture);
   note(events,
-       fmt::format("{} samples per pixel, standard error {:.2g} %, stopped by {}", picture.samples,
-                   100.0 * picture.standard_error, stop_name(picture.stopped_by)));
+       fmt::format("{} samples per pixel, standard error {}, stopped by {}", picture.samples,
+                   readable_percent(picture.standard_error), stop_name(picture.stopped_by)));
   return picture;
 }
 

@@ -61,7 +61,10 @@ void render_into(const fs::path& file, const CaseRendering& rendering, int threa
   RenderRequest request = rendering.request;
   request.pictures = {file};
   request.settings.threads = threads;
-  render_run(request, events);
+  // A case has one line, which says what came of it.
+  RunEvents without_notes = events;
+  without_notes.note = nullptr;
+  render_run(request, without_notes);
 }
 
 /// What a comparison needs and finds.

@@ -3,6 +3,7 @@
 #include "runs/steering/memory.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
+#include "runs/run_stages.h"
 #include "runs/view.h"
 #include "scenes/errors.h"
 #include "scenes/stopwatch.h"
@@ -29,11 +30,12 @@ void check_files(const RenderRequest& request) {
   }
 }
 
-/// What nobody reads is not found out.
-ErrorReport wanted_report(const RenderRequest& request) {
+/// What nobody reads is not found out. A further view of a solution takes less time than its error.
+ErrorReport wanted_report(const RenderRequest& request, const RunEvents& events) {
   if (request.error_map == WithErrorMap::yes)
     return ErrorReport::map;
-  return request.stats ? ErrorReport::figures : ErrorReport::none;
+  const bool is_read = events.note && !request.solution;
+  return request.stats || is_read ? ErrorReport::figures : ErrorReport::none;
 }
 
 /// Both passes, timed.
@@ -54,7 +56,7 @@ Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
       watch.lap() - pass_one.form_factors - pass_one.solve - pass_one.interpolate;
   report_error({field_scene(*prepared.light, result.solution), result.solution.field, camera,
                 settings, result.solution.solver},
-               wanted_report(request), {result.rendering.image, result.rendering.samples},
+               wanted_report(request, events), {result.rendering.image, result.rendering.samples},
                result.rendering.layers, events, figures);
   return std::move(result.rendering);
 }
@@ -121,7 +123,7 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   settings.render.diffuse = two_pass_settings(known).render.diffuse;
   check_field(*request.solution, lit.field, settings.render);
   ViewPicture picture = render_view(lit, camera, size, known, events, figures);
-  report_error({lit.light(), lit.field, camera, settings, figures.solver}, wanted_report(request),
+  report_error({lit.light(), lit.field, camera, settings, figures.solver}, wanted_report(request, events),
                {picture.image, picture.samples}, picture.layers, events, figures);
   return picture;
 }
@@ -148,6 +150,10 @@ std::string closing_line(const std::vector<std::filesystem::path>& pictures, Pic
 RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   check_files(request);
   const ThreadLimit limit(request.settings.threads);
+  begin_stages(events, picture_stages(request.settings,
+                                      request.solution ? WithPassOne::no : WithPassOne::yes));
+  if (events.progress)
+    events.progress("scene", 0.0);
   RunFigures figures;
   figures.threads = limit.threads();
   Stopwatch total;

@@ -6,8 +6,11 @@
 #include "runs/outputs.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
+#include "runs/run_stages.h"
 #include "scenes/errors.h"
 #include "scenes/stopwatch.h"
+
+#include <fmt/format.h>
 
 namespace meninas {
 
@@ -53,6 +56,9 @@ static RadiositySolution solve_or_relight(const SolveRequest& request, const Lig
 RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   check_files(request);
   const ThreadLimit limit(request.settings.threads);
+  begin_stages(events, joined(pass_one_stages(request.settings), {{"writing", 5.0}}));
+  if (events.progress)
+    events.progress("scene", 0.0);
   const PassOneSettings settings = two_pass_settings(request.settings).pass_one;
   RunFigures figures;
   figures.threads = limit.threads();
@@ -81,6 +87,9 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   if (request.stats) {
     write_text_file(*request.stats, stats_json(figures));
   }
+  note(events, fmt::format("{}: {} elements in {:.{}f} s", request.solution.string(),
+                           figures.elements, figures.seconds.total,
+                           figures.seconds.total < 10.0 ? 1 : 0));
   return figures;
 }
 

@@ -13,8 +13,7 @@
 // Glass (transmission > 0) is there from both sides: the loader makes it double-sided.
 // Without thickness a sheet of it is a whole pane, with both of its faces;
 // with one it is the surface of a solid (KHR_materials_volume).
-// Where a texture of transmission is black it is what is below:
-// an opaque surface, from both sides.
+// Where a transmission texture is black, the surface is opaque from both sides.
 #pragma once
 
 #include "scenes/types.h"

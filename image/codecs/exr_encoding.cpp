@@ -14,7 +14,9 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 namespace meninas {
@@ -41,13 +43,25 @@ private:
   std::size_t place_ = 0;
 };
 
-/// Three channels of the file, stored under `prefix` ("" or "NAME.").
+/// Some channels of the file, stored under `prefix` ("" or "NAME.").
 struct Planes {
   std::string prefix;
   const Image* image;
+  std::span<const char* const> components;
 };
 
-constexpr std::array components = {"R", "G", "B"};
+constexpr std::array colour = {"R", "G", "B"};
+constexpr std::array vector = {"X", "Y", "Z"};
+constexpr std::array depth = {"Z"};
+
+/// What compositors know a layer's channels by. Of a depth R is written.
+std::span<const char* const> components_of(std::string_view layer) {
+  if (layer == "depth")
+    return depth;
+  if (layer == "normal")
+    return vector;
+  return colour;
+}
 
 template <typename Value>
 constexpr Imf::PixelType stored_type = std::is_same_v<Value, half> ? Imf::HALF : Imf::FLOAT;
@@ -55,10 +69,17 @@ constexpr Imf::PixelType stored_type = std::is_same_v<Value, half> ? Imf::HALF :
 } // namespace
 
 static std::vector<Planes> planes_of(const Image& picture, std::span<const Layer> layers) {
-  std::vector<Planes> planes{{"", &picture}};
+  std::vector<Planes> planes{{"", &picture, colour}};
   for (const Layer& layer : layers)
-    planes.push_back({layer.name + ".", &layer.image});
+    planes.push_back({layer.name + ".", &layer.image, components_of(layer.name)});
   return planes;
+}
+
+static std::size_t channel_count(std::span<const Planes> planes) {
+  std::size_t count = 0;
+  for (const Planes& one : planes)
+    count += one.components.size();
+  return count;
 }
 
 /// No date among the attributes: the same picture would become two different files.
@@ -66,7 +87,7 @@ static Imf::Header header_of(const Image& picture, std::span<const Planes> plane
                              Imf::PixelType type, const Attributes& attributes) {
   Imf::Header header(picture.width, picture.height);
   header.compression() = Imf::ZIP_COMPRESSION;
-  for (const auto& [prefix, image] : planes)
+  for (const auto& [prefix, image, components] : planes)
     for (const char* component : components)
       header.channels().insert(prefix + component, Imf::Channel(type));
   header.insert("Software", Imf::StringAttribute("Meninas " MENINAS_VERSION));
@@ -84,14 +105,17 @@ static std::vector<Value> gather_rows(std::span<const Planes> planes, int first,
   const auto width = static_cast<std::size_t>(planes.front().image->width);
   const auto begin = static_cast<std::size_t>(first) * width;
   const auto count = static_cast<std::size_t>(last - first) * width;
-  const auto stride = components.size() * planes.size();
+  const auto stride = channel_count(planes);
   std::vector<Value> rows(count * stride);
-  for (std::size_t k = 0; k < planes.size(); ++k)
+  std::size_t place = 0;
+  for (const Planes& one : planes) {
     for (std::size_t pixel = 0; pixel < count; ++pixel)
-      for (std::size_t c = 0; c < components.size(); ++c)
-        rows[pixel * stride + components.size() * k + c] =
-            Value(std::clamp(planes[k].image->pixels[begin + pixel][static_cast<glm::length_t>(c)],
+      for (std::size_t c = 0; c < one.components.size(); ++c)
+        rows[pixel * stride + place + c] =
+            Value(std::clamp(one.image->pixels[begin + pixel][static_cast<glm::length_t>(c)],
                              -largest, largest));
+    place += one.components.size();
+  }
   return rows;
 }
 
@@ -100,14 +124,15 @@ template <typename Value>
 static Imf::FrameBuffer frame_of(std::vector<Value>& rows, std::span<const Planes> planes,
                                  int first) {
   const auto width = static_cast<std::size_t>(planes.front().image->width);
-  const auto stride = components.size() * planes.size() * sizeof(Value);
+  const auto stride = channel_count(planes) * sizeof(Value);
   Imf::FrameBuffer frame;
-  for (std::size_t k = 0; k < planes.size(); ++k)
-    for (std::size_t c = 0; c < components.size(); ++c) {
+  std::size_t place = 0;
+  for (const Planes& one : planes)
+    for (const char* component : one.components) {
       // The library counts rows from the top of the picture.
-      auto* top = reinterpret_cast<char*>(rows.data() + components.size() * k + c) -
+      auto* top = reinterpret_cast<char*>(rows.data() + place++) -
                   static_cast<std::ptrdiff_t>(static_cast<std::size_t>(first) * width * stride);
-      frame.insert(planes[k].prefix + components[c],
+      frame.insert(one.prefix + component,
                    Imf::Slice(stored_type<Value>, top, stride, width * stride));
     }
   return frame;

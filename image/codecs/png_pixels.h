@@ -14,7 +14,7 @@ namespace meninas::decoder {
 
 /// The PNG with its chunks IHDR, PLTE, tRNS, IDAT and IEND alone.
 /// Throws std::runtime_error when one is cut off, damaged (by its checksum) or missing.
-/// Those that come twice, too late, or mean nothing to pixels of their kind are left out.
+/// Leaves out chunks that come twice, too late, or have no meaning for this kind of pixels.
 std::vector<std::uint8_t> png_pixel_chunks(std::string_view png);
 
 } // namespace meninas::decoder

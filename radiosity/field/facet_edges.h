@@ -19,7 +19,8 @@ namespace meninas {
 /// Facets that turn by more from one to the next, degrees, are few.
 inline constexpr double most_smooth_turn = 15.0;
 
-/// Of these elements with averaged corners those on which a shadow ends, or which turn much.
+/// The facets, among these elements with averaged corners, on which a shadow ends or which meet their
+/// neighbours at more than most_smooth_turn.
 /// `level` tells samples apart, as in light_vertices().
 std::vector<ElementId> faces_with_shadow_edges(const LightScene& light, const VertexSource& source,
                                          std::uint32_t level, const VertexSamples& found,

@@ -34,7 +34,7 @@ struct BendScale {
   double radiosity = 0.0; ///< B_mean, W/m^2, the brightest channel
 };
 
-/// Of the elements that were solved; `reflected` by ElementId.
+/// The scale of the elements that were solved; `reflected` by ElementId.
 BendScale bend_scale(const ElementMesh& mesh, std::span<const Rgb> reflected);
 
 /// k.

@@ -1,6 +1,6 @@
 // How gathered light gets less noisy with more rays.
-// Of N that are spread evenly over the hemisphere (hemisphere_samples.h) the error falls as N^-p:
-// p = 3/4 where what they see has edges, as in rooms, better where it is smooth (D.
+// The error of N rays spread evenly over the hemisphere (hemisphere_samples.h) falls as N^-p:
+// p = 3/4 where they see edges, as in rooms, better where light is smooth (D.
 // Mitchell, Consequences of stratified sampling in graphics, SIGGRAPH 1996).
 #pragma once
 

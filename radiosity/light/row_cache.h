@@ -20,16 +20,16 @@ namespace meninas {
 
 inline constexpr std::size_t max_cached_rays = std::size_t{1} << 21U;
 
-/// What other rays of the same point have met besides, traced before: `traced` stays.
+/// Adds hits of other rays of the same point, traced before: `traced` stays.
 void append(const GatheredRays& more, GatheredRays& result);
 
-/// Of one vertex.
+/// The rays of one vertex.
 struct VertexRays {
   GatheredRays rays;                      ///< none: not traced yet
   std::optional<bool> is_under_something; ///< vertex_light.h; none: not asked yet
 };
 
-/// Of the vertices of one mesh.
+/// The rays of the vertices of one mesh.
 class RowCache {
 public:
   /// Makes room for the rays of these vertices, so many each, as far as there is any.

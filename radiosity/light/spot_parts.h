@@ -28,7 +28,7 @@ struct SpotPart {
   bool is_whole() const { return lit.triangles.empty(); }
 };
 
-/// Those of narrow spots and their images that shine on an element, light by light in every world.
+/// The narrow spots and their images that shine on an element, light by light in every world.
 std::vector<SpotPart> narrow_spots(const ElementMesh& mesh, const WorldTree& worlds,
                                    std::span<const PunctualLight> lights, ElementId element);
 

@@ -25,7 +25,7 @@ struct ClosedBody {
   std::vector<TriangleCorners> shell; ///< these and what closes loops, all fronts outwards
 };
 
-/// Those closed bodies of which `wanted`, by TriangleId, has a triangle.
+/// The closed bodies with at least one triangle in `wanted`, by TriangleId.
 std::vector<ClosedBody> find_closed_bodies(const Scene& scene, const SurfaceModel& surfaces,
                                            const std::vector<std::uint8_t>& wanted);
 

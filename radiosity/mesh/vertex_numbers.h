@@ -1,8 +1,8 @@
 // The numbers of a mesh's vertices: in the order in which its elements mention them.
 //
-// Of a mesh that is divided most elements stay as they are, and say which of the vertices before
-// are theirs. Only what is new asks for vertices by place, and only those vertices before
-// have one that it may share. The numbers are those of a mesh that is made anew.
+// When a mesh is divided, most elements stay and keep their vertices. Only new elements look vertices
+// up by place, among the old vertices that they may share. The numbers are those of a mesh that is
+// made anew.
 #pragma once
 
 #include "radiosity/mesh/vertex_welder.h"

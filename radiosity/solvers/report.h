@@ -9,7 +9,7 @@ namespace meninas {
 
 inline bool is_grey(const Rgb& colour) { return colour.r == colour.g && colour.g == colour.b; }
 
-/// Of a grey system any channel will do.
+/// In a grey system all channels are alike; this takes red.
 template <typename Value>
 Value value_of(const Rgb& colour) {
   if constexpr (channel_count<Value> == 1)

@@ -87,7 +87,7 @@ template <typename Value>
 LeftToShoot<Value> left_to_shoot(const ShotState<Value>& state, double little);
 
 /// Adds the present state to the history.
-/// Of long histories every second, fourth, ... record is kept, and the last.
+/// A long history keeps every second, fourth, ... record, and the last.
 template <typename Value>
 class ShotHistory {
 public:

@@ -14,7 +14,7 @@ enum class SolverMethod { direct, jacobi, gauss_seidel, bicgstab, progressive, h
 inline constexpr std::array solver_methods{SolverMethod::direct,       SolverMethod::jacobi,
                                            SolverMethod::gauss_seidel, SolverMethod::bicgstab,
                                            SolverMethod::progressive,  SolverMethod::hierarchical};
-/// Those that solve for a transport with a row for every element.
+/// The methods that solve for a transport with a row for every element.
 inline constexpr std::array row_solvers{SolverMethod::direct, SolverMethod::jacobi,
                                         SolverMethod::gauss_seidel, SolverMethod::bicgstab,
                                         SolverMethod::progressive};
@@ -29,7 +29,7 @@ struct SolverSettings {
   std::optional<int> max_shots = {}; ///< of `progressive`, whose iterations are shots
 };
 
-/// Of `progressive`.
+/// How `progressive` shoots, and who watches.
 struct ShotPlan {
   Shooters shooters; ///< none: every unknown for itself
   ShotWatch watch;

@@ -24,7 +24,7 @@ inline bool contains(ContactMask cells, Vec2 st) {
   return ((cells >> cell_of(st.x, st.y)) & 1U) != 0;
 }
 
-/// Those beside covered cells, also by a corner, which are not: a foot may go through them.
+/// The open cells that touch a covered one, also by a corner: a contact may cross them.
 ContactMask cells_at_foot(ContactMask covered);
 
 struct Covered {
@@ -45,9 +45,9 @@ struct NumberedPlace {
   std::uint32_t number;
 };
 
-/// Of a low-discrepancy sequence, of `first` and those after it, the first place that is exposed.
-/// Not all must be covered; where what is open is so small that 64 of the places at a foot
-/// are covered, one of these.
+/// The first exposed place of a low-discrepancy sequence from `first` on. Precondition: not every
+/// place is covered. Where the open part is so small that 64 places in crossed cells are covered, it
+/// is one of these.
 NumberedPlace next_open_point(const LightScene& light, const ReceiverArea& receiver,
                             ContactMask covered, std::uint32_t seed, std::uint32_t first);
 

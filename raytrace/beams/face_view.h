@@ -7,8 +7,8 @@
 //
 //   (g . o - e) + t g . d = ((g . o - e) s + h g . d) / s.
 //
-// Of the two factors of each product one is constant, so that all of these are affine,
-// and their least and largest value over a rectangle are at corners.
+// One factor of each product is constant, so all of these are affine in (x, y): their least and
+// largest values over a rectangle are at its corners.
 #pragma once
 
 #include "raytrace/beams/frustum.h"

@@ -43,8 +43,8 @@ struct FrustumFace {
   bool can_be_sure = true; ///< no holes, no sliver
 };
 
-/// Those that can be met. None where the scene has more triangles than `most`,
-/// nor where there is glass, in which rays are attenuated one by one.
+/// The faces that rays can meet. None where the scene has more triangles than `most`,
+/// or glass, which attenuates rays one by one.
 std::vector<FrustumFace> frustum_faces(const LightScene& light, std::size_t most);
 
 /// The unfolded rays o + t d through the points (x, y) of a picture or a tile of it, in pixels;

@@ -24,9 +24,9 @@
 // and of those rather at edges (noise_choice.h). solver is the solver's bound,
 // for the brightest reflected radiosity, an upper bound; the others are estimates.
 //
-// Of a picture that gathers at every hit the field's error is that of what it is gathered from:
-// L_1 - L and L_2 - L are what changes where at some of the places where its rays land
-// light is gathered once more, in place of what elements there reflect (one_more_bounce()).
+// A picture that gathers at every hit has the error of the field that it gathers from. There
+// L_1 - L and L_2 - L are the changes when, at some places where its rays land, light is gathered
+// once more instead of taken from the elements (one_more_bounce()).
 //
 // Limits: gathered light comes from the picture's own field.
 // An error that all of the field has alike is seen as what one more bounce changes, which
@@ -64,7 +64,7 @@ struct SampledPicture {
 /// So many pixels that finding out takes a few per cent of the rays of pass one, within limits.
 PictureErrorSettings error_settings(const TwoPassSettings& settings, std::size_t elements);
 
-/// Of `picture`, which render() made of this field with these settings.
+/// The error of `picture`, which render() made of this field with these settings.
 /// `largest_reflected` is the largest reflected radiosity, W/m^2.
 PictureError estimate_error(const LightScene& light, const IrradianceField& field,
                             const Camera& camera, const TwoPassSettings& settings,

@@ -14,7 +14,7 @@
 // that is the error of the n / 4 (times sqrt(4/3)), of which n have a half where all is noise,
 // a third at edges. The choice is made of whole pictures, so that it depends on no tile
 // and no thread, and of the whole light, so that all layers are of the same samples.
-// What the first samples of a pixel and its neighbours have not met is not found.
+// Limit: a feature that the first samples of a pixel and its neighbours all miss is not found.
 #pragma once
 
 #include "raytrace/tiles.h"

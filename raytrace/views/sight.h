@@ -17,7 +17,7 @@ struct Sight {
   int mirrors = 0;                          ///< on the way
 };
 
-/// What is mostly clear glass is looked straight through.
+/// The eye looks straight through glass that is mostly clear.
 /// The sight through a point of the picture (x and y from 0 to 1, right and down).
 /// Backs of single-sided surfaces are looked through by the eye, not by mirrors.
 /// A chain of more than `max_mirrors` ends at the mirror it has come to.

@@ -65,7 +65,7 @@ private:
 /// what --dry-run shows and --resume would leave as it is.
 bool is_done(const std::filesystem::path& folder, const BatchPicture& picture);
 
-/// Of the files as they are now. Throws InputError where one cannot be read.
+/// The hashes of the files as they are now. Throws InputError where one cannot be read.
 std::vector<std::uint64_t> hashes_of(const std::filesystem::path& folder,
                                      const std::vector<std::filesystem::path>& files);
 

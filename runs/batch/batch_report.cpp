@@ -4,7 +4,11 @@
 #include "runs/report/page.h"
 #include "runs/pages/batch_page.h"
 #include "runs/regress_run.h"
+#include "runs/steering/setting_options.h"
 #include "scenes/version.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -127,8 +131,13 @@ std::string summary_json(const BatchReport& report) {
 
 std::string contact_sheet(const BatchReport& report) {
   Json json = report_json(report);
+  json["command"] = "meninas batch " + shell_quoted(report.jobs_file.string()) + " -o " +
+                    shell_quoted(report.folder.string()) + " --resume";
   for (std::size_t k = 0; k < report.results.size(); ++k) {
-    json["pictures"][k]["thumbnail"] = report.results[k].record.thumbnail;
+    Json& picture = json["pictures"][k];
+    picture["thumbnail"] = report.results[k].record.thumbnail;
+    picture["settings"] =
+        fmt::format("{}", fmt::join(options_of(report.pictures[k].request.settings), " "));
   }
   return fill_page(batch_page, text_of(json, -1));
 }

@@ -11,6 +11,7 @@ namespace meninas {
 
 struct BatchReport {
   std::filesystem::path jobs_file;
+  std::filesystem::path folder;
   std::vector<BatchPicture> pictures;
   std::vector<PictureResult> results; ///< by picture
   std::vector<SolveResult> solves;    ///< of this process

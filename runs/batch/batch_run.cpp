@@ -57,6 +57,7 @@ struct Batch {
 /// Own results, and for the pictures of other shards what their processes have left behind.
 BatchReport report_of(Batch& batch) {
   BatchReport report{.jobs_file = batch.request.jobs_file,
+                     .folder = batch.request.folder,
                      .pictures = batch.all,
                      .results = {},
                      .solves = batch.work.solves(),

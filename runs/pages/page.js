@@ -8,3 +8,17 @@ const make = (tag, text, className) => {
   if (className) node.className = className;
   return node;
 };
+/// A command with a button that copies it.
+const showCommand = (place, command) => {
+  const button = make("button", "copy");
+  button.type = "button";
+  button.addEventListener("click", async () => {
+    try {
+      await navigator.clipboard.writeText(command);
+      button.textContent = "copied";
+    } catch {
+      getSelection().selectAllChildren(place);
+    }
+  });
+  place.replaceChildren(make("code", command), " ", button);
+};

@@ -1,5 +1,6 @@
 #include "runs/report/compare_report.h"
 
+#include "image/display.h"
 #include "image/metrics/heat_map.h"
 #include "image/metrics/metrics.h"
 #include "runs/report/page.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace meninas {
 namespace {
@@ -74,7 +76,7 @@ Json share_json(const reference::Share& share) {
 
 std::string mirrored_text(const Comparison& comparison) {
   std::string text = fmt::format(
-      "Of the light that diffuse surfaces reflect here, mirrors throw {:.2f} %. {:.2f} "
+      "Of the light that diffuse surfaces reflect here, {:.2f} % came by way of mirrors. {:.2f} "
       "% of the picture's light is seen in mirrors.",
       100.0 * mirrored_of_diffuse(comparison), 100.0 * share_where(comparison, is_seen_in_mirrors));
   if (!comparison.reference.empty()) {
@@ -88,11 +90,11 @@ std::string mirrored_text(const Comparison& comparison) {
 }
 
 std::string meaning_of(std::string_view layer) {
-  std::string what = "what glows";
+  std::string what = "light of lamps themselves";
   if (layer.starts_with("diffuse.direct")) {
     what = "light that came straight to the surface";
   } else if (layer.starts_with("diffuse.mirrored")) {
-    what = "light that a mirror threw on the surface";
+    what = "light that came to the surface by way of mirrors";
   }
   if (layer.ends_with(".mirrors")) {
     return what + ", seen by way of several mirrors or glossy surfaces";
@@ -145,11 +147,18 @@ Json header_json(const Comparison& comparison) {
           {"settings", settings_json(comparison)}};
 }
 
+/// Whole stops by which a layer is shown brighter than the pictures, so that it can be seen.
+int stops_of(const Layer& layer, double exposure) {
+  constexpr double most = 10.0;
+  return static_cast<int>(
+      std::clamp(std::floor(automatic_exposure(layer.image) - exposure), 0.0, most));
+}
+
 Json mechanisms_json(const Comparison& comparison) {
   const std::array<std::pair<const char*, const char*>, 3> rows{
-      {{"emission", "light of emitters themselves"},
+      {{"emission", "light of lamps themselves"},
        {"diffuse.direct", "diffuse, light that came straight"},
-       {"diffuse.mirrored", "diffuse, light that mirrors threw"}}};
+       {"diffuse.mirrored", "diffuse, light that came by way of mirrors"}}};
   Json mechanisms = Json::array();
   for (const auto& [layer, name] : rows) {
     Json shares = Json::array();
@@ -222,22 +231,27 @@ std::string compare_page_of(const Comparison& comparison) {
     }
     json["pictures"].push_back(picture);
   }
+  json["command"] = comparison.command;
   json["mechanisms"] = mechanisms_json(comparison);
   json["mirrored_text"] = mirrored_text(comparison);
   json["differences"] = Json::array();
   for (const DifferencePicture& difference : difference_pictures(comparison)) {
     json["differences"].push_back({{"name", difference.name},
                                    {"caption", difference.caption},
+                                   {"file", difference.name + ".png"},
                                    {"png", png_address(difference.image, 0.0)}});
   }
   json["layers"] = Json::array();
   for (const Layer& layer : comparison.layers) {
     const double share = share_of(comparison, layer);
     if (share > 0.0) {
+      const int stops = stops_of(layer, comparison.exposure);
       json["layers"].push_back({{"name", layer.name},
                                 {"share", share},
                                 {"meaning", meaning_of(layer.name)},
-                                {"png", png_address(layer.image, comparison.exposure)}});
+                                {"file", "hybrid.exr"},
+                                {"stops", stops},
+                                {"png", png_address(layer.image, comparison.exposure + stops)}});
     }
   }
   return fill_page(compare_page, text_of(json, -1));

@@ -27,6 +27,7 @@ struct ComparedMode {
 
 struct Comparison {
   std::string scene, camera;
+  std::string command;                               ///< that makes it again
   double exposure = 0.0;                             ///< stops, the same for all
   std::vector<ComparedMode> modes;                   ///< the less accurate first
   std::vector<Layer> layers;                         ///< of the hybrid picture

@@ -16,6 +16,9 @@ namespace meninas {
 /// Precondition: the template has that place.
 std::string fill_page(std::string_view page, std::string_view json);
 
+/// A word of a command, in single quotes where a shell would take it apart.
+std::string shell_quoted(const std::string& text);
+
 /// RFC 4648, section 4.
 std::string base64(std::span<const std::byte> bytes);
 

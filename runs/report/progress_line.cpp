@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <cmath>
 
 namespace meninas {
 
@@ -21,24 +21,52 @@ std::string readable_duration(double seconds) {
                     : fmt::format("{} min {:02} s", whole / 60, whole % 60);
 }
 
+ProgressLine::~ProgressLine() {
+  clock_ = {};
+  clear();
+}
+
+double ProgressLine::now() const {
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+void ProgressLine::begin(const std::vector<RunStage>& stages) {
+  const std::lock_guard lock(mutex_);
+  progress_.begin(stages, now());
+}
+
 void ProgressLine::report(std::string_view stage, double fraction) {
   if (style_ == ProgressStyle::none) {
     return;
   }
-  // A thread that finds another one reporting goes on with its work.
-  const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock) {
+  // A thread that finds another one reporting goes on with its work, but for the end of a stage: with
+  // that the next one begins.
+  std::unique_lock lock(mutex_, std::defer_lock);
+  if (fraction >= 1.0) {
+    lock.lock();
+  } else if (!lock.try_lock()) {
     return;
   }
-  if (stage != stage_) {
-    stage_ = stage;
-    stage_begin_ = Clock::now();
-    furthest_ = 0.0;
-  }
-  furthest_ = std::max(furthest_, fraction);
+  progress_.report(stage, fraction, now());
   if (is_due()) {
-    show(line_for(furthest_));
+    show(line());
   }
+  if (!clock_.joinable()) {
+    keep_moving();
+  }
+}
+
+void ProgressLine::keep_moving() {
+  clock_ = std::jthread([this](const std::stop_token& stop) {
+    constexpr auto pause = std::chrono::milliseconds(250);
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+      wake_.wait_for(lock, stop, pause, [] { return false; });
+      if (!stop.stop_requested() && progress_.state(now()).done < 1.0 && is_due()) {
+        show(line());
+      }
+    }
+  });
 }
 
 void ProgressLine::report(const std::string& line) {
@@ -59,14 +87,20 @@ bool ProgressLine::is_due() {
   return true;
 }
 
-std::string ProgressLine::line_for(double fraction) const {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - stage_begin_).count();
-  std::string line = fmt::format("{}: {:.0f} %", stage_, 100.0 * fraction);
-  // Too little done says nothing about the rest.
-  if (fraction > 0.02 && fraction < 1.0) {
-    line += fmt::format(", {} left", readable_duration(elapsed * (1.0 - fraction) / fraction));
+/// "43 %, 5 s left: interpolation", on a terminal behind a bar.
+std::string ProgressLine::line() const {
+  const RunState state = progress_.state(now());
+  std::string line = fmt::format("{:.0f} %", std::floor(100.0 * state.done));
+  if (state.seconds_left) {
+    line += fmt::format(", {} left", readable_duration(*state.seconds_left));
   }
-  return line;
+  line += ": " + state.stage;
+  if (style_ != ProgressStyle::terminal) {
+    return line;
+  }
+  constexpr int width = 24;
+  const auto full = static_cast<std::size_t>(width * state.done);
+  return fmt::format("[{:<{}}] {}", std::string(full, '#'), width, line);
 }
 
 void ProgressLine::show(const std::string& line) {

@@ -2,11 +2,15 @@
 // one line that is written over on a terminal, a plain line now and then in a log.
 #pragma once
 
+#include "runs/report/run_progress.h"
+
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <thread>
 
 namespace meninas {
 
@@ -28,8 +32,10 @@ public:
   ProgressLine(std::FILE* stream, ProgressStyle style) : stream_(stream), style_(style) {}
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
-  ~ProgressLine() { clear(); }
+  ~ProgressLine();
 
+  /// The stages of the run that begins.
+  void begin(const std::vector<RunStage>& stages);
   void report(std::string_view stage, double fraction);
   /// A line that says how far things are by itself.
   void report(const std::string& line);
@@ -39,17 +45,20 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
   bool is_due();
-  std::string line_for(double fraction) const;
+  double now() const;
+  /// Shows how far the run is between reports, for stages that make none.
+  void keep_moving();
+  std::string line() const;
   void show(const std::string& line);
 
   std::FILE* stream_;
   ProgressStyle style_;
   std::mutex mutex_;
-  std::string stage_;
-  Clock::time_point stage_begin_ = Clock::now();
+  RunProgress progress_;
   Clock::time_point last_shown_ = Clock::now();
-  double furthest_ = 0.0;
   bool visible_ = false;
+  std::condition_variable_any wake_;
+  std::jthread clock_; ///< that keeps it moving, from the first report on
 };
 
 } // namespace meninas

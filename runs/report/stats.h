@@ -40,7 +40,7 @@ struct WorldFigures {
   double tail_bound = 0.0; ///< radiosity/scene/mirror_depth_bound.h
 };
 
-/// Of a run that chose its own settings (steering.h), what it tried.
+/// One try of a run that chose its own settings (steering.h).
 struct SteeredStep {
   double wanted_elements = 0.0;
   std::size_t elements = 0; ///< there were

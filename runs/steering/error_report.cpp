@@ -1,6 +1,7 @@
 #include "runs/steering/error_report.h"
 
 #include "raytrace/error/error_map.h"
+#include "runs/report/percent.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
@@ -11,13 +12,6 @@
 
 namespace meninas {
 
-/// In whole percent from ten on, and no more than "over 100 %": beyond that it is a guess.
-static std::string percent(double share) {
-  if (share > 1.0)
-    return "over 100 %";
-  return share < 0.1 ? fmt::format("{:.2g} %", 100.0 * share) : fmt::format("{:.0f} %", 100.0 * share);
-}
-
 std::string describe_error(const PictureError& error) {
   struct Part {
     const char* name;
@@ -27,12 +21,12 @@ std::string describe_error(const PictureError& error) {
                    Part{"mirror depth", error.mirror_tail}, Part{"camera rays", error.pixels},
                    Part{"solver", error.solver}};
   std::ranges::stable_sort(parts, std::greater{}, &Part::error);
-  std::string text = fmt::format("about {} off", percent(error.total));
+  std::string text = fmt::format("about {} off", readable_percent(error.total));
   constexpr double matters = 0.2; // of the total: less adds a fiftieth to it
   const char* between = " (";
   for (const Part& part : parts)
     if (part.error > matters * error.total) {
-      text += fmt::format("{}{} {}", between, part.name, percent(part.error));
+      text += fmt::format("{}{} {}", between, part.name, readable_percent(part.error));
       between = ", ";
     }
   return *between == ',' ? text + ")" : text;

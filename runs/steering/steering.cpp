@@ -1,6 +1,8 @@
 #include "runs/steering/steering.h"
 
 #include "raytrace/pixels/sample_choice.h"
+#include "runs/report/percent.h"
+#include "runs/run_stages.h"
 #include "runs/steering/error_report.h"
 #include "runs/preparation.h"
 #include "runs/steering/setting_options.h"
@@ -158,6 +160,7 @@ SteeredRun run_with(Steering& steering, const Parameters& knobs, bool may_end) {
   TwoPassSettings two_pass = two_pass_settings(settings);
   two_pass.render.width = request.size.width;
   two_pass.render.height = request.size.height;
+  begin_stages(steering.events, picture_stages(settings, WithPassOne::yes));
   const RunEvents events = events_of(steering, may_end);
   light_scene(steering, knobs, two_pass, events);
   steering.warned = true;
@@ -191,8 +194,9 @@ SteeredRun run_with(Steering& steering, const Parameters& knobs, bool may_end) {
 
 std::string describe_step(const SteeredStep& step, std::size_t number) {
   return fmt::format(
-      "step {}: {} elements, {} rays, {} samples, {}; {:.2f} s, error about {:.2g} %", number,
-      step.elements, step.rays, step.samples, name_of(step.term), step.seconds, 100.0 * step.error);
+      "step {}: {} elements, {} rays, {} samples, {}; {:.2f} s, about {} off", number,
+      step.elements, step.rays, step.samples, name_of(step.term), step.seconds,
+      readable_percent(step.error));
 }
 
 void add_seconds(RunSeconds& sum, const RunSeconds& more, bool pass_one) {
@@ -214,8 +218,8 @@ void say_end(const SteeredChoice& choice, const RunEvents& events) {
   for (const std::string& option : choice.options)
     options += ' ' + option;
   if (choice.wanted_error && !choice.reached)
-    warn(events, fmt::format("an error of {:.2g} % was not reached: it is about {:.2g} %",
-                             100.0 * *choice.wanted_error, 100.0 * kept.error));
+    warn(events, fmt::format("an error of {} was not reached: it is about {}",
+                             readable_percent(*choice.wanted_error), readable_percent(kept.error)));
   note(events, fmt::format("kept step {}; the same picture again:{}", choice.kept + 1, options));
 }
 
@@ -326,6 +330,8 @@ ViewPicture steer(const SteeringRequest& request, const RunEvents& events, RunFi
   const int threads = figures.threads;
   search.seconds.load = figures.seconds.load;
   figures = best.figures;
+  if (best.measured.error.mean_radiance > 0.0)
+    figures.closing = describe_error(best.measured.error);
   figures.seconds = search.seconds;
   figures.threads = threads;
   figures.choice = std::move(choice);

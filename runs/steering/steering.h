@@ -4,8 +4,8 @@
 // First a coarse run, in a fraction of a second, with an estimate of its error by part;
 // then the quickest settings that are foretold to do, or the best that fit (steering_model.h),
 // and again, until the estimate is below what was wanted or the time is over.
-// A run that changes pass two alone keeps pass one. Parameters whose turning did not help are let alone.
-// Of several pictures the one with the smallest estimate is kept.
+// A run that changes pass two alone keeps pass one. A parameter whose change did not help is not
+// changed again. The picture with the smallest estimate is kept.
 // Samples of pixels are adaptive (raytrace/pixels/sample_choice.h), to the wanted error in every pixel.
 #pragma once
 

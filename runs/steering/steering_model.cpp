@@ -150,7 +150,7 @@ std::string reasons(const MeasuredRun& run, const Parameters& next) {
       all.push_back(fmt::format("{} {:.2g} %: {}", part, 100.0 * error, remedy));
   };
   because(next.term == DiffuseTerm::direct && next.term != run.knobs.term, "edges within elements",
-          e.mesh_direct, "light from the source at every hit");
+          e.mesh_direct, "direct light at every hit");
   because(next.term == DiffuseTerm::gather && next.term != run.knobs.term, "mesh and form factors",
           std::hypot(e.mesh, e.form_factors), "light gathered at every hit");
   because(next.elements != run.knobs.elements, "mesh", e.mesh,

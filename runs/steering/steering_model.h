@@ -68,9 +68,9 @@ struct NextRun {
   std::string why;
 };
 
-/// Of all combinations of the knobs, from what they are up, that fit into `seconds`
-/// the quickest that is foretold to bring the error below `error`, or, where none does,
-/// that brings it as low as any, to a hundredth. The same knobs as before where none lowers it.
+/// The quickest combination of parameters predicted to bring the error below `error`, among those
+/// that are not below the present ones and fit into `seconds`. If none does, the quickest within a
+/// hundredth of the lowest predicted error; the present parameters if none lowers it.
 NextRun next_run(const MeasuredRun& run, const FreeKnobs& free, double error, double seconds);
 
 } // namespace meninas

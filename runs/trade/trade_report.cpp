@@ -18,26 +18,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// In single quotes where a shell would take it apart.
-std::string quoted(const std::string& text) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,/:%@";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos)
-    return text;
-  std::string result = "'";
-  for (const char c : text)
-    result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + '\'';
-}
-
 std::string command_of(const TradeResult& result, const TradePoint& point) {
-  std::string command = "meninas render " + quoted(result.scene.string()) + " -o out.exr";
+  std::string command = "meninas render " + shell_quoted(result.scene.string()) + " -o out.exr";
   const Image& picture = result.reference.mean;
   command += fmt::format(" --size {}x{}", picture.width, picture.height);
   if (result.camera)
-    command += " --camera " + quoted(*result.camera);
+    command += " --camera " + shell_quoted(*result.camera);
   for (const std::string& option : options_of(point.settings))
-    command += ' ' + quoted(option);
+    command += ' ' + shell_quoted(option);
   return command;
 }
 
@@ -75,18 +63,24 @@ Json point_json(const TradeResult& result, std::size_t id, bool on_front) {
 /// half the rise of log seconds, as samples at random would pay.
 double worth(const KnobWorth& knob) { return -std::log(knob.error) - 0.5 * std::log(knob.seconds); }
 
+/// "+10 % time", "-3 % error", "4.2 times the time"
+std::string readable_change(double ratio, std::string_view what) {
+  constexpr double twice = 2.0;
+  return ratio < twice ? fmt::format("{:+.0f} % {}", 100.0 * (ratio - 1.0), what)
+                         : fmt::format("{:.2g} times the {}", ratio, what);
+}
+
 std::string conclusion_of(const std::vector<KnobWorth>& knobs) {
   if (knobs.empty())
-    return "No knob was turned within the budget.";
+    return "The budget was too short to change a setting of the draft.";
   const auto say = [](const KnobWorth& k) {
-    return fmt::format("{} {} to {}: {:.2g} times the seconds, {:.2g} times the error", k.turn.knob,
-                       k.turn.from, k.turn.to, k.seconds, k.error);
+    return fmt::format("{} from {} to {} ({}, {})", k.turn.knob, k.turn.from, k.turn.to,
+                       readable_change(k.seconds, "time"), readable_change(k.error, "error"));
   };
   if (worth(knobs.front()) <= 0.0)
-    return "From the draft, no single turn brings more than its time is worth; the best is " +
-           say(knobs.front()) + ".";
-  return "From the draft, turn first: " + say(knobs.front()) +
-         (knobs.size() > 1 && worth(knobs[1]) > 0.0 ? "; then " + say(knobs[1]) : "") + ".";
+    return "Draft is already efficient here. The best single change is " + say(knobs.front()) + ".";
+  return "From the draft, change first " + say(knobs.front()) +
+         (knobs.size() > 1 && worth(knobs[1]) > 0.0 ? ", then " + say(knobs[1]) : "") + ".";
 }
 
 Json json_of(const TradeResult& result) {

@@ -183,7 +183,7 @@ void trade_run(const TradeRequest& request, const RunEvents& events) {
       request.reference
           ? read_reference(*request.reference, request.size)
           : trace_reference(scene, camera, size_of(request, camera), for_reference * request.budget,
-                            request.settings.seed, {{}, events.note, events.progress});
+                            request.settings.seed, {.warning = {}, .note = events.note, .progress = events.progress, .stages = {}});
   find_floor(result.reference);
   Measuring measuring{scene, camera, result.reference};
   const MeasurePoint measure = [&](TradePoint& point) { measure_point(measuring, point); };

@@ -111,7 +111,7 @@ static double bring_near(const Reach& reach, Point3& position) {
 static void bring_near(const Reach& reach, Camera& camera, Findings& findings) {
   if (bring_near(reach, camera.position) == 1.0 && camera.half_height <= reach.distance)
     return;
-  findings.about("cameras too far away, or of too wide a view, to see any of the scene",
+  findings.about("cameras were moved nearer or narrowed: they were too far away or too wide to see the scene",
                  camera.name);
   camera.half_height = std::min(camera.half_height, reach.distance);
 }

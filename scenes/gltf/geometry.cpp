@@ -161,7 +161,7 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& 
   part.positions = decode_positions(at, *accessor);
   part.step = step_of_values(at.document, *accessor);
   if (const auto* targets = find(at.json, "targets"); targets && !targets->empty()) {
-    findings.about("morph targets stand still, by their default weights, in nodes", at.in.node);
+    findings.about("morph targets keep their default weights in nodes", at.in.node);
     apply_morph_targets(at.document, at.where(), at.json, at.in.morph_weights, part.positions);
   }
   part.texcoords = decode_texcoords(at, part.positions.size(), findings);
@@ -169,7 +169,7 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& 
   part.colors = decode_colors(at, findings);
   const auto corners = decode_corners(at, part.positions.size());
   if (mode == Mode::triangles && corners.size() % 3 != 0)
-    findings.about("vertices over after the last whole triangle are left out in nodes", at.in.node);
+    findings.about("vertices after the last whole triangle are left out in nodes", at.in.node);
   part.triangles = triangulate(mode, corners);
   if (const auto material = index_at(at.json, "material"))
     part.material = static_cast<MaterialId>(*material);

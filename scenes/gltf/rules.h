@@ -33,7 +33,7 @@ struct Rule {
   std::span<const Rule> fields = {}; ///< of an object, or of each object of an array
 };
 
-/// Of the file's root object.
+/// The rules of the file's root object.
 std::span<const Rule> root_rules();
 
 } // namespace meninas::gltf

@@ -12,8 +12,8 @@ struct ImageSize {
   std::uint32_t width = 0, height = 0;
 };
 
-/// Of PNG, JPEG, WebP, EXR and HDR; none for other formats and for headers that are cut off.
-/// Nothing else of the image is looked at.
+/// The size of a PNG, JPEG, WebP, EXR or HDR, from its header alone; none for other formats and for
+/// headers that are cut off.
 std::optional<ImageSize> image_size(std::span<const unsigned char> encoded);
 
 } // namespace meninas

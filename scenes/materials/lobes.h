@@ -18,7 +18,7 @@ bool has_visible_coat(const Material& material);
 /// S of a facet that is met at this cosine.
 Rgb facet_reflectance(const Bsdf& bsdf, double cosine);
 
-/// What stands in the place of S in transmission: of glass alone.
+/// The factor in place of S in transmission; glass alone has one.
 Rgb facet_transmittance(const Bsdf& bsdf, double cosine);
 
 /// The reflection lobe alone, S D G2 / (4 cos_o cos_i), of directions above the surface;
@@ -48,7 +48,7 @@ Rgb mean_reflectance(const Bsdf& bsdf);
 Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point);
 
 /// Glass as pass one takes it: it does not scatter what it reflects and passes, however rough.
-/// What the surface is besides is left out, but for ideal reflection of metal.
+/// Other parts of the surface are left out, except ideal reflection by metal.
 Bsdf clear_glass(const Material& material, const MaterialPoint& point);
 
 /// The coat of a diffuse surface as pass one takes it where it is a mirror:

@@ -2,7 +2,7 @@
 //
 // Behind one face light goes on as Snell's law says, sin = sin' ior,
 // and from inside not at all beyond the angle of total reflection: then R = 1.
-// What is said of radiance in there is its share of n^2, which it is where it comes out again.
+// Radiance inside is stated divided by n^2, which is its value once it has come out again.
 // A face that is met from inside is one whose ior is the inverse.
 // Solids are smooth, however rough they are said to be:
 // one direction each is reflected and refracted.

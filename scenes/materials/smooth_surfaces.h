@@ -20,12 +20,12 @@ namespace meninas {
 /// Beyond this roughness metals throw light evenly;
 /// coats show, and throw light, up to visible_coat_roughness (material.h).
 inline constexpr double smooth_metal_roughness = 0.3;
-/// And where the faces of the material lie in more planes than these.
+/// The largest number of planes that the faces of such a material may lie in.
 inline constexpr std::size_t max_smooth_planes = 8;
-/// Of the scene's area, for each plane of coats that is worth mirror worlds,
-/// be they of many materials: a table top in a furnished room.
+/// A plane is worth mirror worlds if its coats, of one material or many, have this share of the
+/// scene's area: a table top in a furnished room has.
 inline constexpr double min_coat_share = 0.005;
-/// The largest of them.
+/// The largest number of such planes; the largest planes come first.
 inline constexpr std::size_t max_coat_planes = 16;
 
 /// Sets Material::specular_in_pass_one for every material:

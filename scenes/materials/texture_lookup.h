@@ -33,7 +33,7 @@ struct DecodedTextures {
   std::vector<TexturePixels> colours, numbers;
 };
 
-/// Of a scene in which nothing is textured.
+/// The textures of a scene that has none.
 const DecodedTextures& no_textures();
 
 DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode);

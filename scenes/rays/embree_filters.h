@@ -15,9 +15,9 @@ struct LegContext : RTCIntersectContext {
   LegJudge judge;
 };
 
-/// Of legs: what stands in their way, and what touches their ends.
+/// The filter of legs: tells blockers from surfaces that touch the ends.
 void filter_legs(const RTCFilterFunctionNArguments* args);
-/// Of every query, before its own filter: nothing is met in a hole.
+/// The filter that every query has before its own: rays pass holes.
 void filter_holes(const RTCFilterFunctionNArguments* args);
 
 RTCIntersectContextFlags flags_for(Coherence coherence);

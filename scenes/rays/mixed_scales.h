@@ -1,9 +1,9 @@
-// What is too small for rays beside how far the scene reaches: they are floats.
+// Details that are too small for rays, whose coordinates are floats, beside the size of the scene.
 //
 // Gaps narrower than the reach of contacts (ray_scene.cpp) count as closed, and a large face that
 // passes the detail at a slant is off its place there by the rounding of its far corners.
-// And surfaces closer together than positions are known count as one plane, for whoever asks.
-// None of it can be helped, but all of it can be said.
+// Surfaces closer together than the precision of positions count as one plane. Limit: floats cannot
+// do better, so a warning says where this happens.
 #pragma once
 
 #include "scenes/rays/ray_scene.h"

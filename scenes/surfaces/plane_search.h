@@ -6,9 +6,9 @@
 //
 //   |n . x - d| <= e + u |x - c|.
 //
-// Of the planes that were added, the one that was added first and holds all the points is found,
-// by normals and distances from the middle of the scene that are alike within a radius. It is the
-// one that asking all of them in turn would find; no plane is left out for there being many.
+// The search finds the first added plane that holds all the points, among those whose normal and
+// distance from the middle of the scene are alike within a radius. Asking all planes in turn would
+// find the same one; no plane is left out because there are many.
 //
 // The planes are in binary trees over (normal, distance) whose nodes know the ranges of these, of
 // the centres and of u, so that the inequality is bounded over all that is below a node and most of

@@ -85,6 +85,7 @@ TEST_F(BatchTest, TheSummarySaysWhatWasDone) {
   EXPECT_EQ(last["width"], 24);
   EXPECT_GE(last["rays"], 24 * 16);
   const std::string page = read_file(folder_ / "out" / "index.html");
+  EXPECT_THAT(page, HasSubstr("meninas batch jobs.json -o out --resume"));
   EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
   EXPECT_THAT(read_file(folder_ / "results.xml"),
               HasSubstr("tests=\"8\" failures=\"0\" errors=\"0\""));

@@ -1,5 +1,6 @@
 // `compare`: the files it writes, what its figures say, and its page in a real browser.
 #include "image/image_file.h"
+#include "tests/cli/browser.h"
 #include "tests/cli/program.h"
 #include "tests/cli/tiny_room.h"
 
@@ -8,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include <fstream>
-#include <regex>
 
 namespace meninas::test {
 namespace {
@@ -30,32 +30,8 @@ protected:
 
   json figures() { return json::parse(read_file(folder_ / "out/figures.json")); }
 
-  /// The document of a page after its scripts, and then `use`, have run;
-  /// `use` returns what is reported.
   json browse(const std::string& page, const std::string& use) {
-    std::string html = read_file(page);
-    const auto end = html.rfind("</body>");
-    EXPECT_NE(end, std::string::npos);
-    html.insert(end, "<script>addEventListener('load', () => document.body.dataset.report = "
-                     "JSON.stringify((() => {" +
-                         use + "})()));</script>");
-    std::ofstream(folder_ / "used.html") << html;
-    const Outcome outcome =
-        run_other_program(MENINAS_BROWSER, folder_.path(),
-                          {"--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                           "--window-size=1200,900", "--virtual-time-budget=10000", "--dump-dom",
-                           "--user-data-dir=" + (folder_ / "profile").string(),
-                           "file://" + (folder_ / "used.html").string()});
-    std::smatch report;
-    if (!std::regex_search(outcome.out, report, std::regex("data-report=\"([^\"]*)\""))) {
-      ADD_FAILURE() << outcome.err;
-      return {};
-    }
-    std::string text = report[1].str();
-    for (const auto& [code, sign] :
-         {std::pair{"&quot;", "\""}, {"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}})
-      text = std::regex_replace(text, std::regex(code), sign);
-    return json::parse(text);
+    return browse_page(folder_.path(), page, use);
   }
 
   TemporaryFolder folder_;
@@ -155,6 +131,14 @@ TEST_F(Compare, ThePageWorksInABrowser) {
     choice.dispatchEvent(new Event('change'));
     report.after = document.getElementById('left-name').textContent;
     report.same = document.getElementById('left').src === document.getElementById('right').src;
+    report.step = slider.step;
+    report.command = document.querySelector('#command code').textContent;
+    report.copies = document.querySelectorAll('#command button').length;
+    report.links = [...document.querySelectorAll('main a')].map(link => link.getAttribute('href'));
+    report.brighter = [...document.querySelectorAll('#layers figcaption')].filter(text => text.textContent.includes('times as bright')).length;
+    choice.value = 'layer diffuse.mirrored';
+    choice.dispatchEvent(new Event('change'));
+    report.layer = document.getElementById('left-name').textContent;
     report.outside = performance.getEntriesByType('resource').filter(entry => !entry.name.startsWith('data:')).length;
     return report;)");
   EXPECT_EQ(report.at("title"), "room.glb");
@@ -172,6 +156,14 @@ TEST_F(Compare, ThePageWorksInABrowser) {
   EXPECT_EQ(report.at("after"), "hybrid");
   EXPECT_TRUE(report.at("same"));
   EXPECT_EQ(report.at("outside"), 0) << "nothing is fetched from anywhere";
+  EXPECT_EQ(report.at("step"), "1") << "an arrow key moves the slider by one per cent";
+  EXPECT_EQ(report.at("command"),
+            "meninas compare room.glb -o out --size 40x30 --quality draft");
+  EXPECT_EQ(report.at("copies"), 1);
+  EXPECT_GT(report.at("brighter"), 0) << "faint layers are shown so that they can be seen";
+  EXPECT_THAT(report.at("layer").get<std::string>(), testing::StartsWith("diffuse.mirrored"));
+  for (const json& link : report.at("links"))
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / link.get<std::string>())) << link;
 }
 
 TEST_F(Compare, NamesThatLookLikeMarkupAreText) {

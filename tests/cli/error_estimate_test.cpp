@@ -20,8 +20,12 @@ protected:
   ErrorEstimate() { write_room(folder_ / "room.glb", tiny_room()); }
 
   Outcome render(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"render", "room.glb", "--element-size", "0.2", "--rays",
-                                         "64", "--size", "40x30"});
+    std::vector<std::string> all{"render", "room.glb", "--size", "40x30"};
+    for (const auto& [option, value] :
+         {std::pair<std::string, std::string>{"--element-size", "0.2"}, {"--rays", "64"}})
+      if (std::ranges::find(arguments, option) == arguments.end())
+        all.insert(all.end(), {option, value});
+    arguments.insert(arguments.begin(), all.begin(), all.end());
     return run_program(folder_.path(), arguments);
   }
   nlohmann::json figures() { return nlohmann::json::parse(read_file(folder_ / "out.json")); }
@@ -40,6 +44,20 @@ TEST_F(ErrorEstimate, IsInTheFiguresAndTheLine) {
     square += std::pow(error.at(part).get<double>(), 2.0);
   EXPECT_GT(square, 0.0);
   EXPECT_NEAR(error.at("total").get<double>(), std::sqrt(square), 1e-9);
+}
+
+TEST_F(ErrorEstimate, IsInTheLineOfEveryPictureThatSomebodyReads) {
+  EXPECT_THAT(render({"-o", "out.png"}).err, HasSubstr(" off"));
+  EXPECT_THAT(render({"-o", "out.png", "--quiet"}).err, testing::IsEmpty());
+}
+
+TEST_F(ErrorEstimate, IsWarnedOfFromTenPerCentOn) {
+  const std::string warning = "warning: the picture is about ";
+  EXPECT_THAT(render({"-o", "out.png", "--samples", "1", "--rays", "2"}).err, HasSubstr(warning));
+  EXPECT_THAT(render({"-o", "out.png", "--samples", "64", "--rays", "1024", "--element-size", "0.1",
+                      "--diffuse", "direct"})
+                  .err,
+              testing::Not(HasSubstr(warning)));
 }
 
 TEST_F(ErrorEstimate, SaysWhatToTurnFirst) {

@@ -1,10 +1,14 @@
 // What the program says of itself.
 #include "tests/cli/program.h"
+#include "tests/support/source_dir.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <map>
+#include <sstream>
 
 namespace meninas::test {
 namespace {
@@ -61,6 +65,52 @@ TEST(Help, ShowsWhatMattersFirst) {
     EXPECT_THAT(few.out, HasSubstr("--help-all"));
     EXPECT_THAT(few.out, Not(HasSubstr("--hemicube-resolution")));
   }
+}
+
+const std::vector<std::string> commands{"render", "solve",   "plan",  "compare",    "batch",
+                                        "diff",   "regress", "trade", "formfactors"};
+
+TEST(Help, FitsTheTerminal) {
+  const TemporaryFolder folder;
+  for (const std::string width : {"80", "100"}) {
+    setenv("COLUMNS", width.c_str(), 1);
+    for (const std::string& command : commands) {
+      std::istringstream lines(run_program(folder.path(), {command, "--help-all"}).out);
+      for (std::string line; std::getline(lines, line);) {
+        EXPECT_LE(line.size(), std::stoul(width)) << command << ": " << line;
+      }
+    }
+  }
+  unsetenv("COLUMNS");
+}
+
+TEST(Help, BeginsWithExamples) {
+  const TemporaryFolder folder;
+  for (const std::string& command : commands) {
+    const std::string page = run_program(folder.path(), {command, "-h"}).out;
+    const auto example = page.find("Examples:\n  meninas " + command);
+    ASSERT_NE(example, std::string::npos) << command;
+    EXPECT_LT(example, page.find("Options:")) << command;
+  }
+}
+
+TEST(Help, IsTheCommittedPageOfOptions) {
+  const TemporaryFolder folder;
+  const std::string page = run_program(folder.path(), {"help", "--markdown"}).out;
+  EXPECT_TRUE(page == read_file(source_dir() + "/docs/options.md"))
+      << "make it anew: meninas help --markdown > docs/options.md";
+}
+
+TEST(FirstRoom, IsTheFileBesideItsPageAndHasNothingOdd) {
+  const std::string file = source_dir() + "/docs/first-room.gltf";
+  EXPECT_THAT(read_file(source_dir() + "/docs/first-room.md"),
+              HasSubstr("```json\n" + read_file(file) + "```"));
+  const TemporaryFolder folder;
+  const Outcome plan = run_program(folder.path(), {"plan", file});
+  EXPECT_EQ(plan.code, 0) << plan.err;
+  EXPECT_THAT(plan.out, HasSubstr("emitters          1 face glows"));
+  for (const char* trouble : {"ignored", "warnings", "odd"})
+    EXPECT_THAT(plan.out, Not(HasSubstr(trouble)));
 }
 
 } // namespace

@@ -96,7 +96,7 @@ Outcome RunningProgram::outcome() {
 }
 
 std::string without_progress(const std::string& err) {
-  static const std::regex progress_line("meninas: ([a-z ]+: [0-9]+ %|.*: [0-9]+x[0-9]+ in [0-9.]+ s)[^\n]*\n");
+  static const std::regex progress_line("meninas: ([0-9]+ %[^\n]*: [a-z ]+|.*: ([0-9]+x[0-9]+|[0-9]+ elements) in [0-9.]+ s[^\n]*)\n");
   return std::regex_replace(err, progress_line, "");
 }
 

@@ -72,6 +72,7 @@ TEST_F(Regress, ReferencesAreMadeAndThenMet) {
 
   const Outcome updated = run({"--update"});
   EXPECT_EQ(updated.code, 0) << updated.err;
+  EXPECT_THAT(updated.err, testing::Not(HasSubstr(" in "))) << "a case has one line";
   EXPECT_THAT(files_in(folder_ / "images"), ElementsAre("manifest.json", "room.exr"));
   const json entry = json::parse(read_file(folder_ / "images" / "manifest.json"))["room.exr"];
   EXPECT_EQ(entry["case"], "room");

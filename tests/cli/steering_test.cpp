@@ -40,6 +40,7 @@ TEST_F(Steering, ReachesTheErrorAndSaysHow) {
             said.at("error_estimate").at("total"));
   EXPECT_THAT(steps.at(1).at("why").get<std::string>(), HasSubstr("%"));
   EXPECT_THAT(outcome.err, HasSubstr("next, because of"));
+  EXPECT_THAT(outcome.err, testing::ContainsRegex("out.exr: [0-9]+x[0-9]+ in .* s, about .* off"));
 }
 
 TEST_F(Steering, SaysWithWhichOptionsThePictureIsMadeAgain) {

@@ -1,4 +1,5 @@
 // `trade`: its files, that they agree, and that nothing is half there.
+#include "tests/cli/browser.h"
 #include "tests/cli/program.h"
 #include "tests/cli/tiny_room.h"
 
@@ -70,6 +71,29 @@ TEST_F(Trade, WritesFiguresATableAndAPageThatAgree) {
   EXPECT_EQ(std::ranges::count(table, '\n'), static_cast<std::ptrdiff_t>(points.size() + 1));
   EXPECT_THAT(table, HasSubstr("\n1," + points.at(1).at("front").dump() + ',' +
                                points.at(1).at("seconds").dump() + ','));
+}
+
+TEST_F(Trade, ItsPageIsUsedByKeyboardAndInANarrowWindow) {
+  ASSERT_EQ(trade({"--size", "24x16", "--budget", "0.5", "--quiet"}).code, 0);
+  const json report = browse_page(folder_.path(), (folder_ / "out/index.html").string(), R"(
+    const dots = [...document.querySelectorAll('circle[data-id]')], last = dots.at(-1);
+    const report = { reached: [...document.querySelectorAll('[data-id]')].every(node => node.getAttribute('tabindex') === '0'),
+      buttons: dots.every(dot => dot.getAttribute('role') === 'button' && dot.getAttribute('aria-label')) };
+    last.dispatchEvent(new KeyboardEvent('keydown', { key: 'Enter', bubbles: true }));
+    report.chosen = document.getElementById('what').textContent.startsWith(`Setting ${last.dataset.id}:`);
+    report.pressed = last.getAttribute('aria-pressed');
+    report.copies = document.querySelectorAll('#command button').length;
+    report.chart = document.getElementById('chart').getBoundingClientRect().width;
+    report.wider = document.documentElement.scrollWidth > window.innerWidth;
+    return report;)",
+                                  400);
+  EXPECT_TRUE(report.at("reached"));
+  EXPECT_TRUE(report.at("buttons"));
+  EXPECT_TRUE(report.at("chosen"));
+  EXPECT_EQ(report.at("pressed"), "true");
+  EXPECT_EQ(report.at("copies"), 1);
+  EXPECT_GE(report.at("chart"), 640) << "its text can be read";
+  EXPECT_FALSE(report.at("wider")) << "the page itself does not scroll sideways";
 }
 
 TEST_F(Trade, CommandsMakeThePicturesTheyStandFor) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the build given as $1 (sanitizers: $2, C++ compiler: $3), moves the tree, and uses it as a stranger would:
-# the program, and find_package(meninas) from a project of three lines.
+# the program, and find_package(meninas) from a project of three lines; then the project and the programs of docs/library.md.
 set -euo pipefail
 
 build=$1 sanitize=$2 compiler=$3
@@ -48,3 +48,20 @@ cmake -S "$scratch/consumer" -B "$scratch/consumer/build" -G Ninja -DCMAKE_PREFI
 ninja -C "$scratch/consumer/build" --quiet
 "$scratch/consumer/build/consumer" "$scratch/black.png"
 test -s "$scratch/black.png"
+
+# The blocks of docs/library.md: its project, and its two programs.
+root=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..
+page=$scratch/page
+mkdir "$page"
+awk -v folder="$page" '/^```cmake/ { file = folder "/CMakeLists.txt"; next }
+  /^```cpp/ { file = folder (++programs == 1 ? "/rooms.cpp" : "/views.cpp"); next }
+  /^```/ { file = ""; next }
+  file { print > file }' "$root/docs/library.md"
+cmake -S "$page" -B "$page/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+  -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >/dev/null
+ninja -C "$page/build" --quiet
+cd "$page"
+build/rooms "$root/scenes/gallery/furnace.gltf" room.png
+test -s room.png
+build/views "$root/scenes/gallery/furnace.gltf"
+test -n "$(find . -maxdepth 1 -name '*.png' ! -name room.png)"

@@ -77,8 +77,33 @@ TEST(ReferenceStatistics, StopsAtSamplesAndInTime) {
   hurried.max_seconds = 0.05;
   const ReferencePicture quick = room_picture(hurried);
   EXPECT_EQ(quick.stopped_by, StoppedBy::time);
-  EXPECT_GE(quick.samples, 32);
   EXPECT_LT(quick.samples, 1 << 20);
+  hurried.max_seconds = 1e-9;
+  const ReferencePicture first = room_picture(hurried);
+  EXPECT_EQ(first.stopped_by, StoppedBy::time);
+  EXPECT_EQ(first.samples, 2) << "one sample and another one, whose difference is the error";
+  EXPECT_GT(first.standard_error, 0.0);
+}
+
+TEST(ReferenceStatistics, SmallFirstBatchesLeaveTheMeanAndItsVarianceRight) {
+  auto limited = tracing(24, 18, 64);
+  limited.max_seconds = 1e6;
+  const ReferencePicture a = room_picture(limited);
+  EXPECT_EQ(a.samples, 64);
+  const ReferencePicture truth = room_picture(tracing(24, 18, 4096));
+  double squares = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < a.mean.pixels.size(); ++k) {
+    const double variance = a.variance.pixels[k].g + truth.variance.pixels[k].g;
+    if (variance == 0.0)
+      continue;
+    const double z = (a.mean.pixels[k].g - truth.mean.pixels[k].g) / std::sqrt(variance);
+    squares += std::min(z * z, 16.0);
+    ++count;
+  }
+  ASSERT_GT(count, 400.0);
+  // Eight batches: z has the tails of Student's t with seven degrees of freedom, a mean square of 1.4.
+  EXPECT_GT(squares / count, 0.6);
+  EXPECT_LT(squares / count, 1.8);
 }
 
 TEST(ReferenceStatistics, TheSameBitsForAnyNumberOfThreads) {

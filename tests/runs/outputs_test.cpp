@@ -23,7 +23,8 @@ Written written(float brightest) {
   Written result;
   const RunEvents events{.warning = {},
                          .note = [&](const std::string& text) { result.notes.push_back(text); },
-                         .progress = {}};
+                         .progress = {},
+                         .stages = {}};
   write_pictures({folder / "a.exr"}, picture, {}, {}, {}, events);
   result.brightest = read_image(folder / "a.exr").picture.pixels[0];
   std::filesystem::remove_all(folder);

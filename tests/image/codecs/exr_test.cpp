@@ -113,6 +113,27 @@ TEST_F(Exr, LayersComeBackByName) {
   EXPECT_TRUE(read.ignored_channels.empty());
 }
 
+TEST_F(Exr, DepthsAndVectorsHaveTheNamesThatCompositorsKnow) {
+  const auto picture = random_picture(9, 5);
+  const std::vector<Layer> layers{{"depth", random_picture(9, 5, 2)},
+                                  {"normal", random_picture(9, 5, 3)}};
+  write_exr(folder / "a.exr", picture, layers, PixelType::float32);
+  std::ifstream file(folder / "a.exr", std::ios::binary);
+  std::string header(1000, '\0');
+  file.read(header.data(), 1000);
+  for (const std::string name : {"depth.Z", "normal.X", "normal.Y", "normal.Z"})
+    EXPECT_NE(header.find(name + '\0'), std::string::npos) << name;
+  EXPECT_EQ(header.find("depth.R"), std::string::npos);
+
+  const auto read = read_image(folder / "a.exr");
+  EXPECT_EQ(read.picture.pixels, picture.pixels);
+  EXPECT_TRUE(read.ignored_channels.empty());
+  ASSERT_EQ(read.layers.size(), 2U);
+  EXPECT_EQ(read.layers[1].image.pixels, layers[1].image.pixels);
+  for (std::size_t k = 0; k < picture.pixels.size(); ++k)
+    EXPECT_EQ(read.layers[0].image.pixels[k], glm::vec3(layers[0].image.pixels[k].r));
+}
+
 TEST_F(Exr, AttributesComeBackByKey) {
   const std::string text = "a=1\n\"b\": 'x' \\ \xc3\xa9";
   write_exr(folder / "a.exr", Image(2, 2), {}, PixelType::half,

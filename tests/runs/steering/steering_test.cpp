@@ -55,7 +55,7 @@ Steered steered(const Scene& scene, double wanted) {
   return result;
 }
 
-// Of 144 settings of the gallery all estimates are within a factor of two (docs/trade.md).
+// Of 144 settings of the gallery all estimates are within a factor of two (docs/notes/accuracy.md).
 // With elements of one size for all the room had one a wall, and where light was gathered from
 // these 3 % was said of what was off by 15 %.
 TEST(SteeringOfARoomOnAGround, SaysItsTrueError) {

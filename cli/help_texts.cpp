@@ -1,0 +1,134 @@
+// What the help pages say beyond the options themselves.
+#include "cli/help.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <vector>
+
+namespace meninas {
+namespace {
+
+const std::map<std::string_view, std::vector<Example>>& all_examples() {
+  static const std::map<std::string_view, std::vector<Example>> examples{
+      {"",
+       {{"meninas room.gltf", "renders room.png"},
+        {"meninas compare room.gltf -o compared", "shows what the mirrors do, on one page"},
+        {"meninas help render", "tells more about a command"}}},
+      {"render",
+       {{"meninas render room.gltf", "renders room.png as the file's first camera sees it"},
+        {"meninas render room.gltf --error 0.02 -o room.exr -o room.png",
+         "chooses settings until the picture is about 2 % off"},
+        {"meninas render room.gltf --solution room.glb --camera door -o door.png",
+         "renders another view of a solution that `meninas solve` has written"}}},
+      {"solve",
+       {{"meninas solve room.gltf -o room.glb", "solves once; `meninas render --solution room.glb` renders any view"},
+        {"meninas solve room.gltf -o room.glb --per-node nodes.json",
+         "also writes area, radiosity and irradiance of each glTF node"}}},
+      {"plan",
+       {{"meninas plan room.gltf", "says what is in the file, what is odd about it, and how long a picture takes"}}},
+      {"compare",
+       {{"meninas compare room.gltf -o compared", "then open compared/index.html"},
+        {"meninas compare room.gltf -o compared --reference --max-seconds 60",
+         "adds a path-traced picture and the differences from it"}}},
+      {"batch",
+       {{"meninas batch jobs.json -o pictures --resume", "makes the pictures that are not there yet"},
+        {"meninas batch jobs.json -o pictures --dry-run", "lists what would be made"}}},
+      {"diff",
+       {{"meninas diff new.exr old.exr -o heat.png", "prints the figures and paints where pictures differ"},
+        {"meninas diff new.png old.png --max-flip 0.02", "ends with exit code 1 where they differ by more"}}},
+      {"regress",
+       {{"meninas regress cases.json", "ends with exit code 1 where a picture has changed"},
+        {"meninas regress cases.json --update", "makes the references anew"}}},
+      {"trade",
+       {{"meninas trade room.gltf -o traded --budget 120", "then open traded/index.html"}}},
+      {"formfactors",
+       {{"meninas formfactors room.gltf --from floor --to ceiling", "in total and for each chain of mirrors"},
+        {"meninas formfactors room.gltf --all", "prints the matrix of all nodes as CSV"}}}};
+  return examples;
+}
+
+/// The options that `-h` shows, of commands that have many.
+const std::map<std::string_view, std::vector<std::string_view>>& first_options() {
+  static const std::map<std::string_view, std::vector<std::string_view>> options{
+      {"render",
+       {"output", "quality", "error", "time", "size", "camera", "exposure", "diffuse", "mode",
+        "background", "solution", "stats"}},
+      {"solve", {"output", "quality", "elements", "background", "per-node", "stats"}},
+      {"plan", {"json", "quality", "size", "camera", "background"}},
+      {"compare", {"output", "quality", "reference", "max-seconds", "size", "camera", "exposure"}}};
+  return options;
+}
+
+const std::map<std::string_view, std::string_view>& all_details() {
+  static const std::map<std::string_view, std::string_view> details{
+      {"--adaptive",
+       "an element is divided at most six times, and a million elements are the most there are; a "
+       "warning says where that does not reach X. Vertices whose noise is above X take up to 16 "
+       "times as many rays."},
+      {"--bends",
+       "0.1 is a good value. Elements are divided up to three times. It helps `--diffuse direct` "
+       "most; `--error` and `--time` use it by themselves."},
+      {"--diffuse",
+       "`interpolated` shows pass one as it is at the vertices. `direct` computes direct light, also "
+       "that reflected by mirrors, at every hit: shadows are as sharp as they are. `gather` gathers "
+       "all light at the hit, which takes longest."},
+      {"--elements",
+       "a huge ground plane gets at most 75 % of the elements."},
+      {"--element-size",
+       "elements that thin walls or sheets cross are divided further, so that no light leaks through."},
+      {"--error",
+       "the run makes a quick picture, estimates its error and chooses the next settings, until the "
+       "estimate is below X. It says which options make the same picture again."},
+      {"--exposure",
+       "an EXR is never scaled. It keeps scene, camera, seed, samples and background as attributes "
+       "`meninas:...`."},
+      {"--factors",
+       "with `--reuse` a later run may change emission, diffuse reflectances, solver, tolerance and "
+       "interpolation. Geometry, mirrors, elements and rays must be the same; a run says what differs "
+       "and ends otherwise."},
+      {"--form-factors",
+       "`rays` start all over an element. `hemicube` is the classic method, at the element's centre "
+       "([how it errs](hemicube.md)). `analytic` is exact, for a few hundred elements."},
+      {"--layers",
+       "`light` splits the picture into nine layers that add up to it to the last bit: `emission`, "
+       "`diffuse.direct` (light that came straight to the surface) and `diffuse.mirrored` (light that "
+       "came by way of mirrors), each seen straight, in one mirror (`.mirror`) and in several "
+       "(`.mirrors`). `depth` (metres along the view axis), `normal` (world space, towards the eye), "
+       "`albedo` (diffuse), `element` (counted from 1) and `irradiance` (of pass one, W/m²) are those "
+       "of the first surface at the middle of each pixel, a mirror among them; 0 where there is none."},
+      {"--link-error",
+       "the solver begins with few large nodes and divides those whose light is not linear to X. With "
+       "far more `--elements` than X needs, more `--rays` help instead."},
+      {"--snapshots", "see [progressive pictures](progressive.md)."},
+      {"--solver",
+       "all of them end at the error that `--tolerance` allows. `hierarchical` gathers light on parts "
+       "of surfaces as large as accuracy allows (after Hanrahan, Salzman and Aupperle 1991) and is the "
+       "fastest for a given accuracy in most scenes. `progressive` shoots light, brightest first."},
+      {"--stats", "[all figures](stats.md)."},
+      {"--view",
+       "the colours' range is printed; an EXR holds the numbers as well."}};
+  return details;
+}
+
+} // namespace
+
+std::span<const Example> examples_of(std::string_view command) {
+  const auto found = all_examples().find(command);
+  return found == all_examples().end() ? std::span<const Example>{} : found->second;
+}
+
+bool matters_most(std::string_view command, const CLI::Option& option) {
+  const auto found = first_options().find(command);
+  if (found == first_options().end() || option.get_positional() || option.get_lnames().empty())
+    return true;
+  const std::string& name = option.get_lnames().front();
+  return name == "help" || std::ranges::find(found->second, name) != found->second.end();
+}
+
+std::string_view details_of(std::string_view option) {
+  const auto found = all_details().find(option);
+  return found == all_details().end() ? std::string_view{} : found->second;
+}
+
+} // namespace meninas
