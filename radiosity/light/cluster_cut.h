@@ -57,11 +57,11 @@ struct ClusterWorkspace {
 
 /// Finds what lights x: nodes that stand for their clusters in `work.stand_ins`,
 /// images of all others in `lights`. Clears both.
-void cut_clusters(const LightScene& light, const ClusterTree& tree, const Receiver& receiver,
+void cut_clusters(const Lighting& light, const ClusterTree& tree, const Receiver& receiver,
                   double theta, ClusterWorkspace& work, std::vector<VirtualLight>& lights);
 
 /// `light` has the clusters for emitters. Adds the shadow rays of both kinds to those of `direct`.
-ArrivingLight cluster_irradiance(const LightScene& light, const ClusterTree& tree,
+ArrivingLight cluster_irradiance(const Lighting& light, const ClusterTree& tree,
                                  const Receiver& receiver, const DirectSettings& settings,
                                  const ClusterCut& cut, std::uint32_t seed, ClusterWorkspace& work,
                                  DirectWorkspace& direct);

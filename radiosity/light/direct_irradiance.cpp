@@ -39,7 +39,7 @@ struct ImageSampling {
 /// Adds the samples of one image up to number `end` to its visible share.
 /// Weights are needed where some arrive and some do not, or panes take their part of each;
 /// those of samples before, which all arrived or all did not, are found when one is met that differs.
-void sample_visibility(const LightScene& light, const VirtualLight& image, const Receiver& receiver,
+void sample_visibility(const Lighting& light, const VirtualLight& image, const Receiver& receiver,
                        int end, std::uint32_t seed_of_all, DirectWorkspace& work,
                        VisibleShare& share) {
   const Emitter& emitter = light.emitters[image.emitter];
@@ -51,15 +51,15 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
     for (int k = 0; k < count; ++k) {
       const auto lane = static_cast<std::size_t>(k);
       points[lane] = sampling.point(first + k);
-      fold(light, image.world, receiver.position, receiver.plane_class, points[lane],
+      fold(light.scene, image.world, receiver.position, receiver.plane_class, points[lane],
            emitter.plane_class, work.folded[lane]);
     }
     const std::uint32_t dark =
-        blocked(light, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
+        blocked(light.scene, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
     const bool were_seen = share.arrived > 0;
     share.samples += count;
     share.arrived += count - std::popcount(dark);
-    if (agree(share) && light.by_angle.empty())
+    if (agree(share) && light.scene.by_angle.empty())
       continue;
     for (; share.weighed < first; ++share.weighed) {
       const double weight = form_factor_share(receiver, image, sampling.point(share.weighed));
@@ -72,26 +72,26 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
       share.all += weight;
       if (((dark >> k) & 1U) == 0U)
         share.seen +=
-            weight * left_between(light, end_of(receiver), end_of(emitter), work.folded[k]);
+            weight * left_between(light.scene, end_of(receiver), end_of(emitter), work.folded[k]);
     }
     share.weighed = share.samples;
   }
 }
 
-Rgb visible_fraction(const LightScene& light, const VisibleShare& share) {
-  if (agree(share) && light.by_angle.empty())
+Rgb visible_fraction(const Lighting& light, const VisibleShare& share) {
+  if (agree(share) && light.scene.by_angle.empty())
     return Rgb(share.arrived > 0 ? 1.0 : 0.0);
   return share.all > 0.0 ? share.seen / share.all : Rgb(0.0);
 }
 
 /// What an image sends, as it is seen.
-Rgb source_of(const LightScene& light, const VirtualLight& image) {
+Rgb source_of(const Lighting& light, const VirtualLight& image) {
   return light.worlds.worlds[index(image.world)].throughput *
          light.emitters[image.emitter].radiosity;
 }
 
 /// What every image would bring without blockers; those that bring nothing are left out.
-void order_by_light(const LightScene& light, const Receiver& receiver, DirectWorkspace& work) {
+void order_by_light(const Lighting& light, const Receiver& receiver, DirectWorkspace& work) {
   work.form_factors.clear();
   work.brought.clear();
   work.order.clear();
@@ -109,7 +109,7 @@ void order_by_light(const LightScene& light, const Receiver& receiver, DirectWor
 
 /// How much is seen of each of the dim images, by its one sample:
 /// sixteen rays together that have as many legs.
-void sample_dim_images(const LightScene& light, const Receiver& receiver,
+void sample_dim_images(const Lighting& light, const Receiver& receiver,
                        std::span<std::uint32_t> dim, std::uint32_t seed, DirectWorkspace& work) {
   const auto depth_of = [&](std::uint32_t k) {
     return light.worlds.worlds[index(work.lights[k].world)].depth;
@@ -125,17 +125,17 @@ void sample_dim_images(const LightScene& light, const Receiver& receiver,
       const VirtualLight& image = work.lights[dim[first + count]];
       const Vec2 sample(sobol2(0, hash(seed, image.emitter, index(image.world)), SobolPair::first));
       const Point3 y = point_on(image.polygon, area_vector(image.polygon.span()), sample);
-      if (!light.by_angle.empty())
+      if (!light.scene.by_angle.empty())
         weight[count] = form_factor_share(receiver, image, y);
-      fold(light, image.world, receiver.position, receiver.plane_class, y,
+      fold(light.scene, image.world, receiver.position, receiver.plane_class, y,
            light.emitters[image.emitter].plane_class, work.folded[count]);
     }
-    const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
+    const std::uint32_t dark = blocked(light.scene, work.folded, count, work.shadow_rays);
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t own = dim[first + k];
-      if (((dark >> k) & 1U) == 0U && (light.by_angle.empty() || weight[k] > 0.0))
+      if (((dark >> k) & 1U) == 0U && (light.scene.by_angle.empty() || weight[k] > 0.0))
         work.visible[own] =
-            left_between(light, end_of(receiver), end_of(light.emitters[work.lights[own].emitter]),
+            left_between(light.scene, end_of(receiver), end_of(light.emitters[work.lights[own].emitter]),
                          work.folded[k]);
     }
     first += count;
@@ -144,7 +144,7 @@ void sample_dim_images(const LightScene& light, const Receiver& receiver,
 
 } // namespace
 
-ArrivingLight images_irradiance(const LightScene& light, const Receiver& receiver,
+ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& work) {
   order_by_light(light, receiver, work);
@@ -215,7 +215,7 @@ static bool groups_in_part(const DirectWorkspace& work) {
 }
 
 /// Whether the point is on one of the faces of a lamp of thousands.
-static bool is_on_lamp(const LightScene& light, const Receiver& receiver) {
+static bool is_on_lamp(const Lighting& light, const Receiver& receiver) {
   return has_lamp_of_many_faces(light) &&
          std::ranges::any_of(light.emitters, [&](const Emitter& emitter) {
            const Point3& corner = emitter.polygon.vertices[0];
@@ -228,10 +228,10 @@ static bool is_on_lamp(const LightScene& light, const Receiver& receiver) {
 /// What the images of emitters bring, or a choice of them: one four times as large in the penumbra
 /// of lamps of many faces, which few images stand for. What such a face receives from the others is
 /// little beside what it emits: a few images do.
-static ArrivingLight chosen_irradiance(const LightScene& light, const Receiver& receiver,
+static ArrivingLight chosen_irradiance(const Lighting& light, const Receiver& receiver,
                                        const DirectSettings& settings, std::uint32_t seed,
                                        DirectWorkspace& work) {
-  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   const auto images = images_to_choose(light, static_cast<std::size_t>(settings.images));
   const auto choose = [&](std::size_t most) {
     const LightChoice choice{most, 0x1p-32 * hash(seed, 0xc401ce, 0)};
@@ -251,13 +251,13 @@ static ArrivingLight chosen_irradiance(const LightScene& light, const Receiver& 
   return sum;
 }
 
-ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
+ArrivingLight direct_irradiance(const Lighting& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& work) {
   ArrivingLight sum = chosen_irradiance(light, receiver, settings, seed, work);
   if (has_solid_light(light)) {
     const SolidLight refracted =
-        solid_light(light,
+        solid_light(light.scene,
                     {{&receiver.position, 1},
                      receiver.normal,
                      receiver.plane_class,
@@ -279,7 +279,7 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
   return sum;
 }
 
-Rgb unblocked_irradiance(const LightScene& light, const DirectWorkspace& work) {
+Rgb unblocked_irradiance(const Lighting& light, const DirectWorkspace& work) {
   Rgb sum(0.0);
   for (std::size_t k = 0; k < work.lights.size(); ++k)
     sum += work.form_factors[k] * source_of(light, work.lights[k]);

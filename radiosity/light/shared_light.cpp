@@ -20,7 +20,7 @@ struct PointSum {
   int points = 0, punctual_points = 0;
 };
 
-std::uint32_t sum_of(SharedLightWorkspace& work, const LightScene& light, const VirtualLight& image,
+std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const VirtualLight& image,
                      const SharedLightSettings& settings) {
   const std::uint64_t key = (std::uint64_t{index(image.world)} << 32) | image.emitter;
   const auto [found, is_new] =
@@ -67,14 +67,14 @@ double form_factor_of(const Receiver& receiver, std::span<const ConvexPolygon> p
 }
 
 /// What the point sees of an image past known blockers.
-ImageAtPoint image_at(const LightScene& light, const Receiver& receiver, const VirtualLight& image,
+ImageAtPoint image_at(const Lighting& light, const Receiver& receiver, const VirtualLight& image,
                       std::uint32_t sum, SharedLightWorkspace& work) {
   ImageAtPoint at{.image = sum};
   const ImageBlockers* blockers = work.images[sum].blockers;
   if (blockers && !blockers->known.empty()) {
     work.cutting.assign(1, image.polygon);
     for (const CachedOccluder& blocker : blockers->known)
-      subtract(work.cutting, receiver.position, blocker, light.surfaces.tolerance);
+      subtract(work.cutting, receiver.position, blocker, light.scene.surfaces.tolerance);
     at.whole = work.cutting.size() == 1 &&
                std::ranges::equal(work.cutting.front().span(), image.polygon.span());
     if (!at.whole) {
@@ -112,7 +112,7 @@ Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& l
 
 /// Sends the rays of one point towards what it sees of an image,
 /// as many as that is worth beside the brightest image.
-void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLight& image,
+void add_rays(const Lighting& light, const Receiver& receiver, const VirtualLight& image,
               const ImageAtPoint& at, double worth, std::uint32_t seed,
               SharedLightWorkspace& work) {
   ImageSum& total = work.images[at.image];
@@ -137,13 +137,13 @@ void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLi
 }
 
 /// The images that a point may see, or a choice of them.
-void find_lights(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
+void find_lights(const Lighting& light, const NumberedPoint& point, std::uint32_t seed,
                  std::size_t most, SharedLightWorkspace& work) {
   work.point.lights.clear();
   if (light.emitters.empty())
     return;
   const Receiver& receiver = point.receiver;
-  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   const bool all = light.emitters.size() * light.worlds.worlds.size() <= most;
   const RegionImages* region = all && point.element != none<ElementId>
                                    ? images_of_element(light, point.element, work.elements)
@@ -163,7 +163,7 @@ void find_lights(const LightScene& light, const NumberedPoint& point, std::uint3
 
 /// Adds what every image brings to a point past known blockers,
 /// and the shadow rays that will tell how much of it arrives.
-void add_point(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
+void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t seed,
                const SharedLightSettings& settings, SharedLightWorkspace& work) {
   const Receiver& receiver = point.receiver;
   find_lights(light, point, seed,
@@ -187,17 +187,17 @@ void add_point(const LightScene& light, const NumberedPoint& point, std::uint32_
 }
 
 /// Keeps what has blocked a ray to the image.
-void meet_blocker(const LightScene& light, const LegBlocker& by, ImageSum& image) {
+void meet_blocker(const Lighting& light, const LegBlocker& by, ImageSum& image) {
   ImageBlockers& blockers = *image.blockers;
   if (by.triangle == none<TriangleId> || blockers.too_many())
     return;
-  const PatchId patch = light.surfaces.patch_of_triangle[index(by.triangle)];
+  const PatchId patch = light.scene.surfaces.patch_of_triangle[index(by.triangle)];
   const auto is_it = [&](const CachedOccluder& blocker) {
     return blocker.patch == patch && blocker.leg == by.leg;
   };
   if (std::ranges::any_of(blockers.known, is_it) || std::ranges::any_of(blockers.met, is_it))
     return;
-  if (auto blocker = blocker_of(light, image.world, light.emitters[image.emitter], by))
+  if (auto blocker = blocker_of(light.scene, image.world, light.emitters[image.emitter], by))
     blockers.met.push_back(*std::move(blocker));
 }
 
@@ -234,7 +234,7 @@ void order_waiting(SharedLightWorkspace& work) {
 
 /// Traces the waiting rays, those of as many legs together.
 /// They come from points of one surface, as the receiver is.
-void trace_waiting(const LightScene& light, const Receiver& receiver, SharedLightWorkspace& work) {
+void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightWorkspace& work) {
   order_waiting(work);
   std::array<LegBlocker, 16> blockers;
   for (std::size_t first = 0; first < work.waiting.size();) {
@@ -242,11 +242,11 @@ void trace_waiting(const LightScene& light, const Receiver& receiver, SharedLigh
         static_cast<std::uint32_t>(std::min<std::size_t>(16, work.waiting.size() - first));
     for (std::uint32_t k = 0; k < count; ++k) {
       const WaitingRay& ray = work.waiting[work.order[first + k]];
-      fold(light, ray.world, ray.from, receiver.plane_class, ray.to, ray.arriving,
+      fold(light.scene, ray.world, ray.from, receiver.plane_class, ray.to, ray.arriving,
            work.point.folded[k]);
     }
     const std::uint32_t dark =
-        blocked(light, work.point.folded, count, work.point.shadow_rays, &blockers);
+        blocked(light.scene, work.point.folded, count, work.point.shadow_rays, &blockers);
     for (std::uint32_t k = 0; k < count; ++k) {
       const WaitingRay& ray = work.waiting[work.order[first + k]];
       ImageSum& image = work.images[ray.image];
@@ -257,7 +257,7 @@ void trace_waiting(const LightScene& light, const Receiver& receiver, SharedLigh
         continue;
       }
       image.seen += ray.weight;
-      image.left += ray.weight * left_between(light, end_of(receiver), {}, work.point.folded[k]);
+      image.left += ray.weight * left_between(light.scene, end_of(receiver), {}, work.point.folded[k]);
     }
     first += count;
   }
@@ -290,7 +290,7 @@ double penumbra_error(const SharedLightWorkspace& work, const PointSum& sum) {
   return std::sqrt(error);
 }
 
-void add_punctual(const LightScene& light, const Receiver& receiver, PointSum& sum,
+void add_punctual(const Lighting& light, const Receiver& receiver, PointSum& sum,
                   SharedLightWorkspace& work) {
   if (light.punctual.empty())
     return;
@@ -304,19 +304,19 @@ void add_punctual(const LightScene& light, const Receiver& receiver, PointSum& s
 }
 
 /// The mean over the points that have been collected, all in the receiver's plane.
-ArrivingLight light_by_solids(const LightScene& light, const Receiver& last, int rays,
+ArrivingLight light_by_solids(const Lighting& light, const Receiver& last, int rays,
                               std::uint32_t seed, DirectWorkspace& work) {
   if (!has_solid_light(light))
     return {};
   const SolidLight found = solid_light(
-      light, {work.solids.points, last.normal, last.plane_class, last.tangent, last.coat}, rays,
+      light.scene, {work.solids.points, last.normal, last.plane_class, last.tangent, last.coat}, rays,
       seed, work.shadow_rays, work.solids);
   return {found.total, found.mirrored, Rgb(0.0)};
 }
 
 } // namespace
 
-ArrivingLight mean_direct_irradiance(const LightScene& light, const NextPoint& next_point,
+ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& next_point,
                                 const SharedLightSettings& settings, std::uint32_t seed,
                                 SharedLightWorkspace& work) {
   work.images.clear();
