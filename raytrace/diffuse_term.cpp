@@ -12,19 +12,19 @@ FieldContent field_content(const IrradianceField& field, const DiffuseSettings& 
   return FieldContent::indirect;
 }
 
-std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const IrradianceField& field) {
+std::vector<Rgb> reflected_by_elements(const IrradianceField& field) {
+  const ElementMesh& mesh = field.mesh();
   std::vector<Rgb> reflected = corner_means(mesh, field.irradiance);
   for (std::size_t e = 0; e < reflected.size(); ++e)
     reflected[e] *= mesh.reflectance[e];
   return reflected;
 }
 
-std::unique_ptr<const PointGathering> make_gathering(const LightScene& light,
-                                                     const IrradianceField& field,
+std::unique_ptr<const PointGathering> make_gathering(const IrradianceField& field,
                                                      const DiffuseSettings& settings) {
   if (settings.term != DiffuseTerm::gather)
     return nullptr;
-  return std::make_unique<PointGathering>(light, reflected_by_elements(light.mesh, field),
+  return std::make_unique<PointGathering>(*field.scene, reflected_by_elements(field),
                                           settings.gather, settings.direct, settings.points);
 }
 

@@ -87,7 +87,7 @@ static ArrivingLight without(const ArrivingLight& light, const ArrivingLight& pa
 }
 
 void extend_to_contacts(std::span<const ContactEdge> edges, std::span<const ContactLight> lights,
-                        std::vector<std::uint8_t>& valid, IrradianceField& field) {
+                        std::vector<std::uint8_t>& valid, VertexIrradiance& field) {
   struct Lines {
     ContactLines direct, indirect;
   };

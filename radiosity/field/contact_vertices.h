@@ -66,6 +66,6 @@ private:
 /// Follows the lines through H(n) and H(p), and marks as valid what has got a value.
 /// `lights` by edge.
 void extend_to_contacts(std::span<const ContactEdge> edges, std::span<const ContactLight> lights,
-                        std::vector<std::uint8_t>& valid, IrradianceField& field);
+                        std::vector<std::uint8_t>& valid, VertexIrradiance& field);
 
 } // namespace meninas

@@ -119,7 +119,7 @@ std::vector<ElementId> covered_elements(const ElementMesh& mesh,
 
 void take_from_gaps(const ElementMesh& mesh, std::span<const ElementId> elements,
                     std::span<const std::optional<GapLight>> lights,
-                    std::vector<std::uint8_t>& valid, IrradianceField& field) {
+                    std::vector<std::uint8_t>& valid, VertexIrradiance& field) {
   std::map<std::uint32_t, GapSum> sums;
   for (std::size_t k = 0; k < elements.size(); ++k)
     if (lights[k])

@@ -18,7 +18,7 @@ namespace meninas {
 namespace {
 
 template <typename Change>
-void for_each_array(IrradianceField& field, const Change& change) {
+void for_each_array(VertexIrradiance& field, const Change& change) {
   for (auto* values :
        {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored})
     change(*values);
@@ -239,7 +239,7 @@ namespace {
 /// Vertices on which something stands, or at whose side it does, take what is gathered beside it;
 /// those of facets keep their means.
 void light_contacts(const VertexSource& source, const VertexSamples& found,
-                    std::vector<std::uint8_t>& valid, IrradianceField& field) {
+                    std::vector<std::uint8_t>& valid, VertexIrradiance& field) {
   const ElementMesh& mesh = found.mesh;
   const PointGathering& gathering = source.gathering;
   const std::vector<Receiver>& receivers = found.receivers;
@@ -265,7 +265,7 @@ void light_contacts(const VertexSource& source, const VertexSamples& found,
 /// that and the light at the element's own corners is followed to the vertex, so that light is
 /// right where it is seen.
 void extend_regions(const VertexSamples& found, std::vector<std::uint8_t>& valid,
-                    IrradianceField& field) {
+                    VertexIrradiance& field) {
   const ElementMesh& mesh = found.mesh;
   std::vector<ContactEdge> edges;
   std::vector<ContactLight> lights;
@@ -300,7 +300,7 @@ void extend_regions(const VertexSamples& found, std::vector<std::uint8_t>& valid
 
 /// The corners of elements that are open only in between take what is gathered there.
 void light_gaps(const VertexSource& source, const ElementMesh& mesh,
-                std::vector<std::uint8_t>& valid, IrradianceField& field) {
+                std::vector<std::uint8_t>& valid, VertexIrradiance& field) {
   const std::vector<ElementId> covered = covered_elements(mesh, valid);
   std::vector<std::optional<GapLight>> lights(covered.size());
   tbb::parallel_for(std::size_t{0}, covered.size(), [&](std::size_t k) {
@@ -319,8 +319,8 @@ std::vector<std::uint8_t> with_values(const VertexSamples& found) {
   return valid;
 }
 
-IrradianceField complete_field(const VertexSource& source, const VertexSamples& found) {
-  IrradianceField field = found.field;
+VertexIrradiance complete_field(const VertexSource& source, const VertexSamples& found) {
+  VertexIrradiance field = found.field;
   std::vector<std::uint8_t> valid = with_values(found);
   for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
   light_contacts(source, found, valid, field);

@@ -41,7 +41,7 @@ void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> mar
 std::vector<std::uint8_t> with_values(const VertexSamples& found);
 
 /// The field with values at all vertices.
-IrradianceField complete_field(const VertexSource& source, const VertexSamples& found);
+VertexIrradiance complete_field(const VertexSource& source, const VertexSamples& found);
 
 /// Values by ElementVertexId for those that only gather from them:
 /// what has none, beside contacts too, is as its neighbours are.

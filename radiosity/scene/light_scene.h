@@ -17,7 +17,7 @@
 #include "scenes/materials/texture_lookup.h"
 
 #include <memory>
-#include <optional>
+#include <span>
 
 namespace meninas {
 
@@ -52,11 +52,7 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                             const ElementMesh& mesh,
                             const DecodedTextures& textures = no_textures());
 
-/// The same scene on a finer mesh, kept together. Stays where it was made.
-struct RefinedScene {
-  ElementMesh mesh;
-  std::optional<LightScene> light; ///< refers to the mesh, and to what the first scene refers to
-};
-std::unique_ptr<RefinedScene> make_refined_scene(const LightScene& light, ElementMesh mesh);
+/// The same scene on another mesh, which is kept with it; it refers to what `light` refers to.
+std::shared_ptr<const LightScene> light_scene_on(const LightScene& light, ElementMesh mesh);
 
 } // namespace meninas

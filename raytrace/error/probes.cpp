@@ -6,13 +6,13 @@
 
 namespace meninas {
 
-ProbedPixels render_pixels(const LightScene& light, const IrradianceField& field, const Camera& camera,
+ProbedPixels render_pixels(const IrradianceField& field, const Camera& camera,
                            const RenderSettings& settings, std::span<const glm::ivec2> pixels) {
   ProbedPixels probed;
   probed.radiance.resize(pixels.size());
-  const VisibleLight all = visible_light(light, field, field_content(field, settings.diffuse));
-  const auto gathering = make_gathering(light, field, settings.diffuse);
-  const RayTotals rays = trace_pixels(light, all, gathering.get(), camera, settings, pixels,
+  const VisibleLight all = visible_light(field, field_content(field, settings.diffuse));
+  const auto gathering = make_gathering(field, settings.diffuse);
+  const RayTotals rays = trace_pixels(*field.scene, all, gathering.get(), camera, settings, pixels,
                                       [&](int place, int, const SeenRadiance& seen) {
                                         probed.radiance[static_cast<std::size_t>(place)] =
                                             seen[0] + seen[1] + seen[2];
@@ -32,22 +32,22 @@ Image first_picture(const LightScene& light, const VisibleLight& visible, const 
 }
 
 /// The emission that pixels show.
-static Image emission_picture(const LightScene& light, const IrradianceField& field,
+static Image emission_picture(const IrradianceField& field,
                               const Camera& camera, const RenderSettings& settings) {
-  VisibleLight glow = visible_light(light, field, FieldContent::all);
+  VisibleLight glow = visible_light(field, FieldContent::all);
   glow.part = ReflectedPart::none;
   for (SideShading& side : glow.shading)
     side.albedo_over_pi = glm::vec3(0.0F);
-  return first_picture(light, glow, camera, settings);
+  return first_picture(*field.scene, glow, camera, settings);
 }
 
-std::vector<std::uint8_t> emitter_pixels(const LightScene& light, const IrradianceField& field,
+std::vector<std::uint8_t> emitter_pixels(const IrradianceField& field,
                                          const Camera& camera, RenderSettings settings,
                                          const Image& picture, int samples) {
   constexpr float share = 0.05F;
   settings.samples = samples;
   settings.diffuse.term = DiffuseTerm::interpolated;
-  const Image emission = emission_picture(light, field, camera, settings);
+  const Image emission = emission_picture(field, camera, settings);
   const int width = picture.width, height = picture.height;
   std::vector<std::uint8_t> near(picture.pixels.size(), 0);
   for (int y = 0; y < height; ++y)

@@ -117,6 +117,7 @@ double camera_ray_seconds(const PreparedScene& prepared, const Camera& camera,
   constexpr std::uint32_t some = 1024;
   IrradianceField field;
   field.irradiance.assign(prepared.mesh.vertices.size(), glm::vec3(1.0F));
+  field.scene = prepared.light;
   field.mirrored = field.indirect = field.indirect_mirrored = field.irradiance;
   settings.samples = std::min(settings.samples, 16);
   settings.layers = WithLayers::no;
@@ -128,7 +129,7 @@ double camera_ray_seconds(const PreparedScene& prepared, const Camera& camera,
         std::min(static_cast<int>(at[1] * float(settings.height)), settings.height - 1));
   }
   Stopwatch watch;
-  render_pixels(*prepared.light, field, camera, settings, pixels);
+  render_pixels(field, camera, settings, pixels);
   return watch.lap() / (double(some) * settings.samples);
 }
 

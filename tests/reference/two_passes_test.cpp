@@ -19,7 +19,7 @@ Rgb seen_by_two_passes(const PreparedScene& prepared, const RadiositySolution& s
   settings.glossy_samples = 64;
   settings.diffuse.term = DiffuseTerm::direct;
   settings.diffuse.shared_solid_rays = 1 << 14;
-  return render(field_scene(*prepared.light, solution), solution.field, look_at(eye, target, 1e-4),
+  return render(solution.field, look_at(eye, target, 1e-4),
                 settings)
       .image.pixels[0];
 }
@@ -36,7 +36,7 @@ void expect_agreement(const Scene& scene, std::initializer_list<Sight> sights) {
   settings.mesh.element_size = 0.1;
   settings.form_factors.rays = settings.interpolation.rays = 256;
   const auto prepared = prepare_scene(scene, settings);
-  const RadiositySolution solution = solve_pass_one(*prepared->light, settings);
+  const RadiositySolution solution = solve_pass_one(prepared->light, settings);
   for (const Sight& sight : sights) {
     SCOPED_TRACE(sight.what);
     constexpr double field_error = 0.01;

@@ -72,7 +72,7 @@ std::vector<glm::vec3> sum_of(std::vector<glm::vec3> a, const std::vector<glm::v
 /// What light is gathered from:
 /// a mesh with the irradiance and the reflected radiosity of its elements.
 struct Surroundings {
-  std::unique_ptr<RefinedScene> scene;
+  std::shared_ptr<const LightScene> scene;
   std::vector<Rgb> irradiance, reflected;
 };
 
@@ -84,7 +84,7 @@ Surroundings surroundings(const LightScene& light, const SampledField& direct,
     even = divide_elements(even, light.surfaces, std::vector<std::uint8_t>(element_count(even), 1));
   Surroundings around;
   even = overlaid(even, indirect.mesh, light.surfaces);
-  around.scene = make_refined_scene(light, overlaid(even, direct.mesh, light.surfaces));
+  around.scene = light_scene_on(light, overlaid(even, direct.mesh, light.surfaces));
   const ElementMesh& mesh = around.scene->mesh;
   around.irradiance =
       corner_means(mesh, sum_of(carried(direct.mesh, direct.total, mesh, light.surfaces),
@@ -196,7 +196,7 @@ SampledField gathered_field(const LightScene& light, const ElementLight& element
       refined(light, elements.irradiance, elements.reflected, {few, double(few), size});
   const Surroundings around = surroundings(light, from_source, first, levels);
   SampledField field =
-      refined(*around.scene->light, around.irradiance, around.reflected,
+      refined(*around.scene, around.irradiance, around.reflected,
               {asked, rays_within(how.interpolation.adaptive->error, first, few), size});
   for (const auto& work : workspaces) {
     result.form_factor_rays += work.rays;
@@ -227,7 +227,7 @@ InterpolatedField adaptive_field(const LightScene& light, const ElementLight& el
   const auto on_mesh = [&](const SampledField& field, const std::vector<glm::vec3>& values) {
     return carried(field.mesh, values, *result.mesh, light.surfaces);
   };
-  IrradianceField& field = result.field;
+  VertexIrradiance& field = result.field;
   field.indirect = on_mesh(gathered, gathered.total);
   field.indirect_mirrored = on_mesh(gathered, gathered.mirrored);
   field.irradiance = sum_of(on_mesh(from_source, from_source.total), field.indirect);

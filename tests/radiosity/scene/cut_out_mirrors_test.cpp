@@ -32,7 +32,7 @@ std::unique_ptr<LitScene> lit_with(Scene scene, HoleAt hole_at, double element_s
     return hole_at((1.0 - b.x - b.y) * x[0] + b.x * x[1] + b.y * x[2]);
   };
   l->rays.emplace(in, l->surfaces, holes);
-  l->light.emplace(
+  l->light = std::make_shared<const LightScene>(
       make_light_scene(in, l->surfaces, *l->rays, l->plan.mirrors, l->plan.worlds, l->mesh));
   return l;
 }
@@ -165,7 +165,7 @@ TEST(CutOutMirrors, PassOneFindsTheLightOfPolygons) {
   settings.interpolation.method = Interpolation::average;
   const auto light_of = [&](Sheet sheet) {
     const auto l = lit_sheet(sheet, mirror(rho));
-    return mean_over(*l, solve_pass_one(*l->light, settings).irradiance, "ceiling").g;
+    return mean_over(*l, solve_pass_one(l->light, settings).irradiance, "ceiling").g;
   };
   const double polygons = light_of(Sheet::of_polygons);
   EXPECT_NEAR(light_of(Sheet::with_hole), polygons, 0.01 * polygons);

@@ -29,8 +29,8 @@ struct BothWays {
 /// The picture by tiles, where paths are looked for, and pixel by pixel, where all rays are traced.
 BothWays both_ways(const Scene& scene, const Camera& camera, int size) {
   const Taken taken = lit_up(scene, coarse());
-  const LightScene& light = field_scene(*taken.prepared->light, taken.solution);
-  const VisibleLight visible = visible_light(light, taken.solution.field, FieldContent::all);
+  const LightScene& light = *taken.solution.field.scene;
+  const VisibleLight visible = visible_light(taken.solution.field, FieldContent::all);
   RenderSettings settings;
   settings.width = settings.height = size;
   BothWays both{Image(size, size), Image(size, size), {}, {}};
