@@ -64,8 +64,9 @@ ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& fac
   solved.rays_traced = factors.rays_traced;
 
   // Split by who owns the path: direct light, gathered emission, and reflected light by the transport.
-  solved.first = first_light(light, gathered_emission(light, factors), factors.closure,
-                             factors.covered, settings.form_factors.method, settings.direct, progress);
+  solved.first =
+      first_light(light, {gathered_emission(light, factors), factors.closure, factors.covered},
+                  settings.form_factors.method, settings.direct, progress);
   solved.form_factor_seconds = stopwatch.lap();
 
   Watched watched{light, settings, solved.first, factors.closure, factors.exposed};
@@ -84,14 +85,14 @@ ReflectedLight reflected_by_shots(const LightScene& light, const PassOneSettings
   Stopwatch stopwatch;
   ReflectedLight solved;
   const HemisphereSurvey survey = survey_hemispheres(light, settings.form_factors, progress);
-  solved.first = first_light(light, survey.gathered, survey.closure, survey.covered,
+  solved.first = first_light(light, {survey.gathered, survey.closure, survey.covered},
                              settings.form_factors.method, settings.direct, progress);
   solved.form_factor_seconds = stopwatch.lap();
 
   Watched watched{light, settings, solved.first, survey.closure, survey.exposed};
   ShotSolution shots =
-      solve_by_shots(light, survey, solved.first.source, solved.first.reflectance,
-                     settings.form_factors, settings.solver, progress, shown(watched, watch));
+      solve_by_shots(light, survey, {solved.first.source, solved.first.reflectance},
+                     {settings.form_factors, settings.solver}, progress, shown(watched, watch));
   solved.solver = std::move(shots.solver);
   solved.arrived = std::move(shots.arrived);
   solved.closure = survey.closure;
@@ -110,9 +111,9 @@ ReflectedLight reflected_by_nodes(const LightScene& light, const PassOneSettings
     vertices =
         lit_vertices(light, {settings.form_factors, settings.direct, settings.interpolation});
   const double lighting = watch.lap();
-  NodeSolution nodes =
-      solve_by_nodes(light, settings.form_factors, settings.direct, settings.hierarchical,
-                     std::move(vertices), settings.solver, progress);
+  NodeSolution nodes = solve_by_nodes(
+      light, {settings.form_factors, settings.direct, settings.hierarchical, settings.solver},
+      std::move(vertices), progress);
   ReflectedLight solved;
   solved.first = std::move(nodes.first);
   solved.solver = std::move(nodes.solver);

@@ -42,10 +42,9 @@ static glm::vec3 part_of(const ArrivingLight& arrived, ReflectedPart part) {
   return glm::vec3(0.0F);
 }
 
-glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& settings,
-                              const PointGathering* gathering, ReflectedPart part,
-                              const glm::vec3& field, const Receiver& receiver, std::uint32_t seed,
-                              PointWorkspace& work) {
+glm::vec3 irradiance_at_point(const DiffuseSource& source, const glm::vec3& field,
+                              const Receiver& receiver, std::uint32_t seed, PointWorkspace& work) {
+  const auto& [light, settings, gathering, part] = source;
   if (part == ReflectedPart::none || settings.term == DiffuseTerm::interpolated)
     return field;
   if (gathering) {

@@ -12,7 +12,8 @@ static std::vector<SampleRound> chosen_samples(const IrradianceField& field,
   return choose_samples(
       settings,
       [&](const SampleShare& share, const StorePixel& store) {
-        add(totals, trace_picture(*field.scene, all, gathering, camera, settings, share, {}, store));
+        add(totals,
+            trace_picture({*field.scene, all, gathering, camera, settings}, share, {}, store));
       },
       picture);
 }
@@ -32,13 +33,14 @@ Rendering render_layers(const IrradianceField& field, const Camera& camera,
     for (const char* way : {"", ".mirror", ".mirrors"})
       result.layers.push_back({part.name + way, Image(settings.width, settings.height)});
     for (const SampleRound& round : rounds)
-      add(result, trace_picture(*field.scene, part.light, gathering.get(), camera, settings, round.share(),
-                                progress, [&](int x, int y, const SeenRadiance& seen) {
-                                  for (std::size_t way = 0; way < seen_ways; ++way) {
-                                    glm::vec3& pixel = result.layers[first + way].image.at(x, y);
-                                    pixel = blended(round.samples, pixel, seen[way]);
-                                  }
-                                }));
+      add(result,
+          trace_picture({*field.scene, part.light, gathering.get(), camera, settings},
+                        round.share(), progress, [&](int x, int y, const SeenRadiance& seen) {
+                          for (std::size_t way = 0; way < seen_ways; ++way) {
+                            glm::vec3& pixel = result.layers[first + way].image.at(x, y);
+                            pixel = blended(round.samples, pixel, seen[way]);
+                          }
+                        }));
   }
   for (std::size_t p = 0; p < result.image.pixels.size(); ++p)
     for (const Layer& layer : result.layers)

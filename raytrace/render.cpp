@@ -16,8 +16,8 @@ static Rendering render_light(const IrradianceField& field,
   const VisibleLight all = visible_light(field, field_content(field, settings.diffuse));
   const auto gathering = make_gathering(field, settings.diffuse);
   const auto trace = [&](const SampleShare& share, const StorePixel& store) {
-    add(result,
-        trace_picture(*field.scene, all, gathering.get(), camera, settings, share, progress, store));
+    add(result, trace_picture({*field.scene, all, gathering.get(), camera, settings}, share,
+                              progress, store));
   };
   const std::vector<SampleRound> rounds = choose_samples(settings, trace, result.image);
   const SampleRound& last = rounds.back();

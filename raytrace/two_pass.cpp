@@ -45,9 +45,9 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
       make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh, dark), prepared->scene,
       prepared->surfaces, prepared->plan.worlds, settings.mesh.max_elements);
   average_textures(prepared->scene, prepared->surfaces, prepared->textures, prepared->mesh);
-  prepared->light = std::make_shared<const LightScene>(
-      make_light_scene(prepared->scene, prepared->surfaces, *prepared->rays, prepared->plan.mirrors,
-                       prepared->plan.worlds, prepared->mesh, prepared->textures));
+  prepared->light = std::make_shared<const LightScene>(make_light_scene(
+      prepared->scene, prepared->surfaces, *prepared->rays,
+      {prepared->plan.mirrors, prepared->plan.worlds}, prepared->mesh, prepared->textures));
   prepared->seconds.mesh = watch.lap();
   return prepared;
 }

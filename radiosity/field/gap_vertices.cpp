@@ -95,7 +95,7 @@ std::optional<GapLight> light_in_gap(const PointGathering& gathering,
     if (low.count >= most_points && is_under_something(gathering.light, receiver, size))
       continue;
     const std::uint32_t seed = hash(index(element), k, gathering.form_factors.seed);
-    const VertexValue value = value_at(gathering, irradiance, receiver, size, seed, work);
+    const VertexValue value = value_at(gathering, irradiance, {receiver, size, seed}, work);
     // Where the one arrives at nothing but the void, so do the others.
     if (value.irradiance.total == Rgb(0.0) && value.cover != Cover::low)
       break;

@@ -93,8 +93,8 @@ void cut_plane(const PlaneImage& image, const Observer& observer, ClusterWorkspa
       if (largest(light) > 0.0)
         work.stand_ins.push_back({at, image.plane, image.seen.world, light});
     } else if (node.second_child == 0) {
-      add_images(image.light.worlds, image.light.emitters, work.seen, image.seen,
-                 image.tree.order[node.first], observer, 1.0, lights);
+      add_images({image.light.worlds, work.seen, image.seen, observer}, image.light.emitters,
+                 image.tree.order[node.first], 1.0, lights);
     } else {
       work.open.push_back(node.second_child);
       work.open.push_back(at + 1);
@@ -145,7 +145,7 @@ void trace_rays(const Lighting& light, const ClusterTree& tree, const Receiver& 
       const Point3 y = apply(image, point.position);
       weight[k] =
           point.colour * form_factor_share(receiver, apply_direction(image, plane.plane.normal), y);
-      fold(light.scene, part.world, receiver.position, receiver.plane_class, y, plane.plane_class,
+      fold(light.scene, part.world, {receiver.position, y, receiver.plane_class, plane.plane_class},
            direct.folded[k]);
     }
     const std::uint32_t dark = blocked(light.scene, direct.folded, count, direct.shadow_rays);
@@ -201,10 +201,10 @@ void cut_clusters(const Lighting& light, const ClusterTree& tree, const Receiver
   }
 }
 
-ArrivingLight cluster_irradiance(const Lighting& light, const ClusterTree& tree,
-                                 const Receiver& receiver, const DirectSettings& settings,
-                                 const ClusterCut& cut, std::uint32_t seed, ClusterWorkspace& work,
+ArrivingLight cluster_irradiance(const ClusterLight& clusters, const Receiver& receiver,
+                                 std::uint32_t seed, ClusterWorkspace& work,
                                  DirectWorkspace& direct) {
+  const auto& [light, tree, settings, cut] = clusters;
   if (!(cut.theta > 0.0))
     return direct_irradiance(light, receiver, settings, seed, direct);
   cut_clusters(light, tree, receiver, cut.theta, work, direct.lights);

@@ -36,14 +36,21 @@ struct ImageSampling {
   }
 };
 
+/// One image as a point sees it; the seed is that of all images there.
+struct ImageFromPoint {
+  const VirtualLight& image;
+  const Receiver& receiver;
+  std::uint32_t seed;
+};
+
 /// Adds the samples of one image up to number `end` to its visible share.
 /// Weights are needed where some arrive and some do not, or panes take their part of each;
 /// those of samples before, which all arrived or all did not, are found when one is met that differs.
-void sample_visibility(const Lighting& light, const VirtualLight& image, const Receiver& receiver,
-                       int end, std::uint32_t seed_of_all, DirectWorkspace& work,
-                       VisibleShare& share) {
+void sample_visibility(const Lighting& light, const ImageFromPoint& from, int end,
+                       DirectWorkspace& work, VisibleShare& share) {
+  const auto& [image, receiver, seed] = from;
   const Emitter& emitter = light.emitters[image.emitter];
-  const ImageSampling sampling{hash(seed_of_all, image.emitter, index(image.world)),
+  const ImageSampling sampling{hash(seed, image.emitter, index(image.world)),
                                PolygonFan(image.polygon, area_vector(image.polygon.span()))};
   for (int first = share.samples; first < end; first += 16) {
     const int count = std::min(16, end - first);
@@ -51,8 +58,9 @@ void sample_visibility(const Lighting& light, const VirtualLight& image, const R
     for (int k = 0; k < count; ++k) {
       const auto lane = static_cast<std::size_t>(k);
       points[lane] = sampling.point(first + k);
-      fold(light.scene, image.world, receiver.position, receiver.plane_class, points[lane],
-           emitter.plane_class, work.folded[lane]);
+      fold(light.scene, image.world,
+           {receiver.position, points[lane], receiver.plane_class, emitter.plane_class},
+           work.folded[lane]);
     }
     const std::uint32_t dark =
         blocked(light.scene, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
@@ -127,8 +135,9 @@ void sample_dim_images(const Lighting& light, const Receiver& receiver,
       const Point3 y = point_on(image.polygon, area_vector(image.polygon.span()), sample);
       if (!light.scene.by_angle.empty())
         weight[count] = form_factor_share(receiver, image, y);
-      fold(light.scene, image.world, receiver.position, receiver.plane_class, y,
-           light.emitters[image.emitter].plane_class, work.folded[count]);
+      fold(light.scene, image.world,
+           {receiver.position, y, receiver.plane_class, light.emitters[image.emitter].plane_class},
+           work.folded[count]);
     }
     const std::uint32_t dark = blocked(light.scene, work.folded, count, work.shadow_rays);
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -174,9 +183,9 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
       continue;
     }
     SampledImage sampled{k, static_cast<int>(std::lround(settings.penumbra_rays * worth)), {}};
-    sample_visibility(light, image, receiver, samples, seed, work, sampled.share);
+    sample_visibility(light, {image, receiver, seed}, samples, work, sampled.share);
     if (everywhere || !agree(sampled.share))
-      sample_visibility(light, image, receiver, sampled.penumbra_samples, seed, work,
+      sample_visibility(light, {image, receiver, seed}, sampled.penumbra_samples, work,
                         sampled.share);
     add(k, visible_fraction(light, sampled.share));
     sum.in_part = sum.in_part || !agree(sampled.share);
@@ -187,8 +196,8 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
   if (settings.penumbra_samples == PenumbraSamples::together && sum.in_part) {
     sum = {.in_part = true};
     for (SampledImage& sampled : work.sampled) {
-      sample_visibility(light, work.lights[sampled.light], receiver, sampled.penumbra_samples, seed,
-                        work, sampled.share);
+      sample_visibility(light, {work.lights[sampled.light], receiver, seed},
+                        sampled.penumbra_samples, work, sampled.share);
       add(sampled.light, visible_fraction(light, sampled.share));
     }
   }
@@ -235,8 +244,8 @@ static ArrivingLight chosen_irradiance(const Lighting& light, const Receiver& re
   const auto images = images_to_choose(light, static_cast<std::size_t>(settings.images));
   const auto choose = [&](std::size_t most) {
     const LightChoice choice{most, 0x1p-32 * hash(seed, 0xc401ce, 0)};
-    sample_light_tree(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
-                  work.lights);
+    sample_light_tree({light.worlds, light.emitters, light.emitter_tree}, observer, choice,
+                      work.choice, work.lights);
     return images_irradiance(light, receiver, settings, seed, work);
   };
   if (is_on_lamp(light, receiver))

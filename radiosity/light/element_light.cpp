@@ -58,8 +58,8 @@ Rgb arriving_from(const Lighting& light, std::uint32_t number, const Receiver& r
   for (const PunctualImage& image : work.images) {
     if (!wanted(image.world))
       continue;
-    fold(light.scene, image.world, receiver.position, receiver.plane_class, image.position, none<PlaneId>,
-         work.folded[0]);
+    fold(light.scene, image.world,
+         {receiver.position, image.position, receiver.plane_class, none<PlaneId>}, work.folded[0]);
     // No ray meets what has no extent: solids let it pass straight.
     if (blocked(light.scene, work.folded, 1, work.shadow_rays, nullptr, Solids::sheets) == 0)
       sum += light.worlds.worlds[index(image.world)].throughput * image.irradiance *

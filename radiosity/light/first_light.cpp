@@ -55,12 +55,10 @@ FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
   return first;
 }
 
-FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
-                       const std::vector<RowClosure>& closure,
-                       std::span<const std::uint64_t> covered, FormFactorMethod method,
+FirstLight first_light(const LightScene& light, FoundByRays rays, FormFactorMethod method,
                        const DirectSettings& settings, const Progress& progress) {
-  return first_light(light, std::move(gathered), closure,
-                     found_light(light, covered, method, settings, progress), method);
+  return first_light(light, std::move(rays.gathered), rays.closure,
+                     found_light(light, rays.covered, method, settings, progress), method);
 }
 
 } // namespace meninas

@@ -23,8 +23,10 @@ void punctual_arrivals(const Lighting& light, const Receiver& receiver, DirectWo
     std::uint32_t count = 0;
     while (count < 16 && first + count < work.images.size() &&
            work.images[first + count].world == world) {
-      fold(light.scene, world, receiver.position, receiver.plane_class,
-           work.images[first + count].position, none<PlaneId>, work.folded[count]);
+      fold(light.scene, world,
+           {receiver.position, work.images[first + count].position, receiver.plane_class,
+            none<PlaneId>},
+           work.folded[count]);
       ++count;
     }
     // No ray meets what has no extent: solids let it pass straight.
@@ -51,8 +53,8 @@ void emission_samples(const Lighting& light, const Receiver& receiver,
   const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   const LightChoice choice{static_cast<std::size_t>(sampling.images),
                            0x1p-32 * hash(sampling.seed, 0xc401ce, sampling.first)};
-  sample_light_tree(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
-                work.lights);
+  sample_light_tree({light.worlds, light.emitters, light.emitter_tree}, observer, choice,
+                    work.choice, work.lights);
   const auto count = static_cast<std::uint32_t>(std::clamp(sampling.per_image, 1, 16));
   for (const VirtualLight& image : work.lights) {
     const Emitter& emitter = light.emitters[image.emitter];
@@ -67,8 +69,8 @@ void emission_samples(const Lighting& light, const Receiver& receiver,
       const double cosine = -glm::dot(to, image.normal) / std::max(glm::length(to), 1e-300);
       samples.push_back({to, std::max(0.0, cosine), image.weight * glm::length(area) / count,
                          emitter.area, Rgb(0.0), image.world});
-      fold(light.scene, image.world, receiver.position, receiver.plane_class, y, emitter.plane_class,
-           work.folded[k]);
+      fold(light.scene, image.world,
+           {receiver.position, y, receiver.plane_class, emitter.plane_class}, work.folded[k]);
     }
     const std::uint32_t dark = blocked(light.scene, work.folded, count, work.shadow_rays);
     const Rgb radiance =

@@ -95,9 +95,9 @@ PointLight indirect_light_at(const PointGathering& gathering, const Receiver& re
 
   return {landed_light(gathering, work.gather.result),
           {},
-          cluster_irradiance(gathering.clustered, gathering.cluster_tree, receiver,
-                             gathering.secondary, gathering.cut, hash(seed, 2), work.clusters,
-                             work.direct)};
+          cluster_irradiance(
+              {gathering.clustered, gathering.cluster_tree, gathering.secondary, gathering.cut},
+              receiver, hash(seed, 2), work.clusters, work.direct)};
 }
 
 PointLight light_at(const PointGathering& gathering, const Receiver& receiver, std::uint32_t seed,

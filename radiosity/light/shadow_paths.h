@@ -36,9 +36,8 @@ struct FoldedSegment {
   std::vector<Leg> legs;
 };
 
-/// Folds the segment from x to y in its storage.
-void fold(const LightScene& light, WorldId world, const Point3& x, PlaneId leaving, const Point3& y,
-          PlaneId arriving, FoldedSegment& segment);
+/// Folds `whole`, as if it had one leg, in the storage of `segment`.
+void fold(const LightScene& light, WorldId world, const Leg& whole, FoldedSegment& segment);
 
 /// Tests up to sixteen folded segments, best of about as many legs each; bit k of the result
 /// is set where segment k is blocked, `blockers[k]` by what, or meets a mirror in a hole.

@@ -110,11 +110,17 @@ Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& l
   return point_on(parts.back(), last, Vec2(within, sample.y));
 }
 
-/// Sends the rays of one point towards what it sees of an image,
-/// as many as that is worth beside the brightest image.
-void add_rays(const Lighting& light, const Receiver& receiver, const VirtualLight& image,
-              const ImageAtPoint& at, double worth, std::uint32_t seed,
-              SharedLightWorkspace& work) {
+/// An image at a point, and what it is worth beside the brightest one there.
+struct WorthyImage {
+  const VirtualLight& image;
+  const ImageAtPoint& at;
+  double worth; ///< up to 1
+};
+
+/// Sends the rays of one point towards what it sees of an image, as many as that is worth.
+void add_rays(const Lighting& light, const Receiver& receiver, const WorthyImage& seen,
+              std::uint32_t seed, SharedLightWorkspace& work) {
+  const auto& [image, at, worth] = seen;
   ImageSum& total = work.images[at.image];
   const auto parts = parts_of(at, image, work);
   // One that stands for others of its lamp has them to share its rays with.
@@ -157,8 +163,8 @@ void find_lights(const Lighting& light, const NumberedPoint& point, std::uint32_
   // evenly by the golden section.
   constexpr std::uint32_t golden_section = 0x9e3779b9;
   const LightChoice choice{most, 0x1p-32 * (hash(seed, 0xc401ce) + point.number * golden_section)};
-  sample_light_tree(light.worlds, light.emitters, light.emitter_tree, observer, choice,
-                work.point.choice, work.point.lights);
+  sample_light_tree({light.worlds, light.emitters, light.emitter_tree}, observer, choice,
+                    work.point.choice, work.point.lights);
 }
 
 /// Adds what every image brings to a point past known blockers,
@@ -182,7 +188,7 @@ void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t 
     ImageSum& total = work.images[at.image];
     total.form_factor += at.form_factor;
     const double worth = most > 0.0 ? std::min(brought_by(total, at.form_factor) / most, 1.0) : 1.0;
-    add_rays(light, receiver, work.point.lights[i], at, worth, seed, work);
+    add_rays(light, receiver, {work.point.lights[i], at, worth}, seed, work);
   }
 }
 
@@ -242,7 +248,7 @@ void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightW
         static_cast<std::uint32_t>(std::min<std::size_t>(16, work.waiting.size() - first));
     for (std::uint32_t k = 0; k < count; ++k) {
       const WaitingRay& ray = work.waiting[work.order[first + k]];
-      fold(light.scene, ray.world, ray.from, receiver.plane_class, ray.to, ray.arriving,
+      fold(light.scene, ray.world, {ray.from, ray.to, receiver.plane_class, ray.arriving},
            work.point.folded[k]);
     }
     const std::uint32_t dark =

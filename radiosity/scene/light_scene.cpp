@@ -85,8 +85,9 @@ static std::vector<Bsdf> reflecting_by_angle(const Scene& scene) {
 }
 
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
-                            const MirrorSet& mirrors, const WorldTree& worlds,
-                            const ElementMesh& mesh, const DecodedTextures& textures) {
+                            const MirrorsAndWorlds& reflected, const ElementMesh& mesh,
+                            const DecodedTextures& textures) {
+  const auto& [mirrors, worlds] = reflected;
   const RayFrame& frame = rays.frame();
   LightScene light{scene,
                    surfaces,
@@ -133,7 +134,7 @@ std::shared_ptr<const LightScene> light_scene_on(const LightScene& light, Elemen
     LightScene light; // refers to the mesh beside it
     OnMesh(const LightScene& from, ElementMesh own)
         : mesh(std::move(own)),
-          light(make_light_scene(from.scene, from.surfaces, from.rays, from.mirrors, from.worlds,
+          light(make_light_scene(from.scene, from.surfaces, from.rays, {from.mirrors, from.worlds},
                                  mesh, from.textures)) {}
   };
   average_textures(light.scene, light.surfaces, light.textures, mesh);

@@ -47,9 +47,13 @@ struct LightScene {
 /// Whether mirrors and glass treat all channels alike: transport needs but one band.
 bool grey_mirrors(const Scene& scene);
 
+/// The mirrors of a scene and the worlds in them.
+struct MirrorsAndWorlds {
+  const MirrorSet& mirrors;
+  const WorldTree& worlds;
+};
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
-                            const MirrorSet& mirrors, const WorldTree& worlds,
-                            const ElementMesh& mesh,
+                            const MirrorsAndWorlds& reflected, const ElementMesh& mesh,
                             const DecodedTextures& textures = no_textures());
 
 /// The same scene on another mesh, which is kept with it; it refers to what `light` refers to.

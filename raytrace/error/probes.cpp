@@ -12,8 +12,8 @@ ProbedPixels render_pixels(const IrradianceField& field, const Camera& camera,
   probed.radiance.resize(pixels.size());
   const VisibleLight all = visible_light(field, field_content(field, settings.diffuse));
   const auto gathering = make_gathering(field, settings.diffuse);
-  const RayTotals rays = trace_pixels(*field.scene, all, gathering.get(), camera, settings, pixels,
-                                      [&](int place, int, const SeenRadiance& seen) {
+  const RayTotals rays = trace_pixels({*field.scene, all, gathering.get(), camera, settings},
+                                      pixels, [&](int place, int, const SeenRadiance& seen) {
                                         probed.radiance[static_cast<std::size_t>(place)] =
                                             seen[0] + seen[1] + seen[2];
                                       });
@@ -24,7 +24,7 @@ ProbedPixels render_pixels(const IrradianceField& field, const Camera& camera,
 Image first_picture(const LightScene& light, const VisibleLight& visible, const Camera& camera,
                     const RenderSettings& settings) {
   Image image(settings.width, settings.height);
-  trace_picture(light, visible, nullptr, camera, settings, {first_samples(settings)}, {},
+  trace_picture({light, visible, nullptr, camera, settings}, {first_samples(settings)}, {},
                 [&](int x, int y, const SeenRadiance& seen) {
                   image.at(x, y) = seen[0] + seen[1] + seen[2];
                 });

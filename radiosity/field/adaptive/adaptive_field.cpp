@@ -107,8 +107,9 @@ SamplePoint gathered_samples(const PointGathering& gathering, const std::vector<
                              tbb::enumerable_thread_specific<PointWorkspace>& workspaces) {
   return [&](const Receiver& receiver, double element_size, std::uint32_t seed) -> PointSample {
     const VertexValue value =
-        indirect_value_at(gathering, irradiance, receiver, element_size,
-                          hash(seed, gathering.form_factors.seed, 0x7e27), workspaces.local());
+        indirect_value_at(gathering, irradiance,
+                          {receiver, element_size, hash(seed, gathering.form_factors.seed, 0x7e27)},
+                          workspaces.local());
     return {value.indirect, value.cover};
   };
 }
@@ -167,14 +168,20 @@ private:
   std::vector<SamplePoint> samples_;
 };
 
+/// How far a field is refined; `weight` is w by CellId of the roots.
+struct Refinement {
+  std::span<const double> weight;
+  RefinementSettings settings;
+};
+
 /// Light from the elements, twice: with few rays from the elements as they were solved,
 /// then from what that makes of them. Where two walls meet,
 /// light changes within an element as much as from one to the next, and comes from near by.
 SampledField gathered_field(const LightScene& light, const ElementLight& elements,
                             const SampledField& from_source, const Gathering& how,
-                            std::span<const double> weight, RefinementSettings refinement,
-                            InterpolatedField& result) {
+                            const Refinement& to, InterpolatedField& result) {
   constexpr int levels = 2;
+  RefinementSettings refinement = to.settings;
   refinement.root_points = refinement.points = 0; // smooth: its centre tells what an element hides
   tbb::enumerable_thread_specific<PointWorkspace> workspaces;
   const auto refined = [&](const LightScene& lit, const std::vector<Rgb>& irradiance,
@@ -185,10 +192,10 @@ SampledField gathered_field(const LightScene& light, const ElementLight& element
     const FieldSampler sampler{
         std::cref(at_vertices), mean_of_two(std::cref(between)),
         [&](const Receiver& receiver, double element_size, std::uint32_t seed) {
-          return is_open(between.fewest(), irradiance, receiver, element_size, seed,
+          return is_open(between.fewest(), irradiance, {receiver, element_size, seed},
                          workspaces.local());
         }};
-    return refine_field(light, sampler, weight, {}, refinement);
+    return refine_field(light, sampler, to.weight, {}, refinement);
   };
   const int asked = how.interpolation.rays, few = std::max(1, asked / 4);
   const double size = light.mesh.element_size;
@@ -220,8 +227,8 @@ InterpolatedField adaptive_field(const LightScene& light, const ElementLight& el
   result.form_factor_rays = source.form_factor_rays;
   result.shadow_rays = source.shadow_rays;
   const SampledField gathered =
-      gathered_field(light, elements, from_source, {form_factors, direct, settings}, weight,
-                     refinement_of(*settings.adaptive, gathered_share), result);
+      gathered_field(light, elements, from_source, {form_factors, direct, settings},
+                     {weight, refinement_of(*settings.adaptive, gathered_share)}, result);
 
   result.mesh = overlaid(from_source.mesh, gathered.mesh, light.surfaces);
   const auto on_mesh = [&](const SampledField& field, const std::vector<glm::vec3>& values) {

@@ -33,7 +33,7 @@ protected:
     plan_ = plan_transport(scene_, surfaces_);
     rays_.emplace(make_ray_scene(scene_, surfaces_));
     solution_.field.scene = std::make_shared<const LightScene>(
-        make_light_scene(scene_, surfaces_, *rays_, plan_.mirrors, plan_.worlds, mesh_));
+        make_light_scene(scene_, surfaces_, *rays_, {plan_.mirrors, plan_.worlds}, mesh_));
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
       solution_.field.irradiance.emplace_back(1.0F / static_cast<float>(v + 1), 0.1F, 1e-30F);
       solution_.field.mirrored.emplace_back(0.5F / static_cast<float>(v + 1), 0.0F, 1e-31F);
