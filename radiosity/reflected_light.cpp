@@ -9,16 +9,6 @@
 
 namespace meninas {
 
-bool gathers_by_nodes(const PassOneSettings& settings) {
-  return settings.solver.method == SolverMethod::hierarchical &&
-         settings.interpolation.method == Interpolation::gather && !settings.interpolation.adaptive;
-}
-
-bool shoots_rays(const PassOneSettings& settings, std::size_t elements) {
-  return settings.solver.method == SolverMethod::progressive &&
-         settings.form_factors.method == FormFactorMethod::rays && elements > max_direct_unknowns;
-}
-
 namespace {
 
 /// What a watch is shown of, and the seconds that takes.

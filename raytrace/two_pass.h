@@ -3,16 +3,12 @@
 
 #include "radiosity/pass_one.h"
 #include "raytrace/render.h"
+#include "raytrace/two_pass_settings.h"
 
 #include <memory>
 #include <optional>
 
 namespace meninas {
-
-struct TwoPassSettings {
-  PassOneSettings pass_one;
-  RenderSettings render;
-};
 
 struct PreparationSeconds {
   double plan = 0.0; ///< surfaces and plan

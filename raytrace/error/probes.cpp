@@ -1,6 +1,8 @@
 #include "raytrace/error/probes.h"
 
 #include "raytrace/pixels/sample_choice.h"
+#include "scenes/sampling.h"
+#include "scenes/stopwatch.h"
 
 #include <algorithm>
 
@@ -62,6 +64,27 @@ std::vector<std::uint8_t> emitter_pixels(const IrradianceField& field,
   if (std::ranges::find(near, 0) == near.end())
     std::ranges::fill(near, std::uint8_t{0});
   return near;
+}
+
+double camera_ray_seconds(const std::shared_ptr<const LightScene>& light, const Camera& camera,
+                          RenderSettings settings) {
+  constexpr std::uint32_t some = 1024;
+  IrradianceField field;
+  field.irradiance.assign(light->mesh.vertices.size(), glm::vec3(1.0F));
+  field.scene = light;
+  field.mirrored = field.indirect = field.indirect_mirrored = field.irradiance;
+  settings.samples = std::min(settings.samples, 16);
+  settings.layers = WithLayers::no;
+  std::vector<glm::ivec2> pixels;
+  for (std::uint32_t k = 0; k < some; ++k) {
+    const auto at = sobol4(k, 0xc057);
+    pixels.emplace_back(
+        std::min(static_cast<int>(at[0] * float(settings.width)), settings.width - 1),
+        std::min(static_cast<int>(at[1] * float(settings.height)), settings.height - 1));
+  }
+  Stopwatch watch;
+  render_pixels(field, camera, settings, pixels);
+  return watch.lap() / (double(some) * settings.samples);
 }
 
 } // namespace meninas

@@ -33,4 +33,9 @@ std::vector<std::uint8_t> emitter_pixels(const IrradianceField& field,
                                          const Camera& camera, RenderSettings settings,
                                          const Image& picture, int samples);
 
+/// Seconds that one camera ray with its diffuse term takes here, by all threads, as the rays of a few
+/// pixels tell over a field of ones.
+double camera_ray_seconds(const std::shared_ptr<const LightScene>& light, const Camera& camera,
+                          RenderSettings settings);
+
 } // namespace meninas

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <type_traits>
+
 namespace meninas {
 
 namespace {
@@ -28,7 +30,7 @@ struct Turner {
   /// One step up and one down, within limits.
   template <typename Number>
   void steps(const char* knob, Number value, Number factor, Number least, Number most,
-             std::optional<Number> RunSettings::*field) {
+             std::type_identity_t<std::optional<Number> RunSettings::*> field) {
     const auto to = [&](Number next, bool finer) {
       if (next >= least && next <= most)
         turn(knob, fmt::format("{}", value), fmt::format("{}", next), finer,
