@@ -2,6 +2,7 @@
 
 #include "radiosity/transport/factor_file.h"
 #include "radiosity/solution/solution_file.h"
+#include "radiosity/solvers/solve.h"
 #include "runs/steering/memory.h"
 #include "runs/outputs.h"
 #include "runs/preparation.h"
