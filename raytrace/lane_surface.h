@@ -1,4 +1,6 @@
 // The surface on which a lane of a packet has landed: where light is received, and how it is reflected.
+//
+//   L = L_e + rho H / pi        W/m^2/sr, with H the irradiance there, W/m^2
 #pragma once
 
 #include "raytrace/tile.h"

@@ -6,6 +6,7 @@
 // what stands on a surface takes what is gathered beside it (contact_vertices.h,
 // gap_vertices.h), vertices that hang take from their ends,
 // and those that are left from their neighbours (vertex_fill.h).
+// All values are irradiance, W/m^2.
 #pragma once
 
 #include "radiosity/field/vertex_samples.h"

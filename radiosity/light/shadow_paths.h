@@ -1,4 +1,9 @@
-// Shadow rays to points of emitters and of their images, leg by leg.
+// Shadow rays to points of emitters and of their images, leg by leg: V of D = sum tau E F V.
+//
+// The segment from x to a point of the image of an emitter in world w = (m1 ... mk) crosses the
+// planes of its mirrors; folded back it has k + 1 legs in the real room, each of which must be free:
+//
+//   V = product over the legs of (free ? t : 0),    t what panes pass and coats let through, per channel, relative to tau
 #pragma once
 
 #include "radiosity/scene/light_scene.h"

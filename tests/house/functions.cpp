@@ -99,13 +99,13 @@ bool begins_with_word(std::string_view head, std::string_view word) {
 }
 
 /// Where the parameters begin: the first parenthesis outside angle brackets; npos without any,
-/// or after an assignment.
+/// or after an assignment or a brace.
 std::size_t parameters_of(std::string_view head) {
   int angles = 0;
   for (std::size_t k = 0; k < head.size(); ++k) {
     const std::string_view before = trimmed(head.substr(0, k));
     const bool is_operator = before.ends_with("operator");
-    if (head[k] == '=' && !is_operator && !before.ends_with("operator="))
+    if (head[k] == '{' || (head[k] == '=' && !is_operator && !before.ends_with("operator=")))
       return std::string_view::npos;
     if (is_operator && head.substr(k, 2) == "()") {
       ++k;
