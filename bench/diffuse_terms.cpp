@@ -31,7 +31,6 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
   const auto prepared = prepare_scene(truth.scene, pass_one);
   const RadiositySolution solution = solve_pass_one(prepared->light, pass_one);
   fmt::print("| `{}` | {:.2f} |", file.stem().string(), processor_seconds() - before);
-  const LightScene& lit = *solution.field.scene;
   for (const DiffuseTerm term :
        {DiffuseTerm::interpolated, DiffuseTerm::direct, DiffuseTerm::gather}) {
     run.diffuse = term;

@@ -52,6 +52,7 @@ RayLoop query_loop(const LightScene& light, const StageRays& rays) {
 
 void measure_size(const IrradianceField& field, const Camera& camera,
                   const BareScene& bare, RenderSettings settings, int size) {
+  const LightScene& light = *field.scene;
   settings.width = settings.height = size;
   const StageRays rays = camera_rays_of(light, camera, settings, packet_count);
   const RayLoop bare_rays = bare_loop(bare, rays, Coherence::coherent);
@@ -101,7 +102,7 @@ void run(const char* file, int samples, int largest) {
              file, scene.triangles.size(), settings.render.samples, "pixels", "ours", "of Embree's",
              "sure", "queries", "rest");
   for (int size = 64; size <= largest; size *= 2)
-    measure_size(light, field, camera, bare, settings.render, size);
+    measure_size(field, camera, bare, settings.render, size);
   release(bare);
 }
 

@@ -203,7 +203,6 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
 
   const RadiositySolution solution = solve_pass_one(prepared->light, chosen.pass_one);
   check(solution);
-  const LightScene& lit = *solution.field.scene;
   const Rendering rendering = render(solution.field, camera, chosen.render);
   check(rendering, brightest(there));
   render_features(solution.field, camera, chosen.render);

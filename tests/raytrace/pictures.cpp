@@ -14,7 +14,6 @@ Taken lit_up(const Scene& scene, const PassOneSettings& settings) {
 }
 
 Image picture(const Taken& scene, const Camera& camera, const RenderSettings& settings) {
-  const LightScene& light = *scene.solution.field.scene;
   return render(scene.solution.field, camera, settings).image;
 }
 

@@ -103,7 +103,6 @@ TEST(PixelFilter, LayersAddUpUnderAnyFilterAndAdaptively) {
     RenderSettings settings = pixels(24, 20, 16);
     settings.filter = filter;
     settings.pixel_error = 0.02;
-    const LightScene& light = *lit.prepared->light;
     const Rendering layered = render_layers(lit.solution.field, scene.cameras[0], settings);
     const Image whole = picture(lit, scene.cameras[0], settings);
     for (std::size_t p = 0; p < whole.pixels.size(); ++p) {
@@ -169,7 +168,6 @@ TEST(SampleChoice, PixelsAreRightToWhatIsAskedFor) {
   const Scene scene = room();
   const Taken lit = lit_up(scene, coarse());
   RenderSettings settings = pixels(64, 48, 256);
-  const LightScene& light = *lit.prepared->light;
   const Rendering all = render(lit.solution.field, scene.cameras[0], settings);
   double mean = 0.0;
   for (const glm::vec3& pixel : all.image.pixels)
