@@ -2,6 +2,7 @@
 
 #include "radiosity/field/interpolation.h"
 #include "radiosity/hierarchical/node_field.h"
+#include "radiosity/reflected_light.h"
 #include "radiosity/solvers/solve.h"
 #include "scenes/stopwatch.h"
 

@@ -9,9 +9,11 @@
 
 #include "radiosity/energy.h"
 #include "radiosity/field/irradiance_field.h"
-#include "radiosity/reflected_light.h"
+#include "radiosity/pass_one_settings.h"
+#include "radiosity/pass_one_watch.h"
 
 #include <memory>
+#include <optional>
 
 namespace meninas {
 

@@ -13,8 +13,8 @@
 #include "radiosity/hierarchical/receiver_nodes.h"
 #include "radiosity/light/first_light.h"
 #include "radiosity/pass_one_settings.h"
+#include "radiosity/pass_one_watch.h"
 
-#include <functional>
 #include <optional>
 
 namespace meninas {
@@ -29,18 +29,6 @@ struct ReflectedLight {
   std::optional<LinkFigures> links;              ///< of nodes
   std::uint64_t rays_traced = 0;
   double form_factor_seconds = 0.0, solve_seconds = 0.0; ///< first light is in the former
-};
-
-/// What shots have brought so far, as averages over elements at the vertices of the mesh that is
-/// solved (field/interpolation.h), and what the light yet to be shot may add to it.
-struct PassOneSoFar {
-  int shots = 0;
-  VertexIrradiance field;
-  Rgb ambient{0.0}; ///< irradiance, everywhere
-};
-struct PassOneWatch {
-  int every = 0; ///< shots, and after the last; 0: never
-  std::function<void(const PassOneSoFar&)> look;
 };
 
 /// `factors` are those of the scene, also of an earlier run under other light.
