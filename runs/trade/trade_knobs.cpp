@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <type_traits>
-
 namespace meninas {
 
 namespace {
@@ -30,7 +28,7 @@ struct Turner {
   /// One step up and one down, within limits.
   template <typename Number>
   void steps(const char* knob, Number value, Number factor, Number least, Number most,
-             std::type_identity_t<std::optional<Number> RunSettings::*> field) {
+             std::optional<Number> RunSettings::*field) {
     const auto to = [&](Number next, bool finer) {
       if (next >= least && next <= most)
         turn(knob, fmt::format("{}", value), fmt::format("{}", next), finer,
