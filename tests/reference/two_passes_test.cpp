@@ -11,8 +11,7 @@
 namespace meninas::test {
 namespace {
 
-Rgb seen_by_two_passes(const PreparedScene& prepared, const RadiositySolution& solution, Point3 eye,
-                       Point3 target) {
+Rgb seen_by_two_passes(const RadiositySolution& solution, Point3 eye, Point3 target) {
   RenderSettings settings;
   settings.width = settings.height = 1;
   settings.samples = 64;
@@ -40,7 +39,7 @@ void expect_agreement(const Scene& scene, std::initializer_list<Sight> sights) {
   for (const Sight& sight : sights) {
     SCOPED_TRACE(sight.what);
     constexpr double field_error = 0.01;
-    const Rgb found = seen_by_two_passes(*prepared, solution, sight.eye, sight.target);
+    const Rgb found = seen_by_two_passes(solution, sight.eye, sight.target);
     const MeanRadiance truth = radiance_seen(scene, sight.eye, sight.target, 512);
     for (int band = 0; band < 3; ++band) {
       EXPECT_LT(truth.error[band], 0.03 * truth.mean[band]);

@@ -74,7 +74,7 @@ double exactly(const LitScene& l, const Place& place, DirectWorkspace& work) {
       .total.g;
 }
 
-double by_field(const LitScene& l, const RadiositySolution& solution, const Place& place) {
+double by_field(const RadiositySolution& solution, const Place& place) {
   const ElementMesh& mesh = solution.field.mesh();
   return double{irradiance_at(mesh, solution.field, place.side, place.uv).g} -
          double{value_in(mesh, solution.field.indirect, locate(mesh, place.side, place.uv)).g};
@@ -89,12 +89,12 @@ std::vector<double> exactly(const LitScene& l, const std::vector<Place>& places)
 }
 
 /// The mean of the squares of what the field is off by where light arrives, over that of what does.
-double error_of(const LitScene& l, const RadiositySolution& solution,
-                const std::vector<Place>& places, const std::vector<double>& expected) {
+double error_of(const RadiositySolution& solution, const std::vector<Place>& places,
+                const std::vector<double>& expected) {
   double squares = 0.0, all = 0.0;
   for (std::size_t k = 0; k < places.size(); ++k)
     if (expected[k] > 0.0) {
-      squares += std::pow(by_field(l, solution, places[k]) - expected[k], 2.0);
+      squares += std::pow(by_field(solution, places[k]) - expected[k], 2.0);
       all += expected[k] * expected[k];
     }
   return squares / all;
@@ -124,7 +124,7 @@ TEST(ShadowEdges, AreNearerToWhatTheyAre) {
                     now = element_count(finer.field.mesh());
   EXPECT_LT(now - before, 2 * before / 3);
   const std::vector<double> expected = exactly(*l, places);
-  EXPECT_LT(error_of(*l, finer, places, expected), error_of(*l, even, places, expected) / 3.0);
+  EXPECT_LT(error_of(finer, places, expected), error_of(even, places, expected) / 3.0);
 }
 
 // Nothing is gathered for them: what is not from the source is the same everywhere.
@@ -342,7 +342,7 @@ TEST(ShadowEdges, AreCleanWhereThingsStand) {
   DirectWorkspace work;
   for (const Place& place : beside_foot(*l)) {
     const double there = exactly(*l, place, work);
-    EXPECT_NEAR(by_field(*l, solution, place), there, 0.25 * there);
+    EXPECT_NEAR(by_field(solution, place), there, 0.25 * there);
   }
   for (const glm::vec3& value : solution.field.irradiance)
     EXPECT_TRUE(value.g >= 0.0F && std::isfinite(value.g));
@@ -358,7 +358,7 @@ TEST(ShadowEdges, AreNotDarkerWhereThingsHover) {
   DirectWorkspace work;
   for (const Place& place : beside_foot(*l)) {
     const double there = exactly(*l, place, work);
-    EXPECT_GT(by_field(*l, finer, place), 0.9 * std::min(there, by_field(*l, even, place)));
+    EXPECT_GT(by_field(finer, place), 0.9 * std::min(there, by_field(even, place)));
   }
 }
 
