@@ -105,7 +105,7 @@ std::array<double, 2> errors_without_and_with(const LitScene& l, const std::vect
                                               double x) {
   const std::vector<double> expected = exactly(l, places);
   const auto error = [&](double bound) {
-    return error_of(l, solve_pass_one(l.light, by_nodes(0.25, bound)), places, expected);
+    return error_of(solve_pass_one(l.light, by_nodes(0.25, bound)), places, expected);
   };
   return {error(0.0), error(x)};
 }
@@ -375,9 +375,9 @@ TEST(ShadowEdges, OfTheMirrorRoomAreThoseOfTheDoubledOne) {
     const std::vector<Place> places = middles_of(*a, wall);
     const std::vector<double> expected = exactly(*b, middles_of(*b, wall));
     ASSERT_EQ(places.size(), expected.size());
-    before += error_of(*a, even, places, expected);
-    now += error_of(*a, finer, places, expected);
-    EXPECT_LT(error_of(*a, finer, places, expected), std::pow(0.02, 2.0)) << wall;
+    before += error_of(even, places, expected);
+    now += error_of(finer, places, expected);
+    EXPECT_LT(error_of(finer, places, expected), std::pow(0.02, 2.0)) << wall;
   }
   EXPECT_LT(now, before / 2.0);
 }
