@@ -29,9 +29,8 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
   const PassOneSettings pass_one = two_pass_settings(run).pass_one;
   const double before = processor_seconds();
   const auto prepared = prepare_scene(truth.scene, pass_one);
-  const RadiositySolution solution = solve_pass_one(*prepared->light, pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light, pass_one);
   fmt::print("| `{}` | {:.2f} |", file.stem().string(), processor_seconds() - before);
-  const LightScene& lit = field_scene(*prepared->light, solution);
   for (const DiffuseTerm term :
        {DiffuseTerm::interpolated, DiffuseTerm::direct, DiffuseTerm::gather}) {
     run.diffuse = term;
@@ -40,7 +39,7 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
     settings.height = truth.mean.height;
     const double start = processor_seconds();
     const Image picture =
-        render(lit, solution.field, prepared->scene.cameras.front(), settings).image;
+        render(solution.field, prepared->scene.cameras.front(), settings).image;
     fmt::print(" {:.4f}, {:.2f} |", error_of(picture, truth), processor_seconds() - start);
   }
   fmt::print("\n");

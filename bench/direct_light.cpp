@@ -116,7 +116,7 @@ Scene without_mirrors(Scene scene) {
 double pass_one_seconds(const Scene& scene, const PassOneSettings& settings) {
   const double start = processor_seconds();
   const auto prepared = prepare_scene(scene, settings);
-  benchmark::DoNotOptimize(solve_pass_one(*prepared->light, settings));
+  benchmark::DoNotOptimize(solve_pass_one(prepared->light, settings));
   return processor_seconds() - start;
 }
 

@@ -66,18 +66,18 @@ Tally measure_scene(const std::filesystem::path& references, const std::filesyst
     const Camera& camera = prepared->scene.cameras.empty()
                                ? default_camera(bounds_of(prepared->scene))
                                : prepared->scene.cameras.front();
-    const RadiositySolution solution = solve_pass_one(*prepared->light, settings.pass_one);
-    const LightScene& lit = field_scene(*prepared->light, solution);
-    const auto emits = emitter_pixels(lit, solution.field, camera, settings.render, truth.mean, 16);
+    const RadiositySolution solution = solve_pass_one(prepared->light, settings.pass_one);
+    const LightScene& lit = *solution.field.scene;
+    const auto emits = emitter_pixels(solution.field, camera, settings.render, truth.mean, 16);
     for (const auto& [term, samples] : sweep.pictures) {
       settings.render.samples = samples;
       settings.render.diffuse.term = term;
       Stopwatch watch;
-      const Image picture = render(lit, solution.field, camera, settings.render).image;
+      const Image picture = render(solution.field, camera, settings.render).image;
       const double seconds = watch.lap() + solution.seconds.form_factors + solution.seconds.solve +
                              solution.seconds.interpolate;
       const PictureError e =
-          estimate_error(lit, solution.field, camera, settings, solution.solver, {picture, {}},
+          estimate_error(solution.field, camera, settings, solution.solver, {picture, {}},
                          error_settings(settings, element_count(lit.mesh)));
       const double error =
           relative_error(picture, truth.mean, emits, truth.variance ? &*truth.variance : nullptr);

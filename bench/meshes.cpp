@@ -53,14 +53,14 @@ Measured measure(const Scene& scene, const Truth& truth, int rays, TwoPassSettin
   for (int run = 0; run < max_runs && all < enough_seconds; ++run) {
     const double before = processor_seconds();
     prepared = prepare_scene(scene, settings.pass_one);
-    solution = solve_pass_one(*prepared->light, settings.pass_one);
+    solution = solve_pass_one(prepared->light, settings.pass_one);
     const double taken = processor_seconds() - before;
     seconds = std::min(seconds, taken);
     all += taken;
   }
-  const LightScene& lit = field_scene(*prepared->light, solution);
+  const LightScene& lit = *solution.field.scene;
   const Image picture =
-      render(lit, solution.field, prepared->scene.cameras.front(), settings.render).image;
+      render(solution.field, prepared->scene.cameras.front(), settings.render).image;
   return {element_count(lit.mesh), seconds, error_of(picture, truth)};
 }
 

@@ -50,8 +50,9 @@ RayLoop query_loop(const LightScene& light, const StageRays& rays) {
   };
 }
 
-void measure_size(const LightScene& light, const IrradianceField& field, const Camera& camera,
+void measure_size(const IrradianceField& field, const Camera& camera,
                   const BareScene& bare, RenderSettings settings, int size) {
+  const LightScene& light = *field.scene;
   settings.width = settings.height = size;
   const StageRays rays = camera_rays_of(light, camera, settings, packet_count);
   const RayLoop bare_rays = bare_loop(bare, rays, Coherence::coherent);
@@ -62,7 +63,7 @@ void measure_size(const LightScene& light, const IrradianceField& field, const C
   const RayLoop pictures = [&] {
     std::uint64_t all = 0;
     for (double made = 0.0; made < per_turn; made += in_picture) {
-      const Rendering rendering = render(light, field, camera, settings);
+      const Rendering rendering = render(field, camera, settings);
       const std::uint64_t rays_of_one = rendering.camera_rays + rendering.specular_rays;
       sure = static_cast<double>(rendering.sure_rays) / static_cast<double>(rays_of_one);
       all += rays_of_one;
@@ -94,14 +95,14 @@ void run(const char* file, int samples, int largest) {
   const Scene& scene = prepared->scene;
   const Camera camera =
       scene.cameras.empty() ? default_camera(bounds_of(scene)) : scene.cameras.front();
-  const IrradianceField field = solve_pass_one(light, settings.pass_one).field;
+  const IrradianceField field = solve_pass_one(prepared->light, settings.pass_one).field;
   const BareScene bare = make_bare_scene(light.rays.geometry(), RTC_SCENE_FLAG_NONE);
   fmt::print("{}: {} triangles, {} samples a pixel; million rays/s on one thread\n"
              "{:>6} {:>10} {:>12} {:>12} {:>12} {:>12}\n",
              file, scene.triangles.size(), settings.render.samples, "pixels", "ours", "of Embree's",
              "sure", "queries", "rest");
   for (int size = 64; size <= largest; size *= 2)
-    measure_size(light, field, camera, bare, settings.render, size);
+    measure_size(field, camera, bare, settings.render, size);
   release(bare);
 }
 

@@ -202,7 +202,7 @@ void grow_shots(const char* file) {
     settings.interpolation.method = Interpolation::average;
     const auto prepared = prepare_scene(load_gltf(file), settings);
     Stopwatch watch;
-    const RadiositySolution solution = shoot_pass_one(*prepared->light, settings);
+    const RadiositySolution solution = shoot_pass_one(prepared->light, settings);
     sizes.push_back({static_cast<double>(element_count(prepared->mesh)),
                      {{"shots", static_cast<double>(solution.solver.iterations)},
                       {"s of shots", solution.seconds.solve},
@@ -222,7 +222,7 @@ void grow_nodes(const char* file) {
     settings.solver.method = SolverMethod::hierarchical;
     const auto prepared = prepare_scene(load_gltf(file), settings);
     Stopwatch watch;
-    const RadiositySolution solution = solve_pass_one(*prepared->light, settings);
+    const RadiositySolution solution = solve_pass_one(prepared->light, settings);
     const auto elements = static_cast<double>(element_count(prepared->mesh));
     sizes.push_back({elements,
                      {{"receivers", static_cast<double>(solution.links->receivers)},

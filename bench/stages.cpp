@@ -58,7 +58,7 @@ void run(const char* file) {
   const Scene& scene = prepared->scene;
   const Camera camera =
       scene.cameras.empty() ? default_camera(bounds_of(scene)) : scene.cameras.front();
-  const IrradianceField field = solve_pass_one(light, settings.pass_one).field;
+  const IrradianceField field = solve_pass_one(prepared->light, settings.pass_one).field;
   const FormFactorSettings& form_factors = settings.pass_one.form_factors;
 
   const StageRays gathered = gather_rays_of(light, form_factors.rays, packet_count);
@@ -73,7 +73,7 @@ void run(const char* file) {
            return assemble_transport(light, form_factors).rays_traced;
          }));
   report("pass two", stage(plain, robust, seen, Coherence::coherent, [&] {
-           const Rendering rendering = render(light, field, camera, settings.render);
+           const Rendering rendering = render(field, camera, settings.render);
            return rendering.camera_rays + rendering.specular_rays;
          }));
   release(plain);

@@ -90,7 +90,7 @@ Measured measure(Known& known, const RunSettings& settings, std::optional<BareSe
   const double begin = processor_seconds();
   const auto prepared = prepare_scene(scene, two_pass.pass_one);
   const double prepared_at = processor_seconds();
-  const RadiositySolution solution = solve_pass_one(*prepared->light, two_pass.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light, two_pass.pass_one);
   const double pass_one = processor_seconds() - prepared_at;
   m.prepare = prepared_at - begin;
   const PassOneSeconds& clock = solution.seconds;
@@ -98,14 +98,14 @@ Measured measure(Known& known, const RunSettings& settings, std::optional<BareSe
   m.form_factors = scale * clock.form_factors;
   m.solve = scale * clock.solve;
   m.interpolate = scale * clock.interpolate;
-  const LightScene& lit = field_scene(*prepared->light, solution);
+  const LightScene& lit = *solution.field.scene;
   m.elements = element_count(lit.mesh);
 
   const Camera camera =
       scene.cameras.empty() ? default_camera(bounds_of(scene)) : scene.cameras.front();
   two_pass.render.width = two_pass.render.height = side;
   const double before = processor_seconds();
-  const Rendering shown = render(lit, solution.field, camera, two_pass.render);
+  const Rendering shown = render(solution.field, camera, two_pass.render);
   m.render = processor_seconds() - before;
   if (!bare)
     bare = bare_seconds(lit, camera, two_pass.render);
@@ -116,8 +116,8 @@ Measured measure(Known& known, const RunSettings& settings, std::optional<BareSe
   two_pass.render.width = truth.mean.width;
   two_pass.render.height = truth.mean.height;
   if (known.emits.empty())
-    known.emits = emitter_pixels(lit, solution.field, camera, two_pass.render, truth.mean, 16);
-  m.error = relative_error(render(lit, solution.field, camera, two_pass.render).image, truth.mean,
+    known.emits = emitter_pixels(solution.field, camera, two_pass.render, truth.mean, 16);
+  m.error = relative_error(render(solution.field, camera, two_pass.render).image, truth.mean,
                            known.emits, truth.variance ? &*truth.variance : nullptr);
   return m;
 }

@@ -36,9 +36,9 @@ std::vector<std::uint8_t> emitters_in(const Scene& scene, const Camera& camera,
   settings.render.width = truth.width;
   settings.render.height = truth.height;
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const RadiositySolution solution = solve_pass_one(*prepared->light, settings.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light, settings.pass_one);
   constexpr int samples = 16;
-  return emitter_pixels(*prepared->light, solution.field, camera, settings.render, truth, samples);
+  return emitter_pixels(solution.field, camera, settings.render, truth, samples);
 }
 
 double measure_scene(double wanted, const std::filesystem::path& references,

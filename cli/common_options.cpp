@@ -51,8 +51,8 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, const Choi
 }
 
 /// "draft 1, normal 2, fine 3"
-template <typename Field>
-std::string by_preset(Field QualityPreset::*field) {
+template <typename Owner, typename Field>
+std::string by_preset(Field Owner::*field) {
   std::vector<std::string> parts;
   for (const auto& [name, quality] : qualities) {
     parts.push_back(fmt::format("{} {}", name, preset_of(quality).*field));

@@ -300,14 +300,14 @@ std::vector<BlockerEdge> edges_of(const std::vector<Face>& blockers) {
 
 void cut_at_shadows(std::vector<ConvexPolygon>& parts, const Face& face, const WorldView& view,
                     const std::vector<BlockerEdge>& edges, const std::vector<std::uint8_t>& known,
-                    bool by_mirrors, std::size_t max_lines) {
+                    const LineLimits& limits) {
   // Some tens of parts are needed for a blocker; each has about a hundred points.
   constexpr std::size_t max_parts = 128, most_mirrors = 16, min_sights = 16;
   const std::span<const Mirror> mirrors(
       view.mirrors.mirrors.data(),
-      by_mirrors ? std::min(most_mirrors, view.mirrors.mirrors.size()) : 0);
+      limits.by_mirrors ? std::min(most_mirrors, view.mirrors.mirrors.size()) : 0);
   const std::size_t max_sights =
-      max_lines / std::max<std::size_t>(1, edges.size() * (1 + 2 * mirrors.size()));
+      limits.max_lines / std::max<std::size_t>(1, edges.size() * (1 + 2 * mirrors.size()));
   if (max_sights < min_sights)
     return;
   std::vector<Cut> cuts;

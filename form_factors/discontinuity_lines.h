@@ -25,11 +25,13 @@ struct BlockerEdge {
 std::vector<BlockerEdge> edges_of(const std::vector<Face>& blockers);
 
 /// Cuts parts of a face along the bands that are narrow beside it, the widest first.
-/// `known` are the targets that are not looked at by points; with `by_mirrors`
-/// what is seen by way of one of the view's mirrors is looked at as well.
-/// Where there are more lines to draw than `max_lines` a part of them is, or none.
+/// `known` are the targets that are not looked at by points.
+struct LineLimits {
+  bool by_mirrors;       ///< what is seen by way of one of the view's mirrors is looked at as well
+  std::size_t max_lines; ///< where there are more to draw a part of them is, or none
+};
 void cut_at_shadows(std::vector<ConvexPolygon>& parts, const Face& face, const WorldView& view,
                     const std::vector<BlockerEdge>& edges, const std::vector<std::uint8_t>& known,
-                    bool by_mirrors, std::size_t max_lines);
+                    const LineLimits& limits);
 
 } // namespace meninas

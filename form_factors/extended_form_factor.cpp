@@ -87,7 +87,7 @@ private:
       if (!needs_points(f))
         continue;
       std::vector<ConvexPolygon> parts = cut_at_contacts(from_[f], view_.blockers, view_.tolerance);
-      cut_at_shadows(parts, from_[f], view_, edges, clear_.known[f], uses_mirrors(), max_lines);
+      cut_at_shadows(parts, from_[f], view_, edges, clear_.known[f], {uses_mirrors(), max_lines});
       for (const ConvexPolygon& polygon : parts)
         for (std::size_t k = 2; k < polygon.size; ++k) {
           Region region;

@@ -157,7 +157,7 @@ struct Chooser {
 
   void take(std::uint32_t at_world, std::uint32_t leaf, double weight) {
     const std::uint32_t emitter = tree.order[tree.nodes[leaf].first];
-    add_images(worlds, emitters, work.seen, work.seen.worlds[at_world], emitter, observer, weight,
+    add_images({worlds, work.seen, work.seen.worlds[at_world], observer}, emitters, emitter, weight,
                lights);
   }
 
@@ -288,9 +288,9 @@ struct Chooser {
 
 } // namespace
 
-void sample_light_tree(const WorldTree& worlds, std::span<const Emitter> emitters,
-                   const LightTree& tree, const Observer& observer, const LightChoice& choice,
-                   LightChoiceWorkspace& work, std::vector<VirtualLight>& lights) {
+void sample_light_tree(const EmitterChoice& of, const Observer& observer, const LightChoice& choice,
+                       LightChoiceWorkspace& work, std::vector<VirtualLight>& lights) {
+  const auto& [worlds, emitters, tree] = of;
   lights.clear();
   if (emitters.empty())
     return;

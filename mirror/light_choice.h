@@ -56,10 +56,16 @@ struct LightChoiceWorkspace {
   std::vector<WorldId> worlds_of_area; ///< that its first point sees, in ascending order
 };
 
+/// Emitters with the tree over them, and the worlds in which they are seen.
+struct EmitterChoice {
+  const WorldTree& worlds;
+  std::span<const Emitter> emitters;
+  const LightTree& tree;
+};
+
 /// Like virtual_lights(), with at most about `choice.most` emitters' images,
 /// each with its weight 1/q, and besides those that stand for nodes seen from afar.
-void sample_light_tree(const WorldTree& worlds, std::span<const Emitter> emitters,
-                   const LightTree& tree, const Observer& observer, const LightChoice& choice,
-                   LightChoiceWorkspace& work, std::vector<VirtualLight>& lights);
+void sample_light_tree(const EmitterChoice& of, const Observer& observer, const LightChoice& choice,
+                       LightChoiceWorkspace& work, std::vector<VirtualLight>& lights);
 
 } // namespace meninas

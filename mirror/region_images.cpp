@@ -215,7 +215,8 @@ void lights_in_region(const WorldTree& tree, std::span<const Emitter> emitters,
       if (image.whole)
         add_whole_image(tree, emitters, at.world, image.emitter, lights);
       else
-        add_images(tree, emitters, seen, seen.worlds.back(), image.emitter, observer, 1.0, lights);
+        add_images({tree, seen, seen.worlds.back(), observer}, emitters, image.emitter, 1.0,
+                   lights);
     }
   }
 }

@@ -56,11 +56,12 @@ static ConvexPolygon image_of(ConvexPolygon polygon, const MirrorWorld& world) {
   return polygon;
 }
 
-void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,
-                const SeenWorld& at, std::uint32_t emitter, const Observer& observer, double weight,
-                std::vector<VirtualLight>& lights) {
+void add_images(const WorldSight& sight, std::span<const Emitter> emitters, std::uint32_t emitter,
+                double weight, std::vector<VirtualLight>& lights) {
+  const SeenWorld& at = sight.at;
+  const Observer& observer = sight.observer;
   const Emitter& e = emitters[emitter];
-  const MirrorWorld& world = tree.worlds[index(at.world)];
+  const MirrorWorld& world = sight.tree.worlds[index(at.world)];
   const Plane plane = world.depth == 0 ? e.plane : apply(world.image, e.plane);
   if (signed_distance(plane, observer.position) <= observer.tolerance)
     return;
@@ -84,7 +85,7 @@ void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const 
   }
   clip_in_place(image, origin_of(world.plane), -world.plane.normal);
   for (std::uint32_t k = at.first; k < at.last && !image.empty(); ++k) {
-    const ConvexPolygon part = clip_to_cone(image, observer.position, seen.openings[k]);
+    const ConvexPolygon part = clip_to_cone(image, observer.position, sight.seen.openings[k]);
     if (!part.empty())
       lights.push_back({emitter, at.world, part, plane.normal, weight});
   }
@@ -102,7 +103,7 @@ void all_lights(const WorldTree& tree, std::span<const Emitter> emitters, const 
                 const Observer& observer, std::vector<VirtualLight>& lights) {
   for (const auto& world : seen.worlds)
     for (std::uint32_t e = 0; e < emitters.size(); ++e)
-      add_images(tree, emitters, seen, world, e, observer, 1.0, lights);
+      add_images({tree, seen, world, observer}, emitters, e, 1.0, lights);
 }
 
 void virtual_lights(const WorldTree& tree, std::span<const Emitter> emitters, const Point3& x,
@@ -116,10 +117,10 @@ void virtual_lights(const WorldTree& tree, std::span<const Emitter> emitters, co
   all_lights(tree, emitters, seen, observer, lights);
 }
 
-void fold_legs(const WorldTree& tree, const MirrorSet& mirrors, WorldId world, const Point3& x,
-               PlaneId leaving, const Point3& y, PlaneId arriving, std::vector<Leg>& legs) {
+void fold_legs(const WorldTree& tree, const MirrorSet& mirrors, WorldId world, const Leg& whole,
+               std::vector<Leg>& legs) {
   legs.clear();
-  Leg leg{x, y, leaving, arriving};
+  Leg leg = whole;
   if (world != real_world) {
     // The first leg ends on m1;
     // behind it the rest of the segment is reflected back into the room, and so on.
@@ -132,7 +133,7 @@ void fold_legs(const WorldTree& tree, const MirrorSet& mirrors, WorldId world, c
       leg.to = glm::mix(leg.from, target, t);
       leg.arriving = mirror.plane_class;
       legs.push_back(leg);
-      leg = {leg.to, reflect_point(mirror.plane, target), mirror.plane_class, arriving};
+      leg = {leg.to, reflect_point(mirror.plane, target), mirror.plane_class, whole.arriving};
     }
   }
   legs.push_back(leg);

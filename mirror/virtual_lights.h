@@ -55,9 +55,16 @@ void add_openings(const MirrorWorld& world, const Observer& observer, const Seen
 /// Clears and fills `seen`, whose storage is reused from call to call.
 void seen_worlds(const WorldTree& tree, const Observer& observer, SeenWorlds& seen);
 
-/// Appends the parts of the image of one emitter in one of the seen worlds.
-void add_images(const WorldTree& tree, std::span<const Emitter> emitters, const SeenWorlds& seen,
-                const SeenWorld& world, std::uint32_t emitter, const Observer& observer,
+/// One world of a tree as an observer sees it.
+struct WorldSight {
+  const WorldTree& tree;
+  const SeenWorlds& seen;
+  const SeenWorld& at; ///< of `seen`
+  const Observer& observer;
+};
+
+/// Appends the parts of the image of one emitter in that world.
+void add_images(const WorldSight& sight, std::span<const Emitter> emitters, std::uint32_t emitter,
                 double weight, std::vector<VirtualLight>& lights);
 
 /// Appends the image of one emitter in a world to whose observer nothing of it is hidden.
@@ -74,10 +81,10 @@ void all_lights(const WorldTree& tree, std::span<const Emitter> emitters, const 
 void virtual_lights(const WorldTree& tree, std::span<const Emitter> emitters, const Point3& x,
                     const Direction& normal, double tolerance, std::vector<VirtualLight>& lights);
 
-/// Folds the segment from x to the point y of unfolded space in world w back into real legs,
-/// first one first.
+/// Folds `whole`, the segment from a point to one of unfolded space in world w, back into real
+/// legs, first one first.
 /// Every leg names the planes it leaves and reaches; k + 1 legs for a chain of k mirrors.
-void fold_legs(const WorldTree& tree, const MirrorSet& mirrors, WorldId world, const Point3& x,
-               PlaneId leaving, const Point3& y, PlaneId arriving, std::vector<Leg>& legs);
+void fold_legs(const WorldTree& tree, const MirrorSet& mirrors, WorldId world, const Leg& whole,
+               std::vector<Leg>& legs);
 
 } // namespace meninas

@@ -12,19 +12,19 @@ FieldContent field_content(const IrradianceField& field, const DiffuseSettings& 
   return FieldContent::indirect;
 }
 
-std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const IrradianceField& field) {
+std::vector<Rgb> reflected_by_elements(const IrradianceField& field) {
+  const ElementMesh& mesh = field.mesh();
   std::vector<Rgb> reflected = corner_means(mesh, field.irradiance);
   for (std::size_t e = 0; e < reflected.size(); ++e)
     reflected[e] *= mesh.reflectance[e];
   return reflected;
 }
 
-std::unique_ptr<const PointGathering> make_gathering(const LightScene& light,
-                                                     const IrradianceField& field,
+std::unique_ptr<const PointGathering> make_gathering(const IrradianceField& field,
                                                      const DiffuseSettings& settings) {
   if (settings.term != DiffuseTerm::gather)
     return nullptr;
-  return std::make_unique<PointGathering>(light, reflected_by_elements(light.mesh, field),
+  return std::make_unique<PointGathering>(*field.scene, reflected_by_elements(field),
                                           settings.gather, settings.direct, settings.points);
 }
 
@@ -42,10 +42,9 @@ static glm::vec3 part_of(const ArrivingLight& arrived, ReflectedPart part) {
   return glm::vec3(0.0F);
 }
 
-glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& settings,
-                              const PointGathering* gathering, ReflectedPart part,
-                              const glm::vec3& field, const Receiver& receiver, std::uint32_t seed,
-                              PointWorkspace& work) {
+glm::vec3 irradiance_at_point(const DiffuseSource& source, const glm::vec3& field,
+                              const Receiver& receiver, std::uint32_t seed, PointWorkspace& work) {
+  const auto& [light, settings, gathering, part] = source;
   if (part == ReflectedPart::none || settings.term == DiffuseTerm::interpolated)
     return field;
   if (gathering) {

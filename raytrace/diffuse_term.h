@@ -42,17 +42,23 @@ FieldContent field_content(const IrradianceField& field, const DiffuseSettings& 
 
 /// The reflected radiosity of the elements, as a field says:
 /// rho times the mean of H at their corners.
-std::vector<Rgb> reflected_by_elements(const ElementMesh& mesh, const IrradianceField& field);
+std::vector<Rgb> reflected_by_elements(const IrradianceField& field);
 
 /// What the term needs besides the field; for `gather` alone.
 std::unique_ptr<const PointGathering>
-make_gathering(const LightScene& light, const IrradianceField& field, const DiffuseSettings& settings);
+make_gathering(const IrradianceField& field, const DiffuseSettings& settings);
 
-/// H at a point. `field` is what the interpolated part of it says there.
-glm::vec3 irradiance_at_point(const LightScene& light, const DiffuseSettings& settings,
-                              const PointGathering* gathering, ReflectedPart part,
-                              const glm::vec3& field, const Receiver& receiver, std::uint32_t seed,
-                              PointWorkspace& work);
+/// What the term is computed from, the same for all points.
+struct DiffuseSource {
+  const LightScene& light;
+  const DiffuseSettings& settings;
+  const PointGathering* gathering; ///< of `gather`, else null
+  ReflectedPart part;
+};
+
+/// H at a point, W/m^2. `field` is what the interpolated part of it says there.
+glm::vec3 irradiance_at_point(const DiffuseSource& source, const glm::vec3& field,
+                              const Receiver& receiver, std::uint32_t seed, PointWorkspace& work);
 
 /// The mean of D over points of one plane that one pixel sees, which share their shadow rays:
 /// the term `direct`, but for the field.

@@ -13,16 +13,16 @@ std::vector<SideShading> make_side_shading(const ElementMesh& mesh) {
   return shading;
 }
 
-VisibleLight visible_light(const LightScene& light, const IrradianceField& field,
+VisibleLight visible_light(const IrradianceField& field,
                            FieldContent content) {
-  return {make_side_shading(light.mesh),
+  return {make_side_shading(field.mesh()),
           content == FieldContent::all ? field.irradiance : field.indirect, ReflectedPart::all,
-          glm::vec3(light.scene.background)};
+          glm::vec3(field.scene->scene.background)};
 }
 
-std::vector<LightPart> light_parts(const LightScene& light, const IrradianceField& field,
+std::vector<LightPart> light_parts(const IrradianceField& field,
                                    FieldContent content) {
-  const VisibleLight all = visible_light(light, field, content);
+  const VisibleLight all = visible_light(field, content);
   const auto& mirrored = content == FieldContent::all ? field.mirrored : field.indirect_mirrored;
   auto glowing = all.shading, reflecting = all.shading;
   for (auto& side : glowing)

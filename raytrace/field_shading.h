@@ -39,7 +39,7 @@ enum class FieldContent {
   indirect ///< without what is computed from the source
 };
 
-VisibleLight visible_light(const LightScene& light, const IrradianceField& field,
+VisibleLight visible_light(const IrradianceField& field,
                            FieldContent content);
 
 /// What a field shows, in the parts that add up to it: `emission`, and reflected light by its last
@@ -49,7 +49,7 @@ struct LightPart {
   VisibleLight light;
 };
 /// Where nothing is met the background is seen, as `emission`.
-std::vector<LightPart> light_parts(const LightScene& light, const IrradianceField& field,
+std::vector<LightPart> light_parts(const IrradianceField& field,
                                    FieldContent content);
 
 /// Sums over points (s, t) of one element: of 1, s, t and s t. The field is linear in them.

@@ -15,9 +15,8 @@ static double beam_width(const RenderContext& context, double t, double length) 
   return std::sqrt(wide * high / (context.footprint_samples * length));
 }
 
-Footprint footprint_of(const RenderContext& context, const RayPacket& packet,
-                       const LaneState& state, const FaceRecord& face, const HitPacket& hits,
-                       std::uint32_t k) {
+Footprint footprint_of(const LandedLane& lane) {
+  const auto& [context, packet, state, face, hits, k] = lane;
   const Vec3 d(packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]);
   const double length = glm::length(d);
   const double t = double{hits.distance[k]} + double{state.travelled(k)};

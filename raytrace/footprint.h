@@ -19,8 +19,6 @@
 namespace meninas {
 
 /// In barycentric weights of the triangle that lane k has hit.
-Footprint footprint_of(const RenderContext& context, const RayPacket& packet,
-                       const LaneState& state, const FaceRecord& face, const HitPacket& hits,
-                       std::uint32_t k);
+Footprint footprint_of(const LandedLane& lane);
 
 } // namespace meninas

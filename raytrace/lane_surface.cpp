@@ -20,16 +20,15 @@ Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitP
   return {at, face.normal, plane, side.tangent, side.coat};
 }
 
-SideShading shading_at(const RenderContext& context, const RayPacket& packet,
-                       const LaneState& state, const FaceRecord& face, const HitPacket& hits,
-                       std::uint32_t k) {
+SideShading shading_at(const LandedLane& lane) {
+  const auto& [context, packet, state, face, hits, k] = lane;
   const SideShading& side = context.visible.shading[face.side];
   if (!side.textured)
     return side;
   const LightScene& light = context.light;
   const SurfaceColour colour =
       surface_colour(light.scene, light.textures, TriangleId{hits.triangle[k]},
-                     {hits.b1[k], hits.b2[k]}, footprint_of(context, packet, state, face, hits, k));
+                     {hits.b1[k], hits.b2[k]}, footprint_of(lane));
   const ReflectedPart part = context.visible.part;
   const bool emits = part == ReflectedPart::all || part == ReflectedPart::none;
   SideShading shading;
@@ -50,15 +49,14 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
   const bool in_lobe = state.specular && state.specular[k].lobes > 0;
   const DiffuseSettings& diffuse = in_lobe ? context.behind_lobes : context.settings.diffuse;
   const std::uint32_t key = state.key(k, context.settings.seed);
-  return irradiance_at_point(light, diffuse, context.gathering, context.visible.part, field,
+  return irradiance_at_point({light, diffuse, context.gathering, context.visible.part}, field,
                              receiver_at(light, face, hits, k),
                              diffuse.draw == 0 ? key : hash(key, diffuse.draw), work.point);
 }
 
-glm::vec3 radiance_of_lane(const RenderContext& context, const RayPacket& packet,
-                           const LaneState& state, const FaceRecord& face, const HitPacket& hits,
-                           std::uint32_t k, TileWorkspace& work) {
-  SideShading shading = shading_at(context, packet, state, face, hits, k);
+glm::vec3 radiance_of_lane(const LandedLane& lane, TileWorkspace& work) {
+  const auto& [context, packet, state, face, hits, k] = lane;
+  SideShading shading = shading_at(lane);
   shading.emitted *= share_of_rays(context, state, face, hits, k);
   if (context.settings.diffuse.term != DiffuseTerm::interpolated)
     return shading.emitted +

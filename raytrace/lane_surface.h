@@ -1,4 +1,6 @@
 // The surface on which a lane of a packet has landed: where light is received, and how it is reflected.
+//
+//   L = L_e + rho H / pi        W/m^2/sr, with H the irradiance there, W/m^2
 #pragma once
 
 #include "raytrace/tile.h"
@@ -9,20 +11,16 @@ namespace meninas {
 Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                      std::uint32_t k);
 
-/// What the surface is like where lane k has landed on it:
+/// What the surface is like where the lane has landed on it:
 /// of a textured one the point itself, in the part that is shown.
-SideShading shading_at(const RenderContext& context, const RayPacket& packet,
-                       const LaneState& state, const FaceRecord& face, const HitPacket& hits,
-                       std::uint32_t k);
+SideShading shading_at(const LandedLane& lane);
 
 /// H where lane k has landed on a side.
 glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& state,
                              const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
                              TileWorkspace& work);
 
-/// L_e + rho H / pi where lane k has landed on a side, rho as in pass one.
-glm::vec3 radiance_of_lane(const RenderContext& context, const RayPacket& packet,
-                           const LaneState& state, const FaceRecord& face, const HitPacket& hits,
-                           std::uint32_t k, TileWorkspace& work);
+/// L_e + rho H / pi where the lane has landed on a side, rho as in pass one.
+glm::vec3 radiance_of_lane(const LandedLane& lane, TileWorkspace& work);
 
 } // namespace meninas

@@ -8,16 +8,16 @@
 
 namespace meninas {
 
-static Rendering render_light(const LightScene& light, const IrradianceField& field,
+static Rendering render_light(const IrradianceField& field,
                               const Camera& camera, const RenderSettings& settings,
                               const Progress& progress) {
   Rendering result;
   result.image = Image(settings.width, settings.height);
-  const VisibleLight all = visible_light(light, field, field_content(field, settings.diffuse));
-  const auto gathering = make_gathering(light, field, settings.diffuse);
+  const VisibleLight all = visible_light(field, field_content(field, settings.diffuse));
+  const auto gathering = make_gathering(field, settings.diffuse);
   const auto trace = [&](const SampleShare& share, const StorePixel& store) {
-    add(result,
-        trace_picture(light, all, gathering.get(), camera, settings, share, progress, store));
+    add(result, trace_picture({*field.scene, all, gathering.get(), camera, settings}, share,
+                              progress, store));
   };
   const std::vector<SampleRound> rounds = choose_samples(settings, trace, result.image);
   const SampleRound& last = rounds.back();
@@ -29,13 +29,13 @@ static Rendering render_light(const LightScene& light, const IrradianceField& fi
   return result;
 }
 
-Rendering render(const LightScene& light, const IrradianceField& field, const Camera& camera,
+Rendering render(const IrradianceField& field, const Camera& camera,
                  const RenderSettings& settings, const Progress& progress) {
   expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
   Rendering result = settings.layers == WithLayers::yes
-                         ? render_layers(light, field, camera, settings, progress)
-                         : render_light(light, field, camera, settings, progress);
-  std::ranges::move(render_features(light, field, camera, settings),
+                         ? render_layers(field, camera, settings, progress)
+                         : render_light(field, camera, settings, progress);
+  std::ranges::move(render_features(field, camera, settings),
                     std::back_inserter(result.layers));
   return result;
 }

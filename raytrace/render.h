@@ -14,7 +14,7 @@
 
 namespace meninas {
 
-Rendering render(const LightScene& light, const IrradianceField& field, const Camera& camera,
+Rendering render(const IrradianceField& field, const Camera& camera,
                  const RenderSettings& settings, const Progress& progress = {});
 
 /// The same picture as the sum of nine layers, each traced for itself: `emission`, `diffuse.direct`
@@ -25,7 +25,7 @@ Rendering render(const LightScene& light, const IrradianceField& field, const Ca
 /// gloss and coats reflect. The four transport mechanisms: diffuse to diffuse is `diffuse.direct`,
 /// specular to diffuse `diffuse.mirrored`, diffuse to specular what `.mirror` shows,
 /// specular to specular what `.mirrors` shows. The field must know its mirrored part.
-Rendering render_layers(const LightScene& light, const IrradianceField& field, const Camera& camera,
+Rendering render_layers(const IrradianceField& field, const Camera& camera,
                         const RenderSettings& settings, const Progress& progress = {});
 
 } // namespace meninas

@@ -1,4 +1,5 @@
-// What is rendered and how exactly, and what comes of it (render.h).
+// What is rendered and how exactly, and what comes of it (render.h): radiance L = L_e + rho H / pi at
+// what each pixel sees, W/m^2/sr, as the mean over its samples.
 #pragma once
 
 #include "image/image.h"

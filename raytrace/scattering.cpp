@@ -15,17 +15,16 @@ namespace meninas {
 
 namespace {
 
-Bsdf bsdf_at(const RenderContext& context, const RayPacket& packet, const LaneState& state,
-             const FaceRecord& face, const HitPacket& hits, std::uint32_t k) {
+Bsdf bsdf_at(const LandedLane& lane) {
+  const auto& [context, packet, state, face, hits, k] = lane;
   const LightScene& light = context.light;
   const TriangleId triangle{hits.triangle[k]};
   const Material& material = material_of(light.scene, triangle);
   const bool plain = !is_textured(material) && !has_vertex_colors(light.scene, triangle);
   const Bsdf bsdf =
       plain ? context.bsdfs[index(light.scene.triangles[index(triangle)].material)]
-            : make_bsdf(material,
-                        material_at(light.scene, light.textures, triangle, {hits.b1[k], hits.b2[k]},
-                                    footprint_of(context, packet, state, face, hits, k)));
+            : make_bsdf(material, material_at(light.scene, light.textures, triangle,
+                                              {hits.b1[k], hits.b2[k]}, footprint_of(lane)));
   return hits.front[k] != 0 ? bsdf : from_behind(bsdf);
 }
 
@@ -41,6 +40,15 @@ Media media_at(const RenderContext& context, const HitPacket& hits, std::uint32_
   return hits.front[k] != 0 ? Media{before, met} : Media{met, none<MaterialId>};
 }
 
+/// How a surface scatters towards where a path came from: by which lobes, into so many squared
+/// directions, and between which solids.
+struct Scatterer {
+  const Bsdf& bsdf;
+  Direction out; ///< in the frame of the normal
+  int divisions;
+  Media media;
+};
+
 /// The shift of a grid:
 /// spread evenly over the camera rays of a pixel, at random behind another lobe.
 Vec2 shift_of(const SpecularRay& ray, std::uint32_t seed_of_pixel) {
@@ -54,9 +62,9 @@ bool samples_lamps(const RenderContext& context, const Bsdf& bsdf, const Specula
          (bsdf.coat > 0.0 || bsdf.glass > 0.0 || bsdf.metal != Rgb(0.0));
 }
 
-void queue_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
-                const FaceRecord& face, const Meeting& at, const Media& media, int n,
-                SpecularRay ray, TileWorkspace& work) {
+void queue_lobe(const RenderContext& context, const Scatterer& scatterer, const FaceRecord& face,
+                const Meeting& at, SpecularRay ray, TileWorkspace& work) {
+  const auto& [bsdf, out, n, media] = scatterer;
   const bool lamps_sampled = samples_lamps(context, bsdf, ray);
   const RenderSettings& settings = context.settings;
   const std::uint32_t seed = pixel_seed(work.area, ray.pixel, settings.seed);
@@ -115,8 +123,9 @@ glm::vec3& seen_by_lobe(const RenderContext& context, const SpecularRay& ray, Wo
 }
 
 /// Adds light of punctual lights by the lobe.
-void add_highlights(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
+void add_highlights(const RenderContext& context, const Scatterer& scatterer,
                     const Receiver& receiver, const SpecularRay& ray, TileWorkspace& work) {
+  const auto& [bsdf, out, divisions, media] = scatterer;
   punctual_arrivals(context.light, receiver, work.point.direct, work.highlights);
   for (const PunctualArrival& arrival : work.highlights) {
     // The irradiance has the cosine already.
@@ -129,9 +138,9 @@ void add_highlights(const RenderContext& context, const Bsdf& bsdf, const Direct
 }
 
 /// Adds light of emitters by the lobe, in the share of the points.
-void add_lamps_in_lobe(const RenderContext& context, const Bsdf& bsdf, const Direction& out,
-                       const Receiver& receiver, const SpecularRay& ray, int divisions,
-                       TileWorkspace& work) {
+void add_lamps_in_lobe(const RenderContext& context, const Scatterer& scatterer,
+                       const Receiver& receiver, const SpecularRay& ray, TileWorkspace& work) {
+  const auto& [bsdf, out, divisions, media] = scatterer;
   const int points = points_per_lamp(context);
   const EmissionSampling sampling{.per_image = points,
                                   .first = ray.number * static_cast<std::uint32_t>(points),
@@ -152,12 +161,11 @@ void add_lamps_in_lobe(const RenderContext& context, const Bsdf& bsdf, const Dir
 
 } // namespace
 
-glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& packet,
-                             const LaneState& state, const FaceRecord& face, const HitPacket& hits,
-                             std::uint32_t k, TileWorkspace& work) {
+glm::vec3 scattered_radiance(const LandedLane& lane, TileWorkspace& work) {
+  const auto& [context, packet, state, face, hits, k] = lane;
   const bool radiosity = context.settings.mode == RenderMode::radiosity;
   const bool has_field = face.side != FaceRecord::nothing;
-  Bsdf bsdf = bsdf_at(context, packet, state, face, hits, k);
+  Bsdf bsdf = bsdf_at(lane);
   const SpecularRay ray = ray_from(state, k, face.plane_class, context.settings.seed);
   const bool spent = bsdf.alpha > 0.0 && ray.lobes >= max_lobes;
   const Meeting at = meeting_of(context, face, packet, state, k, hits.distance[k]);
@@ -172,11 +180,11 @@ glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& pack
   if (spent && goes_on_ideally)
     bsdf.roughness = bsdf.alpha = 0.0;
   const int n = ray.lobes == 0 ? lobe_divisions(bsdf, out.z, context.settings.glossy_samples) : 1;
+  const Scatterer scatterer{bsdf, out, n, media_at(context, hits, k, ray.medium)};
   if (goes_on_ideally || !(spent || radiosity))
-    queue_lobe(context, bsdf, out, face, at, media_at(context, hits, k, ray.medium), n, ray, work);
+    queue_lobe(context, scatterer, face, at, ray, work);
   if (spent)
-    return has_field ? radiance_of_lane(context, packet, state, face, hits, k, work)
-                     : glm::vec3(0.0F);
+    return has_field ? radiance_of_lane(lane, work) : glm::vec3(0.0F);
 
   const ReflectedPart part = context.visible.part;
   // Pass one alone shows what is even: what the layers seen directly hold.
@@ -186,13 +194,12 @@ glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& pack
   Receiver receiver = receiver_at(context.light, face, hits, k);
   receiver.coat = none<MaterialId>;
   if (shows_lights && bsdf.alpha > 0.0 && !context.light.punctual.empty())
-    add_highlights(context, bsdf, out, receiver, ray, work);
+    add_highlights(context, scatterer, receiver, ray, work);
   if (shows_lights && samples_lamps(context, bsdf, ray))
-    add_lamps_in_lobe(context, bsdf, out, receiver, ray, n, work);
+    add_lamps_in_lobe(context, scatterer, receiver, ray, work);
   if (!has_field)
     return glm::vec3(0.0F);
-  glm::vec3 radiance = share_of_rays(context, state, face, hits, k) *
-                       shading_at(context, packet, state, face, hits, k).emitted;
+  glm::vec3 radiance = share_of_rays(context, state, face, hits, k) * shading_at(lane).emitted;
   if (part != ReflectedPart::none)
     radiance += glm::vec3(even_reflectance(bsdf, out.z) / std::numbers::pi) *
                 irradiance_of_lane(context, state, face, hits, k, work);

@@ -39,11 +39,9 @@ inline bool meets_lobes(const RenderContext& context, const FaceRecord& face, co
          has_lobes(material_of(context.light.scene, TriangleId{hits.triangle[k]}));
 }
 
-/// The radiance of L_e and of the field where lane k has landed. The rays of its lobe are queued;
+/// The radiance of L_e and of the field where the lane has landed. The rays of its lobe are queued;
 /// light of punctual lights and of points on emitters in the lobe goes to the pixel,
 /// as if seen in a mirror, and by way of the mirrors of its world.
-glm::vec3 scattered_radiance(const RenderContext& context, const RayPacket& packet,
-                             const LaneState& state, const FaceRecord& face, const HitPacket& hits,
-                             std::uint32_t k, TileWorkspace& work);
+glm::vec3 scattered_radiance(const LandedLane& lane, TileWorkspace& work);
 
 } // namespace meninas

@@ -1,4 +1,5 @@
-// The textures of a scene, decoded, before anything is decided by its materials.
+// The textures of a scene, decoded, before anything is decided by its materials: those that say the
+// same everywhere become factors of the materials that have them.
 #pragma once
 
 #include "scenes/materials/texture_lookup.h"

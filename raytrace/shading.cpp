@@ -89,24 +89,18 @@ LaneRun run_from(const RenderContext& context, const RayPacket& packet, const La
   return run;
 }
 
-/// Queues the ray that goes on from where lane k has met an ideal mirror.
-void reflect_lane(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
-                  const LaneState& state, const HitPacket& hits, std::uint32_t k,
-                  TileWorkspace& work) {
-  if (face.mirrors && context.settings.mode == RenderMode::hybrid &&
-      !meets_lobes(context, face, hits, k))
-    reflect(context, face, packet, state, k, hits.distance[k], work);
+/// Queues the ray that goes on from where a lane has met an ideal mirror.
+void reflect_lane(const LandedLane& lane, TileWorkspace& work) {
+  if (lane.face.mirrors && lane.context.settings.mode == RenderMode::hybrid &&
+      !meets_lobes(lane.context, lane.face, lane.hits, lane.k))
+    reflect(lane, work);
 }
 
-/// What lane k shows of a face where it shares its light with no other.
-glm::vec3 radiance_by_itself(const RenderContext& context, const RayPacket& packet,
-                             const LaneState& state, const FaceRecord& face, const HitPacket& hits,
-                             std::uint32_t k, TileWorkspace& work) {
-  if (meets_lobes(context, face, hits, k))
-    return scattered_radiance(context, packet, state, face, hits, k, work);
-  return face.side == FaceRecord::nothing
-             ? glm::vec3(0.0F)
-             : radiance_of_lane(context, packet, state, face, hits, k, work);
+/// What a lane shows of a face where it shares its light with no other.
+glm::vec3 radiance_by_itself(const LandedLane& lane, TileWorkspace& work) {
+  if (meets_lobes(lane.context, lane.face, lane.hits, lane.k))
+    return scattered_radiance(lane, work);
+  return lane.face.side == FaceRecord::nothing ? glm::vec3(0.0F) : radiance_of_lane(lane, work);
 }
 
 /// Where light is computed at the hits: lane by lane, or by runs of lanes.
@@ -119,10 +113,11 @@ void shade_by_runs(const RenderContext& context, const RayPacket& packet, const 
     glm::vec3 radiance = context.visible.background;
     if (hits.triangle[k] != index(none<TriangleId>)) {
       const FaceRecord& face = face_of(light.landing, hits, k);
+      const LandedLane lane{context, packet, state, face, hits, k};
       if (meets_lobes(context, face, hits, k) || face.side == FaceRecord::nothing) {
-        radiance = radiance_by_itself(context, packet, state, face, hits, k, work);
+        radiance = radiance_by_itself(lane, work);
       } else {
-        const SideShading shading = shading_at(context, packet, state, face, hits, k);
+        const SideShading shading = shading_at(lane);
         radiance = share_of_rays(context, state, face, hits, k) * shading.emitted;
         if (k >= lit) {
           const LaneRun run = run_from(context, packet, state, hits, face, k);
@@ -130,7 +125,7 @@ void shade_by_runs(const RenderContext& context, const RayPacket& packet, const 
           lit = run.end;
         }
       }
-      reflect_lane(context, face, packet, state, hits, k, work);
+      reflect_lane(lane, work);
     }
     sum += state.throughput(k) * radiance;
     if (k + 1 < packet.count && state.pixel[k + 1] == state.pixel[k] &&
@@ -199,11 +194,12 @@ void shade_face(const RenderContext& context, const RayPacket& packet, const Lan
     add_quad(context, state, face, hits, lanes, work);
   else if (face.side != FaceRecord::nothing || face.mirrors)
     for_each_lane(lanes, [&](std::uint32_t k) {
-      add(k, radiance_by_itself(context, packet, state, face, hits, k, work));
+      add(k, radiance_by_itself({context, packet, state, face, hits, k}, work));
     });
   if (face.mirrors)
-    for_each_lane(
-        lanes, [&](std::uint32_t k) { reflect_lane(context, face, packet, state, hits, k, work); });
+    for_each_lane(lanes, [&](std::uint32_t k) {
+      reflect_lane({context, packet, state, face, hits, k}, work);
+    });
 }
 
 } // namespace

@@ -45,14 +45,14 @@ SpecularRay ray_from(const LaneState& state, std::uint32_t k, std::uint32_t leav
   return ray;
 }
 
-void reflect(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
-             const LaneState& state, std::uint32_t k, float distance, TileWorkspace& work) {
+void reflect(const LandedLane& lane, TileWorkspace& work) {
+  const auto& [context, packet, state, face, hits, k] = lane;
   SpecularRay ray = ray_from(state, k, face.plane_class, context.settings.seed);
   ray.throughput = face.reflectance * ray.throughput;
   ray.way = one_more_mirror(ray.way);
   ++ray.bounces;
   ray.world = child(context.light.worlds, ray.world, face.mirror);
-  const Meeting at = meeting_of(context, face, packet, state, k, distance);
+  const Meeting at = meeting_of(context, face, packet, state, k, hits.distance[k]);
   ray.origin = at.position;
   ray.direction = at.direction - 2.0 * at.approach * face.normal;
   ray.travelled = at.travelled;

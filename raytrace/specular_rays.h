@@ -33,9 +33,8 @@ inline bool goes_on(const RenderContext& context, std::int32_t bounces, const gl
 /// Queues a path, unless it is too faint for its share.
 void queue_if_visible(const RenderContext& context, const SpecularRay& ray, TileWorkspace& work);
 
-/// Queues the path behind the mirror that lane k has hit,
+/// Queues the path behind the mirror that the lane has hit,
 /// from where it meets the mirror's exact plane.
-void reflect(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
-             const LaneState& state, std::uint32_t k, float distance, TileWorkspace& work);
+void reflect(const LandedLane& lane, TileWorkspace& work);
 
 } // namespace meninas

@@ -145,6 +145,16 @@ struct LaneState {
   }
 };
 
+/// Lane k of a packet where it has met a face, with what it carries and what all tiles share.
+struct LandedLane {
+  const RenderContext& context;
+  const RayPacket& packet;
+  const LaneState& state;
+  const FaceRecord& face;
+  const HitPacket& hits;
+  std::uint32_t k;
+};
+
 /// The face of its triangle that lane k has hit.
 inline const FaceRecord& face_of(const LandingTable& landing, const HitPacket& hits,
                                  std::uint32_t k) {

@@ -54,10 +54,9 @@ static std::vector<std::uint8_t> blurred_worlds(const LightScene& light) {
 }
 
 /// Refers to all it is given.
-static RenderContext context_of(const LightScene& light, const VisibleLight& visible,
-                                const PointGathering* gathering, const Camera& camera,
-                                const RenderSettings& settings, const SampleShare& share,
+static RenderContext context_of(const TracedView& view, const SampleShare& share,
                                 const FilterPlaces& places) {
+  const auto& [light, visible, gathering, camera, settings] = view;
   const double aspect = double(settings.width) / settings.height;
   RenderContext context{light,
                         visible,
@@ -107,13 +106,13 @@ static RayTotals totals_of(const tbb::enumerable_thread_specific<TileWorkspace>&
   return totals;
 }
 
-RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
-                        const PointGathering* gathering, const Camera& camera,
-                        const RenderSettings& settings, const SampleShare& share,
-                        const Progress& progress, const StorePixel& store) {
+RayTotals trace_picture(const TracedView& view, const SampleShare& share, const Progress& progress,
+                        const StorePixel& store) {
+  const RenderSettings& settings = view.settings;
   const FilterPlaces places = places_of(settings);
-  RenderContext context = context_of(light, visible, gathering, camera, settings, share, places);
-  context.frustum_faces = frustum_faces(light, max_frustum_faces(settings, context.net_x.size()));
+  RenderContext context = context_of(view, share, places);
+  context.frustum_faces =
+      frustum_faces(view.light, max_frustum_faces(settings, context.net_x.size()));
   const int columns = (settings.width + tile_size - 1) / tile_size,
             rows = (settings.height + tile_size - 1) / tile_size;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
@@ -131,13 +130,11 @@ RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
   return totals_of(workspaces);
 }
 
-RayTotals trace_pixels(const LightScene& light, const VisibleLight& visible,
-                       const PointGathering* gathering, const Camera& camera,
-                       const RenderSettings& settings, std::span<const glm::ivec2> pixels,
+RayTotals trace_pixels(const TracedView& view, std::span<const glm::ivec2> pixels,
                        const StorePixel& store) {
+  const RenderSettings& settings = view.settings;
   const FilterPlaces places = places_of(settings);
-  const RenderContext context = context_of(light, visible, gathering, camera, settings,
-                                           {{0, std::max(settings.samples, 1)}}, places);
+  const RenderContext context = context_of(view, {{0, std::max(settings.samples, 1)}}, places);
   // Runs of pixels know each other's blockers, as those of a tile do.
   constexpr std::size_t run = 32;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;

@@ -21,18 +21,23 @@ struct SampleShare {
   const PixelMask* pixels = nullptr; ///< null: all
 };
 
+/// What pixels are traced of.
+struct TracedView {
+  const LightScene& light;
+  const VisibleLight& visible;
+  const PointGathering* gathering; ///< of the diffuse term `gather`, else null
+  const Camera& camera;
+  const RenderSettings& settings;
+};
+
 /// The means over those samples of what is visible,
 /// pixel by pixel, handed to `store` from any thread.
-RayTotals trace_picture(const LightScene& light, const VisibleLight& visible,
-                        const PointGathering* gathering, const Camera& camera,
-                        const RenderSettings& settings, const SampleShare& share,
-                        const Progress& progress, const StorePixel& store);
+RayTotals trace_picture(const TracedView& view, const SampleShare& share, const Progress& progress,
+                        const StorePixel& store);
 
 /// The pixels of a list alone, the same values but for roundings, in its order;
 /// `store` is told the place in the list as x.
-RayTotals trace_pixels(const LightScene& light, const VisibleLight& visible,
-                       const PointGathering* gathering, const Camera& camera,
-                       const RenderSettings& settings, std::span<const glm::ivec2> pixels,
+RayTotals trace_pixels(const TracedView& view, std::span<const glm::ivec2> pixels,
                        const StorePixel& store);
 
 void add(Rendering& rendering, const RayTotals& rays);

@@ -45,9 +45,9 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
       make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh, dark), prepared->scene,
       prepared->surfaces, prepared->plan.worlds, settings.mesh.max_elements);
   average_textures(prepared->scene, prepared->surfaces, prepared->textures, prepared->mesh);
-  prepared->light.emplace(make_light_scene(prepared->scene, prepared->surfaces, *prepared->rays,
-                                           prepared->plan.mirrors, prepared->plan.worlds,
-                                           prepared->mesh, prepared->textures));
+  prepared->light = std::make_shared<const LightScene>(make_light_scene(
+      prepared->scene, prepared->surfaces, *prepared->rays,
+      {prepared->plan.mirrors, prepared->plan.worlds}, prepared->mesh, prepared->textures));
   prepared->seconds.mesh = watch.lap();
   return prepared;
 }
@@ -57,11 +57,10 @@ TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera,
                        const PassOneWatch& watch) {
   // Pass one:
   // diffuse radiosity, with the light that arrives directly and through every mirror world.
-  auto solution = solve_pass_one(*prepared.light, settings.pass_one, progress, watch);
+  auto solution = solve_pass_one(prepared.light, settings.pass_one, progress, watch);
 
   // Pass two: specular light, followed from the eye until it lands on the diffuse field.
-  const LightScene& lit = field_scene(*prepared.light, solution);
-  auto rendering = render(lit, solution.field, camera, settings.render, progress);
+  auto rendering = render(solution.field, camera, settings.render, progress);
   return {std::move(solution), std::move(rendering)};
 }
 

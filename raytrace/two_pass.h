@@ -3,23 +3,20 @@
 
 #include "radiosity/pass_one.h"
 #include "raytrace/render.h"
+#include "raytrace/two_pass_settings.h"
 
 #include <memory>
 #include <optional>
 
 namespace meninas {
 
-struct TwoPassSettings {
-  PassOneSettings pass_one;
-  RenderSettings render;
-};
-
 struct PreparationSeconds {
   double plan = 0.0; ///< surfaces and plan
   double mesh = 0.0; ///< elements, and what rays need to meet them
 };
 
-/// Everything about a scene that does not depend on the view, prepared once and kept together.
+/// Everything about a scene that does not depend on the view, prepared once and kept together:
+/// fields that are found on it refer to it.
 struct PreparedScene {
   Scene scene;
   SurfaceModel surfaces;
@@ -27,9 +24,12 @@ struct PreparedScene {
   DecodedTextures textures;
   ElementMesh mesh;
   std::optional<RayScene> rays;
-  std::optional<LightScene>
-      light; ///< refers to the members above: a PreparedScene stays where it was made
+  std::shared_ptr<const LightScene> light; ///< refers to the members above
   PreparationSeconds seconds;
+
+  PreparedScene() = default;
+  PreparedScene(const PreparedScene&) = delete;
+  PreparedScene& operator=(const PreparedScene&) = delete;
 };
 /// Textures that cannot be decoded are left out, with a warning of the plan.
 std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings);

@@ -28,16 +28,15 @@ void compare_passes(const PreparedScene& prepared, const Camera& camera, TwoPass
                     const RunEvents& events, RunFigures& figures, Comparison& comparison) {
   Stopwatch watch;
   const RadiositySolution solution =
-      solve_pass_one(*prepared.light, settings.pass_one, events.progress);
+      solve_pass_one(prepared.light, settings.pass_one, events.progress);
   warn_of_solution(solution.solver, solution.closure, events);
   warn_of_interpolation(solution.interpolation_error, settings.pass_one, events);
   add_solution(figures, solution);
-  const LightScene& lit = field_scene(*prepared.light, solution);
   const double pass_one = watch.lap();
 
   const auto picture = [&](RenderMode mode) {
     settings.render.mode = mode;
-    return render(lit, solution.field, camera, settings.render, events.progress).image;
+    return render(solution.field, camera, settings.render, events.progress).image;
   };
   Image radiosity = picture(RenderMode::radiosity);
   const double radiosity_seconds = pass_one + watch.lap();
@@ -48,7 +47,7 @@ void compare_passes(const PreparedScene& prepared, const Camera& camera, TwoPass
   comparison.modes.push_back(
       {"hybrid", "hybrid", "both passes", std::move(hybrid), hybrid_seconds});
   comparison.layers =
-      render_layers(lit, solution.field, camera, settings.render, events.progress).layers;
+      render_layers(solution.field, camera, settings.render, events.progress).layers;
 }
 
 void write_modes(const fs::path& folder, const Comparison& comparison) {

@@ -87,10 +87,9 @@ std::string describe_cost(const ExpectedCost& cost, int threads) {
       threads, cost.form_factors + cost.solve + cost.interpolate, readable_bytes(cost.bytes));
 }
 
-std::string plan_text(const std::string& file, const TransportPlan& plan, std::size_t patches,
-                      std::size_t elements, const ExpectedCost& expected, int threads,
-                      std::span<const Oddity> odd) {
-  std::string text = fact("scene", file);
+std::string plan_text(const PreparedScene& prepared, const TransportPlan& plan,
+                      const ExpectedCost& expected, int threads, std::span<const Oddity> odd) {
+  std::string text = fact("scene", prepared.scene.file);
   text += list("mirrors", describe_mirrors(plan));
   text += list("mirror worlds", describe_worlds(plan));
   text += fact("emitters", fmt::format("{} {}", plan.emitters,
@@ -100,7 +99,8 @@ std::string plan_text(const std::string& file, const TransportPlan& plan, std::s
                                         plan.transmissive, plan.textured));
   text += fact("colours", plan.bands == 1 ? "one channel: everything is grey" : "three channels");
   text += fact("closed", plan.closed ? "yes, no light can escape" : "no, light can escape");
-  text += fact("mesh", fmt::format("{} faces divided into {} elements", patches, elements));
+  text += fact("mesh", fmt::format("{} faces divided into {} elements",
+                                   prepared.surfaces.patches.size(), element_count(prepared.mesh)));
   text += fact("expected", describe_cost(expected, threads));
   text += list("stages", plan.stages);
   text += list("ignored", plan.ignored);
@@ -130,9 +130,9 @@ std::string plan_run(const PlanRequest& request) {
   const std::size_t elements = element_count(prepared->mesh);
   const std::size_t patches = prepared->surfaces.patches.size();
   const auto odd = report_scene(prepared->scene, prepared->surfaces, *prepared->rays);
-  return request.format == PlanFormat::json ? plan_json(plan, patches, elements, expected, odd)
-                                            : plan_text(prepared->scene.file, plan, patches,
-                                                        elements, expected, limit.threads(), odd);
+  return request.format == PlanFormat::json
+             ? plan_json(plan, patches, elements, expected, odd)
+             : plan_text(*prepared, plan, expected, limit.threads(), odd);
 }
 
 } // namespace meninas

@@ -54,8 +54,7 @@ Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
   const PassOneSeconds& pass_one = result.solution.seconds;
   figures.seconds.render =
       watch.lap() - pass_one.form_factors - pass_one.solve - pass_one.interpolate;
-  report_error({field_scene(*prepared.light, result.solution), result.solution.field, camera,
-                settings, result.solution.solver},
+  report_error({result.solution.field, camera, settings, result.solution.solver},
                wanted_report(request, events), {result.rendering.image, result.rendering.samples},
                result.rendering.layers, events, figures);
   return std::move(result.rendering);
@@ -123,7 +122,7 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   settings.render.diffuse = two_pass_settings(known).render.diffuse;
   check_field(*request.solution, lit.field, settings.render);
   ViewPicture picture = render_view(lit, camera, size, known, events, figures);
-  report_error({lit.light(), lit.field, camera, settings, figures.solver}, wanted_report(request, events),
+  report_error({lit.field, camera, settings, figures.solver}, wanted_report(request, events),
                {picture.image, picture.samples}, picture.layers, events, figures);
   return picture;
 }

@@ -26,7 +26,7 @@ public:
   }
 
   void operator()(const PassOneSoFar& state) {
-    IrradianceField lit = state.field;
+    VertexIrradiance lit = state.field;
     for (auto* irradiances : {&lit.irradiance, &lit.indirect}) {
       for (glm::vec3& irradiance : *irradiances) {
         irradiance += glm::vec3(state.ambient);
@@ -42,8 +42,8 @@ public:
   }
 
 private:
-  Image picture(const IrradianceField& field) const {
-    return render(*prepared_.light, field, camera_, render_).image;
+  Image picture(const VertexIrradiance& values) const {
+    return render({values, prepared_.light}, camera_, render_).image;
   }
   void write(const std::string& name, const Image& image, int shots) const {
     std::vector<fs::path> files;

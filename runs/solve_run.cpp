@@ -2,6 +2,7 @@
 
 #include "radiosity/transport/factor_file.h"
 #include "radiosity/solution/solution_file.h"
+#include "radiosity/solvers/solve.h"
 #include "runs/steering/memory.h"
 #include "runs/outputs.h"
 #include "runs/preparation.h"
@@ -29,7 +30,8 @@ static void check_files(const SolveRequest& request) {
 }
 
 /// Pass one with form factors that are read or assembled, and kept if asked for.
-static RadiositySolution solve_or_relight(const SolveRequest& request, const LightScene& light,
+static RadiositySolution solve_or_relight(const SolveRequest& request,
+                                          const std::shared_ptr<const LightScene>& light,
                                           PassOneSettings settings, const RunEvents& events) {
   if (!request.factors && !request.reuse) {
     return solve_pass_one(light, settings, events.progress);
@@ -37,13 +39,13 @@ static RadiositySolution solve_or_relight(const SolveRequest& request, const Lig
   if (settings.solver.method == SolverMethod::hierarchical) {
     throw UsageError("--solver hierarchical", "has no form factors of elements to keep or reuse");
   }
-  check_size(settings.solver.method, element_count(light.mesh));
+  check_size(settings.solver.method, element_count(light->mesh));
   settings.form_factors.relightable = true;
-  const FactorKey key = factor_key(light, settings.form_factors);
+  const FactorKey key = factor_key(*light, settings.form_factors);
   Stopwatch watch;
   FormFactors factors = request.reuse
                             ? read_factors(*request.reuse, key)
-                            : assemble_transport(light, settings.form_factors, events.progress);
+                            : assemble_transport(*light, settings.form_factors, events.progress);
   const double seconds = watch.lap();
   if (request.factors) {
     write_factors(*request.factors, factors, key);
@@ -70,7 +72,7 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   figures.seconds.load = watch.lap();
   const std::uint64_t scene_hash = content_hash(scene);
   const auto prepared = prepare_run(std::move(scene), settings, events, figures);
-  const RadiositySolution solution = solve_or_relight(request, *prepared->light, settings, events);
+  const RadiositySolution solution = solve_or_relight(request, prepared->light, settings, events);
   add_solution(figures, solution);
   warn_of_solution(figures.solver, figures.closure, events);
   warn_of_interpolation(figures.interpolation_error, settings, events);

@@ -31,9 +31,8 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
                          RunFigures& figures) {
   const std::uint64_t scene_hash = kept ? content_hash(scene) : 0;
   LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures),
-               .field = {},
-               .refined = {}};
-  RadiositySolution solution = solve_pass_one(*lit.prepared->light, settings, events.progress);
+               .field = {}};
+  RadiositySolution solution = solve_pass_one(lit.prepared->light, settings, events.progress);
   add_solution(figures, solution);
   warn_of_solution(figures.solver, figures.closure, events);
   warn_of_interpolation(figures.interpolation_error, settings, events);
@@ -41,7 +40,6 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
     write_solution(*kept, scene_hash, lit.prepared->mesh, solution, settings.mesh);
   }
   lit.field = std::move(solution.field);
-  lit.refined = std::move(solution.refined);
   return lit;
 }
 
@@ -52,19 +50,14 @@ LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings setti
   settings.mesh = stored.mesh;
   figures.seconds.load += watch.lap();
   LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures),
-               .field = {},
-               .refined = {}};
-  lit.refined = refined_scene_of(file, stored, *lit.prepared->light);
-  check_belongs(file, stored, lit.light().mesh);
-  if (lit.refined) {
-    figures.elements = element_count(lit.refined->mesh);
-    figures.vertices = lit.refined->mesh.vertices.size();
-  }
+               .field = {}};
   figures.solver = std::move(stored.solver);
   figures.energy = stored.energy;
   figures.closure = stored.closure;
+  lit.field = field_of(file, std::move(stored), lit.prepared->light);
+  figures.elements = element_count(lit.field.mesh());
+  figures.vertices = lit.field.mesh().vertices.size();
   warn_of_solution(figures.solver, figures.closure, events);
-  lit.field = std::move(stored.field);
   return lit;
 }
 
@@ -86,13 +79,14 @@ static Rendering painted(const LitScene& lit, const Camera& camera, const Render
                          const RunSettings& settings, const RunEvents& events) {
   const bool closure = settings.view == DebugView::closure;
   // Rows belong to the elements that were solved, not to those of a refined field.
-  const LightScene& light = closure ? *lit.prepared->light : lit.light();
+  const IrradianceField on_elements{{}, lit.prepared->light};
+  const IrradianceField& field = closure ? on_elements : lit.field;
   std::vector<RowClosure> rows;
   if (closure) {
     const auto& form_factors = two_pass_settings(settings).pass_one.form_factors;
-    rows = assemble_transport(light, form_factors, events.progress).closure;
+    rows = assemble_transport(*field.scene, form_factors, events.progress).closure;
   }
-  PaintedView view = paint_view(*settings.view, light, lit.field, rows, camera, used);
+  PaintedView view = paint_view(*settings.view, field, rows, camera, used);
   const std::string name(name_of(*settings.view));
   note(events, *settings.view == DebugView::elements
                    ? fmt::format("view elements: {} of them, each in a colour of its own", view.top)
@@ -115,7 +109,7 @@ ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize s
   used.height = size.height;
   Rendering rendering = settings.view
                             ? painted(lit, camera, used, settings, events)
-                            : render(lit.light(), lit.field, camera, used, events.progress);
+                            : render(lit.field, camera, used, events.progress);
   add_rendering(figures, rendering);
   figures.seconds.render = watch.lap();
   return picture_of(lit.prepared->scene, camera, settings, std::move(rendering));

@@ -19,10 +19,6 @@ namespace meninas {
 struct LitScene {
   std::unique_ptr<PreparedScene> prepared;
   IrradianceField field;
-  std::unique_ptr<RefinedScene> refined; ///< where the field has a mesh of its own
-
-  /// On the mesh of the field.
-  const LightScene& light() const { return refined ? *refined->light : *prepared->light; }
 };
 
 /// Pass one, run now; the figures of its stages are filled in, its warnings said.

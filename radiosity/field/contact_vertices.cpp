@@ -53,16 +53,17 @@ double contact_place(const Receiver& exposed, const Point3& covered,
 }
 
 ContactLight light_at_contact(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
-                              const Receiver& exposed, const Point3& covered, double element_size,
-                              std::uint32_t seed, PointWorkspace& work) {
-  const double place = contact_place(exposed, covered, [&](const Receiver& point) {
-    return is_open(gathering, irradiance, point, element_size, seed, work);
+                              const GatheringPoint& exposed, const Point3& covered,
+                              PointWorkspace& work) {
+  const double place = contact_place(exposed.receiver, covered, [&](const Receiver& point) {
+    return is_open(gathering, irradiance, {point, exposed.element_size, exposed.seed}, work);
   });
   if (place == 0.0)
     return {0.0, {}};
-  Receiver point = exposed;
-  point.position = glm::mix(exposed.position, covered, place);
-  const VertexValue value = value_at(gathering, irradiance, point, element_size, seed, work);
+  Receiver point = exposed.receiver;
+  point.position = glm::mix(exposed.receiver.position, covered, place);
+  const VertexValue value =
+      value_at(gathering, irradiance, {point, exposed.element_size, exposed.seed}, work);
   return {value.cover == Cover::open ? place : 0.0, value};
 }
 
@@ -87,7 +88,7 @@ static ArrivingLight without(const ArrivingLight& light, const ArrivingLight& pa
 }
 
 void extend_to_contacts(std::span<const ContactEdge> edges, std::span<const ContactLight> lights,
-                        std::vector<std::uint8_t>& valid, IrradianceField& field) {
+                        std::vector<std::uint8_t>& valid, VertexIrradiance& field) {
   struct Lines {
     ContactLines direct, indirect;
   };

@@ -47,8 +47,8 @@ struct ContactLight {
 
 /// `exposed` and `covered` are the ends. `irradiance` by ElementId tells which elements are lit.
 ContactLight light_at_contact(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
-                              const Receiver& exposed, const Point3& covered, double element_size,
-                              std::uint32_t seed, PointWorkspace& work);
+                              const GatheringPoint& exposed, const Point3& covered,
+                              PointWorkspace& work);
 
 /// The light that a covered vertex gets by lines along its edges.
 class ContactLines {
@@ -66,6 +66,6 @@ private:
 /// Follows the lines through H(n) and H(p), and marks as valid what has got a value.
 /// `lights` by edge.
 void extend_to_contacts(std::span<const ContactEdge> edges, std::span<const ContactLight> lights,
-                        std::vector<std::uint8_t>& valid, IrradianceField& field);
+                        std::vector<std::uint8_t>& valid, VertexIrradiance& field);
 
 } // namespace meninas

@@ -102,7 +102,7 @@ void spread_emission(const GatheredEmission& gathered, std::span<const std::uint
   }
   if (!any)
     return;
-  IrradianceField& field = found.field;
+  VertexIrradiance& field = found.field;
   for (std::size_t v = 0; v < count; ++v) {
     if (taken[v] == 0)
       continue;

@@ -95,7 +95,7 @@ std::optional<GapLight> light_in_gap(const PointGathering& gathering,
     if (low.count >= most_points && is_under_something(gathering.light, receiver, size))
       continue;
     const std::uint32_t seed = hash(index(element), k, gathering.form_factors.seed);
-    const VertexValue value = value_at(gathering, irradiance, receiver, size, seed, work);
+    const VertexValue value = value_at(gathering, irradiance, {receiver, size, seed}, work);
     // Where the one arrives at nothing but the void, so do the others.
     if (value.irradiance.total == Rgb(0.0) && value.cover != Cover::low)
       break;
@@ -119,7 +119,7 @@ std::vector<ElementId> covered_elements(const ElementMesh& mesh,
 
 void take_from_gaps(const ElementMesh& mesh, std::span<const ElementId> elements,
                     std::span<const std::optional<GapLight>> lights,
-                    std::vector<std::uint8_t>& valid, IrradianceField& field) {
+                    std::vector<std::uint8_t>& valid, VertexIrradiance& field) {
   std::map<std::uint32_t, GapSum> sums;
   for (std::size_t k = 0; k < elements.size(); ++k)
     if (lights[k])

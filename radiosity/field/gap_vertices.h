@@ -31,6 +31,6 @@ std::vector<ElementId> covered_elements(const ElementMesh& mesh,
 /// `lights` by place in `elements`.
 void take_from_gaps(const ElementMesh& mesh, std::span<const ElementId> elements,
                     std::span<const std::optional<GapLight>> lights,
-                    std::vector<std::uint8_t>& valid, IrradianceField& field);
+                    std::vector<std::uint8_t>& valid, VertexIrradiance& field);
 
 } // namespace meninas

@@ -62,8 +62,8 @@ std::vector<glm::vec3> average_at_vertices(const ElementMesh& mesh,
 
 /// The means of elements know nothing of mirrors;
 /// what emitters send is known where it was found from the source.
-static IrradianceField averaged_field(const ElementMesh& mesh, const ElementLight& elements) {
-  IrradianceField field;
+static VertexIrradiance averaged_field(const ElementMesh& mesh, const ElementLight& elements) {
+  VertexIrradiance field;
   field.irradiance = average_at_vertices(mesh, elements.irradiance);
   if (elements.from_source.empty())
     return field;

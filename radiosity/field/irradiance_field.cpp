@@ -4,7 +4,7 @@
 
 namespace meninas {
 
-glm::vec3 irradiance_at(const ElementMesh& mesh, const IrradianceField& field, SideId side, Vec2 uv) {
+glm::vec3 irradiance_at(const ElementMesh& mesh, const VertexIrradiance& field, SideId side, Vec2 uv) {
   return value_in(mesh, field.irradiance, locate(mesh, side, uv));
 }
 

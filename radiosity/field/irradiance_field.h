@@ -5,16 +5,17 @@
 //   B(x) = E(x) + rho(x) H(x)
 #pragma once
 
-#include "radiosity/mesh/element_mesh.h"
+#include "radiosity/scene/light_scene.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace meninas {
 
-/// By ElementVertexId. The mesh it belongs to must outlive it.
-struct IrradianceField {
+/// By ElementVertexId of one mesh, W/m^2.
+struct VertexIrradiance {
   std::vector<glm::vec3> irradiance;
   std::vector<glm::vec3>
       mirrored; ///< the part of it whose last leg came by way of mirrors; empty from `average`
@@ -25,8 +26,16 @@ struct IrradianceField {
   std::vector<glm::vec3> indirect_mirrored; ///< likewise of `mirrored`
 };
 
+/// The values with the scene on whose mesh they are, which is finer than the mesh that was solved
+/// where elements were divided for the field.
+struct IrradianceField : VertexIrradiance {
+  std::shared_ptr<const LightScene> scene;
+
+  const ElementMesh& mesh() const { return scene->mesh; }
+};
+
 struct InterpolatedField {
-  IrradianceField field;
+  VertexIrradiance field;
   std::optional<ElementMesh> mesh = {}; ///< where it is finer than that of the elements
   std::vector<Rgb> received = {}; ///< H by ElementId where elements receive what their corners do, by nodes; empty otherwise
   std::optional<double> error = {}; ///< of an adaptive field: estimated, of what its settings bound
@@ -42,6 +51,6 @@ struct ElementLight {
 };
 
 /// The field at a point of a side.
-glm::vec3 irradiance_at(const ElementMesh& mesh, const IrradianceField& field, SideId side, Vec2 uv);
+glm::vec3 irradiance_at(const ElementMesh& mesh, const VertexIrradiance& field, SideId side, Vec2 uv);
 
 } // namespace meninas

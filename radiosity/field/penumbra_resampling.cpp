@@ -33,7 +33,7 @@ std::vector<std::uint32_t> beside_penumbrae(const VertexSamples& found) {
 } // namespace
 
 void resample_near_penumbrae(const VertexSource& source, std::uint32_t level, VertexSamples& found) {
-  IrradianceField& field = found.field;
+  VertexIrradiance& field = found.field;
   for (;;) {
     const std::vector<std::uint32_t> vertices = beside_penumbrae(found);
     if (vertices.empty())

@@ -13,7 +13,7 @@ namespace meninas {
 
 namespace {
 
-std::vector<glm::vec3> from_source(const IrradianceField& field) {
+std::vector<glm::vec3> from_source(const VertexIrradiance& field) {
   std::vector<glm::vec3> light = field.irradiance;
   for (std::size_t v = 0; v < light.size(); ++v)
     light[v] -= field.indirect[v];
@@ -84,7 +84,7 @@ CoarseLight light_in(const VertexSamples& coarse, const SurfaceModel& surfaces,
 /// elements that were solved, some of whose corners it covers, is as low for smaller ones.
 void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::uint32_t level,
                  const VertexSamples& coarse, VertexSamples& found) {
-  IrradianceField& field = found.field;
+  VertexIrradiance& field = found.field;
   std::vector<std::uint32_t> fresh; // new, or has hung so far
   for (std::uint32_t v = 0; v < found.states.size(); ++v)
     if (found.states[v] == VertexState::unknown) {

@@ -40,7 +40,7 @@ static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
 
 void average_facets(const LightScene& light, const ElementLight& elements,
                            const VertexElements& facets, const FormFactorSettings& form_factors,
-                           PointWorkspaces& workspaces, IrradianceField& field) {
+                           PointWorkspaces& workspaces, VertexIrradiance& field) {
   constexpr int few_rays = 16;
   const ElementMesh& mesh = light.mesh;
   std::array<std::vector<Rgb>, 2> parts{elements.from_source, elements.irradiance}, mirrored;

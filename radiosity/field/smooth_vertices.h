@@ -13,6 +13,6 @@ namespace meninas {
 /// Sets the values of all vertices that `facets` has elements for.
 void average_facets(const LightScene& light, const ElementLight& elements,
                     const VertexElements& facets, const FormFactorSettings& form_factors,
-                    PointWorkspaces& workspaces, IrradianceField& field);
+                    PointWorkspaces& workspaces, VertexIrradiance& field);
 
 } // namespace meninas

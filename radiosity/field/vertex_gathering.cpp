@@ -19,7 +19,7 @@ namespace meninas {
 namespace {
 
 template <typename Change>
-void for_each_array(IrradianceField& field, const Change& change) {
+void for_each_array(VertexIrradiance& field, const Change& change) {
   for (auto* values :
        {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored})
     change(*values);
@@ -112,17 +112,23 @@ void cover_low(const VertexSource& source, VertexSamples& found) {
       found.states[low[k]] = VertexState::covered;
 }
 
-/// Takes what `value(v, size, seed, workspace)` finds for the vertices
-/// that do not hang and are in one state, as far as they are marked.
+/// Which vertices are lit: those in one state, as far as they are marked, and the state they are in
+/// then. `level` as of vertex_seed().
+struct VertexStep {
+  VertexState now, then;
+  std::span<const std::uint8_t> marked = {}; ///< by ElementVertexId; empty: all
+  std::uint32_t level = 0;
+};
+
+/// Takes what `value(v, size, seed, workspace)` finds for these vertices, but for those that hang.
 template <typename Value>
-void light_each(const VertexSource& source, VertexState now, VertexState then,
-                std::span<const std::uint8_t> marked, std::uint32_t level, VertexSamples& found,
+void light_each(const VertexSource& source, const VertexStep& step, VertexSamples& found,
                 const Value& value) {
   constexpr std::size_t chunk_size = 64;
   const ElementMesh& mesh = found.mesh;
   std::vector<std::uint32_t> vertices;
   for (std::uint32_t v = 0; v < found.states.size(); ++v)
-    if (found.states[v] == now && (marked.empty() || marked[v] != 0))
+    if (found.states[v] == step.now && (step.marked.empty() || step.marked[v] != 0))
       vertices.push_back(v);
   std::vector<std::uint8_t> hangs(mesh.vertices.size(), 0);
   for (const HangingVertex& hanging : mesh.hanging)
@@ -132,7 +138,7 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
   GatheredEmission emission(mesh.vertices.size());
   const auto light_vertex = [&](std::uint32_t v, PointWorkspace& work) {
     const double size = size_of(mesh, mesh.element_of_vertex[v]);
-    const VertexValue found_here = value(v, size, vertex_seed(source, v, level), work);
+    const VertexValue found_here = value(v, size, vertex_seed(source, v, step.level), work);
     found.field.irradiance[v] += glm::vec3(found_here.irradiance.total);
     found.field.mirrored[v] += glm::vec3(found_here.irradiance.mirrored);
     found.field.indirect[v] = glm::vec3(found_here.indirect.total);
@@ -144,7 +150,7 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
       found.punctual[v] += glm::vec3(found_here.irradiance.punctual);
     if (found_here.irradiance.in_part)
       found.seen[v] = Visibility::in_part;
-    found.states[v] = found_here.cover == Cover::open  ? then
+    found.states[v] = found_here.cover == Cover::open  ? step.then
                       : found_here.cover == Cover::low ? VertexState::low
                                                        : VertexState::covered;
   };
@@ -166,10 +172,10 @@ void light_each(const VertexSource& source, VertexState now, VertexState then,
 } // namespace
 
 void gather_at_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found) {
-  light_each(source, VertexState::unknown, VertexState::gathered, {}, level, found,
+  light_each(source, {VertexState::unknown, VertexState::gathered, {}, level}, found,
              [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) {
-               return value_at(source.gathering, source.irradiance, found.receivers[v], size, seed,
-                               work);
+               return value_at(source.gathering, source.irradiance,
+                               {found.receivers[v], size, seed}, work);
              });
   resample_near_penumbrae(source, level, found);
 }
@@ -205,7 +211,7 @@ static void cover_shut_in(const VertexSource& source, VertexSamples& found) {
   std::vector<std::uint8_t> marked, asked(found.states.size(), 0);
   while (mark_dark_beside_bright(found, marked, asked))
     light_each(
-        source, VertexState::lit, VertexState::lit, marked, 0, found,
+        source, {VertexState::lit, VertexState::lit, marked}, found,
         [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) -> VertexValue {
           return {{},
                   {},
@@ -217,7 +223,7 @@ static void cover_shut_in(const VertexSource& source, VertexSamples& found) {
 }
 
 void light_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found) {
-  light_each(source, VertexState::unknown, VertexState::lit, {}, level, found,
+  light_each(source, {VertexState::unknown, VertexState::lit, {}, level}, found,
              [&](std::uint32_t v, double, std::uint32_t seed, PointWorkspace& work) -> VertexValue {
                return {light_from_source(source.gathering, found.receivers[v], seed, work), {}};
              });
@@ -237,10 +243,11 @@ void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> mar
         vertices.push_back(v);
     source.kept->make_room(vertices, gathering.net.points.size());
   }
-  light_each(source, VertexState::lit, VertexState::gathered, marked, 0, found,
+  light_each(source, {VertexState::lit, VertexState::gathered, marked}, found,
              [&](std::uint32_t v, double size, std::uint32_t seed, PointWorkspace& work) {
-               return indirect_value_at(gathering, source.irradiance, found.receivers[v], size,
-                                        seed, work, keeps ? source.kept->of(v) : nullptr);
+               return indirect_value_at(gathering, source.irradiance,
+                                        {found.receivers[v], size, seed}, work,
+                                        keeps ? source.kept->of(v) : nullptr);
              });
 }
 
@@ -249,7 +256,7 @@ namespace {
 /// Vertices on which something stands, or at whose side it does, take what is gathered beside it;
 /// those of facets keep their means.
 void light_contacts(const VertexSource& source, const VertexSamples& found,
-                    std::vector<std::uint8_t>& valid, IrradianceField& field) {
+                    std::vector<std::uint8_t>& valid, VertexIrradiance& field) {
   const ElementMesh& mesh = found.mesh;
   const PointGathering& gathering = source.gathering;
   const std::vector<Receiver>& receivers = found.receivers;
@@ -263,10 +270,11 @@ void light_contacts(const VertexSource& source, const VertexSamples& found,
   std::vector<ContactLight> lights(edges.size());
   tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t k) {
     const auto [covered, exposed] = edges[k];
-    lights[k] = light_at_contact(
-        gathering, source.irradiance, receivers[exposed], receivers[covered].position,
-        size_of(mesh, mesh.element_of_vertex[exposed]),
-        hash(covered, exposed, gathering.form_factors.seed), source.workspaces.local());
+    lights[k] =
+        light_at_contact(gathering, source.irradiance,
+                         {receivers[exposed], size_of(mesh, mesh.element_of_vertex[exposed]),
+                          hash(covered, exposed, gathering.form_factors.seed)},
+                         receivers[covered].position, source.workspaces.local());
   });
   extend_to_contacts(edges, lights, valid, field);
 }
@@ -275,7 +283,7 @@ void light_contacts(const VertexSource& source, const VertexSamples& found,
 /// that and the light at the element's own corners is followed to the vertex, so that light is
 /// right where it is seen.
 void extend_regions(const VertexSamples& found, std::vector<std::uint8_t>& valid,
-                    IrradianceField& field) {
+                    VertexIrradiance& field) {
   const ElementMesh& mesh = found.mesh;
   std::vector<ContactEdge> edges;
   std::vector<ContactLight> lights;
@@ -310,7 +318,7 @@ void extend_regions(const VertexSamples& found, std::vector<std::uint8_t>& valid
 
 /// The corners of elements that are open only in between take what is gathered there.
 void light_gaps(const VertexSource& source, const ElementMesh& mesh,
-                std::vector<std::uint8_t>& valid, IrradianceField& field) {
+                std::vector<std::uint8_t>& valid, VertexIrradiance& field) {
   const std::vector<ElementId> covered = covered_elements(mesh, valid);
   std::vector<std::optional<GapLight>> lights(covered.size());
   tbb::parallel_for(std::size_t{0}, covered.size(), [&](std::size_t k) {
@@ -329,8 +337,8 @@ std::vector<std::uint8_t> with_values(const VertexSamples& found) {
   return valid;
 }
 
-IrradianceField complete_field(const VertexSource& source, const VertexSamples& found) {
-  IrradianceField field = found.field;
+VertexIrradiance complete_field(const VertexSource& source, const VertexSamples& found) {
+  VertexIrradiance field = found.field;
   std::vector<std::uint8_t> valid = with_values(found);
   for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
   light_contacts(source, found, valid, field);

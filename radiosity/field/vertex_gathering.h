@@ -6,6 +6,7 @@
 // what stands on a surface takes what is gathered beside it (contact_vertices.h,
 // gap_vertices.h), vertices that hang take from their ends,
 // and those that are left from their neighbours (vertex_fill.h).
+// All values are irradiance, W/m^2.
 #pragma once
 
 #include "radiosity/field/vertex_samples.h"
@@ -41,7 +42,7 @@ void gather_at_lit(const VertexSource& source, std::span<const std::uint8_t> mar
 std::vector<std::uint8_t> with_values(const VertexSamples& found);
 
 /// The field with values at all vertices.
-IrradianceField complete_field(const VertexSource& source, const VertexSamples& found);
+VertexIrradiance complete_field(const VertexSource& source, const VertexSamples& found);
 
 /// Values by ElementVertexId for those that only gather from them:
 /// what has none, beside contacts too, is as its neighbours are.

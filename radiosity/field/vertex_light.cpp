@@ -107,8 +107,8 @@ static bool is_lit(const PointGathering& gathering, const Receiver& receiver, st
 }
 
 bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
-             const Receiver& receiver, double element_size, std::uint32_t seed,
-             PointWorkspace& work) {
+             const GatheringPoint& at, PointWorkspace& work) {
+  const auto& [receiver, element_size, seed] = at;
   constexpr int few_rays = 16;
   static const HemisphereSamples net = make_direction_net(few_rays);
   if (is_nearly_under_something(gathering.light, receiver, element_size))
@@ -119,8 +119,8 @@ bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance
 }
 
 VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
-                     const Receiver& receiver, double element_size, std::uint32_t seed,
-                     PointWorkspace& work) {
+                     const GatheringPoint& at, PointWorkspace& work) {
+  const auto& [receiver, element_size, seed] = at;
   const PointLight arrived = light_at(gathering, receiver, seed, work);
   const bool shut =
       is_enclosed(work.gather.result, irradiance) && arrived.from_source.total == Rgb(0.0);
@@ -131,8 +131,8 @@ VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& ir
 }
 
 VertexValue indirect_value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
-                              const Receiver& receiver, double element_size, std::uint32_t seed,
-                              PointWorkspace& work, VertexRays* kept) {
+                              const GatheringPoint& at, PointWorkspace& work, VertexRays* kept) {
+  const auto& [receiver, element_size, seed] = at;
   const bool are_there = kept != nullptr && kept->rays.rays > 0.0;
   const PointLight arrived =
       indirect_light_at(gathering, receiver, seed, work, are_there ? &kept->rays : nullptr);

@@ -24,17 +24,22 @@ struct VertexValue {
   std::uint32_t hits = 0;   ///< so many rays
 };
 
-/// At a point in elements of a size, metres.
-/// `irradiance` by ElementId tells which elements are lit.
+/// A point at which light is gathered, in elements of a size.
+struct GatheringPoint {
+  const Receiver& receiver;
+  double element_size; ///< metres
+  std::uint32_t seed;
+};
+
+/// H there, W/m^2. `irradiance` by ElementId tells which elements are lit.
 VertexValue value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
-                     const Receiver& receiver, double element_size, std::uint32_t seed,
-                     PointWorkspace& work);
+                     const GatheringPoint& at, PointWorkspace& work);
 
 /// The indirect part alone; `irradiance` of the result is the same.
 /// Takes the rays that are `kept`, or keeps them there for the next time.
 VertexValue indirect_value_at(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
-                              const Receiver& receiver, double element_size, std::uint32_t seed,
-                              PointWorkspace& work, VertexRays* kept = nullptr);
+                              const GatheringPoint& at, PointWorkspace& work,
+                              VertexRays* kept = nullptr);
 
 /// The part that comes from the source alone.
 ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,
@@ -55,8 +60,7 @@ bool is_nearly_under_something(const LightScene& light, const Receiver& receiver
 
 /// Whether nothing is or nearly is over a point, as far as few rays tell.
 bool is_open(const PointGathering& gathering, const std::vector<Rgb>& irradiance,
-             const Receiver& receiver, double element_size, std::uint32_t seed,
-             PointWorkspace& work);
+             const GatheringPoint& at, PointWorkspace& work);
 
 /// Whether something lies on the surface here: nearly all of the hemisphere
 /// is blocked within a fraction of an element, as under a box that stands on a floor.

@@ -1,5 +1,8 @@
-// Vertices of the mesh:
-// the elements around them, where light is gathered for them, and what lies between them.
+// Vertices of the mesh: the elements around them, where light is gathered for them, and what lies
+// between them, by (s, t) of an element with corners 0 to 3:
+//
+//   H(s, t) = (1 - t) ((1 - s) H_0 + s H_1) + t ((1 - s) H_3 + s H_2)      in quads
+//   H(s, t) = (1 - s - t) H_0 + s H_1 + t H_2                              in triangles
 #pragma once
 
 #include "radiosity/light/direct_irradiance.h"

@@ -30,7 +30,7 @@ enum class Visibility : std::uint8_t { alike, confirmed, in_part };
 /// A mesh with the values of vertices as they were found; hanging vertices may be unknown.
 struct VertexSamples {
   ElementMesh mesh;
-  IrradianceField field;
+  VertexIrradiance field;
   std::vector<VertexState> states; ///< by ElementVertexId
   std::vector<Visibility> seen;    ///< likewise, of those that have direct light
   std::vector<Receiver> receivers; ///< where they gather (vertex_places.h)

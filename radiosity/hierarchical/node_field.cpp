@@ -76,7 +76,7 @@ NodeInterpolation gather_at_nodes(const NodeSource& source, const HierarchicalSo
 
 /// What a vertex takes from those that its shares name, as far as these have values.
 void take_shares(const InterpolationWeights& shares, std::size_t v, VertexSamples& found) {
-  IrradianceField& field = found.field;
+  VertexIrradiance& field = found.field;
   glm::vec3 total(0.0F), mirrored(0.0F);
   float weights = 0.0F;
   for (std::size_t c = 0; c < 4; ++c) {
@@ -102,7 +102,7 @@ void take_shares(const InterpolationWeights& shares, std::size_t v, VertexSample
 /// light is not negative, and the mirrors' part no more than all.
 void bend_between(const NodeInterpolation& by, std::span<const std::uint8_t> valid,
                   VertexSamples& found) {
-  IrradianceField& field = found.field;
+  VertexIrradiance& field = found.field;
   const std::vector<glm::vec3> bends = edge_bends(by.crosses, valid, field.indirect),
                                of_mirrored = edge_bends(by.crosses, valid, field.indirect_mirrored);
   const auto add = [](const glm::vec3& more, glm::vec3& indirect, glm::vec3& all) {
@@ -121,7 +121,7 @@ void bend_between(const NodeInterpolation& by, std::span<const std::uint8_t> val
 /// Vertices that were only asked how light bends, or whose nodes have given way,
 /// take from others as those around them do, or they would stand out by what nodes are off.
 void drop_indicator_samples(const InterpolationWeights& shares, VertexSamples& found) {
-  IrradianceField& field = found.field;
+  VertexIrradiance& field = found.field;
   for (std::size_t v = 0; v < found.states.size(); ++v)
     if (found.states[v] == VertexState::gathered && !gathers(shares, v)) {
       // Sums of floats less one of their terms may be a rounding below the others.
@@ -165,7 +165,7 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Hierarc
 /// `found` has it in between.
 std::vector<Rgb> reflected_by_field(const VertexSource& few, const HierarchicalSolution& receivers,
                                     const ElementLight& elements, VertexSamples& found) {
-  IrradianceField lit = found.field;
+  VertexIrradiance lit = found.field;
   std::vector<VertexState> states = found.states;
   share_out(gather_at_nodes({few, few}, receivers, few_rays * receivers.bend, found), found);
   const std::vector<Rgb> received =

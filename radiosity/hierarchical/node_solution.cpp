@@ -219,21 +219,20 @@ FormFactorSettings rays_per_row(FormFactorSettings settings, std::size_t rows,
   return settings;
 }
 
-NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& form_factors,
-                            const DirectSettings& direct, const HierarchicalSettings& settings,
-                            std::optional<LitVertices> vertices, const SolverSettings& solver,
-                            const Progress& progress) {
+NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& settings,
+                            std::optional<LitVertices> vertices, const Progress& progress) {
   NodeSolution result;
   Stopwatch watch;
   NodeTree tree = make_node_tree(light.mesh, light.surfaces);
-  const NodeProblem problem{light, tree, direct, vertices ? &vertices->found : nullptr, progress};
+  const NodeProblem problem{light, tree, settings.direct, vertices ? &vertices->found : nullptr,
+                            progress};
   FormFactorSettings of_rows;
-  LitCut lit = first_lit_cut(problem, form_factors, of_rows);
-  const double spread = settings.link_error * (vertices ? 20.0 : 1.0);
+  LitCut lit = first_lit_cut(problem, settings.form_factors, of_rows);
+  const double spread = settings.hierarchical.link_error * (vertices ? 20.0 : 1.0);
   Received received;
   for (;;) {
     result.seconds_gathering += watch.lap();
-    received = solve_receivers(tree, lit.cut, lit.first, lit.areas, solver);
+    received = solve_receivers(tree, lit.cut, lit.first, lit.areas, settings.solver);
     const auto marked = to_divide(tree, lit.cut, lit.first, lit.areas, received.irradiance, spread);
     result.seconds_solving += watch.lap();
     if (std::ranges::find(marked, 1) == marked.end())
@@ -257,8 +256,9 @@ NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& f
   result.figures = {cut.receivers.size(), received.links.columns.size(),
                     tree.nodes.size() * sizeof(TreeNode) + bytes_of(cut.rows) +
                         bytes_of(received.links)};
-  result.receivers = {std::move(tree),        std::move(lit.cut.receivers), settings.link_error,
-                      std::move(lit.covered), std::move(lit.direct.shared), {}};
+  result.receivers = {
+      std::move(tree),        std::move(lit.cut.receivers), settings.hierarchical.link_error,
+      std::move(lit.covered), std::move(lit.direct.shared), {}};
   if (vertices) {
     result.rays_traced += vertices->rays;
     result.first.shadow_rays += vertices->shadow_rays;

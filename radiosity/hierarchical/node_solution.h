@@ -46,6 +46,13 @@
 
 namespace meninas {
 
+struct NodeSolverSettings {
+  const FormFactorSettings& form_factors;
+  const DirectSettings& direct;
+  const HierarchicalSettings& hierarchical;
+  const SolverSettings& solver;
+};
+
 struct NodeSolution {
   SolverResult solver;      ///< its radiosity is the reflected part, by ElementId
   std::vector<Rgb> arrived; ///< H of its receiver by ElementId, W/m^2
@@ -66,9 +73,7 @@ FormFactorSettings rays_per_row(FormFactorSettings settings, std::size_t rows,
 
 /// With vertices, which then gather what is seen, elements only light others;
 /// without, what they receive is what is seen of them.
-NodeSolution solve_by_nodes(const LightScene& light, const FormFactorSettings& form_factors,
-                            const DirectSettings& direct, const HierarchicalSettings& settings,
-                            std::optional<LitVertices> vertices, const SolverSettings& solver,
-                            const Progress& progress = {});
+NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& settings,
+                            std::optional<LitVertices> vertices, const Progress& progress = {});
 
 } // namespace meninas

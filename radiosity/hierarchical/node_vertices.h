@@ -34,6 +34,7 @@ struct NodeProbe {
   bool indicator_only = false;     ///< no part has it for a corner
 };
 
+/// m^2, of the elements below a node.
 double area_below(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId node);
 
 /// The corners of a node; a triangle repeats its third.
@@ -45,7 +46,7 @@ std::vector<NodeProbe> probes_of(const ElementMesh& mesh, const NodeTree& tree,
                                  const TreeNode& node);
 
 /// By ElementVertexId, where the nodes need indirect light, at corners and in the middle:
-/// the area of the largest node that does, elsewhere 0.
+/// the area of the largest node that does, m^2, elsewhere 0.
 std::vector<double> wanted_vertices(const ElementMesh& mesh, const NodeTree& tree,
                                     std::span<const TreeNodeId> nodes);
 

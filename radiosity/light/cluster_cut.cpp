@@ -35,7 +35,7 @@ void add_cone(const ConvexPolygon& opening, const Point3& x, std::vector<Directi
 
 /// One plane of clusters in one world, as seen from x.
 struct PlaneImage {
-  const LightScene& light;
+  const Lighting& light;
   const ClusterTree& tree;
   const Receiver& receiver;
   const SeenWorld& seen;
@@ -93,8 +93,8 @@ void cut_plane(const PlaneImage& image, const Observer& observer, ClusterWorkspa
       if (largest(light) > 0.0)
         work.stand_ins.push_back({at, image.plane, image.seen.world, light});
     } else if (node.second_child == 0) {
-      add_images(image.light.worlds, image.light.emitters, work.seen, image.seen,
-                 image.tree.order[node.first], observer, 1.0, lights);
+      add_images({image.light.worlds, work.seen, image.seen, observer}, image.light.emitters,
+                 image.tree.order[node.first], 1.0, lights);
     } else {
       work.open.push_back(node.second_child);
       work.open.push_back(at + 1);
@@ -104,7 +104,7 @@ void cut_plane(const PlaneImage& image, const Observer& observer, ClusterWorkspa
 
 /// Shares `rays` out among the stand-ins by what each would bring,
 /// beside what has arrived from the clusters nearby; at most `per_cluster` for each of theirs.
-void share_rays(int rays, int per_cluster, const Rgb& arrived, const LightScene& light,
+void share_rays(int rays, int per_cluster, const Rgb& arrived, const Lighting& light,
                 const ClusterTree& tree, ClusterWorkspace& work) {
   double all = largest(arrived);
   for (const LightcutNode& part : work.stand_ins)
@@ -127,7 +127,7 @@ void share_rays(int rays, int per_cluster, const Rgb& arrived, const LightScene&
 SegmentEnd end_of(const ClusterPlane& plane) { return {plane.plane.normal, plane.coat}; }
 
 /// Traces sixteen rays at a time.
-void trace_rays(const LightScene& light, const ClusterTree& tree, const Receiver& receiver,
+void trace_rays(const Lighting& light, const ClusterTree& tree, const Receiver& receiver,
                 std::uint32_t seed, ClusterWorkspace& work, DirectWorkspace& direct) {
   work.arrived.assign(work.stand_ins.size(), Rgb(0.0));
   work.sent.assign(work.stand_ins.size(), Rgb(0.0));
@@ -145,16 +145,16 @@ void trace_rays(const LightScene& light, const ClusterTree& tree, const Receiver
       const Point3 y = apply(image, point.position);
       weight[k] =
           point.colour * form_factor_share(receiver, apply_direction(image, plane.plane.normal), y);
-      fold(light, part.world, receiver.position, receiver.plane_class, y, plane.plane_class,
+      fold(light.scene, part.world, {receiver.position, y, receiver.plane_class, plane.plane_class},
            direct.folded[k]);
     }
-    const std::uint32_t dark = blocked(light, direct.folded, count, direct.shadow_rays);
+    const std::uint32_t dark = blocked(light.scene, direct.folded, count, direct.shadow_rays);
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t stand_in = work.rays[first + k].stand_in;
       work.sent[stand_in] += weight[k];
       if (((dark >> k) & 1U) == 0U)
         work.arrived[stand_in] +=
-            weight[k] * left_between(light, end_of(receiver),
+            weight[k] * left_between(light.scene, end_of(receiver),
                                      end_of(tree.planes[work.stand_ins[stand_in].plane]),
                                      direct.folded[k]);
     }
@@ -175,13 +175,13 @@ Rgb visible_share(const Rgb& sent, const Rgb& arrived) {
 
 } // namespace
 
-void cut_clusters(const LightScene& light, const ClusterTree& tree, const Receiver& receiver,
+void cut_clusters(const Lighting& light, const ClusterTree& tree, const Receiver& receiver,
                   double theta, ClusterWorkspace& work, std::vector<VirtualLight>& lights) {
   lights.clear();
   work.stand_ins.clear();
   if (tree.planes.empty())
     return; // nor need there be any worlds
-  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   seen_worlds(light.worlds, observer, work.seen);
   work.sides.clear();
   work.cone_ends.clear();
@@ -201,10 +201,10 @@ void cut_clusters(const LightScene& light, const ClusterTree& tree, const Receiv
   }
 }
 
-ArrivingLight cluster_irradiance(const LightScene& light, const ClusterTree& tree,
-                                 const Receiver& receiver, const DirectSettings& settings,
-                                 const ClusterCut& cut, std::uint32_t seed, ClusterWorkspace& work,
+ArrivingLight cluster_irradiance(const ClusterLight& clusters, const Receiver& receiver,
+                                 std::uint32_t seed, ClusterWorkspace& work,
                                  DirectWorkspace& direct) {
+  const auto& [light, tree, settings, cut] = clusters;
   if (!(cut.theta > 0.0))
     return direct_irradiance(light, receiver, settings, seed, direct);
   cut_clusters(light, tree, receiver, cut.theta, work, direct.lights);

@@ -57,13 +57,20 @@ struct ClusterWorkspace {
 
 /// Finds what lights x: nodes that stand for their clusters in `work.stand_ins`,
 /// images of all others in `lights`. Clears both.
-void cut_clusters(const LightScene& light, const ClusterTree& tree, const Receiver& receiver,
+void cut_clusters(const Lighting& light, const ClusterTree& tree, const Receiver& receiver,
                   double theta, ClusterWorkspace& work, std::vector<VirtualLight>& lights);
 
-/// `light` has the clusters for emitters. Adds the shadow rays of both kinds to those of `direct`.
-ArrivingLight cluster_irradiance(const LightScene& light, const ClusterTree& tree,
-                                 const Receiver& receiver, const DirectSettings& settings,
-                                 const ClusterCut& cut, std::uint32_t seed, ClusterWorkspace& work,
+/// What bright clusters light points with, the same for all points.
+struct ClusterLight {
+  const Lighting& light; ///< has the clusters for emitters
+  const ClusterTree& tree;
+  const DirectSettings& settings;
+  const ClusterCut& cut;
+};
+
+/// H of the clusters, W/m^2. Adds the shadow rays of both kinds to those of `direct`.
+ArrivingLight cluster_irradiance(const ClusterLight& clusters, const Receiver& receiver,
+                                 std::uint32_t seed, ClusterWorkspace& work,
                                  DirectWorkspace& direct);
 
 } // namespace meninas

@@ -35,14 +35,21 @@ struct ImageSampling {
   }
 };
 
+/// One image as a point sees it; the seed is that of all images there.
+struct ImageFromPoint {
+  const VirtualLight& image;
+  const Receiver& receiver;
+  std::uint32_t seed;
+};
+
 /// Adds the samples of one image up to number `end` to its visible share.
 /// Weights are needed where some arrive and some do not, or panes take their part of each;
 /// those of samples before, which all arrived or all did not, are found when one is met that differs.
-void sample_visibility(const LightScene& light, const VirtualLight& image, const Receiver& receiver,
-                       int end, std::uint32_t seed_of_all, DirectWorkspace& work,
-                       VisibleShare& share) {
+void sample_visibility(const Lighting& light, const ImageFromPoint& from, int end,
+                       DirectWorkspace& work, VisibleShare& share) {
+  const auto& [image, receiver, seed] = from;
   const Emitter& emitter = light.emitters[image.emitter];
-  const ImageSampling sampling{hash(seed_of_all, image.emitter, index(image.world)),
+  const ImageSampling sampling{hash(seed, image.emitter, index(image.world)),
                                PolygonFan(image.polygon, area_vector(image.polygon.span()))};
   for (int first = share.samples; first < end; first += 16) {
     const int count = std::min(16, end - first);
@@ -50,15 +57,16 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
     for (int k = 0; k < count; ++k) {
       const auto lane = static_cast<std::size_t>(k);
       points[lane] = sampling.point(first + k);
-      fold(light, image.world, receiver.position, receiver.plane_class, points[lane],
-           emitter.plane_class, work.folded[lane]);
+      fold(light.scene, image.world,
+           {receiver.position, points[lane], receiver.plane_class, emitter.plane_class},
+           work.folded[lane]);
     }
     const std::uint32_t dark =
-        blocked(light, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
+        blocked(light.scene, work.folded, static_cast<std::uint32_t>(count), work.shadow_rays);
     const bool were_seen = share.arrived > 0;
     share.samples += count;
     share.arrived += count - std::popcount(dark);
-    if (agree(share) && light.by_angle.empty())
+    if (agree(share) && light.scene.by_angle.empty())
       continue;
     for (; share.weighed < first; ++share.weighed) {
       const double weight = form_factor_share(receiver, image, sampling.point(share.weighed));
@@ -71,26 +79,26 @@ void sample_visibility(const LightScene& light, const VirtualLight& image, const
       share.all += weight;
       if (((dark >> k) & 1U) == 0U)
         share.seen +=
-            weight * left_between(light, end_of(receiver), end_of(emitter), work.folded[k]);
+            weight * left_between(light.scene, end_of(receiver), end_of(emitter), work.folded[k]);
     }
     share.weighed = share.samples;
   }
 }
 
-Rgb visible_fraction(const LightScene& light, const VisibleShare& share) {
-  if (agree(share) && light.by_angle.empty())
+Rgb visible_fraction(const Lighting& light, const VisibleShare& share) {
+  if (agree(share) && light.scene.by_angle.empty())
     return Rgb(share.arrived > 0 ? 1.0 : 0.0);
   return share.all > 0.0 ? share.seen / share.all : Rgb(0.0);
 }
 
 /// What an image sends, as it is seen.
-Rgb source_of(const LightScene& light, const VirtualLight& image) {
+Rgb source_of(const Lighting& light, const VirtualLight& image) {
   return light.worlds.worlds[index(image.world)].throughput *
          light.emitters[image.emitter].radiosity;
 }
 
 /// What every image would bring without blockers; those that bring nothing are left out.
-void order_by_light(const LightScene& light, const Receiver& receiver, DirectWorkspace& work) {
+void order_by_light(const Lighting& light, const Receiver& receiver, DirectWorkspace& work) {
   work.form_factors.clear();
   work.brought.clear();
   work.order.clear();
@@ -110,7 +118,7 @@ void order_by_light(const LightScene& light, const Receiver& receiver, DirectWor
 
 /// How much is seen of each of the dim images, by its one sample:
 /// sixteen rays together that have as many legs.
-void sample_dim_images(const LightScene& light, const Receiver& receiver,
+void sample_dim_images(const Lighting& light, const Receiver& receiver,
                        std::span<std::uint32_t> dim, std::uint32_t seed, DirectWorkspace& work) {
   const auto depth_of = [&](std::uint32_t k) {
     return light.worlds.worlds[index(work.lights[k].world)].depth;
@@ -126,17 +134,18 @@ void sample_dim_images(const LightScene& light, const Receiver& receiver,
       const VirtualLight& image = work.lights[dim[first + count]];
       const Vec2 sample(sobol2(0, hash(seed, image.emitter, index(image.world)), SobolPair::first));
       const Point3 y = point_on(image.polygon, area_vector(image.polygon.span()), sample);
-      if (!light.by_angle.empty())
+      if (!light.scene.by_angle.empty())
         weight[count] = form_factor_share(receiver, image, y);
-      fold(light, image.world, receiver.position, receiver.plane_class, y,
-           light.emitters[image.emitter].plane_class, work.folded[count]);
+      fold(light.scene, image.world,
+           {receiver.position, y, receiver.plane_class, light.emitters[image.emitter].plane_class},
+           work.folded[count]);
     }
-    const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
+    const std::uint32_t dark = blocked(light.scene, work.folded, count, work.shadow_rays);
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t own = dim[first + k];
-      if (((dark >> k) & 1U) == 0U && (light.by_angle.empty() || weight[k] > 0.0))
+      if (((dark >> k) & 1U) == 0U && (light.scene.by_angle.empty() || weight[k] > 0.0))
         work.visible[own] =
-            left_between(light, end_of(receiver), end_of(light.emitters[work.lights[own].emitter]),
+            left_between(light.scene, end_of(receiver), end_of(light.emitters[work.lights[own].emitter]),
                          work.folded[k]);
     }
     first += count;
@@ -145,7 +154,7 @@ void sample_dim_images(const LightScene& light, const Receiver& receiver,
 
 } // namespace
 
-ArrivingLight images_irradiance(const LightScene& light, const Receiver& receiver,
+ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& work) {
   order_by_light(light, receiver, work);
@@ -175,9 +184,9 @@ ArrivingLight images_irradiance(const LightScene& light, const Receiver& receive
       continue;
     }
     SampledImage sampled{k, static_cast<int>(std::lround(settings.penumbra_rays * worth)), {}};
-    sample_visibility(light, image, receiver, samples, seed, work, sampled.share);
+    sample_visibility(light, {image, receiver, seed}, samples, work, sampled.share);
     if (everywhere || !agree(sampled.share))
-      sample_visibility(light, image, receiver, sampled.penumbra_samples, seed, work,
+      sample_visibility(light, {image, receiver, seed}, sampled.penumbra_samples, work,
                         sampled.share);
     add(k, visible_fraction(light, sampled.share));
     sum.in_part = sum.in_part || !agree(sampled.share);
@@ -188,8 +197,8 @@ ArrivingLight images_irradiance(const LightScene& light, const Receiver& receive
   if (settings.penumbra_samples == PenumbraSamples::together && sum.in_part) {
     sum = {.in_part = true};
     for (SampledImage& sampled : work.sampled) {
-      sample_visibility(light, work.lights[sampled.light], receiver, sampled.penumbra_samples, seed,
-                        work, sampled.share);
+      sample_visibility(light, {work.lights[sampled.light], receiver, seed},
+                        sampled.penumbra_samples, work, sampled.share);
       add(sampled.light, visible_fraction(light, sampled.share));
     }
   }
@@ -217,15 +226,15 @@ static bool groups_in_part(const DirectWorkspace& work) {
 
 /// What the images of emitters bring, or a choice of them. Where many stand for a lamp, and some
 /// are hidden and some are not, they are chosen anew, as many as a penumbra takes samples.
-static ArrivingLight chosen_irradiance(const LightScene& light, const Receiver& receiver,
+static ArrivingLight chosen_irradiance(const Lighting& light, const Receiver& receiver,
                                        const DirectSettings& settings, std::uint32_t seed,
                                        DirectWorkspace& work) {
-  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   const auto choose = [&](int rays) {
     const LightChoice choice{static_cast<std::size_t>(settings.images),
                              0x1p-32 * hash(seed, 0xc401ce, 0), static_cast<std::size_t>(rays)};
-    sample_light_tree(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
-                  work.lights);
+    sample_light_tree({light.worlds, light.emitters, light.emitter_tree}, observer, choice,
+                      work.choice, work.lights);
     return images_irradiance(light, receiver, settings, seed, work);
   };
   ArrivingLight sum = choose(settings.shadow_rays);
@@ -238,13 +247,13 @@ static ArrivingLight chosen_irradiance(const LightScene& light, const Receiver& 
   return sum;
 }
 
-ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
+ArrivingLight direct_irradiance(const Lighting& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& work) {
   ArrivingLight sum = chosen_irradiance(light, receiver, settings, seed, work);
   if (has_solid_light(light)) {
     const SolidLight refracted =
-        solid_light(light,
+        solid_light(light.scene,
                     {{&receiver.position, 1},
                      receiver.normal,
                      receiver.plane_class,
@@ -266,7 +275,7 @@ ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receive
   return sum;
 }
 
-Rgb unblocked_irradiance(const LightScene& light, const DirectWorkspace& work) {
+Rgb unblocked_irradiance(const Lighting& light, const DirectWorkspace& work) {
   Rgb sum(0.0);
   for (std::size_t k = 0; k < work.lights.size(); ++k)
     sum += work.form_factors[k] * source_of(light, work.lights[k]);

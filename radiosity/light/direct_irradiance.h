@@ -12,6 +12,7 @@
 #pragma once
 
 #include "radiosity/light/direct_samples.h"
+#include "radiosity/scene/lighting.h"
 #include "radiosity/transport/form_factors.h"
 
 namespace meninas {
@@ -24,15 +25,15 @@ inline double form_factor_share(const Receiver& receiver, const VirtualLight& im
 }
 
 /// What the images in `workspace.lights` bring.
-ArrivingLight images_irradiance(const LightScene& light, const Receiver& receiver,
+ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& workspace);
 
-ArrivingLight direct_irradiance(const LightScene& light, const Receiver& receiver,
+ArrivingLight direct_irradiance(const Lighting& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& workspace);
 
 /// What the images of emitters would bring to the point last asked for if nothing blocked them.
-Rgb unblocked_irradiance(const LightScene& light, const DirectWorkspace& workspace);
+Rgb unblocked_irradiance(const Lighting& light, const DirectWorkspace& workspace);
 
 } // namespace meninas

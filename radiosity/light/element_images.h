@@ -3,7 +3,7 @@
 #pragma once
 
 #include "mirror/region_images.h"
-#include "radiosity/scene/light_scene.h"
+#include "radiosity/scene/lighting.h"
 
 #include <vector>
 
@@ -21,7 +21,7 @@ struct ElementImages {
 
 /// What all points of an element see alike.
 /// Finding it takes as long as the images of some points do: null until so many have asked.
-const RegionImages* images_of_element(const LightScene& light, ElementId element,
+const RegionImages* images_of_element(const Lighting& light, ElementId element,
                                       ElementImages& known);
 
 } // namespace meninas

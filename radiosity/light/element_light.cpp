@@ -17,7 +17,7 @@ namespace {
 
 /// An element as it receives light.
 struct Receiving {
-  const LightScene& light;
+  const Lighting& light;
   ElementId element;
   ReceiverArea area;
   ContactMask covered;
@@ -33,7 +33,7 @@ struct Receiving {
 ArrivingLight shared_mean(const Receiving& r, SharedLightWorkspace& work) {
   std::uint32_t next = 0;
   const auto next_point = [&]() -> NumberedPoint {
-    const NumberedPlace place = next_open_point(r.light, r.area, r.covered, r.seed, next);
+    const NumberedPlace place = next_open_point(r.light.scene, r.area, r.covered, r.seed, next);
     next = place.number + 1;
     return {r.at(point_in(r.area, place.st)), place.number, r.element};
   };
@@ -47,23 +47,23 @@ ArrivingLight shared_mean(const Receiving& r, SharedLightWorkspace& work) {
 }
 
 /// What one punctual light sends to a point in the worlds that are wanted.
-Rgb arriving_from(const LightScene& light, std::uint32_t number, const Receiver& receiver,
+Rgb arriving_from(const Lighting& light, std::uint32_t number, const Receiver& receiver,
                   const std::function<bool(WorldId)>& wanted, DirectWorkspace& work) {
   constexpr double beyond = 8.0; // in the frame the scene is 2 wide
-  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   seen_worlds(light.worlds, observer, work.seen);
   punctual_images(light.worlds, std::span(light.punctual).subspan(number, 1), work.seen, observer,
-                  beyond / light.rays.frame().scale, work.images);
+                  beyond / light.scene.rays.frame().scale, work.images);
   Rgb sum(0.0);
   for (const PunctualImage& image : work.images) {
     if (!wanted(image.world))
       continue;
-    fold(light, image.world, receiver.position, receiver.plane_class, image.position, none<PlaneId>,
-         work.folded[0]);
+    fold(light.scene, image.world,
+         {receiver.position, image.position, receiver.plane_class, none<PlaneId>}, work.folded[0]);
     // No ray meets what has no extent: solids let it pass straight.
-    if (blocked(light, work.folded, 1, work.shadow_rays, nullptr, Solids::sheets) == 0)
+    if (blocked(light.scene, work.folded, 1, work.shadow_rays, nullptr, Solids::sheets) == 0)
       sum += light.worlds.worlds[index(image.world)].throughput * image.irradiance *
-             left_between(light, end_of(receiver), {}, work.folded[0], Solids::sheets);
+             left_between(light.scene, end_of(receiver), {}, work.folded[0], Solids::sheets);
   }
   return sum;
 }
@@ -71,12 +71,12 @@ Rgb arriving_from(const LightScene& light, std::uint32_t number, const Receiver&
 /// The area on which nothing stands.
 double exposed_area(const Receiving& r) {
   constexpr std::uint32_t places = 32;
-  const double whole = r.light.mesh.area[index(r.element)];
+  const double whole = r.light.scene.mesh.area[index(r.element)];
   if (r.covered == 0)
     return whole;
   std::uint32_t next = 0;
   for (std::uint32_t k = 0; k < places; ++k)
-    next = next_open_point(r.light, r.area, r.covered, r.seed, next).number + 1;
+    next = next_open_point(r.light.scene, r.area, r.covered, r.seed, next).number + 1;
   return whole * places / next;
 }
 
@@ -102,7 +102,7 @@ Rgb mean_of_others(const Receiving& r, std::span<const SpotPart> parts, DirectWo
   Rgb sum(0.0);
   std::uint32_t next = 0;
   for (int k = 0; k < points; ++k) {
-    const NumberedPlace place = next_open_point(r.light, r.area, r.covered, r.seed, next);
+    const NumberedPlace place = next_open_point(r.light.scene, r.area, r.covered, r.seed, next);
     next = place.number + 1;
     for (std::uint32_t number = 0; number < r.light.punctual.size(); ++number) {
       const auto wanted = [&](WorldId world) {
@@ -118,21 +118,21 @@ Rgb mean_of_others(const Receiving& r, std::span<const SpotPart> parts, DirectWo
 
 } // namespace
 
-MeanLight direct_irradiance(const LightScene& light, ElementId element, ContactMask covered,
+MeanLight direct_irradiance(const Lighting& light, ElementId element, ContactMask covered,
                             const DirectSettings& asked, SharedLightWorkspace& work) {
   if (covered == wholly_covered)
     return {};
   DirectSettings settings = asked;
   for (int* samples : {&settings.points, &settings.most_points, &settings.images_in_element})
-    *samples = samples_of(light, element, *samples);
+    *samples = samples_of(light.scene, element, *samples);
   const Receiving r{light,
                     element,
-                    receiver_of(light, element),
+                    receiver_of(light.scene, element),
                     covered,
                     hash(index(element), settings.seed, 0xd17ec7),
                     settings};
   const ArrivingLight shared = shared_mean(r, work);
-  auto parts = narrow_spots(light.mesh, light.worlds, light.punctual, element);
+  auto parts = narrow_spots(light.scene.mesh, light.worlds, light.punctual, element);
   std::erase_if(parts, [](const SpotPart& part) { return part.is_whole(); });
   if (parts.empty())
     return {shared.total, shared.punctual};
@@ -165,9 +165,9 @@ means_of_areas(std::size_t count,
   return means;
 }
 
-DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
+DirectIrradiance direct_irradiance(const Lighting& light, std::span<const std::uint64_t> covered,
                                    const DirectSettings& settings, const Progress& progress) {
-  const std::size_t size = element_count(light.mesh);
+  const std::size_t size = element_count(light.scene.mesh);
   DirectIrradiance result;
   result.irradiance.assign(size, Rgb(0.0));
   if (light.emitters.empty() && light.punctual.empty())

@@ -19,7 +19,7 @@ struct MeanLight {
 
 /// The mean over the exposed part of an element: points are doubled until it settles. Punctual lights
 /// where a narrow spot meets the element in part: 256 points of each such part (spot_parts.h).
-MeanLight direct_irradiance(const LightScene& light, ElementId element, ContactMask covered,
+MeanLight direct_irradiance(const Lighting& light, ElementId element, ContactMask covered,
                             const DirectSettings& settings, SharedLightWorkspace& workspace);
 
 /// `mean(k, workspace)` of so many areas, by all threads, and the shadow rays they took.
@@ -43,7 +43,7 @@ struct DirectIrradiance {
 
 /// `covered` by ElementId (hemisphere_rays.h):
 /// the mean is over the exposed part. Empty: all is exposed.
-DirectIrradiance direct_irradiance(const LightScene& light, std::span<const std::uint64_t> covered,
+DirectIrradiance direct_irradiance(const Lighting& light, std::span<const std::uint64_t> covered,
                                    const DirectSettings& settings, const Progress& progress = {});
 
 } // namespace meninas

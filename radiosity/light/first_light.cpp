@@ -21,21 +21,17 @@ std::vector<Rgb> sky_irradiance(const LightScene& light, const std::vector<RowCl
   return irradiance;
 }
 
-LightScene without_emitters(LightScene light) {
-  light.emitters.clear();
-  light.emitter_tree = {};
-  return light;
-}
-
 /// D alone; what of it is gathered by the form-factor method is left out.
 DirectIrradiance found_light(const LightScene& light, std::span<const std::uint64_t> covered,
                              FormFactorMethod method, const DirectSettings& settings,
                              const Progress& progress) {
   if (method != FormFactorMethod::analytic)
     return direct_irradiance(light, covered, settings, progress);
-  if (!light.punctual.empty())
-    return direct_irradiance(without_emitters(light), covered, settings, progress);
-  return {};
+  if (light.punctual.empty())
+    return {};
+  const LightTree no_emitters;
+  return direct_irradiance({light, light.worlds, {}, no_emitters, light.punctual}, covered, settings,
+                           progress);
 }
 
 } // namespace
@@ -59,12 +55,10 @@ FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
   return first;
 }
 
-FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
-                       const std::vector<RowClosure>& closure,
-                       std::span<const std::uint64_t> covered, FormFactorMethod method,
+FirstLight first_light(const LightScene& light, FoundByRays rays, FormFactorMethod method,
                        const DirectSettings& settings, const Progress& progress) {
-  return first_light(light, std::move(gathered), closure,
-                     found_light(light, covered, method, settings, progress), method);
+  return first_light(light, std::move(rays.gathered), rays.closure,
+                     found_light(light, rays.covered, method, settings, progress), method);
 }
 
 } // namespace meninas

@@ -23,11 +23,15 @@ FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
                        const std::vector<RowClosure>& closure, const DirectIrradiance& direct,
                        FormFactorMethod method);
 
-/// `gathered` is the gathered emission;
-/// `closure` and `covered` are those of the elements' own rays.
-FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
-                       const std::vector<RowClosure>& closure,
-                       std::span<const std::uint64_t> covered, FormFactorMethod method,
+/// What the elements' own rays have found, by ElementId.
+struct FoundByRays {
+  std::vector<Rgb> gathered; ///< G, W/m^2
+  const std::vector<RowClosure>& closure;
+  std::span<const std::uint64_t> covered;
+};
+
+/// D is found here.
+FirstLight first_light(const LightScene& light, FoundByRays rays, FormFactorMethod method,
                        const DirectSettings& settings, const Progress& progress);
 
 } // namespace meninas

@@ -180,8 +180,8 @@ void add(const SolidLight& part, double weight, SolidLight& sum) {
 
 } // namespace
 
-bool has_solid_light(const LightScene& light) {
-  return !light.solids.empty() && !light.emitters.empty() && !light.from_source.empty();
+bool has_solid_light(const Lighting& light) {
+  return !light.scene.solids.empty() && !light.emitters.empty() && !light.from_source.empty();
 }
 
 SolidLight solid_light(const LightScene& light, const PlanePoints& points, int rays,

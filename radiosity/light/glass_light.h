@@ -26,6 +26,7 @@
 // goes straight through solids, each face a sheet (shadow_paths.h).
 #pragma once
 
+#include "radiosity/scene/lighting.h"
 #include "radiosity/transport/hemisphere_rays.h"
 
 #include <span>
@@ -55,7 +56,7 @@ struct PlanePoints {
 };
 
 /// Whether there is any such light.
-bool has_solid_light(const LightScene& light);
+bool has_solid_light(const Lighting& light);
 
 /// The mean over the points, by `rays` to a body that fills the hemisphere. Adds to `traced`.
 SolidLight solid_light(const LightScene& light, const PlanePoints& points, int rays,

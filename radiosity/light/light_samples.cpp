@@ -9,27 +9,29 @@
 
 namespace meninas {
 
-void punctual_arrivals(const LightScene& light, const Receiver& receiver, DirectWorkspace& work,
+void punctual_arrivals(const Lighting& light, const Receiver& receiver, DirectWorkspace& work,
                        std::vector<PunctualArrival>& arrivals) {
   arrivals.clear();
-  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   constexpr double beyond = 8.0; // in the frame the scene is 2 wide
   seen_worlds(light.worlds, observer, work.seen);
   punctual_images(light.worlds, light.punctual, work.seen, observer,
-                  beyond / light.rays.frame().scale, work.images);
+                  beyond / light.scene.rays.frame().scale, work.images);
   for (std::size_t first = 0; first < work.images.size();) {
     // Images of one world have as many legs each.
     const WorldId world = work.images[first].world;
     std::uint32_t count = 0;
     while (count < 16 && first + count < work.images.size() &&
            work.images[first + count].world == world) {
-      fold(light, world, receiver.position, receiver.plane_class,
-           work.images[first + count].position, none<PlaneId>, work.folded[count]);
+      fold(light.scene, world,
+           {receiver.position, work.images[first + count].position, receiver.plane_class,
+            none<PlaneId>},
+           work.folded[count]);
       ++count;
     }
     // No ray meets what has no extent: solids let it pass straight.
     const std::uint32_t dark =
-        blocked(light, work.folded, count, work.shadow_rays, nullptr, Solids::sheets);
+        blocked(light.scene, work.folded, count, work.shadow_rays, nullptr, Solids::sheets);
     for (std::uint32_t k = 0; k < count; ++k) {
       if (((dark >> k) & 1U) != 0)
         continue;
@@ -37,22 +39,22 @@ void punctual_arrivals(const LightScene& light, const Receiver& receiver, Direct
       arrivals.push_back(
           {glm::normalize(image.position - receiver.position),
            light.worlds.worlds[index(world)].throughput * image.irradiance *
-               left_between(light, end_of(receiver), {}, work.folded[k], Solids::sheets),
+               left_between(light.scene, end_of(receiver), {}, work.folded[k], Solids::sheets),
            world});
     }
     first += count;
   }
 }
 
-void emission_samples(const LightScene& light, const Receiver& receiver,
+void emission_samples(const Lighting& light, const Receiver& receiver,
                       const EmissionSampling& sampling, DirectWorkspace& work,
                       std::vector<EmissionSample>& samples) {
   samples.clear();
-  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   const LightChoice choice{static_cast<std::size_t>(sampling.images),
                            0x1p-32 * hash(sampling.seed, 0xc401ce, sampling.first)};
-  sample_light_tree(light.worlds, light.emitters, light.emitter_tree, observer, choice, work.choice,
-                work.lights);
+  sample_light_tree({light.worlds, light.emitters, light.emitter_tree}, observer, choice,
+                    work.choice, work.lights);
   const auto count = static_cast<std::uint32_t>(std::clamp(sampling.per_image, 1, 16));
   for (const VirtualLight& image : work.lights) {
     const Emitter& emitter = light.emitters[image.emitter];
@@ -67,15 +69,15 @@ void emission_samples(const LightScene& light, const Receiver& receiver,
       const double cosine = -glm::dot(to, image.normal) / std::max(glm::length(to), 1e-300);
       samples.push_back({to, std::max(0.0, cosine), image.weight * glm::length(area) / count,
                          emitter.area, Rgb(0.0), image.world});
-      fold(light, image.world, receiver.position, receiver.plane_class, y, emitter.plane_class,
-           work.folded[k]);
+      fold(light.scene, image.world,
+           {receiver.position, y, receiver.plane_class, emitter.plane_class}, work.folded[k]);
     }
-    const std::uint32_t dark = blocked(light, work.folded, count, work.shadow_rays);
+    const std::uint32_t dark = blocked(light.scene, work.folded, count, work.shadow_rays);
     const Rgb radiance =
         light.worlds.worlds[index(image.world)].throughput * emitter.radiosity / std::numbers::pi;
     for (std::uint32_t k = 0; k < count; ++k)
       if (((dark >> k) & 1U) == 0)
-        samples[begin + k].radiance = radiance * left_by_angle(light, work.folded[k]);
+        samples[begin + k].radiance = radiance * left_by_angle(light.scene, work.folded[k]);
   }
 }
 

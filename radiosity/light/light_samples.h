@@ -8,6 +8,7 @@
 #pragma once
 
 #include "radiosity/light/direct_samples.h"
+#include "radiosity/scene/lighting.h"
 
 namespace meninas {
 
@@ -19,7 +20,7 @@ struct PunctualArrival {
 };
 
 /// What punctual lights and their images send. Clears and fills `arrivals`.
-void punctual_arrivals(const LightScene& light, const Receiver& receiver,
+void punctual_arrivals(const Lighting& light, const Receiver& receiver,
                        DirectWorkspace& workspace, std::vector<PunctualArrival>& arrivals);
 
 /// A point of an emitter or of an image of it.
@@ -44,7 +45,7 @@ struct EmissionSampling {
 };
 
 /// Clears and fills `samples`.
-void emission_samples(const LightScene& light, const Receiver& receiver,
+void emission_samples(const Lighting& light, const Receiver& receiver,
                       const EmissionSampling& sampling, DirectWorkspace& workspace,
                       std::vector<EmissionSample>& samples);
 

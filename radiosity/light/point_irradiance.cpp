@@ -64,24 +64,9 @@ PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosi
       secondary(cluster_settings(direct_light, settings.cluster_shadow_rays)),
       cut{settings.cluster_theta, std::max(8 * settings.cluster_shadow_rays, settings.rays / 8)},
       clusters(find_secondary_emitters(scene, reflected, {.spared = settings.clusters_spared})),
-      cluster_tree(make_cluster_tree(clusters.emitters)), clustered{scene.scene,
-                                                                    scene.surfaces,
-                                                                    scene.rays,
-                                                                    scene.mirrors,
-                                                                    clusters.worlds,
-                                                                    scene.mesh,
-                                                                    scene.textures,
-                                                                    {},
-                                                                    clusters.emitters,
-                                                                    {},
-                                                                    make_emitter_tree(
-                                                                        clusters.emitters),
-                                                                    {},
-                                                                    Rgb(0.0),
-                                                                    scene.by_angle,
-                                                                    scene.has_glass,
-                                                                    scene.cut_out_mirrors,
-                                                                    scene.solids},
+      cluster_tree(make_cluster_tree(clusters.emitters)),
+      cluster_emitters(make_emitter_tree(clusters.emitters)),
+      clustered(scene, clusters.worlds, clusters.emitters, cluster_emitters),
       net(make_direction_net(settings.rays)),
       others(settings.rays_before > 0 && settings.rays_before < settings.rays
                  ? make_direction_net(settings.rays, settings.rays_before)
@@ -122,9 +107,9 @@ PointLight indirect_light_at(const PointGathering& gathering, const Receiver& re
   gather_rays_at(gathering, receiver, seed, before, work);
 
   PointLight light = landed_light(gathering, work.gather.result);
-  light.from_clusters =
-      cluster_irradiance(gathering.clustered, gathering.cluster_tree, receiver, gathering.secondary,
-                         gathering.cut, hash(seed, 2), work.clusters, work.direct);
+  light.from_clusters = cluster_irradiance(
+      {gathering.clustered, gathering.cluster_tree, gathering.secondary, gathering.cut}, receiver,
+      hash(seed, 2), work.clusters, work.direct);
   return light;
 }
 

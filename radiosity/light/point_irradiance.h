@@ -23,7 +23,7 @@ struct PointGatheringSettings {
   double cluster_theta = ClusterCut{}.theta; ///< which are (cluster_cut.h); 0: none
 };
 
-/// What light is gathered from, the same for all points. Stays where it was made.
+/// What light is gathered from, the same for all points.
 struct PointGathering {
   /// `reflected` is B by ElementId, emission left out. Samples follow the methods of pass one.
   PointGathering(const LightScene& light, std::vector<Rgb> reflected,
@@ -39,7 +39,8 @@ struct PointGathering {
   ClusterCut cut;
   SecondaryEmitters clusters;
   ClusterTree cluster_tree; ///< over their emitters
-  LightScene clustered; ///< the same scene with the bright clusters for emitters
+  LightTree cluster_emitters; ///< over the same, for sampling
+  Lighting clustered; ///< the scene lit by the bright clusters
   HemisphereSamples net;
   HemisphereSamples others; ///< of the net, without those before; empty where there are none
   Hemicube cube; ///< where the form factors are found so

@@ -54,10 +54,9 @@ Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample) {
       polygon, [&](std::size_t k) { return share_of(polygon, area, k); }, sample);
 }
 
-void fold(const LightScene& light, WorldId world, const Point3& x, PlaneId leaving, const Point3& y,
-          PlaneId arriving, FoldedSegment& segment) {
+void fold(const LightScene& light, WorldId world, const Leg& whole, FoldedSegment& segment) {
   segment.world = world;
-  fold_legs(light.worlds, light.mirrors, world, x, leaving, y, arriving, segment.legs);
+  fold_legs(light.worlds, light.mirrors, world, whole, segment.legs);
 }
 
 /// By bits, the segments that meet a mirror in a hole.

@@ -1,4 +1,9 @@
-// Shadow rays to points of emitters and of their images, leg by leg.
+// Shadow rays to points of emitters and of their images, leg by leg: V of D = sum tau E F V.
+//
+// The segment from x to a point of the image of an emitter in world w = (m1 ... mk) crosses the
+// planes of its mirrors; folded back it has k + 1 legs in the real room, each of which must be free:
+//
+//   V = product over the legs of (free ? t : 0),    t what panes pass and coats let through, per channel, relative to tau
 #pragma once
 
 #include "radiosity/scene/light_scene.h"
@@ -36,9 +41,8 @@ struct FoldedSegment {
   std::vector<Leg> legs;
 };
 
-/// Folds the segment from x to y in its storage.
-void fold(const LightScene& light, WorldId world, const Point3& x, PlaneId leaving, const Point3& y,
-          PlaneId arriving, FoldedSegment& segment);
+/// Folds `whole`, as if it had one leg, in the storage of `segment`.
+void fold(const LightScene& light, WorldId world, const Leg& whole, FoldedSegment& segment);
 
 /// Tests up to sixteen folded segments, best of about as many legs each; bit k of the result
 /// is set where segment k is blocked, `blockers[k]` by what, or meets a mirror in a hole.

@@ -19,7 +19,7 @@ struct PointSum {
   int points = 0, punctual_points = 0;
 };
 
-std::uint32_t sum_of(SharedLightWorkspace& work, const LightScene& light, const VirtualLight& image,
+std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const VirtualLight& image,
                      const SharedLightSettings& settings) {
   const std::uint64_t key = (std::uint64_t{index(image.world)} << 32) | image.emitter;
   const auto [found, is_new] =
@@ -66,7 +66,7 @@ double form_factor_of(const Receiver& receiver, std::span<const ConvexPolygon> p
 }
 
 /// What the point sees of an image past known blockers.
-ImageAtPoint image_at(const LightScene& light, const Receiver& receiver, const VirtualLight& image,
+ImageAtPoint image_at(const Lighting& light, const Receiver& receiver, const VirtualLight& image,
                       std::uint32_t sum, SharedLightWorkspace& work) {
   ImageAtPoint at{.image = sum};
   if (image.afar > 0.0) {
@@ -77,7 +77,7 @@ ImageAtPoint image_at(const LightScene& light, const Receiver& receiver, const V
   if (blockers && !blockers->known.empty()) {
     work.cutting.assign(1, image.polygon);
     for (const CachedOccluder& blocker : blockers->known)
-      subtract(work.cutting, receiver.position, blocker, light.surfaces.tolerance);
+      subtract(work.cutting, receiver.position, blocker, light.scene.surfaces.tolerance);
     at.whole = work.cutting.size() == 1 &&
                std::ranges::equal(work.cutting.front().span(), image.polygon.span());
     if (!at.whole) {
@@ -113,11 +113,17 @@ Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& l
   return point_on(parts.back(), last, Vec2(within, sample.y));
 }
 
-/// Sends the rays of one point towards what it sees of an image,
-/// as many as that is worth beside the brightest image.
-void add_rays(const LightScene& light, const Receiver& receiver, const VirtualLight& image,
-              const ImageAtPoint& at, double worth, std::uint32_t seed,
-              SharedLightWorkspace& work) {
+/// An image at a point, and what it is worth beside the brightest one there.
+struct WorthyImage {
+  const VirtualLight& image;
+  const ImageAtPoint& at;
+  double worth; ///< up to 1
+};
+
+/// Sends the rays of one point towards what it sees of an image, as many as that is worth.
+void add_rays(const Lighting& light, const Receiver& receiver, const WorthyImage& seen,
+              std::uint32_t seed, SharedLightWorkspace& work) {
+  const auto& [image, at, worth] = seen;
   ImageSum& total = work.images[at.image];
   const auto parts = parts_of(at, image, work);
   // One that stands for others of its lamp has them to share its rays with.
@@ -153,13 +159,13 @@ double extent_of(const ElementMesh& mesh, ElementId element) {
 }
 
 /// The images that a point may see, or a choice of them.
-void find_lights(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
+void find_lights(const Lighting& light, const NumberedPoint& point, std::uint32_t seed,
                  const SharedLightSettings& settings, SharedLightWorkspace& work) {
   work.point.lights.clear();
   if (light.emitters.empty())
     return;
   const Receiver& receiver = point.receiver;
-  const Observer observer{receiver.position, receiver.normal, light.surfaces.tolerance};
+  const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   const auto most = static_cast<std::size_t>(settings.images);
   const bool all = light.emitters.size() * light.worlds.worlds.size() <= most;
   const RegionImages* region = all && point.element != none<ElementId>
@@ -177,15 +183,15 @@ void find_lights(const LightScene& light, const NumberedPoint& point, std::uint3
   LightChoice choice{most, offset, static_cast<std::size_t>(settings.rays)};
   if (point.element != none<ElementId>) {
     choice.area = index(point.element) + std::uint64_t{1};
-    choice.extent = extent_of(light.mesh, point.element);
+    choice.extent = extent_of(light.scene.mesh, point.element);
   }
-  sample_light_tree(light.worlds, light.emitters, light.emitter_tree, observer, choice,
-                work.point.choice, work.point.lights);
+  sample_light_tree({light.worlds, light.emitters, light.emitter_tree}, observer, choice,
+                    work.point.choice, work.point.lights);
 }
 
 /// Adds what every image brings to a point past known blockers,
 /// and the shadow rays that will tell how much of it arrives.
-void add_point(const LightScene& light, const NumberedPoint& point, std::uint32_t seed,
+void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t seed,
                const SharedLightSettings& settings, SharedLightWorkspace& work) {
   const Receiver& receiver = point.receiver;
   find_lights(light, point, seed, settings, work);
@@ -203,22 +209,22 @@ void add_point(const LightScene& light, const NumberedPoint& point, std::uint32_
     ImageSum& total = work.images[at.image];
     total.form_factor += at.form_factor;
     const double worth = most > 0.0 ? std::min(brought_by(total, at.form_factor) / most, 1.0) : 1.0;
-    add_rays(light, receiver, work.point.lights[i], at, worth, seed, work);
+    add_rays(light, receiver, {work.point.lights[i], at, worth}, seed, work);
   }
 }
 
 /// Keeps what has blocked a ray to the image.
-void meet_blocker(const LightScene& light, const LegBlocker& by, ImageSum& image) {
+void meet_blocker(const Lighting& light, const LegBlocker& by, ImageSum& image) {
   ImageBlockers& blockers = *image.blockers;
   if (by.triangle == none<TriangleId> || blockers.too_many())
     return;
-  const PatchId patch = light.surfaces.patch_of_triangle[index(by.triangle)];
+  const PatchId patch = light.scene.surfaces.patch_of_triangle[index(by.triangle)];
   const auto is_it = [&](const CachedOccluder& blocker) {
     return blocker.patch == patch && blocker.leg == by.leg;
   };
   if (std::ranges::any_of(blockers.known, is_it) || std::ranges::any_of(blockers.met, is_it))
     return;
-  if (auto blocker = blocker_of(light, image.world, light.emitters[image.emitter], by))
+  if (auto blocker = blocker_of(light.scene, image.world, light.emitters[image.emitter], by))
     blockers.met.push_back(*std::move(blocker));
 }
 
@@ -255,7 +261,7 @@ void order_waiting(SharedLightWorkspace& work) {
 
 /// Traces the waiting rays, those of as many legs together.
 /// They come from points of one surface, as the receiver is.
-void trace_waiting(const LightScene& light, const Receiver& receiver, SharedLightWorkspace& work) {
+void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightWorkspace& work) {
   order_waiting(work);
   std::array<LegBlocker, 16> blockers;
   for (std::size_t first = 0; first < work.waiting.size();) {
@@ -263,11 +269,11 @@ void trace_waiting(const LightScene& light, const Receiver& receiver, SharedLigh
         static_cast<std::uint32_t>(std::min<std::size_t>(16, work.waiting.size() - first));
     for (std::uint32_t k = 0; k < count; ++k) {
       const WaitingRay& ray = work.waiting[work.order[first + k]];
-      fold(light, ray.world, ray.from, receiver.plane_class, ray.to, ray.arriving,
+      fold(light.scene, ray.world, {ray.from, ray.to, receiver.plane_class, ray.arriving},
            work.point.folded[k]);
     }
     const std::uint32_t dark =
-        blocked(light, work.point.folded, count, work.point.shadow_rays, &blockers);
+        blocked(light.scene, work.point.folded, count, work.point.shadow_rays, &blockers);
     for (std::uint32_t k = 0; k < count; ++k) {
       const WaitingRay& ray = work.waiting[work.order[first + k]];
       ImageSum& image = work.images[ray.image];
@@ -278,7 +284,7 @@ void trace_waiting(const LightScene& light, const Receiver& receiver, SharedLigh
         continue;
       }
       image.seen += ray.weight;
-      image.left += ray.weight * left_between(light, end_of(receiver), {}, work.point.folded[k]);
+      image.left += ray.weight * left_between(light.scene, end_of(receiver), {}, work.point.folded[k]);
     }
     first += count;
   }
@@ -311,7 +317,7 @@ double penumbra_error(const SharedLightWorkspace& work, const PointSum& sum) {
   return std::sqrt(error);
 }
 
-void add_punctual(const LightScene& light, const Receiver& receiver, PointSum& sum,
+void add_punctual(const Lighting& light, const Receiver& receiver, PointSum& sum,
                   SharedLightWorkspace& work) {
   if (light.punctual.empty())
     return;
@@ -325,19 +331,19 @@ void add_punctual(const LightScene& light, const Receiver& receiver, PointSum& s
 }
 
 /// The mean over the points that have been collected, all in the receiver's plane.
-ArrivingLight light_by_solids(const LightScene& light, const Receiver& last, int rays,
+ArrivingLight light_by_solids(const Lighting& light, const Receiver& last, int rays,
                               std::uint32_t seed, DirectWorkspace& work) {
   if (!has_solid_light(light))
     return {};
   const SolidLight found = solid_light(
-      light, {work.solids.points, last.normal, last.plane_class, last.tangent, last.coat}, rays,
+      light.scene, {work.solids.points, last.normal, last.plane_class, last.tangent, last.coat}, rays,
       seed, work.shadow_rays, work.solids);
   return {found.total, found.mirrored, Rgb(0.0)};
 }
 
 } // namespace
 
-ArrivingLight mean_direct_irradiance(const LightScene& light, const NextPoint& next_point,
+ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& next_point,
                                 const SharedLightSettings& settings, std::uint32_t seed,
                                 SharedLightWorkspace& work) {
   work.images.clear();

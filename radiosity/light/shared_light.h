@@ -118,7 +118,7 @@ struct NumberedPoint {
 using NextPoint = std::function<NumberedPoint()>;
 
 /// The mean over as many points as it takes.
-ArrivingLight mean_direct_irradiance(const LightScene& light, const NextPoint& next_point,
+ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& next_point,
                                 const SharedLightSettings& settings, std::uint32_t seed,
                                 SharedLightWorkspace& workspace);
 

@@ -173,10 +173,19 @@ Vec2 landmark(const PlaneCell& cell, std::size_t k, std::size_t corner, const St
   return glm::mix(a, b, at_start ? stretch.from : stretch.to);
 }
 
+/// One region of a cut leaf.
+struct RegionOfCut {
+  const CutPolygon& cut;
+  std::uint32_t region;
+  const PlanePlace& place; ///< of the leaf's plane in space
+};
+
 /// Names the corners of a region.
-void name_corners(const PlaneCell& cell, const CutPolygon& cut, std::uint32_t region,
-                  const PlanePlace& place, std::uint64_t surface_side,
+void name_corners(const PlaneCell& cell, const RegionOfCut& of, std::uint64_t surface_side,
                   std::span<const OpenEdge> edges, VertexGroups& groups, CutRegion& result) {
+  const CutPolygon& cut = of.cut;
+  const PlanePlace& place = of.place;
+  const std::uint32_t region = of.region;
   const std::size_t count = cell.corners.size();
   for (std::size_t c = 0; c < count; ++c) {
     const Point3 corner = place.at(cell.corners[c]);
@@ -219,8 +228,8 @@ void name_corners(const PlaneCell& cell, const CutPolygon& cut, std::uint32_t re
 
 /// The region's area, its middle, and what a bilinear value is there.
 void measure(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& cell,
-             const PlanePlace& place, const CutPolygon& cut, std::uint32_t region,
-             RegionElement& element) {
+             const RegionOfCut& of, RegionElement& element) {
+  const auto& [cut, region, place] = of;
   double area = 0.0;
   Point3 moment(0.0);
   for (std::size_t p = 0; p < cut.pieces.size(); ++p) {
@@ -321,9 +330,9 @@ CutCells cut_leaves(const ElementMesh& mesh, const SurfaceModel& surfaces) {
       result.first_line = add_lines(flat, cut, cuts.lines);
     for (std::uint32_t region = 0; region < cut.regions; ++region) {
       CutRegion& added = result.regions.emplace_back();
-      measure(mesh, surfaces, cell, place, cut, region, added.element);
-      name_corners(flat, cut, region, place, surface_side(mesh, surfaces, cell), edges, groups,
-                   added);
+      const RegionOfCut of{cut, region, place};
+      measure(mesh, surfaces, cell, of, added.element);
+      name_corners(flat, of, surface_side(mesh, surfaces, cell), edges, groups, added);
     }
     cuts.of_cell[number] = static_cast<std::uint32_t>(cuts.cells.size());
     cuts.cells.push_back(std::move(result));

@@ -32,10 +32,11 @@ WorldTree named_worlds(const MirrorSet& mirrors, int max_depth) {
 
 NodeScene::NodeScene(const Scene& scene, const SurfaceModel& surfaces, const MirrorSet& mirrors,
                      const AskedSides& to, int max_depth)
-    : group_count(to.nodes.size()), mesh(make_element_mesh(scene, surfaces, {.target_elements = 1.0})),
+    : group_count(to.nodes.size()),
+      mesh(make_element_mesh(scene, surfaces, {.target_elements = 1.0})),
       groups(groups_of_sides(scene, mesh, to)), rays(make_ray_scene(scene, surfaces)),
       worlds(named_worlds(mirrors, max_depth)),
-      light(make_light_scene(scene, surfaces, rays, mirrors, worlds, mesh)) {
+      light(make_light_scene(scene, surfaces, rays, {mirrors, worlds}, mesh)) {
   settings.max_bounces = std::min(settings.max_bounces, max_depth);
 }
 

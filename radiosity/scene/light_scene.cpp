@@ -86,8 +86,9 @@ static std::vector<Bsdf> reflecting_by_angle(const Scene& scene) {
 }
 
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
-                            const MirrorSet& mirrors, const WorldTree& worlds,
-                            const ElementMesh& mesh, const DecodedTextures& textures) {
+                            const MirrorsAndWorlds& reflected, const ElementMesh& mesh,
+                            const DecodedTextures& textures) {
+  const auto& [mirrors, worlds] = reflected;
   const RayFrame& frame = rays.frame();
   LightScene light{scene,
                    surfaces,
@@ -129,13 +130,18 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
   return light;
 }
 
-std::unique_ptr<RefinedScene> make_refined_scene(const LightScene& light, ElementMesh mesh) {
-  auto refined = std::make_unique<RefinedScene>();
-  refined->mesh = std::move(mesh);
-  average_textures(light.scene, light.surfaces, light.textures, refined->mesh);
-  refined->light.emplace(make_light_scene(light.scene, light.surfaces, light.rays, light.mirrors,
-                                          light.worlds, refined->mesh, light.textures));
-  return refined;
+std::shared_ptr<const LightScene> light_scene_on(const LightScene& light, ElementMesh mesh) {
+  struct OnMesh {
+    ElementMesh mesh;
+    LightScene light; // refers to the mesh beside it
+    OnMesh(const LightScene& from, ElementMesh own)
+        : mesh(std::move(own)),
+          light(make_light_scene(from.scene, from.surfaces, from.rays, {from.mirrors, from.worlds},
+                                 mesh, from.textures)) {}
+  };
+  average_textures(light.scene, light.surfaces, light.textures, mesh);
+  const auto both = std::make_shared<const OnMesh>(light, std::move(mesh));
+  return {both, &both->light};
 }
 
 } // namespace meninas

@@ -17,7 +17,7 @@
 #include "scenes/materials/texture_lookup.h"
 
 #include <memory>
-#include <optional>
+#include <span>
 
 namespace meninas {
 
@@ -48,16 +48,16 @@ struct LightScene {
 /// Whether mirrors and glass treat all channels alike: transport needs but one band.
 bool grey_mirrors(const Scene& scene);
 
+/// The mirrors of a scene and the worlds in them.
+struct MirrorsAndWorlds {
+  const MirrorSet& mirrors;
+  const WorldTree& worlds;
+};
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
-                            const MirrorSet& mirrors, const WorldTree& worlds,
-                            const ElementMesh& mesh,
+                            const MirrorsAndWorlds& reflected, const ElementMesh& mesh,
                             const DecodedTextures& textures = no_textures());
 
-/// The same scene on a finer mesh, kept together. Stays where it was made.
-struct RefinedScene {
-  ElementMesh mesh;
-  std::optional<LightScene> light; ///< refers to the mesh, and to what the first scene refers to
-};
-std::unique_ptr<RefinedScene> make_refined_scene(const LightScene& light, ElementMesh mesh);
+/// The same scene on another mesh, which is kept with it; it refers to what `light` refers to.
+std::shared_ptr<const LightScene> light_scene_on(const LightScene& light, ElementMesh mesh);
 
 } // namespace meninas

@@ -48,7 +48,7 @@ std::vector<glm::vec3> with_points(const ElementMesh& mesh, const ElementTriangl
 }
 
 std::vector<glm::vec3> display_colours(const ElementMesh& mesh, const ElementTriangles& triangles,
-                                       const IrradianceField& field) {
+                                       const VertexIrradiance& field) {
   Image radiosity;
   const std::vector<glm::vec3> irradiance = with_points(mesh, triangles, field.irradiance);
   for (std::size_t v = 0; v < irradiance.size(); ++v) {
@@ -161,7 +161,7 @@ json extras_json(std::uint64_t scene_hash, const ElementMesh& mesh, const MeshSe
 }
 
 /// The parts of the file a viewer needs; positions are relative to `centre`.
-json viewer_json(Geometry& geometry, const ElementMesh& mesh, const IrradianceField& field) {
+json viewer_json(Geometry& geometry, const ElementMesh& mesh, const VertexIrradiance& field) {
   const Point3 centre = centre_of(mesh);
   std::vector<glm::vec3> positions;
   for (const Point3& vertex : mesh.vertices) {
@@ -204,11 +204,12 @@ json viewer_json(Geometry& geometry, const ElementMesh& mesh, const IrradianceFi
 void write_solution(const std::filesystem::path& file, std::uint64_t scene_hash,
                     const ElementMesh& solved, const RadiositySolution& solution,
                     const MeshSettings& settings) {
-  const ElementMesh& mesh = solution.refined ? solution.refined->mesh : solved;
+  const ElementMesh& mesh = solution.field.mesh();
+  const bool divided = &mesh != &solved;
   Geometry geometry;
   json root = viewer_json(geometry, mesh, solution.field);
   json own_mesh = json::object();
-  if (solution.refined) {
+  if (divided) {
     own_mesh["division"] = add_bytes(geometry, division_of(mesh));
   }
   json extras = extras_json(scene_hash, mesh, settings, geometry.binary);

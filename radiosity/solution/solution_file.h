@@ -27,7 +27,7 @@ struct StoredSolution {
   MeshSettings mesh;
   std::size_t elements = 0;
   std::vector<std::uint8_t> division; ///< of the mesh made with these settings; empty: none
-  IrradianceField field;
+  VertexIrradiance field;
   SolverResult solver; ///< without its radiosity
   EnergyBalance energy;
   ClosureError closure;
@@ -37,12 +37,11 @@ struct StoredSolution {
 /// or belongs to another scene than `scene` as it was loaded, or another version of the program.
 StoredSolution read_solution(const std::filesystem::path& file, const Scene& scene);
 
-/// The scene on the field's own mesh;
-/// null where the field is on that of `light`, which was made with the solution's settings.
-/// Throws InputError when the solution speaks of another mesh.
-std::unique_ptr<RefinedScene> refined_scene_of(const std::filesystem::path& file,
-                                               const StoredSolution& solution,
-                                               const LightScene& light);
+/// The field with its scene: `light`, which was made with the solution's settings of the mesh,
+/// or the same on a mesh divided from that. Throws InputError when the solution speaks of another
+/// mesh, or has not one value for every vertex of it.
+IrradianceField field_of(const std::filesystem::path& file, StoredSolution solution,
+                         std::shared_ptr<const LightScene> light);
 
 /// Throws InputError unless the solution has a value for every vertex of the mesh of its field.
 void check_belongs(const std::filesystem::path& file, const StoredSolution& solution,

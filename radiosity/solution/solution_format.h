@@ -17,13 +17,13 @@ static_assert(vec3_size == 12);
 /// The attributes that keep a field; all but the first may be missing.
 struct FieldPart {
   const char* attribute;
-  std::vector<glm::vec3> IrradianceField::*values;
+  std::vector<glm::vec3> VertexIrradiance::*values;
 };
 inline constexpr FieldPart field_parts[] = {
-    {"_IRRADIANCE", &IrradianceField::irradiance},
-    {"_IRRADIANCE_MIRRORED", &IrradianceField::mirrored},
-    {"_IRRADIANCE_INDIRECT", &IrradianceField::indirect},
-    {"_IRRADIANCE_INDIRECT_MIRRORED", &IrradianceField::indirect_mirrored}};
+    {"_IRRADIANCE", &VertexIrradiance::irradiance},
+    {"_IRRADIANCE_MIRRORED", &VertexIrradiance::mirrored},
+    {"_IRRADIANCE_INDIRECT", &VertexIrradiance::indirect},
+    {"_IRRADIANCE_INDIRECT_MIRRORED", &VertexIrradiance::indirect_mirrored}};
 
 /// FNV-1a: any changed byte changes it.
 inline std::uint64_t data_hash(std::span<const std::byte> bytes) {

@@ -164,7 +164,7 @@ StoredSolution read_checked(const std::filesystem::path& file, const GlbContent&
   const json& attributes = attributes_of(glb);
   const std::size_t vertices = extras.at("vertices");
   for (const FieldPart& part : field_parts) {
-    if (part.values == &IrradianceField::irradiance || attributes.contains(part.attribute)) {
+    if (part.values == &VertexIrradiance::irradiance || attributes.contains(part.attribute)) {
       stored.field.*part.values =
           read_irradiance(file, glb, attributes.at(part.attribute), vertices);
     }
@@ -184,18 +184,6 @@ StoredSolution read_solution(const std::filesystem::path& file, const Scene& sce
   }
 }
 
-std::unique_ptr<RefinedScene> refined_scene_of(const std::filesystem::path& file,
-                                               const StoredSolution& solution,
-                                               const LightScene& light) {
-  if (solution.division.empty()) {
-    return nullptr;
-  }
-  if (!is_division_of(light.mesh, solution.division)) {
-    refuse(file, "damaged: its elements are no division of its mesh");
-  }
-  return make_refined_scene(light, divided_mesh(light.mesh, light.surfaces, solution.division));
-}
-
 void check_belongs(const std::filesystem::path& file, const StoredSolution& solution,
                    const ElementMesh& mesh) {
   if (solution.field.irradiance.size() != mesh.vertices.size() ||
@@ -204,6 +192,18 @@ void check_belongs(const std::filesystem::path& file, const StoredSolution& solu
                              solution.field.irradiance.size(), solution.elements,
                              mesh.vertices.size(), element_count(mesh)));
   }
+}
+
+IrradianceField field_of(const std::filesystem::path& file, StoredSolution solution,
+                         std::shared_ptr<const LightScene> light) {
+  if (!solution.division.empty()) {
+    if (!is_division_of(light->mesh, solution.division)) {
+      refuse(file, "damaged: its elements are no division of its mesh");
+    }
+    light = light_scene_on(*light, divided_mesh(light->mesh, light->surfaces, solution.division));
+  }
+  check_belongs(file, solution, light->mesh);
+  return {std::move(solution.field), std::move(light)};
 }
 
 } // namespace meninas

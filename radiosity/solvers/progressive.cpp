@@ -38,22 +38,28 @@ double fraction_done(const Convergence<Value>& convergence) {
   return std::max(by_shots, std::log(first / now) / std::log(first / convergence.tolerance));
 }
 
+/// Who is told of shots.
+struct ShotEvents {
+  const Progress& progress;
+  const ShotWatch& watch;
+};
+
 template <typename Value>
 ShotSolution run(const ShotScene& scene, const std::vector<Value>& source,
                  const std::vector<Value>& reflectance, const ShotBound& bound,
-                 const SolverSettings& settings, const Progress& progress, const ShotWatch& watch) {
+                 const SolverSettings& settings, const ShotEvents& events) {
   ShotState<Value> state = unshot_state(scene.blocks, source, reflectance, ShotNorm::power);
   auto convergence = stopping_rule(settings, value_of<Value>(bound.amplification),
                                    std::max<std::size_t>(1, scene.blocks.size()));
   if (bound.trapped)
     convergence.max_iterations = 0;
   RayShots<Value> shots(scene.light, scene.survey, scene.rays);
-  const auto tell = told<Value>(watch);
+  const auto tell = told<Value>(events.watch);
   shoot<Value>(shots, value_of<Value>(bound.kept), state, convergence,
                [&](const ShotState<Value>& now, const Convergence<Value>& reached) {
                  tell(now, reached);
-                 if (progress)
-                   progress("shots", fraction_done(reached));
+                 if (events.progress)
+                   events.progress("shots", fraction_done(reached));
                });
   ShotSolution solution;
   solution.solver =
@@ -84,17 +90,18 @@ Rgb ambient_irradiance(const std::vector<double>& area, const std::vector<RowClo
 }
 
 ShotSolution solve_by_shots(const LightScene& light, const HemisphereSurvey& survey,
-                            const std::vector<Rgb>& source, const std::vector<Rgb>& reflectance,
-                            const FormFactorSettings& rays, const SolverSettings& settings,
+                            const ShotSource& from, const ShotSettings& settings,
                             const Progress& progress, const ShotWatch& watch) {
+  const auto& [source, reflectance] = from;
+  const auto& [rays, solver] = settings;
   const ShotScene scene{light, survey, rays, make_shooting_blocks(light.mesh, survey.exposed)};
   const bool grey = grey_mirrors(light.scene) && std::ranges::all_of(source, is_grey) &&
                     std::ranges::all_of(reflectance, is_grey);
   const ShotBound bound = bound_of_shots(light, survey, rays, source, reflectance);
   if (grey)
     return run<double>(scene, values_of<double>(source), values_of<double>(reflectance), bound,
-                       settings, progress, watch);
-  return run<Rgb>(scene, source, reflectance, bound, settings, progress, watch);
+                       solver, {progress, watch});
+  return run<Rgb>(scene, source, reflectance, bound, solver, {progress, watch});
 }
 
 } // namespace meninas

@@ -32,10 +32,17 @@ struct ShotSolution {
   std::uint64_t rays_traced = 0;
 };
 
-/// Source S and reflectance are by ElementId.
+/// S and rho by ElementId.
+struct ShotSource {
+  const std::vector<Rgb>& source;
+  const std::vector<Rgb>& reflectance;
+};
+struct ShotSettings {
+  const FormFactorSettings& rays;
+  const SolverSettings& solver;
+};
 ShotSolution solve_by_shots(const LightScene& light, const HemisphereSurvey& survey,
-                            const std::vector<Rgb>& source, const std::vector<Rgb>& reflectance,
-                            const FormFactorSettings& rays, const SolverSettings& settings,
+                            const ShotSource& from, const ShotSettings& settings,
                             const Progress& progress = {}, const ShotWatch& watch = {});
 
 } // namespace meninas

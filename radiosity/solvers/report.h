@@ -1,5 +1,5 @@
-// Between colours, as scenes have them, and the values a system is solved in;
-// and what a solver says at its end.
+// Between colours, as scenes have them (R, G, B of W/m^2), and the values a system is solved in:
+// one band where all is grey, else three. And what a solver says at its end.
 #pragma once
 
 #include "radiosity/solvers/solver_settings.h"

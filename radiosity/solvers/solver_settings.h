@@ -1,4 +1,5 @@
-// How the system is solved, and how the solution went (solve.h).
+// How the system B = S + rho T B is solved, and how the solution went (solve.h): the method, where it
+// stops, and the residual r_k = S + rho T B_k - B_k with the bound of the error at the end.
 #pragma once
 
 #include "radiosity/solvers/shooters.h"

@@ -26,9 +26,9 @@ std::optional<Point3> hemicube_position(const LightScene& light, const ReceiverA
 
 HemisphereSamples make_coverage_net() { return make_direction_net(256); }
 
-void gather_element(const LightScene& light, const Hemicube& cube, const HemisphereSamples& coverage,
-                    const ReceiverArea& element, std::uint32_t seed,
-                    const FormFactorSettings& settings, GatherWorkspace& work) {
+void gather_element(const LightScene& light, const HemicubeRays& rays, const ReceiverArea& element,
+                    std::uint32_t seed, const FormFactorSettings& settings, GatherWorkspace& work) {
+  const auto& [cube, coverage] = rays;
   const Covered covered = covered_part(light, coverage, element, seed, settings, work);
   const std::uint64_t spent = work.result.traced;
   const auto position = hemicube_position(light, element, covered.cells);

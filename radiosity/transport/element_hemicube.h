@@ -24,10 +24,16 @@ std::optional<Point3> hemicube_position(const LightScene& light, const ReceiverA
 /// The directions that find what is covered: two rays and more a cell.
 HemisphereSamples make_coverage_net();
 
+/// The cells of a cube, and the directions that find what is covered (make_coverage_net()).
+struct HemicubeRays {
+  const Hemicube& cube;
+  const HemisphereSamples& coverage;
+};
+
 /// Traces the cube; the result stands in workspace.result.
 /// An element that is covered as a whole has no rays but `covered_rays`.
-void gather_element(const LightScene& light, const Hemicube& cube, const HemisphereSamples& coverage,
-                    const ReceiverArea& element, std::uint32_t seed,
-                    const FormFactorSettings& settings, GatherWorkspace& workspace);
+void gather_element(const LightScene& light, const HemicubeRays& rays, const ReceiverArea& element,
+                    std::uint32_t seed, const FormFactorSettings& settings,
+                    GatherWorkspace& workspace);
 
 } // namespace meninas

@@ -1,4 +1,6 @@
 // Rows of form factors: what receivers get of what elements send (form_factors.h).
+//
+//   H_i = sum_j T_ij B_j,    T_ij = sum over worlds w of tau_w F^w_ij,    landed + escaped + black + cut = 1
 #pragma once
 
 #include "radiosity/transport/hemisphere_samples.h"

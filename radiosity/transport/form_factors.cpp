@@ -158,7 +158,7 @@ void gather(const Assembly& assembly, const ReceiverArea& element, std::uint32_t
                 assembly.settings, work);
     break;
   case FormFactorMethod::hemicube:
-    gather_element(assembly.light, assembly.cube, assembly.net, element, seed, assembly.settings,
+    gather_element(assembly.light, {assembly.cube, assembly.net}, element, seed, assembly.settings,
                    work);
     break;
   case FormFactorMethod::analytic: // has rows of its own

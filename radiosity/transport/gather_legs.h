@@ -2,6 +2,10 @@
 // from the receiver, from where something has shot them, or from mirrors.
 //
 // All say the weight of lane k, its throughput and its world, and all that it carries.
+// What glass and coats do to the throughput of a leg:
+//
+//   into the receiver's coat   tau_0 = (1 - R(cos)) / (1 - R_mean)
+//   through d metres of glass  tau *= attenuation_color^(d / attenuation_distance)
 #pragma once
 
 #include "radiosity/transport/gathered_rays.h"

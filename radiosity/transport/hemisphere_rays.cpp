@@ -39,6 +39,13 @@ MirrorShares mirror_shares(const LightScene& light, const FaceRecord& face, cons
   return {facet_reflectance(glass, cosine), facet_transmittance(glass, cosine)};
 }
 
+/// The face that lane k of a packet has hit.
+struct MetFace {
+  const FaceRecord& face;
+  const HitPacket& hits;
+  std::uint32_t k;
+};
+
 /// Where a ray meets a mirror, glass or a coat: on its exact plane, not at the rounded distance.
 struct Meeting {
   glm::dvec3 position;
@@ -90,8 +97,9 @@ float choice_of(const Carried& from, std::uint32_t seed, std::uint32_t kind) {
 
 /// The ray that goes on: behind a mirror, or one of the two ways from glass,
 /// which stays in its world if it passes a pane.
-MirroredRay going_on(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
-                     std::uint32_t k, const Carried& from, const Meeting& at, std::uint32_t seed) {
+MirroredRay going_on(const LightScene& light, const MetFace& met, const Carried& from,
+                     const Meeting& at, std::uint32_t seed) {
+  const auto& [face, hits, k] = met;
   MirroredRay ray{at.position, from.direction,   from.weight, from.throughput,   from.world,
                   from.medium, face.plane_class, from.number, from.meetings + 1, from.reflections};
   float chance = 1.0F;
@@ -111,9 +119,9 @@ MirroredRay going_on(const LightScene& light, const FaceRecord& face, const HitP
 }
 
 /// A coat takes its part of what lands below it. The light of a ray that it reflects, if it does.
-std::optional<MirroredRay> meet_coat(const LightScene& light, const FaceRecord& face,
-                                     const HitPacket& hits, std::uint32_t k, const Carried& from,
-                                     std::uint32_t seed, ElementHit* landing) {
+std::optional<MirroredRay> meet_coat(const LightScene& light, const MetFace& met,
+                                     const Carried& from, std::uint32_t seed, ElementHit* landing) {
+  const auto& [face, hits, k] = met;
   const Meeting at = meeting_of(light, face, hits, k, from);
   if (landing != nullptr)
     landing->light *=
@@ -144,6 +152,17 @@ struct Ends {
   void escape(float weight, const glm::vec3& throughput) {
     escaped += weight;
     escaped_light += weight * throughput;
+    mirror_absorbed += weight * (1.0F - throughput);
+  }
+  /// On a black back, or on an element.
+  void end(bool on_black, std::uint32_t lane, float weight, const glm::vec3& throughput) {
+    if (on_black) {
+      black += weight;
+      black_lanes |= 1U << lane;
+      black_light += weight * throughput;
+    } else {
+      landed += weight;
+    }
     mirror_absorbed += weight * (1.0F - throughput);
   }
   void stop(float weight, const glm::vec3& throughput) {
@@ -213,7 +232,7 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
       // What the surface keeps or scatters besides is no loss of the mirror's.
       if (face.side != FaceRecord::nothing)
         ends.mirror_absorbed -= weight * tau * (1.0F - at.shares.reflected - at.shares.passed);
-      follow(face, weight, going_on(light, face, hits, k, from, at, work.seed));
+      follow(face, weight, going_on(light, {face, hits, k}, from, at, work.seed));
       continue;
     }
     if (face.coat) [[unlikely]] {
@@ -221,21 +240,14 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
           face.side != FaceRecord::nothing ? &work.result.landings.back() : nullptr;
       Carried from = legs.carried(k);
       from.throughput = tau;
-      if (const auto ray = meet_coat(light, face, hits, k, from, work.seed, landing)) {
+      if (const auto ray = meet_coat(light, {face, hits, k}, from, work.seed, landing)) {
         // The surface has all of the light, and what is reflected is on its way.
         ends.mirror_absorbed -= weight * (tau - ray->throughput);
         follow(face, weight, *ray);
         continue;
       }
     }
-    if (face.side == FaceRecord::nothing) {
-      ends.black += weight;
-      ends.black_lanes |= 1U << k;
-      ends.black_light += weight * tau;
-    } else {
-      ends.landed += weight;
-    }
-    ends.mirror_absorbed += weight * (1.0F - tau);
+    ends.end(face.side == FaceRecord::nothing, k, weight, tau);
   }
   add(ends, work.result);
   return ends.black_lanes;

@@ -1,4 +1,5 @@
-// The paths of a tile whose ways are certain (coherent_beams.h).
+// The paths of a tile whose ways are certain (coherent_beams.h): frusta behind chains of mirrors, the
+// faces that reach into them, and the barycentrics b = (b1, b2) / over, linear in the pixel (x, y).
 #pragma once
 
 #include "raytrace/beams/face_view.h"

@@ -37,13 +37,13 @@ Image product_about(const Image& a, const Image& b, const Image& c) {
 
 } // namespace
 
-Image error_map(const LightScene& light, const IrradianceField& field, const Camera& camera,
+Image error_map(const IrradianceField& field, const Camera& camera,
                 const TwoPassSettings& settings, const Image& picture, const PictureError& error) {
   constexpr int reach_of_edges = 1, reach_of_noise = 1;
   RenderSettings shown = settings.render;
   shown.layers = WithLayers::no;
   const auto picture_of = [&](const RenderSettings& render_settings) {
-    return render(light, field, camera, render_settings).image;
+    return render(field, camera, render_settings).image;
   };
 
   RenderSettings again = shown;

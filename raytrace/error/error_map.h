@@ -15,7 +15,7 @@
 namespace meninas {
 
 /// Takes about as long as three pictures. `settings` and `error` are those of `picture`.
-Image error_map(const LightScene& light, const IrradianceField& field, const Camera& camera,
+Image error_map(const IrradianceField& field, const Camera& camera,
                 const TwoPassSettings& settings, const Image& picture, const PictureError& error);
 
 } // namespace meninas

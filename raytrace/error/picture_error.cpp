@@ -20,7 +20,6 @@ using Radiances = std::vector<glm::vec3>;
 
 /// Pixels on demand, and what they have taken.
 struct Probing {
-  const LightScene& light;
   const IrradianceField& field;
   const Camera& camera;
   const TwoPassSettings& settings;
@@ -33,7 +32,7 @@ struct Probing {
   }
 
   Radiances operator()(const RenderSettings& render, std::span<const glm::ivec2> pixels) {
-    ProbedPixels probed = render_pixels(light, field, camera, render, pixels);
+    ProbedPixels probed = render_pixels(field, camera, render, pixels);
     rays += probed.rays;
     return std::move(probed.radiance);
   }
@@ -216,9 +215,9 @@ void probe_samples(Probing& probe, const SampledPicture& picture,
 }
 
 /// The largest radiosity that surfaces reflect.
-double largest_reflected(const LightScene& light, const IrradianceField& field) {
+double largest_reflected(const IrradianceField& field) {
   double largest = 0.0;
-  for (const Rgb& b : reflected_by_elements(light.mesh, field))
+  for (const Rgb& b : reflected_by_elements(field))
     largest = std::max({largest, b.r, b.g, b.b});
   return largest;
 }
@@ -234,7 +233,7 @@ PictureErrorSettings error_settings(const TwoPassSettings& settings, std::size_t
   return how;
 }
 
-PictureError estimate_error(const LightScene& light, const IrradianceField& field,
+PictureError estimate_error(const IrradianceField& field,
                             const Camera& camera, const TwoPassSettings& settings,
                             const SolverResult& solver, const SampledPicture& picture,
                             const PictureErrorSettings& how) {
@@ -242,13 +241,13 @@ PictureError estimate_error(const LightScene& light, const IrradianceField& fiel
   constexpr double noise_of_interpolated = 4.0 / 9.0;
   Stopwatch watch;
   PictureError error;
-  Probing probe{light, field, camera, settings};
+  Probing probe{field, camera, settings};
   RenderSettings sized = settings.render;
   sized.layers = WithLayers::no;
-  const auto emits = emitter_pixels(light, field, camera, sized, picture.image, emitter_samples);
+  const auto emits = emitter_pixels(field, camera, sized, picture.image, emitter_samples);
   error.mean_radiance = mean_outside(picture.image, emits);
   const ProbeChoice choice =
-      choose_probes(light, field, field_content(field, settings.render.diffuse), camera,
+      choose_probes(field, field_content(field, settings.render.diffuse), camera,
                     settings.render, emits, how.pixels);
   if (!(error.mean_radiance > 0.0) || choice.pixels.empty())
     return error;
@@ -267,7 +266,7 @@ PictureError estimate_error(const LightScene& light, const IrradianceField& fiel
   error.mesh = relative(whole - tail - noise);
   error.mesh_direct = relative(std::clamp(squared.source, 0.0, whole - tail - noise));
   error.pixels = relative(squared.pixels);
-  error.solver = std::min(solver.error_bound, 1.0) * largest_reflected(light, field) /
+  error.solver = std::min(solver.error_bound, 1.0) * largest_reflected(field) /
                  (std::numbers::pi * error.mean_radiance);
   error.total =
       std::sqrt(whole + squared.pixels + std::pow(error.solver * error.mean_radiance, 2.0)) /

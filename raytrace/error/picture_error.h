@@ -66,7 +66,7 @@ PictureErrorSettings error_settings(const TwoPassSettings& settings, std::size_t
 
 /// The error of `picture`, which render() made of this field with these settings.
 /// `largest_reflected` is the largest reflected radiosity, W/m^2.
-PictureError estimate_error(const LightScene& light, const IrradianceField& field,
+PictureError estimate_error(const IrradianceField& field,
                             const Camera& camera, const TwoPassSettings& settings,
                             const SolverResult& solver, const SampledPicture& picture,
                             const PictureErrorSettings& how);

@@ -46,7 +46,7 @@ static std::vector<glm::vec3> bends(const ElementMesh& mesh,
 }
 
 /// V, by one ray a pixel. Of a large picture a smaller one is good enough.
-static Image bend_picture(const LightScene& scene, const IrradianceField& field, FieldContent light,
+static Image bend_picture(const IrradianceField& field, FieldContent light,
                           const Camera& camera, RenderSettings settings) {
   constexpr double max_pixels = 20'000.0;
   const double smaller =
@@ -55,12 +55,12 @@ static Image bend_picture(const LightScene& scene, const IrradianceField& field,
   settings.height = static_cast<int>(std::ceil(smaller * settings.height));
   settings.samples = 1;
   settings.diffuse.term = DiffuseTerm::interpolated;
-  VisibleLight visible = visible_light(scene, field, light);
-  visible.irradiance = bends(scene.mesh, visible.irradiance);
+  VisibleLight visible = visible_light(field, light);
+  visible.irradiance = bends(field.mesh(), visible.irradiance);
   visible.background = glm::vec3(0.0F);
   for (SideShading& side : visible.shading)
     side.emitted = glm::vec3(0.0F);
-  return first_picture(scene, visible, camera, settings);
+  return first_picture(*field.scene, visible, camera, settings);
 }
 
 namespace {
@@ -119,12 +119,12 @@ private:
 
 } // namespace
 
-ProbeChoice choose_probes(const LightScene& scene, const IrradianceField& field, FieldContent light,
+ProbeChoice choose_probes(const IrradianceField& field, FieldContent light,
                           const Camera& camera, const RenderSettings& settings,
                           std::span<const std::uint8_t> emits, int wanted) {
   const std::vector<glm::ivec2> even =
       spread_pixels(settings, emits, static_cast<std::size_t>(wanted));
-  const BendMap map(bend_picture(scene, field, light, camera, settings), settings, emits);
+  const BendMap map(bend_picture(field, light, camera, settings), settings, emits);
   if (!(map.sum() > 0.0))
     return {even, std::vector<double>(even.size(), 1.0)};
   ProbeChoice choice;

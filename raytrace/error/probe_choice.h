@@ -31,7 +31,7 @@ struct ProbeChoice {
 
 /// So many pixels outside emitters (by pixel, row by row: 1), some of them twice;
 /// none where emitters are nearly everywhere. `light` is what is interpolated.
-ProbeChoice choose_probes(const LightScene& scene, const IrradianceField& field, FieldContent light,
+ProbeChoice choose_probes(const IrradianceField& field, FieldContent light,
                           const Camera& camera, const RenderSettings& settings,
                           std::span<const std::uint8_t> emits, int wanted);
 

@@ -1,19 +1,21 @@
 #include "raytrace/error/probes.h"
 
 #include "raytrace/pixels/sample_choice.h"
+#include "scenes/sampling.h"
+#include "scenes/stopwatch.h"
 
 #include <algorithm>
 
 namespace meninas {
 
-ProbedPixels render_pixels(const LightScene& light, const IrradianceField& field, const Camera& camera,
+ProbedPixels render_pixels(const IrradianceField& field, const Camera& camera,
                            const RenderSettings& settings, std::span<const glm::ivec2> pixels) {
   ProbedPixels probed;
   probed.radiance.resize(pixels.size());
-  const VisibleLight all = visible_light(light, field, field_content(field, settings.diffuse));
-  const auto gathering = make_gathering(light, field, settings.diffuse);
-  const RayTotals rays = trace_pixels(light, all, gathering.get(), camera, settings, pixels,
-                                      [&](int place, int, const SeenRadiance& seen) {
+  const VisibleLight all = visible_light(field, field_content(field, settings.diffuse));
+  const auto gathering = make_gathering(field, settings.diffuse);
+  const RayTotals rays = trace_pixels({*field.scene, all, gathering.get(), camera, settings},
+                                      pixels, [&](int place, int, const SeenRadiance& seen) {
                                         probed.radiance[static_cast<std::size_t>(place)] =
                                             seen[0] + seen[1] + seen[2];
                                       });
@@ -24,7 +26,7 @@ ProbedPixels render_pixels(const LightScene& light, const IrradianceField& field
 Image first_picture(const LightScene& light, const VisibleLight& visible, const Camera& camera,
                     const RenderSettings& settings) {
   Image image(settings.width, settings.height);
-  trace_picture(light, visible, nullptr, camera, settings, {first_samples(settings)}, {},
+  trace_picture({light, visible, nullptr, camera, settings}, {first_samples(settings)}, {},
                 [&](int x, int y, const SeenRadiance& seen) {
                   image.at(x, y) = seen[0] + seen[1] + seen[2];
                 });
@@ -32,22 +34,22 @@ Image first_picture(const LightScene& light, const VisibleLight& visible, const 
 }
 
 /// The emission that pixels show.
-static Image emission_picture(const LightScene& light, const IrradianceField& field,
+static Image emission_picture(const IrradianceField& field,
                               const Camera& camera, const RenderSettings& settings) {
-  VisibleLight glow = visible_light(light, field, FieldContent::all);
+  VisibleLight glow = visible_light(field, FieldContent::all);
   glow.part = ReflectedPart::none;
   for (SideShading& side : glow.shading)
     side.albedo_over_pi = glm::vec3(0.0F);
-  return first_picture(light, glow, camera, settings);
+  return first_picture(*field.scene, glow, camera, settings);
 }
 
-std::vector<std::uint8_t> emitter_pixels(const LightScene& light, const IrradianceField& field,
+std::vector<std::uint8_t> emitter_pixels(const IrradianceField& field,
                                          const Camera& camera, RenderSettings settings,
                                          const Image& picture, int samples) {
   constexpr float share = 0.05F;
   settings.samples = samples;
   settings.diffuse.term = DiffuseTerm::interpolated;
-  const Image emission = emission_picture(light, field, camera, settings);
+  const Image emission = emission_picture(field, camera, settings);
   const int width = picture.width, height = picture.height;
   std::vector<std::uint8_t> near(picture.pixels.size(), 0);
   for (int y = 0; y < height; ++y)
@@ -62,6 +64,27 @@ std::vector<std::uint8_t> emitter_pixels(const LightScene& light, const Irradian
   if (std::ranges::find(near, 0) == near.end())
     std::ranges::fill(near, std::uint8_t{0});
   return near;
+}
+
+double camera_ray_seconds(const std::shared_ptr<const LightScene>& light, const Camera& camera,
+                          RenderSettings settings) {
+  constexpr std::uint32_t some = 1024;
+  IrradianceField field;
+  field.irradiance.assign(light->mesh.vertices.size(), glm::vec3(1.0F));
+  field.scene = light;
+  field.mirrored = field.indirect = field.indirect_mirrored = field.irradiance;
+  settings.samples = std::min(settings.samples, 16);
+  settings.layers = WithLayers::no;
+  std::vector<glm::ivec2> pixels;
+  for (std::uint32_t k = 0; k < some; ++k) {
+    const auto at = sobol4(k, 0xc057);
+    pixels.emplace_back(
+        std::min(static_cast<int>(at[0] * float(settings.width)), settings.width - 1),
+        std::min(static_cast<int>(at[1] * float(settings.height)), settings.height - 1));
+  }
+  Stopwatch watch;
+  render_pixels(field, camera, settings, pixels);
+  return watch.lap() / (double(some) * settings.samples);
 }
 
 } // namespace meninas

@@ -18,7 +18,7 @@ struct ProbedPixels {
 /// The pixels (x, y) that `render` would make with these settings:
 /// the same rays where light is interpolated, in other packets;
 /// with another draw of the samples at hits where it is computed there.
-ProbedPixels render_pixels(const LightScene& light, const IrradianceField& field, const Camera& camera,
+ProbedPixels render_pixels(const IrradianceField& field, const Camera& camera,
                            const RenderSettings& settings, std::span<const glm::ivec2> pixels);
 
 /// What the first samples of every pixel show of that light, interpolated.
@@ -29,8 +29,13 @@ Image first_picture(const LightScene& light, const VisibleLight& visible, const 
 /// or next to such a pixel. Lamps are far brighter than what they light:
 /// an edge of one, a hundredth of a pixel off, is an error that no light transport made.
 /// `samples` per pixel look for them. Where everything glows nothing is left out: all are 0.
-std::vector<std::uint8_t> emitter_pixels(const LightScene& light, const IrradianceField& field,
+std::vector<std::uint8_t> emitter_pixels(const IrradianceField& field,
                                          const Camera& camera, RenderSettings settings,
                                          const Image& picture, int samples);
+
+/// Seconds that one camera ray with its diffuse term takes here, by all threads, as the rays of a few
+/// pixels tell over a field of ones.
+double camera_ray_seconds(const std::shared_ptr<const LightScene>& light, const Camera& camera,
+                          RenderSettings settings);
 
 } // namespace meninas

@@ -1,4 +1,5 @@
-// Neighbouring pixels of a picture, straight and across.
+// Neighbouring pixels of a picture, straight and across: of eight neighbours those four that make
+// every pair once, as differences between pixels are looked for pair by pair.
 #pragma once
 
 #include <utility>

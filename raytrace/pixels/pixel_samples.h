@@ -1,4 +1,5 @@
-// Camera rays of a tile: stratified points of every pixel, sixteen at a time.
+// Camera rays of a tile: stratified points of every pixel (Sobol's sequence, scrambled), sixteen at a
+// time, traced and shaded.
 #pragma once
 
 #include "raytrace/tile.h"

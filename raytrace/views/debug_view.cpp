@@ -46,7 +46,7 @@ float closure_error(const RowClosure& row) {
       std::abs(1.0 - (double{row.landed} + row.escaped + row.black + row.cut)));
 }
 
-std::optional<float> value_of(DebugView view, const LightScene& light, const IrradianceField& field,
+std::optional<float> value_of(DebugView view, const IrradianceField& field,
                               std::span<const RowClosure> rows, const Sight& sight) {
   if (view == DebugView::mirror_depth)
     return static_cast<float>(sight.mirrors);
@@ -57,15 +57,16 @@ std::optional<float> value_of(DebugView view, const LightScene& light, const Irr
     return static_cast<float>(element) + 1.0F;
   if (view == DebugView::closure)
     return closure_error(rows[element]);
-  const glm::vec3 h = field_irradiance(light.mesh, field.irradiance, element, sight.place.place);
+  const glm::vec3 h = field_irradiance(field.mesh(), field.irradiance, element, sight.place.place);
   return glm::dot(h, glm::vec3(0.2126F, 0.7152F, 0.0722F)); // Rec.709
 }
 
 } // namespace
 
-PaintedView paint_view(DebugView view, const LightScene& light, const IrradianceField& field,
+PaintedView paint_view(DebugView view, const IrradianceField& field,
                        std::span<const RowClosure> rows, const Camera& camera,
                        const RenderSettings& settings) {
+  const LightScene& light = *field.scene;
   expects(view != DebugView::closure || rows.size() == element_count(light.mesh),
           "every element has a row");
   PaintedView painted{Image(settings.width, settings.height),
@@ -77,7 +78,7 @@ PaintedView paint_view(DebugView view, const LightScene& light, const Irradiance
     for (int x = 0; x < settings.width; ++x) {
       const Vec2 middle((x + 0.5) / settings.width, (y + 0.5) / settings.height);
       const Sight sight = look(light, camera, aspect, middle, mirrors);
-      const auto value = value_of(view, light, field, rows, sight);
+      const auto value = value_of(view, field, rows, sight);
       painted.values.at(x, y) = value.value_or(0.0F);
       known.at(x, y) = value ? 1.0F : 0.0F;
     }

@@ -30,7 +30,7 @@ struct PaintedView {
 };
 
 /// `rows` by the elements of `light`, for `closure` alone.
-PaintedView paint_view(DebugView view, const LightScene& light, const IrradianceField& field,
+PaintedView paint_view(DebugView view, const IrradianceField& field,
                        std::span<const RowClosure> rows, const Camera& camera,
                        const RenderSettings& settings);
 

@@ -22,8 +22,9 @@ std::string_view name_of(Feature feature) {
   return "irradiance";
 }
 
-static glm::vec3 value_of(Feature feature, const LightScene& light, const IrradianceField& field,
+static glm::vec3 value_of(Feature feature, const IrradianceField& field,
                           const Camera& camera, const Sight& sight) {
+  const LightScene& light = *field.scene;
   const bool on_field = sight.side != FaceRecord::nothing;
   switch (feature) {
   case Feature::depth:
@@ -43,7 +44,7 @@ static glm::vec3 value_of(Feature feature, const LightScene& light, const Irradi
                   : glm::vec3(0.0F);
 }
 
-std::vector<Layer> render_features(const LightScene& light, const IrradianceField& field,
+std::vector<Layer> render_features(const IrradianceField& field,
                                    const Camera& camera, const RenderSettings& settings) {
   std::vector<Layer> layers;
   for (const Feature feature : settings.features)
@@ -52,11 +53,11 @@ std::vector<Layer> render_features(const LightScene& light, const IrradianceFiel
   tbb::parallel_for(0, settings.features.empty() ? 0 : settings.height, [&](int y) {
     for (int x = 0; x < settings.width; ++x) {
       const Vec2 middle((x + 0.5) / settings.width, (y + 0.5) / settings.height);
-      const Sight sight = look(light, camera, aspect, middle, 0);
+      const Sight sight = look(*field.scene, camera, aspect, middle, 0);
       if (sight.triangle == none<TriangleId>)
         continue;
       for (std::size_t k = 0; k < layers.size(); ++k)
-        layers[k].image.at(x, y) = value_of(settings.features[k], light, field, camera, sight);
+        layers[k].image.at(x, y) = value_of(settings.features[k], field, camera, sight);
     }
   });
   return layers;

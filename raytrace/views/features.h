@@ -11,7 +11,7 @@ namespace meninas {
 /// R, G, B = x, y, z of the unit normal towards the eye, in the world;
 /// diffuse reflectance with textures, 0 on mirrors; index of the element counted from 1 (exact
 /// up to 2^24), 0 where there is none; irradiance of the field of pass one, W/m^2.
-std::vector<Layer> render_features(const LightScene& light, const IrradianceField& field,
+std::vector<Layer> render_features(const IrradianceField& field,
                                    const Camera& camera, const RenderSettings& settings);
 
 } // namespace meninas

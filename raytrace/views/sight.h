@@ -24,7 +24,7 @@ struct Sight {
 Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
            int max_mirrors);
 
-/// rho_d at the end of a sight, textures included; 0 where no diffuse surface is met.
+/// rho_d, dimensionless, at the end of a sight, textures included; 0 where no diffuse surface is met.
 Rgb albedo_at(const LightScene& light, const Sight& sight);
 
 } // namespace meninas

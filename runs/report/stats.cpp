@@ -176,10 +176,8 @@ void add_solution(RunFigures& figures, const RadiositySolution& solution) {
   figures.links = solution.links;
   figures.energy = solution.energy;
   figures.closure = solution.closure;
-  if (solution.refined) {
-    figures.elements = element_count(solution.refined->mesh);
-    figures.vertices = solution.refined->mesh.vertices.size();
-  }
+  figures.elements = element_count(solution.field.mesh());
+  figures.vertices = solution.field.mesh().vertices.size();
   figures.interpolation_error = solution.interpolation_error;
   figures.rays.form_factor = solution.form_factor_rays;
   figures.rays.shadow = solution.shadow_rays;

@@ -63,9 +63,9 @@ void report_error(const PictureSource& source, ErrorReport wanted, const Sampled
   if (wanted == ErrorReport::none)
     return;
   Stopwatch watch;
-  const auto& [light, field, camera, settings, solver] = source;
-  const PictureError error = estimate_error(light, field, camera, settings, solver, picture,
-                                            error_settings(settings, element_count(light.mesh)));
+  const auto& [field, camera, settings, solver] = source;
+  const PictureError error = estimate_error(field, camera, settings, solver, picture,
+                                            error_settings(settings, element_count(field.mesh())));
   figures.error_estimate = error;
   // A black picture has a warning of its own, and nothing that an error could be relative to.
   if (error.mean_radiance > 0.0) {
@@ -77,7 +77,7 @@ void report_error(const PictureSource& source, ErrorReport wanted, const Sampled
       warn(events, "the picture is " + describe_error(error));
   }
   if (wanted == ErrorReport::map)
-    layers.push_back({"error", error_map(light, field, camera, settings, picture.image, error)});
+    layers.push_back({"error", error_map(field, camera, settings, picture.image, error)});
   figures.seconds.estimate = watch.lap();
 }
 

@@ -22,7 +22,6 @@ enum class ErrorReport {
 
 /// What a picture was made of.
 struct PictureSource {
-  const LightScene& light;
   const IrradianceField& field;
   const Camera& camera;
   const TwoPassSettings& settings;

@@ -1,171 +1,31 @@
 #include "runs/steering/expected_cost.h"
 
-#include "radiosity/light/element_light.h"
-#include "radiosity/field/smoothing_groups.h"
-#include "radiosity/light/gather_noise.h"
-#include "radiosity/hierarchical/node_solution.h"
-#include "radiosity/light/point_irradiance.h"
-#include "radiosity/field/vertex_places.h"
+#include "radiosity/expected_cost.h"
 #include "raytrace/error/probes.h"
 #include "runs/steering/memory.h"
-#include "scenes/sampling.h"
-#include "scenes/stopwatch.h"
-
-#include <algorithm>
 
 namespace meninas {
-
-namespace {
-
-/// So many, spread over all there are.
-template <typename Do>
-double seconds_of_one(std::size_t all, std::size_t some, const Do& work) {
-  const std::size_t count = std::clamp<std::size_t>(all, 1, some);
-  Stopwatch watch;
-  for (std::size_t k = 0; k < count; ++k)
-    work(k * all / count);
-  return watch.lap() / double(count);
-}
-
-/// One gathering, and direct light at one vertex and on one element;
-/// seconds of one thread.
-struct PointSeconds {
-  double gather = 0.0, source = 0.0, on_element = 0.0;
-};
-PointSeconds point_seconds(const PreparedScene& prepared, const PassOneSettings& settings) {
-  constexpr std::size_t some = 64;
-  const LightScene& light = *prepared.light;
-  const ElementMesh& mesh = prepared.mesh;
-  if (mesh.vertices.empty())
-    return {};
-  const std::vector<Receiver> receivers = vertex_receivers(mesh);
-  const PointGathering gathering(
-      light, std::vector<Rgb>(element_count(mesh), Rgb(1.0)), settings.form_factors,
-      settings.direct,
-      {.rays = settings.interpolation.rays,
-       .cluster_shadow_rays = settings.interpolation.cluster_shadow_rays});
-  PointWorkspace work;
-  PointSeconds seconds;
-  const auto seed = [](std::size_t v) { return hash(static_cast<std::uint32_t>(v), 0xc057); };
-  seconds.gather = seconds_of_one(receivers.size(), some, [&](std::size_t v) {
-    indirect_light_at(gathering, receivers[v], seed(v), work);
-  });
-  seconds.source = seconds_of_one(receivers.size(), 4 * some, [&](std::size_t v) {
-    direct_irradiance(light, receivers[v], settings.direct, seed(v), work.direct);
-  });
-  SharedLightWorkspace element_work;
-  seconds.on_element = seconds_of_one(element_count(mesh), some, [&](std::size_t e) {
-    direct_irradiance(light, static_cast<ElementId>(e), 0, settings.direct, element_work);
-  });
-  return seconds;
-}
-
-/// How many of what there will be.
-struct Counts {
-  double rows = 0.0;     ///< of the transport
-  double of_rays = 1.0;  ///< what share of a gathering's rays a row has
-  double gathers = 0.0;  ///< by vertices, besides
-  double sources = 0.0;  ///< vertices with direct light
-  double elements = 0.0; ///< whose direct light is computed
-};
-
-/// Where light is received by nodes: about twice as many as at first, and a few vertices for each.
-Counts counted_by_nodes(const LightScene& light, const PassOneSettings& settings, Counts all) {
-  constexpr double rows_of_first = 2.0, gathers_of_row = 3.0,
-                   by_themselves = 0.05; // of the elements, whose corners do not tell
-  const NodeTree tree = make_node_tree(light.mesh, light.surfaces);
-  const std::size_t first = first_receivers(light.mesh, tree).size();
-  all.rows = std::min(all.elements, rows_of_first * double(first));
-  if (!gathers_by_nodes(settings))
-    return all;
-  all.of_rays = double(rays_per_row(settings.form_factors, first).rays) /
-                double(std::max(1, settings.form_factors.rays));
-  all.gathers = std::min(all.gathers, gathers_of_row * all.rows);
-  all.elements = by_themselves * all.elements;
-  return all;
-}
-
-/// Vertices with a value of their own.
-std::size_t gathering_vertices(const LightScene& light) {
-  const VertexElements facets = facets_around(light);
-  std::size_t count = 0;
-  for (std::size_t v = 0; v < light.mesh.vertices.size(); ++v)
-    count += around(facets, v).empty() ? 1 : 0;
-  return count;
-}
-
-/// Where the field has a mesh of its own (adaptive_field.h),
-/// one that is finer the smaller the bound X is: indirect light is gathered twice,
-/// with a quarter of the rays and with as many as keep its noise within X,
-/// and looked at in the middle of elements with half as many; direct light in more places.
-Counts counted_adaptive(const PassOneSettings& settings, Counts all) {
-  constexpr double of_noise = 0.9;  // of one ray, before it falls with their number
-  constexpr double ordinary = 0.01; // the bound that doubles elements
-  constexpr double root_sources = 60.0, sources = 20.0; // ones with many shadow rays for two
-  const double x = settings.interpolation.adaptive->error, asked = settings.interpolation.rays;
-  const double rays =
-      std::clamp(std::pow(of_noise / x, 1.0 / noise_order), asked, max_times_asked * asked);
-  const double roots = all.gathers, elements = roots * (1.0 + ordinary / x);
-  all.gathers = 1.5 * (0.25 * roots + std::sqrt(roots * elements) * rays / asked);
-  all.sources = root_sources * roots + sources * (elements - roots);
-  return all;
-}
-
-/// One camera ray with its diffuse term, by all threads.
-double camera_ray_seconds(const PreparedScene& prepared, const Camera& camera,
-                          RenderSettings settings) {
-  constexpr std::uint32_t some = 1024;
-  IrradianceField field;
-  field.irradiance.assign(prepared.mesh.vertices.size(), glm::vec3(1.0F));
-  field.mirrored = field.indirect = field.indirect_mirrored = field.irradiance;
-  settings.samples = std::min(settings.samples, 16);
-  settings.layers = WithLayers::no;
-  std::vector<glm::ivec2> pixels;
-  for (std::uint32_t k = 0; k < some; ++k) {
-    const auto at = sobol4(k, 0xc057);
-    pixels.emplace_back(
-        std::min(static_cast<int>(at[0] * float(settings.width)), settings.width - 1),
-        std::min(static_cast<int>(at[1] * float(settings.height)), settings.height - 1));
-  }
-  Stopwatch watch;
-  render_pixels(*prepared.light, field, camera, settings, pixels);
-  return watch.lap() / (double(some) * settings.samples);
-}
-
-} // namespace
 
 ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, PictureSize size,
                          const RunSettings& settings, double loading, int threads) {
   constexpr double started = 0.03;                        // program and its libraries
   constexpr double busy = 0.9;                            // of the threads, on average
-  constexpr double products = 16.0, entry_seconds = 2e-9; // of the solver
   constexpr double encoded_pixel = 1.5e-7;
   TwoPassSettings two_pass = two_pass_settings(settings);
   two_pass.render.width = size.width;
   two_pass.render.height = size.height;
-  const PassOneSettings& pass_one = two_pass.pass_one;
-  const double elements = double(element_count(prepared.mesh)),
-               vertices = pass_one.interpolation.method == Interpolation::average
-                              ? 0.0
-                              : double(gathering_vertices(*prepared.light));
-  Counts counts{.rows = elements, .gathers = vertices, .sources = vertices, .elements = elements};
-  if (pass_one.solver.method == SolverMethod::hierarchical)
-    counts = counted_by_nodes(*prepared.light, pass_one, counts);
-  if (pass_one.interpolation.adaptive)
-    counts = counted_adaptive(pass_one, counts);
   const double share = 1.0 / (busy * threads);
+  const PassOneCost pass_one =
+      expected_cost(*prepared.light, prepared.plan.bands, two_pass.pass_one);
 
-  const PointSeconds point = point_seconds(prepared, pass_one);
   ExpectedCost cost;
   cost.prepare = started + loading + prepared.seconds.plan + prepared.seconds.mesh;
-  cost.form_factors =
-      share * (counts.rows * counts.of_rays * point.gather + counts.elements * point.on_element);
-  cost.interpolate = share * (counts.gathers * point.gather + counts.sources * point.source);
-  cost.solve = products * entry_seconds * prepared.plan.bands * counts.rows *
-               std::min<double>(pass_one.form_factors.rays, elements);
+  cost.form_factors = share * pass_one.form_factors;
+  cost.interpolate = share * pass_one.interpolate;
+  cost.solve = pass_one.solve;
   const double pixels = double(size.width) * size.height;
-  cost.render =
-      pixels * two_pass.render.samples * camera_ray_seconds(prepared, camera, two_pass.render);
+  cost.render = pixels * two_pass.render.samples *
+                camera_ray_seconds(prepared.light, camera, two_pass.render);
   cost.write = 0.01 + encoded_pixel * pixels;
   cost.total =
       cost.prepare + cost.form_factors + cost.solve + cost.interpolate + cost.render + cost.write;

@@ -1,13 +1,11 @@
 // How much memory a run may have, how much its parts are going to need, and what it has now.
 // In bytes.
 //
-// Estimates come from counts known before the work (triangles, elements, rays, pixels) times
-// sizes measured (docs/notes/batch.md); they are meant to be exceeded by nothing that is common,
-// so that a limit holds, and to be within a factor of about two for what is large.
+// Those of pass one are in radiosity/expected_memory.h; here are pictures, and what a run is.
 #pragma once
 
+#include "radiosity/expected_memory.h"
 #include "runs/run_settings.h"
-#include "scenes/scene.h"
 
 #include <cstdint>
 
@@ -18,21 +16,6 @@ std::uint64_t available_memory_bytes();
 
 /// What this process has resident now.
 std::uint64_t resident_memory_bytes();
-
-/// What is counted of a scene.
-struct SceneSizes {
-  std::size_t vertices = 0, triangles = 0;
-  std::size_t sides = 0;         ///< of triangles: two of what is double-sided
-  std::size_t texture_bytes = 0; ///< encoded and decoded
-  double area = 0.0;             ///< m^2, of all sides
-};
-SceneSizes sizes_of(const Scene& scene);
-
-/// A scene with its light, ready for views: geometry, textures, ray structures, mesh and field.
-std::uint64_t scene_memory(const SceneSizes& scene, const RunSettings& settings);
-
-/// What solving needs beyond that: the transport, unless the solver keeps none, and what finds it.
-std::uint64_t solve_memory(const SceneSizes& scene, const RunSettings& settings);
 
 /// A picture under way and its encoding; a reference needs its own scene too.
 std::uint64_t view_memory(const SceneSizes& scene, const RunSettings& settings, PictureSize size);

@@ -169,12 +169,12 @@ SteeredRun run_with(Steering& steering, const Parameters& knobs, bool may_end) {
   SteeredRun run{{}, steering.figures, {}};
   run.picture = render_view(lit, request.camera, request.size, settings, events, run.figures);
   Stopwatch watch;
-  PictureErrorSettings how = error_settings(two_pass, element_count(lit.light().mesh));
+  PictureErrorSettings how = error_settings(two_pass, element_count(lit.field.mesh()));
   constexpr int more = 2; // what is decided by it deserves more pixels than what is only said
   how.gathered_pixels *= more;
   how.pixels = std::min(how.pixels * more, request.size.width * request.size.height);
   const PictureError error =
-      estimate_error(lit.light(), lit.field, request.camera, two_pass, run.figures.solver,
+      estimate_error(lit.field, request.camera, two_pass, run.figures.solver,
                      {run.picture.image, run.picture.samples}, how);
   run.figures.error_estimate = error;
   run.figures.seconds.estimate = watch.lap();

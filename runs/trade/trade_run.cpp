@@ -116,10 +116,9 @@ void measure_point(Measuring& measuring, TradePoint& point) {
   point.processor_seconds.push_back(processor_seconds() - before);
   point.seconds.push_back(watch.lap());
 
-  const LightScene& lit = field_scene(*prepared->light, result.solution);
   if (measuring.emits.empty()) {
     constexpr int samples = 16;
-    measuring.emits = emitter_pixels(lit, result.solution.field, measuring.camera, two_pass.render,
+    measuring.emits = emitter_pixels(result.solution.field, measuring.camera, two_pass.render,
                                      measuring.reference.mean, samples);
   }
   const auto& variance = measuring.reference.variance;
@@ -135,8 +134,7 @@ void measure_point(Measuring& measuring, TradePoint& point) {
                         figures.seconds.form_factors - figures.seconds.solve -
                         figures.seconds.interpolate;
   point.elements = figures.elements;
-  point.estimate = estimate_error(
-      lit, result.solution.field, measuring.camera, two_pass, result.solution.solver,
+  point.estimate = estimate_error(result.solution.field, measuring.camera, two_pass, result.solution.solver,
       {result.rendering.image, result.rendering.samples}, error_settings(two_pass, point.elements));
   point.picture = std::move(result.rendering.image);
 }

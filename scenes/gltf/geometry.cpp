@@ -29,6 +29,7 @@ struct Part {
 struct Geometry {
   Scene& scene;
   std::vector<float> half_steps;
+  NodeId node = none<NodeId>; ///< whose parts are read
 };
 
 // Coordinates whose fourth powers leave the range of doubles cannot be computed with.
@@ -277,12 +278,12 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
 }
 
 /// A primitive where its node puts it: moved by the joints, or by the matrix of each instance.
-static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& node, NodeId id,
-                       Skins& skins, Geometry& into, Findings& findings) {
+static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& node, Skins& skins,
+                       Geometry& into, Findings& findings) {
   if (const auto skin = index_at(element(at.document.root, "nodes", node.index), "skin")) {
     if (apply_skin(at.document, at.where(), at.json, skins.joints(*skin), part.positions)) {
       findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
-      return add_part(at, part, glm::dmat4(1.0), id, into, findings);
+      return add_part(at, part, glm::dmat4(1.0), into.node, into, findings);
     }
     findings.about("skins without joints in the scene are left out in nodes", at.in.node);
   }
@@ -290,25 +291,25 @@ static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& no
   if (copies.empty())
     findings.about("instanced nodes without an instance are left out", at.in.node);
   for (const auto& world : copies)
-    add_part(at, part, world, id, into, findings);
+    add_part(at, part, world, into.node, into, findings);
 }
 
 std::vector<float> read_geometry(const Document& document, std::span<const PlacedNode> nodes,
                                  Scene& scene, Findings& findings) {
   check_geometry_size(document, nodes);
   Skins skins(document, nodes);
-  Geometry geometry{scene, {}};
+  Geometry geometry{scene, {}, none<NodeId>};
   std::vector<std::string> names;
   for (const auto& node : nodes) {
     const auto mesh = index_at(element(document.root, "nodes", node.index), "mesh");
     if (!mesh)
       continue;
-    const auto id = static_cast<NodeId>(names.size());
+    geometry.node = static_cast<NodeId>(names.size());
     const auto place = mesh_place(document, node.index, *mesh);
     names.push_back(place.node);
     each_primitive(place, [&](const PrimitivePlace& at) {
       if (auto part = decode_primitive(at, findings))
-        place_part(at, std::move(*part), node, id, skins, geometry, findings);
+        place_part(at, std::move(*part), node, skins, geometry, findings);
     });
   }
   for (auto& name : unique_names(names))

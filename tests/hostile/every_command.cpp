@@ -201,15 +201,14 @@ void run(Scene scene, const RunSettings& settings, Random& random, const Effort&
   if (there.triangles.size() > effort.max_triangles)
     return;
 
-  const RadiositySolution solution = solve_pass_one(*prepared->light, chosen.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light, chosen.pass_one);
   check(solution);
-  const LightScene& lit = field_scene(*prepared->light, solution);
-  const Rendering rendering = render(lit, solution.field, camera, chosen.render);
+  const Rendering rendering = render(solution.field, camera, chosen.render);
   check(rendering, brightest(there));
-  render_features(lit, solution.field, camera, chosen.render);
+  render_features(solution.field, camera, chosen.render);
   if (happens(random, 0.3)) {
     const PictureError error =
-        estimate_error(lit, solution.field, camera, chosen, solution.solver,
+        estimate_error(solution.field, camera, chosen, solution.solver,
                        {rendering.image, rendering.samples}, {.gathered_pixels = 16, .pixels = 64});
     require(!std::isnan(error.total) && error.total >= 0.0, "the error estimate is no number");
   }

@@ -55,12 +55,14 @@ constexpr std::array wrapped_libraries = {
 
 /// What things were called before they had the field's names.
 constexpr std::array retired = {
-    "FoundField", "found_field", "bent_field", "BrightClusters", "bright_clusters", "KnownBlocker",
-    "known_blockers", "KeptRays", "kept_rays", "StandsOut", "DirectionNet", "RayLanding",
-    "CoveredCells", "covered_cells", "ReceiverNodes", "VertexShares", "NodeCross", "DiffuseField",
-    "ClusterStandIn", "SourceSeen", "divide_bent", "divide_at_shadows", "follow_penumbrae",
-    "chosen_lights", "shared_irradiance", "throws_as_mirror", "let_out_by_coat", "sure_paths",
-    "shadow_lines.h", "standing_walls"};
+    "FoundField",       "found_field",   "bent_field",        "BrightClusters",
+    "bright_clusters",  "KnownBlocker",  "known_blockers",    "KeptRays",
+    "kept_rays",        "StandsOut",     "DirectionNet",      "RayLanding",
+    "CoveredCells",     "covered_cells", "ReceiverNodes",     "VertexShares",
+    "NodeCross",        "DiffuseField",  "RefinedScene",      "field_scene",
+    "ClusterStandIn",   "SourceSeen",    "divide_bent",       "divide_at_shadows",
+    "follow_penumbrae", "chosen_lights", "shared_irradiance", "throws_as_mirror",
+    "let_out_by_coat",  "sure_paths",    "shadow_lines.h",    "standing_walls"};
 
 std::string folder_of(std::string_view path) {
   return std::string(path.substr(0, std::min(path.find('/'), path.size())));

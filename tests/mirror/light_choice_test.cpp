@@ -119,8 +119,8 @@ Spread spread_of(const Lamps& lamps, const Observer& observer, std::size_t budge
   std::vector<VirtualLight> lights;
   double squares = 0.0;
   for (int k = 0; k < turns; ++k) {
-    sample_light_tree(lamps.worlds, lamps.emitters, lamps.tree, observer, {budget, (k + 0.5) / turns},
-                  work, lights);
+    sample_light_tree({lamps.worlds, lamps.emitters, lamps.tree}, observer,
+                      {budget, (k + 0.5) / turns}, work, lights);
     const double found = light_of(lamps, observer, lights) / truth;
     spread.mean += found / turns;
     squares += found * found / turns;

@@ -151,7 +151,7 @@ TEST(FoldLegs, ObeyTheLawOfReflection) {
         y += corner / double(light.polygon.size);
       const auto chain = chain_of(room.worlds, light.world);
       const Emitter& emitter = room.emitters[light.emitter];
-      fold_legs(room.worlds, room.mirrors, light.world, x, PlaneId{77}, y, emitter.plane_class,
+      fold_legs(room.worlds, room.mirrors, light.world, {x, y, PlaneId{77}, emitter.plane_class},
                 legs);
       ASSERT_EQ(legs.size(), chain.size() + 1);
       EXPECT_EQ(legs.front().from, x);

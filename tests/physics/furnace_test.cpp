@@ -24,7 +24,7 @@ WorstElement worst_element(const Scene& scene, double reflectance, double tolera
   settings.form_factors.hemicube_resolution = 16;
   settings.solver.tolerance = tolerance;
   settings.interpolation.method = Interpolation::average;
-  const RadiositySolution solution = solve_pass_one(*l->light, settings);
+  const RadiositySolution solution = solve_pass_one(l->light, settings);
   EXPECT_FALSE(solution.radiosity.empty());
   WorstElement worst{0.0, solution.solver.converged};
   for (std::size_t e = 0; e < solution.radiosity.size(); ++e) {

@@ -26,7 +26,7 @@ PassOneSettings settings_of(int rays, double element_size) {
 
 Field irradiance_field(const Scene& scene, const PassOneSettings& settings, EnergyBalance& energy) {
   const auto l = lit(scene, settings.mesh, settings.plan);
-  const RadiositySolution solution = solve_pass_one(*l->light, settings);
+  const RadiositySolution solution = solve_pass_one(l->light, settings);
   EXPECT_TRUE(solution.solver.converged);
   energy = solution.energy;
   Field field;
@@ -156,7 +156,7 @@ TEST(FacingMirrors, IrradianceIsTheSeriesOfImages) {
     PassOneSettings settings;
     settings.form_factors.rays = 4096;
     settings.interpolation.method = Interpolation::average;
-    const RadiositySolution solution = solve_pass_one(*l->light, settings);
+    const RadiositySolution solution = solve_pass_one(l->light, settings);
     const double floor = mean_over(*l, solution.irradiance, "y0").r;
 
     double series = 0.0;

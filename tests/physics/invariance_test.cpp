@@ -25,7 +25,7 @@ PassOneSettings settings_of(double element_size, int rays) {
 
 Solved solved(const Scene& scene, const PassOneSettings& settings) {
   Solved result{lit(scene, settings.mesh), {}};
-  result.solution = solve_pass_one(*result.lit->light, settings);
+  result.solution = solve_pass_one(result.lit->light, settings);
   return result;
 }
 

@@ -67,7 +67,7 @@ Replicas solve_again_and_again(const LightScene& light, const Comparison& how, s
     settings.direct.seed = hash(seed, static_cast<std::uint32_t>(r), 1);
     settings.solver.tolerance = 1e-6;
     settings.interpolation.method = Interpolation::average;
-    const auto found = means_of(light, solve_pass_one(light, settings).irradiance, how.by_node);
+    const auto found = means_of(light, solve_pass_one(std::make_shared<const LightScene>(light), settings).irradiance, how.by_node);
     replicas.mean.resize(found.size(), 0.0);
     replicas.variance.resize(found.size(), 0.0);
     for (std::size_t k = 0; k < found.size(); ++k) {

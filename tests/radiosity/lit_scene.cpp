@@ -11,8 +11,8 @@ std::unique_ptr<LitScene> lit(Scene scene, const MeshSettings& mesh, const PlanS
   lit->plan = plan_transport(lit->scene, lit->surfaces, plan);
   lit->rays.emplace(make_ray_scene(lit->scene, lit->surfaces));
   lit->mesh = make_element_mesh(lit->scene, lit->surfaces, mesh);
-  lit->light.emplace(make_light_scene(lit->scene, lit->surfaces, *lit->rays, lit->plan.mirrors,
-                                      lit->plan.worlds, lit->mesh));
+  lit->light = std::make_shared<const LightScene>(make_light_scene(
+      lit->scene, lit->surfaces, *lit->rays, {lit->plan.mirrors, lit->plan.worlds}, lit->mesh));
   return lit;
 }
 

@@ -15,7 +15,7 @@ struct LitScene {
   TransportPlan plan;
   std::optional<RayScene> rays;
   ElementMesh mesh;
-  std::optional<LightScene> light; ///< refers to the members above
+  std::shared_ptr<const LightScene> light; ///< refers to the members above
 };
 std::unique_ptr<LitScene> lit(Scene scene, const MeshSettings& mesh, const PlanSettings& plan = {});
 

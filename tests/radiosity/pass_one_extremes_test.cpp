@@ -33,7 +33,7 @@ protected:
     const PassOneSettings settings = pass_one_of(GetParam(), element_size);
     const auto l = lit(scene, settings.mesh);
     ASSERT_LT(element_count(l->mesh), 1000U); // elimination takes its time
-    const RadiositySolution solution = solve_pass_one(*l->light, settings);
+    const RadiositySolution solution = solve_pass_one(l->light, settings);
     EXPECT_TRUE(solution.solver.converged) << solution.solver.error_bound;
     std::vector<Rgb> reflected = solution.radiosity;
     for (std::size_t e = 0; e < reflected.size(); ++e)

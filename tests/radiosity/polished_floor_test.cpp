@@ -97,7 +97,7 @@ TEST(PolishedFloor, LetsInWhatItDoesNotReflect) {
   scene.lights = {sun};
   const auto l = lit(scene, {.element_size = 1.0});
   PassOneSettings settings = coarse();
-  const RadiositySolution solution = solve_pass_one(*l->light, settings);
+  const RadiositySolution solution = solve_pass_one(l->light, settings);
   const double below =
       3.0 * cosine * (1.0 - coat_reflectance(cosine)) / (1.0 - mean_coat_reflectance);
   for (const Rgb& irradiance : solution.irradiance)
@@ -120,7 +120,7 @@ TEST(PolishedFloor, IsAMirrorWhereTheCoatReflectsEverything) {
     }
   const auto irradiances = [](const Scene& scene) {
     const auto l = lit(scene, coarse().mesh);
-    const RadiositySolution solution = solve_pass_one(*l->light, coarse());
+    const RadiositySolution solution = solve_pass_one(l->light, coarse());
     std::vector<Rgb> means;
     for (const char* wall : {"x1", "y0", "y1", "z0", "z1"})
       means.push_back(mean_over(*l, solution.irradiance, wall));
@@ -146,7 +146,7 @@ TEST(PolishedFloor, IsWhiteUnderAWhiteSky) {
   PassOneSettings settings = coarse();
   settings.form_factors.rays = 4096;
   const auto l = lit(scene, settings.mesh);
-  const RadiositySolution solution = solve_pass_one(*l->light, settings);
+  const RadiositySolution solution = solve_pass_one(l->light, settings);
   // Half of the sky, and the floor.
   // Which of 4096 rays are reflected is left to chance, for a part R of them.
   for (int k = 0; k < 3; ++k)
@@ -243,7 +243,7 @@ TEST(PolishedFloor, HasWorldsByLargePlanesAlone) {
   EXPECT_EQ(l->plan.mirrors.mirrors.size(), 3U);
   EXPECT_EQ(l->plan.mirrors.facets, 4U);
   // Rays find what the edges throw.
-  const RadiositySolution solution = solve_pass_one(*l->light, coarse());
+  const RadiositySolution solution = solve_pass_one(l->light, coarse());
   EXPECT_LT(std::abs(solution.energy.imbalance), 0.02);
 }
 

@@ -50,8 +50,8 @@ protected:
     const auto l = lit(scene, settings_.mesh, settings_.plan);
     PassOneSettings plain = settings_;
     plain.form_factors.relightable = false;
-    const RadiositySolution whole = solve_pass_one(*l->light, plain);
-    const RadiositySolution relit = solve_pass_one(*l->light, kept(*l), settings_);
+    const RadiositySolution whole = solve_pass_one(l->light, plain);
+    const RadiositySolution relit = solve_pass_one(l->light, kept(*l), settings_);
     EXPECT_EQ(whole.radiosity, relit.radiosity);
     EXPECT_EQ(whole.field.irradiance, relit.field.irradiance);
     EXPECT_EQ(whole.energy.absorbed, relit.energy.absorbed);

@@ -6,8 +6,8 @@ namespace meninas::test {
 
 Solved solved(const Scene& scene, const PassOneSettings& settings, bool by_shots) {
   const auto l = lit(scene, settings.mesh, settings.plan);
-  Solved result{by_shots ? shoot_pass_one(*l->light, settings, {}, {})
-                         : solve_pass_one(*l->light, settings),
+  Solved result{by_shots ? shoot_pass_one(l->light, settings, {}, {})
+                         : solve_pass_one(l->light, settings),
                 {}};
   result.nodes = light_by_node(scene, l->light->mesh, result.solution);
   return result;

@@ -198,14 +198,14 @@ TEST(DiffuseTerm, DirectPenumbraeAreRightInTheMean) {
   settings.render.diffuse.direct.shadow_rays = 8;
   settings.render.diffuse.direct.penumbra_rays = 16;
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const RadiositySolution solution = solve_pass_one(*prepared->light, settings.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light, settings.pass_one);
 
   constexpr int draws = 64, width = 32, rows = 4;
   std::array<double, width> mean{};
   for (int draw = 0; draw < draws; ++draw) {
     settings.render.seed = static_cast<std::uint32_t>(draw);
     const Image image =
-        render(*prepared->light, solution.field, scene.cameras[0], settings.render).image;
+        render(solution.field, scene.cameras[0], settings.render).image;
     for (int x = 0; x < width; ++x)
       for (int y = 0; y < rows; ++y)
         mean[static_cast<std::size_t>(x)] += image.at(x, y).g / (draws * rows);

@@ -246,7 +246,7 @@ TEST(Lobes, MoreGlossySamplesConvergeToTheConvolution) {
     settings.glossy_samples = samples;
     const Rendering made = [&] {
       const Taken taken = lit_up(scene, coarse());
-      return render(*taken.prepared->light, taken.solution.field, look_at(eye, Point3(0.0), 1e-4),
+      return render(taken.solution.field, look_at(eye, Point3(0.0), 1e-4),
                     settings);
     }();
     const double cells = std::pow(std::ceil(std::sqrt(samples * roughness * rho)), 2.0);

@@ -9,13 +9,12 @@ namespace meninas::test {
 
 Taken lit_up(const Scene& scene, const PassOneSettings& settings) {
   Taken taken{prepare_scene(scene, settings), {}};
-  taken.solution = solve_pass_one(*taken.prepared->light, settings);
+  taken.solution = solve_pass_one(taken.prepared->light, settings);
   return taken;
 }
 
 Image picture(const Taken& scene, const Camera& camera, const RenderSettings& settings) {
-  const LightScene& light = field_scene(*scene.prepared->light, scene.solution);
-  return render(light, scene.solution.field, camera, settings).image;
+  return render(scene.solution.field, camera, settings).image;
 }
 
 PictureChange change_inside(const Image& before, const Image& after,

@@ -103,8 +103,7 @@ TEST(PixelFilter, LayersAddUpUnderAnyFilterAndAdaptively) {
     RenderSettings settings = pixels(24, 20, 16);
     settings.filter = filter;
     settings.pixel_error = 0.02;
-    const LightScene& light = *lit.prepared->light;
-    const Rendering layered = render_layers(light, lit.solution.field, scene.cameras[0], settings);
+    const Rendering layered = render_layers(lit.solution.field, scene.cameras[0], settings);
     const Image whole = picture(lit, scene.cameras[0], settings);
     for (std::size_t p = 0; p < whole.pixels.size(); ++p) {
       glm::vec3 sum(0.0F);
@@ -159,7 +158,7 @@ TEST(SampleChoice, WhereNothingDiffersTheFirstAreEnough) {
        {std::pair{1024, 16}, {256, 4}, {16, 4}, {8, 4}, {4, 4}, {2, 2}}) {
     RenderSettings settings = pixels(8, 8, samples);
     settings.pixel_error = 0.05;
-    const Rendering rendering = render(*lit.prepared->light, lit.solution.field, camera, settings);
+    const Rendering rendering = render(lit.solution.field, camera, settings);
     EXPECT_EQ(rendering.camera_rays, std::uint64_t(64 * traced)) << samples;
     EXPECT_NEAR(rendering.image.at(3, 3).g, 3.0 / std::numbers::pi, rounding);
   }
@@ -169,15 +168,14 @@ TEST(SampleChoice, PixelsAreRightToWhatIsAskedFor) {
   const Scene scene = room();
   const Taken lit = lit_up(scene, coarse());
   RenderSettings settings = pixels(64, 48, 256);
-  const LightScene& light = *lit.prepared->light;
-  const Rendering all = render(light, lit.solution.field, scene.cameras[0], settings);
+  const Rendering all = render(lit.solution.field, scene.cameras[0], settings);
   double mean = 0.0;
   for (const glm::vec3& pixel : all.image.pixels)
     mean += double{pixel.g} / double(all.image.pixels.size());
   std::uint64_t rays = 0;
   for (const double error : {0.1, 0.03, 0.01}) {
     settings.pixel_error = error;
-    const Rendering some = render(light, lit.solution.field, scene.cameras[0], settings);
+    const Rendering some = render(lit.solution.field, scene.cameras[0], settings);
     EXPECT_LT(some.camera_rays, all.camera_rays / 3);
     EXPECT_GT(some.camera_rays, rays);
     rays = some.camera_rays;
@@ -246,7 +244,7 @@ TEST(SpecularDepth, PathsBetweenFacingMirrorsEndByTheirThroughput) {
               diffuse(0.0, 1.0));
   const Taken lit = lit_up(scene, coarse());
   const RenderSettings settings = pixels(1, 1, 1);
-  const Rendering straight_down = render(*lit.prepared->light, lit.solution.field,
+  const Rendering straight_down = render(lit.solution.field,
                                          look_at({0, 0, 0.5}, {1e-9, 0, 0}, 1e-9), settings);
   // rho^k < 1/1024 from k = 66 on.
   EXPECT_EQ(straight_down.specular_rays, 65U);
@@ -262,7 +260,7 @@ TEST(Features, AreTheSceneAtTheMiddleOfThePixel) {
   const Taken lit = lit_up(scene, coarse());
   RenderSettings settings = pixels(24, 24, 1);
   settings.features = {all_features.begin(), all_features.end()};
-  const Rendering rendering = render(*lit.prepared->light, lit.solution.field, camera, settings);
+  const Rendering rendering = render(lit.solution.field, camera, settings);
   ASSERT_EQ(rendering.layers.size(), 5U);
   const auto layer = [&](Feature feature) -> const Image& {
     const auto& found = rendering.layers[static_cast<std::size_t>(feature)];

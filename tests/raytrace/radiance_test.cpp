@@ -69,7 +69,7 @@ TEST(Radiance, MirrorsAreBlackInRadiosityMode) {
   RenderSettings settings = size(16, 16);
   settings.mode = RenderMode::radiosity;
   const Taken taken = lit_up(scene, coarse());
-  const Rendering rendering = render(*taken.prepared->light, taken.solution.field,
+  const Rendering rendering = render(taken.solution.field,
                                      look_at({0, 0, 2}, {0, 0, 4}, 0.8), settings);
   expect_everywhere(rendering.image, glm::vec3(0.0F));
   EXPECT_EQ(rendering.specular_rays, 0U);

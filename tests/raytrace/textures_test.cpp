@@ -138,7 +138,7 @@ TEST(Textures, VertexColoursAreLinearInThePictureAndMeansInPassOne) {
   const auto settings = quick(0.5);
   const auto prepared = prepare_scene(scene, settings.pass_one);
   EXPECT_EQ(prepared->plan.bands, 3);
-  const RadiositySolution solution = solve_pass_one(*prepared->light, settings.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light, settings.pass_one);
   for (std::size_t e = 0; e < element_count(prepared->mesh); ++e) {
     double middle = 0.0;
     for (const ElementVertexId corner : prepared->mesh.corners[e])
@@ -149,7 +149,7 @@ TEST(Textures, VertexColoursAreLinearInThePictureAndMeansInPassOne) {
   }
   for (const double x : {-0.4, -0.1, 0.2, 0.45}) {
     const Point3 at{x, 0.0, 0.3};
-    const Image seen = render(*prepared->light, solution.field,
+    const Image seen = render(solution.field,
                               look_at(at + Vec3(0.1, 0.5, 0.2), at, 1e-5), settings.render)
                            .image;
     EXPECT_NEAR(seen.at(0, 0).r, 0.8 * (x + 0.5), 1e-5);
@@ -169,9 +169,9 @@ TEST(Textures, AreAsSharpInAMirror) {
   // A camera behind the mirror looks past its back,
   // and sees what the mirror shows, left and right exchanged.
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const auto solution = solve_pass_one(*prepared->light, settings.pass_one);
+  const auto solution = solve_pass_one(prepared->light, settings.pass_one);
   const auto seen = [&](const Point3& from, const Point3& at) {
-    return render(*prepared->light, solution.field, look_at(from, at, 0.1), settings.render).image;
+    return render(solution.field, look_at(from, at, 0.1), settings.render).image;
   };
   const Image in_mirror = seen({0.4, 0.5, 0.1}, {-0.75, 0.0, 0.0});
   const Image straight = seen({-1.4, 0.5, 0.1}, {-0.25, 0.0, 0.0});
@@ -267,7 +267,7 @@ TEST(Textures, EnergyIsThatOfTheImages) {
   add_square(scene, "floor", 0.0, true, painted(0.8));
   scene.background = Rgb(1.0);
   const auto prepared = prepare_scene(scene, quick(0.25).pass_one);
-  const RadiositySolution solution = solve_pass_one(*prepared->light, quick(0.25).pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light, quick(0.25).pass_one);
   EXPECT_NEAR(solution.energy.absorbed.g, 0.6 * std::numbers::pi, 0.02);
   EXPECT_NEAR(solution.energy.imbalance, 0.0, 1e-6);
 }
@@ -339,7 +339,7 @@ TEST(CutOuts, WhatIsCutOutNeitherEmitsNorReflects) {
       material.double_sided = false;
     }
   const auto prepared = prepare_scene(scene, quick(0.25).pass_one);
-  const RadiositySolution solution = solve_pass_one(*prepared->light, quick(0.25).pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light, quick(0.25).pass_one);
   EXPECT_NEAR(solution.energy.emitted.g, 0.5 * std::numbers::pi, 0.02);
 }
 
@@ -354,10 +354,10 @@ TEST(Textures, OfMirrorsColourWhatIsSeenInThem) {
   add_square(scene, "mirror", 0.0, true, silver);
   const TwoPassSettings settings = quick(1.0);
   const auto prepared = prepare_scene(scene, settings.pass_one);
-  const RadiositySolution solution = solve_pass_one(*prepared->light, settings.pass_one);
+  const RadiositySolution solution = solve_pass_one(prepared->light, settings.pass_one);
   const auto seen_at = [&](double x) {
     const Camera camera = look_at({x, 1.0, 0.3}, {x, 0.0, -0.25}, 1e-3);
-    return render(*prepared->light, solution.field, camera, settings.render).image.pixels[0].g;
+    return render(solution.field, camera, settings.render).image.pixels[0].g;
   };
   EXPECT_NEAR(seen_at(-0.25), 0.9, 1e-5);
   EXPECT_EQ(seen_at(0.25), 0.0F);

@@ -11,15 +11,14 @@
 namespace meninas::test {
 namespace {
 
-Rgb seen_by_two_passes(const PreparedScene& prepared, const RadiositySolution& solution, Point3 eye,
-                       Point3 target) {
+Rgb seen_by_two_passes(const RadiositySolution& solution, Point3 eye, Point3 target) {
   RenderSettings settings;
   settings.width = settings.height = 1;
   settings.samples = 64;
   settings.glossy_samples = 64;
   settings.diffuse.term = DiffuseTerm::direct;
   settings.diffuse.shared_solid_rays = 1 << 14;
-  return render(field_scene(*prepared.light, solution), solution.field, look_at(eye, target, 1e-4),
+  return render(solution.field, look_at(eye, target, 1e-4),
                 settings)
       .image.pixels[0];
 }
@@ -36,11 +35,11 @@ void expect_agreement(const Scene& scene, std::initializer_list<Sight> sights) {
   settings.mesh.element_size = 0.1;
   settings.form_factors.rays = settings.interpolation.rays = 256;
   const auto prepared = prepare_scene(scene, settings);
-  const RadiositySolution solution = solve_pass_one(*prepared->light, settings);
+  const RadiositySolution solution = solve_pass_one(prepared->light, settings);
   for (const Sight& sight : sights) {
     SCOPED_TRACE(sight.what);
     constexpr double field_error = 0.01;
-    const Rgb found = seen_by_two_passes(*prepared, solution, sight.eye, sight.target);
+    const Rgb found = seen_by_two_passes(solution, sight.eye, sight.target);
     const MeanRadiance truth = radiance_seen(scene, sight.eye, sight.target, 512);
     for (int band = 0; band < 3; ++band) {
       EXPECT_LT(truth.error[band], 0.03 * truth.mean[band]);

@@ -72,7 +72,7 @@ std::vector<glm::vec3> sum_of(std::vector<glm::vec3> a, const std::vector<glm::v
 /// What light is gathered from:
 /// a mesh with the irradiance and the reflected radiosity of its elements.
 struct Surroundings {
-  std::unique_ptr<RefinedScene> scene;
+  std::shared_ptr<const LightScene> scene;
   std::vector<Rgb> irradiance, reflected;
 };
 
@@ -84,7 +84,7 @@ Surroundings surroundings(const LightScene& light, const SampledField& direct,
     even = divide_elements(even, light.surfaces, std::vector<std::uint8_t>(element_count(even), 1));
   Surroundings around;
   even = overlaid(even, indirect.mesh, light.surfaces);
-  around.scene = make_refined_scene(light, overlaid(even, direct.mesh, light.surfaces));
+  around.scene = light_scene_on(light, overlaid(even, direct.mesh, light.surfaces));
   const ElementMesh& mesh = around.scene->mesh;
   around.irradiance =
       corner_means(mesh, sum_of(carried(direct.mesh, direct.total, mesh, light.surfaces),
@@ -107,8 +107,9 @@ SamplePoint gathered_samples(const PointGathering& gathering, const std::vector<
                              tbb::enumerable_thread_specific<PointWorkspace>& workspaces) {
   return [&](const Receiver& receiver, double element_size, std::uint32_t seed) -> PointSample {
     const VertexValue value =
-        indirect_value_at(gathering, irradiance, receiver, element_size,
-                          hash(seed, gathering.form_factors.seed, 0x7e27), workspaces.local());
+        indirect_value_at(gathering, irradiance,
+                          {receiver, element_size, hash(seed, gathering.form_factors.seed, 0x7e27)},
+                          workspaces.local());
     return {value.indirect, value.cover};
   };
 }
@@ -167,14 +168,20 @@ private:
   std::vector<SamplePoint> samples_;
 };
 
+/// How far a field is refined; `weight` is w by CellId of the roots.
+struct Refinement {
+  std::span<const double> weight;
+  RefinementSettings settings;
+};
+
 /// Light from the elements, twice: with few rays from the elements as they were solved,
 /// then from what that makes of them. Where two walls meet,
 /// light changes within an element as much as from one to the next, and comes from near by.
 SampledField gathered_field(const LightScene& light, const ElementLight& elements,
                             const SampledField& from_source, const Gathering& how,
-                            std::span<const double> weight, RefinementSettings refinement,
-                            InterpolatedField& result) {
+                            const Refinement& to, InterpolatedField& result) {
   constexpr int levels = 2;
+  RefinementSettings refinement = to.settings;
   refinement.root_points = refinement.points = 0; // smooth: its centre tells what an element hides
   tbb::enumerable_thread_specific<PointWorkspace> workspaces;
   const auto refined = [&](const LightScene& lit, const std::vector<Rgb>& irradiance,
@@ -185,10 +192,10 @@ SampledField gathered_field(const LightScene& light, const ElementLight& element
     const FieldSampler sampler{
         std::cref(at_vertices), mean_of_two(std::cref(between)),
         [&](const Receiver& receiver, double element_size, std::uint32_t seed) {
-          return is_open(between.fewest(), irradiance, receiver, element_size, seed,
+          return is_open(between.fewest(), irradiance, {receiver, element_size, seed},
                          workspaces.local());
         }};
-    return refine_field(light, sampler, weight, {}, refinement);
+    return refine_field(light, sampler, to.weight, {}, refinement);
   };
   const int asked = how.interpolation.rays, few = std::max(1, asked / 4);
   const double size = light.mesh.element_size;
@@ -196,7 +203,7 @@ SampledField gathered_field(const LightScene& light, const ElementLight& element
       refined(light, elements.irradiance, elements.reflected, {few, double(few), size});
   const Surroundings around = surroundings(light, from_source, first, levels);
   SampledField field =
-      refined(*around.scene->light, around.irradiance, around.reflected,
+      refined(*around.scene, around.irradiance, around.reflected,
               {asked, rays_within(how.interpolation.adaptive->error, first, few), size});
   for (const auto& work : workspaces) {
     result.form_factor_rays += work.rays;
@@ -220,14 +227,14 @@ InterpolatedField adaptive_field(const LightScene& light, const ElementLight& el
   result.form_factor_rays = source.form_factor_rays;
   result.shadow_rays = source.shadow_rays;
   const SampledField gathered =
-      gathered_field(light, elements, from_source, {form_factors, direct, settings}, weight,
-                     refinement_of(*settings.adaptive, gathered_share), result);
+      gathered_field(light, elements, from_source, {form_factors, direct, settings},
+                     {weight, refinement_of(*settings.adaptive, gathered_share)}, result);
 
   result.mesh = overlaid(from_source.mesh, gathered.mesh, light.surfaces);
   const auto on_mesh = [&](const SampledField& field, const std::vector<glm::vec3>& values) {
     return carried(field.mesh, values, *result.mesh, light.surfaces);
   };
-  IrradianceField& field = result.field;
+  VertexIrradiance& field = result.field;
   field.indirect = on_mesh(gathered, gathered.total);
   field.indirect_mirrored = on_mesh(gathered, gathered.mirrored);
   field.irradiance = sum_of(on_mesh(from_source, from_source.total), field.indirect);

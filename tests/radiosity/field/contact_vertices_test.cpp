@@ -21,7 +21,7 @@ ContactLight light_of(double place, double direct) {
 }
 
 TEST(ContactVertices, FollowTheLineThroughWhatIsSeen) {
-  IrradianceField field;
+  VertexIrradiance field;
   field.irradiance.assign(6, glm::vec3(3.0F)); // 1 from the source, 2 by way of mirrors
   field.indirect = field.mirrored = field.indirect_mirrored = {6, glm::vec3(2.0F)};
   std::vector<std::uint8_t> valid(6, 0);
@@ -50,9 +50,9 @@ TEST(ContactVertices, FollowTheLineThroughWhatIsSeen) {
 
 // Light by way of mirrors is to be what it is in the room that they show.
 TEST(ContactVertices, TheWholeDoesNotDependOnItsParts) {
-  std::array<IrradianceField, 2> fields;
+  std::array<VertexIrradiance, 2> fields;
   for (const bool mirrors : {false, true}) {
-    IrradianceField& field = fields[mirrors ? 1 : 0];
+    VertexIrradiance& field = fields[mirrors ? 1 : 0];
     field.irradiance = {glm::vec3(5.0F), glm::vec3(0.0F)};
     field.mirrored = {glm::vec3(mirrors ? 1.0F : 0.0F), glm::vec3(0.0F)};
     field.indirect = field.indirect_mirrored = {2, glm::vec3(0.0F)};
@@ -128,7 +128,7 @@ struct AtFoot {
   double largest_error = 0.0;
 };
 AtFoot at_foot(const LitScene& l, const RadiositySolution& solution, double side) {
-  const ElementMesh& mesh = field_scene(*l.light, solution).mesh;
+  const ElementMesh& mesh = solution.field.mesh();
   const SideId floor = l.mesh.side_of_element[elements_of(l, "floor")[0]];
   const Patch& patch = l.surfaces.patches[index(mesh.sides[index(floor)].patch)];
   const std::vector<Point3> wall{
@@ -149,7 +149,7 @@ TEST(ContactVertices, TheFootOfABrightWallIsLit) {
   // The wall on a line of vertices, close to either side of one, and between two.
   for (const double side : {0.8, 0.801, 0.799, 0.75, 0.78}) {
     const auto l = lit(glowing_box(side), {.element_size = 0.1});
-    const AtFoot foot = at_foot(*l, solve_pass_one(*l->light, {}), side);
+    const AtFoot foot = at_foot(*l, solve_pass_one(l->light, {}), side);
     // Over one cell the factor is straight to (0.1 / 0.4)^3 / 4 of itself;
     // vertices beside each other may share a line.
     EXPECT_NEAR(foot.found, foot.exact, 0.01 * foot.exact) << side;
@@ -162,7 +162,7 @@ TEST(ContactVertices, TheFootOfABrightWallIsLitOnAdaptiveMeshes) {
     const auto l = lit(glowing_box(side), {.element_size = 0.4});
     PassOneSettings settings;
     settings.interpolation.adaptive = AdaptiveSettings{.error = 0.01};
-    const RadiositySolution solution = solve_pass_one(*l->light, settings);
+    const RadiositySolution solution = solve_pass_one(l->light, settings);
     const AtFoot foot = at_foot(*l, solution, side);
     EXPECT_NEAR(foot.found, foot.exact, 0.01 * foot.exact) << side;
     // The bound is one of the mean square over all of the floor.
@@ -182,8 +182,8 @@ InGap in_gap(double gap, double element_size) {
   add_box(scene, "left", {0.5, 0.0, 0.5}, {low, height, 2.5}, diffuse(0.0, 1.0));
   add_box(scene, "right", {high, 0.0, 0.5}, {2.5, height, 2.5}, diffuse(0.0, 1.0));
   const auto l = lit(scene, {.element_size = element_size});
-  const RadiositySolution solution = solve_pass_one(*l->light, {});
-  const ElementMesh& mesh = field_scene(*l->light, solution).mesh;
+  const RadiositySolution solution = solve_pass_one(l->light, {});
+  const ElementMesh& mesh = solution.field.mesh();
   const SideId floor = l->mesh.side_of_element[elements_of(*l, "floor")[0]];
   const Patch& patch = l->surfaces.patches[index(mesh.sides[index(floor)].patch)];
   const Point3 x{0.5 * (low + high), 0.0, 1.5};

@@ -90,7 +90,7 @@ TEST(EmissionKernels, LeaveWhatIsWellFoundAsItIs) {
       gathered.total[v] = glm::vec3(3.0F);
     }
   add_emission(gathered, found);
-  const IrradianceField before = found.field;
+  const VertexIrradiance before = found.field;
   spread_emission(gathered, floor.taken, found);
   EXPECT_EQ(found.field.irradiance, before.irradiance);
 

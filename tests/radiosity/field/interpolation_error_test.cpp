@@ -131,8 +131,8 @@ double off_at_the_foot(double bend, std::size_t& elements) {
   PassOneSettings settings;
   settings.interpolation.rays = settings.form_factors.rays = 1024;
   settings.interpolation.bend = bend;
-  const RadiositySolution solution = solve_pass_one(*l->light, settings);
-  const LightScene& of_field = field_scene(*l->light, solution);
+  const RadiositySolution solution = solve_pass_one(l->light, settings);
+  const LightScene& of_field = *solution.field.scene;
   elements = element_count(of_field.mesh);
   const SideId floor = l->mesh.side_of_element[elements_of(*l, "floor")[0]];
   const MeshSide& side = l->mesh.sides[index(floor)];

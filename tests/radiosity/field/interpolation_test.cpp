@@ -25,7 +25,7 @@ TEST(Interpolation, ConstantLightStaysConstant) {
     const auto l = lit(furnace(0.5, mirrors), {.element_size = 0.2});
     PassOneSettings settings;
     settings.solver.tolerance = 1e-6;
-    const RadiositySolution solution = solve_pass_one(*l->light, settings);
+    const RadiositySolution solution = solve_pass_one(l->light, settings);
     for (const auto method : {Interpolation::average, Interpolation::gather}) {
       const InterpolatedField interpolated = field_of(*l, solution, method);
       ASSERT_EQ(interpolated.field.irradiance.size(), l->mesh.vertices.size());
@@ -97,7 +97,7 @@ TEST(Interpolation, NeverBelowZero) {
 
 TEST(Interpolation, FieldMeetsItsVerticesAndIsContinuous) {
   const auto l = lit(half_room(), {.element_size = 0.3});
-  IrradianceField field;
+  VertexIrradiance field;
   for (const auto& x : l->mesh.vertices)
     field.irradiance.emplace_back(x.x, x.y, x.z);
   for (std::uint32_t s = 0; s < l->mesh.sides.size(); ++s) {
@@ -124,7 +124,7 @@ TEST(Interpolation, NoDarkFringeAtAThingThatStandsOnTheFloor) {
   add_room(scene, Point3(0.0), Point3(2.0), {grey, grey, grey, diffuse(0.0, 1.0), grey, grey});
   add_box(scene, "box", {0.53, 0.0, 0.53}, {1.47, 0.05, 1.47}, grey);
   const auto l = lit(std::move(scene), {.element_size = 0.1});
-  const RadiositySolution solution = solve_pass_one(*l->light, {});
+  const RadiositySolution solution = solve_pass_one(l->light, {});
   const auto side = l->mesh.side_of_element[elements_of(*l, "y0")[0]];
   const Patch& patch = l->surfaces.patches[index(l->mesh.sides[index(side)].patch)];
   // At 2 cm from a box 5 cm high some light is hidden,

@@ -29,7 +29,7 @@ PassOneSettings settings_by(By by) {
   return settings;
 }
 
-RadiositySolution solve_by(By by, const LightScene& light) {
+RadiositySolution solve_by(By by, const std::shared_ptr<const LightScene>& light) {
   return solve_pass_one(light, settings_by(by));
 }
 
@@ -90,9 +90,9 @@ TEST_P(LowFurnaceTest, EveryVertex) {
   const auto [which, by] = GetParam();
   const LowFurnace room = low_furnace(which);
   const auto l = lit(room.scene, room.mesh);
-  const RadiositySolution solution = solve_by(by, *l->light);
+  const RadiositySolution solution = solve_by(by, l->light);
   EXPECT_TRUE(solution.solver.converged);
-  const ElementMesh& mesh = field_scene(*l->light, solution).mesh;
+  const ElementMesh& mesh = solution.field.mesh();
   std::size_t seen = 0;
   for (std::size_t e = 0; e < element_count(mesh); ++e) {
     const MeshSide& side = mesh.sides[index(mesh.side_of_element[e])];
@@ -128,7 +128,7 @@ TEST(LowSpaces, ARoomOfOneElementAWall) {
   const auto l = room_of_large_elements();
   constexpr double mean = 10.0 / (94.0 * (1.0 - 0.5));
   for (const By by : {By::rows, By::nodes, By::adaptive}) {
-    const RadiositySolution solution = solve_by(by, *l->light);
+    const RadiositySolution solution = solve_by(by, l->light);
     for (const glm::vec3& h : solution.field.irradiance)
       EXPECT_GT(double{h.g}, 0.25 * mean);
     if (by == By::adaptive)
@@ -158,8 +158,8 @@ Scene panel_before_wall() {
 // and all that is emitted is absorbed but for as much as rays are noisy.
 TEST(LowSpaces, NodesDoNotLightAWallBehindAPanel) {
   const auto l = lit(panel_before_wall(), {.element_size = 0.2});
-  const RadiositySolution rows = solve_by(By::rows, *l->light),
-                          nodes = solve_by(By::nodes, *l->light);
+  const RadiositySolution rows = solve_by(By::rows, l->light),
+                          nodes = solve_by(By::nodes, l->light);
   EXPECT_NEAR(mean_over(*l, nodes.irradiance, "z0").g / mean_over(*l, rows.irradiance, "z0").g, 1.0,
               0.03);
   EXPECT_LT(std::abs(nodes.energy.imbalance), 0.01);
@@ -176,8 +176,8 @@ TEST(LowSpaces, NodesDoNotLightTheFootOfABoxByTheirNoise) {
   PassOneSettings exact = settings_by(By::rows);
   exact.form_factors.rays = 1024;
   exact.direct.points = exact.direct.most_points = 64;
-  const RadiositySolution rows = solve_pass_one(*l->light, exact),
-                          nodes = solve_by(By::nodes, *l->light);
+  const RadiositySolution rows = solve_pass_one(l->light, exact),
+                          nodes = solve_by(By::nodes, l->light);
   for (const std::size_t e : elements_of(*l, "floor")) {
     if (rows.exposed[e] > 0.1F && nodes.exposed[e] > 0.1F) {
       EXPECT_LT(std::abs(std::log(nodes.irradiance[e].g / rows.irradiance[e].g)), std::log(2.5));

@@ -71,7 +71,7 @@ TEST(Facets, LargerThanAnElementGatherForThemselves) {
 
 TEST(Facets, LightIsContinuousOverTheCurve) {
   const auto l = lit(room_with_globe(), {.element_size = 0.4});
-  const RadiositySolution solution = solve_pass_one(*l->light, {});
+  const RadiositySolution solution = solve_pass_one(l->light, {});
   std::map<std::array<long, 3>, glm::vec3> value_at;
   for (const std::size_t v : vertices_of(*l, "globe")) {
     const Point3 x = l->mesh.vertices[v];
@@ -88,7 +88,7 @@ TEST(Facets, LightIsContinuousOverTheCurve) {
 // Corners weigh areas a little differently: 2 %.
 TEST(Facets, KeepTheMeanOfTheElements) {
   const auto l = lit(room_with_globe(), {.element_size = 0.4});
-  const RadiositySolution solution = solve_pass_one(*l->light, {});
+  const RadiositySolution solution = solve_pass_one(l->light, {});
   const auto means = corner_means(l->mesh, solution.field.irradiance);
   const double from_vertices = mean_over(*l, means, "globe").g,
                from_elements = mean_over(*l, solution.irradiance, "globe").g;
@@ -100,7 +100,7 @@ TEST(Facets, KeepTheMeanOfTheElements) {
 // that of all by a 17th of it: four sigma are 3 %.
 TEST(Facets, KnowWhatComesByWayOfMirrors) {
   const auto l = lit(room_with_globe(), {.element_size = 0.4});
-  const RadiositySolution solution = solve_pass_one(*l->light, {});
+  const RadiositySolution solution = solve_pass_one(l->light, {});
   std::vector<Rgb> reflected = solution.radiosity;
   for (std::size_t e = 0; e < reflected.size(); ++e)
     reflected[e] -= l->mesh.emission[e];

@@ -73,7 +73,7 @@ TEST(Hierarchical, Furnaces) {
   for (const bool with_mirrors : {false, true})
     for (const double rho : {0.0, 0.5, 0.9}) {
       const auto l = lit(furnace(rho, {with_mirrors}), {.element_size = 0.125});
-      const RadiositySolution solution = solve_pass_one(*l->light, hierarchical(0.125, 0.05));
+      const RadiositySolution solution = solve_pass_one(l->light, hierarchical(0.125, 0.05));
       EXPECT_EQ(solution.solver.method, SolverMethod::hierarchical);
       EXPECT_TRUE(solution.solver.converged);
       EXPECT_EQ(solution.solver.bands, 1);
@@ -94,7 +94,7 @@ TEST(Hierarchical, ParallelPlates) {
   add_polygon(scene, "ceiling", {{0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}}, diffuse(rho));
   const auto l = lit(scene, {.element_size = 0.0625});
   const RadiositySolution solution =
-      solve_pass_one(*l->light, with_fine_direct_light(hierarchical(0.0625, 0.02, 4096)));
+      solve_pass_one(l->light, with_fine_direct_light(hierarchical(0.0625, 0.02, 4096)));
   const double b1 = 1.0 / (1.0 - rho * rho * factor * factor);
   EXPECT_NEAR(mean_over(*l, solution.radiosity, "floor").g, b1, 1e-3);
   EXPECT_NEAR(mean_over(*l, solution.radiosity, "ceiling").g, rho * factor * b1, 1e-3);
@@ -110,13 +110,13 @@ TEST(Hierarchical, AgreesWithRowsInGalleryScenes) {
     PassOneSettings settings = hierarchical(0.0, link_error, 512);
     settings.mesh.target_elements = 1000;
     const auto l = lit(gallery(name), settings.mesh);
-    const RadiositySolution nodes = solve_pass_one(*l->light, settings);
+    const RadiositySolution nodes = solve_pass_one(l->light, settings);
     EXPECT_TRUE(nodes.solver.converged);
     EXPECT_LT(nodes.links->receivers, element_count(l->mesh)) << name;
     PassOneSettings with_rows = by_rows(settings, 512);
-    const RadiositySolution rows = solve_pass_one(*l->light, with_rows);
+    const RadiositySolution rows = solve_pass_one(l->light, with_rows);
     with_rows.form_factors.seed = with_rows.direct.seed = 1;
-    const RadiositySolution other = solve_pass_one(*l->light, with_rows);
+    const RadiositySolution other = solve_pass_one(l->light, with_rows);
     const Agreement a = agreement(*l, nodes, rows), samples = agreement(*l, other, rows);
     EXPECT_LT(a.local, std::hypot(0.5 * link_error, samples.local)) << name;
     EXPECT_LT(a.mean, 4.0 * samples.mean + 0.002) << name;
@@ -136,12 +136,12 @@ Scene plain_room() {
 TEST(Hierarchical, ASmallerLinkErrorIsASmallerError) {
   PassOneSettings settings = hierarchical(1.0 / 24.0, 0.2, 2048);
   const auto l = lit(plain_room(), settings.mesh);
-  const RadiositySolution rows = solve_pass_one(*l->light, by_rows(settings, 2048));
+  const RadiositySolution rows = solve_pass_one(l->light, by_rows(settings, 2048));
   std::vector<double> errors;
   std::vector<std::size_t> receivers;
   for (const double link_error : {0.2, 0.002}) {
     settings.hierarchical.link_error = link_error;
-    const RadiositySolution solution = solve_pass_one(*l->light, settings);
+    const RadiositySolution solution = solve_pass_one(l->light, settings);
     errors.push_back(agreement(*l, solution, rows).rms);
     receivers.push_back(solution.links->receivers);
   }
@@ -160,8 +160,8 @@ TEST(Hierarchical, MirrorRoomIsDoubledRoom) {
     PassOneSettings settings = with_fine_direct_light(hierarchical(0.15, 0.01, 1024));
     settings.interpolation = {.method = interpolation, .rays = 1024};
     const auto a = lit(half, settings.mesh), b = lit(doubled(half), settings.mesh);
-    const RadiositySolution mirrored = solve_pass_one(*a->light, settings),
-                            whole = solve_pass_one(*b->light, settings);
+    const RadiositySolution mirrored = solve_pass_one(a->light, settings),
+                            whole = solve_pass_one(b->light, settings);
     double squares = 0.0, sum = 0.0, light = 0.0, area = 0.0;
     for (std::size_t e = 0; e < mirrored.irradiance.size(); ++e) {
       // Polygons of the half come first in the doubled room, with the same elements.
@@ -188,7 +188,7 @@ TEST(Hierarchical, FinerElementsNeedNoMoreRays) {
     PassOneSettings settings = hierarchical(size, 0.05, 256);
     settings.direct.points = settings.direct.most_points = settings.direct.shadow_rays =
         settings.direct.penumbra_rays = 1;
-    rays.push_back(solve_pass_one(*l->light, settings).form_factor_rays);
+    rays.push_back(solve_pass_one(l->light, settings).form_factor_rays);
     elements.push_back(element_count(l->mesh));
   }
   EXPECT_GT(double(elements[1]), 3.5 * double(elements[0]));
@@ -249,9 +249,9 @@ TEST(Hierarchical, WhatStandsOnAFloorIsFound) {
   add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, diffuse(0.5, 1.0), wall, wall});
   add_box(scene, "box", {0.25, 0.0, 0.5}, {0.375, 0.3, 0.625}, wall);
   const auto l = lit(std::move(scene), {.element_size = 1.0 / 16.0});
-  const RadiositySolution nodes = solve_pass_one(*l->light, hierarchical(1.0 / 16.0, 0.5, 256));
+  const RadiositySolution nodes = solve_pass_one(l->light, hierarchical(1.0 / 16.0, 0.5, 256));
   const RadiositySolution rows =
-      solve_pass_one(*l->light, by_rows(hierarchical(1.0 / 16.0, 0.5), 256));
+      solve_pass_one(l->light, by_rows(hierarchical(1.0 / 16.0, 0.5), 256));
   EXPECT_EQ(std::count(rows.exposed.begin(), rows.exposed.end(), 0.0F), 4);
   EXPECT_EQ(nodes.exposed, rows.exposed);
   EXPECT_EQ(std::count(nodes.exposed.begin(), nodes.exposed.end(), 0.0F), 4);
@@ -263,7 +263,7 @@ TEST(Hierarchical, SameBitsForAnyNumberOfThreads) {
   for (const std::size_t threads : {1, 2, 4}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     const auto l = lit(half_room_with_small_mirror(), {.element_size = 0.2});
-    runs.push_back(solve_pass_one(*l->light, hierarchical(0.2, 0.05, 64)));
+    runs.push_back(solve_pass_one(l->light, hierarchical(0.2, 0.05, 64)));
   }
   for (const RadiositySolution& run : runs) {
     EXPECT_EQ(run.radiosity, runs[0].radiosity);
@@ -290,8 +290,8 @@ TEST(Hierarchical, LightFromOutsideIsCountedOnce) {
     scene.lights = {lamp};
     const PassOneSettings settings = hierarchical(0.0625, 0.01, 1024);
     const auto l = lit(std::move(scene), settings.mesh);
-    const RadiositySolution nodes = solve_pass_one(*l->light, settings);
-    const RadiositySolution rows = solve_pass_one(*l->light, by_rows(settings, 1024));
+    const RadiositySolution nodes = solve_pass_one(l->light, settings);
+    const RadiositySolution rows = solve_pass_one(l->light, by_rows(settings, 1024));
     const Agreement a = agreement(*l, nodes, rows);
     EXPECT_LT(a.rms, 0.02) << rho;
     EXPECT_LT(a.mean, 0.003) << rho;
@@ -301,7 +301,7 @@ TEST(Hierarchical, LightFromOutsideIsCountedOnce) {
 
 TEST(Hierarchical, RoomsWithoutAbsorptionAreFoundOut) {
   const auto l = lit(furnace(1.0, {true}), {.element_size = 0.25});
-  EXPECT_EQ(solve_pass_one(*l->light, hierarchical(0.25, 0.05)).solver.end, SolverEnd::unsolvable);
+  EXPECT_EQ(solve_pass_one(l->light, hierarchical(0.25, 0.05)).solver.end, SolverEnd::unsolvable);
 }
 
 } // namespace

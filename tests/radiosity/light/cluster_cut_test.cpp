@@ -38,7 +38,7 @@ struct Clustered {
   ArrivingLight at(const Receiver& x, const ClusterCut& cut, DirectWorkspace& direct,
                    const DirectSettings& settings = every_image) const {
     ClusterWorkspace work;
-    return cluster_irradiance(*light, tree, x, settings, cut, 3, work, direct);
+    return cluster_irradiance({*light, tree, settings, cut}, x, 3, work, direct);
   }
   ArrivingLight at(const Receiver& x, const ClusterCut& cut) const {
     DirectWorkspace direct;

@@ -200,7 +200,7 @@ PassOneSettings coarse() {
 TEST(SolidLight, RowsCloseAndEnergyIsAccountedFor) {
   const PassOneSettings settings = coarse();
   const auto room = lit(room_of_solids(), settings.mesh, settings.plan);
-  const RadiositySolution solution = solve_pass_one(*room->light, settings);
+  const RadiositySolution solution = solve_pass_one(room->light, settings);
   EXPECT_LT(solution.closure.max_error, 1e-5);
   EXPECT_LT(std::abs(solution.energy.imbalance), 0.02);
   EXPECT_EQ(solution.energy.escaped, Rgb(0.0));
@@ -216,7 +216,7 @@ TEST(SolidLight, AWhiteFurnaceStaysWhite) {
   add_box(scene, "block", {0.1, 0.2, 0.1}, {0.4, 1.2, 0.6}, solid_glass(Rgb(1.0), 2.4));
   PassOneSettings settings = coarse();
   const auto room = lit(std::move(scene), settings.mesh, settings.plan);
-  const RadiositySolution solution = solve_pass_one(*room->light, settings);
+  const RadiositySolution solution = solve_pass_one(room->light, settings);
   for (const char* wall : {"x0", "y0", "z1"})
     for (const std::size_t e : elements_of(*room, wall))
       for (int band = 0; band < 3; ++band)
@@ -234,7 +234,7 @@ TEST(SolidLight, OpenNestedAndTrappingSolidsEnd) {
   add_box(scene, "outward", {1.2, 1.2, 0.2}, {1.6, 1.6, 0.5}, solid_glass(Rgb(1.0), 0.0));
   const PassOneSettings settings = coarse();
   const auto room = lit(std::move(scene), settings.mesh, settings.plan);
-  const RadiositySolution solution = solve_pass_one(*room->light, settings);
+  const RadiositySolution solution = solve_pass_one(room->light, settings);
   EXPECT_LT(solution.closure.max_error, 1e-5);
   for (const Rgb& b : solution.radiosity)
     for (int band = 0; band < 3; ++band)
@@ -295,7 +295,7 @@ TEST(SolidLight, ACoatInGlassIsTheMirrorThere) {
                 {{0.35, 0.3, 1.15}, {0.75, 0.3, 1.15}, {0.75, 0.3, 0.65}, {0.35, 0.3, 0.65}},
                 plate);
     const auto room = lit(std::move(scene), coarse().mesh);
-    const RadiositySolution solution = solve_pass_one(*room->light, coarse());
+    const RadiositySolution solution = solve_pass_one(room->light, coarse());
     return mean_over(*room, solution.irradiance, "y1").b;
   };
   Material coat = polished(Rgb(0.5));

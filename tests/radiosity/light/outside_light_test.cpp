@@ -130,7 +130,7 @@ TEST(PunctualLight, ElementsAndVerticesReceiveIt) {
   const auto l = lit(scene, {.element_size = 0.25});
   PassOneSettings settings;
   settings.form_factors.rays = settings.interpolation.rays = 16;
-  const RadiositySolution solution = solve_pass_one(*l->light, settings);
+  const RadiositySolution solution = solve_pass_one(l->light, settings);
   for (std::size_t v = 0; v < l->mesh.vertices.size(); ++v) {
     const Point3& x = l->mesh.vertices[v];
     if (x.x < 2.05 || x.x > 3.0)
@@ -157,7 +157,7 @@ TEST(Background, AnOpenFloorReceivesPiTimesItsRadianceByEverySolver) {
     for (const SolverMethod solver : {SolverMethod::bicgstab, SolverMethod::progressive}) {
       settings.form_factors.method = method;
       settings.solver.method = solver;
-      const RadiositySolution solution = solve_pass_one(*l->light, settings);
+      const RadiositySolution solution = solve_pass_one(l->light, settings);
       for (const auto& h : solution.field.irradiance)
         EXPECT_LE(glm::distance(Rgb(h), std::numbers::pi * scene.background), 1e-5);
       EXPECT_NEAR(solution.energy.imbalance, 0.0, 1e-6);
@@ -174,7 +174,7 @@ TEST(Background, HalfOfItMayComeByWayOfAMirror) {
   const auto l = lit(scene, {.element_size = 1.0});
   PassOneSettings settings;
   settings.form_factors.rays = settings.interpolation.rays = 1024;
-  const RadiositySolution solution = solve_pass_one(*l->light, settings);
+  const RadiositySolution solution = solve_pass_one(l->light, settings);
   for (std::size_t v = 0; v < solution.field.irradiance.size(); ++v) {
     EXPECT_NEAR(solution.field.irradiance[v].g, 0.5 * (1.0 + rho) * std::numbers::pi, 0.01);
     EXPECT_NEAR(solution.field.mirrored[v].g, 0.5 * rho * std::numbers::pi, 0.01);

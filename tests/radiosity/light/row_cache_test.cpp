@@ -74,14 +74,15 @@ TEST(RowCache, AreLookedAtAnew) {
   PointWorkspace work;
   VertexRays kept;
   const std::vector<Rgb> lit(room.reflected.size(), Rgb(1.0));
-  indirect_value_at(room.few, lit, room.point, 0.25, 3, work, &kept);
+  indirect_value_at(room.few, lit, {room.point, 0.25, 3}, work, &kept);
   std::vector<Rgb> doubled = room.reflected;
   for (Rgb& value : doubled)
     value *= 2.0;
   const PointGathering other(*room.l->light, doubled, {}, {}, {.rays = few_rays});
-  const double expected = indirect_value_at(other, lit, room.point, 0.25, 3, work).indirect.total.g;
+  const double expected =
+      indirect_value_at(other, lit, {room.point, 0.25, 3}, work).indirect.total.g;
   work.rays = 0;
-  const VertexValue again = indirect_value_at(other, lit, room.point, 0.25, 3, work, &kept);
+  const VertexValue again = indirect_value_at(other, lit, {room.point, 0.25, 3}, work, &kept);
   EXPECT_EQ(work.rays, 0U);
   EXPECT_NEAR(again.indirect.total.g, expected, of_floats * expected);
   EXPECT_EQ(again.cover, Cover::open);

@@ -21,8 +21,9 @@ FoldedSegment any_segment(const LightScene& light, Random& random) {
   const Point3 from = random.in_box(Vec3(0.05), Vec3(0.95));
   const Point3 to = random.in_box(Vec3(0.05), Vec3(0.95));
   FoldedSegment segment;
-  fold(light, world, from, none<PlaneId>, apply(light.worlds.worlds[index(world)].image, to),
-       none<PlaneId>, segment);
+  fold(light, world,
+       {from, apply(light.worlds.worlds[index(world)].image, to), none<PlaneId>, none<PlaneId>},
+       segment);
   return segment;
 }
 
@@ -63,7 +64,7 @@ TEST(ShadowLegs, RaysAreCountedLegByLeg) {
   std::uint64_t legs = 0, rays = 0;
   for (std::uint32_t k = 0; k < 3; ++k) {
     const Point3 to = apply(light.worlds.worlds[k].image, Point3(0.5, 0.5, 0.5));
-    fold(light, static_cast<WorldId>(k), {0.4, 0.5, 0.6}, none<PlaneId>, to, none<PlaneId>,
+    fold(light, static_cast<WorldId>(k), {{0.4, 0.5, 0.6}, to, none<PlaneId>, none<PlaneId>},
          segments[k]);
     legs += segments[k].legs.size();
   }

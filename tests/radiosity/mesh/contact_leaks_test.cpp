@@ -63,8 +63,8 @@ struct BothSides {
 };
 BothSides light_of(const Scene& scene, double size, SolverMethod method) {
   const auto l = lit(scene, {.element_size = size});
-  const RadiositySolution solution = solve_pass_one(*l->light, settings_of(method));
-  const LightScene& light = field_scene(*l->light, solution);
+  const RadiositySolution solution = solve_pass_one(l->light, settings_of(method));
+  const LightScene& light = *solution.field.scene;
   const auto is_dark = [&](const Point3& x, const MeshSide& side) {
     const bool in_wall = std::abs(side.normal.x) > 0.5 && x.x > 0.5 && x.x < 3.5;
     return in_wall ? side.normal.x > 0.0 : x.x > wall_x + 0.5;

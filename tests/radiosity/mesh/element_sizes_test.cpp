@@ -80,8 +80,8 @@ TEST(ElementSizes, AdaptiveFieldsFindTheShadowOnALitGround) {
   PassOneSettings settings;
   settings.form_factors.rays = settings.interpolation.rays = 64;
   settings.interpolation.adaptive = AdaptiveSettings{.error = 0.1};
-  const RadiositySolution solution = solve_pass_one(*l->light, settings);
-  const ElementMesh& mesh = field_scene(*l->light, solution).mesh;
+  const RadiositySolution solution = solve_pass_one(l->light, settings);
+  const ElementMesh& mesh = solution.field.mesh();
   const SideId ground = mesh.sides_of_patch[index(l->mesh.sides[0].patch)][0];
   const auto at = [&](double x, double z) {
     const Patch& patch = l->surfaces.patches[index(mesh.sides[index(ground)].patch)];

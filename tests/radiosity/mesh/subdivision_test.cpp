@@ -146,7 +146,7 @@ TEST(MeshDivision, TheFieldIsContinuous) {
     const ElementMesh mesh = divided_at_random(m, 4, 0.15, 5);
     EXPECT_FALSE(mesh.hanging.empty());
     Random random(6);
-    IrradianceField field;
+    VertexIrradiance field;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
       field.irradiance.emplace_back(random.between(0.0, 1.0), random.between(0.0, 1.0),
                                     random.between(0.0, 1.0));
@@ -181,7 +181,7 @@ TEST(MeshDivision, TheFieldIsContinuousAcrossPatches) {
   const Meshed m = meshed(patched_wall(), {.element_size = 0.3});
   const ElementMesh mesh = divided_at_random(m, 5, 0.15, 7);
   Random random(8);
-  IrradianceField field;
+  VertexIrradiance field;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     field.irradiance.emplace_back(random.between(0.0, 1.0));
   settle_hanging(mesh, field.irradiance);

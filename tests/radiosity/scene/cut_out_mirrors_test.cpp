@@ -32,8 +32,8 @@ std::unique_ptr<LitScene> lit_with(Scene scene, HoleAt hole_at, double element_s
     return hole_at((1.0 - b.x - b.y) * x[0] + b.x * x[1] + b.y * x[2]);
   };
   l->rays.emplace(in, l->surfaces, holes);
-  l->light.emplace(
-      make_light_scene(in, l->surfaces, *l->rays, l->plan.mirrors, l->plan.worlds, l->mesh));
+  l->light = std::make_shared<const LightScene>(
+      make_light_scene(in, l->surfaces, *l->rays, {l->plan.mirrors, l->plan.worlds}, l->mesh));
   return l;
 }
 
@@ -148,8 +148,8 @@ TEST(CutOutMirrors, ThrowTheLightOfClustersAsPolygonsDo) {
     const ClusterTree tree = make_cluster_tree(l.light->emitters);
     ClusterWorkspace work;
     DirectWorkspace direct;
-    const auto light = cluster_irradiance(*l.light, tree, x, settings, {.theta = 0.3, .rays = 2048},
-                                          3, work, direct);
+    const ClusterCut cut{.theta = 0.3, .rays = 2048};
+    const auto light = cluster_irradiance({*l.light, tree, settings, cut}, x, 3, work, direct);
     for (const LightcutNode& part : work.stand_ins)
       together += part.world != real_world && tree.nodes[part.node].count > 1;
     return light.mirrored.g;
@@ -165,7 +165,7 @@ TEST(CutOutMirrors, PassOneFindsTheLightOfPolygons) {
   settings.interpolation.method = Interpolation::average;
   const auto light_of = [&](Sheet sheet) {
     const auto l = lit_sheet(sheet, mirror(rho));
-    return mean_over(*l, solve_pass_one(*l->light, settings).irradiance, "ceiling").g;
+    return mean_over(*l, solve_pass_one(l->light, settings).irradiance, "ceiling").g;
   };
   const double polygons = light_of(Sheet::of_polygons);
   EXPECT_NEAR(light_of(Sheet::with_hole), polygons, 0.01 * polygons);
@@ -260,8 +260,8 @@ TEST(CutOutMirrors, SegmentsAreLostInTheHolesOfAnyMirrorOfTheirChain) {
       const auto w = static_cast<std::uint32_t>(random.between(0.0, double(worlds.size())));
       const Point3 from = random.in_box(Vec3(0.05), Vec3(0.95));
       const Point3 to = random.in_box(Vec3(0.05), Vec3(0.95));
-      fold(*cut->light, WorldId{w}, from, none<PlaneId>, apply(worlds[w].image, to), none<PlaneId>,
-           segments[k]);
+      fold(*cut->light, WorldId{w},
+           {from, apply(worlds[w].image, to), none<PlaneId>, none<PlaneId>}, segments[k]);
       for (std::size_t leg = 0; leg + 1 < segments[k].legs.size(); ++leg)
         holes |= in_either_hole(segments[k].legs[leg].to) ? 1U << k : 0U;
     }

@@ -30,6 +30,10 @@ protected:
     settings_.element_size = 0.3;
     surfaces_ = find_surfaces(scene_);
     mesh_ = make_element_mesh(scene_, surfaces_, settings_);
+    plan_ = plan_transport(scene_, surfaces_);
+    rays_.emplace(make_ray_scene(scene_, surfaces_));
+    solution_.field.scene = std::make_shared<const LightScene>(
+        make_light_scene(scene_, surfaces_, *rays_, {plan_.mirrors, plan_.worlds}, mesh_));
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
       solution_.field.irradiance.emplace_back(1.0F / static_cast<float>(v + 1), 0.1F, 1e-30F);
       solution_.field.mirrored.emplace_back(0.5F / static_cast<float>(v + 1), 0.0F, 1e-31F);
@@ -75,6 +79,8 @@ protected:
   SurfaceModel surfaces_;
   MeshSettings settings_;
   ElementMesh mesh_;
+  TransportPlan plan_;
+  std::optional<RayScene> rays_;
   RadiositySolution solution_;
 };
 
@@ -98,9 +104,9 @@ TEST_F(SolutionFile, KeepsEveryBitAndFigure) {
 TEST_F(SolutionFile, KeepsADividedMesh) {
   std::vector<std::uint8_t> marked(element_count(mesh_), 0);
   marked[0] = marked[5] = marked.back() = 1;
-  solution_.refined = std::make_unique<RefinedScene>();
-  solution_.refined->mesh = divide_elements(mesh_, surfaces_, marked);
-  const ElementMesh& own = solution_.refined->mesh;
+  solution_.field.scene =
+      light_scene_on(*solution_.field.scene, divide_elements(mesh_, surfaces_, marked));
+  const ElementMesh& own = solution_.field.mesh();
   for (const FieldPart& part : field_parts)
     (solution_.field.*part.values).assign(own.vertices.size(), glm::vec3(0.5F));
   write_solution(file_, content_hash(scene_), mesh_, solution_, settings_);

@@ -48,7 +48,7 @@ TEST(Progressive, Furnaces) {
   for (const bool with_mirrors : {false, true})
     for (const double rho : {0.0, 0.5, 0.9}) {
       const auto l = lit(furnace(rho, {with_mirrors}), {.element_size = 0.125});
-      const RadiositySolution solution = shoot_pass_one(*l->light, shooting(0.125, 256));
+      const RadiositySolution solution = shoot_pass_one(l->light, shooting(0.125, 256));
       EXPECT_TRUE(solution.solver.converged);
       EXPECT_EQ(solution.solver.bands, 1);
       const double exact = 1.0 / (1.0 - rho);
@@ -72,10 +72,10 @@ TEST(Progressive, AgreesWithRowsInGalleryScenes) {
     const auto l =
         lit(load_gltf(source_dir() + "/scenes/gallery/" + name + ".gltf"),
             settings.mesh);
-    const RadiositySolution shots = shoot_pass_one(*l->light, settings);
+    const RadiositySolution shots = shoot_pass_one(l->light, settings);
     EXPECT_TRUE(shots.solver.converged);
     settings.solver.method = SolverMethod::bicgstab;
-    const RadiositySolution rows = solve_pass_one(*l->light, settings);
+    const RadiositySolution rows = solve_pass_one(l->light, settings);
     EXPECT_NEAR(power_of(*l, shots.irradiance, shots.exposed),
                 power_of(*l, rows.irradiance, rows.exposed),
                 5e-3 * power_of(*l, rows.irradiance, rows.exposed))
@@ -99,7 +99,7 @@ TEST(Progressive, CubeOfSixPatches) {
   settings.direct.points = settings.direct.most_points = 1024;
   settings.direct.shadow_rays = settings.direct.penumbra_rays = settings.direct.rays_in_element = 1;
   const auto l = lit(std::move(scene), settings.mesh);
-  const RadiositySolution solution = shoot_pass_one(*l->light, settings);
+  const RadiositySolution solution = shoot_pass_one(l->light, settings);
   EXPECT_NEAR(mean_over(*l, solution.radiosity, "y0").r, 1.09090909810769547, 1e-3);
   EXPECT_NEAR(mean_over(*l, solution.radiosity, "z1").r, 0.181836268946129011, 2e-3 * 0.18);
   EXPECT_NEAR(mean_over(*l, solution.radiosity, "y1").r, 0.181745826107788481, 2e-3 * 0.18);
@@ -116,14 +116,14 @@ TEST(Progressive, AgreesWithEliminationInGalleryScenes) {
             settings.mesh);
     int looks = 0;
     const RadiositySolution shots =
-        solve_pass_one(*l->light, settings, {}, {7, [&](const PassOneSoFar& state) {
+        solve_pass_one(l->light, settings, {}, {7, [&](const PassOneSoFar& state) {
                                                    EXPECT_GE(state.ambient.g, 0.0);
                                                    looks += 1;
                                                  }});
     EXPECT_TRUE(shots.solver.converged);
     EXPECT_EQ(looks, (shots.solver.iterations + 6) / 7); // the last state among them
     settings.solver.method = SolverMethod::direct;
-    const RadiositySolution exact = solve_pass_one(*l->light, settings);
+    const RadiositySolution exact = solve_pass_one(l->light, settings);
     EXPECT_LT(true_error(exact.radiosity, shots.radiosity), 10.0 * tolerance) << name;
     EXPECT_LT(true_error(exact.irradiance, shots.irradiance), 10.0 * tolerance) << name;
   }
@@ -148,7 +148,7 @@ Watched watched(Scene scene, double element_size, int rays, const SolverSettings
     w.source.push_back(w.reflectance[e] * (direct.irradiance[e] + w.survey.gathered[e]));
   }
   w.solution =
-      solve_by_shots(*w.lit->light, w.survey, w.source, w.reflectance, settings, solver, {},
+      solve_by_shots(*w.lit->light, w.survey, {w.source, w.reflectance}, {settings, solver}, {},
                      {every, [&](const ShotsSoFar& state) { w.states.push_back(state); }});
   return w;
 }
@@ -270,7 +270,7 @@ TEST(Progressive, SameBitsForAnyThreadCount) {
   for (const std::size_t threads : {1, 2, 4}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     const auto l = lit(half_room_with_small_mirror(), {.element_size = 0.15});
-    runs.push_back(shoot_pass_one(*l->light, shooting(0.15, 256)));
+    runs.push_back(shoot_pass_one(l->light, shooting(0.15, 256)));
   }
   for (const auto& run : runs) {
     EXPECT_EQ(run.radiosity, runs[0].radiosity);
@@ -282,7 +282,7 @@ TEST(Progressive, SameBitsForAnyThreadCount) {
 
 TEST(Progressive, RoomsWithoutAbsorptionAreFoundOut) {
   const auto closed = lit(furnace(1.0, {true}), {.element_size = 0.25});
-  EXPECT_EQ(shoot_pass_one(*closed->light, shooting(0.25, 64)).solver.end, SolverEnd::unsolvable);
+  EXPECT_EQ(shoot_pass_one(closed->light, shooting(0.25, 64)).solver.end, SolverEnd::unsolvable);
 
   // A lit box of perfect walls inside an ordinary room, and the same box dark.
   for (const double emission : {1.0, 0.0}) {
@@ -290,7 +290,7 @@ TEST(Progressive, RoomsWithoutAbsorptionAreFoundOut) {
     const Material wall = diffuse(1.0, emission);
     add_room(scene, Point3(0.25), Point3(0.75), {wall, wall, wall, wall, wall, wall});
     const auto l = lit(std::move(scene), {.element_size = 0.25});
-    EXPECT_EQ(shoot_pass_one(*l->light, shooting(0.25, 64)).solver.end,
+    EXPECT_EQ(shoot_pass_one(l->light, shooting(0.25, 64)).solver.end,
               emission > 0.0 ? SolverEnd::unsolvable : SolverEnd::converged);
   }
 }
@@ -319,7 +319,7 @@ TEST(Progressive, PerfectWallsOfAnOpenBox) {
       add_ceiling(scene, "ceiling", high, low, 1, high, wall);
     }
     const auto l = lit(std::move(scene), {.element_size = 0.25});
-    const RadiositySolution solution = shoot_pass_one(*l->light, shooting(0.25, 256, 1e-3));
+    const RadiositySolution solution = shoot_pass_one(l->light, shooting(0.25, 256, 1e-3));
     EXPECT_TRUE(solution.solver.converged) << solution.solver.error_bound;
     double absorbed = 0.0;
     for (const std::size_t e : elements_of(*l, "window"))
@@ -336,7 +336,7 @@ TEST(Progressive, EmissionAndSizeMakeNoDifference) {
     for (auto& material : scene.materials)
       material.emission *= emission;
     const auto l = lit(std::move(scene), {.element_size = 0.25 * scale});
-    RadiositySolution solution = shoot_pass_one(*l->light, shooting(0.25 * scale, 64, 1e-3));
+    RadiositySolution solution = shoot_pass_one(l->light, shooting(0.25 * scale, 64, 1e-3));
     EXPECT_TRUE(solution.solver.converged);
     for (Rgb& h : solution.irradiance)
       h /= emission;
@@ -366,12 +366,12 @@ TEST(Progressive, NothingToShoot) {
   for (auto& material : dark.materials)
     material.emission = Rgb(0.0);
   const auto l = lit(std::move(dark), {.element_size = 0.5});
-  const RadiositySolution solution = shoot_pass_one(*l->light, shooting(0.5, 16));
+  const RadiositySolution solution = shoot_pass_one(l->light, shooting(0.5, 16));
   EXPECT_TRUE(solution.solver.converged);
   EXPECT_EQ(solution.solver.iterations, 0);
   const auto mirrors =
       lit(furnace(0.5, {true, true, true, true, true, true}), {.element_size = 0.5});
-  EXPECT_TRUE(shoot_pass_one(*mirrors->light, shooting(0.5, 16)).radiosity.empty());
+  EXPECT_TRUE(shoot_pass_one(mirrors->light, shooting(0.5, 16)).radiosity.empty());
 }
 
 } // namespace

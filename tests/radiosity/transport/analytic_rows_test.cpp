@@ -68,7 +68,7 @@ PassOneSettings analytic(double element_size) {
 
 Field field_of(const Scene& scene, const PassOneSettings& settings) {
   const auto l = lit(scene, settings.mesh, settings.plan);
-  const RadiositySolution solution = solve_pass_one(*l->light, settings);
+  const RadiositySolution solution = solve_pass_one(l->light, settings);
   EXPECT_TRUE(solution.solver.converged);
   Field field;
   for (std::size_t e = 0; e < element_count(l->mesh); ++e) {

@@ -247,7 +247,7 @@ TEST(ElementHemicube, SameBitsForAnyThreadCount) {
   std::vector<RadiositySolution> runs;
   for (const std::size_t threads : {1, 2, 4}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    runs.push_back(solve_pass_one(*l->light, settings));
+    runs.push_back(solve_pass_one(l->light, settings));
   }
   for (const auto& run : runs) {
     EXPECT_EQ(run.irradiance, runs[0].irradiance);

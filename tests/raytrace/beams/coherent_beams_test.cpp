@@ -29,13 +29,13 @@ struct BothWays {
 /// The picture by tiles, where paths are looked for, and pixel by pixel, where all rays are traced.
 BothWays both_ways(const Scene& scene, const Camera& camera, int size) {
   const Taken taken = lit_up(scene, coarse());
-  const LightScene& light = field_scene(*taken.prepared->light, taken.solution);
-  const VisibleLight visible = visible_light(light, taken.solution.field, FieldContent::all);
+  const LightScene& light = *taken.solution.field.scene;
+  const VisibleLight visible = visible_light(taken.solution.field, FieldContent::all);
   RenderSettings settings;
   settings.width = settings.height = size;
   BothWays both{Image(size, size), Image(size, size), {}, {}};
   both.sure_rays =
-      trace_picture(light, visible, nullptr, camera, settings, {first_samples(settings)}, {},
+      trace_picture({light, visible, nullptr, camera, settings}, {first_samples(settings)}, {},
                     [&](int x, int y, const SeenRadiance& seen) {
                       both.sure.at(x, y) = seen[0] + 2.0F * seen[1] + 3.0F * seen[2];
                     });
@@ -43,10 +43,11 @@ BothWays both_ways(const Scene& scene, const Camera& camera, int size) {
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x)
       pixels.emplace_back(x, y);
-  both.traced_rays = trace_pixels(
-      light, visible, nullptr, camera, settings, pixels, [&](int k, int, const SeenRadiance& seen) {
-        both.traced.pixels[static_cast<std::size_t>(k)] = seen[0] + 2.0F * seen[1] + 3.0F * seen[2];
-      });
+  both.traced_rays = trace_pixels({light, visible, nullptr, camera, settings}, pixels,
+                                  [&](int k, int, const SeenRadiance& seen) {
+                                    both.traced.pixels[static_cast<std::size_t>(k)] =
+                                        seen[0] + 2.0F * seen[1] + 3.0F * seen[2];
+                                  });
   return both;
 }
 

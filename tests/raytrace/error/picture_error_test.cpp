@@ -36,21 +36,21 @@ struct Lit {
 
   Lit(const Scene& scene, const TwoPassSettings& settings)
       : prepared(prepare_scene(scene, settings.pass_one)),
-        solution(solve_pass_one(*prepared->light, settings.pass_one)) {}
-  const LightScene& light() const { return field_scene(*prepared->light, solution); }
+        solution(solve_pass_one(prepared->light, settings.pass_one)) {}
+  const LightScene& light() const { return *solution.field.scene; }
   const Camera& camera() const { return prepared->scene.cameras.front(); }
   Image picture(const RenderSettings& settings) const {
-    return render(light(), solution.field, camera(), settings).image;
+    return render(solution.field, camera(), settings).image;
   }
   PictureError error(const TwoPassSettings& settings, const Image& picture) const {
-    return estimate_error(light(), solution.field, camera(), settings, solution.solver,
+    return estimate_error(solution.field, camera(), settings, solution.solver,
                           {picture, {}}, {.gathered_pixels = 256, .pixels = 1024});
   }
   /// Relative, outside emitters.
   double off(const TwoPassSettings& settings, const Image& picture, const Image& truth) const {
     return relative_error(
         picture, truth,
-        emitter_pixels(light(), solution.field, camera(), settings.render, truth, 16));
+        emitter_pixels(solution.field, camera(), settings.render, truth, 16));
   }
 };
 
@@ -73,7 +73,7 @@ TEST(Probes, AreThePixelsOfThePicture) {
   const std::vector<glm::ivec2> pixels{{0, 0}, {23, 19}, {7, 3}, {7, 4}, {12, 11}};
   const Image picture = lit.picture(settings.render);
   const ProbedPixels probed =
-      render_pixels(lit.light(), lit.solution.field, lit.camera(), settings.render, pixels);
+      render_pixels(lit.solution.field, lit.camera(), settings.render, pixels);
   ASSERT_EQ(probed.radiance.size(), pixels.size());
   for (std::size_t k = 0; k < pixels.size(); ++k)
     for (int c = 0; c < 3; ++c)
@@ -92,7 +92,7 @@ TEST(Probes, AreAlmostThoseOfAPictureThatIsSureOfItsPaths) {
     settings.render.diffuse.term = term;
     const Image picture = lit.picture(settings.render);
     const ProbedPixels probed =
-        render_pixels(lit.light(), lit.solution.field, lit.camera(), settings.render, pixels);
+        render_pixels(lit.solution.field, lit.camera(), settings.render, pixels);
     ASSERT_EQ(probed.radiance.size(), pixels.size());
     for (std::size_t k = 0; k < pixels.size(); ++k)
       if (term == DiffuseTerm::interpolated) {
@@ -135,7 +135,7 @@ TEST(EmitterPixels, AreThoseOfTheLampAndTheirNeighbours) {
   const Lit lit(scene, settings);
   const Image picture = lit.picture(settings.render);
   const auto emits =
-      emitter_pixels(lit.light(), lit.solution.field, lit.camera(), settings.render, picture, 4);
+      emitter_pixels(lit.solution.field, lit.camera(), settings.render, picture, 4);
   // 40 pixels are 2 m at the lamp: it covers ten by ten of them, and its rim is one more.
   EXPECT_EQ(std::accumulate(emits.begin(), emits.end(), 0), 12 * 12);
 }
@@ -204,7 +204,7 @@ TEST(PictureError, OfAdaptiveCameraRaysIsThatOfThePixelsThatHaveMany) {
   const Lit lit(lit_room(), settings);
   settings.render.samples = 64;
   settings.render.pixel_error = 0.05;
-  const Rendering some = render(lit.light(), lit.solution.field, lit.camera(), settings.render);
+  const Rendering some = render(lit.solution.field, lit.camera(), settings.render);
   ASSERT_GT(std::ranges::count(some.samples, 4U), 0);
   ASSERT_GT(std::ranges::count(some.samples, 64U), 0);
   RenderSettings many = settings.render;
@@ -212,7 +212,7 @@ TEST(PictureError, OfAdaptiveCameraRaysIsThatOfThePixelsThatHaveMany) {
   many.pixel_error = 0.0;
   const double error = lit.off(settings, some.image, lit.picture(many));
   const PictureError estimate =
-      estimate_error(lit.light(), lit.solution.field, lit.camera(), settings, lit.solution.solver,
+      estimate_error(lit.solution.field, lit.camera(), settings, lit.solution.solver,
                      {some.image, some.samples}, {.gathered_pixels = 256, .pixels = 1024});
   EXPECT_NEAR(estimate.pixels, error, 0.3 * error);
 }
@@ -229,7 +229,7 @@ TEST(PictureError, OfCameraRaysIsThatOfAllPixelsFromAFew) {
   for (int seed = 1; seed <= seeds; ++seed) {
     settings.render.seed = static_cast<std::uint32_t>(seed);
     const auto square = [&](int pixels) {
-      const PictureError error = estimate_error(lit.light(), lit.solution.field, lit.camera(),
+      const PictureError error = estimate_error(lit.solution.field, lit.camera(),
                                                 settings, lit.solution.solver, {picture, {}},
                                                 {.gathered_pixels = 8, .pixels = pixels});
       return error.pixels * error.pixels;
@@ -309,10 +309,10 @@ TEST(ErrorMap, IsLargeWhereThePictureIsOff) {
   const Lit lit(lit_room(), settings);
   const Image picture = lit.picture(settings.render),
               truth = lit.picture(gathered(settings.render));
-  const Image map = error_map(lit.light(), lit.solution.field, lit.camera(), settings, picture,
+  const Image map = error_map(lit.solution.field, lit.camera(), settings, picture,
                               lit.error(settings, picture));
   const auto emits =
-      emitter_pixels(lit.light(), lit.solution.field, lit.camera(), settings.render, truth, 16);
+      emitter_pixels(lit.solution.field, lit.camera(), settings.render, truth, 16);
   std::vector<std::pair<double, double>> squares; // said, true
   for (std::size_t p = 0; p < emits.size(); ++p)
     if (emits[p] == 0)

@@ -30,7 +30,7 @@ struct SpoiltRoom {
     Scene scene = half_room_with_small_mirror();
     scene.cameras = {look_at({1.8, 1.1, 2.8}, {0.4, 0.6, 1.0}, 1.4)};
     prepared = prepare_scene(scene, settings.pass_one);
-    solution = solve_pass_one(*prepared->light, settings.pass_one);
+    solution = solve_pass_one(prepared->light, settings.pass_one);
     field = solution.field;
     right = picture(solution.field);
     const auto& places = light().mesh.vertices;
@@ -43,18 +43,18 @@ struct SpoiltRoom {
     spoilt = picture(field);
   }
 
-  const LightScene& light() const { return field_scene(*prepared->light, solution); }
+  const LightScene& light() const { return *solution.field.scene; }
   const Camera& camera() const { return prepared->scene.cameras.front(); }
   Image picture(const IrradianceField& of) const {
-    return render(light(), of, camera(), settings.render).image;
+    return render(of, camera(), settings.render).image;
   }
   std::vector<std::uint8_t> emits() const {
-    return emitter_pixels(light(), field, camera(), settings.render, spoilt, 4);
+    return emitter_pixels(field, camera(), settings.render, spoilt, 4);
   }
   ProbeChoice choose(std::uint32_t seed, int wanted) const {
     RenderSettings drawn = settings.render;
     drawn.seed = seed;
-    return choose_probes(light(), field, FieldContent::indirect, camera(), drawn, emits(), wanted);
+    return choose_probes(field, FieldContent::indirect, camera(), drawn, emits(), wanted);
   }
 };
 
@@ -126,7 +126,7 @@ TEST(ProbeChoice, IsEvenWhereNothingChanges) {
   IrradianceField even = room().field;
   for (auto* values : {&even.irradiance, &even.mirrored, &even.indirect, &even.indirect_mirrored})
     std::ranges::fill(*values, glm::vec3(1.0F));
-  const ProbeChoice choice = choose_probes(room().light(), even, FieldContent::all, room().camera(),
+  const ProbeChoice choice = choose_probes(even, FieldContent::all, room().camera(),
                                            room().settings.render, room().emits(), 100);
   for (const double weight : choice.weight)
     EXPECT_EQ(weight, 1.0);
@@ -151,8 +151,7 @@ TEST(PictureError, IsCertainWhereAFewPixelsHoldIt) {
   for (std::uint32_t seed = 0; seed < 16; ++seed) {
     TwoPassSettings settings = room().settings;
     settings.render.seed = seed;
-    const PictureError estimate = estimate_error(
-        room().light(), room().field, room().camera(), settings, room().solution.solver,
+    const PictureError estimate = estimate_error(room().field, room().camera(), settings, room().solution.solver,
         {room().spoilt, {}}, {.gathered_pixels = 64, .pixels = 64});
     EXPECT_NEAR(std::hypot(estimate.mesh, estimate.form_factors), error, 0.3 * error) << seed;
   }

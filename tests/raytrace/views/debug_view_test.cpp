@@ -28,7 +28,7 @@ PaintedView painted(DebugView view, const Taken& lit, const Camera& camera, Rend
   settings.mode = mode;
   const auto& light = *lit.prepared->light;
   const std::vector<RowClosure> rows = assemble_transport(light, {.rays = 64}).closure;
-  return paint_view(view, light, lit.solution.field, rows, camera, settings);
+  return paint_view(view, lit.solution.field, rows, camera, settings);
 }
 
 Taken quick(const Scene& scene) {

@@ -1,0 +1,31 @@
+// How many bytes pass one is going to have, before any of its work.
+//
+//   scene    vertices, triangles, textures; ray structures, mesh and field of about N elements
+//   solve    rows x entries of a row, at most min(rays, N), and what finds them
+//
+// Counts times sizes that were measured (docs/notes/batch.md), meant to be exceeded by nothing that
+// is common, and to be within a factor of about two for what is large.
+#pragma once
+
+#include "radiosity/pass_one_settings.h"
+
+#include <cstdint>
+
+namespace meninas {
+
+/// What is counted of a scene.
+struct SceneSizes {
+  std::size_t vertices = 0, triangles = 0;
+  std::size_t sides = 0;         ///< of triangles: two of what is double-sided
+  std::size_t texture_bytes = 0; ///< encoded and decoded
+  double area = 0.0;             ///< m^2, of all sides
+};
+SceneSizes sizes_of(const Scene& scene);
+
+/// A scene with its light, ready for views: geometry, textures, ray structures, mesh and field.
+std::uint64_t scene_memory(const SceneSizes& scene, const PassOneChoice& choice);
+
+/// What solving needs beyond that: the transport, unless the solver keeps none, and what finds it.
+std::uint64_t solve_memory(const SceneSizes& scene, const PassOneChoice& choice);
+
+} // namespace meninas

@@ -1,0 +1,115 @@
+#include "radiosity/pass_one_settings.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace meninas {
+
+bool gathers_by_nodes(const PassOneSettings& settings) {
+  return settings.solver.method == SolverMethod::hierarchical &&
+         settings.interpolation.method == Interpolation::gather && !settings.interpolation.adaptive;
+}
+
+bool shoots_rays(const PassOneSettings& settings, std::size_t elements) {
+  return settings.solver.method == SolverMethod::progressive &&
+         settings.form_factors.method == FormFactorMethod::rays && elements > max_direct_unknowns;
+}
+
+int power_of_two(int at_least) {
+  return static_cast<int>(std::bit_ceil(static_cast<unsigned>(at_least)));
+}
+
+PassOneQuality pass_one_quality(Quality quality) {
+  switch (quality) {
+  case Quality::draft:
+    return {.target_elements = 2'250,
+            .rays = 128,
+            .hemicube_resolution = 32,
+            .link_error = 0.02,
+            .penumbra_rays = 32,
+            .root_elements = 600,
+            .adaptive_error = 0.03};
+  case Quality::normal:
+    return {.target_elements = 16'000,
+            .rays = 512,
+            .hemicube_resolution = 64,
+            .link_error = 0.01,
+            .penumbra_rays = 128,
+            .root_elements = 1'500,
+            .adaptive_error = 0.01};
+  case Quality::fine:
+    return {.target_elements = 64'000,
+            .rays = 2'048,
+            .hemicube_resolution = 128,
+            .link_error = 0.005,
+            .penumbra_rays = 512,
+            .root_elements = 5'000,
+            .adaptive_error = 0.005};
+  }
+  return {};
+}
+
+static double target_elements(const PassOneChoice& choice, const PassOneQuality& quality) {
+  // What the analytic method takes grows with the square of the elements.
+  constexpr double few_elements = 500.0;
+  if (choice.elements)
+    return *choice.elements;
+  const double target =
+      choice.adaptive == WithAdaptivity::yes ? quality.root_elements : quality.target_elements;
+  return choice.form_factors == FormFactorMethod::analytic ? std::min(target, few_elements)
+                                                           : target;
+}
+
+static InterpolationSettings interpolation_settings(const PassOneChoice& choice,
+                                                    const PassOneSettings& settings,
+                                                    const PassOneQuality& quality,
+                                                    DirectLightAt direct_light) {
+  InterpolationSettings interpolation;
+  interpolation.method = choice.interpolation.value_or(interpolation.method);
+  interpolation.rays = settings.form_factors.rays;
+  interpolation.bend = choice.bends.value_or(0.0);
+  // Edges are few: what they are off by counts less than what all light is, and the more so
+  // the closer that is looked at. At hits direct light has no vertices.
+  constexpr double of_edges = 0.02;
+  if (choice.solver == SolverMethod::hierarchical && direct_light == DirectLightAt::vertices)
+    interpolation.shadow_bend = std::sqrt(of_edges * settings.hierarchical.link_error);
+  if (choice.adaptive == WithAdaptivity::yes)
+    interpolation.adaptive =
+        AdaptiveSettings{.error = choice.adaptive_error.value_or(quality.adaptive_error)};
+  return interpolation;
+}
+
+PassOneSettings pass_one_settings(const PassOneChoice& choice, DirectLightAt direct_light) {
+  const PassOneQuality quality = pass_one_quality(choice.quality);
+  PassOneSettings settings;
+  settings.mesh.element_size = choice.element_size.value_or(0.0);
+  settings.mesh.target_elements = target_elements(choice, quality);
+  settings.form_factors.method = choice.form_factors;
+  settings.form_factors.rays = power_of_two(choice.rays.value_or(quality.rays));
+  settings.form_factors.hemicube_resolution =
+      choice.hemicube_resolution.value_or(quality.hemicube_resolution);
+  settings.form_factors.seed = choice.seed;
+  settings.direct.seed = choice.seed;
+  settings.direct.penumbra_rays = quality.penumbra_rays;
+  settings.solver.method = choice.solver;
+  settings.solver.tolerance = choice.tolerance.value_or(settings.solver.tolerance);
+  settings.solver.max_shots = choice.steps;
+  settings.hierarchical.link_error = choice.link_error.value_or(quality.link_error);
+  settings.interpolation = interpolation_settings(choice, settings, quality, direct_light);
+  // Means of elements show nowhere but where they are interpolated; else they light other elements,
+  // and many average out. Few and large ones, between which an adaptive field gathers, do not.
+  if (settings.interpolation.method == Interpolation::gather &&
+      choice.adaptive == WithAdaptivity::no) {
+    settings.direct.points = 4;
+    settings.direct.most_points = 64;
+  }
+  if (choice.mirror_depth) {
+    // A cap holds for every kind of path, in closed form and gathered.
+    settings.plan.worlds.max_depth = std::min(settings.plan.worlds.max_depth, *choice.mirror_depth);
+    settings.form_factors.max_bounces = *choice.mirror_depth;
+  }
+  return settings;
+}
+
+} // namespace meninas

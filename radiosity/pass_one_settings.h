@@ -1,0 +1,79 @@
+// What pass one is asked for: the settings of each of its stages in one place, the numbers that a
+// quality stands for, and how what a user chooses becomes settings.
+#pragma once
+
+#include "radiosity/field/interpolation_settings.h"
+#include "radiosity/hierarchical/link_figures.h"
+#include "radiosity/light/direct_samples.h"
+#include "radiosity/scene/plan.h"
+#include "radiosity/solvers/solver_settings.h"
+#include "radiosity/transport/form_factors.h"
+
+#include <optional>
+
+namespace meninas {
+
+struct PassOneSettings {
+  PlanSettings plan;
+  MeshSettings mesh;
+  FormFactorSettings form_factors;
+  DirectSettings direct;
+  SolverSettings solver;
+  HierarchicalSettings hierarchical;
+  InterpolationSettings interpolation;
+};
+
+/// Whether these settings shoot rays instead of assembling a transport.
+bool shoots_rays(const PassOneSettings& settings, std::size_t elements);
+
+/// Whether light is received by nodes,
+/// and vertices gather as far as these ask for it (hierarchical/node_field.h).
+bool gathers_by_nodes(const PassOneSettings& settings);
+
+enum class Quality { draft, normal, fine };
+
+/// The numbers of pass one that a quality stands for.
+struct PassOneQuality {
+  double target_elements = 0.0; ///< about how many elements share the meshed area
+  int rays = 0; ///< form-factor rays per element, and per vertex where irradiance is gathered there
+  int hemicube_resolution = 0; ///< cells along an edge of the top, where hemicubes are used instead
+  double link_error =
+      0.0; ///< of the hierarchical solver: how much light may bend where it is interpolated
+  int penumbra_rays = 0;      ///< shadow rays from a vertex to an emitter that it sees in part
+  double root_elements = 0.0; ///< instead of `target_elements` where elements are divided as needed
+  double adaptive_error = 0.0; ///< of radiosity, relative, in the mean square, where they are
+};
+PassOneQuality pass_one_quality(Quality quality);
+
+/// Whether elements are divided where the light asks for it.
+enum class WithAdaptivity { no, yes };
+
+/// What may be chosen of pass one; what is not set follows from the quality.
+struct PassOneChoice {
+  Quality quality = Quality::normal;
+  std::optional<double> element_size; ///< metres, of all surfaces
+  std::optional<int> elements;        ///< or about so many, shared over them (element_sizes.h)
+  WithAdaptivity adaptive = WithAdaptivity::no;
+  std::optional<double> adaptive_error;
+  std::optional<double> bends; ///< of the mean: elements in which light bends by more are divided
+  FormFactorMethod form_factors = FormFactorMethod::rays;
+  std::optional<int> rays;                ///< rounded up to a power of two
+  std::optional<int> hemicube_resolution; ///< even
+  SolverMethod solver = SolverSettings{}.method;
+  std::optional<double> tolerance;
+  std::optional<int> steps;         ///< of the progressive solver: shots
+  std::optional<double> link_error; ///< of the hierarchical solver
+  std::optional<int> mirror_depth;  ///< no path meets more mirrors
+  std::optional<Interpolation> interpolation;
+  std::uint32_t seed = 0;
+};
+
+/// Where direct light of pictures is interpolated, or computed at each hit of a camera ray.
+enum class DirectLightAt { vertices, hits };
+PassOneSettings pass_one_settings(const PassOneChoice& choice,
+                                  DirectLightAt direct_light = DirectLightAt::vertices);
+
+/// The samples of low-discrepancy sequences are evenly spread where their number is a power of two.
+int power_of_two(int at_least);
+
+} // namespace meninas

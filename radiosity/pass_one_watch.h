@@ -1,0 +1,23 @@
+// What pass one shows while light is still being shot: the field there is so far, for pictures along
+// the way. Irradiance in W/m^2.
+#pragma once
+
+#include "radiosity/field/irradiance_field.h"
+
+#include <functional>
+
+namespace meninas {
+
+/// What shots have brought so far, as averages over elements at the vertices of the mesh that is
+/// solved (field/interpolation.h), and what the light yet to be shot may add to it.
+struct PassOneSoFar {
+  int shots = 0;
+  VertexIrradiance field;
+  Rgb ambient{0.0}; ///< irradiance, everywhere
+};
+struct PassOneWatch {
+  int every = 0; ///< shots, and after the last; 0: never
+  std::function<void(const PassOneSoFar&)> look;
+};
+
+} // namespace meninas

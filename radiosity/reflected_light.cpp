@@ -1,0 +1,122 @@
+#include "radiosity/reflected_light.h"
+
+#include "radiosity/field/interpolation.h"
+#include "radiosity/hierarchical/node_solution.h"
+#include "radiosity/solvers/progressive.h"
+#include "radiosity/solvers/shooting_blocks.h"
+#include "radiosity/transport/gathered_emission.h"
+#include "scenes/stopwatch.h"
+
+namespace meninas {
+
+namespace {
+
+/// What a watch is shown of, and the seconds that takes.
+struct Watched {
+  const LightScene& light;
+  const PassOneSettings& settings;
+  const FirstLight& first;
+  const std::vector<RowClosure>& closure;
+  const std::vector<float>& exposed;
+  double seconds = 0.0;
+};
+
+/// Shows the watch the field there is so far: H = D + G + what has been shot.
+ShotWatch shown(Watched& watched, const PassOneWatch& watch) {
+  std::vector<double> area = watched.light.mesh.area;
+  for (std::size_t i = 0; i < area.size(); ++i)
+    area[i] *= double{watched.exposed[i]};
+  const auto look = [&, area = std::move(area)](const ShotsSoFar& shots) {
+    const auto& [light, settings, first, closure, exposed, seconds] = watched;
+    Stopwatch stopwatch;
+    std::vector<Rgb> irradiance = shots.arrived;
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+      irradiance[i] += first.irradiance[i];
+    const auto interpolated =
+        interpolate(light, {{}, std::move(irradiance), first.from_source}, settings.form_factors,
+                    settings.direct, {Interpolation::average});
+    watch.look({shots.shots, interpolated.field,
+                ambient_irradiance(area, closure, shots.unshot, first.reflectance)});
+    watched.seconds += stopwatch.lap();
+  };
+  return {watch.every, look};
+}
+
+} // namespace
+
+ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& factors,
+                                 const PassOneSettings& settings, const Progress& progress,
+                                 const PassOneWatch& watch) {
+  Stopwatch stopwatch;
+  ReflectedLight solved;
+  solved.closure = factors.closure;
+  solved.exposed = factors.exposed;
+  solved.rays_traced = factors.rays_traced;
+
+  // Split by who owns the path: direct light, gathered emission, and reflected light by the transport.
+  solved.first =
+      first_light(light, {gathered_emission(light, factors), factors.closure, factors.covered},
+                  settings.form_factors.method, settings.direct, progress);
+  solved.form_factor_seconds = stopwatch.lap();
+
+  Watched watched{light, settings, solved.first, factors.closure, factors.exposed};
+  ShotPlan plan;
+  if (settings.solver.method == SolverMethod::progressive)
+    plan = {make_shooting_blocks(light.mesh, factors.exposed), shown(watched, watch)};
+  solved.solver = solve(factors.transport, solved.first.source, solved.first.reflectance,
+                        settings.solver, plan);
+  solved.arrived = apply_transport(factors.transport, solved.solver.radiosity);
+  solved.solve_seconds = stopwatch.lap() - watched.seconds;
+  return solved;
+}
+
+ReflectedLight reflected_by_shots(const LightScene& light, const PassOneSettings& settings,
+                                  const Progress& progress, const PassOneWatch& watch) {
+  Stopwatch stopwatch;
+  ReflectedLight solved;
+  const HemisphereSurvey survey = survey_hemispheres(light, settings.form_factors, progress);
+  solved.first = first_light(light, {survey.gathered, survey.closure, survey.covered},
+                             settings.form_factors.method, settings.direct, progress);
+  solved.form_factor_seconds = stopwatch.lap();
+
+  Watched watched{light, settings, solved.first, survey.closure, survey.exposed};
+  ShotSolution shots =
+      solve_by_shots(light, survey, {solved.first.source, solved.first.reflectance},
+                     {settings.form_factors, settings.solver}, progress, shown(watched, watch));
+  solved.solver = std::move(shots.solver);
+  solved.arrived = std::move(shots.arrived);
+  solved.closure = survey.closure;
+  solved.exposed = survey.exposed;
+  solved.rays_traced = survey.rays_traced + shots.rays_traced;
+  solved.solve_seconds = stopwatch.lap() - watched.seconds;
+  return solved;
+}
+
+ReflectedLight reflected_by_nodes(const LightScene& light, const PassOneSettings& settings,
+                                  const Progress& progress) {
+  const bool vertices_gather = gathers_by_nodes(settings);
+  Stopwatch watch;
+  std::optional<LitVertices> vertices;
+  if (vertices_gather)
+    vertices =
+        lit_vertices(light, {settings.form_factors, settings.direct, settings.interpolation});
+  const double lighting = watch.lap();
+  NodeSolution nodes = solve_by_nodes(
+      light, {settings.form_factors, settings.direct, settings.hierarchical, settings.solver},
+      std::move(vertices), progress);
+  ReflectedLight solved;
+  solved.first = std::move(nodes.first);
+  solved.solver = std::move(nodes.solver);
+  solved.arrived = std::move(nodes.arrived);
+  solved.closure = std::move(nodes.closure);
+  solved.exposed = std::move(nodes.exposed);
+  solved.links = nodes.figures;
+  solved.rays_traced = nodes.rays_traced;
+  solved.form_factor_seconds = lighting + nodes.seconds_gathering;
+  solved.solve_seconds = nodes.seconds_solving;
+  if (vertices_gather)
+    solved.receivers = std::move(nodes.receivers);
+  return solved;
+}
+
+} // namespace meninas

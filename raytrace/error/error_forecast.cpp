@@ -1,0 +1,163 @@
+#include "raytrace/error/error_forecast.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+// Exponents: of pixels whose light is a smooth function between edges,
+// of direct light, and of what rays gather.
+constexpr double at_edges = 1.7, of_shadows = 1.4, of_noise = 1.1;
+constexpr double rays_of_a_hit = 64.0; ///< of a hit that gathers, where sampling is adaptive
+
+/// What so many samples of a pixel take, in hits of their own:
+/// they share shadow rays (radiosity/light/shared_light.h).
+double hits_of(double samples) { return samples <= 4.0 ? samples : 4.0 + 0.3 * (samples - 4.0); }
+
+/// Samples of a pixel in the mean.
+double samples_a_pixel(const MeasuredRun& run, int samples) {
+  double mean = std::min(run.samples_a_pixel, double(samples));
+  std::size_t round = 0;
+  for (int taken = run.knobs.samples; taken < samples; taken *= 4)
+    mean += run.uncertain[std::min(round++, run.uncertain.size() - 1)] * 3.0 * taken;
+  return mean;
+}
+
+/// Of the square of what camera rays are off by;
+/// nothing is left to gain where no pixel would take more.
+double pixel_decline(const MeasuredRun& run, const Parameters& knobs) {
+  const int samples = knobs.samples;
+  const double exponent = knobs.term == DiffuseTerm::interpolated ? at_edges
+                          : knobs.term == DiffuseTerm::direct     ? of_shadows
+                                                                  : of_noise;
+  if (samples < run.knobs.samples)
+    return std::pow(samples_a_pixel(run, samples) / run.samples_a_pixel, -exponent);
+  double decline = 1.0;
+  std::size_t round = 0;
+  for (int taken = run.knobs.samples; taken < samples; taken *= 4)
+    decline *= run.uncertain[std::min(round++, run.uncertain.size() - 1)] > 0.0
+                   ? std::pow(4.0, -exponent)
+                   : 1.0;
+  return decline;
+}
+
+/// What one hit takes that gathers with rays of its own.
+double gather_seconds(const MeasuredRun& run) {
+  constexpr double source_rays = 128.0; // that cost as much as direct light
+  return run.error.gather_seconds * (source_rays + rays_of_a_hit) / (source_rays + run.knobs.rays);
+}
+
+double pass_two_seconds(const MeasuredRun& run, const Parameters& knobs) {
+  const double samples = samples_a_pixel(run, knobs.samples);
+  const double share = samples / run.samples_a_pixel;
+  if (knobs.term == run.knobs.term)
+    return run.pass_two_seconds * (knobs.term == DiffuseTerm::direct
+                                       ? hits_of(samples) / hits_of(run.samples_a_pixel)
+                                       : share);
+  constexpr double together =
+      0.6; // of what single hits take: those of a tile know each other's blockers
+  const double hits = run.pixels * (knobs.term == DiffuseTerm::direct
+                                        ? together * hits_of(samples) * run.error.direct_seconds
+                                        : samples * gather_seconds(run));
+  return share * run.pass_two_seconds + hits;
+}
+
+/// Samples drawn again to find out, of a pixel that is looked at:
+/// as many pixels of each number of samples, more of those of few (raytrace/error/picture_error.cpp).
+double samples_drawn_again(int samples) {
+  constexpr int min_drawn = 16, max_rounds = 64; // first samples to last
+  double drawn = 0.0, groups = 0.0;
+  for (int n = std::max(min_samples, samples / max_rounds); n <= samples; n *= 4) {
+    drawn += std::max(n, min_drawn);
+    groups += 1.0;
+  }
+  return groups > 0.0 ? drawn / groups : min_drawn;
+}
+
+/// What finding out the error takes.
+double estimate_seconds(const MeasuredRun& run, const Parameters& knobs) {
+  constexpr double of_camera_rays = 1.0 / 3.0; // the share drawn again, with four samples a pixel
+  constexpr double source_rays = 128.0;        // that cost as much as direct light
+  const auto pixels = [](double elements) {
+    return error_settings(TwoPassSettings{}, static_cast<std::size_t>(elements)).gathered_pixels;
+  };
+  const auto of_a_pixel = [](const Parameters& k) {
+    return (1.0 - of_camera_rays) * (source_rays + k.rays) / (source_rays + Parameters{}.rays) +
+           of_camera_rays * samples_drawn_again(k.samples) /
+               samples_drawn_again(Parameters{}.samples);
+  };
+  return run.estimate_seconds * pixels(knobs.elements) / pixels(run.knobs.elements) *
+         of_a_pixel(knobs) / of_a_pixel(run.knobs);
+}
+
+} // namespace
+
+/// Whether elements were divided about as often as they were wanted to be. Small surfaces are
+/// elements as they are, and to ask for twice as many may divide next to nothing.
+static bool tells_of_division(const MeasuredRun& coarse, const MeasuredRun& fine) {
+  constexpr double share = 0.5; // of the growth that was wanted, in logarithms
+  return std::log(fine.divided / coarse.divided) >=
+         share * std::log(fine.knobs.elements / coarse.knobs.elements);
+}
+
+double measured_mesh_exponent(const MeasuredRun& coarse, const MeasuredRun& fine) {
+  const auto square = [](double x) { return x * x; };
+  const auto rest = [&](const MeasuredRun& run) {
+    return square(run.error.mesh) - square(run.error.mesh_direct);
+  };
+  // Where nearly all is edges the difference is what neither is known to.
+  constexpr double known = 0.25;
+  for (const MeasuredRun* run : {&coarse, &fine})
+    if (!(rest(*run) > known * square(run->error.mesh)))
+      return coarse.mesh_exponent;
+  if (!tells_of_division(coarse, fine))
+    return coarse.mesh_exponent;
+  const double growth = std::log(fine.divided / coarse.divided);
+  return std::clamp(std::log(rest(coarse) / rest(fine)) / growth, 0.0, 1.0);
+}
+
+/// What the field is off by, squared.
+static double field_error(const MeasuredRun& run, const Parameters& knobs) {
+  const PictureError& e = run.error;
+  const auto square = [](double x) { return x * x; };
+  const double elements = knobs.elements / run.knobs.elements,
+               rays = double(knobs.rays) / run.knobs.rays;
+  if (knobs.term == DiffuseTerm::gather) {
+    if (run.knobs.term == DiffuseTerm::gather)
+      return square(e.mesh) * std::pow(elements, -run.mesh_exponent);
+    constexpr double noise_of_interpolated =
+        4.0 / 9.0; // of a vertex's: raytrace/error/picture_error.h
+    return square(e.form_factors) / noise_of_interpolated *
+           std::pow(run.knobs.rays / rays_of_a_hit, 1.2) / samples_a_pixel(run, knobs.samples);
+  }
+  // Edges stay, or become exact.
+  // Of what is hardly more than they are, the rest is not known to less than a share of them.
+  constexpr double unknown = 0.1;
+  const bool edges = knobs.term == run.knobs.term;
+  const double direct = square(e.mesh_direct);
+  const double rest =
+      std::max(square(e.mesh) - direct, edges ? 0.0 : square(unknown * e.mesh_direct));
+  return (edges ? direct * std::pow(elements, -0.5) : 0.0) +
+         rest * std::pow(elements, -run.mesh_exponent) +
+         square(e.form_factors) * std::pow(rays, -1.2) + square(e.mirror_tail);
+}
+
+Forecast forecast(const MeasuredRun& run, const Parameters& knobs) {
+  const PictureError& e = run.error;
+  const double elements = knobs.elements / run.knobs.elements,
+               rays = double(knobs.rays) / run.knobs.rays;
+  const auto square = [](double x) { return x * x; };
+  const double squared =
+      field_error(run, knobs) + square(e.pixels) * pixel_decline(run, knobs) + square(e.solver);
+  constexpr double source_rays = 128.0; // that cost as much as direct light
+  const bool again = elements != 1.0 || rays != 1.0;
+  const double pass_one = again ? run.pass_one_seconds * elements * (source_rays + knobs.rays) /
+                                      (source_rays + run.knobs.rays)
+                                : 0.0;
+  return {std::sqrt(squared),
+          pass_one + pass_two_seconds(run, knobs) + estimate_seconds(run, knobs)};
+}
+
+} // namespace meninas

@@ -1,0 +1,81 @@
+#include "raytrace/two_pass_settings.h"
+
+#include <algorithm>
+
+namespace meninas {
+
+RenderQuality render_quality(Quality quality) {
+  switch (quality) {
+  case Quality::draft:
+    return {
+        .samples = 16, .hit_shadow_rays = 8, .shared_shadow_rays = 4, .pixel_penumbra_rays = 256};
+  case Quality::normal:
+    return {.samples = 16,
+            .hit_shadow_rays = 16,
+            .shared_shadow_rays = 16,
+            .pixel_penumbra_rays = 1024};
+  case Quality::fine:
+    return {.samples = 64,
+            .diffuse = DiffuseTerm::direct,
+            .hit_shadow_rays = 16,
+            .shared_shadow_rays = 16,
+            .pixel_penumbra_rays = 1024};
+  }
+  return {};
+}
+
+bool tells_light_apart(const PassOneChoice& choice) {
+  return choice.form_factors != FormFactorMethod::analytic ||
+         choice.interpolation != Interpolation::average;
+}
+
+DiffuseTerm diffuse_term(const TwoPassChoice& choice, RenderMode mode) {
+  if (mode == RenderMode::radiosity)
+    return DiffuseTerm::interpolated;
+  return choice.diffuse.value_or(tells_light_apart(choice) ? render_quality(choice.quality).diffuse
+                                                           : DiffuseTerm::interpolated);
+}
+
+/// A pixel's rays are shared out among its samples;
+/// where sampling is adaptive, most pixels have few.
+static DiffuseSettings diffuse_settings(const TwoPassChoice& choice, DiffuseTerm term,
+                                        const FormFactorSettings& form_factors, int samples) {
+  constexpr int gather_rays = 2048, least = 16; // of a pixel; of a sample
+  constexpr int shared_at_most = 32;
+  if (choice.pixel_error)
+    samples = std::min(samples, shared_at_most);
+  const RenderQuality quality = render_quality(choice.quality);
+  DiffuseSettings result;
+  result.term = term;
+  result.direct.seed = choice.seed;
+  result.direct.shadow_rays = quality.hit_shadow_rays;
+  result.shared_shadow_rays = quality.shared_shadow_rays;
+  result.direct.penumbra_rays =
+      std::max(choice.pixel_error ? 1 : least, quality.pixel_penumbra_rays / samples);
+  result.gather = form_factors;
+  result.gather.method = FormFactorMethod::rays;
+  result.points.rays = std::max(least, gather_rays / samples);
+  return result;
+}
+
+TwoPassSettings two_pass_settings(const TwoPassChoice& choice, RenderMode mode) {
+  const DiffuseTerm term = diffuse_term(choice, mode);
+  TwoPassSettings result;
+  result.pass_one = pass_one_settings(
+      choice, term == DiffuseTerm::interpolated ? DirectLightAt::vertices : DirectLightAt::hits);
+  RenderSettings& render = result.render;
+  render.mode = mode;
+  render.samples = power_of_two(choice.samples.value_or(render_quality(choice.quality).samples));
+  render.seed = choice.seed;
+  render.layers = choice.layers;
+  render.features = choice.features;
+  render.filter = choice.filter;
+  render.pixel_error = choice.pixel_error.value_or(0.0);
+  render.glossy_samples = choice.glossy_samples.value_or(render.glossy_samples);
+  render.diffuse = diffuse_settings(choice, term, result.pass_one.form_factors, render.samples);
+  // A cap on mirrors holds for what the camera sees as for light.
+  render.max_bounces = choice.mirror_depth.value_or(render.max_bounces);
+  return result;
+}
+
+} // namespace meninas

@@ -1,0 +1,52 @@
+// What the two passes are asked for: the settings of both, the numbers of pass two that a quality
+// stands for, and how what a user chooses becomes settings (radiosity/pass_one_settings.h).
+#pragma once
+
+#include "radiosity/pass_one_settings.h"
+#include "raytrace/render_settings.h"
+
+#include <optional>
+#include <vector>
+
+namespace meninas {
+
+struct TwoPassSettings {
+  PassOneSettings pass_one;
+  RenderSettings render;
+};
+
+/// The numbers of pass two that a quality stands for.
+struct RenderQuality {
+  int samples = 0;                                 ///< camera rays per pixel
+  DiffuseTerm diffuse = DiffuseTerm::interpolated; ///< of a hybrid picture
+  int hit_shadow_rays = 0; ///< from a hit to an emitter, where light is computed there
+  int shared_shadow_rays =
+      0; ///< likewise, to begin with, from each of a pixel's hits that share them
+  int pixel_penumbra_rays =
+      0; ///< likewise, where the first ones disagree, shared out among a pixel's samples
+};
+RenderQuality render_quality(Quality quality);
+
+/// What may be chosen of both passes; what is not set follows from the quality.
+struct TwoPassChoice : PassOneChoice {
+  std::optional<int> samples;            ///< rounded up to a power of two
+  std::optional<DiffuseTerm> diffuse;    ///< of a hybrid picture
+  WithLayers layers = WithLayers::no;    ///< of light, of a hybrid picture or a reference
+  std::vector<Feature> features;         ///< layers of the scene, not of a reference
+  PixelFilter filter = PixelFilter::box; ///< not of a reference
+  std::optional<double> pixel_error;     ///< of a hybrid picture: adaptive sampling
+  std::optional<int> glossy_samples;     ///< of a hybrid picture: directions into a lobe
+};
+
+/// Whether the field knows the light that does not come from emitters by itself:
+/// means of elements by the analytic method do not.
+bool tells_light_apart(const PassOneChoice& choice);
+
+/// What is asked for, or what the quality has;
+/// `interpolated` where the mode or the field knows no other.
+DiffuseTerm diffuse_term(const TwoPassChoice& choice, RenderMode mode);
+
+/// Numbers of rays and samples are rounded up to powers of two.
+TwoPassSettings two_pass_settings(const TwoPassChoice& choice, RenderMode mode);
+
+} // namespace meninas
