@@ -143,46 +143,6 @@ std::optional<MirroredRay> meet_coat(const LightScene& light, const MetFace& met
                      from.reflections + 1};
 }
 
-/// How rays ended: sums of their weights and of their light.
-struct Ends {
-  double landed = 0.0, escaped = 0.0, black = 0.0, cut = 0.0;
-  std::uint32_t black_lanes = 0;
-  glm::vec3 mirror_absorbed{0.0F}, escaped_light{0.0F}, black_light{0.0F}, cut_light{0.0F};
-
-  void escape(float weight, const glm::vec3& throughput) {
-    escaped += weight;
-    escaped_light += weight * throughput;
-    mirror_absorbed += weight * (1.0F - throughput);
-  }
-  /// On a black back, or on an element.
-  void end(bool on_black, std::uint32_t lane, float weight, const glm::vec3& throughput) {
-    if (on_black) {
-      black += weight;
-      black_lanes |= 1U << lane;
-      black_light += weight * throughput;
-    } else {
-      landed += weight;
-    }
-    mirror_absorbed += weight * (1.0F - throughput);
-  }
-  void stop(float weight, const glm::vec3& throughput) {
-    cut += weight;
-    cut_light += weight * throughput;
-    mirror_absorbed += weight * (1.0F - throughput);
-  }
-};
-
-void add(const Ends& ends, GatheredRays& result) {
-  result.landed += ends.landed;
-  result.escaped += ends.escaped;
-  result.black += ends.black;
-  result.cut += ends.cut;
-  result.mirror_absorbed += ends.mirror_absorbed;
-  result.escaped_light += ends.escaped_light;
-  result.black_light += ends.black_light;
-  result.cut_light += ends.cut_light;
-}
-
 ElementHit& note_landing(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                          std::uint32_t k, GatherWorkspace& work) {
   const glm::vec2 uv = landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
