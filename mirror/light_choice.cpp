@@ -19,7 +19,7 @@ struct Chooser {
   const Observer& observer;
   LightChoiceWorkspace& work;
   std::vector<VirtualLight>& lights;
-  LightEstimates estimates{worlds, tree, observer, work.seen};
+  LightEstimates estimates{worlds, tree, observer, work.cones};
 
   const SeenWorld& seen_world(std::uint32_t world) const { return work.seen.worlds[world]; }
   double estimate(std::uint32_t world, std::uint32_t node) const {
@@ -109,7 +109,8 @@ struct Chooser {
     keep(work.open, false);
     keep(work.cut, false);
     keep(work.afar, true);
-    std::ranges::sort(work.of_area, {}, [](const auto& node) { return std::pair(node.world, node.node); });
+    std::ranges::sort(work.of_area, {},
+                      [](const auto& node) { return std::pair(node.world, node.node); });
     work.open.clear();
     work.cut.clear();
     work.afar.clear();
@@ -125,7 +126,8 @@ struct Chooser {
         add(w, 0, true);
         continue;
       }
-      const auto nodes = std::ranges::equal_range(work.of_area, seen.world, {}, &LightChoiceWorkspace::AreaNode::world);
+      const auto nodes = std::ranges::equal_range(work.of_area, seen.world, {},
+                                                  &LightChoiceWorkspace::AreaNode::world);
       for (const auto& at : nodes) {
         if (at.small && estimates.is_wholly_seen(seen, at.node)) {
           add_afar(w, at.node);
@@ -216,7 +218,8 @@ struct Chooser {
     for (const CutNode& at : work.afar) {
       sum += at.estimate;
       for (; next < sum; next += step)
-        stand_for(at, step, hash(seed, at.node, at.world * 4096 + static_cast<std::uint32_t>(next / step)));
+        stand_for(at, step,
+                  hash(seed, at.node, at.world * 4096 + static_cast<std::uint32_t>(next / step)));
     }
   }
 
@@ -299,6 +302,7 @@ void sample_light_tree(const EmitterChoice& of, const Observer& observer, const 
     all_lights(worlds, emitters, work.seen, observer, lights);
     return;
   }
+  find_cones(work.seen, observer.position, work.cones);
   Chooser{worlds, emitters, tree, observer, work, lights}.choose(choice);
 }
 

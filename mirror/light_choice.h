@@ -15,15 +15,15 @@
 //
 //   H = tau I(omega) cos / d^2     (emitters.h),
 //
-// off by the square of radius over distance, so that a lamp of thousands of faces costs like one
-// of few, and without noise (lightcuts: Walter et al. 2005). For shadow rays some of
-// its emitters stand for it, chosen by power.
+// off by about a third of the square of radius over distance, and without the noise of a choice
+// (lightcuts: Walter et al. 2005). For shadow rays some of its emitters stand for it,
+// chosen by power times cosine.
 //
 // The points of one small area share the cut that the first of them finds, refined for all of them:
 // they ask its nodes alone what they bring.
 #pragma once
 
-#include "mirror/virtual_lights.h"
+#include "mirror/window_cones.h"
 
 namespace meninas {
 
@@ -38,6 +38,7 @@ struct LightChoice {
 /// Storage reused from point to point.
 struct LightChoiceWorkspace {
   SeenWorlds seen;
+  WindowCones cones;
   struct CutNode {
     double estimate;     ///< s of the emitters below, brightest channel
     std::uint32_t world; ///< index into `seen`
@@ -51,7 +52,7 @@ struct LightChoiceWorkspace {
     std::uint32_t node;
     bool small; ///< for its distance
   };
-  std::uint64_t area = 0;
+  std::uint64_t area = 0; ///< whose cut is kept; to be set to 0 where other points begin
   std::vector<AreaNode> of_area;
   std::vector<WorldId> worlds_of_area; ///< that its first point sees, in ascending order
 };

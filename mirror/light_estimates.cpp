@@ -10,42 +10,9 @@ namespace {
 
 constexpr double small_for_distance = 0.2; ///< radius over distance of a node seen from afar
 
-bool is_outside_cone(const ConvexPolygon& opening, const Point3& x, const Point3& centre,
-                     double radius) {
-  const double side =
-      glm::dot(area_vector(opening.span()), opening.vertices[0] - x);
-  Vec3 from = opening.vertices[opening.size - 1] - x;
-  for (std::size_t k = 0; k < opening.size; ++k) {
-    const Vec3 to = opening.vertices[k] - x;
-    const Vec3 inward = side > 0.0 ? glm::cross(from, to) : glm::cross(to, from);
-    from = to;
-    const double distance = glm::dot(inward, centre - x);
-    if (distance < 0.0 && distance * distance > radius * radius * glm::dot(inward, inward))
-      return true;
-  }
-  return false;
-}
-
-bool is_inside_cone(const ConvexPolygon& opening, const Point3& x, const Point3& centre,
-                    double radius) {
-  const double side =
-      glm::dot(area_vector(opening.span()), opening.vertices[0] - x);
-  Vec3 from = opening.vertices[opening.size - 1] - x;
-  for (std::size_t k = 0; k < opening.size; ++k) {
-    const Vec3 to = opening.vertices[k] - x;
-    const Vec3 inward = side > 0.0 ? glm::cross(from, to) : glm::cross(to, from);
-    from = to;
-    const double distance = glm::dot(inward, centre - x);
-    if (distance < 0.0 || distance * distance < radius * radius * glm::dot(inward, inward))
-      return false;
-  }
-  return true;
-}
-
 /// The largest cosine any emitter of the node can have towards x: the angle to the axis,
 /// less the spread of the normals and the angle at which x sees the sphere.
-double emitting_cosine(const EmitterNode& node, double radius, double cos_axis,
-                              double distance) {
+double emitting_cosine(const EmitterNode& node, double radius, double cos_axis, double distance) {
   if (node.cos_spread <= -1.0)
     return 1.0;
   // Angles of at most pi, as cosines and sines: nothing is left of them once it is subtracted.
@@ -62,34 +29,6 @@ double emitting_cosine(const EmitterNode& node, double radius, double cos_axis,
 
 } // namespace
 
-/// Whether a sphere of unfolded space is hidden from x:
-/// outside the cones through all openings, or before the last mirror.
-bool LightEstimates::is_outside(const SeenWorld& in, const Point3& centre, double radius) const {
-  const MirrorWorld& world = worlds.worlds[index(in.world)];
-  if (world.depth == 0)
-    return false;
-  if (signed_distance(world.plane, centre) > radius)
-    return true;
-  for (std::uint32_t k = in.first; k < in.last; ++k)
-    if (!is_outside_cone(seen.openings[k], observer.position, centre, radius))
-      return false;
-  return true;
-}
-
-bool LightEstimates::is_inside(const SeenWorld& in, const Point3& centre, double radius) const {
-  const MirrorWorld& world = worlds.worlds[index(in.world)];
-  if (glm::dot(centre - observer.position, observer.normal) <= radius)
-    return false;
-  if (world.depth == 0)
-    return true;
-  if (signed_distance(world.plane, centre) > -radius)
-    return false;
-  for (std::uint32_t k = in.first; k < in.last; ++k)
-    if (is_inside_cone(seen.openings[k], observer.position, centre, radius))
-      return true;
-  return false;
-}
-
 bool LightEstimates::is_small(const SeenWorld& in, std::uint32_t at_node) const {
   const EmitterNode& node = tree.nodes[at_node];
   const Point3 centre = apply(worlds.worlds[index(in.world)].image, node.centre);
@@ -97,9 +36,12 @@ bool LightEstimates::is_small(const SeenWorld& in, std::uint32_t at_node) const 
 }
 
 bool LightEstimates::is_wholly_seen(const SeenWorld& in, std::uint32_t at_node) const {
+  const MirrorWorld& world = worlds.worlds[index(in.world)];
   const EmitterNode& node = tree.nodes[at_node];
-  return is_inside(in, apply(worlds.worlds[index(in.world)].image, node.centre),
-                   node.radius + extent);
+  const Vec3 to = apply(world.image, node.centre) - observer.position;
+  const double radius = node.radius + extent;
+  return where(glm::dot(to, observer.normal), radius) == Where::inside &&
+         where_in_window(cones, world, in, observer.position, to, radius) == Where::inside;
 }
 
 /// pi times the intensity towards x, W, of a node in one world.
@@ -135,7 +77,8 @@ double LightEstimates::estimate(const SeenWorld& in, std::uint32_t at_node) cons
     return 0.0;
   if (distance > radius) {
     cosines = std::min(1.0, height / distance) * emitting_cosine(node, radius, cos_axis, distance);
-    if (cosines <= 0.0 || is_outside(in, observer.position + to, radius))
+    if (cosines <= 0.0 || where_in_window(cones, world, in, observer.position, to, radius) ==
+                              Where::outside)
       return 0.0;
   }
   const double reach = std::max(distance, node.radius);

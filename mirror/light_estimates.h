@@ -8,7 +8,7 @@
 // off by about a third of the square of its radius over its distance.
 #pragma once
 
-#include "mirror/virtual_lights.h"
+#include "mirror/window_cones.h"
 
 namespace meninas {
 
@@ -16,7 +16,7 @@ struct LightEstimates {
   const WorldTree& worlds;
   const LightTree& tree;
   const Observer& observer;
-  const SeenWorlds& seen; ///< by the observer
+  const WindowCones& cones; ///< of the worlds that the observer sees
   double extent = 0.0;    ///< estimates hold for all points so far from the observer, m
 
   /// s, W/m^2 of the brightest channel: the power of the node, spread over what a sphere of its
@@ -34,8 +34,6 @@ struct LightEstimates {
   double light_from_afar(const SeenWorld& in, std::uint32_t node) const;
 
 private:
-  bool is_outside(const SeenWorld& in, const Point3& centre, double radius) const;
-  bool is_inside(const SeenWorld& in, const Point3& centre, double radius) const;
   double intensity_towards(const MirrorWorld& world, const EmitterNode& node) const;
 };
 

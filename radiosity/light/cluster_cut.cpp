@@ -11,28 +11,6 @@ namespace meninas {
 
 namespace {
 
-/// How much of a sphere lies in a half-space, or in an intersection of some: the least of theirs.
-enum class Where : std::uint8_t { outside, partly, inside };
-
-Where where(double distance_inwards, double radius) {
-  return distance_inwards <= -radius ? Where::outside
-                                     : (distance_inwards < radius ? Where::partly : Where::inside);
-}
-
-/// The planes through x and the edges of an opening.
-void add_cone(const ConvexPolygon& opening, const Point3& x, std::vector<Direction>& sides) {
-  const double side = glm::dot(area_vector(opening.span()), opening.vertices[0] - x);
-  Vec3 from = opening.vertices[opening.size - 1] - x;
-  for (std::size_t k = 0; k < opening.size; ++k) {
-    const Vec3 to = opening.vertices[k] - x;
-    const Vec3 inward = side > 0.0 ? glm::cross(from, to) : glm::cross(to, from);
-    const double length = glm::length(inward);
-    if (length > 0.0) // an edge seen end-on bounds nothing
-      sides.push_back(inward / length);
-    from = to;
-  }
-}
-
 /// One plane of clusters in one world, as seen from x.
 struct PlaneImage {
   const Lighting& light;
@@ -44,24 +22,6 @@ struct PlaneImage {
   Direction normal; ///< of the image
   double theta;
 };
-
-Where where_in_window(const PlaneImage& image, const ClusterWorkspace& work, const Vec3& to,
-                      double radius) {
-  if (image.world.depth == 0)
-    return Where::inside;
-  const Where behind =
-      where(-signed_distance(image.world.plane, image.receiver.position + to), radius);
-  if (behind == Where::outside)
-    return behind;
-  Where best = Where::outside;
-  for (std::uint32_t k = image.seen.first; k < image.seen.last && best != Where::inside; ++k) {
-    Where in_cone = Where::inside;
-    for (std::uint32_t s = k == 0 ? 0 : work.cone_ends[k - 1]; s < work.cone_ends[k]; ++s)
-      in_cone = std::min(in_cone, where(glm::dot(work.sides[s], to), radius));
-    best = std::max(best, in_cone);
-  }
-  return std::min(best, behind);
-}
 
 /// Each channel from its own centre.
 Rgb light_of(const PlaneImage& image, const ClusterNode& node) {
@@ -84,7 +44,8 @@ void cut_plane(const PlaneImage& image, const Observer& observer, ClusterWorkspa
     const Where above = where(glm::dot(to, observer.normal), node.radius);
     if (above == Where::outside)
       continue;
-    const Where through = where_in_window(image, work, to, node.radius);
+    const Where through = where_in_window(work.cones, image.world, image.seen,
+                                          observer.position, to, node.radius);
     if (through == Where::outside)
       continue;
     const bool small = node.radius * node.radius <= image.theta * image.theta * glm::dot(to, to);
@@ -183,12 +144,7 @@ void cut_clusters(const Lighting& light, const ClusterTree& tree, const Receiver
     return; // nor need there be any worlds
   const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
   seen_worlds(light.worlds, observer, work.seen);
-  work.sides.clear();
-  work.cone_ends.clear();
-  for (const auto& opening : work.seen.openings) {
-    add_cone(opening, observer.position, work.sides);
-    work.cone_ends.push_back(static_cast<std::uint32_t>(work.sides.size()));
-  }
+  find_cones(work.seen, observer.position, work.cones);
   for (const SeenWorld& seen : work.seen.worlds) {
     const MirrorWorld& world = light.worlds.worlds[index(seen.world)];
     for (std::uint32_t p = 0; p < tree.planes.size(); ++p) {

@@ -24,6 +24,7 @@
 // with one at least for each and no more than DirectSettings::shadow_rays for each of its clusters.
 #pragma once
 
+#include "mirror/window_cones.h"
 #include "radiosity/light/cluster_tree.h"
 #include "radiosity/light/direct_irradiance.h"
 
@@ -44,8 +45,7 @@ struct LightcutNode {
 /// Storage reused from point to point; one for each thread.
 struct ClusterWorkspace {
   SeenWorlds seen;
-  std::vector<Direction> sides;         ///< of the cones through openings: unit normals inwards
-  std::vector<std::uint32_t> cone_ends; ///< by opening, in `sides`
+  WindowCones cones;
   std::vector<std::uint32_t> open;      ///< nodes still to be looked at
   std::vector<LightcutNode> stand_ins;
   struct Ray {

@@ -123,8 +123,9 @@ MeanLight direct_irradiance(const Lighting& light, ElementId element, ContactMas
   if (covered == wholly_covered)
     return {};
   DirectSettings settings = asked;
-  for (int* samples : {&settings.points, &settings.most_points, &settings.images_in_element})
-    *samples = samples_of(light.scene, element, *samples);
+  if (needs_few_samples(light.scene, element))
+    for (int* samples : {&settings.points, &settings.most_points, &settings.images_in_element})
+      *samples = few_of(*samples);
   const Receiving r{light,
                     element,
                     receiver_of(light.scene, element),

@@ -348,6 +348,7 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
                                 SharedLightWorkspace& work) {
   work.images.clear();
   work.image_of.clear();
+  work.point.choice.area = 0;
   PointSum sum;
   auto& solid_points = work.point.solids.points;
   solid_points.clear();

@@ -6,17 +6,22 @@
 
 namespace meninas {
 
+static bool is_small(const LightScene& light, ElementId element) {
+  const ElementMesh& mesh = light.mesh;
+  return is_small(mesh, mesh.sides[index(mesh.side_of_element[index(element)])]);
+}
+
+bool has_few_rays(const LightScene& light, ElementId element) {
+  return light.finely_tessellated && is_small(light, element);
+}
+
 bool needs_few_samples(const LightScene& light, ElementId element) {
   constexpr double small_share = 1.0 / 64.0; // of all light
-  const ElementMesh& mesh = light.mesh;
-  const std::size_t e = index(element);
-  if (!is_small(mesh, mesh.sides[index(mesh.side_of_element[e])]))
-    return false;
-  const Rgb& emission = mesh.emission[e];
+  const Rgb& emission = light.mesh.emission[index(element)];
   if (emission == Rgb(0.0))
-    return light.finely_tessellated;
-  return !light.emitter_tree.nodes.empty() &&
-         mesh.area[e] * std::max({emission.r, emission.g, emission.b}) <=
+    return has_few_rays(light, element);
+  return is_small(light, element) && !light.emitter_tree.nodes.empty() &&
+         light.mesh.area[index(element)] * std::max({emission.r, emission.g, emission.b}) <=
              small_share * light.emitter_tree.nodes[0].power;
 }
 

@@ -240,7 +240,7 @@ FormFactors assemble_transport(const LightScene& light, const FormFactorSettings
     return analytic_transport(light, settings, progress);
   const auto element = [&](std::size_t row) {
     ReceiverArea receiver = receiver_of(light, static_cast<ElementId>(row));
-    receiver.few_rays = needs_few_samples(light, static_cast<ElementId>(row));
+    receiver.few_rays = has_few_rays(light, static_cast<ElementId>(row));
     return receiver;
   };
   FormFactors factors =
@@ -257,7 +257,7 @@ FormFactors assemble_rows(const LightScene& light, std::size_t size, const RowRe
   const Assembly assembly{light,
                           settings,
                           by_cubes ? make_coverage_net() : make_direction_net(settings.rays),
-                          make_direction_net(std::min(settings.rays, std::max(16, settings.rays / 8))),
+                          make_direction_net(few_of(settings.rays, 16)),
                           by_cubes ? make_hemicube(settings.hemicube_resolution) : Hemicube{},
                           kept_beyond(light.mesh, settings),
                           grey_mirrors(light.scene) ? 1 : 3,

@@ -63,9 +63,11 @@ Json point_json(const TradeResult& result, std::size_t id, bool on_front) {
 /// half the rise of log seconds, as samples at random would pay.
 double worth(const KnobWorth& knob) { return -std::log(knob.error) - 0.5 * std::log(knob.seconds); }
 
-/// "+10 % time", "-3 % error", "4.2 times the time"
+/// "+10 % time", "-3 % error", "the same time", "4.2 times the time"
 std::string readable_change(double ratio, std::string_view what) {
-  constexpr double twice = 2.0;
+  constexpr double twice = 2.0, half_a_percent = 0.005;
+  if (std::abs(ratio - 1.0) <= half_a_percent)
+    return fmt::format("the same {}", what);
   return ratio < twice ? fmt::format("{:+.0f} % {}", 100.0 * (ratio - 1.0), what)
                          : fmt::format("{:.2g} times the {}", ratio, what);
 }
