@@ -268,7 +268,7 @@ private:
         weights_[g] = 1.0 + settings_.importance[g] * all / important;
   }
 
-  bool complete_field() const {
+  bool has_settled() const {
     constexpr double part = 0.7, rounding = 1e-15;
     double error = 0.0;
     for (std::size_t g = 0; g < groups_; ++g)
@@ -278,7 +278,7 @@ private:
 
   void refine() {
     constexpr std::size_t max_at_once = 8;
-    while (!complete_field() && points_ < settings_.max_points && visits_ < settings_.max_visits) {
+    while (!has_settled() && points_ < settings_.max_points && visits_ < settings_.max_visits) {
       std::vector<Region> parents;
       const double largest = heap_.top().first;
       while (parents.size() < max_at_once && !heap_.empty() && heap_.top().first >= 0.25 * largest)

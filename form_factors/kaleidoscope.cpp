@@ -84,7 +84,7 @@ public:
   }
 
   ExtendedFactors run() {
-    while (!heap_.empty() && !complete_field() && visited_ < max_images)
+    while (!heap_.empty() && !has_settled() && visited_ < max_images)
       visit_best();
     return result();
   }
@@ -92,7 +92,7 @@ public:
 private:
   static constexpr std::size_t max_images = 200'000, max_at_once = 64;
 
-  bool complete_field() const {
+  bool has_settled() const {
     constexpr double part = 0.5, rounding = 1e-15;
     return waiting_bound_ <= part * settings_.accuracy * value_ + rounding;
   }

@@ -6,6 +6,8 @@
 #include "radiosity/solvers/solve.h"
 #include "scenes/stopwatch.h"
 
+#include <algorithm>
+
 namespace meninas {
 
 namespace {
@@ -65,12 +67,37 @@ RadiositySolution field_of(const std::shared_ptr<const LightScene>& light,
   return solution;
 }
 
+bool nothing_emits(const LightScene& light) {
+  return light.emitters.empty() && light.punctual.empty() && light.background == Rgb(0.0) &&
+         std::ranges::all_of(light.mesh.emission,
+                             [](const Rgb& emission) { return emission == Rgb(0.0); });
+}
+
+/// E = 0, and so B = H = 0 without a row.
+RadiositySolution darkness(const std::shared_ptr<const LightScene>& light,
+                           const PassOneSettings& settings) {
+  const std::vector<Rgb> zeros(element_count(light->mesh), Rgb(0.0));
+  const std::vector<glm::vec3> at_vertices(light->mesh.vertices.size(), glm::vec3(0.0F));
+  RadiositySolution solution;
+  solution.radiosity = solution.irradiance = zeros;
+  solution.exposed.assign(zeros.size(), 1.0F);
+  solution.field = {{at_vertices, at_vertices, at_vertices, at_vertices}, light};
+  solution.solver.method = settings.solver.method;
+  solution.solver.bands = 1;
+  solution.solver.converged = true;
+  if (settings.solver.method == SolverMethod::hierarchical)
+    solution.links.emplace();
+  return solution;
+}
+
 } // namespace
 
 RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress,
                                  const PassOneWatch& watch) {
   check_size(settings.solver.method, element_count(light->mesh));
+  if (nothing_emits(*light))
+    return darkness(light, settings);
   if (shoots_rays(settings, element_count(light->mesh)))
     return shoot_pass_one(light, settings, progress, watch);
   if (settings.solver.method == SolverMethod::hierarchical)

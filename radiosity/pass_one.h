@@ -38,6 +38,7 @@ struct RadiositySolution : ElementSolution {
 /// in smaller ones, where they take a few megabytes,
 /// blocks shoot by the columns of the transport that the other solvers have, so that all agree.
 /// `hierarchical` solves for nodes (hierarchical/node_solution.h), by rays.
+/// Where nothing emits no row is assembled: B = H = 0, and the closure is that of no rows.
 RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress = {},
                                  const PassOneWatch& watch = {});

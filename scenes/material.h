@@ -68,7 +68,7 @@ struct Material {
   std::optional<TextureUse> transmission_texture; ///< red
   std::optional<TextureUse> thickness_texture;    ///< green
 
-  // What is complete_field before anything is decided by the material, and gone by then:
+  // What is decided before anything is decided by the material, and gone by then:
   // of these textures the constant ones become factors, the others are left out
   // (constant_textures.h).
   double clear_coat = 0.0, clear_coat_roughness = 0.0; ///< lacquer, in [0, 1] (clear_coat.h)

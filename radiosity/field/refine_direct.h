@@ -26,7 +26,7 @@ inline std::size_t max_at_shadows(std::size_t solved) {
   return std::max<std::size_t>(solved, 16384);
 }
 
-/// `result` has the field of what was found, complete_field,
+/// `result` has the completed field of what was found,
 /// and takes the finer mesh and its field where anything bends. X = 0: nothing does.
 void refine_direct(const LightScene& light, const VertexSource& source, const BendScale& scale,
                        double x, VertexSamples found, InterpolatedField& result);

@@ -2,7 +2,7 @@
 //
 // Light is gathered at vertices (vertex_light.h):
 // that from the source and the rest together, or the rest only where it is asked for.
-// Once all that are to have a value have one, the field is complete_field:
+// Once all that are to have a value have one, the field is completed:
 // what stands on a surface takes what is gathered beside it (contact_vertices.h,
 // gap_vertices.h), vertices that hang take from their ends,
 // and those that are left from their neighbours (vertex_fill.h).

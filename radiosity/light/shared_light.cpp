@@ -367,11 +367,11 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
     trace_waiting(light, next.receiver, work);
     const ArrivingLight mean = mean_of(work, sum);
     const double brightest = largest(mean.total);
-    const bool complete_field = sum.points > settings.points &&
+    const bool has_settled = sum.points > settings.points &&
                          largest(glm::abs(mean.total - before)) <= settings.unsure * brightest &&
                          penumbra_error(work, sum) <= settings.unsure_shadow * brightest;
     const bool dark = sum.points >= 2 * settings.points && brightest == 0.0;
-    if (complete_field || dark || sum.points >= settings.most_points) {
+    if (has_settled || dark || sum.points >= settings.most_points) {
       learn(work.images);
       const ArrivingLight by_solids =
           light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);

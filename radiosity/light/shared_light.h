@@ -46,7 +46,7 @@ struct SharedLightSettings {
   double unsure_shadow = 0.005; ///< error of the mean by shadow rays, relative
   bool brightest_most =
       false; ///< images that bring less than the brightest one in sight take fewer rays
-  /// Punctual lights are asked for from all of `most_points`, also where the mean has complete_field.
+  /// Punctual lights are asked for from all of `most_points`, also where the mean has settled.
   bool punctual_everywhere = false;
   bool learns = false; ///< what blocks its rays, and uses what others have learned
 };

@@ -27,7 +27,7 @@ std::uint32_t triangle_cell(const MeshSide& side, int i, int j, bool upper) {
 }
 
 /// A piece of one cell is that cell.
-Piece complete_field(const MeshSide& side, Piece piece) {
+Piece as_cell(const MeshSide& side, Piece piece) {
   if (piece.shape == Shape::grid && !side.triangle && piece.nu == 1 && piece.nv == 1)
     return {Shape::cell, 0,
             0,           1,
@@ -164,7 +164,7 @@ NodeTree make_node_tree(const ElementMesh& mesh, const SurfaceModel& surfaces) {
   std::vector<double> aspects; // of a root cell, by side: how much longer it is along u
   const auto add = [&](SideId id, const Piece& piece, TreeNodeId parent) {
     const MeshSide& side = mesh.sides[index(id)];
-    const Piece p = complete_field(side, piece);
+    const Piece p = as_cell(side, piece);
     TreeNode node = node_of(mesh, side, id, p);
     node.parent = parent;
     tree.nodes.push_back(node);

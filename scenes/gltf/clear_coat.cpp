@@ -1,4 +1,4 @@
-// KHR_materials_clearcoat. What it does to the material is complete_field here where no texture has a say,
+// KHR_materials_clearcoat. What it does to the material is decided here where no texture has a say,
 // and else once textures are known (constant_textures.h).
 #include "scenes/materials/clear_coat.h"
 #include "scenes/gltf/stages.h"

@@ -35,7 +35,7 @@ void read_materials(const Document& document, Scene& scene, Findings& findings);
 void read_specular_glossiness(const Document& document, const Json& model, Material& material,
                               Findings& findings);
 
-/// The coat of KHR_materials_clearcoat (clear_coat.h), which textures may leave to be complete_field.
+/// The coat of KHR_materials_clearcoat (clear_coat.h), which textures may leave undecided.
 void read_clear_coat(const Document& document, const Json& extension, Material& material,
                      Findings& findings);
 

@@ -39,7 +39,7 @@ inline constexpr double constant_codes = 2.0;
 inline constexpr double nearly_constant_codes = 16.0;
 
 /// Puts constant textures into the factors, marks smooth surfaces anew if any was (smooth_surfaces.h),
-/// and drops the pixels of those that no material uses any more. Clear coats are complete_field
+/// and drops the pixels of those that no material uses any more. Clear coats are decided on
 /// (clear_coat.h). Returns what users are to be told.
 std::vector<std::string> fold_constant_textures(Scene& scene, DecodedTextures& textures);
 

@@ -245,9 +245,9 @@ std::vector<NodeId> separate_touching(Scene& scene) {
 }
 
 std::vector<std::string> settle_lights(Scene& scene) {
-  std::vector<std::string> complete_field;
+  std::vector<std::string> names;
   if (scene.triangles.empty() || scene.lights.empty())
-    return complete_field;
+    return names;
   const Precision precision(scene);
   const double touch = touch_of(scene);
   std::vector<Point3> positions;
@@ -277,9 +277,9 @@ std::vector<std::string> settle_lights(Scene& scene) {
   for (std::size_t k = 0; k < planes.size(); ++k)
     if (!planes[k].empty()) {
       settle(scene.lights[k], std::move(planes[k]));
-      complete_field.push_back(scene.lights[k].name);
+      names.push_back(scene.lights[k].name);
     }
-  return complete_field;
+  return names;
 }
 
 } // namespace meninas

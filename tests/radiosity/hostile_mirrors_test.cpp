@@ -149,8 +149,8 @@ TEST(HostileMirrors, HoledAndNonConvexMirrorsAddUp) {
   double sum = 0.0;
   for (std::size_t e = 0; e < whole.size(); ++e) {
     sum += whole[e];
-    // Elements whose points were doubled until they
-    // complete_field may have taken different numbers of them.
+    // Elements whose points were doubled until they settled
+    // may have taken different numbers of them.
     const double tolerance = 0.02 * whole[e] + 1e-3;
     EXPECT_NEAR(around[e] + middle[e], whole[e], tolerance) << e;
     EXPECT_NEAR(l_shape[e] + rest[e] + middle[e], whole[e], tolerance) << e;

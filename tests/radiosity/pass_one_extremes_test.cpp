@@ -111,6 +111,27 @@ TEST_P(Extremes, EmissionsFromAMillionthOfAMillionthToAMillionMillions) {
   expect_the_exact_light(scene, 0.3);
 }
 
+// Many files of models hold no lamp: that they are black is known without a ray.
+TEST(Darkness, TakesNoRay) {
+  const Scene dark = lit_room(0.8, 0.0);
+  const Scene ember = lit_room(0.8, 1e-12);
+  for (const SolverMethod method :
+       {SolverMethod::bicgstab, SolverMethod::progressive, SolverMethod::hierarchical}) {
+    const PassOneSettings settings = pass_one_of(method, 0.5);
+    const auto l = lit(dark, settings.mesh);
+    const RadiositySolution solution = solve_pass_one(l->light, settings);
+    EXPECT_EQ(solution.form_factor_rays + solution.shadow_rays, 0U);
+    EXPECT_TRUE(solution.solver.converged);
+    EXPECT_EQ(solution.energy.imbalance, 0.0);
+    EXPECT_EQ(solution.closure.max_error, 0.0);
+    ASSERT_EQ(solution.field.irradiance.size(), solution.field.mesh().vertices.size());
+    EXPECT_TRUE(std::ranges::all_of(solution.field.irradiance,
+                                    [](const glm::vec3& v) { return v == glm::vec3(0.0F); }));
+    const auto glowing = lit(ember, settings.mesh);
+    EXPECT_GT(solve_pass_one(glowing->light, settings).form_factor_rays, 0U);
+  }
+}
+
 // Thousands of elements on every wall and one on each face of a die:
 // too many to eliminate in long double. The residual, found in long double,
 // times the bound 1 / (1 - rho) of what rows with rho < 1 make of it.
