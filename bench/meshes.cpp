@@ -112,7 +112,7 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
         std::pair(16000.0, 0.01), std::pair(16000.0, 0.005), std::pair(32000.0, 0.01),
         std::pair(32000.0, 0.005), std::pair(64000.0, 0.005)}) {
     RunSettings run;
-    run.solver = SolverMethod::hierarchical;
+    run.mesh = MeshCut::hierarchical;
     run.link_error = bend;
     TwoPassSettings settings = two_pass_settings(run);
     settings.pass_one.mesh.target_elements = elements;

@@ -20,7 +20,7 @@ RUNS = [
     ("hybrid", ["render", "--mode", "hybrid"], "exr"),
     ("direct", ["render", "--diffuse", "direct", "--layers"], "exr"),
     ("gather", ["render", "--diffuse", "gather"], "exr"),
-    ("hierarchical", ["render", "--solver", "hierarchical"], "exr"),
+    ("hierarchical", ["render", "--mesh", "hierarchical"], "exr"),
     ("adaptive", ["render", "--adaptive"], "exr"),
     ("hemicube", ["render", "--form-factors", "hemicube"], "exr"),
     ("progressive", ["solve", "--solver", "progressive"], "glb"),

@@ -122,7 +122,7 @@ void compare_bands(System system) {
       value = Rgb(value.g);
   System coloured{system.transport, system.source, system.reflectance};
   coloured.source[0].r *= 1.5;
-  for (const SolverMethod method : row_solvers) {
+  for (const SolverMethod method : solver_methods) {
     if (!takes_seconds(method, system))
       continue;
     std::vector<double> ratios;
@@ -141,7 +141,7 @@ void compare_bands(System system) {
 
 void compare_solvers(const System& system) {
   for (const double tolerance : {1e-4, 1e-8})
-    for (const SolverMethod method : row_solvers) {
+    for (const SolverMethod method : solver_methods) {
       if (!takes_seconds(method, system))
         continue;
       SolverResult result;
@@ -219,7 +219,7 @@ void grow_nodes(const char* file) {
   for (const double target : growing) {
     PassOneSettings settings = two_pass_settings(draft()).pass_one;
     settings.mesh.target_elements = target;
-    settings.solver.method = SolverMethod::hierarchical;
+    settings.cut = MeshCut::hierarchical;
     const auto prepared = prepare_scene(load_gltf(file), settings);
     Stopwatch watch;
     const RadiositySolution solution = solve_pass_one(prepared->light, settings);

@@ -159,7 +159,7 @@ std::vector<RunSettings> ladder() {
       for (const auto& choices : {at_vertices, at_pixels})
         for (const PictureKnobs& knobs : choices) {
           all.push_back(drafted(elements, rays, knobs));
-          all.back().solver = SolverMethod::hierarchical;
+          all.back().mesh = MeshCut::hierarchical;
         }
   }
   return all;

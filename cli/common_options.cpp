@@ -21,13 +21,18 @@ const Choices<Quality> qualities{
 const Choices<FormFactorMethod> form_factor_methods{{"rays", FormFactorMethod::rays},
                                                     {"hemicube", FormFactorMethod::hemicube},
                                                     {"analytic", FormFactorMethod::analytic}};
-const Choices<SolverMethod> solvers = [] {
-  Choices<SolverMethod> choices;
-  for (const SolverMethod method : solver_methods) {
-    choices.emplace_back(name_of(method), method);
+template <typename Value, std::size_t n>
+Choices<Value> by_name(const std::array<Value, n>& values) {
+  Choices<Value> choices;
+  for (const Value value : values) {
+    choices.emplace_back(name_of(value), value);
   }
   return choices;
-}();
+}
+const Choices<SolverMethod> solvers = by_name(solver_methods);
+const Choices<MeshCut> cuts = by_name(mesh_cuts);
+/// As `--mesh hierarchical` was asked for when it was one of the solvers.
+constexpr const char* hierarchical_solver = "hierarchical";
 const Choices<DiffuseTerm> diffuse_terms{{"interpolated", DiffuseTerm::interpolated},
                                          {"direct", DiffuseTerm::direct},
                                          {"gather", DiffuseTerm::gather}};
@@ -175,8 +180,21 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
              settings.hemicube_resolution = parse_resolution("--hemicube-resolution", text);
            })
       ->group(study_group);
-  add_choice(command, "--solver", solvers, standard.solver.method, "how the radiosity system is solved",
-             [&](SolverMethod method) { settings.solver = method; })
+  add_text(command, "--solver", fmt::format("{}", fmt::join(names_of(solvers), "|")),
+           fmt::format("how the radiosity system is solved [{}]", name_of(standard.solver.method)),
+           [&](const std::string& text) {
+             if (text == hierarchical_solver) {
+               settings.mesh = MeshCut::hierarchical;
+               options.notes.emplace_back("--solver hierarchical is --mesh hierarchical now");
+             } else {
+               settings.solver = parse_choice("--solver", text, solvers);
+             }
+           })
+      ->group(study_group);
+  add_choice(command, "--mesh", cuts, standard.cut,
+             "what the unknowns are: elements of one size, or parts of surfaces as large as accuracy "
+             "allows",
+             [&](MeshCut cut) { settings.mesh = cut; })
       ->group(study_group);
   add_text(
       command, "--tolerance", "X",
@@ -192,7 +210,7 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
            })
       ->group(study_group);
   add_text(command, "--link-error", "X",
-           fmt::format("--solver hierarchical: interpolation error allowed, relative to the light "
+           fmt::format("--mesh hierarchical: interpolation error allowed, relative to the light "
                        "there [{}]",
                        by_preset(&QualityPreset::link_error)),
            [&](const std::string& text) {
@@ -254,12 +272,15 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
   if (settings.steps && settings.solver != SolverMethod::progressive) {
     throw UsageError("--steps", "has no effect without --solver progressive");
   }
-  if (settings.link_error && settings.solver != SolverMethod::hierarchical) {
-    throw UsageError("--link-error", "has no effect without --solver hierarchical");
+  if (settings.link_error && mesh_cut(settings) == MeshCut::uniform) {
+    throw UsageError("--link-error", "has no effect without --mesh hierarchical");
   }
-  if (settings.solver == SolverMethod::hierarchical &&
+  if (mesh_cut(settings) == MeshCut::hierarchical &&
       settings.form_factors != FormFactorMethod::rays) {
-    throw UsageError("--form-factors", "only 'rays' goes with --solver hierarchical");
+    throw UsageError("--form-factors", "only 'rays' goes with --mesh hierarchical");
+  }
+  if (settings.steps && mesh_cut(settings) == MeshCut::hierarchical) {
+    throw UsageError("--steps", "has no effect with --mesh hierarchical: its few nodes are solved at once");
   }
   if (settings.bends && settings.adaptive == WithAdaptivity::yes) {
     throw UsageError("--bends", "has no effect with --adaptive, which divides elements by itself");
@@ -279,7 +300,7 @@ void refuse_pass_one_options(const CLI::App& command, const std::string& reason)
   constexpr std::array options{
       "--element-size", "--elements",    "--form-factors", "--rays",       "--hemicube-resolution",
       "--solver",       "--tolerance",   "--steps",        "--link-error", "--interpolation",
-      "--adaptive",     "--no-adaptive", "--bends"};
+      "--adaptive",     "--no-adaptive", "--bends",        "--mesh"};
   for (const char* option : options) {
     if (command.count(option) > 0) {
       throw UsageError(option, reason);

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace meninas {
 
@@ -27,6 +28,7 @@ struct CommonOptions {
   std::filesystem::path scene;
   RunSettings settings;
   Verbosity verbosity = Verbosity::normal;
+  std::vector<std::string> notes; ///< on how options were read, a sentence each
 };
 
 void add_scene(CLI::App& command, CommonOptions& options);
@@ -68,8 +70,8 @@ public:
   void show_status(const std::string& line);
   /// The line an error is, for a process that ends without unwinding.
   void say_error(const std::string& line);
-  /// Says what `settings` rounds.
-  void say_rounding(const RunSettings& settings);
+  /// Says how the options were read, and what their settings round.
+  void say_notes(const CommonOptions& options);
 
 private:
   struct State;

@@ -25,7 +25,7 @@ void run(const CLI::App& command, CompareOptions& options) {
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
   Console console(options.common.verbosity);
-  console.say_rounding(options.request.settings);
+  console.say_notes(options.common);
   compare_run(options.request, console.events());
 }
 

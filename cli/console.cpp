@@ -52,8 +52,11 @@ void Console::show_status(const std::string& line) { state_->line.report(line); 
 
 void Console::say_error(const std::string& line) { state_->say("", line); }
 
-void Console::say_rounding(const RunSettings& settings) {
-  for (const std::string& text : rounding_notes(settings)) {
+void Console::say_notes(const CommonOptions& options) {
+  for (const std::string& text : options.notes) {
+    note(events(), text);
+  }
+  for (const std::string& text : rounding_notes(options.settings)) {
     note(events(), text);
   }
 }

@@ -97,14 +97,19 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "(`.mirrors`). `depth` (metres along the view axis), `normal` (world space, towards the eye), "
        "`albedo` (diffuse), `element` (counted from 1) and `irradiance` (of pass one, W/m²) are those "
        "of the first surface at the middle of each pixel, a mirror among them; 0 where there is none."},
+      {"--mesh",
+       "`hierarchical` gathers light on parts of surfaces as large as accuracy allows (after Hanrahan, "
+       "Salzman and Aupperle 1991) and is the fastest for a given accuracy in most scenes. `uniform` has "
+       "a row of form factors for every element, which `--factors`, `--form-factors hemicube|analytic`, "
+       "`--solver progressive`, `--adaptive` and `--interpolation average` choose by themselves."},
       {"--link-error",
-       "the solver begins with few large nodes and divides those whose light is not linear to X. With "
+       "the solve begins with few large nodes and divides those whose light is not linear to X. With "
        "far more `--elements` than X needs, more `--rays` help instead."},
       {"--snapshots", "see [progressive pictures](progressive.md)."},
       {"--solver",
-       "all of them end at the error that `--tolerance` allows. `hierarchical` gathers light on parts "
-       "of surfaces as large as accuracy allows (after Hanrahan, Salzman and Aupperle 1991) and is the "
-       "fastest for a given accuracy in most scenes. `progressive` shoots light, brightest first."},
+       "all of them end at the error that `--tolerance` allows. `progressive` shoots light, brightest "
+       "first, from a uniform mesh unless `--mesh` says otherwise. `hierarchical` is an older name of "
+       "`--mesh hierarchical`."},
       {"--stats", "[all figures](stats.md)."},
       {"--view",
        "the colours' range is printed; an EXR holds the numbers as well."}};

@@ -218,9 +218,10 @@ void take_snapshots(RenderOptions& options) {
     return;
   }
   const RunSettings& settings = options.common.settings;
-  if (settings.solver != SolverMethod::progressive || options.request.solution ||
+  if (settings.solver != SolverMethod::progressive ||
+      mesh_cut(settings) == MeshCut::hierarchical || options.request.solution ||
       settings.mode == PictureMode::reference) {
-    throw UsageError("--snapshots", "has no effect without --solver progressive");
+    throw UsageError("--snapshots", "has no effect without --solver progressive and --mesh uniform");
   }
   SnapshotRequest& request = options.request.snapshots.emplace();
   request.folder = *options.snapshots;
@@ -255,7 +256,7 @@ void run(const CLI::App& command, RenderOptions& options) {
   }
   completed_request(command, options);
   Console console(options.common.verbosity);
-  console.say_rounding(options.request.settings);
+  console.say_notes(options.common);
   render_run(options.request, console.events());
 }
 

@@ -15,7 +15,7 @@ void run(const CLI::App& command, SolveOptions& options) {
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
   Console console(options.common.verbosity);
-  console.say_rounding(options.request.settings);
+  console.say_notes(options.common);
   solve_run(options.request, console.events());
 }
 

@@ -118,7 +118,7 @@ PassOneCost expected_cost(const LightScene& light, int bands, const PassOneSetti
                               ? 0.0
                               : double(gathering_vertices(light));
   Counts counts{.rows = elements, .gathers = vertices, .sources = vertices, .elements = elements};
-  if (settings.solver.method == SolverMethod::hierarchical)
+  if (settings.cut == MeshCut::hierarchical)
     counts = counted_by_nodes(light, settings, counts);
   if (settings.interpolation.adaptive)
     counts = counted_adaptive(settings, counts);

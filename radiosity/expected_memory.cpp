@@ -56,7 +56,7 @@ std::uint64_t scene_memory(const SceneSizes& scene, const PassOneChoice& choice)
                                     ? quality.target_elements * roots / quality.root_elements
                                     : 0.0;
   const double elements = expected_elements(scene, choice);
-  const double at_shadows = choice.solver == SolverMethod::hierarchical
+  const double at_shadows = mesh_cut(choice) == MeshCut::hierarchical
                                 ? double(max_at_shadows(static_cast<std::size_t>(elements)))
                                 : 0.0;
   return whole(per_vertex * static_cast<double>(scene.vertices) +
@@ -84,10 +84,10 @@ static double row_entries(const PassOneChoice& choice, double elements) {
   return elements;
 }
 
-/// Rows of the transport, at most: of the hierarchical solver the first receivers,
+/// Rows of the transport, at most: of a hierarchical mesh the first receivers,
 /// and those that the light asks for, which are hardly more with finer elements.
 static double rows_of(const SceneSizes& scene, const PassOneChoice& choice, double elements) {
-  if (choice.solver != SolverMethod::hierarchical)
+  if (mesh_cut(choice) == MeshCut::uniform)
     return elements;
   constexpr double of_a_side = 32.0, of_elements = 1.0 / 16.0;
   return std::min(elements, of_a_side * static_cast<double>(scene.sides) + of_elements * elements);
@@ -100,10 +100,11 @@ std::uint64_t solve_memory(const SceneSizes& scene, const PassOneChoice& choice)
   double bytes = rows_of(scene, choice, elements) * per_entry * row_entries(choice, elements) +
                  elements * per_element;
   if (choice.solver == SolverMethod::direct) {
+    const double unknowns = rows_of(scene, choice, elements);
     bytes +=
-        4.0 * sizeof(double) * elements * elements; // the factors of three channels and a matrix
+        4.0 * sizeof(double) * unknowns * unknowns; // the factors of three channels and a matrix
   }
-  if (choice.solver == SolverMethod::hierarchical) // what rays of vertices have met
+  if (mesh_cut(choice) == MeshCut::hierarchical) // what rays of vertices have met
     bytes +=
         double(sizeof(ElementHit)) *
         std::min<double>(max_cached_rays, elements * pass_one_settings(choice).form_factors.rays);

@@ -85,7 +85,7 @@ RadiositySolution darkness(const std::shared_ptr<const LightScene>& light,
   solution.solver.method = settings.solver.method;
   solution.solver.bands = 1;
   solution.solver.converged = true;
-  if (settings.solver.method == SolverMethod::hierarchical)
+  if (settings.cut == MeshCut::hierarchical)
     solution.links.emplace();
   return solution;
 }
@@ -95,12 +95,13 @@ RadiositySolution darkness(const std::shared_ptr<const LightScene>& light,
 RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress,
                                  const PassOneWatch& watch) {
-  check_size(settings.solver.method, element_count(light->mesh));
+  if (settings.cut == MeshCut::uniform)
+    check_size(settings.solver.method, element_count(light->mesh));
   if (nothing_emits(*light))
     return darkness(light, settings);
   if (shoots_rays(settings, element_count(light->mesh)))
     return shoot_pass_one(light, settings, progress, watch);
-  if (settings.solver.method == SolverMethod::hierarchical)
+  if (settings.cut == MeshCut::hierarchical)
     return field_of(light, settings, reflected_by_nodes(*light, settings, progress));
 
   // F^w by rays, hemicubes or exactly; S = rho (D + G); X = S + rho T X; then H at every vertex.

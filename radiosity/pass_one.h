@@ -25,7 +25,7 @@ struct RadiositySolution : ElementSolution {
   IrradianceField field;
   std::optional<double> interpolation_error; ///< adaptive: estimated, of what its settings bound
   SolverResult solver;              ///< its radiosity is moved out
-  std::optional<LinkFigures> links; ///< of `hierarchical`
+  std::optional<LinkFigures> links; ///< of a hierarchical mesh
   EnergyBalance energy;
   ClosureError closure;
   PassOneSeconds seconds;
@@ -37,7 +37,7 @@ struct RadiositySolution : ElementSolution {
 /// rays, with no transport in memory (progressive.h), unless the form factors are not by rays;
 /// in smaller ones, where they take a few megabytes,
 /// blocks shoot by the columns of the transport that the other solvers have, so that all agree.
-/// `hierarchical` solves for nodes (hierarchical/node_solution.h), by rays.
+/// A hierarchical mesh is solved for its nodes (hierarchical/node_solution.h), by rays.
 /// Where nothing emits no row is assembled: B = H = 0, and the closure is that of no rows.
 RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress = {},

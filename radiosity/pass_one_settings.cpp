@@ -6,13 +6,24 @@
 
 namespace meninas {
 
+const char* name_of(MeshCut cut) { return cut == MeshCut::uniform ? "uniform" : "hierarchical"; }
+
+MeshCut mesh_cut(const PassOneChoice& choice) {
+  const bool wants_rows = choice.form_factors != FormFactorMethod::rays ||
+                          choice.solver == SolverMethod::progressive ||
+                          choice.adaptive == WithAdaptivity::yes ||
+                          choice.interpolation == Interpolation::average;
+  return choice.mesh.value_or(wants_rows ? MeshCut::uniform : MeshCut::hierarchical);
+}
+
 bool gathers_by_nodes(const PassOneSettings& settings) {
-  return settings.solver.method == SolverMethod::hierarchical &&
+  return settings.cut == MeshCut::hierarchical &&
          settings.interpolation.method == Interpolation::gather && !settings.interpolation.adaptive;
 }
 
 bool shoots_rays(const PassOneSettings& settings, std::size_t elements) {
-  return settings.solver.method == SolverMethod::progressive &&
+  return settings.cut == MeshCut::uniform &&
+         settings.solver.method == SolverMethod::progressive &&
          settings.form_factors.method == FormFactorMethod::rays && elements > max_direct_unknowns;
 }
 
@@ -72,7 +83,7 @@ static InterpolationSettings interpolation_settings(const PassOneChoice& choice,
   // Edges are few: what they are off by counts less than what all light is, and the more so
   // the closer that is looked at. At hits direct light has no vertices.
   constexpr double of_edges = 0.02;
-  if (choice.solver == SolverMethod::hierarchical && direct_light == DirectLightAt::vertices)
+  if (settings.cut == MeshCut::hierarchical && direct_light == DirectLightAt::vertices)
     interpolation.shadow_bend = std::sqrt(of_edges * settings.hierarchical.link_error);
   if (choice.adaptive == WithAdaptivity::yes)
     interpolation.adaptive =
@@ -83,6 +94,7 @@ static InterpolationSettings interpolation_settings(const PassOneChoice& choice,
 PassOneSettings pass_one_settings(const PassOneChoice& choice, DirectLightAt direct_light) {
   const PassOneQuality quality = pass_one_quality(choice.quality);
   PassOneSettings settings;
+  settings.cut = mesh_cut(choice);
   settings.mesh.element_size = choice.element_size.value_or(0.0);
   settings.mesh.target_elements = target_elements(choice, quality);
   settings.form_factors.method = choice.form_factors;

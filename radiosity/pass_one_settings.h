@@ -9,13 +9,22 @@
 #include "radiosity/solvers/solver_settings.h"
 #include "radiosity/transport/form_factors.h"
 
+#include <array>
 #include <optional>
 
 namespace meninas {
 
+/// Which cut through the hierarchy of elements has the unknowns of Eq. 1: its leaves, or nodes as large
+/// as the light allows (hierarchical/node_solution.h).
+enum class MeshCut { uniform, hierarchical };
+inline constexpr std::array mesh_cuts{MeshCut::uniform, MeshCut::hierarchical};
+/// As users call it.
+const char* name_of(MeshCut cut);
+
 struct PassOneSettings {
   PlanSettings plan;
   MeshSettings mesh;
+  MeshCut cut = MeshCut::uniform;
   FormFactorSettings form_factors;
   DirectSettings direct;
   SolverSettings solver;
@@ -38,7 +47,7 @@ struct PassOneQuality {
   int rays = 0; ///< form-factor rays per element, and per vertex where irradiance is gathered there
   int hemicube_resolution = 0; ///< cells along an edge of the top, where hemicubes are used instead
   double link_error =
-      0.0; ///< of the hierarchical solver: how much light may bend where it is interpolated
+      0.0; ///< of a hierarchical mesh: how much light may bend where it is interpolated
   int penumbra_rays = 0;      ///< shadow rays from a vertex to an emitter that it sees in part
   double root_elements = 0.0; ///< instead of `target_elements` where elements are divided as needed
   double adaptive_error = 0.0; ///< of radiosity, relative, in the mean square, where they are
@@ -53,6 +62,7 @@ struct PassOneChoice {
   Quality quality = Quality::normal;
   std::optional<double> element_size; ///< metres, of all surfaces
   std::optional<int> elements;        ///< or about so many, shared over them (element_sizes.h)
+  std::optional<MeshCut> mesh;        ///< else as mesh_cut() says
   WithAdaptivity adaptive = WithAdaptivity::no;
   std::optional<double> adaptive_error;
   std::optional<double> bends; ///< of the mean: elements in which light bends by more are divided
@@ -62,11 +72,15 @@ struct PassOneChoice {
   SolverMethod solver = SolverSettings{}.method;
   std::optional<double> tolerance;
   std::optional<int> steps;         ///< of the progressive solver: shots
-  std::optional<double> link_error; ///< of the hierarchical solver
+  std::optional<double> link_error; ///< of a hierarchical mesh
   std::optional<int> mirror_depth;  ///< no path meets more mirrors
   std::optional<Interpolation> interpolation;
   std::uint32_t seed = 0;
 };
+
+/// The cut that is chosen: hierarchical, but where form factors are not by rays, or where the solver
+/// `progressive`, `--adaptive` or the interpolation `average` want a row for every element.
+MeshCut mesh_cut(const PassOneChoice& choice);
 
 /// Where direct light of pictures is interpolated, or computed at each hit of a camera ray.
 enum class DirectLightAt { vertices, hits };

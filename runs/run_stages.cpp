@@ -27,15 +27,12 @@ std::vector<RunStage> joined(std::vector<RunStage> stages, const std::vector<Run
 }
 
 std::vector<RunStage> pass_one_stages(const RunSettings& settings) {
-  switch (settings.solver) {
-  case SolverMethod::hierarchical:
+  if (mesh_cut(settings) == MeshCut::hierarchical)
     return {reading, {"direct light", 10.0}, {"form factors", 10.0}, {"refinement", 40.0}};
-  case SolverMethod::progressive:
+  if (settings.solver == SolverMethod::progressive)
     return {reading, {"hemispheres", 10.0}, {"direct light", 10.0}, {"form factors", 20.0},
             {"shots", 20.0}, {"interpolation", 30.0}};
-  default:
-    return {reading, {"form factors", 30.0}, {"direct light", 10.0}, {"interpolation", 40.0}};
-  }
+  return {reading, {"form factors", 30.0}, {"direct light", 10.0}, {"interpolation", 40.0}};
 }
 
 std::vector<RunStage> picture_stages(const RunSettings& settings, WithPassOne pass_one) {

@@ -36,9 +36,6 @@ static RadiositySolution solve_or_relight(const SolveRequest& request,
   if (!request.factors && !request.reuse) {
     return solve_pass_one(light, settings, events.progress);
   }
-  if (settings.solver.method == SolverMethod::hierarchical) {
-    throw UsageError("--solver hierarchical", "has no form factors of elements to keep or reuse");
-  }
   check_size(settings.solver.method, element_count(light->mesh));
   settings.form_factors.relightable = true;
   const FactorKey key = factor_key(*light, settings.form_factors);
@@ -55,20 +52,32 @@ static RadiositySolution solve_or_relight(const SolveRequest& request,
   return solution;
 }
 
+/// Form factors that are kept or used again are those of a uniform mesh.
+static RunSettings with_rows_to_keep(const SolveRequest& request) {
+  RunSettings settings = request.settings;
+  if (!request.factors && !request.reuse)
+    return settings;
+  if (settings.mesh == MeshCut::hierarchical)
+    throw UsageError("--mesh hierarchical", "has no form factors of elements to keep or reuse");
+  settings.mesh = MeshCut::uniform;
+  return settings;
+}
+
 RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   check_files(request);
   const ThreadLimit limit(request.settings.threads);
-  begin_stages(events, joined(pass_one_stages(request.settings), {{"writing", 5.0}}));
+  const RunSettings chosen = with_rows_to_keep(request);
+  begin_stages(events, joined(pass_one_stages(chosen), {{"writing", 5.0}}));
   if (events.progress)
     events.progress("scene", 0.0);
-  const PassOneSettings settings = two_pass_settings(request.settings).pass_one;
+  const PassOneSettings settings = two_pass_settings(chosen).pass_one;
   RunFigures figures;
   figures.threads = limit.threads();
   Stopwatch total;
   Stopwatch watch;
 
   Scene scene = load_scene(request.scene, request.settings);
-  check_memory(scene, request.settings, std::nullopt);
+  check_memory(scene, chosen, std::nullopt);
   figures.seconds.load = watch.lap();
   const std::uint64_t scene_hash = content_hash(scene);
   const auto prepared = prepare_run(std::move(scene), settings, events, figures);

@@ -52,6 +52,7 @@ LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings setti
   LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures),
                .field = {}};
   figures.solver = std::move(stored.solver);
+  figures.links = stored.links;
   figures.energy = stored.energy;
   figures.closure = stored.closure;
   lit.field = field_of(file, std::move(stored), lit.prepared->light);

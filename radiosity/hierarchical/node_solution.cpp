@@ -29,7 +29,7 @@ struct Received {
 };
 
 Received solve_receivers(const NodeTree& tree, const NodeCut& cut, const FirstLight& first,
-                         const std::vector<double>& areas, SolverSettings settings) {
+                         const std::vector<double>& areas, const SolverSettings& settings) {
   Received received;
   received.links = between_receivers(cut);
   const std::vector<Rgb> reflectance = means_below(tree, cut, areas, first.reflectance);
@@ -37,7 +37,6 @@ Received solve_receivers(const NodeTree& tree, const NodeCut& cut, const FirstLi
   std::vector<Rgb> source = from_first;
   for (std::size_t c = 0; c < source.size(); ++c)
     source[c] *= reflectance[c];
-  settings.method = SolverMethod::bicgstab;
   received.solver = solve(received.links, source, reflectance, settings);
   received.irradiance = apply_transport(received.links, received.solver.radiosity);
   for (std::size_t c = 0; c < source.size(); ++c)
@@ -246,7 +245,6 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
   result.first = std::move(lit.first);
   result.arrived = by_element(cut, received.irradiance);
   result.solver = std::move(received.solver);
-  result.solver.method = SolverMethod::hierarchical;
   result.solver.radiosity = result.first.source;
   for (std::size_t e = 0; e < result.arrived.size(); ++e)
     result.solver.radiosity[e] += result.first.reflectance[e] * result.arrived[e];

@@ -1,4 +1,4 @@
-// Hierarchical radiosity (`--solver hierarchical`):
+// Hierarchical radiosity (`--mesh hierarchical`):
 // light is received by nodes as large as it allows, and sent on by the elements below them.
 //
 // What elements have not reflected yet, S = rho (D + G), is found as for every solver
@@ -9,7 +9,7 @@
 //
 // d over the receivers, F_cd the sum of F_cj over the elements j below d, rho_d their mean:
 // first light is gathered from the elements themselves, and what follows from receivers,
-// over links between nodes (F_cd, c, d). The system of receivers is solved by `cg` (solve.h).
+// over links between nodes (F_cd, c, d). The system of receivers is solved by any solver (solve.h).
 // Receivers are then divided where
 //
 //   rho max_d |H_d - H_parent| > X (B + B_mean),   d over the parts of the receiver's parent, H with G and what comes from the sky,

@@ -124,7 +124,13 @@ json figures_json(const RadiositySolution& solution) {
   const SolverResult& solver = solution.solver;
   const EnergyBalance& energy = solution.energy;
   const ClosureError& closure = solution.closure;
-  return {{"solve",
+  json links = json::object();
+  if (solution.links)
+    links = {{"receivers", solution.links->receivers},
+             {"links", solution.links->links},
+             {"bytes", solution.links->bytes}};
+  return {{"links", links},
+          {"solve",
            {{"solver", name_of(solver.method)},
             {"end", static_cast<int>(solver.end)},
             {"bands", solver.bands},

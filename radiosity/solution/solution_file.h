@@ -29,6 +29,7 @@ struct StoredSolution {
   std::vector<std::uint8_t> division; ///< of the mesh made with these settings; empty: none
   VertexIrradiance field;
   SolverResult solver; ///< without its radiosity
+  std::optional<LinkFigures> links; ///< of a hierarchical mesh
   EnergyBalance energy;
   ClosureError closure;
 };

@@ -66,6 +66,8 @@ SolverResult read_solver(const std::filesystem::path& file, const json& solve) {
 
 void read_figures(const std::filesystem::path& file, const json& figures, StoredSolution& stored) {
   stored.solver = read_solver(file, figures.at("solve"));
+  if (const json& links = figures.at("links"); !links.empty())
+    stored.links = {links.at("receivers"), links.at("links"), links.at("bytes")};
   const json& energy = figures.at("energy");
   stored.energy.emitted = colour_of(energy.at("emitted"));
   stored.energy.absorbed = colour_of(energy.at("absorbed"));

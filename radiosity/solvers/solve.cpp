@@ -28,8 +28,6 @@ void run(SolverMethod method, const LinearSystem<Value>& system, const ShotPlan&
     return bicgstab(system, x, convergence);
   case SolverMethod::progressive:
     return shoot_stored(system, plan, x, convergence);
-  case SolverMethod::hierarchical: // solves for nodes
-    break;
   }
 }
 
@@ -78,8 +76,6 @@ const char* name_of(SolverMethod method) {
     return "cg";
   case SolverMethod::progressive:
     return "progressive";
-  case SolverMethod::hierarchical:
-    return "hierarchical";
   }
   return "";
 }
@@ -100,7 +96,6 @@ SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
                    const ShotPlan& plan) {
   expects(source.size() == transport.size && reflectance.size() == transport.size,
           "source and reflectance have one value per element");
-  expects(settings.method != SolverMethod::hierarchical, "nodes have no rows of elements");
   check_size(settings.method, transport.size);
   const bool grey = transport.bands == 1 && std::ranges::all_of(source, is_grey) &&
                     std::ranges::all_of(reflectance, is_grey);

@@ -10,8 +10,7 @@
 //                 Conjugate gradients on the symmetrised system are no faster (docs/notes/solvers.md).
 //   progressive   shooting by columns, the largest unshot power first (solvers/shooting.h). In large scenes pass one shoots rays instead,
 //                 and stores no transport (progressive.h).
-//   hierarchical  `cg` for nodes that stand for many elements (hierarchical/node_solution.h): it has no rows of elements, and solve() is
-//                 not for it.
+// The unknowns are elements, or the nodes of a hierarchical mesh (hierarchical/node_solution.h).
 // All stop on one bound of the error (solvers/error_bound.h):
 // with the residual r_k = S + rho T B_k - B_k,
 //   ||B - B_k|| <= G ||r_k|| <= tolerance ||B_k||    in the maximum norm, for every channel.

@@ -11,14 +11,10 @@
 
 namespace meninas {
 
-enum class SolverMethod { direct, jacobi, gauss_seidel, bicgstab, progressive, hierarchical };
-inline constexpr std::array solver_methods{SolverMethod::direct,       SolverMethod::jacobi,
+enum class SolverMethod { direct, jacobi, gauss_seidel, bicgstab, progressive };
+inline constexpr std::array solver_methods{SolverMethod::direct, SolverMethod::jacobi,
                                            SolverMethod::gauss_seidel, SolverMethod::bicgstab,
-                                           SolverMethod::progressive,  SolverMethod::hierarchical};
-/// The methods that solve for a transport with a row for every element.
-inline constexpr std::array row_solvers{SolverMethod::direct, SolverMethod::jacobi,
-                                        SolverMethod::gauss_seidel, SolverMethod::bicgstab,
-                                        SolverMethod::progressive};
+                                           SolverMethod::progressive};
 /// As users call it.
 const char* name_of(SolverMethod method);
 

@@ -216,6 +216,7 @@ std::string stats_json(const RunFigures& figures) {
               {"elements", figures.elements},
               {"vertices", figures.vertices},
               {"solved_elements", figures.solved_elements},
+              {"cut", name_of(figures.links ? MeshCut::hierarchical : MeshCut::uniform)},
               {"interpolation_error", optional_json(figures.interpolation_error)}}},
             {"solve", solve_json(figures.solver, figures.links)},
             {"energy", energy_json(figures.energy)},

@@ -69,7 +69,7 @@ struct RunFigures {
   std::size_t solved_elements = 0; ///< those pass one was solved for: fewer where the field is adaptive
   std::optional<double> interpolation_error; ///< of an adaptive field
   SolverResult solver; ///< without its radiosity
-  std::optional<LinkFigures> links; ///< of the hierarchical solver
+  std::optional<LinkFigures> links; ///< of a hierarchical mesh
   EnergyBalance energy;
   ClosureError closure;
   std::optional<PictureError> error_estimate; ///< of the picture, relative

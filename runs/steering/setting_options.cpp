@@ -64,6 +64,10 @@ std::vector<std::string> options_of(const RunSettings& settings) {
                                     settings.background->b));
   add_given("--element-size", settings.element_size);
   add_given("--elements", settings.elements);
+  RunSettings unchosen = settings;
+  unchosen.mesh.reset();
+  if (mesh_cut(settings) != mesh_cut(unchosen))
+    add("--mesh", name_of(mesh_cut(settings)));
   if (settings.adaptive == WithAdaptivity::yes)
     add("--adaptive", settings.adaptive_error ? fmt::format("{}", *settings.adaptive_error) : "");
   add_given("--bends", settings.bends);

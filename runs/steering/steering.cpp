@@ -25,11 +25,21 @@ struct OutOfTime {};
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
+/// The presets' link errors, between them and beyond: half of it where there are six times as many elements.
+double link_error_of(double elements) {
+  const PassOneQuality draft = pass_one_quality(Quality::draft);
+  constexpr double order = 0.4;
+  const double error = draft.link_error * std::pow(elements / draft.target_elements, -order);
+  return std::round(1e4 * error) * 1e-4;
+}
+
 /// The settings as they are with these knobs.
 RunSettings with_knobs(RunSettings settings, const FreeKnobs& free, const Parameters& knobs) {
   settings.quality = Quality::draft;
   if (free.elements)
     settings.elements = static_cast<int>(knobs.elements);
+  if (!settings.link_error && mesh_cut(settings) == MeshCut::hierarchical)
+    settings.link_error = link_error_of(knobs.elements);
   if (free.rays)
     settings.rays = knobs.rays;
   if (free.samples)
@@ -70,7 +80,8 @@ RunSettings settings_of(const SteeringRequest& request) {
   // A few small elements at the feet of lit walls cost little, and save dividing all.
   const bool gathers =
       settings.interpolation.value_or(Interpolation::gather) == Interpolation::gather;
-  if (!settings.bends && settings.adaptive == WithAdaptivity::no && gathers)
+  if (!settings.bends && settings.adaptive == WithAdaptivity::no && gathers &&
+      mesh_cut(settings) == MeshCut::uniform)
     settings.bends = bends_that_show;
   return settings;
 }

@@ -39,6 +39,18 @@ struct Turner {
   }
 };
 
+/// The cut through the mesh, and how fine a hierarchical one is.
+void turn_cut(Turner& turner) {
+  const RunSettings& s = turner.from;
+  if (mesh_cut(s) == MeshCut::hierarchical) {
+    turner.steps<double>("link-error", *s.link_error, 0.5, 0.001, 0.1, &RunSettings::link_error);
+    turner.turn("mesh", "hierarchical", "uniform", false, [](RunSettings& r) {
+      r.mesh = MeshCut::uniform;
+      r.link_error.reset();
+    });
+  }
+}
+
 void turn_mesh(Turner& turner) {
   const RunSettings& s = turner.from;
   if (s.adaptive == WithAdaptivity::yes) {
@@ -50,6 +62,7 @@ void turn_mesh(Turner& turner) {
     return;
   }
   turner.steps<int>("elements", *s.elements, 2, 100, 200'000, &RunSettings::elements);
+  turn_cut(turner);
   if (s.interpolation.value_or(Interpolation::gather) != Interpolation::gather)
     return;
   if (s.bends)
@@ -59,6 +72,7 @@ void turn_mesh(Turner& turner) {
     turner.turn("bends", "no", "0.1", true, [](RunSettings& r) { r.bends = 0.1; });
   turner.turn("adaptive", "no", "0.03", true, [&](RunSettings& r) {
     r.adaptive = WithAdaptivity::yes;
+    r.link_error.reset();
     r.bends.reset();
     r.adaptive_error = 0.03;
     r.elements = *s.elements / 4;
@@ -71,6 +85,7 @@ void turn_transport(Turner& turner, const TradeScene& scene) {
     turner.steps<int>("rays", *s.rays, 2, 16, 8192, &RunSettings::rays);
     turner.turn("form-factors", "rays", "hemicube", false, [](RunSettings& r) {
       r.form_factors = FormFactorMethod::hemicube;
+      r.link_error.reset();
       r.rays.reset();
       r.hemicube_resolution = 24;
     });
@@ -81,7 +96,11 @@ void turn_transport(Turner& turner, const TradeScene& scene) {
   if (s.solver == SolverMethod::bicgstab) {
     for (const SolverMethod solver : {SolverMethod::gauss_seidel, SolverMethod::progressive})
       turner.turn("solver", name_of(s.solver), name_of(solver), false,
-                  [&](RunSettings& r) { r.solver = solver; });
+                  [&](RunSettings& r) {
+                    r.solver = solver;
+                    if (mesh_cut(r) == MeshCut::uniform)
+                      r.link_error.reset();
+                  });
     const double tolerance = s.tolerance.value_or(SolverSettings{}.tolerance);
     if (tolerance < 1e-2)
       turner.turn("tolerance", fmt::format("{}", tolerance), fmt::format("{}", tolerance * 10.0),
@@ -125,6 +144,7 @@ void turn_picture(Turner& turner) {
       s.adaptive == WithAdaptivity::no)
     turner.turn("interpolation", "gather", "average", false, [](RunSettings& r) {
       r.interpolation = Interpolation::average;
+      r.link_error.reset();
       r.bends.reset();
     });
 }
@@ -139,6 +159,8 @@ RunSettings spelled_out(const RunSettings& settings) {
         settings.adaptive == WithAdaptivity::yes ? preset.root_elements : preset.target_elements);
   if (!result.rays)
     result.rays = preset.rays;
+  if (!result.link_error && mesh_cut(result) == MeshCut::hierarchical)
+    result.link_error = preset.link_error;
   if (!result.samples)
     result.samples = preset.samples;
   result.diffuse = diffuse_term(result);

@@ -1,4 +1,4 @@
-// `--solver hierarchical` on the command line: figures, and what has no effect.
+// `--mesh hierarchical` on the command line, the default: figures, and what has no effect.
 #include "tests/cli/batch_folder.h"
 
 #include <gmock/gmock.h>
@@ -26,11 +26,12 @@ TEST_F(HierarchicalRuns, FiguresSpeakOfReceiversAndLinks) {
   for (const char* error : {"0.5", "0.002"}) {
     const Outcome outcome =
         run_program(folder_.path(), {"solve", "room.glb", "-o", "solved.glb", "--quality", "draft",
-                                     "--element-size", "0.05", "--solver", "hierarchical",
-                                     "--link-error", error, "--stats", "stats.json"});
+                                     "--element-size", "0.05", "--link-error", error, "--stats", "stats.json"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    const json solve = figures();
-    EXPECT_EQ(solve["solver"], "hierarchical");
+    const json stats = json::parse(read_file(folder_ / "stats.json"));
+    EXPECT_EQ(stats["mesh"]["cut"], "hierarchical");
+    const json solve = stats["solve"];
+    EXPECT_EQ(solve["solver"], "cg");
     EXPECT_EQ(solve["converged"], true);
     EXPECT_LE(solve["error_bound"].get<double>(), 1e-4);
     EXPECT_GT(solve["receivers"].get<std::size_t>(), 0U);
@@ -39,11 +40,14 @@ TEST_F(HierarchicalRuns, FiguresSpeakOfReceiversAndLinks) {
   }
   EXPECT_GT(links[1], links[0]);
 
-  // The solution file knows the solver.
+  // The solution file knows them.
   const Outcome view =
       run_program(folder_.path(), {"render", "room.glb", "--solution", "solved.glb", "-o",
-                                   "view.png", "--size", "8x8"});
+                                   "view.png", "--size", "8x8", "--stats", "view.json"});
   EXPECT_EQ(view.code, 0) << view.err;
+  const json stored = json::parse(read_file(folder_ / "view.json"));
+  EXPECT_EQ(stored["mesh"]["cut"], "hierarchical");
+  EXPECT_EQ(stored["solve"]["links"], links[1]);
 }
 
 // Elements are divided at the edges of shadows where vertices show these, and not
@@ -52,8 +56,7 @@ TEST_F(HierarchicalRuns, DivideAtShadowsWhereTheseAreInterpolated) {
   const auto meshed = [&](const std::string& diffuse) {
     const Outcome outcome = run_program(
         folder_.path(), {"render", "room.glb", "-o", "a.exr", "--size", "8x8", "--rays", "64",
-                         "--element-size", "0.1", "--solver", "hierarchical", "--link-error",
-                         "0.002", "--diffuse", diffuse, "--stats", "stats.json"});
+                         "--element-size", "0.1", "--link-error", "0.002", "--diffuse", diffuse, "--stats", "stats.json"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return json::parse(read_file(folder_ / "stats.json")).at("mesh");
   };
@@ -61,6 +64,42 @@ TEST_F(HierarchicalRuns, DivideAtShadowsWhereTheseAreInterpolated) {
   EXPECT_GT(interpolated["elements"], interpolated["solved_elements"]);
   EXPECT_EQ(direct["elements"], direct["solved_elements"]);
   EXPECT_EQ(direct["solved_elements"], interpolated["solved_elements"]);
+}
+
+// A hierarchical mesh was one of the solvers once.
+TEST_F(HierarchicalRuns, AreTheDefaultUnderBothNames) {
+  const auto picture = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "room.glb", "-o", "a.exr", "--size", "8x8", "--quality",
+                               "draft"});
+    const Outcome outcome = run_program(folder_.path(), more);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return std::pair(read_file(folder_ / "a.exr"), outcome.err);
+  };
+  const auto standard = picture({}), by_mesh = picture({"--mesh", "hierarchical"}),
+             by_solver = picture({"--solver", "hierarchical"}),
+             uniform = picture({"--mesh", "uniform"});
+  EXPECT_EQ(by_mesh.first, standard.first);
+  EXPECT_EQ(by_solver.first, standard.first);
+  EXPECT_NE(uniform.first, standard.first);
+  EXPECT_THAT(by_solver.second, HasSubstr("--solver hierarchical is --mesh hierarchical now"));
+  EXPECT_THAT(by_mesh.second, testing::Not(HasSubstr("--solver")));
+}
+
+// Every solver finds the same light on the nodes.
+TEST_F(HierarchicalRuns, AnySolverSolvesForTheNodes) {
+  std::vector<double> absorbed;
+  for (const char* solver : {"direct", "jacobi", "gauss-seidel", "cg", "progressive"}) {
+    const Outcome outcome = run_program(
+        folder_.path(), {"solve", "room.glb", "-o", "a.glb", "--quality", "draft", "--mesh",
+                         "hierarchical", "--solver", solver, "--stats", "stats.json"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(figures()["solver"], solver);
+    EXPECT_GT(figures()["receivers"].get<std::size_t>(), 0U);
+    absorbed.push_back(json::parse(read_file(folder_ / "stats.json"))["energy"]["absorbed"][1]);
+  }
+  // Each stops within the tolerance, 1e-4, of the solution.
+  for (const double other : absorbed)
+    EXPECT_NEAR(other, absorbed.front(), 2e-4 * absorbed.front());
 }
 
 TEST_F(BatchTest, TakesHierarchicalAsTheCommandLineDoes) {
@@ -79,11 +118,12 @@ TEST_F(BatchTest, TakesHierarchicalAsTheCommandLineDoes) {
 
 TEST_F(HierarchicalRuns, WhatHasNoEffectIsRefused) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
-      {{"--link-error", "0.01"}, "--link-error"},
-      {{"--solver", "cg", "--link-error", "0.01"}, "--link-error"},
-      {{"--solver", "hierarchical", "--link-error", "0"}, "--link-error"},
-      {{"--solver", "hierarchical", "--steps", "3"}, "--steps"},
-      {{"--solver", "hierarchical", "--form-factors", "analytic"}, "--form-factors"},
+      {{"--mesh", "uniform", "--link-error", "0.01"}, "--link-error"},
+      {{"--solver", "progressive", "--link-error", "0.01"}, "--link-error"},
+      {{"--link-error", "0"}, "--link-error"},
+      {{"--mesh", "hierarchical", "--solver", "progressive", "--steps", "3"}, "--steps"},
+      {{"--mesh", "hierarchical", "--solver", "progressive", "--snapshots", "along"}, "--snapshots"},
+      {{"--mesh", "hierarchical", "--form-factors", "analytic"}, "--form-factors"},
       {{"--mode", "reference", "--link-error", "0.1"}, "--link-error"}};
   for (auto [arguments, name] : refused) {
     arguments.insert(arguments.begin(), {"render", "room.glb", "-o", "out.png"});
@@ -91,10 +131,10 @@ TEST_F(HierarchicalRuns, WhatHasNoEffectIsRefused) {
     EXPECT_EQ(outcome.code, 2) << name;
     EXPECT_THAT(outcome.err, HasSubstr("meninas: " + name + ": "));
   }
-  const Outcome kept = run_program(folder_.path(), {"solve", "room.glb", "-o", "a.glb", "--solver",
+  const Outcome kept = run_program(folder_.path(), {"solve", "room.glb", "-o", "a.glb", "--mesh",
                                                     "hierarchical", "--factors", "room.factors"});
   EXPECT_EQ(kept.code, 2);
-  EXPECT_THAT(kept.err, HasSubstr("meninas: --solver hierarchical: "));
+  EXPECT_THAT(kept.err, HasSubstr("meninas: --mesh hierarchical: "));
   EXPECT_THAT(files_in(folder_.path()), ElementsAre("room.glb"));
 }
 

@@ -59,9 +59,8 @@ RunSettings drawn_settings(Random& random) {
   settings.elements = static_cast<int>(random.between(20.0, 150.0));
   settings.rays = one_of(random, std::array{16, 32, 64});
   settings.solver = one_of(random, solver_methods);
-  if (happens(random, 0.4))
-    settings.solver = SolverMethod::hierarchical;
-  if (settings.solver != SolverMethod::hierarchical) {
+  settings.mesh = happens(random, 0.5) ? MeshCut::hierarchical : MeshCut::uniform;
+  if (settings.mesh == MeshCut::uniform) {
     settings.form_factors =
         one_of(random, std::array{FormFactorMethod::rays, FormFactorMethod::rays,
                                   FormFactorMethod::hemicube});
@@ -232,7 +231,7 @@ void run_every_command(Scene scene, Random& random, const Effort& effort) {
   // Exact form factors by way of many mirrors take minutes, by design.
   const bool exact = happens(random, 0.1) && std::ranges::none_of(scene.materials, is_mirror);
   if (exact && scene.triangles.size() <= effort.few_triangles / 4 &&
-      settings.solver != SolverMethod::hierarchical)
+      settings.mesh == MeshCut::uniform)
     settings.form_factors = FormFactorMethod::analytic;
   scene.background = settings.background.value_or(scene.background);
   try {

@@ -183,7 +183,7 @@ TEST(PolishedFloor, EveryTransportFindsTheSame) {
   settings.form_factors.method = FormFactorMethod::rays;
   settings.solver.method = SolverMethod::progressive;
   expect_alike(by_rows, solved(polished_room(), settings, true), sampling);
-  settings.solver.method = SolverMethod::hierarchical;
+  settings.cut = MeshCut::hierarchical;
   expect_alike(by_rows, solved(polished_room(), settings), sampling);
 }
 

@@ -23,7 +23,7 @@ PassOneSettings settings_by(By by) {
   settings.interpolation.rays = 256;
   settings.solver.tolerance = 1e-6;
   if (by == By::nodes)
-    settings.solver.method = SolverMethod::hierarchical;
+    settings.cut = MeshCut::hierarchical;
   if (by == By::adaptive)
     settings.interpolation.adaptive = AdaptiveSettings{};
   return settings;

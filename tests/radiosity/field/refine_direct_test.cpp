@@ -21,7 +21,7 @@ PassOneSettings by_nodes(double element_size, double shadow_bend) {
   PassOneSettings settings;
   settings.mesh.element_size = element_size;
   settings.form_factors.rays = settings.interpolation.rays = 128;
-  settings.solver.method = SolverMethod::hierarchical;
+  settings.cut = MeshCut::hierarchical;
   settings.interpolation.shadow_bend = shadow_bend;
   return settings;
 }

@@ -19,7 +19,7 @@ PassOneSettings by_nodes(double element_size, double link_error, int rays) {
   PassOneSettings settings;
   settings.mesh.element_size = element_size;
   settings.form_factors.rays = settings.interpolation.rays = rays;
-  settings.solver.method = SolverMethod::hierarchical;
+  settings.cut = MeshCut::hierarchical;
   settings.hierarchical.link_error = link_error;
   return settings;
 }

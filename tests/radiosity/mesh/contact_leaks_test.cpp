@@ -49,11 +49,11 @@ Scene two_rooms(double x, double thickness, double lean, double hover) {
   return scene;
 }
 
-PassOneSettings settings_of(SolverMethod method) {
+PassOneSettings settings_of(MeshCut cut) {
   PassOneSettings settings;
   settings.form_factors.rays = 128;
   settings.interpolation.rays = 128;
-  settings.solver.method = method;
+  settings.cut = cut;
   return settings;
 }
 
@@ -61,9 +61,9 @@ PassOneSettings settings_of(SolverMethod method) {
 struct BothSides {
   double dark = 0.0, dark_field = 0.0, lit = 0.0;
 };
-BothSides light_of(const Scene& scene, double size, SolverMethod method) {
+BothSides light_of(const Scene& scene, double size, MeshCut cut) {
   const auto l = lit(scene, {.element_size = size});
-  const RadiositySolution solution = solve_pass_one(l->light, settings_of(method));
+  const RadiositySolution solution = solve_pass_one(l->light, settings_of(cut));
   const LightScene& light = *solution.field.scene;
   const auto is_dark = [&](const Point3& x, const MeshSide& side) {
     const bool in_wall = std::abs(side.normal.x) > 0.5 && x.x > 0.5 && x.x < 3.5;
@@ -102,11 +102,11 @@ void expect_dark(const BothSides& found) {
 }
 
 TEST(ContactLeaks, NoLightPassesUnderWallsOfAnyThickness) {
-  for (const SolverMethod method : {SolverMethod::bicgstab, SolverMethod::hierarchical})
+  for (const MeshCut cut : mesh_cuts)
     for (const double thickness : {0.0, 0.01, 0.1, 0.2})
       for (const double size : {0.6, 0.25}) {
         SCOPED_TRACE(testing::Message() << "thickness " << thickness << " size " << size);
-        const BothSides found = light_of(two_rooms(wall_x, thickness, 0.0, 0.0), size, method);
+        const BothSides found = light_of(two_rooms(wall_x, thickness, 0.0, 0.0), size, cut);
         EXPECT_GT(found.lit, 0.1);
         expect_dark(found);
       }
@@ -115,22 +115,22 @@ TEST(ContactLeaks, NoLightPassesUnderWallsOfAnyThickness) {
 TEST(ContactLeaks, NorWhereTheyStandBetweenElements) {
   // Elements of a quarter of a metre have their edges at whole quarters.
   for (const double x : {2.0, 2.25})
-    expect_dark(light_of(two_rooms(x, 0.0, 0.0, 0.0), 0.25, SolverMethod::hierarchical));
+    expect_dark(light_of(two_rooms(x, 0.0, 0.0, 0.0), 0.25, MeshCut::hierarchical));
 }
 
 TEST(ContactLeaks, NorWhereTheyLean) {
   for (const double lean : {0.3, -0.4})
-    expect_dark(light_of(two_rooms(wall_x, 0.0, lean, 0.0), 0.3, SolverMethod::hierarchical));
+    expect_dark(light_of(two_rooms(wall_x, 0.0, lean, 0.0), 0.3, MeshCut::hierarchical));
 }
 
 TEST(ContactLeaks, AWallThatEndsAHairBelowTheCeilingLetsPassNoMoreThanItsGap) {
   // What passes a gap of g leaves the lit room through g of 2.4 m of the wall's height, and no more
   // than the lit side's largest irradiance times that area may arrive in the dark.
   constexpr double gap = 0.001;
-  for (const SolverMethod method : {SolverMethod::bicgstab, SolverMethod::hierarchical})
+  for (const MeshCut cut : mesh_cuts)
     for (const double thickness : {0.0, 0.1}) {
       SCOPED_TRACE(testing::Message() << "thickness " << thickness);
-      const BothSides found = light_of(two_rooms(wall_x, thickness, 0.0, gap), 0.3, method);
+      const BothSides found = light_of(two_rooms(wall_x, thickness, 0.0, gap), 0.3, cut);
       EXPECT_LT(found.dark, 4.0 * gap / room_size.y * found.lit);
     }
 }

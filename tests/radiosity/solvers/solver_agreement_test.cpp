@@ -28,7 +28,7 @@ TEST(SolverAgreement, EveryGallerySceneWithinTenTolerancesOfTheDirectSolution) {
     const SolverResult direct = solve(system.transport, system.source, system.reflectance,
                                       {SolverMethod::direct, tolerance});
     EXPECT_TRUE(direct.converged);
-    for (const SolverMethod method : row_solvers) {
+    for (const SolverMethod method : solver_methods) {
       const SolverResult result =
           solve(system.transport, system.source, system.reflectance, {method, tolerance});
       EXPECT_TRUE(result.converged) << entry.path() << name_of(method);
@@ -55,7 +55,7 @@ TEST(SolverAgreement, InfinitePlatesBetweenMirrors) {
     const auto l = lit(std::move(scene), {.element_size = 0.25});
     const System system =
         system_of(*l, {.rays = 1024}, {.points = 4, .most_points = 4, .images_in_element = 1000});
-    for (const SolverMethod method : row_solvers) {
+    for (const SolverMethod method : solver_methods) {
       const SolverResult result =
           solve(system.transport, system.source, system.reflectance, {method, 1e-5});
       EXPECT_TRUE(result.converged);

@@ -24,7 +24,7 @@ protected:
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, Solvers, testing::ValuesIn(row_solvers), [](const auto& method) {
+INSTANTIATE_TEST_SUITE_P(Each, Solvers, testing::ValuesIn(solver_methods), [](const auto& method) {
   std::string name = name_of(method.param);
   std::erase(name, '-');
   return name;

@@ -47,7 +47,7 @@ TEST(GlassTransport, ShotsAndNodesFindWhatRowsFind) {
   const Solved by_rows = solved(glazed_room(), settings);
   settings.solver.method = SolverMethod::progressive;
   expect_alike(by_rows, solved(glazed_room(), settings, true), 0.03);
-  settings.solver.method = SolverMethod::hierarchical;
+  settings.cut = MeshCut::hierarchical;
   const Solved by_nodes = solved(glazed_room(), settings);
   expect_alike(by_rows, by_nodes, 0.03);
   EXPECT_LT(by_nodes.solution.closure.max_error, 1e-5);
