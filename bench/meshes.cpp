@@ -1,6 +1,6 @@
 // What meshes cost and what they bring:
-// picture error against number of elements and time, for uniform and adaptive meshes,
-// and those of `--solver hierarchical`, which begin uniform (docs/notes/hierarchical.md has the table).
+// picture error against number of elements and time, for uniform and hierarchical meshes
+// (docs/notes/hierarchical.md has the table).
 //
 //   meshes REFERENCES RAYS SCENE.gltf ...
 //
@@ -83,7 +83,9 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
              "seconds", "error", "uniform for this error: elements, seconds");
   std::vector<Measured> uniform;
   for (const double elements : {500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16000.0, 32000.0}) {
-    TwoPassSettings settings = two_pass_settings(RunSettings{});
+    RunSettings run;
+    run.mesh = MeshCut::uniform;
+    TwoPassSettings settings = two_pass_settings(run);
     settings.pass_one.mesh.target_elements = elements;
     uniform.push_back(measure(scene, truth, rays, settings));
     const Measured& m = uniform.back();
@@ -100,12 +102,6 @@ void measure_scene(const std::filesystem::path& references, const std::filesyste
                seconds / m.seconds);
     std::fflush(stdout);
   };
-  for (const double bound : {0.02, 0.01, 0.005, 0.0025}) {
-    RunSettings run;
-    run.adaptive = WithAdaptivity::yes;
-    run.adaptive_error = bound;
-    beside_uniform(fmt::format("adaptive {}", bound), two_pass_settings(run));
-  }
   for (const auto& [elements, bend] :
        {std::pair(1000.0, 0.02), std::pair(2000.0, 0.02), std::pair(4000.0, 0.02),
         std::pair(8000.0, 0.02), std::pair(8000.0, 0.01), std::pair(16000.0, 0.02),

@@ -189,6 +189,7 @@ constexpr std::array growing{1e3, 1e4, 1e5, 1e6};
 RunSettings draft() {
   RunSettings settings;
   settings.quality = Quality::draft;
+  settings.mesh = MeshCut::uniform;
   return settings;
 }
 

@@ -131,6 +131,7 @@ struct PictureKnobs {
 RunSettings drafted(int elements, int rays, const PictureKnobs& knobs) {
   RunSettings settings;
   settings.quality = Quality::draft;
+  settings.mesh = MeshCut::uniform;
   settings.elements = elements;
   settings.rays = rays;
   settings.diffuse = knobs.term;

@@ -65,18 +65,16 @@ std::string by_preset(Field Owner::*field) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// `--adaptive [X]`: without X the preset's.
-void add_adaptive(CLI::App& command, RunSettings& settings) {
+/// Older names of `--mesh`.
+void add_adaptive(CLI::App& command, CommonOptions& options) {
   CLI::Option* adaptive =
       add_text(
-          command, "--adaptive", "[X]",
-          fmt::format("subdivide elements, at shadow edges above all, until the RMS interpolation "
-                      "error is below X [{}]",
-                      by_preset(&QualityPreset::adaptive_error)),
+          command, "--adaptive", "[X]", "older name of --mesh hierarchical --link-error X",
           [&](const std::string& text) {
-            settings.adaptive = WithAdaptivity::yes;
+            options.settings.mesh = MeshCut::hierarchical;
+            options.notes.emplace_back("--adaptive is --mesh hierarchical --link-error now");
             if (text != preset_value) {
-              settings.adaptive_error = parse_number("--adaptive", text, Sign::positive);
+              options.settings.link_error = parse_number("--adaptive", text, Sign::positive);
             }
           })
           ->expected(0, 1)
@@ -84,10 +82,17 @@ void add_adaptive(CLI::App& command, RunSettings& settings) {
           ->group(study_group);
   command
       .add_flag_callback(
-          "--no-adaptive", [&] { settings.adaptive = WithAdaptivity::no; },
-          "elements of one size [yes]")
+          "--no-adaptive",
+          [&] {
+            options.settings.mesh = MeshCut::uniform;
+            options.notes.emplace_back("--no-adaptive is --mesh uniform now");
+          },
+          "older name of --mesh uniform")
       ->excludes(adaptive)
       ->group(study_group);
+}
+
+void add_bends(CLI::App& command, RunSettings& settings) {
   add_text(command, "--bends", "X",
            "refine where indirect light curves, as at contact edges, by more than X of the scene's "
            "mean between vertices [off]",
@@ -141,10 +146,8 @@ void add_mesh_options(CLI::App& command, CommonOptions& options) {
            })
       ->group(pass_one_group);
   add_text(command, "--elements", "N",
-           fmt::format("number of mesh elements, about; with --adaptive before they are divided "
-                       "[{}; with --adaptive {}]",
-                       by_preset(&QualityPreset::target_elements),
-                       by_preset(&QualityPreset::root_elements)),
+           fmt::format("number of mesh elements, about [{}]",
+                       by_preset(&QualityPreset::target_elements)),
            [&](const std::string& text) {
              settings.elements = static_cast<int>(
                  parse_integer("--elements", text, 1, std::int64_t{MeshSettings{}.max_elements}));
@@ -217,7 +220,8 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
              settings.link_error = parse_number("--link-error", text, Sign::positive);
            })
       ->group(study_group);
-  add_adaptive(command, settings);
+  add_adaptive(command, options);
+  add_bends(command, settings);
   add_choice(command, "--interpolation", interpolations, standard.interpolation.method,
              "irradiance at vertices: averaged over the elements around, or gathered there",
              [&](Interpolation method) { settings.interpolation = method; })
@@ -282,17 +286,9 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
   if (settings.steps && mesh_cut(settings) == MeshCut::hierarchical) {
     throw UsageError("--steps", "has no effect with --mesh hierarchical: its few nodes are solved at once");
   }
-  if (settings.bends && settings.adaptive == WithAdaptivity::yes) {
-    throw UsageError("--bends", "has no effect with --adaptive, which divides elements by itself");
-  }
   if (settings.bends && settings.interpolation == Interpolation::average) {
     throw UsageError("--bends", "looks at what is gathered: it does not go with "
                                 "--interpolation average");
-  }
-  if (settings.adaptive == WithAdaptivity::yes &&
-      settings.interpolation == Interpolation::average) {
-    throw UsageError("--adaptive", "compares what is gathered: it does not go with "
-                                   "--interpolation average");
   }
 }
 

@@ -62,13 +62,9 @@ const std::map<std::string_view, std::vector<std::string_view>>& first_options()
 
 const std::map<std::string_view, std::string_view>& all_details() {
   static const std::map<std::string_view, std::string_view> details{
-      {"--adaptive",
-       "an element is divided at most six times, and a million elements are the most there are; a "
-       "warning says where that does not reach X. Vertices whose noise is above X take up to 16 "
-       "times as many rays."},
       {"--bends",
-       "0.1 is a good value. Elements are divided up to three times. It helps `--diffuse direct` "
-       "most; `--error` and `--time` use it by themselves."},
+       "0.1 is a good value for `--mesh uniform`. Elements are divided up to three times. It helps "
+       "`--diffuse direct` most; `--error` and `--time` use it by themselves."},
       {"--diffuse",
        "`interpolated` shows pass one as it is at the vertices. `direct` computes direct light, also "
        "that reflected by mirrors, at every hit: shadows are as sharp as they are. `gather` gathers "
@@ -101,7 +97,7 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "`hierarchical` gathers light on parts of surfaces as large as accuracy allows (after Hanrahan, "
        "Salzman and Aupperle 1991) and is the fastest for a given accuracy in most scenes. `uniform` has "
        "a row of form factors for every element, which `--factors`, `--form-factors hemicube|analytic`, "
-       "`--solver progressive`, `--adaptive` and `--interpolation average` choose by themselves."},
+       "`--solver progressive` and `--interpolation average` choose by themselves."},
       {"--link-error",
        "the solve begins with few large nodes and divides those whose light is not linear to X. With "
        "far more `--elements` than X needs, more `--rays` help instead."},

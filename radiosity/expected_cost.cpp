@@ -92,23 +92,6 @@ std::size_t gathering_vertices(const LightScene& light) {
   return count;
 }
 
-/// Where the field has a mesh of its own (adaptive_field.h),
-/// one that is finer the smaller the bound X is: indirect light is gathered twice,
-/// with a quarter of the rays and with as many as keep its noise within X,
-/// and looked at in the middle of elements with half as many; direct light in more places.
-Counts counted_adaptive(const PassOneSettings& settings, Counts all) {
-  constexpr double of_noise = 0.9;  // of one ray, before it falls with their number
-  constexpr double ordinary = 0.01; // the bound that doubles elements
-  constexpr double root_sources = 60.0, sources = 20.0; // ones with many shadow rays for two
-  const double x = settings.interpolation.adaptive->error, asked = settings.interpolation.rays;
-  const double rays =
-      std::clamp(std::pow(of_noise / x, 1.0 / noise_order), asked, max_times_asked * asked);
-  const double roots = all.gathers, elements = roots * (1.0 + ordinary / x);
-  all.gathers = 1.5 * (0.25 * roots + std::sqrt(roots * elements) * rays / asked);
-  all.sources = root_sources * roots + sources * (elements - roots);
-  return all;
-}
-
 } // namespace
 
 PassOneCost expected_cost(const LightScene& light, int bands, const PassOneSettings& settings) {
@@ -120,8 +103,6 @@ PassOneCost expected_cost(const LightScene& light, int bands, const PassOneSetti
   Counts counts{.rows = elements, .gathers = vertices, .sources = vertices, .elements = elements};
   if (settings.cut == MeshCut::hierarchical)
     counts = counted_by_nodes(light, settings, counts);
-  if (settings.interpolation.adaptive)
-    counts = counted_adaptive(settings, counts);
 
   const PointSeconds point = point_seconds(light, settings);
   PassOneCost cost;

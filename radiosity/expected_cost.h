@@ -5,12 +5,9 @@
 //
 //   form factors   elements x (one gathering of N rays + some points of direct light)
 //   interpolate    vertices x (one gathering + one point of direct light)
-//                  `--solver hierarchical` gathers for nodes instead, of which there are about
+//                  A hierarchical mesh gathers for nodes instead, of which there are about
 //                  twice those of its beginning, and finds direct light for nodes
 //   solve          entries of the transport x products with it, at the rate of memory
-//
-// Limit: how far an adaptive field divides elements is not known beforehand, it is taken to have
-// as many more as rooms with a lamp have (too few by up to ten times where much is small).
 #pragma once
 
 #include "radiosity/pass_one_settings.h"

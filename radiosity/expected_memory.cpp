@@ -47,21 +47,14 @@ SceneSizes sizes_of(const Scene& scene) {
 
 std::uint64_t scene_memory(const SceneSizes& scene, const PassOneChoice& choice) {
   constexpr double per_vertex = 2 * sizeof(Vertex), per_triangle = 1500.0, per_element = 300.0;
-  // How many an adaptive field has is not known beforehand;
-  // it is made to have fewer than a mesh of one size, and more where it begins with more.
   // Nodes divide elements at shadows.
-  const PassOneQuality quality = pass_one_quality(choice.quality);
-  const double roots = choice.elements ? *choice.elements : quality.root_elements;
-  const double field_elements = choice.adaptive == WithAdaptivity::yes
-                                    ? quality.target_elements * roots / quality.root_elements
-                                    : 0.0;
   const double elements = expected_elements(scene, choice);
   const double at_shadows = mesh_cut(choice) == MeshCut::hierarchical
                                 ? double(max_at_shadows(static_cast<std::size_t>(elements)))
                                 : 0.0;
   return whole(per_vertex * static_cast<double>(scene.vertices) +
                per_triangle * static_cast<double>(scene.triangles) +
-               per_element * (elements + field_elements + at_shadows)) +
+               per_element * (elements + at_shadows)) +
          scene.texture_bytes;
 }
 

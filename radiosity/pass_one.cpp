@@ -55,7 +55,6 @@ RadiositySolution field_of(const std::shared_ptr<const LightScene>& light,
   take_received(light->mesh, found.received, solution);
   solution.field = {std::move(found.field),
                     found.mesh ? light_scene_on(*light, std::move(*found.mesh)) : light};
-  solution.interpolation_error = found.error;
   solution.seconds = {solved.form_factor_seconds, solved.solve_seconds, watch.lap()};
 
   solution.closure = closure_error(solved.closure);

@@ -23,7 +23,6 @@ struct PassOneSeconds {
 
 struct RadiositySolution : ElementSolution {
   IrradianceField field;
-  std::optional<double> interpolation_error; ///< adaptive: estimated, of what its settings bound
   SolverResult solver;              ///< its radiosity is moved out
   std::optional<LinkFigures> links; ///< of a hierarchical mesh
   EnergyBalance energy;

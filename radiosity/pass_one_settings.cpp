@@ -11,14 +11,13 @@ const char* name_of(MeshCut cut) { return cut == MeshCut::uniform ? "uniform" : 
 MeshCut mesh_cut(const PassOneChoice& choice) {
   const bool wants_rows = choice.form_factors != FormFactorMethod::rays ||
                           choice.solver == SolverMethod::progressive ||
-                          choice.adaptive == WithAdaptivity::yes ||
                           choice.interpolation == Interpolation::average;
   return choice.mesh.value_or(wants_rows ? MeshCut::uniform : MeshCut::hierarchical);
 }
 
 bool gathers_by_nodes(const PassOneSettings& settings) {
   return settings.cut == MeshCut::hierarchical &&
-         settings.interpolation.method == Interpolation::gather && !settings.interpolation.adaptive;
+         settings.interpolation.method == Interpolation::gather;
 }
 
 bool shoots_rays(const PassOneSettings& settings, std::size_t elements) {
@@ -38,25 +37,19 @@ PassOneQuality pass_one_quality(Quality quality) {
             .rays = 128,
             .hemicube_resolution = 32,
             .link_error = 0.02,
-            .penumbra_rays = 32,
-            .root_elements = 600,
-            .adaptive_error = 0.03};
+            .penumbra_rays = 32};
   case Quality::normal:
     return {.target_elements = 16'000,
             .rays = 512,
             .hemicube_resolution = 64,
             .link_error = 0.01,
-            .penumbra_rays = 128,
-            .root_elements = 1'500,
-            .adaptive_error = 0.01};
+            .penumbra_rays = 128};
   case Quality::fine:
     return {.target_elements = 64'000,
             .rays = 2'048,
             .hemicube_resolution = 128,
             .link_error = 0.005,
-            .penumbra_rays = 512,
-            .root_elements = 5'000,
-            .adaptive_error = 0.005};
+            .penumbra_rays = 512};
   }
   return {};
 }
@@ -66,10 +59,9 @@ static double target_elements(const PassOneChoice& choice, const PassOneQuality&
   constexpr double few_elements = 500.0;
   if (choice.elements)
     return *choice.elements;
-  const double target =
-      choice.adaptive == WithAdaptivity::yes ? quality.root_elements : quality.target_elements;
-  return choice.form_factors == FormFactorMethod::analytic ? std::min(target, few_elements)
-                                                           : target;
+  return choice.form_factors == FormFactorMethod::analytic
+             ? std::min(quality.target_elements, few_elements)
+             : quality.target_elements;
 }
 
 static InterpolationSettings interpolation_settings(const PassOneChoice& choice,
@@ -85,9 +77,6 @@ static InterpolationSettings interpolation_settings(const PassOneChoice& choice,
   constexpr double of_edges = 0.02;
   if (settings.cut == MeshCut::hierarchical && direct_light == DirectLightAt::vertices)
     interpolation.shadow_bend = std::sqrt(of_edges * settings.hierarchical.link_error);
-  if (choice.adaptive == WithAdaptivity::yes)
-    interpolation.adaptive =
-        AdaptiveSettings{.error = choice.adaptive_error.value_or(quality.adaptive_error)};
   return interpolation;
 }
 
@@ -110,9 +99,8 @@ PassOneSettings pass_one_settings(const PassOneChoice& choice, DirectLightAt dir
   settings.hierarchical.link_error = choice.link_error.value_or(quality.link_error);
   settings.interpolation = interpolation_settings(choice, settings, quality, direct_light);
   // Means of elements show nowhere but where they are interpolated; else they light other elements,
-  // and many average out. Few and large ones, between which an adaptive field gathers, do not.
-  if (settings.interpolation.method == Interpolation::gather &&
-      choice.adaptive == WithAdaptivity::no) {
+  // and many average out.
+  if (settings.interpolation.method == Interpolation::gather) {
     settings.direct.points = 4;
     settings.direct.most_points = 64;
   }

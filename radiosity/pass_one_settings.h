@@ -48,14 +48,9 @@ struct PassOneQuality {
   int hemicube_resolution = 0; ///< cells along an edge of the top, where hemicubes are used instead
   double link_error =
       0.0; ///< of a hierarchical mesh: how much light may bend where it is interpolated
-  int penumbra_rays = 0;      ///< shadow rays from a vertex to an emitter that it sees in part
-  double root_elements = 0.0; ///< instead of `target_elements` where elements are divided as needed
-  double adaptive_error = 0.0; ///< of radiosity, relative, in the mean square, where they are
+  int penumbra_rays = 0; ///< shadow rays from a vertex to an emitter that it sees in part
 };
 PassOneQuality pass_one_quality(Quality quality);
-
-/// Whether elements are divided where the light asks for it.
-enum class WithAdaptivity { no, yes };
 
 /// What may be chosen of pass one; what is not set follows from the quality.
 struct PassOneChoice {
@@ -63,8 +58,6 @@ struct PassOneChoice {
   std::optional<double> element_size; ///< metres, of all surfaces
   std::optional<int> elements;        ///< or about so many, shared over them (element_sizes.h)
   std::optional<MeshCut> mesh;        ///< else as mesh_cut() says
-  WithAdaptivity adaptive = WithAdaptivity::no;
-  std::optional<double> adaptive_error;
   std::optional<double> bends; ///< of the mean: elements in which light bends by more are divided
   FormFactorMethod form_factors = FormFactorMethod::rays;
   std::optional<int> rays;                ///< rounded up to a power of two
@@ -79,7 +72,7 @@ struct PassOneChoice {
 };
 
 /// The cut that is chosen: hierarchical, but where form factors are not by rays, or where the solver
-/// `progressive`, `--adaptive` or the interpolation `average` want a row for every element.
+/// `progressive` or the interpolation `average` want a row for every element.
 MeshCut mesh_cut(const PassOneChoice& choice);
 
 /// Where direct light of pictures is interpolated, or computed at each hit of a camera ray.

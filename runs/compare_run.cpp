@@ -30,7 +30,6 @@ void compare_passes(const PreparedScene& prepared, const Camera& camera, TwoPass
   const RadiositySolution solution =
       solve_pass_one(prepared.light, settings.pass_one, events.progress);
   warn_of_solution(solution.solver, solution.closure, events);
-  warn_of_interpolation(solution.interpolation_error, settings.pass_one, events);
   add_solution(figures, solution);
   const double pass_one = watch.lap();
 

@@ -55,19 +55,6 @@ void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
   }
 }
 
-void warn_of_interpolation(const std::optional<double>& error, const PassOneSettings& settings,
-                           const RunEvents& events) {
-  // Elements are divided for what stands out of noise, which leaves a little more than is asked for.
-  constexpr double much_more = 1.25;
-  const auto& adaptive = settings.interpolation.adaptive;
-  if (error && adaptive && *error > much_more * adaptive->error) {
-    warn(events,
-         fmt::format("adaptive: interpolation is off by about {}, not within {}: elements are as "
-                     "small or as many as they may be",
-                     readable_percent(*error), readable_percent(adaptive->error)));
-  }
-}
-
 Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
                      const RunEvents& events) {
   if (name) {

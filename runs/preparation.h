@@ -25,10 +25,6 @@ std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& s
 void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
                       const RunEvents& events);
 
-/// Says where adaptive meshes have ended far from the error that was asked for.
-void warn_of_interpolation(const std::optional<double>& error, const PassOneSettings& settings,
-                           const RunEvents& events);
-
 /// The camera of that name, else the file's first, else a default view of the whole scene.
 Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
                      const RunEvents& events);

@@ -113,7 +113,6 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
     const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
     Rendering rendering = run_two_pass(*prepared, camera, settings, request, events, figures);
     warn_of_solution(figures.solver, figures.closure, events);
-    warn_of_interpolation(figures.interpolation_error, settings.pass_one, events);
     return picture_of(prepared->scene, camera, request.settings, std::move(rendering));
   }
   const LitScene lit =

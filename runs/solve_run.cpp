@@ -84,7 +84,6 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   const RadiositySolution solution = solve_or_relight(request, prepared->light, settings, events);
   add_solution(figures, solution);
   warn_of_solution(figures.solver, figures.closure, events);
-  warn_of_interpolation(figures.interpolation_error, settings, events);
 
   watch.lap();
   write_solution(request.solution, scene_hash, prepared->mesh, solution, settings.mesh);

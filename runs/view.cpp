@@ -35,7 +35,6 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
   RadiositySolution solution = solve_pass_one(lit.prepared->light, settings, events.progress);
   add_solution(figures, solution);
   warn_of_solution(figures.solver, figures.closure, events);
-  warn_of_interpolation(figures.interpolation_error, settings, events);
   if (kept) {
     write_solution(*kept, scene_hash, lit.prepared->mesh, solution, settings.mesh);
   }

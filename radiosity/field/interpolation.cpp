@@ -1,6 +1,5 @@
 #include "radiosity/field/interpolation.h"
 
-#include "radiosity/field/adaptive/adaptive_field.h"
 #include "radiosity/field/gathered_field.h"
 #include "radiosity/mesh/subdivision.h"
 #include "radiosity/field/vertex_places.h"
@@ -79,8 +78,6 @@ InterpolatedField interpolate(const LightScene& light, const ElementLight& eleme
                               const InterpolationSettings& settings) {
   if (settings.method == Interpolation::average)
     return {.field = averaged_field(light.mesh, elements)};
-  if (settings.adaptive)
-    return adaptive_field(light, elements, form_factors, direct, settings);
   return gathered_field(light, elements, form_factors, direct, settings);
 }
 

@@ -38,7 +38,6 @@ struct InterpolatedField {
   VertexIrradiance field;
   std::optional<ElementMesh> mesh = {}; ///< where it is finer than that of the elements
   std::vector<Rgb> received = {}; ///< H by ElementId where elements receive what their corners do, by nodes; empty otherwise
-  std::optional<double> error = {}; ///< of an adaptive field: estimated, of what its settings bound
   std::uint64_t form_factor_rays = 0;
   std::uint64_t shadow_rays = 0;
 };

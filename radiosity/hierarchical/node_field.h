@@ -1,7 +1,7 @@
 // The field where light is received by nodes:
 // direct light at every vertex, the rest at the corners of nodes (node_bends.h).
 //
-// The rest is gathered twice, as in adaptive fields:
+// The rest is gathered twice:
 // from the elements as they were solved, with a quarter of the rays,
 // but not fewer than 128, and four times the bound, and then from what that makes of them,
 //

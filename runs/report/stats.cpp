@@ -178,7 +178,6 @@ void add_solution(RunFigures& figures, const RadiositySolution& solution) {
   figures.closure = solution.closure;
   figures.elements = element_count(solution.field.mesh());
   figures.vertices = solution.field.mesh().vertices.size();
-  figures.interpolation_error = solution.interpolation_error;
   figures.rays.form_factor = solution.form_factor_rays;
   figures.rays.shadow = solution.shadow_rays;
   figures.seconds.form_factors = solution.seconds.form_factors;
@@ -216,8 +215,7 @@ std::string stats_json(const RunFigures& figures) {
               {"elements", figures.elements},
               {"vertices", figures.vertices},
               {"solved_elements", figures.solved_elements},
-              {"cut", name_of(figures.links ? MeshCut::hierarchical : MeshCut::uniform)},
-              {"interpolation_error", optional_json(figures.interpolation_error)}}},
+              {"cut", name_of(figures.links ? MeshCut::hierarchical : MeshCut::uniform)}}},
             {"solve", solve_json(figures.solver, figures.links)},
             {"energy", energy_json(figures.energy)},
             {"closure",

@@ -66,8 +66,7 @@ struct RunFigures {
   WorldFigures worlds;
   int bands = 1;
   std::size_t surfaces = 0, patches = 0, elements = 0, vertices = 0; ///< of the field
-  std::size_t solved_elements = 0; ///< those pass one was solved for: fewer where the field is adaptive
-  std::optional<double> interpolation_error; ///< of an adaptive field
+  std::size_t solved_elements = 0; ///< those pass one was solved for: fewer where it divided some
   SolverResult solver; ///< without its radiosity
   std::optional<LinkFigures> links; ///< of a hierarchical mesh
   EnergyBalance energy;

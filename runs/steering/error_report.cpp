@@ -42,7 +42,6 @@ std::optional<std::string> suggest_option(const PictureError& error, const TwoPa
   const bool edges =
       settings.render.diffuse.term == DiffuseTerm::interpolated && without_edges < 0.7 * error.mesh;
   const char* mesh = edges                                       ? "--diffuse direct"
-                     : settings.pass_one.interpolation.adaptive  ? "a smaller bound of --adaptive"
                      : settings.pass_one.mesh.element_size > 0.0 ? "a smaller --element-size"
                                                                  : "more --elements";
   const bool cells = settings.pass_one.form_factors.method == FormFactorMethod::hemicube;

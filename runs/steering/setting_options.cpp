@@ -68,8 +68,6 @@ std::vector<std::string> options_of(const RunSettings& settings) {
   unchosen.mesh.reset();
   if (mesh_cut(settings) != mesh_cut(unchosen))
     add("--mesh", name_of(mesh_cut(settings)));
-  if (settings.adaptive == WithAdaptivity::yes)
-    add("--adaptive", settings.adaptive_error ? fmt::format("{}", *settings.adaptive_error) : "");
   add_given("--bends", settings.bends);
   if (settings.form_factors != standard.form_factors)
     add("--form-factors", name_of(settings.form_factors));

@@ -49,8 +49,7 @@ RunSettings with_knobs(RunSettings settings, const FreeKnobs& free, const Parame
 }
 
 FreeKnobs free_knobs(const RunSettings& settings) {
-  return {.elements = !settings.element_size && !settings.elements &&
-                      settings.adaptive == WithAdaptivity::no,
+  return {.elements = !settings.element_size && !settings.elements,
           .rays = !settings.rays && settings.form_factors == FormFactorMethod::rays,
           .samples = !settings.samples,
           .term = !settings.diffuse && settings.mode == PictureMode::hybrid &&
@@ -60,7 +59,7 @@ FreeKnobs free_knobs(const RunSettings& settings) {
 Parameters first_knobs(const RunSettings& settings) {
   Parameters knobs;
   const QualityPreset draft = preset_of(Quality::draft);
-  if (settings.element_size || settings.adaptive == WithAdaptivity::yes)
+  if (settings.element_size)
     knobs.elements = draft.target_elements;
   if (settings.elements)
     knobs.elements = *settings.elements;
@@ -80,8 +79,7 @@ RunSettings settings_of(const SteeringRequest& request) {
   // A few small elements at the feet of lit walls cost little, and save dividing all.
   const bool gathers =
       settings.interpolation.value_or(Interpolation::gather) == Interpolation::gather;
-  if (!settings.bends && settings.adaptive == WithAdaptivity::no && gathers &&
-      mesh_cut(settings) == MeshCut::uniform)
+  if (!settings.bends && gathers && mesh_cut(settings) == MeshCut::uniform)
     settings.bends = bends_that_show;
   return settings;
 }

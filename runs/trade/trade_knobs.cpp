@@ -53,14 +53,6 @@ void turn_cut(Turner& turner) {
 
 void turn_mesh(Turner& turner) {
   const RunSettings& s = turner.from;
-  if (s.adaptive == WithAdaptivity::yes) {
-    const double bound = s.adaptive_error.value_or(preset_of(s.quality).adaptive_error);
-    turner.turn("adaptive", fmt::format("{}", bound), fmt::format("{}", bound / 2.0), true,
-                [&](RunSettings& r) { r.adaptive_error = bound / 2.0; });
-    turner.turn("adaptive", fmt::format("{}", bound), fmt::format("{}", bound * 2.0), false,
-                [&](RunSettings& r) { r.adaptive_error = bound * 2.0; });
-    return;
-  }
   turner.steps<int>("elements", *s.elements, 2, 100, 200'000, &RunSettings::elements);
   turn_cut(turner);
   if (s.interpolation.value_or(Interpolation::gather) != Interpolation::gather)
@@ -70,13 +62,6 @@ void turn_mesh(Turner& turner) {
                 [](RunSettings& r) { r.bends.reset(); });
   else
     turner.turn("bends", "no", "0.1", true, [](RunSettings& r) { r.bends = 0.1; });
-  turner.turn("adaptive", "no", "0.03", true, [&](RunSettings& r) {
-    r.adaptive = WithAdaptivity::yes;
-    r.link_error.reset();
-    r.bends.reset();
-    r.adaptive_error = 0.03;
-    r.elements = *s.elements / 4;
-  });
 }
 
 void turn_transport(Turner& turner, const TradeScene& scene) {
@@ -140,8 +125,7 @@ void turn_picture(Turner& turner) {
     term(DiffuseTerm::interpolated, false);
     term(DiffuseTerm::gather, true);
   }
-  if (s.interpolation.value_or(Interpolation::gather) == Interpolation::gather &&
-      s.adaptive == WithAdaptivity::no)
+  if (s.interpolation.value_or(Interpolation::gather) == Interpolation::gather)
     turner.turn("interpolation", "gather", "average", false, [](RunSettings& r) {
       r.interpolation = Interpolation::average;
       r.link_error.reset();
@@ -155,8 +139,7 @@ RunSettings spelled_out(const RunSettings& settings) {
   RunSettings result = settings;
   const QualityPreset preset = preset_of(settings.quality);
   if (!result.elements)
-    result.elements = static_cast<int>(
-        settings.adaptive == WithAdaptivity::yes ? preset.root_elements : preset.target_elements);
+    result.elements = static_cast<int>(preset.target_elements);
   if (!result.rays)
     result.rays = preset.rays;
   if (!result.link_error && mesh_cut(result) == MeshCut::hierarchical)

@@ -1,5 +1,5 @@
 // The knobs a sweep turns, one step each:
-// elements, link error or adaptive bound, rays, form-factor method, solver and tolerance,
+// elements, link error, rays, form-factor method, solver and tolerance,
 // mirror depth, diffuse term, interpolation, camera rays and their pixel error.
 #pragma once
 

@@ -47,7 +47,7 @@ double at_stake(const KnobTurn& turn, const PictureError& e) {
   const auto share = [&](double part, double of_it) { return of_it * part * part / all; };
   if (turn.knob == "elements")
     return share(e.mesh, 0.4);
-  if (turn.knob == "adaptive")
+  if (turn.knob == "link-error")
     return share(e.mesh, 0.6);
   if (turn.knob == "diffuse")
     return turn.to == name_of(DiffuseTerm::gather) ? share(std::hypot(e.mesh, e.form_factors), 0.9)

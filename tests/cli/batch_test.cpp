@@ -51,7 +51,7 @@ TEST_F(BatchTest, EveryOptionOfRenderIsASetting) {
                {"settings", {{"diffuse", "direct"}, {"layers", true}}},
                {"outputs", "layers.exr"}},
               {{"scenes", "room.glb"},
-               {"settings", {{"adaptive", 0.3}, {"element-size", nullptr}}},
+               {"settings", {{"adaptive", 0.03}, {"element-size", nullptr}}},
                {"outputs", "adaptive.exr"}}});
   ASSERT_EQ(batch().code, 0);
   const auto made = pictures();
@@ -64,7 +64,7 @@ TEST_F(BatchTest, EveryOptionOfRenderIsASetting) {
   };
   EXPECT_EQ(made.at("layers.exr"),
             render({"--diffuse", "direct", "--layers", "--element-size", "0.25"}));
-  EXPECT_EQ(made.at("adaptive.exr"), render({"--adaptive", "0.3"}));
+  EXPECT_EQ(made.at("adaptive.exr"), render({"--adaptive", "0.03"}));
 }
 
 TEST_F(BatchTest, TheSummarySaysWhatWasDone) {

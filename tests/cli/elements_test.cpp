@@ -42,8 +42,7 @@ protected:
 TEST_F(Elements, AreThoseOfThePresets) {
   EXPECT_EQ(picture({"--elements", "2250"}), picture({}));
   EXPECT_NE(picture({"--elements", "1000"}), picture({}));
-  EXPECT_EQ(picture({"--adaptive", "0.3", "--elements", "600"}), picture({"--adaptive", "0.3"}))
-      << "undivided ones";
+  EXPECT_EQ(picture({"--mesh", "uniform", "--elements", "2250"}), picture({"--mesh", "uniform"}));
 }
 
 // Five walls of a square metre and a lamp: cells are never larger than asked for,

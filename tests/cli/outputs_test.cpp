@@ -216,7 +216,7 @@ TEST_F(Outputs, StatsHaveTheDocumentedKeys) {
   std::map<std::string, std::set<std::string>> documented{
       {"plan", {"mirrors", "mirror_worlds", "worlds", "emitters", "bands"}},
       {"mesh",
-       {"surfaces", "patches", "elements", "vertices", "solved_elements", "interpolation_error"}},
+       {"surfaces", "patches", "elements", "vertices", "solved_elements", "cut"}},
       {"solve",
        {"solver", "iterations", "residual", "error_bound", "converged", "residuals", "bands",
         "channel_residuals", "channel_error_bounds"}},

@@ -29,7 +29,7 @@ TEST(StatsDocument, HasEveryKey) {
   TemporaryFolder folder;
   write_room(folder / "room.glb", tiny_room());
   const std::vector<std::vector<std::string>> runs{
-      {"--quality", "draft", "--solver", "hierarchical", "--adaptive", "0.1"},
+      {"--quality", "draft"},
       {"--error", "0.5"},
       {"--mode", "reference", "--samples", "1"}};
   std::set<std::string> keys;

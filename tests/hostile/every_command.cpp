@@ -70,8 +70,6 @@ RunSettings drawn_settings(Random& random) {
   }
   const bool gathers = settings.interpolation != Interpolation::average;
   if (gathers && happens(random, 0.2))
-    settings.adaptive = WithAdaptivity::yes;
-  else if (gathers && happens(random, 0.2))
     settings.bends = 0.02;
   if (happens(random, 0.2))
     settings.mirror_depth = static_cast<int>(random.between(0.0, 4.0));
@@ -93,10 +91,10 @@ RunSettings drawn_settings(Random& random) {
 }
 
 std::string in_words(const RunSettings& settings) {
-  return fmt::format("{} solver {} form factors {} adaptive {} bends {} mode {} diffuse {} layers {} "
+  return fmt::format("{} solver {} form factors {} mesh {} bends {} mode {} diffuse {} layers {} "
                      "samples {} sky {}",
                      static_cast<int>(settings.quality), name_of(settings.solver),
-                     static_cast<int>(settings.form_factors), static_cast<int>(settings.adaptive),
+                     static_cast<int>(settings.form_factors), static_cast<int>(mesh_cut(settings)),
                      settings.bends.has_value(), static_cast<int>(settings.mode),
                      static_cast<int>(diffuse_term(settings)), static_cast<int>(settings.layers),
                      *settings.samples, settings.background.has_value());

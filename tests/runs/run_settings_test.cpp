@@ -56,11 +56,6 @@ TEST(Elements, AreThePresetsUnlessTheyAreAskedFor) {
   EXPECT_EQ(wanted(settings), 5000.0);
   settings.form_factors = FormFactorMethod::analytic;
   EXPECT_EQ(wanted(settings), 5000.0) << "the user's word, however long it takes";
-  settings = with_quality(Quality::draft);
-  settings.adaptive = WithAdaptivity::yes;
-  EXPECT_EQ(wanted(settings), 600.0);
-  settings.elements = 900;
-  EXPECT_EQ(wanted(settings), 900.0) << "undivided ones";
 }
 
 // The options of a run are those that differ from what its preset does.

@@ -157,19 +157,6 @@ TEST(ContactVertices, TheFootOfABrightWallIsLit) {
   }
 }
 
-TEST(ContactVertices, TheFootOfABrightWallIsLitOnAdaptiveMeshes) {
-  for (const double side : {0.8, 0.801, 0.799, 0.75, 0.78}) {
-    const auto l = lit(glowing_box(side), {.element_size = 0.4});
-    PassOneSettings settings;
-    settings.interpolation.adaptive = AdaptiveSettings{.error = 0.01};
-    const RadiositySolution solution = solve_pass_one(l->light, settings);
-    const AtFoot foot = at_foot(*l, solution, side);
-    EXPECT_NEAR(foot.found, foot.exact, 0.01 * foot.exact) << side;
-    // The bound is one of the mean square over all of the floor.
-    EXPECT_LT(foot.largest_error, 0.03) << side;
-  }
-}
-
 /// What the floor receives half way between two glowing boxes,
 /// this far apart, from the two sides that it sees.
 struct InGap {

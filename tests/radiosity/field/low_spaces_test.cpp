@@ -15,7 +15,7 @@ namespace meninas::test {
 namespace {
 
 /// How the field is found.
-enum class By { rows, nodes, adaptive };
+enum class By { rows, nodes };
 
 PassOneSettings settings_by(By by) {
   PassOneSettings settings;
@@ -24,8 +24,6 @@ PassOneSettings settings_by(By by) {
   settings.solver.tolerance = 1e-6;
   if (by == By::nodes)
     settings.cut = MeshCut::hierarchical;
-  if (by == By::adaptive)
-    settings.interpolation.adaptive = AdaptiveSettings{};
   return settings;
 }
 
@@ -110,7 +108,7 @@ TEST_P(LowFurnaceTest, EveryVertex) {
 
 INSTANTIATE_TEST_SUITE_P(All, LowFurnaceTest,
                          testing::Combine(testing::Values(0, 1, 2, 3, 4),
-                                          testing::Values(By::rows, By::nodes, By::adaptive)));
+                                          testing::Values(By::rows, By::nodes)));
 
 /// A room of 4 x 3 x 5 m with a lamp in the middle of it, whose walls are one element each.
 std::unique_ptr<LitScene> room_of_large_elements() {
@@ -127,12 +125,10 @@ std::unique_ptr<LitScene> room_of_large_elements() {
 TEST(LowSpaces, ARoomOfOneElementAWall) {
   const auto l = room_of_large_elements();
   constexpr double mean = 10.0 / (94.0 * (1.0 - 0.5));
-  for (const By by : {By::rows, By::nodes, By::adaptive}) {
+  for (const By by : {By::rows, By::nodes}) {
     const RadiositySolution solution = solve_by(by, l->light);
     for (const glm::vec3& h : solution.field.irradiance)
       EXPECT_GT(double{h.g}, 0.25 * mean);
-    if (by == By::adaptive)
-      continue;
     for (const std::size_t e : elements_of(*l, "y0"))
       for (const ElementVertexId v : l->mesh.corners[e])
         EXPECT_NEAR(double{solution.field.irradiance[index(v)].g} / solution.irradiance[e].g, 0.75,

@@ -40,10 +40,8 @@ TEST(FirstTurn, TakesLightFromTheSourceWhereEdgesWithinElementsAreMostOfTheMesh)
 TEST(FirstTurn, NamesTheOptionThatTheRunListensTo) {
   TwoPassSettings other = direct;
   other.pass_one.form_factors.method = FormFactorMethod::hemicube;
-  other.pass_one.interpolation.adaptive = AdaptiveSettings{};
   EXPECT_THAT(suggest_option({.form_factors = 0.05, .total = 0.05}, other),
               Optional(HasSubstr("--hemicube-resolution")));
-  EXPECT_THAT(suggest_option({.mesh = 0.05, .total = 0.05}, other), Optional(HasSubstr("--adaptive")));
   TwoPassSettings sized = direct;
   sized.pass_one.mesh.element_size = 0.1;
   EXPECT_THAT(suggest_option({.mesh = 0.05, .total = 0.05}, sized),

@@ -50,9 +50,9 @@ std::set<std::string> knobs_of(const RunSettings& settings, const TradeScene& sc
 
 TEST(Parameters, AreAllTurned) {
   EXPECT_THAT(knobs_of({}, room),
-              ElementsAre("adaptive", "bends", "diffuse", "elements", "form-factors",
-                          "interpolation", "mirror-depth", "pixel-error", "rays", "samples",
-                          "solver", "tolerance"));
+              ElementsAre("bends", "diffuse", "elements", "form-factors", "interpolation", "link-error",
+                          "mesh", "mirror-depth", "pixel-error", "rays", "samples", "solver",
+                          "tolerance"));
   EXPECT_FALSE(knobs_of({}, {.mirrors = false}).contains("mirror-depth"));
 }
 
@@ -119,12 +119,11 @@ TEST(Parameters, OptionsSayWhatDiffersFromTheDefaults) {
   settings.element_size = 0.1;
   settings.rays = 64;
   settings.diffuse = DiffuseTerm::direct;
-  settings.adaptive = WithAdaptivity::yes;
-  settings.adaptive_error = 0.03;
+  settings.mesh = MeshCut::uniform;
   settings.background = Rgb(0.5, 0.0, 1.0);
   EXPECT_THAT(options_of(settings),
               ElementsAre("--quality", "draft", "--background", "0.5,0,1", "--element-size", "0.1",
-                          "--adaptive", "0.03", "--rays", "64", "--diffuse", "direct"));
+                          "--mesh", "uniform", "--rays", "64", "--diffuse", "direct"));
   settings = {};
   settings.elements = 4'000'000;
   EXPECT_THAT(options_of(settings), ElementsAre("--elements", "4000000"));

@@ -1,4 +1,5 @@
-// `--adaptive`: elements divided where the light asks for it, from the command line to the picture.
+// Elements divided where the light asks for it, from the command line to the picture, and the names
+// that options for it once had.
 #include "tests/cli/program.h"
 #include "tests/cli/tiny_room.h"
 #include "tests/support/source_dir.h"
@@ -15,9 +16,9 @@ namespace {
 using json = nlohmann::json;
 using testing::HasSubstr;
 
-class Adaptive : public testing::Test {
+class MeshOptions : public testing::Test {
 protected:
-  Adaptive() { write_room(folder_ / "room.glb", tiny_room()); }
+  MeshOptions() { write_room(folder_ / "room.glb", tiny_room()); }
 
   Outcome run(const std::vector<std::string>& arguments) {
     return run_program(folder_.path(), arguments);
@@ -54,92 +55,60 @@ std::vector<std::string> with(std::vector<std::string> arguments,
   return arguments;
 }
 
-TEST_F(Adaptive, ElementsFollowTheBound) {
-  const json loose = stats({"--adaptive", "0.1"}), tight = stats({"--adaptive", "0.01"});
-  for (const json& figures : {loose, tight}) {
-    EXPECT_GE(figures["mesh"]["elements"], figures["mesh"]["solved_elements"]);
-    EXPECT_GT(figures["mesh"]["interpolation_error"], 0.0);
-  }
-  EXPECT_EQ(loose["mesh"]["solved_elements"], tight["mesh"]["solved_elements"]);
-  EXPECT_GT(tight["mesh"]["elements"], tight["mesh"]["solved_elements"]);
-  EXPECT_LE(tight["mesh"]["interpolation_error"], 0.01);
-  const json uniform = stats({});
-  EXPECT_EQ(uniform["mesh"]["elements"], uniform["mesh"]["solved_elements"]);
-  EXPECT_TRUE(uniform["mesh"]["interpolation_error"].is_null());
-}
-
-TEST_F(Adaptive, TheBoundMayBeLeftToThePreset) {
+TEST_F(MeshOptions, OlderNamesMeanTheNewOnes) {
   const auto draft = [&](const std::vector<std::string>& arguments) {
     return bytes("solve", "s.glb", with({"--quality", "draft"}, arguments));
   };
-  EXPECT_EQ(draft({"--adaptive"}), draft({"--adaptive", "0.03"}));
-  EXPECT_EQ(draft({"--adaptive=0.03"}), draft({"--adaptive", "3e-2"}));
+  EXPECT_EQ(draft({"--adaptive"}), draft({"--mesh", "hierarchical"}));
+  EXPECT_EQ(draft({"--adaptive=0.03"}), draft({"--link-error", "3e-2"}));
+  EXPECT_EQ(draft({"--no-adaptive"}), draft({"--mesh", "uniform"}));
   // What follows and is no number belongs to others.
-  const Outcome outcome =
-      run({"solve", "--quality", "draft", "--quiet", "--adaptive", "room.glb", "-o", "t.glb"});
+  const Outcome outcome = run({"solve", "--quality", "draft", "--adaptive", "room.glb", "-o", "t.glb"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(read_file(folder_ / "t.glb"), draft({"--adaptive"}));
+  EXPECT_THAT(outcome.err, HasSubstr("--adaptive is --mesh hierarchical --link-error now"));
 }
 
-TEST_F(Adaptive, ASolutionShowsThePictureOfItsRun) {
-  const std::vector<std::string> pass_one{"--adaptive", "0.03", "--quality", "draft"};
+TEST_F(MeshOptions, ASolutionShowsThePictureOfItsRun) {
+  const std::vector<std::string> pass_one{"--link-error", "0.005", "--quality", "draft"};
   const std::string at_once = bytes("render", "a.exr", with(small, pass_one));
   bytes("solve", "s.glb", pass_one);
   EXPECT_TRUE(bytes("render", "b.exr", with(small, {"--solution", "s.glb"})) == at_once);
   EXPECT_TRUE(bytes("render", "c.exr", with(with(small, pass_one), {"--threads", "1"})) == at_once);
 }
 
-TEST_F(Adaptive, OffIsAsIfItWereNotThere) {
-  const std::vector<std::string> draft = with(small, {"--quality", "draft"});
-  const std::string plain = bytes("render", "a.exr", draft);
-  EXPECT_TRUE(bytes("render", "b.exr", with(draft, {"--no-adaptive"})) == plain);
-  EXPECT_FALSE(bytes("render", "c.exr", with(draft, {"--adaptive"})) == plain);
-}
-
-TEST_F(Adaptive, WhatMakesNoSenseIsSaid) {
+TEST_F(MeshOptions, WhatMakesNoSenseIsSaid) {
   expect_usage_error("--adaptive: '0' is not positive", {"--adaptive", "0"});
-  expect_usage_error("--adaptive: '-1' is not positive", {"--adaptive", "-1"});
-  expect_usage_error(
-      "--adaptive: compares what is gathered: it does not go with --interpolation average",
-      {"--adaptive", "--interpolation", "average"});
+  expect_usage_error("--link-error: '-1' is not positive", {"--link-error", "-1"});
+  expect_usage_error("--mesh: 'triangles' is not one of uniform, hierarchical",
+                     {"--mesh", "triangles"});
   expect_usage_error("render: --adaptive excludes --no-adaptive", {"--adaptive", "--no-adaptive"});
-  expect_usage_error("--adaptive: has no effect with --mode reference: there is no pass one",
-                     {"--adaptive", "--mode", "reference"});
+  expect_usage_error("--mesh: has no effect with --mode reference: there is no pass one",
+                     {"--mesh", "uniform", "--mode", "reference"});
   bytes("solve", "s.glb", {"--quality", "draft"});
-  expect_usage_error("--adaptive: has no effect with --solution: pass one is not run",
-                     {"--adaptive", "--solution", "s.glb"});
+  expect_usage_error("--mesh: has no effect with --solution: pass one is not run",
+                     {"--mesh", "uniform", "--solution", "s.glb"});
 }
 
-// The rims of a sunbeam through narrow gaps ask for elements smaller than vertices can be told apart.
-TEST_F(Adaptive, WhatCannotBeHadIsSaid) {
-  const std::string sunbeam = source_dir() + "/scenes/gallery/sunbeam.gltf";
-  const Outcome outcome = run({"render", sunbeam, "-o", "a.exr", "--size", "8x8", "--quality",
-                               "draft", "--adaptive", "0.01", "--quiet"});
-  EXPECT_EQ(outcome.code, 0);
-  EXPECT_THAT(outcome.err, HasSubstr("warning: adaptive: interpolation is off by about 4"));
-  EXPECT_THAT(outcome.err, HasSubstr("not within 1 %"));
-}
-
-TEST_F(Adaptive, BendsDivideSomeElements) {
-  const json figures = stats({"--bends", "0.001"}), none = stats({"--bends", "1000"});
+TEST_F(MeshOptions, BendsDivideSomeElements) {
+  const json figures = stats({"--mesh", "uniform", "--bends", "0.001"}),
+             none = stats({"--mesh", "uniform", "--bends", "1000"});
   EXPECT_GT(figures["mesh"]["elements"], figures["mesh"]["solved_elements"]);
-  EXPECT_TRUE(figures["mesh"]["interpolation_error"].is_null());
   EXPECT_EQ(none["mesh"]["elements"], none["mesh"]["solved_elements"]);
-  const std::vector<std::string> pass_one{"--bends", "0.001", "--quality", "draft"};
+  const std::vector<std::string> pass_one{"--mesh", "uniform", "--bends", "0.001", "--quality",
+                                          "draft"};
   const std::string at_once = bytes("render", "a.exr", with(small, pass_one));
   bytes("solve", "s.glb", pass_one);
   EXPECT_TRUE(bytes("render", "b.exr", with(small, {"--solution", "s.glb"})) == at_once);
   EXPECT_TRUE(bytes("render", "c.exr", with(with(small, pass_one), {"--threads", "1"})) == at_once);
   expect_usage_error("--bends: '0' is not positive", {"--bends", "0"});
-  expect_usage_error("--bends: has no effect with --adaptive, which divides elements by itself",
-                     {"--bends", "0.1", "--adaptive"});
   expect_usage_error(
       "--bends: looks at what is gathered: it does not go with --interpolation average",
       {"--bends", "0.1", "--interpolation", "average"});
 }
 
-TEST_F(Adaptive, BendsDivideElementsThatNodesLightToo) {
-  const std::vector<std::string> by_nodes{"--bends", "0.001", "--solver", "hierarchical"};
+TEST_F(MeshOptions, BendsDivideElementsThatNodesLightToo) {
+  const std::vector<std::string> by_nodes{"--bends", "0.001", "--mesh", "hierarchical"};
   const json figures = stats(by_nodes);
   EXPECT_GT(figures["mesh"]["elements"], figures["mesh"]["solved_elements"]);
   const std::vector<std::string> pass_one = with(by_nodes, {"--quality", "draft"});
@@ -149,23 +118,23 @@ TEST_F(Adaptive, BendsDivideElementsThatNodesLightToo) {
   EXPECT_TRUE(bytes("render", "c.exr", with(with(small, pass_one), {"--threads", "1"})) == at_once);
 }
 
-TEST_F(Adaptive, FilesOfCasesAskForItToo) {
-  const auto update = [&](const json& adaptive) {
+TEST_F(MeshOptions, FilesOfCasesHaveThemToo) {
+  const auto update = [&](const json& link_error) {
     const json one{{"name", "room"},
                    {"scene", "room.glb"},
-                   {"settings", {{"quality", "draft"}, {"size", "24x16"}, {"adaptive", adaptive}}},
+                   {"settings", {{"quality", "draft"}, {"size", "24x16"}, {"link-error", link_error}}},
                    {"reference", "room.exr"},
                    {"limits", {{"relmse", 1e-6}}}};
     std::ofstream(folder_ / "cases.json") << json{{"cases", {one}}};
     return run({"regress", "cases.json", "--update", "--quiet"});
   };
-  const auto picture_of = [&](const json& adaptive) {
-    EXPECT_EQ(update(adaptive).code, 0);
+  const auto picture_of = [&](const json& link_error) {
+    EXPECT_EQ(update(link_error).code, 0);
     return read_file(folder_ / "room.exr");
   };
-  EXPECT_TRUE(picture_of(true) == picture_of(0.03));
-  EXPECT_FALSE(picture_of(true) == picture_of(false));
-  EXPECT_THAT(update("fine").err, HasSubstr("adaptive: 'fine' is not a number"));
+  EXPECT_TRUE(picture_of(0.02) == picture_of("2e-2"));
+  EXPECT_FALSE(picture_of(0.02) == picture_of(0.002));
+  EXPECT_THAT(update("fine").err, HasSubstr("link-error: 'fine' is not a number"));
 }
 
 } // namespace
