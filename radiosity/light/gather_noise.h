@@ -25,7 +25,4 @@ inline int ray_multiplier(std::size_t elements, std::size_t receivers) {
   return static_cast<int>(std::bit_floor(static_cast<unsigned>(times)));
 }
 
-/// Where noise has a bound, a sample takes at the most so many times the rays that are asked for.
-inline constexpr int max_times_asked = 16;
-
 } // namespace meninas

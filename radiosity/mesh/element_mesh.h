@@ -165,14 +165,6 @@ inline const MeshCell& cell_of(const ElementMesh& mesh, ElementId element) {
   return mesh.cells[index(mesh.cell_of_element[index(element)])];
 }
 
-/// The area of a cell that bounds on all of the scene are relative to:
-/// of a surface with larger elements than the others, as much as so many of theirs would have.
-/// A room is not to be judged by the ground on which it stands (element_sizes.h).
-inline double counted_area(const ElementMesh& mesh, const MeshCell& cell) {
-  const double larger = mesh.sides[index(cell.side)].element_size / mesh.element_size;
-  return cell.area / (larger * larger);
-}
-
 /// The wanted edge length at the element's level.
 inline double size_of(const ElementMesh& mesh, ElementId element) {
   const MeshCell& cell = cell_of(mesh, element);

@@ -323,38 +323,4 @@ ElementMesh divided_mesh(const ElementMesh& roots, const SurfaceModel& surfaces,
   return result;
 }
 
-ElementMesh overlaid(const ElementMesh& a, const ElementMesh& b, const SurfaceModel& surfaces) {
-  // By cell of the result: what it is in either mesh, none where that one ends above.
-  struct Pair {
-    CellId a, b;
-  };
-  std::vector<Pair> pairs;
-  for (const MeshSide& side : a.sides)
-    for (std::uint32_t k = 0; k < side.root_count; ++k)
-      pairs.push_back(
-          {static_cast<CellId>(side.first_cell + k), static_cast<CellId>(side.first_cell + k)});
-  const auto children = [](const ElementMesh& mesh, CellId cell) {
-    return cell == none<CellId> ? none<CellId> : mesh.cells[index(cell)].first_child;
-  };
-  const auto child = [](CellId first, std::uint32_t k) {
-    return first == none<CellId> ? first : static_cast<CellId>(index(first) + k);
-  };
-  const ElementMesh both = grown(a, [&](std::uint32_t number) {
-    const CellId in_a = children(a, pairs[number].a), in_b = children(b, pairs[number].b);
-    if (in_a == none<CellId> && in_b == none<CellId>)
-      return false;
-    for (std::uint32_t k = 0; k < 4; ++k)
-      pairs.push_back({child(in_a, k), child(in_b, k)});
-    return true;
-  });
-  return divided_mesh(a, surfaces, division_of(both));
-}
-
-CellId root_of(const ElementMesh& mesh, ElementId element) {
-  CellId cell = mesh.cell_of_element[index(element)];
-  while (mesh.cells[index(cell)].parent != none<CellId>)
-    cell = mesh.cells[index(cell)].parent;
-  return cell;
-}
-
 } // namespace meninas

@@ -37,9 +37,6 @@ ElementMesh divided_mesh(const ElementMesh& roots, const SurfaceModel& surfaces,
 /// one entry for every cell it speaks of, 0 or 1, no deeper than `max_levels`.
 bool is_division_of(const ElementMesh& roots, std::span<const std::uint8_t> division);
 
-/// Every cell that either mesh has. Both have the same roots.
-ElementMesh overlaid(const ElementMesh& a, const ElementMesh& b, const SurfaceModel& surfaces);
-
 /// By CellId of `from`:
 /// the same cell in `to`, a mesh of the same roots that has all cells of `from`.
 std::vector<CellId> same_cells(const ElementMesh& from, const ElementMesh& to);
@@ -53,9 +50,6 @@ ElementCorners same_corners(const ElementMesh& from, ElementId element, const El
 /// vertex's own elements are parts of, though something may stand between it and them.
 ElementPoint place_in(const ElementMesh& coarse, const SurfaceModel& surfaces,
                       const ElementMesh& mesh, ElementVertexId vertex);
-
-/// The root of the tree an element is in.
-CellId root_of(const ElementMesh& mesh, ElementId element);
 
 /// The mean of the ends for all hanging vertices. `values` by ElementVertexId.
 template <typename Value>

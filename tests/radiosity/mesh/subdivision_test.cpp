@@ -332,21 +332,6 @@ TEST(MeshDivision, WrongDivisionsAreKnown) {
   EXPECT_FALSE(is_division_of(m.mesh, deep));
 }
 
-TEST(MeshDivision, OverlaidHasTheCellsOfBoth) {
-  const Meshed m = meshed(all_shapes(), {.element_size = 0.5});
-  const ElementMesh a = divided_at_random(m, 3, 0.1, 10), b = divided_at_random(m, 3, 0.1, 11);
-  const ElementMesh both = overlaid(a, b, m.surfaces);
-  EXPECT_EQ(division_of(overlaid(a, a, m.surfaces)), division_of(a));
-  for (const ElementMesh* one : {&a, &b})
-    for (std::uint32_t e = 0; e < element_count(*one); ++e) {
-      // What was an element is one, or some.
-      const MeshCell& cell = cell_of(*one, ElementId{e});
-      const ElementPoint at = locate(both, cell.side, patch_uv_of(*one, cell, Vec2(0.3)));
-      EXPECT_GE(cell_of(both, at.element).level, cell.level);
-    }
-  EXPECT_LE(element_count(both), element_count(a) + element_count(b));
-}
-
 // A sliver is left alone, however often it is marked: its vertices would fall together.
 TEST(MeshDivision, SliversAreNotDividedForEver) {
   Scene scene;
