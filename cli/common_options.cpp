@@ -162,27 +162,10 @@ void add_mesh_options(CLI::App& command, CommonOptions& options) {
       ->group(pass_one_group);
 }
 
-void add_pass_one_options(CLI::App& command, CommonOptions& options) {
+/// Which unknowns the radiosity system has, and how it is solved.
+static void add_solver_options(CLI::App& command, CommonOptions& options) {
   RunSettings& settings = options.settings;
   const PassOneSettings standard = two_pass_settings({}).pass_one;
-  add_choice(command, "--form-factors", form_factor_methods, standard.form_factors.method,
-             "how form factors are computed",
-             [&](FormFactorMethod method) { settings.form_factors = method; })
-      ->group(study_group);
-  add_text(command, "--rays", "N",
-           fmt::format("rays per element for form factors, a power of two [{}]",
-                       by_preset(&QualityPreset::rays)),
-           [&](const std::string& text) {
-             settings.rays = static_cast<int>(parse_integer("--rays", text, 1, 1 << 20));
-           })
-      ->group(pass_one_group);
-  add_text(command, "--hemicube-resolution", "N",
-           fmt::format("cells along an edge of a hemicube's top face, an even number [{}]",
-                       by_preset(&QualityPreset::hemicube_resolution)),
-           [&](const std::string& text) {
-             settings.hemicube_resolution = parse_resolution("--hemicube-resolution", text);
-           })
-      ->group(study_group);
   add_text(command, "--solver", fmt::format("{}", fmt::join(names_of(solvers), "|")),
            fmt::format("how the radiosity system is solved [{}]", name_of(standard.solver.method)),
            [&](const std::string& text) {
@@ -212,6 +195,30 @@ void add_pass_one_options(CLI::App& command, CommonOptions& options) {
              settings.steps = static_cast<int>(parse_integer("--steps", text, 1, 1'000'000'000));
            })
       ->group(study_group);
+}
+
+void add_pass_one_options(CLI::App& command, CommonOptions& options) {
+  RunSettings& settings = options.settings;
+  const PassOneSettings standard = two_pass_settings({}).pass_one;
+  add_choice(command, "--form-factors", form_factor_methods, standard.form_factors.method,
+             "how form factors are computed",
+             [&](FormFactorMethod method) { settings.form_factors = method; })
+      ->group(study_group);
+  add_text(command, "--rays", "N",
+           fmt::format("rays per element for form factors, a power of two [{}]",
+                       by_preset(&QualityPreset::rays)),
+           [&](const std::string& text) {
+             settings.rays = static_cast<int>(parse_integer("--rays", text, 1, 1 << 20));
+           })
+      ->group(pass_one_group);
+  add_text(command, "--hemicube-resolution", "N",
+           fmt::format("cells along an edge of a hemicube's top face, an even number [{}]",
+                       by_preset(&QualityPreset::hemicube_resolution)),
+           [&](const std::string& text) {
+             settings.hemicube_resolution = parse_resolution("--hemicube-resolution", text);
+           })
+      ->group(study_group);
+  add_solver_options(command, options);
   add_text(command, "--link-error", "X",
            fmt::format("--mesh hierarchical: interpolation error allowed, relative to the light "
                        "there [{}]",

@@ -60,11 +60,11 @@ TEST_F(BatchTest, WhatCannotBeWrittenFailsAlone) {
 TEST_F(BatchTest, AFullDiskLosesOnlyWhatDoesNotFit) {
   write_jobs({{{"scenes", "room.glb"},
                {"outputs", "large.exr"},
-               {"settings", {{"size", "640x480"}, {"float", true}}}},
+               {"settings", {{"size", "1280x960"}, {"float", true}}}},
               {{"scenes", "room.glb"}, {"outputs", "small.exr"}}});
   const Outcome outcome = run_other_program(
       "/bin/sh", folder_.path(),
-      {"-c", "trap '' XFSZ; ulimit -f 200; exec " MENINAS_PROGRAM " batch jobs.json -o out"});
+      {"-c", "trap '' XFSZ; ulimit -f 2000; exec " MENINAS_PROGRAM " batch jobs.json -o out"});
   EXPECT_EQ(outcome.code, 4) << outcome.err;
   EXPECT_THAT(outcome.err,
               HasSubstr("large.exr failed: out/large.exr: cannot write: the file is larger"));

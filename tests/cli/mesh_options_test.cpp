@@ -80,7 +80,7 @@ TEST_F(MeshOptions, ASolutionShowsThePictureOfItsRun) {
 TEST_F(MeshOptions, WhatMakesNoSenseIsSaid) {
   expect_usage_error("--adaptive: '0' is not positive", {"--adaptive", "0"});
   expect_usage_error("--link-error: '-1' is not positive", {"--link-error", "-1"});
-  expect_usage_error("--mesh: 'triangles' is not one of uniform, hierarchical",
+  expect_usage_error("--mesh: no value 'triangles', there is uniform, hierarchical",
                      {"--mesh", "triangles"});
   expect_usage_error("render: --adaptive excludes --no-adaptive", {"--adaptive", "--no-adaptive"});
   expect_usage_error("--mesh: has no effect with --mode reference: there is no pass one",

@@ -25,7 +25,7 @@ PassOneSettings by_nodes(double element_size, double link_error, int rays) {
 }
 
 PassOneSettings by_rows(PassOneSettings settings, std::uint32_t seed) {
-  settings.solver.method = SolverMethod::bicgstab;
+  settings.cut = MeshCut::uniform;
   settings.form_factors.seed = settings.direct.seed = seed;
   return settings;
 }

@@ -69,29 +69,5 @@ TEST(ElementSizes, AreThoseOfTheMesh) {
   EXPECT_LE(on_cube, 600U);
 }
 
-// The sun at 45 degrees: the shadow is one metre of a ground with elements of five.
-TEST(ElementSizes, ShadowsOnALitGroundAreFound) {
-  Scene scene = cube_on_ground();
-  PunctualLight sun;
-  sun.kind = PunctualKind::directional;
-  sun.direction = glm::normalize(Direction(1.0, -1.0, 0.0));
-  scene.lights.push_back(sun);
-  const auto l = lit(std::move(scene), {.target_elements = 600});
-  PassOneSettings settings;
-  settings.form_factors.rays = settings.interpolation.rays = 64;
-  settings.cut = MeshCut::hierarchical;
-  settings.interpolation.shadow_bend = 0.02;
-  const RadiositySolution solution = solve_pass_one(l->light, settings);
-  const ElementMesh& mesh = solution.field.mesh();
-  const SideId ground = mesh.sides_of_patch[index(l->mesh.sides[0].patch)][0];
-  const auto at = [&](double x, double z) {
-    const Patch& patch = l->surfaces.patches[index(mesh.sides[index(ground)].patch)];
-    return irradiance_at(mesh, solution.field, ground, uv_at(patch, Point3(x, 0.0, z))).g;
-  };
-  const double open = std::sqrt(0.5);
-  EXPECT_NEAR(at(30.0, 30.0), open, 0.01 * open); // the cube returns next to nothing to there
-  EXPECT_LT(at(1.5, 0.5), 0.3 * open);            // light of the ground by way of the cube
-}
-
 } // namespace
 } // namespace meninas::test
