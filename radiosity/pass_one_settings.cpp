@@ -33,7 +33,7 @@ int power_of_two(int at_least) {
 PassOneQuality pass_one_quality(Quality quality) {
   switch (quality) {
   case Quality::draft:
-    return {.target_elements = 2'250,
+    return {.target_elements = 4'500,
             .rays = 128,
             .hemicube_resolution = 32,
             .link_error = 0.02,

@@ -25,11 +25,10 @@ struct OutOfTime {};
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-/// The presets' link errors, between them and beyond: half of it where there are six times as many elements.
+/// The presets' link errors, between them and beyond: half of it for four times as many elements.
 double link_error_of(double elements) {
-  const PassOneQuality draft = pass_one_quality(Quality::draft);
-  constexpr double order = 0.4;
-  const double error = draft.link_error * std::pow(elements / draft.target_elements, -order);
+  const PassOneQuality normal = pass_one_quality(Quality::normal);
+  const double error = normal.link_error * std::sqrt(normal.target_elements / elements);
   return std::round(1e4 * error) * 1e-4;
 }
 

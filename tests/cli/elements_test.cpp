@@ -40,9 +40,9 @@ protected:
 };
 
 TEST_F(Elements, AreThoseOfThePresets) {
-  EXPECT_EQ(picture({"--elements", "2250"}), picture({}));
+  EXPECT_EQ(picture({"--elements", "4500"}), picture({}));
   EXPECT_NE(picture({"--elements", "1000"}), picture({}));
-  EXPECT_EQ(picture({"--mesh", "uniform", "--elements", "2250"}), picture({"--mesh", "uniform"}));
+  EXPECT_EQ(picture({"--mesh", "uniform", "--elements", "4500"}), picture({"--mesh", "uniform"}));
 }
 
 // Five walls of a square metre and a lamp: cells are never larger than asked for,

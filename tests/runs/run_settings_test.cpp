@@ -51,7 +51,7 @@ TEST(Elements, AreThePresetsUnlessTheyAreAskedFor) {
     return two_pass_settings(settings).pass_one.mesh.target_elements;
   };
   RunSettings settings = with_quality(Quality::draft);
-  EXPECT_EQ(wanted(settings), 2250.0);
+  EXPECT_EQ(wanted(settings), 4500.0);
   settings.elements = 5000;
   EXPECT_EQ(wanted(settings), 5000.0);
   settings.form_factors = FormFactorMethod::analytic;
