@@ -34,20 +34,13 @@ const Choices<DiffuseTerm> diffuse_terms{{"interpolated", DiffuseTerm::interpola
 const Choices<Interpolation> interpolations{{"average", Interpolation::average},
                                             {"gather", Interpolation::gather}};
 
-/// An option whose text `take` parses; `shown` stands for its value in the help.
-CLI::Option* add_text(CLI::App& command, const std::string& option, const std::string& shown,
-                      const std::string& description,
-                      std::function<void(const std::string&)> take) {
-  return command.add_option_function<std::string>(option, take, description)->type_name(shown);
-}
-
 /// Options that choose one of several names; the default is the one a default run has.
 template <typename Value, typename Take>
-CLI::Option* add_choice(CLI::App& command, const std::string& option, const Choices<Value>& choices,
-                        Value standard, const std::string& description, Take take) {
-  return add_text(command, option, fmt::format("{}", fmt::join(names_of(choices), "|")),
-                  fmt::format("{} [{}]", description, name_of(standard, choices)),
-                  [=](const std::string& text) { take(parse_choice(option, text, choices)); });
+Option add_choice(Options& command, const std::string& option, const Choices<Value>& choices,
+                  Value standard, const std::string& description, Take take) {
+  return command.add(option, fmt::format("{}", fmt::join(names_of(choices), "|")),
+                     fmt::format("{} [{}]", description, name_of(standard, choices)),
+                     [=](const std::string& text) { take(parse_choice(option, text, choices)); });
 }
 
 /// "draft 1, normal 2, fine 3"
@@ -61,35 +54,35 @@ std::string by_preset(Field Owner::*field) {
 }
 
 /// `--adaptive [X]`: without X the preset's.
-void add_adaptive(CLI::App& command, RunSettings& settings) {
-  CLI::Option* adaptive =
-      add_text(
-          command, "--adaptive", "[X]",
-          fmt::format("subdivide elements, at shadow edges above all, until the RMS interpolation "
-                      "error is below X [{}]",
-                      by_preset(&QualityPreset::adaptive_error)),
-          [&](const std::string& text) {
-            settings.adaptive = WithAdaptivity::yes;
-            if (text != preset_value) {
-              settings.adaptive_error = parse_number("--adaptive", text, Sign::positive);
-            }
-          })
-          ->expected(0, 1)
-          ->default_str(preset_value)
-          ->group(study_group);
+void add_adaptive(Options& command, RunSettings& settings) {
+  const Option adaptive =
+      command
+          .add("--adaptive", "[X]",
+               fmt::format(
+                   "subdivide elements, at shadow edges above all, until the RMS interpolation "
+                   "error is below X [{}]",
+                   by_preset(&QualityPreset::adaptive_error)),
+               [&](const std::string& text) {
+                 settings.adaptive = WithAdaptivity::yes;
+                 if (text != preset_value) {
+                   settings.adaptive_error = parse_number("--adaptive", text, Sign::positive);
+                 }
+               })
+          .value_if_given(preset_value)
+          .group(study_group);
   command
-      .add_flag_callback(
-          "--no-adaptive", [&] { settings.adaptive = WithAdaptivity::no; },
-          "elements of one size [yes]")
-      ->excludes(adaptive)
-      ->group(study_group);
-  add_text(command, "--bends", "X",
+      .add_flag("--no-adaptive", "elements of one size [yes]",
+                [&] { settings.adaptive = WithAdaptivity::no; })
+      .excludes(adaptive)
+      .group(study_group);
+  command
+      .add("--bends", "X",
            "refine where indirect light curves, as at contact edges, by more than X of the scene's "
            "mean between vertices [off]",
            [&](const std::string& text) {
              settings.bends = parse_number("--bends", text, Sign::positive);
            })
-      ->group(study_group);
+      .group(study_group);
 }
 
 } // namespace
@@ -98,14 +91,15 @@ DiffuseTerm parse_diffuse(const std::string& text) {
   return parse_choice("--diffuse", text, diffuse_terms);
 }
 
-void add_scene(CLI::App& command, CommonOptions& options) {
-  command.add_option("SCENE", options.scene, "glTF 2.0 scene, .gltf or .glb")
-      ->type_name("")
-      ->required();
+void add_scene(Options& command, CommonOptions& options) {
+  command
+      .add("SCENE", "", "glTF 2.0 scene, .gltf or .glb",
+           [&](const std::string& text) { options.scene = text; })
+      .required();
   GltfSettings& gltf = options.settings.gltf;
   add_allow_external(command, gltf);
-  add_text(
-      command, "--memory-limit", "SIZE",
+  command.add(
+      "--memory-limit", "SIZE",
       fmt::format("refuse a run that would need more memory, such as 800M [{}G to read the scene, "
                   "all the machine has for the rest]",
                   gltf.memory_limit >> 30),
@@ -115,27 +109,28 @@ void add_scene(CLI::App& command, CommonOptions& options) {
       });
 }
 
-void add_allow_external(CLI::App& command, GltfSettings& settings) {
-  command.add_flag_callback(
-      "--allow-external", [&] { settings.external_files = ExternalFiles::anywhere; },
-      "read buffers and textures outside the scene's folder [refused]");
+void add_allow_external(Options& command, GltfSettings& settings) {
+  command.add_flag("--allow-external",
+                   "read buffers and textures outside the scene's folder [refused]",
+                   [&] { settings.external_files = ExternalFiles::anywhere; });
 }
 
-void add_quality(CLI::App& command, CommonOptions& options) {
+void add_quality(Options& command, CommonOptions& options) {
   add_choice(command, "--quality", qualities, RunSettings{}.quality,
              "preset of all options of accuracy; each can be given by itself",
              [&](Quality quality) { options.settings.quality = quality; });
 }
 
-void add_mesh_options(CLI::App& command, CommonOptions& options) {
+void add_mesh_options(Options& command, CommonOptions& options) {
   RunSettings& settings = options.settings;
-  add_text(command, "--element-size", "METRES",
-           "edge length of the mesh elements [as --elements says]",
+  command
+      .add("--element-size", "METRES", "edge length of the mesh elements [as --elements says]",
            [&](const std::string& text) {
              settings.element_size = parse_number("--element-size", text, Sign::positive);
            })
-      ->group(pass_one_group);
-  add_text(command, "--elements", "N",
+      .group(pass_one_group);
+  command
+      .add("--elements", "N",
            fmt::format("number of mesh elements, about; with --adaptive before they are divided "
                        "[{}; with --adaptive {}]",
                        by_preset(&QualityPreset::target_elements),
@@ -144,111 +139,113 @@ void add_mesh_options(CLI::App& command, CommonOptions& options) {
              settings.elements = static_cast<int>(
                  parse_integer("--elements", text, 1, std::int64_t{MeshSettings{}.max_elements}));
            })
-      ->group(pass_one_group);
-  add_text(command, "--mirror-depth", "N",
-           "follow light over at most N mirrors [as many as matter]",
+      .group(pass_one_group);
+  command
+      .add("--mirror-depth", "N", "follow light over at most N mirrors [as many as matter]",
            [&](const std::string& text) {
              settings.mirror_depth =
                  static_cast<int>(parse_integer("--mirror-depth", text, 0, 1'000'000));
            })
-      ->group(pass_one_group);
+      .group(pass_one_group);
 }
 
-void add_pass_one_options(CLI::App& command, CommonOptions& options) {
+void add_pass_one_options(Options& command, CommonOptions& options) {
   RunSettings& settings = options.settings;
   const PassOneSettings standard = two_pass_settings({}).pass_one;
   add_choice(command, "--form-factors", form_factor_methods, standard.form_factors.method,
              "how form factors are computed",
              [&](FormFactorMethod method) { settings.form_factors = method; })
-      ->group(study_group);
-  add_text(command, "--rays", "N",
+      .group(study_group);
+  command
+      .add("--rays", "N",
            fmt::format("rays per element for form factors, a power of two [{}]",
                        by_preset(&QualityPreset::rays)),
            [&](const std::string& text) {
              settings.rays = static_cast<int>(parse_integer("--rays", text, 1, 1 << 20));
            })
-      ->group(pass_one_group);
-  add_text(command, "--hemicube-resolution", "N",
+      .group(pass_one_group);
+  command
+      .add("--hemicube-resolution", "N",
            fmt::format("cells along an edge of a hemicube's top face, an even number [{}]",
                        by_preset(&QualityPreset::hemicube_resolution)),
            [&](const std::string& text) {
              settings.hemicube_resolution = parse_resolution("--hemicube-resolution", text);
            })
-      ->group(study_group);
-  add_choice(command, "--solver", solvers, standard.solver.method, "how the radiosity system is solved",
+      .group(study_group);
+  add_choice(command, "--solver", solvers, standard.solver.method,
+             "how the radiosity system is solved",
              [&](SolverMethod method) { settings.solver = method; })
-      ->group(study_group);
-  add_text(
-      command, "--tolerance", "X",
-      fmt::format("relative error at which the solver stops [{}]", standard.solver.tolerance),
-      [&](const std::string& text) {
-        settings.tolerance = parse_number("--tolerance", text, Sign::positive);
-      })
-      ->group(study_group);
-  add_text(command, "--steps", "N",
-           "stop --solver progressive after N shots [at --tolerance]",
+      .group(study_group);
+  command
+      .add("--tolerance", "X",
+           fmt::format("relative error at which the solver stops [{}]", standard.solver.tolerance),
+           [&](const std::string& text) {
+             settings.tolerance = parse_number("--tolerance", text, Sign::positive);
+           })
+      .group(study_group);
+  command
+      .add("--steps", "N", "stop --solver progressive after N shots [at --tolerance]",
            [&](const std::string& text) {
              settings.steps = static_cast<int>(parse_integer("--steps", text, 1, 1'000'000'000));
            })
-      ->group(study_group);
-  add_text(command, "--link-error", "X",
+      .group(study_group);
+  command
+      .add("--link-error", "X",
            fmt::format("--solver hierarchical: interpolation error allowed, relative to the light "
                        "there [{}]",
                        by_preset(&QualityPreset::link_error)),
            [&](const std::string& text) {
              settings.link_error = parse_number("--link-error", text, Sign::positive);
            })
-      ->group(study_group);
+      .group(study_group);
   add_adaptive(command, settings);
   add_choice(command, "--interpolation", interpolations, standard.interpolation.method,
              "irradiance at vertices: averaged over the elements around, or gathered there",
              [&](Interpolation method) { settings.interpolation = method; })
-      ->group(study_group);
+      .group(study_group);
 }
 
-void add_light_options(CLI::App& command, CommonOptions& options) {
-  add_text(command, "--background", "L|R,G,B",
-           "radiance of the sky around the scene, W/m^2/sr [0]", [&](const std::string& text) {
-             const Rgb radiance = parse_colour("--background", text);
-             if (!glm::all(glm::lessThanEqual(radiance, Rgb(brightest_background)))) {
-               throw UsageError("--background", fmt::format("'{}' is over {:g} W/m^2/sr", text,
-                                                            brightest_background));
-             }
-             options.settings.background = radiance;
-           });
+void add_light_options(Options& command, CommonOptions& options) {
+  command.add("--background", "L|R,G,B", "radiance of the sky around the scene, W/m^2/sr [0]",
+              [&](const std::string& text) {
+                const Rgb radiance = parse_colour("--background", text);
+                if (!glm::all(glm::lessThanEqual(radiance, Rgb(brightest_background)))) {
+                  throw UsageError("--background", fmt::format("'{}' is over {:g} W/m^2/sr", text,
+                                                               brightest_background));
+                }
+                options.settings.background = radiance;
+              });
 }
 
-void add_run_options(CLI::App& command, CommonOptions& options) {
-  add_text(command, "--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
+void add_run_options(Options& command, CommonOptions& options) {
+  command.add("--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
     options.settings.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
   });
-  add_text(command, "--seed", "N", fmt::format("seed of all sampling [{}]", RunSettings{}.seed),
-           [&](const std::string& text) {
-             options.settings.seed =
-                 static_cast<std::uint32_t>(parse_integer("--seed", text, 0, 0xffffffffLL));
-           });
-  command.add_flag_callback(
-      "--quiet", [&] { options.verbosity = Verbosity::quiet; },
-      "print warnings and errors only");
+  command.add("--seed", "N", fmt::format("seed of all sampling [{}]", RunSettings{}.seed),
+              [&](const std::string& text) {
+                options.settings.seed =
+                    static_cast<std::uint32_t>(parse_integer("--seed", text, 0, 0xffffffffLL));
+              });
+  command.add_flag("--quiet", "print warnings and errors only",
+                   [&] { options.verbosity = Verbosity::quiet; });
 }
 
-CLI::Option* add_file(CLI::App& command, const std::string& option,
-                      std::optional<std::filesystem::path>& file, const std::string& description) {
-  return add_text(command, option, "FILE", description,
-                  [&](const std::string& text) { file = text; });
+Option add_file(Options& command, const std::string& option,
+                std::optional<std::filesystem::path>& file, const std::string& description) {
+  return command.add(option, "FILE", description, [&](const std::string& text) { file = text; });
 }
 
-void check_pass_one_options(const CLI::App& command, const RunSettings& settings) {
+void check_pass_one_options(const Options& command, const RunSettings& settings) {
   if (settings.elements && settings.element_size) {
     throw UsageError("--elements",
                      "does not go with --element-size, which says how many there are");
   }
   const bool by_cubes = settings.form_factors == FormFactorMethod::hemicube;
-  if (by_cubes && command.count("--rays") > 0) {
+  if (by_cubes && command.given("--rays")) {
     throw UsageError("--rays", "has no effect with --form-factors hemicube: choose "
                                "--hemicube-resolution");
   }
-  if (!by_cubes && command.count("--hemicube-resolution") > 0) {
+  if (!by_cubes && command.given("--hemicube-resolution")) {
     throw UsageError("--hemicube-resolution", "has no effect without --form-factors hemicube");
   }
   if (settings.steps && settings.solver != SolverMethod::progressive) {
@@ -275,13 +272,13 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
   }
 }
 
-void refuse_pass_one_options(const CLI::App& command, const std::string& reason) {
+void refuse_pass_one_options(const Options& command, const std::string& reason) {
   constexpr std::array options{
       "--element-size", "--elements",    "--form-factors", "--rays",       "--hemicube-resolution",
       "--solver",       "--tolerance",   "--steps",        "--link-error", "--interpolation",
       "--adaptive",     "--no-adaptive", "--bends"};
   for (const char* option : options) {
-    if (command.count(option) > 0) {
+    if (command.given(option)) {
       throw UsageError(option, reason);
     }
   }
