@@ -136,57 +136,51 @@ void run(BatchOptions& options) {
                    readable_duration(report.seconds), (request.folder / "index.html").string()));
 }
 
-void add_options(CLI::App& command, BatchOptions& options) {
+void add_options(Options& command, BatchOptions& options) {
   BatchRequest& request = options.request;
-  const auto add = [&](const std::string& option, const std::string& shown,
-                       const std::string& description,
-                       std::function<void(const std::string&)> take) {
-    return command.add_option_function<std::string>(option, take, description)->type_name(shown);
-  };
-  add("-o,--output", "DIR", "folder of the pictures, made if it is not there",
-      [&](const std::string& text) { request.folder = text; })
-      ->required();
-  command.add_flag_callback(
-      "--resume", [&] { request.resume = Resume::yes; },
-      "keep pictures that an earlier run made from the same scene and settings");
-  command.add_flag_callback(
-      "--dry-run", [&] { options.task = BatchTask::outlook; },
-      "list what would be solved and rendered, and end");
-  add("--shard", "K/N", "make only part K of N, such as 1/4",
-      [&](const std::string& text) { request.shard = parse_shard("--shard", text); });
-  add("--memory-limit", "SIZE", "memory that the process may need, such as 4G; fewer pictures run at a time to stay below [all the machine has]",
+  command
+      .add("-o,--output", "DIR", "folder of the pictures, made if it is not there",
+           [&](const std::string& text) { request.folder = text; })
+      .required();
+  command.add_flag("--resume",
+                   "keep pictures that an earlier run made from the same scene and settings",
+                   [&] { request.resume = Resume::yes; });
+  command.add_flag("--dry-run", "list what would be solved and rendered, and end",
+                   [&] { options.task = BatchTask::outlook; });
+  command.add("--shard", "K/N", "make only part K of N, such as 1/4",
+              [&](const std::string& text) { request.shard = parse_shard("--shard", text); });
+  command.add(
+      "--memory-limit", "SIZE",
+      "memory that the process may need, such as 4G; fewer pictures run at a time to stay below "
+      "[all the machine has]",
       [&](const std::string& text) { request.memory_limit = parse_bytes("--memory-limit", text); });
   add_allow_external(command, request.gltf);
-  add("--cache", "DIR", "folder for solutions [.meninas/solutions in the output folder]",
-      [&](const std::string& text) { request.cache = text; });
+  command.add("--cache", "DIR", "folder for solutions [.meninas/solutions in the output folder]",
+              [&](const std::string& text) { request.cache = text; });
   add_file(command, "--junit", request.junit, "write JUnit XML");
-  command.add_flag_callback(
-      "--schema",
-      [] {
-        print(schema_with_settings());
-        throw CLI::Success();
-      },
-      "print the JSON Schema of jobs files, and end");
-  add("--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
+  command.add_flag("--schema", "print the JSON Schema of jobs files, and end", [] {
+    print(schema_with_settings());
+    throw Answered{};
+  });
+  command.add("--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
     request.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
   });
-  command.add_flag_callback(
-      "--quiet", [&] { options.verbosity = Verbosity::quiet; },
-      "print warnings and errors only");
+  command.add_flag("--quiet", "print warnings and errors only",
+                   [&] { options.verbosity = Verbosity::quiet; });
 }
 
 } // namespace
 
-Command add_batch_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+Command add_batch_command(Options& program) {
+  Options& command = program.add_command(
       "batch", "Render many scenes, cameras and settings side by side, resumable");
   const auto options = std::make_shared<BatchOptions>();
   command
-      ->add_option("JOBS", options->request.jobs_file, "JSON: scenes, cameras, settings, outputs")
-      ->type_name("")
-      ->required();
-  add_options(*command, *options);
-  return {command, [=] { run(*options); }};
+      .add("JOBS", "", "JSON: scenes, cameras, settings, outputs",
+           [=](const std::string& text) { options->request.jobs_file = text; })
+      .required();
+  add_options(command, *options);
+  return {&command, [=] { run(*options); }};
 }
 
 } // namespace meninas

@@ -1,7 +1,7 @@
 // The commands of the program, one file each.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "cli/options.h"
 
 #include <functional>
 
@@ -9,18 +9,18 @@ namespace meninas {
 
 /// A command's options, and what it does once they are parsed.
 struct Command {
-  CLI::App* options = nullptr; ///< belongs to the program's options
+  Options* options = nullptr; ///< belongs to the program's options
   std::function<void()> run;
 };
 
-Command add_render_command(CLI::App& program);
-Command add_solve_command(CLI::App& program);
-Command add_plan_command(CLI::App& program);
-Command add_formfactors_command(CLI::App& program);
-Command add_diff_command(CLI::App& program);
-Command add_regress_command(CLI::App& program);
-Command add_compare_command(CLI::App& program);
-Command add_batch_command(CLI::App& program);
-Command add_trade_command(CLI::App& program);
+Command add_render_command(Options& program);
+Command add_solve_command(Options& program);
+Command add_plan_command(Options& program);
+Command add_formfactors_command(Options& program);
+Command add_diff_command(Options& program);
+Command add_regress_command(Options& program);
+Command add_compare_command(Options& program);
+Command add_batch_command(Options& program);
+Command add_trade_command(Options& program);
 
 } // namespace meninas

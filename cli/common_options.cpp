@@ -39,20 +39,13 @@ const Choices<DiffuseTerm> diffuse_terms{{"interpolated", DiffuseTerm::interpola
 const Choices<Interpolation> interpolations{{"average", Interpolation::average},
                                             {"gather", Interpolation::gather}};
 
-/// An option whose text `take` parses; `shown` stands for its value in the help.
-CLI::Option* add_text(CLI::App& command, const std::string& option, const std::string& shown,
-                      const std::string& description,
-                      std::function<void(const std::string&)> take) {
-  return command.add_option_function<std::string>(option, take, description)->type_name(shown);
-}
-
 /// Options that choose one of several names; the default is the one a default run has.
 template <typename Value, typename Take>
-CLI::Option* add_choice(CLI::App& command, const std::string& option, const Choices<Value>& choices,
-                        Value standard, const std::string& description, Take take) {
-  return add_text(command, option, fmt::format("{}", fmt::join(names_of(choices), "|")),
-                  fmt::format("{} [{}]", description, name_of(standard, choices)),
-                  [=](const std::string& text) { take(parse_choice(option, text, choices)); });
+Option add_choice(Options& command, const std::string& option, const Choices<Value>& choices,
+                  Value standard, const std::string& description, Take take) {
+  return command.add(option, fmt::format("{}", fmt::join(names_of(choices), "|")),
+                     fmt::format("{} [{}]", description, name_of(standard, choices)),
+                     [=](const std::string& text) { take(parse_choice(option, text, choices)); });
 }
 
 /// "draft 1, normal 2, fine 3"
@@ -66,40 +59,38 @@ std::string by_preset(Field Owner::*field) {
 }
 
 /// Older names of `--mesh`.
-void add_adaptive(CLI::App& command, CommonOptions& options) {
-  CLI::Option* adaptive =
-      add_text(
-          command, "--adaptive", "[X]", "older name of --mesh hierarchical --link-error X",
-          [&](const std::string& text) {
-            options.settings.mesh = MeshCut::hierarchical;
-            options.notes.emplace_back("--adaptive is --mesh hierarchical --link-error now");
-            if (text != preset_value) {
-              options.settings.link_error = parse_number("--adaptive", text, Sign::positive);
-            }
-          })
-          ->expected(0, 1)
-          ->default_str(preset_value)
-          ->group(study_group);
+void add_adaptive(Options& command, CommonOptions& options) {
+  const Option adaptive =
+      command
+          .add("--adaptive", "[X]", "older name of --mesh hierarchical --link-error X",
+               [&](const std::string& text) {
+                 options.settings.mesh = MeshCut::hierarchical;
+                 options.notes.emplace_back("--adaptive is --mesh hierarchical --link-error now");
+                 if (text != preset_value) {
+                   options.settings.link_error = parse_number("--adaptive", text, Sign::positive);
+                 }
+               })
+          .value_if_given(preset_value)
+          .group(study_group);
   command
-      .add_flag_callback(
-          "--no-adaptive",
-          [&] {
-            options.settings.mesh = MeshCut::uniform;
-            options.notes.emplace_back("--no-adaptive is --mesh uniform now");
-          },
-          "older name of --mesh uniform")
-      ->excludes(adaptive)
-      ->group(study_group);
+      .add_flag("--no-adaptive", "older name of --mesh uniform",
+                [&] {
+                  options.settings.mesh = MeshCut::uniform;
+                  options.notes.emplace_back("--no-adaptive is --mesh uniform now");
+                })
+      .excludes(adaptive)
+      .group(study_group);
 }
 
-void add_bends(CLI::App& command, RunSettings& settings) {
-  add_text(command, "--bends", "X",
+void add_bends(Options& command, RunSettings& settings) {
+  command
+      .add("--bends", "X",
            "refine where indirect light curves, as at contact edges, by more than X of the scene's "
            "mean between vertices [off]",
            [&](const std::string& text) {
              settings.bends = parse_number("--bends", text, Sign::positive);
            })
-      ->group(study_group);
+      .group(study_group);
 }
 
 } // namespace
@@ -108,14 +99,15 @@ DiffuseTerm parse_diffuse(const std::string& text) {
   return parse_choice("--diffuse", text, diffuse_terms);
 }
 
-void add_scene(CLI::App& command, CommonOptions& options) {
-  command.add_option("SCENE", options.scene, "glTF 2.0 scene, .gltf or .glb")
-      ->type_name("")
-      ->required();
+void add_scene(Options& command, CommonOptions& options) {
+  command
+      .add("SCENE", "", "glTF 2.0 scene, .gltf or .glb",
+           [&](const std::string& text) { options.scene = text; })
+      .required();
   GltfSettings& gltf = options.settings.gltf;
   add_allow_external(command, gltf);
-  add_text(
-      command, "--memory-limit", "SIZE",
+  command.add(
+      "--memory-limit", "SIZE",
       fmt::format("refuse a run that would need more memory, such as 800M [{}G to read the scene, "
                   "all the machine has for the rest]",
                   gltf.memory_limit >> 30),
@@ -125,48 +117,50 @@ void add_scene(CLI::App& command, CommonOptions& options) {
       });
 }
 
-void add_allow_external(CLI::App& command, GltfSettings& settings) {
-  command.add_flag_callback(
-      "--allow-external", [&] { settings.external_files = ExternalFiles::anywhere; },
-      "read buffers and textures outside the scene's folder [refused]");
+void add_allow_external(Options& command, GltfSettings& settings) {
+  command.add_flag("--allow-external",
+                   "read buffers and textures outside the scene's folder [refused]",
+                   [&] { settings.external_files = ExternalFiles::anywhere; });
 }
 
-void add_quality(CLI::App& command, CommonOptions& options) {
+void add_quality(Options& command, CommonOptions& options) {
   add_choice(command, "--quality", qualities, RunSettings{}.quality,
              "preset of all options of accuracy; each can be given by itself",
              [&](Quality quality) { options.settings.quality = quality; });
 }
 
-void add_mesh_options(CLI::App& command, CommonOptions& options) {
+void add_mesh_options(Options& command, CommonOptions& options) {
   RunSettings& settings = options.settings;
-  add_text(command, "--element-size", "METRES",
-           "edge length of the mesh elements [as --elements says]",
+  command
+      .add("--element-size", "METRES", "edge length of the mesh elements [as --elements says]",
            [&](const std::string& text) {
              settings.element_size = parse_number("--element-size", text, Sign::positive);
            })
-      ->group(pass_one_group);
-  add_text(command, "--elements", "N",
+      .group(pass_one_group);
+  command
+      .add("--elements", "N",
            fmt::format("number of mesh elements, about [{}]",
                        by_preset(&QualityPreset::target_elements)),
            [&](const std::string& text) {
              settings.elements = static_cast<int>(
                  parse_integer("--elements", text, 1, std::int64_t{MeshSettings{}.max_elements}));
            })
-      ->group(pass_one_group);
-  add_text(command, "--mirror-depth", "N",
-           "follow light over at most N mirrors [as many as matter]",
+      .group(pass_one_group);
+  command
+      .add("--mirror-depth", "N", "follow light over at most N mirrors [as many as matter]",
            [&](const std::string& text) {
              settings.mirror_depth =
                  static_cast<int>(parse_integer("--mirror-depth", text, 0, 1'000'000));
            })
-      ->group(pass_one_group);
+      .group(pass_one_group);
 }
 
 /// Which unknowns the radiosity system has, and how it is solved.
-static void add_solver_options(CLI::App& command, CommonOptions& options) {
+static void add_solver_options(Options& command, CommonOptions& options) {
   RunSettings& settings = options.settings;
   const PassOneSettings standard = two_pass_settings({}).pass_one;
-  add_text(command, "--solver", fmt::format("{}", fmt::join(names_of(solvers), "|")),
+  command
+      .add("--solver", fmt::format("{}", fmt::join(names_of(solvers), "|")),
            fmt::format("how the radiosity system is solved [{}]", name_of(standard.solver.method)),
            [&](const std::string& text) {
              if (text == hierarchical_solver) {
@@ -176,108 +170,109 @@ static void add_solver_options(CLI::App& command, CommonOptions& options) {
                settings.solver = parse_choice("--solver", text, solvers);
              }
            })
-      ->group(study_group);
+      .group(study_group);
   add_choice(command, "--mesh", cuts, standard.cut,
              "what the unknowns are: elements of one size, or parts of surfaces as large as accuracy "
              "allows",
              [&](MeshCut cut) { settings.mesh = cut; })
-      ->group(study_group);
-  add_text(
-      command, "--tolerance", "X",
-      fmt::format("relative error at which the solver stops [{}]", standard.solver.tolerance),
-      [&](const std::string& text) {
-        settings.tolerance = parse_number("--tolerance", text, Sign::positive);
-      })
-      ->group(study_group);
-  add_text(command, "--steps", "N",
-           "stop --solver progressive after N shots [at --tolerance]",
+      .group(study_group);
+  command
+      .add("--tolerance", "X",
+           fmt::format("relative error at which the solver stops [{}]", standard.solver.tolerance),
+           [&](const std::string& text) {
+             settings.tolerance = parse_number("--tolerance", text, Sign::positive);
+           })
+      .group(study_group);
+  command
+      .add("--steps", "N", "stop --solver progressive after N shots [at --tolerance]",
            [&](const std::string& text) {
              settings.steps = static_cast<int>(parse_integer("--steps", text, 1, 1'000'000'000));
            })
-      ->group(study_group);
+      .group(study_group);
 }
 
-void add_pass_one_options(CLI::App& command, CommonOptions& options) {
+void add_pass_one_options(Options& command, CommonOptions& options) {
   RunSettings& settings = options.settings;
   const PassOneSettings standard = two_pass_settings({}).pass_one;
   add_choice(command, "--form-factors", form_factor_methods, standard.form_factors.method,
              "how form factors are computed",
              [&](FormFactorMethod method) { settings.form_factors = method; })
-      ->group(study_group);
-  add_text(command, "--rays", "N",
+      .group(study_group);
+  command
+      .add("--rays", "N",
            fmt::format("rays per element for form factors, a power of two [{}]",
                        by_preset(&QualityPreset::rays)),
            [&](const std::string& text) {
              settings.rays = static_cast<int>(parse_integer("--rays", text, 1, 1 << 20));
            })
-      ->group(pass_one_group);
-  add_text(command, "--hemicube-resolution", "N",
+      .group(pass_one_group);
+  command
+      .add("--hemicube-resolution", "N",
            fmt::format("cells along an edge of a hemicube's top face, an even number [{}]",
                        by_preset(&QualityPreset::hemicube_resolution)),
            [&](const std::string& text) {
              settings.hemicube_resolution = parse_resolution("--hemicube-resolution", text);
            })
-      ->group(study_group);
+      .group(study_group);
   add_solver_options(command, options);
-  add_text(command, "--link-error", "X",
+  command
+      .add("--link-error", "X",
            fmt::format("--mesh hierarchical: interpolation error allowed, relative to the light "
                        "there [{}]",
                        by_preset(&QualityPreset::link_error)),
            [&](const std::string& text) {
              settings.link_error = parse_number("--link-error", text, Sign::positive);
            })
-      ->group(study_group);
+      .group(study_group);
   add_adaptive(command, options);
   add_bends(command, settings);
   add_choice(command, "--interpolation", interpolations, standard.interpolation.method,
              "irradiance at vertices: averaged over the elements around, or gathered there",
              [&](Interpolation method) { settings.interpolation = method; })
-      ->group(study_group);
+      .group(study_group);
 }
 
-void add_light_options(CLI::App& command, CommonOptions& options) {
-  add_text(command, "--background", "L|R,G,B",
-           "radiance of the sky around the scene, W/m^2/sr [0]", [&](const std::string& text) {
-             const Rgb radiance = parse_colour("--background", text);
-             if (!glm::all(glm::lessThanEqual(radiance, Rgb(brightest_background)))) {
-               throw UsageError("--background", fmt::format("'{}' is over {:g} W/m^2/sr", text,
-                                                            brightest_background));
-             }
-             options.settings.background = radiance;
-           });
+void add_light_options(Options& command, CommonOptions& options) {
+  command.add("--background", "L|R,G,B", "radiance of the sky around the scene, W/m^2/sr [0]",
+              [&](const std::string& text) {
+                const Rgb radiance = parse_colour("--background", text);
+                if (!glm::all(glm::lessThanEqual(radiance, Rgb(brightest_background)))) {
+                  throw UsageError("--background", fmt::format("'{}' is over {:g} W/m^2/sr", text,
+                                                               brightest_background));
+                }
+                options.settings.background = radiance;
+              });
 }
 
-void add_run_options(CLI::App& command, CommonOptions& options) {
-  add_text(command, "--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
+void add_run_options(Options& command, CommonOptions& options) {
+  command.add("--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
     options.settings.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
   });
-  add_text(command, "--seed", "N", fmt::format("seed of all sampling [{}]", RunSettings{}.seed),
-           [&](const std::string& text) {
-             options.settings.seed =
-                 static_cast<std::uint32_t>(parse_integer("--seed", text, 0, 0xffffffffLL));
-           });
-  command.add_flag_callback(
-      "--quiet", [&] { options.verbosity = Verbosity::quiet; },
-      "print warnings and errors only");
+  command.add("--seed", "N", fmt::format("seed of all sampling [{}]", RunSettings{}.seed),
+              [&](const std::string& text) {
+                options.settings.seed =
+                    static_cast<std::uint32_t>(parse_integer("--seed", text, 0, 0xffffffffLL));
+              });
+  command.add_flag("--quiet", "print warnings and errors only",
+                   [&] { options.verbosity = Verbosity::quiet; });
 }
 
-CLI::Option* add_file(CLI::App& command, const std::string& option,
-                      std::optional<std::filesystem::path>& file, const std::string& description) {
-  return add_text(command, option, "FILE", description,
-                  [&](const std::string& text) { file = text; });
+Option add_file(Options& command, const std::string& option,
+                std::optional<std::filesystem::path>& file, const std::string& description) {
+  return command.add(option, "FILE", description, [&](const std::string& text) { file = text; });
 }
 
-void check_pass_one_options(const CLI::App& command, const RunSettings& settings) {
+void check_pass_one_options(const Options& command, const RunSettings& settings) {
   if (settings.elements && settings.element_size) {
     throw UsageError("--elements",
                      "does not go with --element-size, which says how many there are");
   }
   const bool by_cubes = settings.form_factors == FormFactorMethod::hemicube;
-  if (by_cubes && command.count("--rays") > 0) {
+  if (by_cubes && command.given("--rays")) {
     throw UsageError("--rays", "has no effect with --form-factors hemicube: choose "
                                "--hemicube-resolution");
   }
-  if (!by_cubes && command.count("--hemicube-resolution") > 0) {
+  if (!by_cubes && command.given("--hemicube-resolution")) {
     throw UsageError("--hemicube-resolution", "has no effect without --form-factors hemicube");
   }
   if (settings.steps && settings.solver != SolverMethod::progressive) {
@@ -299,13 +294,13 @@ void check_pass_one_options(const CLI::App& command, const RunSettings& settings
   }
 }
 
-void refuse_pass_one_options(const CLI::App& command, const std::string& reason) {
+void refuse_pass_one_options(const Options& command, const std::string& reason) {
   constexpr std::array options{
       "--element-size", "--elements",    "--form-factors", "--rays",       "--hemicube-resolution",
       "--solver",       "--tolerance",   "--steps",        "--link-error", "--interpolation",
       "--adaptive",     "--no-adaptive", "--bends",        "--mesh"};
   for (const char* option : options) {
-    if (command.count(option) > 0) {
+    if (command.given(option)) {
       throw UsageError(option, reason);
     }
   }

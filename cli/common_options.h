@@ -2,10 +2,9 @@
 // their help takes defaults from the presets and settings themselves.
 #pragma once
 
+#include "cli/options.h"
 #include "runs/run_events.h"
 #include "runs/run_settings.h"
-
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -31,34 +30,34 @@ struct CommonOptions {
   std::vector<std::string> notes; ///< on how options were read, a sentence each
 };
 
-void add_scene(CLI::App& command, CommonOptions& options);
+void add_scene(Options& command, CommonOptions& options);
 /// What add_scene adds, for commands that get their scenes otherwise.
-void add_allow_external(CLI::App& command, GltfSettings& settings);
-void add_quality(CLI::App& command, CommonOptions& options);
+void add_allow_external(Options& command, GltfSettings& settings);
+void add_quality(Options& command, CommonOptions& options);
 
 /// How finely the scene is divided, and how far mirrors are followed: what a plan depends on too.
-void add_mesh_options(CLI::App& command, CommonOptions& options);
+void add_mesh_options(Options& command, CommonOptions& options);
 
 /// The rest of pass one.
-void add_pass_one_options(CLI::App& command, CommonOptions& options);
+void add_pass_one_options(Options& command, CommonOptions& options);
 
 /// "direct", "gather", ... as `--diffuse` takes them.
 DiffuseTerm parse_diffuse(const std::string& text);
 
 /// What a scene is lit by beyond its own lights.
-void add_light_options(CLI::App& command, CommonOptions& options);
+void add_light_options(Options& command, CommonOptions& options);
 
 /// Throws UsageError when an option was given that the chosen methods do not obey.
-void check_pass_one_options(const CLI::App& command, const RunSettings& settings);
+void check_pass_one_options(const Options& command, const RunSettings& settings);
 
 /// Threads, seed, quiet.
-void add_run_options(CLI::App& command, CommonOptions& options);
+void add_run_options(Options& command, CommonOptions& options);
 
-CLI::Option* add_file(CLI::App& command, const std::string& option,
-                      std::optional<std::filesystem::path>& file, const std::string& description);
+Option add_file(Options& command, const std::string& option,
+                std::optional<std::filesystem::path>& file, const std::string& description);
 
 /// Throws UsageError when an option was given that only a run of pass one obeys.
-void refuse_pass_one_options(const CLI::App& command, const std::string& reason);
+void refuse_pass_one_options(const Options& command, const std::string& reason);
 
 /// Warnings, notes and progress on standard error.
 class Console {

@@ -13,10 +13,10 @@ struct CompareOptions {
   CompareRequest request;
 };
 
-void run(const CLI::App& command, CompareOptions& options) {
+void run(const Options& command, CompareOptions& options) {
   if (options.request.reference == WithReference::no) {
     for (const char* option : {"--max-error", "--max-seconds"}) {
-      if (command.count(option) > 0) {
+      if (command.given(option)) {
         throw UsageError(option, "has no effect without --reference");
       }
     }
@@ -29,14 +29,11 @@ void run(const CLI::App& command, CompareOptions& options) {
   compare_run(options.request, console.events());
 }
 
-void add_view_options(CLI::App& command, CompareOptions& options) {
+void add_view_options(Options& command, CompareOptions& options) {
   CompareRequest& request = options.request;
   const auto add = [&](const std::string& option, const std::string& shown,
-                       const std::string& description,
-                       std::function<void(const std::string&)> take) {
-    command.add_option_function<std::string>(option, take, description)
-        ->type_name(shown)
-        ->group("Picture");
+                       const std::string& description, const TakeText& take) {
+    command.add(option, shown, description, take).group("Picture");
   };
   add("--camera", "NAME", "camera to render [the first]",
       [&](const std::string& text) { request.camera = text; });
@@ -55,24 +52,20 @@ void add_view_options(CLI::App& command, CompareOptions& options) {
       });
 }
 
-void add_reference_options(CLI::App& command, CompareOptions& options) {
+void add_reference_options(Options& command, CompareOptions& options) {
   const char* const group = "Reference";
   command
-      .add_flag_callback(
-          "--reference", [&] { options.request.reference = WithReference::yes; },
-          "add the picture of the path tracer")
-      ->group(group);
+      .add_flag("--reference", "add the picture of the path tracer",
+                [&] { options.request.reference = WithReference::yes; })
+      .group(group);
   const auto add = [&](const std::string& option, const std::string& shown,
                        const std::string& description, std::optional<double>& value) {
     command
-        .add_option_function<std::string>(
-            option,
-            [option, &value](const std::string& text) {
-              value = parse_number(option, text, Sign::positive);
-            },
-            description)
-        ->type_name(shown)
-        ->group(group);
+        .add(option, shown, description,
+             [option, &value](const std::string& text) {
+               value = parse_number(option, text, Sign::positive);
+             })
+        .group(group);
   };
   add("--max-error", "X", "stop the path tracer at this standard error of the mean radiance",
       options.common.settings.max_error);
@@ -81,22 +74,23 @@ void add_reference_options(CLI::App& command, CompareOptions& options) {
 
 } // namespace
 
-Command add_compare_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+Command add_compare_command(Options& program) {
+  Options& command = program.add_command(
       "compare", "Render a view in every mode, with differences, figures and a page to look at");
   const auto options = std::make_shared<CompareOptions>();
-  add_scene(*command, options->common);
-  command->add_option("-o,--output", options->request.folder, "folder of the page, made if it is not there")
-      ->type_name("DIR")
-      ->required();
-  add_reference_options(*command, *options);
-  add_quality(*command, options->common);
-  add_light_options(*command, options->common);
-  add_view_options(*command, *options);
-  add_mesh_options(*command, options->common);
-  add_pass_one_options(*command, options->common);
-  add_run_options(*command, options->common);
-  return {command, [=] { run(*command, *options); }};
+  add_scene(command, options->common);
+  command
+      .add("-o,--output", "DIR", "folder of the page, made if it is not there",
+           [=](const std::string& text) { options->request.folder = text; })
+      .required();
+  add_reference_options(command, *options);
+  add_quality(command, options->common);
+  add_light_options(command, options->common);
+  add_view_options(command, *options);
+  add_mesh_options(command, options->common);
+  add_pass_one_options(command, options->common);
+  add_run_options(command, options->common);
+  return {&command, [=, &command] { run(command, *options); }};
 }
 
 } // namespace meninas

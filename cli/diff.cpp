@@ -54,40 +54,32 @@ void run(DiffOptions& options) {
   }
 }
 
-void add_limits(CLI::App& command, DiffRequest& request) {
+void add_limits(Options& command, DiffRequest& request) {
   for (const LimitOption& limit : limit_options) {
     const std::string name = limit.option;
     const Metric metric = limit.metric;
     command
-        .add_option_function<std::string>(
-            name,
-            [&request, name, metric](const std::string& text) {
-              request.limits.push_back({metric, parse_number(name, text, Sign::any)});
-            },
-            limit.description)
-        ->type_name("X")
-        ->group("Limits (exit code 1 beyond one)");
+        .add(name, "X", limit.description,
+             [&request, name, metric](const std::string& text) {
+               request.limits.push_back({metric, parse_number(name, text, Sign::any)});
+             })
+        .group("Limits (exit code 1 beyond one)");
   }
 }
 
-void add_picture_options(CLI::App& command, DiffRequest& request) {
-  const auto add = [&](const std::string& option, const std::string& shown,
-                       const std::string& description,
-                       std::function<void(const std::string&)> take) {
-    command.add_option_function<std::string>(option, take, description)->type_name(shown);
-  };
-  add("--layer", "NAME", "compare this layer of both EXRs",
-      [&](const std::string& text) { request.layer = text; });
-  add("--heat", fmt::format("{}", fmt::join(names_of(metric_choices()), "|")),
-      "error that the heat map shows [flip]", [&](const std::string& text) {
-        request.heat_metric = parse_choice("--heat", text, metric_choices());
-      });
-  add("--exposure", "EV",
-      "exposure at which ssim and flip compare EXRs [automatic, for B]",
-      [&](const std::string& text) {
-        request.exposure = parse_number("--exposure", text, Sign::any);
-      });
-  add("--relmse-epsilon", "X",
+void add_picture_options(Options& command, DiffRequest& request) {
+  command.add("--layer", "NAME", "compare this layer of both EXRs",
+              [&](const std::string& text) { request.layer = text; });
+  command.add("--heat", fmt::format("{}", fmt::join(names_of(metric_choices()), "|")),
+              "error that the heat map shows [flip]", [&](const std::string& text) {
+                request.heat_metric = parse_choice("--heat", text, metric_choices());
+              });
+  command.add("--exposure", "EV", "exposure at which ssim and flip compare EXRs [automatic, for B]",
+              [&](const std::string& text) {
+                request.exposure = parse_number("--exposure", text, Sign::any);
+              });
+  command.add(
+      "--relmse-epsilon", "X",
       fmt::format("epsilon of relmse, in units of radiance squared [{}]", request.relmse_epsilon),
       [&](const std::string& text) {
         request.relmse_epsilon = parse_number("--relmse-epsilon", text, Sign::positive);
@@ -96,21 +88,23 @@ void add_picture_options(CLI::App& command, DiffRequest& request) {
 
 } // namespace
 
-Command add_diff_command(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("diff", "Measure how far a picture is from a reference");
+Command add_diff_command(Options& program) {
+  Options& command = program.add_command("diff", "Measure how far a picture is from a reference");
   const auto options = std::make_shared<DiffOptions>();
   DiffRequest& request = options->request;
-  command->add_option("A", request.picture, "picture: EXR, TIFF, HDR, PNG or JPEG")
-      ->type_name("")
-      ->required();
-  command->add_option("B", request.reference, "reference picture")->type_name("")->required();
-  add_file(*command, "-o,--output", request.heat_map, "heat map of the errors, .png");
-  add_picture_options(*command, request);
-  add_limits(*command, request);
-  command->add_flag_callback(
-      "--json", [=] { options->request.format = DiffFormat::json; }, "print JSON");
-  return {command, [=] { run(*options); }};
+  command
+      .add("A", "", "picture: EXR, TIFF, HDR, PNG or JPEG",
+           [=](const std::string& text) { options->request.picture = text; })
+      .required();
+  command
+      .add("B", "", "reference picture",
+           [=](const std::string& text) { options->request.reference = text; })
+      .required();
+  add_file(command, "-o,--output", request.heat_map, "heat map of the errors, .png");
+  add_picture_options(command, request);
+  add_limits(command, request);
+  command.add_flag("--json", "print JSON", [=] { options->request.format = DiffFormat::json; });
+  return {&command, [=] { run(*options); }};
 }
 
 } // namespace meninas

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -16,6 +17,9 @@ namespace {
 
 constexpr int text_column = 26; ///< where descriptions begin
 constexpr int narrowest = 40, widest = 100;
+constexpr const char* exit_codes =
+    "Exit codes: 1 a comparison beyond its limits, 2 wrong usage, 3 bad input, 4 "
+    "failed write or exhausted resource.";
 
 /// The text in lines of at most `width` columns. The first follows what stands at `column` already.
 std::string wrapped(const std::string& text, int column, int indent, int width) {
@@ -50,32 +54,35 @@ std::string entry(const std::string& name, const std::string& meaning, int width
   return line + wrapped(meaning, indent, indent, width);
 }
 
+bool is_placed(const OptionInfo& option) { return !option.place.empty(); }
+
+bool is_help(const OptionInfo& option) { return std::ranges::count(option.long_names, "help") > 0; }
+
 /// "-o, --output FILE"
-std::string written(const CLI::Option& option) {
-  if (option.get_positional())
-    return option.get_name(true);
+std::string written(const OptionInfo& option) {
+  if (is_placed(option))
+    return option.place;
   std::vector<std::string> names;
-  for (const std::string& name : option.get_snames())
+  for (const std::string& name : option.short_names)
     names.push_back('-' + name);
-  for (const std::string& name : option.get_lnames())
+  for (const std::string& name : option.long_names)
     names.push_back("--" + name);
   std::string text = fmt::format("{}", fmt::join(names, ", "));
-  return option.get_expected_max() == 0 ? text : text + ' ' + option.get_type_name();
+  return option.takes_value == TakesValue::no ? text : text + ' ' + option.value;
 }
 
 /// Options by group, in the order in which they were added: the scene first, help last.
-using OptionGroups = std::vector<std::pair<std::string, std::vector<const CLI::Option*>>>;
+using OptionGroups = std::vector<std::pair<std::string, std::vector<OptionInfo>>>;
 
-OptionGroups groups_of(const CLI::App& app) {
+OptionGroups groups_of(const Options& command) {
   OptionGroups groups;
-  std::vector<const CLI::Option*> options = app.get_options();
-  std::ranges::stable_partition(options, [](const CLI::Option* o) { return o->get_positional(); });
-  std::ranges::stable_partition(options, [&](const CLI::Option* o) { return o != app.get_help_ptr(); });
-  for (const CLI::Option* option : options) {
-    const std::string& name = option->get_group();
-    auto group = std::ranges::find(groups, name, &OptionGroups::value_type::first);
+  std::vector<OptionInfo> options = command.list();
+  std::ranges::stable_partition(options, is_placed);
+  std::ranges::stable_partition(options, std::not_fn(is_help));
+  for (const OptionInfo& option : options) {
+    auto group = std::ranges::find(groups, option.group, &OptionGroups::value_type::first);
     if (group == groups.end())
-      group = groups.insert(groups.end(), {name, {}});
+      group = groups.insert(groups.end(), {option.group, {}});
     group->second.push_back(option);
   }
   return groups;
@@ -90,13 +97,13 @@ std::string examples(std::string_view command, int width) {
   return text.empty() ? text : "\nExamples:\n" + text;
 }
 
-std::string usage(const CLI::App& app, const std::string& name) {
+std::string usage(const Options& command, const std::string& name) {
   std::string text = name;
-  if (!app.get_subcommands({}).empty())
+  if (!command.commands().empty())
     text += " COMMAND";
-  for (const CLI::Option* option : app.get_options())
-    if (option->get_positional())
-      text += ' ' + option->get_name(true);
+  for (const OptionInfo& option : command.list())
+    if (is_placed(option))
+      text += ' ' + option.place;
   return text + " [options]";
 }
 
@@ -117,32 +124,33 @@ int terminal_width() {
   return columns > 0 ? std::clamp(columns, narrowest, widest) : 80;
 }
 
-std::string HelpPage::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const {
-  const std::string command = app->get_parent() == nullptr ? "" : app->get_name();
-  name = trimmed(name);
-  std::string text = wrapped(app->get_description() + '.', 0, 0, width_);
-  text += examples(command, width_);
-  text += "\nUsage: " + wrapped(usage(*app, name), 7, 7, width_);
-  if (const auto commands = app->get_subcommands({}); !commands.empty()) {
+std::string help_page(const Options& program, HelpExtent extent, int width) {
+  const Options* const chosen = program.chosen_command();
+  const Options& command = chosen ? *chosen : program;
+  const std::string short_name = chosen ? chosen->name() : "";
+  const std::string name = chosen ? program.name() + ' ' + short_name : program.name();
+  std::string text = wrapped(command.description() + '.', 0, 0, width);
+  text += examples(short_name, width);
+  text += "\nUsage: " + wrapped(usage(command, name), 7, 7, width);
+  if (const auto commands = command.commands(); !commands.empty()) {
     text += "\nCommands:\n";
-    for (const CLI::App* one : commands)
-      text += entry(one->get_name(), one->get_description(), width_);
+    for (const Options* one : commands)
+      text += entry(one->name(), one->description(), width);
   }
   bool complete = true;
-  for (const auto& [group, options] : groups_of(*app)) {
+  for (const auto& [group, options] : groups_of(command)) {
     std::string lines;
-    for (const CLI::Option* option : options) {
-      const bool shown = extent_ == HelpExtent::everything || matters_most(command, *option);
+    for (const OptionInfo& option : options) {
+      const bool shown = extent == HelpExtent::everything || matters_most(short_name, option);
       complete = complete && shown;
       if (shown)
-        lines += entry(written(*option), option->get_description(), width_);
+        lines += entry(written(option), option.description, width);
     }
     text += lines.empty() ? "" : fmt::format("\n{}:\n{}", group, lines);
   }
   if (!complete)
-    text += '\n' + wrapped(fmt::format("{} --help-all lists all options.", name), 0, 0, width_);
-  const std::string footer = app->get_footer();
-  return footer.empty() ? text : text + '\n' + wrapped(footer, 0, 0, width_);
+    text += '\n' + wrapped(fmt::format("{} --help-all lists all options.", name), 0, 0, width);
+  return text + '\n' + wrapped(exit_codes, 0, 0, width);
 }
 
 namespace {
@@ -163,34 +171,34 @@ std::pair<std::string, std::string> default_apart(const std::string& description
           description.substr(bracket + 1, description.size() - bracket - 2)};
 }
 
-std::string table_row(const CLI::Option& option) {
-  const auto [meaning, standard] = default_apart(option.get_description());
+std::string table_row(const OptionInfo& option) {
+  const auto [meaning, standard] = default_apart(option.description);
   return fmt::format("| `{}` | {} | {} |\n", table_cell(written(option)), table_cell(meaning),
                      table_cell(standard));
 }
 
 /// The same option, as several commands have it.
 struct SharedOption {
-  const CLI::Option* option;
+  OptionInfo option;
   std::vector<std::string> commands;
 };
 
-bool is_same(const CLI::Option& a, const CLI::Option& b) {
-  return written(a) == written(b) && a.get_description() == b.get_description();
+bool is_same(const OptionInfo& a, const OptionInfo& b) {
+  return written(a) == written(b) && a.description == b.description;
 }
 
-std::vector<SharedOption> shared_options(const CLI::App& program) {
+std::vector<SharedOption> shared_options(const Options& program) {
   std::vector<SharedOption> options;
-  for (const CLI::App* command : program.get_subcommands({}))
-    for (const CLI::Option* option : command->get_options()) {
-      if (option->get_positional())
+  for (const Options* command : program.commands())
+    for (const OptionInfo& option : command->list()) {
+      if (is_placed(option))
         continue;
       const auto known = std::ranges::find_if(
-          options, [&](const SharedOption& one) { return is_same(*one.option, *option); });
+          options, [&](const SharedOption& one) { return is_same(one.option, option); });
       if (known == options.end())
-        options.push_back({option, {command->get_name()}});
+        options.push_back({option, {command->name()}});
       else
-        known->commands.push_back(command->get_name());
+        known->commands.push_back(command->name());
     }
   std::erase_if(options, [](const SharedOption& one) { return one.commands.size() < 2; });
   return options;
@@ -199,12 +207,12 @@ std::vector<SharedOption> shared_options(const CLI::App& program) {
 constexpr const char* table_head = "\n| option | | default |\n|---|---|---|\n";
 
 /// The paragraphs about these options, each named, unless they have been `told` before.
-std::string notes(const std::vector<const CLI::Option*>& options, std::set<std::string>& told) {
+std::string notes(const std::vector<OptionInfo>& options, std::set<std::string>& told) {
   std::string text;
-  for (const CLI::Option* option : options) {
-    if (option->get_lnames().empty())
+  for (const OptionInfo& option : options) {
+    if (option.long_names.empty())
       continue;
-    const std::string name = "--" + option->get_lnames().front();
+    const std::string name = "--" + option.long_names.front();
     const std::string_view details = details_of(name);
     if (!details.empty() && told.insert(name).second)
       text += fmt::format("\n`{}`: {}\n", name, details);
@@ -212,21 +220,21 @@ std::string notes(const std::vector<const CLI::Option*>& options, std::set<std::
   return text;
 }
 
-std::string command_section(const CLI::App& command, const std::vector<SharedOption>& shared,
+std::string command_section(const Options& command, const std::vector<SharedOption>& shared,
                             std::set<std::string>& told) {
-  std::string text = fmt::format("\n## meninas {}\n\n{}.\n\n```\n{}\n```\n", command.get_name(),
-                                 command.get_description(),
-                                 usage(command, "meninas " + command.get_name()));
-  text += examples_of(command.get_name()).empty() ? "" : "\n";
-  for (const Example& example : examples_of(command.get_name()))
+  std::string text =
+      fmt::format("\n## meninas {}\n\n{}.\n\n```\n{}\n```\n", command.name(), command.description(),
+                  usage(command, "meninas " + command.name()));
+  text += examples_of(command.name()).empty() ? "" : "\n";
+  for (const Example& example : examples_of(command.name()))
     text += fmt::format("- `{}`: {}\n", example.command, example.does);
   std::string rows;
-  std::vector<const CLI::Option*> own;
-  for (const CLI::Option* option : command.get_options()) {
+  std::vector<OptionInfo> own;
+  for (const OptionInfo& option : command.list()) {
     const bool elsewhere = std::ranges::any_of(
-        shared, [&](const SharedOption& one) { return is_same(*one.option, *option); });
+        shared, [&](const SharedOption& one) { return is_same(one.option, option); });
     if (!elsewhere) {
-      rows += table_row(*option);
+      rows += table_row(option);
       own.push_back(option);
     }
   }
@@ -235,34 +243,34 @@ std::string command_section(const CLI::App& command, const std::vector<SharedOpt
 
 } // namespace
 
-std::string options_page(const CLI::App& program) {
+std::string options_page(const Options& program) {
   std::string text = "# Options\n\n`meninas help --markdown` prints this page; `meninas COMMAND "
                      "--help-all` prints a command's part of it. Options that several commands\n"
                      "have stand at the end.\n";
   const auto shared = shared_options(program);
   std::set<std::string> told;
-  for (const CLI::App* command : program.get_subcommands({}))
+  for (const Options* command : program.commands())
     text += command_section(*command, shared, told);
   text += "\n# Options of several commands\n";
   std::vector<std::string> groups;
   for (const SharedOption& one : shared)
-    if (std::ranges::find(groups, one.option->get_group()) == groups.end())
-      groups.push_back(one.option->get_group());
+    if (std::ranges::find(groups, one.option.group) == groups.end())
+      groups.push_back(one.option.group);
   for (const std::string& group : groups) {
     text += fmt::format("\n## {}\n\n| option | | default | commands |\n|---|---|---|---|\n", group);
-    std::vector<const CLI::Option*> options;
+    std::vector<OptionInfo> options;
     for (const SharedOption& one : shared) {
-      if (one.option->get_group() != group)
+      if (one.option.group != group)
         continue;
-      const bool all = one.commands.size() == program.get_subcommands({}).size();
-      std::string row = table_row(*one.option);
+      const bool all = one.commands.size() == program.commands().size();
+      std::string row = table_row(one.option);
       row.pop_back();
       text += fmt::format("{} {} |\n", row, all ? "all" : fmt::format("{}", fmt::join(one.commands, ", ")));
       options.push_back(one.option);
     }
     text += notes(options, told);
   }
-  return text + "\n" + program.get_footer() + "\n";
+  return text + "\n" + exit_codes + "\n";
 }
 
 } // namespace meninas

@@ -119,11 +119,11 @@ std::span<const Example> examples_of(std::string_view command) {
   return found == all_examples().end() ? std::span<const Example>{} : found->second;
 }
 
-bool matters_most(std::string_view command, const CLI::Option& option) {
+bool matters_most(std::string_view command, const OptionInfo& option) {
   const auto found = first_options().find(command);
-  if (found == first_options().end() || option.get_positional() || option.get_lnames().empty())
+  if (found == first_options().end() || !option.place.empty() || option.long_names.empty())
     return true;
-  const std::string& name = option.get_lnames().front();
+  const std::string& name = option.long_names.front();
   return name == "help" || std::ranges::find(found->second, name) != found->second.end();
 }
 

@@ -39,27 +39,27 @@ int fail(ExitCode code, const std::string& line) {
   return static_cast<int>(code);
 }
 
-std::vector<std::string> option_names(const CLI::App& app) {
+std::vector<std::string> option_names(const Options& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) {
+  for (const OptionInfo& option : command.list()) {
+    for (const std::string& name : option.long_names) {
       names.push_back("--" + name);
     }
-    for (const std::string& name : option->get_snames()) {
+    for (const std::string& name : option.short_names) {
       names.push_back("-" + name);
     }
   }
   return names;
 }
 
-/// What CLI11 could not place: options first, because what follows them may have been their values.
-void refuse_leftovers(const CLI::App& app, const std::string& where) {
-  const std::vector<std::string> leftovers = app.remaining();
+/// What nothing took: options first, because what follows them may have been their values.
+void refuse_leftovers(const Options& command, const std::string& where) {
+  const std::vector<std::string> leftovers = command.remaining();
   for (const std::string& text : leftovers) {
     if (text.size() > 1 && text.front() == '-') {
       const std::string name = text.substr(0, text.find('='));
-      throw UsageError(where,
-                       fmt::format("no option '{}'{}", name, hint_for(name, option_names(app))));
+      throw UsageError(
+          where, fmt::format("no option '{}'{}", name, hint_for(name, option_names(command))));
     }
   }
   if (!leftovers.empty()) {
@@ -67,20 +67,10 @@ void refuse_leftovers(const CLI::App& app, const std::string& where) {
   }
 }
 
-const Command* chosen_command(const CLI::App& program, const std::vector<Command>& commands) {
-  const auto parsed = program.get_subcommands();
-  for (const Command& command : commands) {
-    if (!parsed.empty() && parsed.front() == command.options) {
-      return &command;
-    }
-  }
-  return nullptr;
-}
-
-[[noreturn]] void refuse_command(const CLI::App& program, const std::vector<Command>& commands) {
+[[noreturn]] void refuse_command(const Options& program) {
   std::vector<std::string> names;
-  for (const Command& command : commands) {
-    names.push_back(command.options->get_name());
+  for (const Options* command : program.commands()) {
+    names.push_back(command->name());
   }
   for (const std::string& text : program.remaining()) {
     if (!text.starts_with('-')) {
@@ -91,7 +81,7 @@ const Command* chosen_command(const CLI::App& program, const std::vector<Command
   throw UsageError("", "a command is needed, see meninas help");
 }
 
-/// What CLI11 is to parse, last one first.
+/// What is to be parsed, last one first.
 /// An option with a value that may be left out takes what follows only if that is a number:
 /// otherwise it would take the scene.
 std::vector<std::string> arguments_of(int argc, char** argv) {
@@ -128,71 +118,58 @@ void take_words(std::vector<std::string>& arguments) {
 }
 
 /// `--help-all` is `-h` with all options.
-void show_all_if_asked(std::vector<std::string>& arguments, HelpPage& page) {
+HelpExtent asked_extent(std::vector<std::string>& arguments) {
   const auto all = std::ranges::find(arguments, "--help-all");
-  if (all != arguments.end()) {
-    *all = "--help";
-    page.show(HelpExtent::everything);
+  if (all == arguments.end()) {
+    return HelpExtent::what_matters;
   }
+  *all = "--help";
+  return HelpExtent::everything;
 }
 
-/// A program of all commands, none of them chosen yet.
-struct Program {
-  CLI::App options{"Meninas renders rooms with mirrors without noise", "meninas"};
-  std::shared_ptr<HelpPage> page = std::make_shared<HelpPage>(terminal_width());
-  std::vector<Command> commands;
-};
-
-/// Parses, then runs; help and version are answered on standard output.
-int run(Program& whole, int argc, char** argv) {
-  auto& [program, page, commands] = whole;
-  std::optional<std::string> problem;
-  try {
-    std::vector<std::string> arguments = arguments_of(argc, argv);
-    // For docs/options.md, in no help: last argument first.
-    if (arguments == std::vector<std::string>{"--markdown", "help"}) {
-      tell(stdout, options_page(program));
-      return static_cast<int>(ExitCode::success);
-    }
-    take_words(arguments);
-    show_all_if_asked(arguments, *page);
-    program.parse(arguments);
-  } catch (const CLI::Success& answer) {
-    return program.exit(answer);
-  } catch (const CLI::ParseError& error) {
-    problem = error.what();
-  }
-  const Command* command = chosen_command(program, commands);
-  if (command == nullptr) {
-    refuse_command(program, commands);
-  }
-  refuse_leftovers(*command->options, command->options->get_name());
-  if (problem) {
-    throw UsageError(command->options->get_name(), *problem);
-  }
-  command->run();
-  return static_cast<int>(ExitCode::success);
-}
-
-int guarded_main(int argc, char** argv) {
-  Program whole;
-  CLI::App& program = whole.options;
-  program.formatter(whole.page);
-  program.set_help_flag("-h,--help", "print this help");
-  program.set_version_flag("--version", "meninas " + std::string(program_version()),
-                           "print the version");
-  program.footer("Exit codes: 1 a comparison beyond its limits, 2 wrong usage, 3 bad input, 4 "
-                 "failed write or exhausted resource.");
-  program.require_subcommand(0, 1);
-  program.allow_extras();
-  whole.commands = {
+std::vector<Command> add_commands(Options& program) {
+  return {
       add_render_command(program),  add_solve_command(program), add_plan_command(program),
       add_compare_command(program), add_batch_command(program), add_diff_command(program),
       add_regress_command(program), add_trade_command(program), add_formfactors_command(program)};
-  for (const Command& command : whole.commands) {
-    command.options->allow_extras();
+}
+
+void run_chosen(const Options& program, const std::vector<Command>& commands,
+                const Parsed& parsed) {
+  const Options* const chosen = program.chosen_command();
+  if (chosen == nullptr) {
+    refuse_command(program);
   }
-  return run(whole, argc, argv);
+  refuse_leftovers(*chosen, chosen->name());
+  if (parsed.outcome == Parsed::Outcome::wrong) {
+    throw UsageError(chosen->name(), parsed.problem);
+  }
+  std::ranges::find(commands, chosen, &Command::options)->run();
+}
+
+/// Parses, then runs; help and version are answered on standard output.
+void guarded_main(int argc, char** argv) {
+  Options program("Meninas renders rooms with mirrors without noise", "meninas");
+  program.set_help("-h,--help", "print this help");
+  program.add_flag("--version", "print the version", [] {
+    tell(stdout, fmt::format("meninas {}\n", program_version()));
+    throw Answered{};
+  });
+  const std::vector<Command> commands = add_commands(program);
+  std::vector<std::string> arguments = arguments_of(argc, argv);
+  // For docs/options.md, in no help: last argument first.
+  if (arguments == std::vector<std::string>{"--markdown", "help"}) {
+    tell(stdout, options_page(program));
+    return;
+  }
+  take_words(arguments);
+  const HelpExtent extent = asked_extent(arguments);
+  const Parsed parsed = program.parse(arguments);
+  if (parsed.outcome == Parsed::Outcome::wants_help) {
+    tell(stdout, help_page(program, extent, terminal_width()));
+  } else if (parsed.outcome != Parsed::Outcome::answered) {
+    run_chosen(program, commands, parsed);
+  }
 }
 
 } // namespace
@@ -202,7 +179,8 @@ int main(int argc, char** argv) {
   using meninas::ExitCode;
   meninas::keep_standard_error_taken();
   try {
-    return meninas::guarded_main(argc, argv);
+    meninas::guarded_main(argc, argv);
+    return static_cast<int>(ExitCode::success);
   } catch (const meninas::UserError& error) {
     return meninas::fail(error.code(), error.what());
   } catch (const std::bad_alloc&) {

@@ -55,20 +55,17 @@ void parse_layers(const std::string& text, RunSettings& settings) {
 }
 
 /// `--layers [LIST]`: without LIST those of light.
-void add_layers(CLI::App& command, RunSettings& settings, const std::string& group) {
+void add_layers(Options& command, RunSettings& settings, const std::string& group) {
   command
-      .add_option_function<std::string>(
-          "--layers",
-          [&](const std::string& text) {
-            parse_layers(text == preset_value ? light_layers : text, settings);
-          },
-          fmt::format("layers of an EXR besides the picture, joined by commas: light (nine layers "
-                      "that add up to the picture), {} [none; light without LIST]",
-                      fmt::join(names_of(choices_of(all_features)), ", ")))
-      ->expected(0, 1)
-      ->default_str(preset_value)
-      ->type_name("[LIST]")
-      ->group(group);
+      .add("--layers", "[LIST]",
+           fmt::format("layers of an EXR besides the picture, joined by commas: light (nine layers "
+                       "that add up to the picture), {} [none; light without LIST]",
+                       fmt::join(names_of(choices_of(all_features)), ", ")),
+           [&](const std::string& text) {
+             parse_layers(text == preset_value ? light_layers : text, settings);
+           })
+      .value_if_given(preset_value)
+      .group(group);
 }
 
 void check_layers(const RunSettings& settings, const std::vector<std::filesystem::path>& pictures) {
@@ -94,7 +91,7 @@ void check_layers(const RunSettings& settings, const std::vector<std::filesystem
 }
 
 /// A view is no picture of light.
-void check_view(const CLI::App& command, const RunSettings& settings) {
+void check_view(const Options& command, const RunSettings& settings) {
   if (!settings.view) {
     return;
   }
@@ -110,24 +107,19 @@ void check_view(const CLI::App& command, const RunSettings& settings) {
 
 } // namespace
 
-void refuse(const CLI::App& command, std::initializer_list<const char*> options,
+void refuse(const Options& command, std::initializer_list<const char*> options,
             const std::string& reason) {
   for (const char* option : options) {
-    // Not every command that takes these settings has every option.
-    const CLI::Option* known = command.get_option_no_throw(option);
-    if (known != nullptr && known->count() > 0) {
+    if (command.given(option)) {
       throw UsageError(option, reason);
     }
   }
 }
 
-void add_pixel_options(CLI::App& command, RunSettings& settings, const std::string& group) {
+void add_pixel_options(Options& command, RunSettings& settings, const std::string& group) {
   const auto add = [&](const std::string& option, const std::string& shown,
-                       const std::string& description,
-                       std::function<void(const std::string&)> take) {
-    command.add_option_function<std::string>(option, take, description)
-        ->type_name(shown)
-        ->group(group);
+                       const std::string& description, const TakeText& take) {
+    command.add(option, shown, description, take).group(group);
   };
   add_layers(command, settings, group);
   add("--view", join_names(debug_views),
@@ -156,7 +148,7 @@ void add_pixel_options(CLI::App& command, RunSettings& settings, const std::stri
       });
 }
 
-void check_pixel_options(const CLI::App& command, const RunSettings& settings,
+void check_pixel_options(const Options& command, const RunSettings& settings,
                          const std::vector<std::filesystem::path>& pictures) {
   check_layers(settings, pictures);
   check_view(command, settings);

@@ -2,9 +2,8 @@
 // layers, views for those who debug, the filter, adaptive sampling.
 #pragma once
 
+#include "cli/options.h"
 #include "runs/run_settings.h"
-
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <initializer_list>
@@ -14,14 +13,14 @@
 namespace meninas {
 
 /// Throws UsageError for the first of the options that was given, if the command has it.
-void refuse(const CLI::App& command, std::initializer_list<const char*> options,
+void refuse(const Options& command, std::initializer_list<const char*> options,
             const std::string& reason);
 
-void add_pixel_options(CLI::App& command, RunSettings& settings, const std::string& group);
+void add_pixel_options(Options& command, RunSettings& settings, const std::string& group);
 
 /// Throws UsageError when one of them was given that has no effect with the others,
 /// or on these pictures.
-void check_pixel_options(const CLI::App& command, const RunSettings& settings,
+void check_pixel_options(const Options& command, const RunSettings& settings,
                          const std::vector<std::filesystem::path>& pictures);
 
 } // namespace meninas

@@ -14,7 +14,7 @@ struct PlanOptions {
   PlanRequest request;
 };
 
-void run(const CLI::App& command, PlanOptions& options) {
+void run(const Options& command, PlanOptions& options) {
   check_pass_one_options(command, options.common.settings);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
@@ -25,15 +25,12 @@ void run(const CLI::App& command, PlanOptions& options) {
 }
 
 /// What else the cost of a picture depends on.
-void add_picture_options(CLI::App& command, const std::shared_ptr<PlanOptions>& options) {
+void add_picture_options(Options& command, const std::shared_ptr<PlanOptions>& options) {
   RunSettings& settings = options->common.settings;
   PlanRequest& request = options->request;
   const auto add = [&](const std::string& option, const std::string& shown,
-                       const std::string& description,
-                       std::function<void(const std::string&)> take) {
-    command.add_option_function<std::string>(option, take, description)
-        ->type_name(shown)
-        ->group("Picture whose cost is predicted");
+                       const std::string& description, const TakeText& take) {
+    command.add(option, shown, description, take).group("Picture whose cost is predicted");
   };
   add("--camera", "NAME", "camera to render [the first]",
       [&request](const std::string& text) { request.camera = text; });
@@ -51,19 +48,18 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PlanOptions>& 
 
 } // namespace
 
-Command add_plan_command(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("plan", "Say what a scene contains and what will be modelled");
+Command add_plan_command(Options& program) {
+  Options& command =
+      program.add_command("plan", "Say what a scene contains and what will be modelled");
   const auto options = std::make_shared<PlanOptions>();
-  add_scene(*command, options->common);
-  command->add_flag_callback(
-      "--json", [=] { options->request.format = PlanFormat::json; }, "print JSON");
-  add_quality(*command, options->common);
-  add_light_options(*command, options->common);
-  add_mesh_options(*command, options->common);
-  add_pass_one_options(*command, options->common);
-  add_picture_options(*command, options);
-  return {command, [=] { run(*command, *options); }};
+  add_scene(command, options->common);
+  command.add_flag("--json", "print JSON", [=] { options->request.format = PlanFormat::json; });
+  add_quality(command, options->common);
+  add_light_options(command, options->common);
+  add_mesh_options(command, options->common);
+  add_pass_one_options(command, options->common);
+  add_picture_options(command, options);
+  return {&command, [=, &command] { run(command, *options); }};
 }
 
 } // namespace meninas

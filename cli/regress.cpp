@@ -90,36 +90,30 @@ void run(const RegressOptions& options) {
 
 } // namespace
 
-Command add_regress_command(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("regress", "Render cases and compare each with its reference picture");
+Command add_regress_command(Options& program) {
+  Options& command =
+      program.add_command("regress", "Render cases and compare each with its reference picture");
   const auto options = std::make_shared<RegressOptions>();
   RegressRequest& request = options->request;
-  command->add_option("CASES", request.cases_file, "JSON: scenes, settings, references and limits")
-      ->type_name("")
-      ->required();
-  const auto add = [&](const std::string& option, const std::string& shown,
-                       const std::string& description,
-                       std::function<void(const std::string&)> take) {
-    command->add_option_function<std::string>(option, take, description)->type_name(shown);
-  };
-  add("-o,--output", "DIR",
-      fmt::format("folder for picture, reference and heat map of each failure [{}]",
-                  request.output.string()),
-      [&](const std::string& text) { request.output = text; });
-  add("--filter", "TEXT", "run only the cases whose names contain TEXT",
-      [=](const std::string& text) { options->filter = text; });
-  add_file(*command, "--junit", request.junit, "write JUnit XML");
-  command->add_flag_callback(
-      "--update", [=] { options->request.task = RegressTask::update; },
-      "make the references anew, and note the settings in manifest.json");
-  add("--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
+  command
+      .add("CASES", "", "JSON: scenes, settings, references and limits",
+           [=](const std::string& text) { options->request.cases_file = text; })
+      .required();
+  command.add("-o,--output", "DIR",
+              fmt::format("folder for picture, reference and heat map of each failure [{}]",
+                          request.output.string()),
+              [&](const std::string& text) { request.output = text; });
+  command.add("--filter", "TEXT", "run only the cases whose names contain TEXT",
+              [=](const std::string& text) { options->filter = text; });
+  add_file(command, "--junit", request.junit, "write JUnit XML");
+  command.add_flag("--update", "make the references anew, and note the settings in manifest.json",
+                   [=] { options->request.task = RegressTask::update; });
+  command.add("--threads", "N", "number of threads [all cores]", [&](const std::string& text) {
     request.threads = static_cast<int>(parse_integer("--threads", text, 1, 1024));
   });
-  command->add_flag_callback(
-      "--quiet", [=] { options->verbosity = Verbosity::quiet; },
-      "print results, warnings and errors only");
-  return {command, [=] { run(*options); }};
+  command.add_flag("--quiet", "print results, warnings and errors only",
+                   [=] { options->verbosity = Verbosity::quiet; });
+  return {&command, [=] { run(*options); }};
 }
 
 } // namespace meninas

@@ -25,64 +25,50 @@ struct RenderOptions {
   std::optional<int> every;
 };
 
-void add_outputs(CLI::App& command, RenderOptions& options) {
+void add_outputs(Options& command, RenderOptions& options) {
   RenderRequest& request = options.request;
-  command
-      .add_option("-o,--output", request.pictures,
-                  "picture, .exr (linear) or .png; may be given several times [SCENE.png]")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+  command.add_repeatable("-o,--output", "FILE",
+                         "picture, .exr (linear) or .png; may be given several times [SCENE.png]",
+                         [&](const std::string& text) { request.pictures.emplace_back(text); });
   add_file(command, "--solution", request.solution,
            "render a solution written by `meninas solve` instead of solving");
   add_file(command, "--stats", request.stats, "write the figures of the run as JSON");
-  command.add_flag_callback(
-      "--error-map", [&] { request.error_map = WithErrorMap::yes; },
-      "add the layer `error` to an EXR: the estimated error of each pixel");
+  command.add_flag("--error-map",
+                   "add the layer `error` to an EXR: the estimated error of each pixel",
+                   [&] { request.error_map = WithErrorMap::yes; });
   const auto add_goal = [&](const char* option, const char* shown,
                             std::optional<double> Goal::*goal, const char* description) {
-    command
-        .add_option_function<std::string>(
-            option,
-            [&request, option, goal](const std::string& text) {
-              if (!request.goal) {
-                request.goal.emplace();
-              }
-              *request.goal.*goal = parse_number(option, text, Sign::positive);
-            },
-            description)
-        ->type_name(shown);
+    command.add(option, shown, description, [&request, option, goal](const std::string& text) {
+      if (!request.goal) {
+        request.goal.emplace();
+      }
+      *request.goal.*goal = parse_number(option, text, Sign::positive);
+    });
   };
   add_goal(
       "--error", "X", &Goal::error,
       "choose settings until the picture's relative error is about X, such as 0.02");
   add_goal("--time", "SECONDS", &Goal::seconds,
            "choose the settings of the best picture within this time");
-  add_file(command, "--snapshots", options.snapshots,
-           "folder for pictures along the way of --solver progressive, without and with its "
-           "ambient term")
-      ->type_name("DIR")
-      ->group(study_group);
   command
-      .add_option_function<std::string>(
-          "--every",
-          [&](const std::string& text) {
-            options.every = static_cast<int>(parse_integer("--every", text, 1, 1'000'000'000));
-          },
-          fmt::format(
-              "shots between --snapshots [{}]",
-              SnapshotRequest{}.every))
-      ->type_name("N")
-      ->group(study_group);
+      .add("--snapshots", "DIR",
+           "folder for pictures along the way of --solver progressive, without and with its "
+           "ambient term",
+           [&](const std::string& text) { options.snapshots = text; })
+      .group(study_group);
+  command
+      .add("--every", "N", fmt::format("shots between --snapshots [{}]", SnapshotRequest{}.every),
+           [&](const std::string& text) {
+             options.every = static_cast<int>(parse_integer("--every", text, 1, 1'000'000'000));
+           })
+      .group(study_group);
 }
 
-void add_picture_options(CLI::App& command, RenderOptions& options) {
+void add_picture_options(Options& command, RenderOptions& options) {
   RenderRequest& request = options.request;
   const auto add = [&](const std::string& option, const std::string& shown,
-                       const std::string& description,
-                       std::function<void(const std::string&)> take) {
-    command.add_option_function<std::string>(option, take, description)
-        ->type_name(shown)
-        ->group(picture_group);
+                       const std::string& description, const TakeText& take) {
+    command.add(option, shown, description, take).group(picture_group);
   };
   add("--mode", "radiosity|hybrid|reference",
       "diffuse light only, with black mirrors; both passes; or path tracing [hybrid]",
@@ -127,14 +113,13 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       });
   add_pixel_options(command, options.common.settings, picture_group);
   command
-      .add_flag_callback(
-          "--float", [&] { request.picture.exr_type = PixelType::float32; },
-          "write an EXR of 32 bits a channel [16]")
-      ->group(picture_group);
+      .add_flag("--float", "write an EXR of 32 bits a channel [16]",
+                [&] { request.picture.exr_type = PixelType::float32; })
+      .group(picture_group);
 }
 
 /// What makes a picture what it is, wherever it is written.
-void add_settings(CLI::App& command, RenderOptions& options) {
+void add_settings(Options& command, RenderOptions& options) {
   add_quality(command, options.common);
   add_light_options(command, options.common);
   add_picture_options(command, options);
@@ -175,7 +160,7 @@ void check_error_map(const RenderOptions& options) {
 }
 
 /// What a run that chooses its own settings does not go with.
-void check_goal(const CLI::App& command, const RenderOptions& options) {
+void check_goal(const Options& command, const RenderOptions& options) {
   if (!options.request.goal) {
     return;
   }
@@ -189,7 +174,7 @@ void check_goal(const CLI::App& command, const RenderOptions& options) {
 }
 
 /// What the mode does not heed is refused, not ignored.
-void check_mode(const CLI::App& command, const RenderOptions& options) {
+void check_mode(const Options& command, const RenderOptions& options) {
   if (options.common.settings.mode == PictureMode::reference) {
     const std::string reason = "has no effect with --mode reference: there is no pass one";
     refuse_pass_one_options(command, reason);
@@ -229,7 +214,7 @@ void take_snapshots(RenderOptions& options) {
 }
 
 /// The request, after a check that all options given have an effect together.
-RenderRequest& completed_request(const CLI::App& command, RenderOptions& options) {
+RenderRequest& completed_request(const Options& command, RenderOptions& options) {
   check_mode(command, options);
   check_error_map(options);
   check_goal(command, options);
@@ -250,7 +235,7 @@ RenderRequest& completed_request(const CLI::App& command, RenderOptions& options
   return options.request;
 }
 
-void run(const CLI::App& command, RenderOptions& options) {
+void run(const Options& command, RenderOptions& options) {
   if (options.request.pictures.empty()) {
     options.request.pictures = {options.common.scene.filename().replace_extension(".png")};
   }
@@ -262,41 +247,52 @@ void run(const CLI::App& command, RenderOptions& options) {
 
 } // namespace
 
-Command add_render_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("render", "Render a scene into pictures");
+Command add_render_command(Options& program) {
+  Options& command = program.add_command("render", "Render a scene into pictures");
   const auto options = std::make_shared<RenderOptions>();
-  add_scene(*command, options->common);
-  add_outputs(*command, *options);
-  add_settings(*command, *options);
-  return {command, [=] { run(*command, *options); }};
+  add_scene(command, options->common);
+  add_outputs(command, *options);
+  add_settings(command, *options);
+  return {&command, [=, &command] { run(command, *options); }};
 }
 
 /// Options that are not what a picture is made of.
-static bool is_setting(const CLI::Option& option) {
-  const std::string name = option.get_lnames().front();
+static bool is_setting(const OptionInfo& option) {
+  const std::string& name = option.long_names.front();
   return name != "help" && name != "threads" && name != "quiet";
+}
+
+/// The options that may be settings.
+static std::vector<OptionInfo> settings_of(const Options& command) {
+  std::vector<OptionInfo> options = command.list();
+  std::erase_if(options, [](const OptionInfo& option) { return !is_setting(option); });
+  return options;
+}
+
+/// Throws UsageError with a hint when there is none of this name.
+static const OptionInfo& known_option(const std::string& name,
+                                      const std::vector<OptionInfo>& known) {
+  std::vector<std::string> names;
+  for (const OptionInfo& option : known) {
+    if (option.long_names.front() == name) {
+      return option;
+    }
+    names.push_back(option.long_names.front());
+  }
+  throw UsageError(name, "unknown setting" + hint_for(name, names));
 }
 
 RenderRequest parse_render_settings(const std::filesystem::path& scene,
                                     const std::vector<Setting>& settings) {
-  CLI::App command;
+  Options command("", "");
   RenderOptions options;
   add_settings(command, options);
-  std::vector<std::string> known;
-  for (const CLI::Option* option : command.get_options()) {
-    if (is_setting(*option)) {
-      known.push_back(option->get_lnames().front());
-    }
-  }
-  // CLI11 takes what is left to parse from the back of the list.
+  const std::vector<OptionInfo> known = settings_of(command);
   std::vector<std::string> arguments;
   for (const Setting& setting : settings) {
-    if (std::ranges::find(known, setting.name) == known.end()) {
-      throw UsageError(setting.name, "unknown setting" + hint_for(setting.name, known));
-    }
-    const CLI::Option* option = command.get_option("--" + setting.name);
-    const bool flag = option->get_expected_max() == 0;
-    const bool bare = option->get_expected_min() == 0 && !flag && !setting.value;
+    const OptionInfo& option = known_option(setting.name, known);
+    const bool flag = option.takes_value == TakesValue::no;
+    const bool bare = option.takes_value == TakesValue::if_given && !setting.value;
     if (!bare && flag == setting.value.has_value()) {
       throw UsageError(setting.name, flag ? "takes true or false" : "takes a value");
     }
@@ -304,28 +300,27 @@ RenderRequest parse_render_settings(const std::filesystem::path& scene,
     arguments.insert(arguments.begin(), "--" + setting.name + (value.empty() ? "" : '=' + value));
   }
   options.common.scene = scene;
+  Parsed parsed;
   try {
-    command.parse(arguments);
-    return completed_request(command, options);
-  } catch (const CLI::ParseError& error) {
-    throw UsageError("", error.what());
+    parsed = command.parse(arguments);
+    if (parsed.outcome == Parsed::Outcome::complete) {
+      return completed_request(command, options);
+    }
   } catch (const UsageError& error) {
     const std::string text = error.what();
     throw UsageError("", text.starts_with("--") ? text.substr(2) : text);
   }
+  throw UsageError("", parsed.problem);
 }
 
 std::vector<SettingHelp> render_settings_help() {
-  CLI::App command;
+  Options command("", "");
   RenderOptions options;
   add_settings(command, options);
   std::vector<SettingHelp> help;
-  for (const CLI::Option* option : command.get_options()) {
-    if (is_setting(*option)) {
-      const bool flag = option->get_expected_max() == 0;
-      help.push_back({option->get_lnames().front(), option->get_description(),
-                      flag ? "" : option->get_type_name()});
-    }
+  for (const OptionInfo& option : settings_of(command)) {
+    const bool flag = option.takes_value == TakesValue::no;
+    help.push_back({option.long_names.front(), option.description, flag ? "" : option.value});
   }
   return help;
 }

@@ -22,34 +22,30 @@ void run(TradeOptions& options) {
 
 } // namespace
 
-Command add_trade_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+Command add_trade_command(Options& program) {
+  Options& command = program.add_command(
       "trade", "Measure what a second buys: time and error over settings, with a page to look at");
   const auto options = std::make_shared<TradeOptions>();
   TradeRequest& request = options->request;
-  const auto add = [&](const std::string& option, const std::string& shown,
-                       const std::string& description,
-                       std::function<void(const std::string&)> take) {
-    command->add_option_function<std::string>(option, take, description)->type_name(shown);
-  };
-  add_scene(*command, options->common);
-  command->add_option("-o,--output", request.folder, "folder of the page, made if it is not there")
-      ->type_name("DIR")
-      ->required();
-  add_file(*command, "--reference", request.reference,
+  add_scene(command, options->common);
+  command
+      .add("-o,--output", "DIR", "folder of the page, made if it is not there",
+           [=](const std::string& text) { options->request.folder = text; })
+      .required();
+  add_file(command, "--reference", request.reference,
            "linear picture of this view to measure errors against [path tracing, for 30 % of the "
            "budget]");
-  add("--budget", "SECONDS", fmt::format("time for all measurements [{}]", request.budget),
-      [=](const std::string& text) {
-        options->request.budget = parse_number("--budget", text, Sign::positive);
-      });
-  add("--camera", "NAME", "camera to render [the first]",
-      [=](const std::string& text) { options->request.camera = text; });
-  add("--size", "WxH", "size in pixels [as the reference, or 256 rows]",
-      [=](const std::string& text) { options->request.size = parse_size("--size", text); });
-  add_light_options(*command, options->common);
-  add_run_options(*command, options->common);
-  return {command, [=] { run(*options); }};
+  command.add("--budget", "SECONDS", fmt::format("time for all measurements [{}]", request.budget),
+              [=](const std::string& text) {
+                options->request.budget = parse_number("--budget", text, Sign::positive);
+              });
+  command.add("--camera", "NAME", "camera to render [the first]",
+              [=](const std::string& text) { options->request.camera = text; });
+  command.add("--size", "WxH", "size in pixels [as the reference, or 256 rows]",
+              [=](const std::string& text) { options->request.size = parse_size("--size", text); });
+  add_light_options(command, options->common);
+  add_run_options(command, options->common);
+  return {&command, [=] { run(*options); }};
 }
 
 } // namespace meninas

@@ -49,7 +49,8 @@ target_compile_options(meninas_options INTERFACE
 # The standard library checks its preconditions wherever speed is not the point.
 target_compile_definitions(meninas_options INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
 
-# Most of the time of a build is spent on reading these again and again.
+# Most of the time of a build is spent on reading these again and again. Folders add what many of their sources read,
+# but not nlohmann/json.hpp: it instantiates templates by itself, which costs every source 0.6 s, and reading it 1.6 s.
 set(MENINAS_COMMON_HEADERS <glm/glm.hpp> <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <numeric> <optional> <span>
   <string> <string_view> <utility> <vector>)
 

@@ -51,6 +51,7 @@ constexpr std::array wrapped_libraries = {
     WrappedLibrary{"OpenImageIO", "OpenImageIO/", "image"},
     WrappedLibrary{"OpenEXR", "OpenEXR/", "image"},
     WrappedLibrary{"libpng", "png.h", "image"},
+    WrappedLibrary{"CLI11", "CLI/", "cli"},
 };
 
 /// What things were called before they had the field's names.
