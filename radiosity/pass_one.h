@@ -4,6 +4,8 @@
 //   H(x) = D(x) + sum over worlds w of tau_w sum_j F^w_xj B_j           (at the vertices, interpolated between)
 //
 // B, E, H in W/m^2. Ideal mirrors are no unknowns: they are in the form factors F^w.
+// The unknowns are those of a cut through the hierarchy of elements: its leaves, or nodes as large as
+// the light allows (MeshCut), which users get by default.
 // The extended radiosity equation: Sillion and Puech 1989, Wallace, Cohen, Greenberg 1987.
 #pragma once
 
