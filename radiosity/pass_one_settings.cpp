@@ -66,7 +66,6 @@ static double target_elements(const PassOneChoice& choice, const PassOneQuality&
 
 static InterpolationSettings interpolation_settings(const PassOneChoice& choice,
                                                     const PassOneSettings& settings,
-                                                    const PassOneQuality& quality,
                                                     DirectLightAt direct_light) {
   InterpolationSettings interpolation;
   interpolation.method = choice.interpolation.value_or(interpolation.method);
@@ -97,7 +96,7 @@ PassOneSettings pass_one_settings(const PassOneChoice& choice, DirectLightAt dir
   settings.solver.tolerance = choice.tolerance.value_or(settings.solver.tolerance);
   settings.solver.max_shots = choice.steps;
   settings.hierarchical.link_error = choice.link_error.value_or(quality.link_error);
-  settings.interpolation = interpolation_settings(choice, settings, quality, direct_light);
+  settings.interpolation = interpolation_settings(choice, settings, direct_light);
   // Means of elements show nowhere but where they are interpolated; else they light other elements,
   // and many average out.
   if (settings.interpolation.method == Interpolation::gather) {
