@@ -1,4 +1,4 @@
-// What users ask of the hierarchical solver, and what they are told of it.
+// What users ask of a hierarchical mesh, and what they are told of it.
 #pragma once
 
 #include <cstddef>

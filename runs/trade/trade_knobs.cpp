@@ -156,7 +156,7 @@ std::vector<RunSettings> first_settings(const RunSettings& base) {
   look.elements = 600;
   look.rays = 64;
   look.samples = 4;
-  return {look, preset(base, Quality::draft), preset(base, Quality::normal)};
+  return {spelled_out(look), preset(base, Quality::draft), preset(base, Quality::normal)};
 }
 
 std::vector<TurnedSettings> turned(const RunSettings& settings, const TradeScene& scene) {

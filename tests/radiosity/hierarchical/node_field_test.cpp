@@ -1,4 +1,4 @@
-// The field of the hierarchical solver: it is what gathering everywhere finds.
+// The field of a hierarchical mesh: it is what gathering everywhere finds.
 #include "radiosity/light/gather_noise.h"
 #include "scenes/gltf/gltf.h"
 #include "tests/radiosity/lit_scene.h"

@@ -56,6 +56,15 @@ TEST(Parameters, AreAllTurned) {
   EXPECT_FALSE(knobs_of({}, {.mirrors = false}).contains("mirror-depth"));
 }
 
+// A quick look has its numbers written out as the presets have: each can be turned.
+TEST(Parameters, OfAQuickLookAreTurnedToo) {
+  std::set<std::string> link_errors;
+  for (const TurnedSettings& next : turned(first_settings({}).front(), room))
+    if (next.turn.knob == "link-error")
+      link_errors.insert(next.turn.from + " " + next.turn.to);
+  EXPECT_THAT(link_errors, ElementsAre("0.02 0.01", "0.02 0.04"));
+}
+
 TEST(Parameters, EveryTurnIsAnotherSettingAndSaysWhichValueItTook) {
   const RunSettings settings = spelled_out({});
   std::set<std::vector<std::string>> all{options_of(settings)};
