@@ -40,11 +40,19 @@ struct Candidate {
   Mirror mirror;
   std::set<NodeId> known_nodes; ///< those of the mirror: one of many tiles has as many
   std::vector<std::pair<SurfaceId, int>> faces; ///< surface, and 0 for its front, 1 for its back
+  bool curved = false; ///< some of it reflects by a normal that turns: it has no one image
 };
 
 Plane flipped(const Plane& plane) { return {-plane.normal, -plane.offset}; }
 
-void add_face(Candidate& candidate, const SurfaceModel& model, SurfaceId id, int face) {
+bool is_curved(const Scene& scene, const Patch& patch) {
+  return std::ranges::any_of(patch.triangles, [&](TriangleId triangle) {
+    return triangle != none<TriangleId> && scene.triangles[index(triangle)].curved;
+  });
+}
+
+void add_face(const Scene& scene, const SurfaceModel& model, SurfaceId id, int face,
+              Candidate& candidate) {
   const Surface& surface = model.surfaces[index(id)];
   candidate.faces.emplace_back(id, face);
   candidate.mirror.area += surface.area;
@@ -55,6 +63,7 @@ void add_face(Candidate& candidate, const SurfaceModel& model, SurfaceId id, int
       std::reverse(polygon.vertices.begin(),
                    polygon.vertices.begin() + static_cast<std::ptrdiff_t>(polygon.size));
     candidate.mirror.window.push_back(polygon);
+    candidate.curved = candidate.curved || is_curved(scene, patch);
     if (candidate.known_nodes.insert(patch.node).second)
       candidate.mirror.nodes.push_back(patch.node);
   }
@@ -99,7 +108,7 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
         candidates.back().mirror.is_coat = is_coat;
         candidates.back().mirror.has_width = has_width;
       }
-      add_face(candidates[place->second], model, static_cast<SurfaceId>(s), face);
+      add_face(scene, model, static_cast<SurfaceId>(s), face, candidates[place->second]);
     }
   }
   return candidates;
@@ -136,7 +145,7 @@ MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces,
     const bool is_facet = candidate.mirror.is_coat
                               ? candidate.mirror.area < smallest_coat
                               : set.mirrors.size() >= limit || candidate.mirror.area < least;
-    if (is_facet) {
+    if (is_facet || candidate.curved) {
       set.facets += candidate.faces.size();
       continue;
     }

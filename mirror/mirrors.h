@@ -5,6 +5,7 @@
 // The front of a mirror reflects; a double-sided mirror is two mirrors, back to back.
 // Curved mirrors are many small planes: beyond `max_mirrors` planes only large ones are enumerated,
 // the rest are facets, which rays follow exactly all the same but which get no mirror world.
+// Where the file gives normals that turn (scenes/shading_normal.h) all planes are facets.
 //
 // Glass is a mirror on either side whose reflectance depends on the angle (scenes/materials/glass.h),
 // and so is the coat of a polished floor on its front (scenes/materials/smooth_surfaces.h):

@@ -4,13 +4,45 @@
 #include "raytrace/footprint.h"
 #include "raytrace/lamp_weights.h"
 #include "raytrace/quad_lanes.h"
+#include "scenes/rays/curved_origin.h"
+#include "scenes/shading_normal.h"
 
 #include <numbers>
 
 namespace meninas {
 
+/// n(b), towards the side that was met.
+static Direction curve_normal(const Scene& scene, const HitPacket& hits, std::uint32_t k) {
+  const Direction n =
+      shading_normal(scene, TriangleId{hits.triangle[k]}, {hits.b1[k], hits.b2[k]});
+  return hits.front[k] != 0 ? n : -n;
+}
+
+Direction normal_towards(const LandedLane& lane, const Direction& out) {
+  if (!lane.face.curved)
+    return lane.face.normal;
+  return visible_normal(curve_normal(lane.context.light.scene, lane.hits, lane.k),
+                        lane.face.normal, out);
+}
+
+static Receiver curved_receiver(const LightScene& light, const FaceRecord& face,
+                                const HitPacket& hits, std::uint32_t k) {
+  Receiver receiver;
+  receiver.position =
+      curved_origin(light.scene, light.surfaces, light.rays, TriangleId{hits.triangle[k]},
+                    {hits.b1[k], hits.b2[k]}, hits.front[k] != 0);
+  receiver.normal = curve_normal(light.scene, hits, k);
+  if (face.side != FaceRecord::nothing) {
+    receiver.tangent = light.mesh.sides[face.side].tangent;
+    receiver.coat = light.mesh.sides[face.side].coat;
+  }
+  return receiver;
+}
+
 Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                      std::uint32_t k) {
+  if (face.curved)
+    return curved_receiver(light, face, hits, k);
   const auto [a, b, c] = corners(light.scene, TriangleId{hits.triangle[k]});
   const Point3 at = a + double{hits.b1[k]} * (b - a) + double{hits.b2[k]} * (c - a);
   const auto plane = static_cast<PlaneId>(face.plane_class);

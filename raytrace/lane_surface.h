@@ -7,7 +7,11 @@
 
 namespace meninas {
 
-/// Where lane k has landed, as one who receives light there.
+/// The normal by which the surface reflects light towards `out`, a direction above the face.
+/// It turns with a curved surface (scenes/shading_normal.h).
+Direction normal_towards(const LandedLane& lane, const Direction& out);
+
+/// Where lane k has landed, as one who receives light there: of a curved surface, on the curve.
 Receiver receiver_at(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                      std::uint32_t k);
 

@@ -6,6 +6,7 @@
 #include "raytrace/lamp_weights.h"
 #include "raytrace/specular_rays.h"
 #include "scenes/materials/refraction.h"
+#include "scenes/shading_normal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +45,7 @@ Media media_at(const RenderContext& context, const HitPacket& hits, std::uint32_
 /// directions, and between which solids.
 struct Scatterer {
   const Bsdf& bsdf;
+  Direction normal; ///< towards the side that was met; it turns with a curved surface
   Direction out; ///< in the frame of the normal
   int divisions;
   Media media;
@@ -62,9 +64,11 @@ bool samples_lamps(const RenderContext& context, const Bsdf& bsdf, const Specula
          (bsdf.coat > 0.0 || bsdf.glass > 0.0 || bsdf.metal != Rgb(0.0));
 }
 
-void queue_lobe(const RenderContext& context, const Scatterer& scatterer, const FaceRecord& face,
-                const Meeting& at, SpecularRay ray, TileWorkspace& work) {
-  const auto& [bsdf, out, n, media] = scatterer;
+void queue_lobe(const LandedLane& lane, const Scatterer& scatterer, const Meeting& at,
+                SpecularRay ray, TileWorkspace& work) {
+  const RenderContext& context = lane.context;
+  const FaceRecord& face = lane.face;
+  const auto& [bsdf, normal, out, n, media] = scatterer;
   const bool lamps_sampled = samples_lamps(context, bsdf, ray);
   const RenderSettings& settings = context.settings;
   const std::uint32_t seed = pixel_seed(work.area, ray.pixel, settings.seed);
@@ -77,8 +81,11 @@ void queue_lobe(const RenderContext& context, const Scatterer& scatterer, const 
   const std::uint16_t way = ray.way;
   const std::int32_t bounces = ray.bounces;
   const WorldId world = ray.world;
+  const glm::dvec3 curve =
+      face.curved ? to_frame(context.light.rays.frame(),
+                             receiver_at(context.light, face, lane.hits, lane.k).position)
+                  : glm::dvec3(0.0);
   ray.since_lobe = bsdf.alpha > 0.0 ? 0.0F : ray.since_lobe + static_cast<float>(at.distance);
-  ray.origin = at.position;
   ray.share /= static_cast<float>(n * n);
   // A mirror's direction is no lobe: such chains end by their throughput alone.
   ray.lobes = static_cast<std::uint16_t>(ray.lobes + (bsdf.alpha > 0.0 ? 1 : 0));
@@ -90,7 +97,12 @@ void queue_lobe(const RenderContext& context, const Scatterer& scatterer, const 
     const bool bent = bsdf.pane.faces == GlassFaces::one;
     const bool straight = through && bsdf.alpha == 0.0 && !bent;
     ray.medium = through ? media.behind : media.before;
-    ray.direction = straight ? at.direction : to_world(face.normal, work.lobe[cell].in);
+    ray.direction = straight ? at.direction : to_world(normal, work.lobe[cell].in);
+    const bool from_curve = face.curved && !through && bsdf.alpha > 0.0;
+    ray.origin = from_curve ? curve : at.position;
+    ray.leaving = from_curve ? index(none<PlaneId>) : face.plane_class;
+    if (face.curved && !straight && !from_curve)
+      ray.direction = kept_above(ray.direction, through ? -face.normal : face.normal);
     // Directions of lobes are of unit length; the beam is as wide as it was.
     ray.travelled = straight
                         ? at.travelled
@@ -125,11 +137,11 @@ glm::vec3& seen_by_lobe(const RenderContext& context, const SpecularRay& ray, Wo
 /// Adds light of punctual lights by the lobe.
 void add_highlights(const RenderContext& context, const Scatterer& scatterer,
                     const Receiver& receiver, const SpecularRay& ray, TileWorkspace& work) {
-  const auto& [bsdf, out, divisions, media] = scatterer;
+  const auto& [bsdf, normal, out, divisions, media] = scatterer;
   punctual_arrivals(context.light, receiver, work.point.direct, work.highlights);
   for (const PunctualArrival& arrival : work.highlights) {
-    // The irradiance has the cosine already.
-    const Direction in = to_local(receiver.normal, arrival.towards);
+    // The irradiance has the cosine to the receiver's normal already.
+    const Direction in = to_local(normal, arrival.towards);
     // What mirrors with a width of their own show, the lobe's rays find by their lobes.
     if (in.z > 0.0 && context.blurred[index(arrival.world)] == 0)
       seen_by_lobe(context, ray, arrival.world, work) +=
@@ -140,7 +152,7 @@ void add_highlights(const RenderContext& context, const Scatterer& scatterer,
 /// Adds light of emitters by the lobe, in the share of the points.
 void add_lamps_in_lobe(const RenderContext& context, const Scatterer& scatterer,
                        const Receiver& receiver, const SpecularRay& ray, TileWorkspace& work) {
-  const auto& [bsdf, out, divisions, media] = scatterer;
+  const auto& [bsdf, normal, out, divisions, media] = scatterer;
   const int points = points_per_lamp(context);
   const EmissionSampling sampling{.per_image = points,
                                   .first = ray.number * static_cast<std::uint32_t>(points),
@@ -148,7 +160,7 @@ void add_lamps_in_lobe(const RenderContext& context, const Scatterer& scatterer,
   emission_samples(context.light, receiver, sampling, work.point.direct, work.lamps);
   for (const EmissionSample& lamp : work.lamps) {
     const double distance = glm::length(lamp.towards);
-    const Direction in = to_local(receiver.normal, lamp.towards / distance);
+    const Direction in = to_local(normal, lamp.towards / distance);
     if (lamp.radiance == Rgb(0.0) || !(in.z > 0.0) || context.blurred[index(lamp.world)] != 0)
       continue;
     const double p = divisions * divisions * lobe_density(bsdf, out, in);
@@ -169,7 +181,9 @@ glm::vec3 scattered_radiance(const LandedLane& lane, TileWorkspace& work) {
   const SpecularRay ray = ray_from(state, k, face.plane_class, context.settings.seed);
   const bool spent = bsdf.alpha > 0.0 && ray.lobes >= max_lobes;
   const Meeting at = meeting_of(context, face, packet, state, k, hits.distance[k]);
-  const Direction out = local_out(face.normal, glm::normalize(at.direction));
+  const Direction along = glm::normalize(at.direction);
+  const Direction normal = normal_towards(lane, -along);
+  const Direction out = local_out(normal, along);
   const bool smooth =
       material_of(context.light.scene, TriangleId{hits.triangle[k]}).specular_in_pass_one;
   // The field stands for what is left out, but it knows nothing of what glass,
@@ -180,9 +194,9 @@ glm::vec3 scattered_radiance(const LandedLane& lane, TileWorkspace& work) {
   if (spent && goes_on_ideally)
     bsdf.roughness = bsdf.alpha = 0.0;
   const int n = ray.lobes == 0 ? lobe_divisions(bsdf, out.z, context.settings.glossy_samples) : 1;
-  const Scatterer scatterer{bsdf, out, n, media_at(context, hits, k, ray.medium)};
+  const Scatterer scatterer{bsdf, normal, out, n, media_at(context, hits, k, ray.medium)};
   if (goes_on_ideally || !(spent || radiosity))
-    queue_lobe(context, scatterer, face, at, ray, work);
+    queue_lobe(lane, scatterer, at, ray, work);
   if (spent)
     return has_field ? radiance_of_lane(lane, work) : glm::vec3(0.0F);
 
@@ -193,6 +207,7 @@ glm::vec3 scattered_radiance(const LandedLane& lane, TileWorkspace& work) {
   // Lobes show what is above the coat.
   Receiver receiver = receiver_at(context.light, face, hits, k);
   receiver.coat = none<MaterialId>;
+  receiver.normal = normal;
   if (shows_lights && bsdf.alpha > 0.0 && !context.light.punctual.empty())
     add_highlights(context, scatterer, receiver, ray, work);
   if (shows_lights && samples_lamps(context, bsdf, ray))

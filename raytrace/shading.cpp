@@ -29,8 +29,9 @@ glm::vec3 run_irradiance(const RenderContext& context, const LaneState& state,
     const FaceRecord& own = face_of(light.landing, hits, k);
     const FieldPoint at = field_point(light.landing, face.side, uv_of(light, own, hits, k));
     field += field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
-    work.points.push_back(
-        {receiver_at(light, own, hits, k), k - run.first, static_cast<ElementId>(at.element)});
+    // What the plane of an element cannot see, the curve over it may.
+    const ElementId element = own.curved ? none<ElementId> : static_cast<ElementId>(at.element);
+    work.points.push_back({receiver_at(light, own, hits, k), k - run.first, element});
   }
   const DiffuseSettings& diffuse = context.settings.diffuse;
   const std::uint32_t key = hash(state.key(run.first, context.settings.seed), diffuse.draw);
@@ -82,6 +83,7 @@ LaneRun run_from(const RenderContext& context, const RayPacket& packet, const La
     return hits.triangle[j] != index(none<TriangleId>) && state.pixel[j] == state.pixel[k] &&
            state.way(j) == state.way(k) &&
            face_of(context.light.landing, hits, j).side == face.side &&
+           face_of(context.light.landing, hits, j).curved == face.curved &&
            (!state.specular || state.throughput(j) == state.throughput(k));
   };
   while (run.end < packet.count && goes_on(run.end))

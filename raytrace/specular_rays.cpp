@@ -1,5 +1,8 @@
 #include "raytrace/specular_rays.h"
 
+#include "raytrace/lane_surface.h"
+#include "scenes/shading_normal.h"
+
 namespace meninas {
 
 Meeting meeting_of(const RenderContext& context, const FaceRecord& face, const RayPacket& packet,
@@ -45,6 +48,14 @@ SpecularRay ray_from(const LaneState& state, std::uint32_t k, std::uint32_t leav
   return ray;
 }
 
+/// The direction behind the mirror, as long as the one before it.
+static glm::dvec3 mirrored(const LandedLane& lane, const Meeting& at) {
+  if (!lane.face.curved)
+    return at.direction - 2.0 * at.approach * lane.face.normal;
+  const Direction n = normal_towards(lane, -glm::normalize(at.direction));
+  return kept_above(at.direction - 2.0 * glm::dot(n, at.direction) * n, lane.face.normal);
+}
+
 void reflect(const LandedLane& lane, TileWorkspace& work) {
   const auto& [context, packet, state, face, hits, k] = lane;
   SpecularRay ray = ray_from(state, k, face.plane_class, context.settings.seed);
@@ -54,7 +65,7 @@ void reflect(const LandedLane& lane, TileWorkspace& work) {
   ray.world = child(context.light.worlds, ray.world, face.mirror);
   const Meeting at = meeting_of(context, face, packet, state, k, hits.distance[k]);
   ray.origin = at.position;
-  ray.direction = at.direction - 2.0 * at.approach * face.normal;
+  ray.direction = mirrored(lane, at);
   ray.travelled = at.travelled;
   ray.since_lobe += static_cast<float>(at.distance);
   queue_if_visible(context, ray, work);

@@ -1,6 +1,7 @@
 // Rays that go on from a mirror or a lobe: where they start, how far they have come, and which end.
 //
 // A ray that meets a plane with unit normal n in the direction d goes on in d - 2 (n.d) n.
+// On a curved surface n turns from point to point (scenes/shading_normal.h).
 #pragma once
 
 #include "raytrace/tile.h"

@@ -122,10 +122,10 @@ void choose_images(const TracedScene& traced, const SurfacePoint& x, const Direc
     // Evenly: one of each stride, and all where that is 1.
     const auto place = asked < all ? static_cast<std::size_t>((double(k) + u.x) * stride) : k;
     const LightImage& image = traced.light_images[std::min(place, all - 1)];
-    const auto [target, irradiance] = punctual_sample(image.light, x.position, reach);
-    const Vec3 leg = target - x.position;
+    const auto [target, irradiance] = punctual_sample(image.light, x.origin, reach);
+    const Vec3 leg = target - x.origin;
     if (irradiance == Rgb(0.0) || leg == Vec3(0.0) ||
-        !passes_mirrors(traced, image, x.position, target))
+        !passes_mirrors(traced, image, x.origin, target))
       continue;
     const Direction in = to_local(x.normal, glm::normalize(leg));
     const Rgb radiance = stride * std::abs(in.z) * irradiance * evaluate(x.bsdf, out, in);

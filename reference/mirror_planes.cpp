@@ -32,11 +32,12 @@ MirrorPlanes find_mirror_planes(const Scene& scene, const SurfaceModel& surfaces
       kind = Kind::coat;
     kinds.push_back(kind);
   }
-  const auto planes_up_to = [&](Kind last) {
+  // Only planes have images: the facets of a curved mirror stand for it nowhere.
+  const auto planes_up_to = [&](Kind last, bool with_curved = false) {
     std::vector<PlaneId> planes;
     for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
       const Kind kind = kinds[index(scene.triangles[t].material)];
-      if (kind != Kind::none && kind <= last)
+      if (kind != Kind::none && kind <= last && (with_curved || !scene.triangles[t].curved))
         planes.push_back(surfaces.plane_of_triangle[t]);
     }
     std::ranges::sort(planes);
@@ -50,7 +51,7 @@ MirrorPlanes find_mirror_planes(const Scene& scene, const SurfaceModel& surfaces
       break;
     result.planes.clear();
   }
-  const std::vector<PlaneId> metals = planes_up_to(Kind::texels);
+  const std::vector<PlaneId> metals = planes_up_to(Kind::texels, true);
   result.metals_left_out = std::ranges::count_if(metals, [&](PlaneId plane) {
     return !std::ranges::binary_search(result.planes, plane);
   });

@@ -36,8 +36,8 @@ Rgb chain_throughput(const TracedScene& traced, const SurfacePoint& x, const Cha
   if (!chain.planes.empty() && chain.planes.back() == arriving)
     return Rgb(0.0);
   Rgb throughput(1.0);
-  Point3 from = x.position, target = first_target(traced, chain, y);
-  PlaneId leaving = x.plane;
+  Point3 from = x.origin, target = first_target(traced, chain, y);
+  PlaneId leaving = x.leaving;
   std::size_t reflections = 0;
   for (int layer = 0; layer < max_layers && throughput != Rgb(0.0); ++layer) {
     const bool last_leg = reflections == chain.planes.size();
@@ -56,7 +56,9 @@ Rgb chain_throughput(const TracedScene& traced, const SurfacePoint& x, const Cha
       continue;
     if (at.black)
       return Rgb(0.0);
-    if (!last_leg && at.plane == chain.planes[reflections]) {
+    // What a curved mirror reflects is met by the paths alone.
+    const bool curved = traced.scene.triangles[index(hit->triangle)].curved;
+    if (!last_leg && !curved && at.plane == chain.planes[reflections]) {
       throughput *= ideal_reflection(at.bsdf, cosine);
       target = reflected_in(traced.surfaces.planes[index(at.plane)], target);
       ++reflections;

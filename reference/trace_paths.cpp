@@ -4,6 +4,7 @@
 #include "reference/mirrored_lights.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/sampling.h"
+#include "scenes/shading_normal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,6 +91,7 @@ void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts&
     }
     path.at =
         surface_point(traced, triangle, {hits.b1[lane], hits.b2[lane]}, hits.front[lane] != 0);
+    bend(traced, {hits.b1[lane], hits.b2[lane]}, -path.ray.direction, path.at);
     path.alive = path.at.hole || !path.at.black;
     if (const MaterialId solid = solid_before(traced, path); solid != none<MaterialId>)
       path.throughput *= attenuation(traced.scene.materials[index(solid)],
@@ -101,7 +103,7 @@ void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts&
 double choosing_density(const TracedScene& traced, const Point3& x, const SurfacePoint& light) {
   const Vec3 leg = light.position - x;
   const double distance2 = glm::dot(leg, leg);
-  const double cosine = std::abs(glm::dot(light.normal, leg)) / std::sqrt(distance2);
+  const double cosine = std::abs(glm::dot(light.face, leg)) / std::sqrt(distance2);
   const double area_density = traced.lights.area_density[index(light.triangle)];
   return cosine > 0.0 ? area_density * distance2 / cosine : 0.0;
 }
@@ -140,7 +142,7 @@ LightPoint choose_point(const TracedScene& traced, const Point3& view,
   const Light& light = choose_light(traced.lights, u[0]);
   const Vec2 place = even_barycentric(u[1], u[2]);
   SurfacePoint at = surface_point(traced, light.triangle, place, true);
-  if (glm::dot(view - at.position, at.normal) < 0.0)
+  if (glm::dot(view - at.position, at.face) < 0.0)
     at = surface_point(traced, light.triangle, place, false);
   return {at.position, at.plane, at.hole ? Rgb(0.0) : at.material.emission,
           choosing_density(traced, view, at)};
@@ -164,7 +166,7 @@ LightRoutes routes_on(const TracedScene& traced, const Path& path, const Directi
 std::optional<Connection> connect(const TracedScene& traced, const Path& path, const Chain& chain,
                                   const std::array<float, 4>& u, LightSearch search) {
   const LightPoint point = choose_point(traced, chain.image, u);
-  const Vec3 leg = first_target(traced, chain, point.position) - path.at.position;
+  const Vec3 leg = first_target(traced, chain, point.position) - path.at.origin;
   if (point.light == Rgb(0.0) || point.density == 0.0 || glm::dot(leg, leg) == 0.0)
     return std::nullopt;
   const Direction out = local_out(path.at.normal, path.ray.direction);
@@ -188,7 +190,7 @@ void look_for_surfaces(const TracedScene& traced, const Paths& paths, std::uint3
   const std::size_t longest = traced.mirror_planes.empty() ? 0 : longest_chain;
   for (std::size_t length = 0; length <= longest; ++length) {
     const auto& numbers = u.light[length];
-    const auto chain = choose_chain(traced, paths[k].at.position, length, numbers[3]);
+    const auto chain = choose_chain(traced, paths[k].at.origin, length, numbers[3]);
     auto connection = chain ? connect(traced, paths[k], *chain, numbers, search) : std::nullopt;
     if (!connection)
       continue;
@@ -209,7 +211,7 @@ void look_for_images(const TracedScene& traced, const Paths& paths, std::uint32_
     Point3 light = seen.target;
     for (const PlaneId plane : planes)
       light = reflected_in(traced.surfaces.planes[index(plane)], light);
-    const Direction in = to_local(path.at.normal, glm::normalize(seen.target - path.at.position));
+    const Direction in = to_local(path.at.normal, glm::normalize(seen.target - path.at.origin));
     Connection& connection = connections.emplace_back();
     connection.chain.planes = planes;
     connection.light = light;
@@ -227,8 +229,8 @@ void add_clear_connections(const TracedScene& traced, std::span<const Connection
   for (const Connection* connection : clear) {
     const SurfacePoint& x = paths[connection->path].at;
     const std::uint32_t lane = packet.count++;
-    set_ray(packet, lane, (x.position - frame.centre) * frame.scale,
-            (connection->light - x.position) * frame.scale, index(x.plane), 1.0F);
+    set_ray(packet, lane, (x.origin - frame.centre) * frame.scale,
+            (connection->light - x.origin) * frame.scale, index(x.leaving), 1.0F);
     packet.arriving[lane] = index(connection->arriving);
   }
   const std::uint32_t blocked = occluded(traced.rays, packet, Coherence::incoherent);
@@ -280,6 +282,15 @@ void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& 
   if (drawn->lobe == Lobe::straight && !into_solid)
     return;
   path.ray.direction = to_world(path.at.normal, drawn->in);
+  const bool through = drawn->in.z < 0.0;
+  const bool curved = traced.scene.triangles[index(path.at.triangle)].curved;
+  if (drawn->lobe == Lobe::spread && !through) {
+    path.ray.origin = path.at.origin;
+    path.ray.leaving = path.at.leaving;
+  } else if (curved) {
+    path.ray.direction =
+        kept_above(path.ray.direction, through ? -path.at.face : path.at.face);
+  }
   if (drawn->lobe == Lobe::straight) {
     path.medium = path.at.front ? met : none<MaterialId>;
     // No light is looked for through solids: it is met, and then counts whole.
@@ -287,7 +298,7 @@ void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& 
     return;
   }
   if (drawn->lobe == Lobe::ideal_reflection) {
-    const bool looked_for = path.chain_length < longest_chain &&
+    const bool looked_for = path.chain_length < longest_chain && !curved &&
                             std::ranges::binary_search(traced.mirror_planes, path.at.plane);
     path.density = looked_for ? path.density : 0.0;
     path.scattered_at =
@@ -299,7 +310,7 @@ void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& 
     path.routes = is_coat ? path.routes.scattered({.gloss = Rgb(1.0)}) : path.routes.reflected(1);
   } else {
     path.density = drawn->density;
-    path.scattered_at = path.at.position;
+    path.scattered_at = path.ray.origin;
     path.chain_length = 0;
     path.routes = routes_on(traced, path, out, drawn->in);
   }

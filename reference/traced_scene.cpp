@@ -1,6 +1,8 @@
 #include "reference/traced_scene.h"
 
 #include "scenes/materials/refraction.h"
+#include "scenes/rays/curved_origin.h"
+#include "scenes/shading_normal.h"
 
 namespace meninas::reference {
 
@@ -13,7 +15,10 @@ SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 
   at.front = front;
   at.position = a + barycentric.x * (b - a) + barycentric.y * (c - a);
   at.plane = traced.surfaces.plane_of_triangle[index(triangle)];
-  at.normal = front ? traced.normals[index(triangle)] : -traced.normals[index(triangle)];
+  at.face = front ? traced.normals[index(triangle)] : -traced.normals[index(triangle)];
+  at.normal = at.face;
+  at.origin = at.position;
+  at.leaving = at.plane;
   if (is_textured(material) || has_vertex_colors(traced.scene, triangle)) {
     at.material = material_at(traced.scene, traced.textures, triangle, barycentric);
     at.bsdf = make_bsdf(material, at.material);
@@ -30,6 +35,16 @@ SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 
     at.black = material.transmission == 0.0;
   }
   return at;
+}
+
+void bend(const TracedScene& traced, Vec2 barycentric, const Direction& out, SurfacePoint& at) {
+  if (!traced.scene.triangles[index(at.triangle)].curved)
+    return;
+  const Direction n = shading_normal(traced.scene, at.triangle, barycentric);
+  at.normal = visible_normal(at.front ? n : -n, at.face, out);
+  at.origin = curved_origin(traced.scene, traced.surfaces, traced.rays, at.triangle, barycentric,
+                            at.front);
+  at.leaving = none<PlaneId>;
 }
 
 } // namespace meninas::reference

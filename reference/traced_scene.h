@@ -33,7 +33,10 @@ struct SurfacePoint {
   TriangleId triangle = none<TriangleId>;
   Point3 position{0.0};
   PlaneId plane = none<PlaneId>;
-  Direction normal{0.0, 0.0, 1.0}; ///< of the side that was met
+  Direction face{0.0, 0.0, 1.0}; ///< normal of the side that was met
+  Direction normal{0.0, 0.0, 1.0}; ///< by which it reflects: that of the face, or of the curve
+  Point3 origin{0.0}; ///< of light that it receives or reflects: the position, or on the curve
+  PlaneId leaving = none<PlaneId>; ///< by that light: the plane of a flat surface
   MaterialPoint material;
   Bsdf bsdf;
   bool hole = false; ///< cut out: nothing is there
@@ -42,8 +45,12 @@ struct SurfacePoint {
 };
 
 /// The point of a triangle with weights b1,
-/// b2 of its second and third corner, met on its front or back.
+/// b2 of its second and third corner, met on its front or back. It is flat so far.
 SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 barycentric,
                            bool front);
+
+/// Makes a point of a curved triangle one of the curve (scenes/shading_normal.h),
+/// seen from the direction `out` above the face.
+void bend(const TracedScene& traced, Vec2 barycentric, const Direction& out, SurfacePoint& at);
 
 } // namespace meninas::reference

@@ -93,6 +93,9 @@ void add_geometry(ContentHash& hash, const Scene& scene) {
       hash.add(Vec3(vertex.color));
       hash.add(double{vertex.color.a});
     }
+    if (vertex.normal != glm::vec3(0.0F)) {
+      hash.add(Vec3(vertex.normal));
+    }
   }
   hash.add(std::uint64_t{scene.triangles.size()});
   for (const Triangle& triangle : scene.triangles) {

@@ -20,12 +20,14 @@ struct Vertex {
   Point3 position{0.0};
   std::array<glm::vec2, 2> texcoord{}; ///< TEXCOORD_0 and TEXCOORD_1
   glm::vec4 color{1.0F};               ///< COLOR_0: a factor of base colour and alpha, linear
+  glm::vec3 normal{0.0F};              ///< NORMAL, of unit length; zero: that of the face
 };
 
 struct Triangle {
   std::array<VertexId, 3> vertices{};
   MaterialId material = none<MaterialId>;
   NodeId node = none<NodeId>;
+  bool curved = false; ///< its vertices' normals are not that of its plane (shading_normal.h)
 };
 
 /// A glTF node that carries a mesh; its name is how a user asks for it. Unnamed nodes are `node12`.

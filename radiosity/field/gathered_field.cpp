@@ -30,7 +30,7 @@ InterpolatedField gathered_field(const LightScene& light, const ElementLight& el
   PointWorkspaces workspaces;
   const VertexElements facets =
       elements.from_source.empty() ? VertexElements{} : facets_around(light);
-  VertexSamples found = make_samples(light.mesh, facets);
+  VertexSamples found = make_samples(light, facets);
   if (!facets.elements.empty())
     average_facets(light, elements, facets, form_factors, workspaces, found.field);
 

@@ -164,7 +164,7 @@ void refine_direct(const LightScene& light, const VertexSource& source, const Be
     // Every vertex that has a value keeps it, and none asks anew how it sees the source.
     std::ranges::replace(found.seen, Visibility::alike, Visibility::confirmed);
     const VertexSamples coarse = std::move(found);
-    found = divided(coarse, light.surfaces, marked);
+    found = divided(light, coarse, marked);
     light_fresh(source, light.surfaces, first_level + level, coarse, found);
   }
   result.field = std::move(found.field);

@@ -1,14 +1,16 @@
 #include "radiosity/field/refine_indirect.h"
 
+#include "radiosity/field/curved_vertices.h"
 #include "radiosity/mesh/subdivision.h"
 
 #include <algorithm>
 
 namespace meninas {
 
-VertexSamples divided(const VertexSamples& before, const SurfaceModel& surfaces,
-                   std::span<const std::uint8_t> marked) {
-  VertexSamples after = make_samples(divide_elements(before.mesh, surfaces, marked));
+VertexSamples divided(const LightScene& light, const VertexSamples& before,
+                      std::span<const std::uint8_t> marked) {
+  VertexSamples after = make_samples(divide_elements(before.mesh, light.surfaces, marked));
+  receive_on_curves(light, after);
   const std::vector<CellId> now = same_cells(before.mesh, after.mesh);
   for (std::size_t e = 0; e < element_count(before.mesh); ++e) {
     const ElementCorners corners =
@@ -37,7 +39,7 @@ void refine_indirect(const LightScene& light, const VertexSource& source, const 
         bent_by_more(interpolation_error(found.mesh, result.field.indirect, scale), x);
     if (std::ranges::find(marked, 1) == marked.end())
       return;
-    found = divided(found, light.surfaces, marked);
+    found = divided(light, found, marked);
     gather_at_vertices(source, level, found);
     result.field = complete_field(source, found);
     result.mesh = found.mesh;

@@ -11,7 +11,7 @@
 namespace meninas {
 
 /// The marked elements divided; what was found is kept.
-VertexSamples divided(const VertexSamples& before, const SurfaceModel& surfaces,
+VertexSamples divided(const LightScene& light, const VertexSamples& before,
                    std::span<const std::uint8_t> marked);
 
 /// `result` has the field of what was found,

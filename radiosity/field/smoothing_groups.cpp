@@ -1,5 +1,6 @@
 #include "radiosity/field/smoothing_groups.h"
 
+#include "radiosity/field/curved_vertices.h"
 #include "radiosity/mesh/mesh_cells.h"
 #include "radiosity/mesh/vertex_welder.h"
 #include "radiosity/scene/small_elements.h"
@@ -38,25 +39,45 @@ std::vector<std::vector<ElementVertexId>> facet_places(const ElementMesh& mesh, 
   return at_place;
 }
 
+/// What tells at a corner of a facet whether another one continues it.
+struct CornerNormal {
+  Direction normal{0.0};
+  bool given = false; ///< by the file; else it is that of the facet
+};
+
+CornerNormal corner_normal(const LightScene& light, ElementVertexId v) {
+  const MeshSide& side = side_of(light.mesh, light.mesh.element_of_vertex[index(v)]);
+  if (const auto given = given_normal(light, side, light.mesh.vertices[index(v)]))
+    return {*given, true};
+  return {side.normal, false};
+}
+
+/// Where the file gives normals they are the same on both sides of what is smooth.
+bool is_smooth_between(const CornerNormal& a, const CornerNormal& b) {
+  const double turn = a.given && b.given ? same_normal_degrees : max_facet_turn;
+  return glm::dot(a.normal, b.normal) >= std::cos(turn * std::numbers::pi / 180.0);
+}
+
 } // namespace
 
 VertexElements facets_around(const LightScene& light) {
   const ElementMesh& mesh = light.mesh;
-  const double min_cosine = std::cos(max_facet_turn * std::numbers::pi / 180.0);
   constexpr std::size_t min_facets = 3;
   const VertexElements own = elements_around(mesh);
-  const auto normal_at = [&mesh](ElementVertexId v) {
-    return side_of(mesh, mesh.element_of_vertex[index(v)]).normal;
-  };
   std::vector<std::vector<ElementId>> taken(mesh.vertices.size());
-  for (const auto& vertices : facet_places(mesh, vertex_grain(mesh, light.surfaces))) {
+  const auto places = facet_places(mesh, vertex_grain(mesh, light.surfaces));
+  std::vector<CornerNormal> normals(mesh.vertices.size());
+  for (const auto& vertices : places)
+    for (const ElementVertexId v : vertices)
+      normals[index(v)] = corner_normal(light, v);
+  for (const auto& vertices : places) {
     if (vertices.size() < min_facets)
       continue;
     for (const ElementVertexId v : vertices) {
       std::vector<ElementId>& facets = taken[index(v)];
       std::size_t surfaces = 0;
       for (const ElementVertexId other : vertices) {
-        if (glm::dot(normal_at(v), normal_at(other)) < min_cosine)
+        if (!is_smooth_between(normals[index(v)], normals[index(other)]))
           continue;
         ++surfaces;
         const auto elements = around(own, index(other));

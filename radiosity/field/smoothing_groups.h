@@ -12,7 +12,8 @@
 
 namespace meninas {
 
-/// Facets whose normals are further apart, degrees, meet at an edge.
+/// Facets whose normals are further apart, degrees, meet at an edge, unless the file gives normals
+/// at their corners: then these tell (curved_vertices.h).
 inline constexpr double max_facet_turn = 40.0;
 
 /// By ElementVertexId: the facets a vertex takes the mean of; none where it has a value of its own.

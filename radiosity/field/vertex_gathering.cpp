@@ -1,6 +1,7 @@
 #include "radiosity/field/vertex_gathering.h"
 
 #include "radiosity/field/contact_vertices.h"
+#include "radiosity/field/curved_vertices.h"
 #include "radiosity/field/emission_kernels.h"
 #include "radiosity/field/smoothing_groups.h"
 #include "radiosity/field/gap_vertices.h"
@@ -39,8 +40,9 @@ VertexSamples make_samples(ElementMesh mesh) {
   return found;
 }
 
-VertexSamples make_samples(const ElementMesh& mesh, const VertexElements& facets) {
-  VertexSamples found = make_samples(mesh);
+VertexSamples make_samples(const LightScene& light, const VertexElements& facets) {
+  VertexSamples found = make_samples(light.mesh);
+  receive_on_curves(light, found);
   for (std::size_t v = 0; v < found.states.size(); ++v)
     if (is_averaged(facets, v))
       found.states[v] = VertexState::averaged;
@@ -340,6 +342,7 @@ std::vector<std::uint8_t> with_values(const VertexSamples& found) {
 VertexIrradiance complete_field(const VertexSource& source, const VertexSamples& found) {
   VertexIrradiance field = found.field;
   std::vector<std::uint8_t> valid = with_values(found);
+  join_on_curves(source.gathering.light, found, valid, field);
   for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
   light_contacts(source, found, valid, field);
   extend_regions(found, valid, field);

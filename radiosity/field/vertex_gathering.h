@@ -23,7 +23,7 @@ PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflecte
 
 VertexSamples make_samples(ElementMesh mesh);
 /// Of the scene's mesh. Vertices of these facets (smoothing_groups.h) are `averaged`, their values to come.
-VertexSamples make_samples(const ElementMesh& mesh, const VertexElements& facets);
+VertexSamples make_samples(const LightScene& light, const VertexElements& facets);
 
 /// Gathers at the vertices that are unknown and do not hang.
 void gather_at_vertices(const VertexSource& source, std::uint32_t level, VertexSamples& found);

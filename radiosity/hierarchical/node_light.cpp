@@ -10,7 +10,7 @@
 namespace meninas {
 
 LitVertices lit_vertices(const LightScene& light, const VertexGathering& how) {
-  LitVertices lit{make_samples(light.mesh, facets_around(light))};
+  LitVertices lit{make_samples(light, facets_around(light))};
   if (!light.punctual.empty())
     lit.found.punctual.assign(lit.found.states.size(), glm::vec3(0.0F));
   PointWorkspaces workspaces;

@@ -35,6 +35,7 @@ struct FaceRecord {
   glm::vec3 reflectance{1.0F};    ///< of the mirror, where it is not glass
   bool glass = false;
   bool solid = false; ///< and the surface of a solid
+  bool curved = false; ///< it reflects by a normal that turns (scenes/shading_normal.h)
   glm::dvec3 normal{0.0};    ///< towards this face
   double frame_offset = 0.0; ///< of its plane in the frame of the ray scene
 };

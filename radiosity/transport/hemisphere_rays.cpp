@@ -4,6 +4,7 @@
 #include "radiosity/scene/surface_colour.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/sampling.h"
+#include "scenes/shading_normal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,10 +50,21 @@ struct MetFace {
 /// Where a ray meets a mirror, glass or a coat: on its exact plane, not at the rounded distance.
 struct Meeting {
   glm::dvec3 position;
-  double approach; ///< the direction along the normal
+  Direction normal; ///< towards the ray; it turns with a curved surface
+  double approach;  ///< the direction along the normal
   double cosine;
   MirrorShares shares;
 };
+/// The normal by which what was met reflects a ray.
+Direction normal_met(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
+                     std::uint32_t k, const Carried& from) {
+  if (!face.curved)
+    return face.normal;
+  const Direction n =
+      shading_normal(light.scene, TriangleId{hits.triangle[k]}, {hits.b1[k], hits.b2[k]});
+  return visible_normal(hits.front[k] != 0 ? n : -n, face.normal, -glm::normalize(from.direction));
+}
+
 Meeting meeting_of(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                    std::uint32_t k, const Carried& from) {
   const double distance = double{hits.distance[k]};
@@ -60,9 +72,16 @@ Meeting meeting_of(const LightScene& light, const FaceRecord& face, const HitPac
   double t = (face.frame_offset - glm::dot(face.normal, from.origin)) / approach;
   if (!(t > 0.0) || t > 2.0 * distance + 1e-6)
     t = distance;
-  const double cosine = std::min(1.0, std::abs(approach) / glm::length(from.direction));
-  return {from.origin + t * from.direction, approach, cosine,
+  const Direction normal = normal_met(light, face, hits, k, from);
+  const double along = face.curved ? glm::dot(normal, from.direction) : approach;
+  const double cosine = std::min(1.0, std::abs(along) / glm::length(from.direction));
+  return {from.origin + t * from.direction, normal, along, cosine,
           mirror_shares(light, face, hits, k, cosine)};
+}
+
+glm::dvec3 mirrored(const Carried& from, const Meeting& at, const FaceRecord& face) {
+  const glm::dvec3 direction = from.direction - 2.0 * at.approach * at.normal;
+  return face.curved ? kept_above(direction, face.normal) : direction;
 }
 
 WorldId reflected_world(const LightScene& light, const FaceRecord& face, const Carried& from) {
@@ -72,16 +91,17 @@ WorldId reflected_world(const LightScene& light, const FaceRecord& face, const C
 }
 
 /// Sends a ray on through a face, straight or as its solid bends it; not if it cannot be.
-bool pass(const LightScene& light, const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
+bool pass(const LightScene& light, const MetFace& met, const Direction& normal,
           const Carried& from, MirroredRay& ray) {
+  const auto& [face, hits, k] = met;
   if (!face.solid)
     return true;
   const TriangleId triangle{hits.triangle[k]};
   const bool front = hits.front[k] != 0;
-  const auto behind = refracted(light, triangle, front, face.normal, from.direction);
+  const auto behind = refracted(light, triangle, front, normal, from.direction);
   if (!behind)
     return false;
-  ray.direction = *behind;
+  ray.direction = face.curved ? kept_above(*behind, -face.normal) : *behind;
   ray.medium = medium_behind(light, triangle, front);
   ray.world = world_from_solid(from.world, from.meetings == 0, false);
   return true;
@@ -106,12 +126,12 @@ MirroredRay going_on(const LightScene& light, const MetFace& met, const Carried&
   if (face.glass) {
     const float reflected = largest(at.shares.reflected), passed = largest(at.shares.passed);
     chance = reflected + passed > 0.0F ? reflected / (reflected + passed) : 0.0F;
-    if (choice_of(from, seed, 0x91a55) >= chance && pass(light, face, hits, k, from, ray)) {
+    if (choice_of(from, seed, 0x91a55) >= chance && pass(light, met, at.normal, from, ray)) {
       ray.throughput *= at.shares.passed / (1.0F - chance);
       return ray;
     }
   }
-  ray.direction = from.direction - 2.0 * at.approach * face.normal;
+  ray.direction = mirrored(from, at, face);
   ray.throughput *= chance == 1.0F ? at.shares.reflected : at.shares.reflected / chance;
   ray.world = reflected_world(light, face, from);
   ++ray.reflections;
@@ -132,7 +152,7 @@ std::optional<MirroredRay> meet_coat(const LightScene& light, const MetFace& met
   if (choice_of(from, seed, 0xc0a7) >= chance)
     return std::nullopt;
   return MirroredRay{at.position,
-                     from.direction - 2.0 * at.approach * face.normal,
+                     mirrored(from, at, face),
                      from.weight,
                      from.throughput * at.shares.reflected / chance,
                      world,

@@ -12,7 +12,7 @@ namespace meninas {
 namespace {
 
 bool is_same_mirror(const FaceRecord& a, const FaceRecord& b) {
-  return b.mirrors && b.side == FaceRecord::nothing && a.plane_class == b.plane_class &&
+  return b.mirrors && !b.curved && b.side == FaceRecord::nothing && a.plane_class == b.plane_class &&
          a.normal == b.normal && a.frame_offset == b.frame_offset && a.reflectance == b.reflectance;
 }
 

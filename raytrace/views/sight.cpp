@@ -1,6 +1,7 @@
 #include "raytrace/views/sight.h"
 
 #include "radiosity/scene/surface_colour.h"
+#include "scenes/shading_normal.h"
 
 #include <algorithm>
 #include <utility>
@@ -15,6 +16,15 @@ static bool passes_most(const LightScene& light, const Hit& hit) {
           ? material_at(light.scene, light.textures, hit.triangle, hit.barycentric).transmission
           : material.transmission;
   return transmission >= 0.5;
+}
+
+/// The normal by which the surface reflects towards the eye.
+static Direction seen_normal(const Scene& scene, const FaceRecord& face, const Hit& hit,
+                             const Vec3& along) {
+  if (!face.curved)
+    return face.normal;
+  const Direction n = shading_normal(scene, hit.triangle, hit.barycentric);
+  return visible_normal(hit.front ? n : -n, face.normal, -glm::normalize(along));
 }
 
 Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
@@ -33,7 +43,7 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
     sight.triangle = hit->triangle;
     sight.barycentric = hit->barycentric;
     sight.position = ray.origin + hit->distance * ray.direction;
-    sight.normal = face.normal;
+    sight.normal = seen_normal(light.scene, face, *hit, ray.direction);
     if (face.side != FaceRecord::nothing) {
       sight.side = face.side;
       const glm::vec2 b(hit->barycentric);
@@ -53,7 +63,7 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
       ray.origin += step * ray.direction;
     } else {
       ++sight.mirrors;
-      ray.direction -= 2.0 * glm::dot(face.normal, ray.direction) * face.normal;
+      ray.direction -= 2.0 * glm::dot(sight.normal, ray.direction) * sight.normal;
     }
     sight.side = FaceRecord::nothing;
   }

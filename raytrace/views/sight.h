@@ -11,7 +11,7 @@ struct Sight {
   TriangleId triangle = none<TriangleId>; ///< none: nothing is met
   Vec2 barycentric{0.0};
   Point3 position{0.0};
-  Direction normal{0.0};                    ///< of the face that is met, towards the eye
+  Direction normal{0.0}; ///< by which what is met reflects towards the eye: of the face or the curve
   std::uint32_t side = FaceRecord::nothing; ///< index of the SideId, if the face carries radiosity
   FieldPoint place{};                       ///< on that side
   int mirrors = 0;                          ///< on the way

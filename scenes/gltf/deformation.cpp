@@ -1,6 +1,7 @@
 #include "scenes/gltf/deformation.h"
 
 #include "scenes/gltf/accessors.h"
+#include "scenes/gltf/normals.h"
 
 #include <fmt/format.h>
 
@@ -23,20 +24,20 @@ static Vectors decode_for_each(const Document& document, const std::string& wher
   return decoded;
 }
 
-void apply_morph_targets(const Document& document, const std::string& where, const Json& primitive,
-                         std::span<const double> weights, std::vector<Vec3>& positions) {
-  const auto* targets = find(primitive, "targets");
-  if (!targets)
+void apply_morph_targets(const Morph& morph, std::string_view attribute,
+                         std::vector<Vec3>& values) {
+  const auto* targets = find(morph.primitive, "targets");
+  if (!targets || values.empty())
     return;
-  for (std::size_t k = 0; k < std::min(targets->size(), weights.size()); ++k) {
-    const auto accessor = index_at((*targets)[k], "POSITION");
-    if (weights[k] == 0.0 || !accessor)
+  for (std::size_t k = 0; k < std::min(targets->size(), morph.weights.size()); ++k) {
+    const auto accessor = index_at((*targets)[k], attribute);
+    if (morph.weights[k] == 0.0 || !accessor)
       continue;
-    const auto displacement = decode_for_each(document, where, fmt::format("target {}", k),
-                                              *accessor, 3, positions.size());
-    for (std::size_t v = 0; v < positions.size(); ++v) {
+    const auto displacement = decode_for_each(
+        morph.document, morph.where, fmt::format("target {}", k), *accessor, 3, values.size());
+    for (std::size_t v = 0; v < values.size(); ++v) {
       const auto* d = &displacement.values[3 * v];
-      positions[v] += weights[k] * Vec3(d[0], d[1], d[2]);
+      values[v] += morph.weights[k] * Vec3(d[0], d[1], d[2]);
     }
   }
 }
@@ -109,8 +110,9 @@ static glm::dmat4 blend(const Document& document, const std::string& where,
   return total > 0.0 ? sum / total : joints[0];
 }
 
-bool apply_skin(const Document& document, const std::string& where, const Json& primitive,
-                std::span<const glm::dmat4> joints, std::vector<Vec3>& positions) {
+bool apply_skin(const Skinning& skinning, std::vector<Vec3>& positions,
+                std::vector<Vec3>& normals) {
+  const auto& [document, where, primitive, joints] = skinning;
   const auto& attributes = primitive["attributes"];
   std::vector<Vectors> indices;
   std::vector<Vectors> weights;
@@ -129,9 +131,12 @@ bool apply_skin(const Document& document, const std::string& where, const Json& 
   for (const auto& set : indices)
     if (!std::ranges::all_of(set.values, [](double x) { return x >= 0.0; }))
       throw InputError(document.file, where, "a joint's number is negative");
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    positions[v] =
-        Vec3(blend(document, where, joints, indices, weights, v) * glm::dvec4(positions[v], 1.0));
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const glm::dmat4 matrix = blend(document, where, joints, indices, weights, v);
+    positions[v] = Vec3(matrix * glm::dvec4(positions[v], 1.0));
+    if (!normals.empty())
+      normals[v] = moved_normal(matrix, normals[v]);
+  }
   return true;
 }
 

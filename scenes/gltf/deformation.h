@@ -14,10 +14,17 @@
 
 namespace meninas::gltf {
 
-/// Adds the targets that have a weight (of the node,
-/// or else of the mesh) to the positions of a primitive.
-void apply_morph_targets(const Document& document, const std::string& where, const Json& primitive,
-                         std::span<const double> weights, std::vector<Vec3>& positions);
+/// A primitive and the weights of its targets, those of the node or else of the mesh.
+struct Morph {
+  const Document& document;
+  std::string where; ///< for messages
+  const Json& primitive;
+  std::span<const double> weights;
+};
+
+/// Adds the targets that have a weight to an attribute of the primitive, if there is any of it.
+void apply_morph_targets(const Morph& morph, std::string_view attribute,
+                         std::vector<Vec3>& values);
 
 /// J_j B_j of the joints of skins, found once for all nodes that use them.
 class Skins {
@@ -33,9 +40,16 @@ private:
   std::map<std::size_t, std::vector<glm::dmat4>> joints_;
 };
 
-/// Positions of a primitive in the world.
+/// A primitive and the matrices of the joints that its vertices follow.
+struct Skinning {
+  const Document& document;
+  std::string where; ///< for messages
+  const Json& primitive;
+  std::span<const glm::dmat4> joints;
+};
+
+/// Positions of a primitive in the world, and its normals, if there are any.
 /// False, with nothing moved, when it has no joints and weights.
-bool apply_skin(const Document& document, const std::string& where, const Json& primitive,
-                std::span<const glm::dmat4> joints, std::vector<Vec3>& positions);
+bool apply_skin(const Skinning& skinning, std::vector<Vec3>& positions, std::vector<Vec3>& normals);
 
 } // namespace meninas::gltf

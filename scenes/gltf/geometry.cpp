@@ -2,7 +2,9 @@
 #include "scenes/gltf/accessors.h"
 #include "scenes/gltf/deformation.h"
 #include "scenes/gltf/instances.h"
+#include "scenes/gltf/normals.h"
 #include "scenes/gltf/primitives.h"
+#include "scenes/shading_normal.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +22,7 @@ struct Part {
   std::vector<Vec3> positions;
   std::vector<std::array<glm::vec2, 2>> texcoords;
   std::vector<glm::vec4> colors; ///< empty without COLOR_0
+  Normals normals;
   std::vector<Corners> triangles;
   MaterialId material = none<MaterialId>;
   double step = 0.0; ///< of integer positions; 0: floats
@@ -161,9 +164,12 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& 
   Part part;
   part.positions = decode_positions(at, *accessor);
   part.step = step_of_values(at.document, *accessor);
+  part.normals = decode_normals(at, findings);
   if (const auto* targets = find(at.json, "targets"); targets && !targets->empty()) {
     findings.about("morph targets keep their default weights in nodes", at.in.node);
-    apply_morph_targets(at.document, at.where(), at.json, at.in.morph_weights, part.positions);
+    const Morph morph{at.document, at.where(), at.json, at.in.morph_weights};
+    apply_morph_targets(morph, "POSITION", part.positions);
+    apply_morph_targets(morph, "NORMAL", part.normals.values);
   }
   part.texcoords = decode_texcoords(at, part.positions.size(), findings);
   check_texcoords(at, findings);
@@ -263,10 +269,16 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
         into.half_steps.push_back(static_cast<float>(position_error.of_step(part.step)));
         if (!part.colors.empty())
           scene.vertices.back().color = part.colors[corners[c]];
+        if (!part.normals.values.empty())
+          scene.vertices.back().normal =
+              glm::vec3(moved_normal(world, part.normals.values[corners[c]]));
       }
       triangle.vertices[c] = id;
     }
     scene.triangles.push_back(triangle);
+    if (!part.normals.values.empty())
+      mark_curved(scene, TriangleId{static_cast<std::uint32_t>(scene.triangles.size() - 1)},
+                  part.normals.error);
     ++kept;
   }
   if (kept > 0)
@@ -281,7 +293,8 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
 static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& node, Skins& skins,
                        Geometry& into, Findings& findings) {
   if (const auto skin = index_at(element(at.document.root, "nodes", node.index), "skin")) {
-    if (apply_skin(at.document, at.where(), at.json, skins.joints(*skin), part.positions)) {
+    if (apply_skin({at.document, at.where(), at.json, skins.joints(*skin)}, part.positions,
+                   part.normals.values)) {
       findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
       return add_part(at, part, glm::dmat4(1.0), into.node, into, findings);
     }

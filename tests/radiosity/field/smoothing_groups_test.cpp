@@ -1,6 +1,7 @@
 #include "radiosity/field/smoothing_groups.h"
 #include "radiosity/light/point_irradiance.h"
 #include "tests/radiosity/lit_scene.h"
+#include "tests/support/globes.h"
 #include "tests/support/rooms.h"
 
 #include <gtest/gtest.h>
@@ -13,30 +14,9 @@
 namespace meninas::test {
 namespace {
 
-/// Facets of a globe, every one a node called "globe"; the poles are fans of triangles.
-void add_globe(Scene& scene, const Point3& centre, double radius, const Material& material) {
-  constexpr int meridians = 24, parallels = 12;
-  const auto at = [&](int meridian, int parallel) {
-    const double longitude = 2.0 * std::numbers::pi * (meridian % meridians) / meridians,
-                 colatitude = std::numbers::pi * parallel / parallels;
-    const double across = parallel % parallels == 0 ? 0.0 : std::sin(colatitude);
-    return centre + radius * Vec3(across * std::cos(longitude), std::cos(colatitude),
-                                  across * std::sin(longitude));
-  };
-  for (int m = 0; m < meridians; ++m)
-    for (int p = 0; p < parallels; ++p) {
-      std::vector<Point3> facet{at(m, p), at(m + 1, p), at(m + 1, p + 1), at(m, p + 1)};
-      if (p == 0)
-        facet.erase(facet.begin());
-      if (p + 1 == parallels)
-        facet.erase(facet.begin() + 2);
-      add_polygon(scene, "globe", facet, material);
-    }
-}
-
-Scene room_with_globe() {
+Scene room_with_globe(GivenNormals normals = GivenNormals::none) {
   Scene scene = half_room();
-  add_globe(scene, {1.2, 1.1, 1.3}, 0.25, diffuse(0.6));
+  add_globe(scene, "globe", {.centre = {1.2, 1.1, 1.3}, .radius = 0.25}, diffuse(0.6), normals);
   return scene;
 }
 
@@ -61,6 +41,19 @@ TEST(Facets, AreFoundOnAGlobeAndNotOnABox) {
   EXPECT_EQ(averaged, of_globe.size());
   for (const std::size_t v : of_globe)
     EXPECT_GE(around(facets, v).size(), 3U);
+}
+
+// What the file gives as normals tells what is smooth, whatever the angle between the facets is.
+TEST(Facets, MeetSmoothlyWhereTheFileGivesOneNormal) {
+  const auto smooth = lit(room_with_globe(GivenNormals::smooth), {.element_size = 0.4}),
+             sharp = lit(room_with_globe(GivenNormals::flat), {.element_size = 0.4});
+  const VertexElements on_curve = facets_around(*smooth->light);
+  for (const std::size_t v : vertices_of(*smooth, "globe"))
+    EXPECT_GE(around(on_curve, v).size(), 3U);
+  for (const std::size_t v : vertices_of(*sharp, "globe"))
+    for (const ElementId element : around(facets_around(*sharp->light), v))
+      EXPECT_EQ(sharp->mesh.side_of_element[index(element)],
+                sharp->mesh.side_of_element[index(sharp->mesh.element_of_vertex[v])]);
 }
 
 // Facets that were divided are no facets: their light is not that of one element.
