@@ -127,6 +127,18 @@ void queue_lobe(const LandedLane& lane, const Scatterer& scatterer, const Meetin
   }
 }
 
+/// Queues what goes on through the openings of a surface as if nothing were there.
+void queue_straight(const LandedLane& lane, const Bsdf& bsdf, double cosine, const Meeting& at,
+                    SpecularRay ray, TileWorkspace& work) {
+  ray.origin = at.position;
+  ray.direction = at.direction;
+  ray.travelled = at.travelled;
+  ray.since_lobe += static_cast<float>(at.distance);
+  ray.throughput *= glm::vec3(facet_transmittance(bsdf, cosine));
+  ray.key = hash(ray.key, 0x09e4);
+  queue_if_visible(lane.context, ray, work);
+}
+
 /// The pixel's sum of what a lobe shows of light that has come to it by a mirror world.
 glm::vec3& seen_by_lobe(const RenderContext& context, const SpecularRay& ray, WorldId world,
                         TileWorkspace& work) {
@@ -184,6 +196,10 @@ glm::vec3 scattered_radiance(const LandedLane& lane, TileWorkspace& work) {
   const Direction along = glm::normalize(at.direction);
   const Direction normal = normal_towards(lane, -along);
   const Direction out = local_out(normal, along);
+  if (is_open(bsdf)) {
+    queue_straight(lane, bsdf, out.z, at, ray, work);
+    bsdf.glass = 0.0;
+  }
   const bool smooth =
       material_of(context.light.scene, TriangleId{hits.triangle[k]}).specular_in_pass_one;
   // The field stands for what is left out, but it knows nothing of what glass,

@@ -10,7 +10,8 @@ static bool has_texels_of_metal(const Material& material) {
 
 bool is_mirror(const Material& material) {
   const bool is_smooth = material.roughness <= ideal_mirror_roughness && !has_texels_of_metal(material);
-  return material.metallic > 0.0 && (is_smooth || material.specular_in_pass_one) &&
+  return material.metallic > 0.0 && !is_blended(material) &&
+         (is_smooth || material.specular_in_pass_one) &&
          glm::any(glm::greaterThan(material.base_color, Rgb(0.0)));
 }
 
@@ -27,13 +28,17 @@ bool is_glossy(const Material& material) {
          (material.roughness > ideal_mirror_roughness || has_texels_of_metal(material));
 }
 
+bool is_blended(const Material& material) {
+  return material.alpha_mode == AlphaMode::blend && material.transmission > 0.0;
+}
+
 bool is_glass(const Material& material) {
   return material.transmission > 0.0 &&
-         (material.metallic < 1.0 || material.metallic_roughness_texture);
+         (material.metallic < 1.0 || material.metallic_roughness_texture || is_blended(material));
 }
 
 bool is_solid_glass(const Material& material) {
-  return is_glass(material) && material.thickness > 0.0;
+  return is_glass(material) && material.thickness > 0.0 && !is_blended(material);
 }
 
 Rgb mirror_reflectance(const Material& material) {

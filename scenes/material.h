@@ -14,6 +14,10 @@
 // Without thickness a sheet of it is a whole pane, with both of its faces;
 // with one it is the surface of a solid (KHR_materials_volume).
 // Where a transmission texture is black, the surface is opaque from both sides.
+//
+// Alpha of alphaMode BLEND is coverage: of a surface of alpha a the share a is there and the rest
+// is open. So it is a pane that passes t = 1 - a straight, neither bent nor coloured, whatever the
+// roughness, and everything else of the material counts a times.
 #pragma once
 
 #include "scenes/types.h"
@@ -95,7 +99,11 @@ bool is_emitter(const Material& material);
 /// A metal too rough for an ideal mirror, or with a texture that says where it is smooth and metal.
 bool is_glossy(const Material& material);
 
-/// It lets light through: a pane, or the surface of a solid.
+/// alphaMode BLEND with some of the surface left open: its transmission is what is open at the
+/// most, and at a point 1 - alpha.
+bool is_blended(const Material& material);
+
+/// It lets light through: a pane, the surface of a solid, or what is blended.
 bool is_glass(const Material& material);
 
 /// The surface of a solid.

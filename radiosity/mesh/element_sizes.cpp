@@ -9,6 +9,9 @@ namespace meninas {
 bool carries_radiosity(const Material& material) {
   if (is_emitter(material) || !(is_mirror(material) || is_glass(material)))
     return true;
+  // What is blended by its texture or its vertices is there somewhere.
+  if (is_blended(material) && material.transmission == 1.0)
+    return true;
   // Where its texture of transmission is black glass is opaque.
   if (material.transmission_texture)
     return true;

@@ -11,8 +11,11 @@ namespace meninas {
 /// Where glass is taken for not being there.
 static bool passes_most(const LightScene& light, const Hit& hit) {
   const Material& material = material_of(light.scene, hit.triangle);
+  const bool varies = material.transmission_texture ||
+                      (is_blended(material) && (material.base_color_texture ||
+                                                has_vertex_colors(light.scene, hit.triangle)));
   const double transmission =
-      material.transmission_texture
+      varies
           ? material_at(light.scene, light.textures, hit.triangle, hit.barycentric).transmission
           : material.transmission;
   return transmission >= 0.5;

@@ -149,6 +149,8 @@ Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& f
                          : fmt::format("nothing to render: all {} triangles are without area",
                                        scene.degenerate_triangles));
   read_materials(document, scene, findings);
+  if (scene.triangles.empty())
+    throw InputError(document.file, "", "nothing to render: all surfaces have alpha 0");
   make_flat(scene, half_steps, findings);
   if (const auto joints = close_hairline_gaps(scene); !joints.empty())
     findings.say(describe_joints(scene, joints));

@@ -172,19 +172,46 @@ static Material read_material(const Document& document, std::size_t index, Findi
   return material;
 }
 
-/// Alpha is in the factor, the texture or the colours of the vertices.
-static void warn_of_blending(const Scene& scene, Findings& findings) {
-  std::vector<bool> has_clear_vertices(scene.materials.size(), false);
+/// By MaterialId, whether vertices of its triangles are not wholly there.
+static std::vector<std::uint8_t> with_clear_vertices(const Scene& scene) {
+  std::vector<std::uint8_t> clear(scene.materials.size(), 0);
   for (const auto& triangle : scene.triangles)
     for (const auto vertex : triangle.vertices)
       if (scene.vertices[index(vertex)].color.a < 1.0F)
-        has_clear_vertices[index(triangle.material)] = true;
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    const auto& material = scene.materials[m];
-    if (material.alpha_mode == AlphaMode::blend &&
-        (material.alpha < 1.0 || material.base_color_texture || has_clear_vertices[m]))
-      findings.about("blending by alpha is not modelled, materials are opaque", material.name);
+        clear[index(triangle.material)] = 1;
+  return clear;
+}
+
+/// Coverage becomes what a pane passes (material.h). Whether a texture leaves anything open is
+/// told when it is decoded (constant_textures.h).
+static void settle_blending(Material& material, bool clear_vertices, Findings& findings) {
+  if (material.alpha_mode != AlphaMode::blend)
+    return;
+  const bool varies = material.base_color_texture || clear_vertices;
+  if (is_glass(material) && (material.alpha < 1.0 || varies))
+    findings.about("alpha of glass is left out in materials", material.name);
+  if (is_glass(material) || (material.alpha == 1.0 && !varies)) {
+    material.alpha_mode = AlphaMode::opaque;
+    return;
   }
+  material.transmission = varies ? 1.0 : 1.0 - material.alpha;
+  material.emission *= material.alpha;
+  // Like glass, what is not there is not there from both sides.
+  if (!material.base_color_texture || clear_vertices)
+    material.double_sided = true;
+}
+
+/// Surfaces of alpha 0 are not there.
+static void leave_out_invisible(Scene& scene, Findings& findings) {
+  const auto is_invisible = [&](const Triangle& triangle) {
+    const Material& material = scene.materials[index(triangle.material)];
+    return material.alpha_mode == AlphaMode::blend && material.alpha == 0.0;
+  };
+  for (const Triangle& triangle : scene.triangles)
+    if (is_invisible(triangle))
+      findings.about("surfaces of alpha 0 are left out in nodes",
+                     scene.nodes[index(triangle.node)].name);
+  std::erase_if(scene.triangles, is_invisible);
 }
 
 void read_materials(const Document& document, Scene& scene, Findings& findings) {
@@ -213,8 +240,11 @@ void read_materials(const Document& document, Scene& scene, Findings& findings) 
       last = ids.find(triangle.material);
     triangle.material = last->second;
   }
-  warn_of_blending(scene, findings);
+  leave_out_invisible(scene, findings);
   read_textures(document, scene, findings);
+  const std::vector<std::uint8_t> clear = with_clear_vertices(scene);
+  for (std::size_t m = 0; m < scene.materials.size(); ++m)
+    settle_blending(scene.materials[m], clear[m] != 0, findings);
 }
 
 } // namespace meninas::gltf

@@ -129,15 +129,22 @@ static Rgb left_by_half(const Material& material, const MaterialPoint& point) {
   return is_solid_glass(material) ? attenuation(material, 0.5 * point.thickness) : Rgb(1.0);
 }
 
+/// The share of the surface that is there.
+static double coverage(const Material& material, const MaterialPoint& point) {
+  return is_blended(material) ? 1.0 - point.transmission : 1.0;
+}
+
 MaterialPoint untextured(const Material& material) {
-  return {material.base_color, material.alpha,        material.metallic, material.roughness,
-          material.emission,   material.transmission, material.thickness};
+  const double passed = is_blended(material) ? 1.0 - material.alpha : material.transmission;
+  return {material.base_color, material.alpha, material.metallic, material.roughness,
+          material.emission,   passed,         material.thickness};
 }
 
 Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
   Bsdf bsdf;
+  const bool blended = is_blended(material);
   const double dielectric = 1.0 - point.metallic;
-  bsdf.metal = point.base_color * point.metallic;
+  bsdf.metal = point.base_color * (point.metallic * coverage(material, point));
   bsdf.diffuse = point.base_color * (dielectric * (1.0 - point.transmission));
   const bool solid = is_solid_glass(material);
   bsdf.roughness = solid && point.transmission > 0.0 ? 0.0 : point.roughness;
@@ -150,8 +157,10 @@ Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
     bsdf.coat_f90 = material.specular;
     bsdf.coat = material.specular > 0.0 ? dielectric * (1.0 - point.transmission) : 0.0;
   }
-  bsdf.glass = dielectric * point.transmission;
-  if (bsdf.glass > 0.0)
+  bsdf.glass = blended ? point.transmission : dielectric * point.transmission;
+  if (blended)
+    bsdf.pane.faces = GlassFaces::none;
+  else if (bsdf.glass > 0.0)
     bsdf.pane = {material.ior, f0, material.specular, point.base_color,
                  solid ? GlassFaces::one : GlassFaces::both};
   return bsdf;
@@ -165,7 +174,7 @@ double coat_albedo(const Bsdf& bsdf, double cosine) {
 }
 
 Rgb straight_transmission(const Bsdf& bsdf, double cosine) {
-  return bsdf.alpha == 0.0 && bsdf.pane.faces == GlassFaces::both
+  return is_open(bsdf) || (bsdf.alpha == 0.0 && bsdf.pane.faces == GlassFaces::both)
              ? facet_transmittance(bsdf, cosine)
              : Rgb(0.0);
 }
@@ -242,7 +251,9 @@ bool has_lobes(const Material& material) {
 }
 
 bool has_visible_coat(const Material& material) {
-  if (material.specular == 0.0 || (material.transmission == 1.0 && !material.transmission_texture))
+  const bool all_glass =
+      material.transmission == 1.0 && !material.transmission_texture && !is_blended(material);
+  if (material.specular == 0.0 || all_glass)
     return false;
   return material.metallic_roughness_texture ||
          (material.metallic < 1.0 && material.roughness <= visible_coat_roughness);
@@ -311,7 +322,7 @@ Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
   if (out.z <= 0.0 || in.z == 0.0)
     return Rgb(0.0);
   if (in.z < 0.0) {
-    if (bsdf.alpha == 0.0 || bsdf.glass == 0.0)
+    if (bsdf.alpha == 0.0 || bsdf.glass == 0.0 || is_open(bsdf))
       return Rgb(0.0);
     const FacetLobe lobe = facet_lobe(bsdf.alpha, out, {in.x, in.y, -in.z});
     return lobe.f * facet_transmittance(bsdf, lobe.cosine);
@@ -327,7 +338,9 @@ double sample_density(const Bsdf& bsdf, const Direction& out, const Direction& i
   if (out.z <= 0.0 || in.z == 0.0)
     return 0.0;
   const LobeChances chances = lobe_chances(bsdf, out);
-  const double facet_chance = in.z > 0.0 ? chances.reflection : chances.transmission;
+  const double facet_chance = in.z > 0.0     ? chances.reflection
+                              : is_open(bsdf) ? 0.0
+                                              : chances.transmission;
   double density = in.z > 0.0 ? chances.diffuse * in.z * std::numbers::inv_pi : 0.0;
   if (bsdf.alpha > 0.0 && facet_chance > 0.0)
     density += facet_chance * facet_lobe(bsdf.alpha, out, {in.x, in.y, std::abs(in.z)}).density;
@@ -344,7 +357,7 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
     return spread_sample(bsdf, out, glm::normalize(Vec3(in)));
   }
   const bool through = u[0] >= chances.diffuse + chances.reflection && chances.transmission > 0.0;
-  if (bsdf.alpha == 0.0) {
+  if (bsdf.alpha == 0.0 || (through && is_open(bsdf))) {
     if (through) {
       const auto behind = direction_behind(bsdf.pane, out);
       if (!behind)

@@ -32,4 +32,9 @@ struct Bsdf {
   Glass pane;         ///< what it is there
 };
 
+/// Whether what it passes goes straight through openings, however rough the rest is.
+inline bool is_open(const Bsdf& bsdf) {
+  return bsdf.glass > 0.0 && bsdf.pane.faces == GlassFaces::none;
+}
+
 } // namespace meninas

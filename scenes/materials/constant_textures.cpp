@@ -223,16 +223,19 @@ private:
     return values;
   }
 
-  /// A cut-out without holes.
-  bool has_no_hole(const Material& material, const Triangles& triangles) {
-    if (material.alpha_mode != AlphaMode::mask || !material.base_color_texture)
-      return false;
-    const bool clear_vertex = std::ranges::any_of(triangles, [&](TriangleId t) {
+  bool has_clear_vertex(const Triangles& triangles) const {
+    return std::ranges::any_of(triangles, [&](TriangleId t) {
       return std::ranges::any_of(scene_.triangles[index(t)].vertices, [&](VertexId v) {
         return scene_.vertices[index(v)].color.a < 1.0F;
       });
     });
-    return !clear_vertex &&
+  }
+
+  /// A cut-out without holes.
+  bool has_no_hole(const Material& material, const Triangles& triangles) {
+    if (material.alpha_mode != AlphaMode::mask || !material.base_color_texture)
+      return false;
+    return !has_clear_vertex(triangles) &&
            range(*material.base_color_texture, TextureContent::colour, triangles,
                  [&](const glm::vec4& low, const glm::vec4&) {
                    return material.alpha * double{low.a} >= material.alpha_cutoff;
@@ -240,7 +243,42 @@ private:
                .has_value();
   }
 
+  /// The share of the texels that are there at all which are neither there nor open.
+  double share_between(const Material& material) const {
+    const TexturePixels& pixels =
+        textures_.colours[index(material.base_color_texture->texture)];
+    std::size_t there = 0, between = 0;
+    for (const glm::vec4& texel : pixels.texels) {
+      const double alpha = material.alpha * double{texel.a};
+      there += alpha > 0.1 ? 1 : 0;
+      between += alpha > 0.1 && alpha < 0.9 ? 1 : 0;
+    }
+    return there > 0 ? double(between) / double(there) : 0.0;
+  }
+
+  /// What is blended by a texture is opaque where that leaves nothing open, a cut-out where it
+  /// is an outline, and else open in part.
+  void settle_blending(Material& material, const Triangles& triangles) {
+    constexpr double outline = 0.1; // of the texels: as many as a leaf's antialiased edge has
+    if (!is_blended(material) || !material.base_color_texture)
+      return;
+    material.alpha_mode = AlphaMode::mask;
+    material.alpha_cutoff = 0.995;
+    if (has_no_hole(material, triangles)) {
+      material.alpha_mode = AlphaMode::opaque;
+    } else if (share_between(material) < outline && !has_clear_vertex(triangles)) {
+      material.alpha_cutoff = 0.5;
+    } else {
+      material.alpha_mode = AlphaMode::blend;
+      material.double_sided = true;
+    }
+    if (material.alpha_mode != AlphaMode::blend)
+      material.transmission = 0.0;
+    changed_ = true;
+  }
+
   void fold_material(std::size_t m, const Triangles& triangles) {
+    settle_blending(scene_.materials[m], triangles);
     if (has_no_hole(scene_.materials[m], triangles)) {
       scene_.materials[m].alpha_mode = AlphaMode::opaque;
       changed_ = true;

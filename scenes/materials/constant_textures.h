@@ -25,7 +25,9 @@
 // Textures of specular reflection and of clear coats are read for this alone: where they vary, the
 // factors count without them, and that is said by name.
 //
-// A cut-out material (alphaMode MASK) none of whose triangles shows a hole is opaque.
+// A cut-out material (alphaMode MASK) none of whose triangles shows a hole is opaque. One that is
+// blended (BLEND) by a texture is opaque likewise; it is a cut-out where few texels are neither
+// there nor open, as of leaves, whose outlines exporters smooth.
 #pragma once
 
 #include "scenes/materials/texture_lookup.h"

@@ -34,6 +34,8 @@ double fresnel(double ratio, double cosine) {
 }
 
 GlassShares glass_shares(const Glass& glass, double cosine) {
+  if (glass.faces == GlassFaces::none)
+    return {Rgb(0.0), Rgb(1.0)};
   const Rgb f = face_reflectance(glass, cosine);
   if (glass.faces == GlassFaces::one)
     return fresnel(glass.ior, cosine) < 1.0 ? GlassShares{f, glass.tint * (1.0 - f)}

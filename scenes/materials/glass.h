@@ -23,7 +23,8 @@ namespace meninas {
 
 enum class GlassFaces {
   both, ///< a pane
-  one   ///< the surface of a solid
+  one,  ///< the surface of a solid
+  none  ///< an opening: R = 0, T = 1
 };
 
 struct Glass {

@@ -11,7 +11,7 @@ Bsdf from_behind(Bsdf bsdf) {
 }
 
 std::optional<Direction> direction_behind(const Glass& glass, const Direction& out) {
-  if (glass.faces == GlassFaces::both)
+  if (glass.faces != GlassFaces::one)
     return -out;
   const double x = -out.x / glass.ior, y = -out.y / glass.ior;
   const double sine2 = x * x + y * y;

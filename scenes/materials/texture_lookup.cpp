@@ -193,6 +193,11 @@ MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, T
     point.thickness *= std::clamp(value(*use, textures.numbers).g, 0.0, 1.0);
   if (const auto& use = material.emissive_texture)
     point.emission *= glm::max(Rgb(value(*use, textures.colours)), Rgb(0.0));
+  if (is_blended(material)) {
+    const double covered = std::clamp(point.alpha, 0.0, 1.0);
+    point.transmission = 1.0 - covered;
+    point.emission *= covered / material.alpha; // the factor's share is in the material's
+  }
   return point;
 }
 
