@@ -15,9 +15,8 @@
 // with one it is the surface of a solid (KHR_materials_volume).
 // Where a transmission texture is black, the surface is opaque from both sides.
 //
-// Alpha of alphaMode BLEND is coverage: of a surface of alpha a the share a is there and the rest
-// is open. So it is a pane that passes t = 1 - a straight, neither bent nor coloured, whatever the
-// roughness, and everything else of the material counts a times.
+// Alpha of alphaMode BLEND is coverage (materials/coverage.h): such a surface is a pane that passes
+// 1 - alpha straight.
 #pragma once
 
 #include "scenes/types.h"

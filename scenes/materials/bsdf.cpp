@@ -1,5 +1,6 @@
 #include "scenes/materials/bsdf.h"
 
+#include "scenes/materials/coverage.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/materials/microfacets.h"
 #include "scenes/materials/refraction.h"
@@ -127,11 +128,6 @@ BsdfSample spread_sample(const Bsdf& bsdf, const Direction& out, const Direction
 /// each of which takes half of what its thickness does.
 static Rgb left_by_half(const Material& material, const MaterialPoint& point) {
   return is_solid_glass(material) ? attenuation(material, 0.5 * point.thickness) : Rgb(1.0);
-}
-
-/// The share of the surface that is there.
-static double coverage(const Material& material, const MaterialPoint& point) {
-  return is_blended(material) ? 1.0 - point.transmission : 1.0;
 }
 
 MaterialPoint untextured(const Material& material) {

@@ -1,6 +1,7 @@
 #include "scenes/materials/constant_textures.h"
 
 #include "scenes/materials/clear_coat.h"
+#include "scenes/materials/coverage.h"
 #include "scenes/surfaces/disjoint_sets.h"
 #include "scenes/gltf/document.h"
 #include "scenes/materials/smooth_surfaces.h"
@@ -243,37 +244,23 @@ private:
                .has_value();
   }
 
-  /// The share of the texels that are there at all which are neither there nor open.
-  double share_between(const Material& material) const {
-    const TexturePixels& pixels =
-        textures_.colours[index(material.base_color_texture->texture)];
-    std::size_t there = 0, between = 0;
-    for (const glm::vec4& texel : pixels.texels) {
-      const double alpha = material.alpha * double{texel.a};
-      there += alpha > 0.1 ? 1 : 0;
-      between += alpha > 0.1 && alpha < 0.9 ? 1 : 0;
-    }
-    return there > 0 ? double(between) / double(there) : 0.0;
-  }
-
   /// What is blended by a texture is opaque where that leaves nothing open, a cut-out where it
   /// is an outline, and else open in part.
   void settle_blending(Material& material, const Triangles& triangles) {
     constexpr double outline = 0.1; // of the texels: as many as a leaf's antialiased edge has
     if (!is_blended(material) || !material.base_color_texture)
       return;
+    const auto& pixels = textures_.colours[index(material.base_color_texture->texture)];
+    const Material blended = material;
+    material.transmission = 0.0;
     material.alpha_mode = AlphaMode::mask;
     material.alpha_cutoff = 0.995;
-    if (has_no_hole(material, triangles)) {
+    if (has_no_hole(material, triangles))
       material.alpha_mode = AlphaMode::opaque;
-    } else if (share_between(material) < outline && !has_clear_vertex(triangles)) {
+    else if (partly_covered_share(pixels, material.alpha) < outline && !has_clear_vertex(triangles))
       material.alpha_cutoff = 0.5;
-    } else {
-      material.alpha_mode = AlphaMode::blend;
-      material.double_sided = true;
-    }
-    if (material.alpha_mode != AlphaMode::blend)
-      material.transmission = 0.0;
+    else
+      (material = blended).double_sided = true;
     changed_ = true;
   }
 

@@ -56,6 +56,18 @@ TEST(TwoPasses, AgreeWithPathsInAGlazedRoom) {
                     {"by reflection in the pane as well", {1.9, 0.9, 1.5}, {1.0, 0.9, 0.8}}});
 }
 
+TEST(TwoPasses, AgreeWithPathsInARoomWithAVeil) {
+  Scene scene = glazed_room();
+  Material& veil = scene.materials.back();
+  veil = double_sided(diffuse(Rgb(0.8, 0.4, 0.2)));
+  veil.alpha_mode = AlphaMode::blend;
+  veil.alpha = 0.4;
+  veil.transmission = 0.6;
+  expect_agreement(scene, {{"lit through the veil", {1.5, 1.0, 0.4}, {1.0, 0.6, 0.0}},
+                           {"seen through the veil", {1.2, 1.0, 1.8}, {0.9, 0.5, 0.0}},
+                           {"the veil against the light", {1.0, 0.9, 0.3}, {1.0, 0.9, 0.8}}});
+}
+
 TEST(TwoPasses, AgreeWithPathsInARoomWithAHalfGlazedPane) {
   expect_agreement(half_glazed_room(Halves::by_texture),
                    {{"lit through the glass", {1.5, 1.0, 0.4}, {1.4, 0.6, 0.0}},

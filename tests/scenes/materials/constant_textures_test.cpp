@@ -283,6 +283,33 @@ TEST(ConstantTextures, CutOutsWithoutHolesAreOpaque) {
   EXPECT_EQ(folded(faded, filled(4, 4, codes(9, 9, 9))).materials[0].alpha_mode, AlphaMode::mask);
 }
 
+// What is blended by a texture: opaque where that says so, a cut-out where alpha is an outline,
+// and open in part where it is a veil.
+TEST(ConstantTextures, BlendingIsWhatItsTexelsMakeOfIt) {
+  Material veil;
+  veil.alpha_mode = AlphaMode::blend;
+  veil.transmission = 1.0;
+  veil.base_color_texture = TextureUse{.texture = TextureId{0}};
+  TexturePixels image = filled(32, 32, codes(10, 20, 30, 255));
+  const auto folded_veil = [&] {
+    Scene scene = square(veil);
+    return folded(scene, image).materials[0];
+  };
+  EXPECT_EQ(folded_veil().alpha_mode, AlphaMode::opaque);
+  EXPECT_FALSE(is_glass(folded_veil()));
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 32; ++x)
+      texel(image, x, y).a = y == 15 ? 0.5F : 0.0F;
+  EXPECT_EQ(folded_veil().alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(folded_veil().alpha_cutoff, 0.5);
+  EXPECT_FALSE(is_glass(folded_veil()));
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 32; ++x)
+      texel(image, x, y).a = 0.5F;
+  EXPECT_TRUE(is_blended(folded_veil()));
+  EXPECT_TRUE(folded_veil().double_sided);
+}
+
 TEST(ConstantTextures, BlackTransmissionIsNoGlass) {
   Material pane;
   pane.transmission = 1.0;
