@@ -5,6 +5,7 @@
 #include "raytrace/lamp_weights.h"
 #include "raytrace/quad_lanes.h"
 #include "scenes/rays/curved_origin.h"
+#include "scenes/materials/normal_map.h"
 #include "scenes/shading_normal.h"
 
 #include <numbers>
@@ -12,16 +13,18 @@
 namespace meninas {
 
 /// n(b), towards the side that was met.
-static Direction curve_normal(const Scene& scene, const HitPacket& hits, std::uint32_t k) {
-  const Direction n =
-      shading_normal(scene, TriangleId{hits.triangle[k]}, {hits.b1[k], hits.b2[k]});
+static Direction curve_normal(const LightScene& light, const HitPacket& hits, std::uint32_t k,
+                              const Footprint& footprint = {}) {
+  const Direction n = mapped_normal(light.scene, light.textures, TriangleId{hits.triangle[k]},
+                                    {hits.b1[k], hits.b2[k]}, footprint);
   return hits.front[k] != 0 ? n : -n;
 }
 
 Direction normal_towards(const LandedLane& lane, const Direction& out) {
   if (!lane.face.curved)
     return lane.face.normal;
-  return visible_normal(curve_normal(lane.context.light.scene, lane.hits, lane.k),
+  const Footprint footprint = lane.face.mapped ? footprint_of(lane) : Footprint{};
+  return visible_normal(curve_normal(lane.context.light, lane.hits, lane.k, footprint),
                         lane.face.normal, out);
 }
 
@@ -31,7 +34,7 @@ static Receiver curved_receiver(const LightScene& light, const FaceRecord& face,
   receiver.position =
       curved_origin(light.scene, light.surfaces, light.rays, TriangleId{hits.triangle[k]},
                     {hits.b1[k], hits.b2[k]}, hits.front[k] != 0);
-  receiver.normal = curve_normal(light.scene, hits, k);
+  receiver.normal = curve_normal(light, hits, k);
   if (face.side != FaceRecord::nothing) {
     receiver.tangent = light.mesh.sides[face.side].tangent;
     receiver.coat = light.mesh.sides[face.side].coat;
@@ -71,6 +74,26 @@ SideShading shading_at(const LandedLane& lane) {
   return shading;
 }
 
+/// What the map changes of the direct light, D(n') - D(n): the field is that of the unmapped
+/// surface, and light from all around hardly tells.
+static glm::vec3 change_by_map(const RenderContext& context, const LaneState& state,
+                               const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
+                               TileWorkspace& work) {
+  const LightScene& light = context.light;
+  DiffuseSettings settings = context.settings.diffuse;
+  settings.term = DiffuseTerm::direct;
+  // The same rays twice: of what they miss nearly all is in both.
+  settings.direct.shadow_rays = settings.direct.penumbra_rays = 4;
+  const DiffuseSource source{light, settings, nullptr, context.visible.part};
+  const std::uint32_t key = state.key(k, context.settings.seed);
+  Receiver receiver = receiver_at(light, face, hits, k);
+  const glm::vec3 mapped = irradiance_at_point(source, glm::vec3(0.0F), receiver, key, work.point);
+  const Direction n =
+      shading_normal(light.scene, TriangleId{hits.triangle[k]}, {hits.b1[k], hits.b2[k]});
+  receiver.normal = hits.front[k] != 0 ? n : -n;
+  return mapped - irradiance_at_point(source, glm::vec3(0.0F), receiver, key, work.point);
+}
+
 glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& state,
                              const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
                              TileWorkspace& work) {
@@ -80,6 +103,9 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
       field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
   const bool in_lobe = state.specular && state.specular[k].lobes > 0;
   const DiffuseSettings& diffuse = in_lobe ? context.behind_lobes : context.settings.diffuse;
+  if (diffuse.term == DiffuseTerm::interpolated && face.mapped &&
+      context.settings.mode == RenderMode::hybrid)
+    return glm::max(field + change_by_map(context, state, face, hits, k, work), glm::vec3(0.0F));
   const std::uint32_t key = state.key(k, context.settings.seed);
   return irradiance_at_point({light, diffuse, context.gathering, context.visible.part}, field,
                              receiver_at(light, face, hits, k),
@@ -90,7 +116,7 @@ glm::vec3 radiance_of_lane(const LandedLane& lane, TileWorkspace& work) {
   const auto& [context, packet, state, face, hits, k] = lane;
   SideShading shading = shading_at(lane);
   shading.emitted *= share_of_rays(context, state, face, hits, k);
-  if (context.settings.diffuse.term != DiffuseTerm::interpolated)
+  if (context.settings.diffuse.term != DiffuseTerm::interpolated || face.mapped)
     return shading.emitted +
            shading.albedo_over_pi * irradiance_of_lane(context, state, face, hits, k, work);
   return field_radiance(context.light.mesh, context.visible.irradiance, shading,

@@ -141,7 +141,7 @@ void shade_by_runs(const RenderContext& context, const RayPacket& packet, const 
 /// Whether lanes on a face look the field up together.
 bool lands_together(const RenderContext& context, const LaneState& state, const FaceRecord& face,
                     const HitPacket& hits, std::uint32_t lanes) {
-  if (face.side == FaceRecord::nothing || std::has_single_bit(lanes) ||
+  if (face.side == FaceRecord::nothing || face.mapped || std::has_single_bit(lanes) ||
       context.light.landing.sides[face.side].triangle)
     return false;
   const auto k = static_cast<std::uint32_t>(std::countr_zero(lanes));

@@ -57,7 +57,7 @@ Rgb chain_throughput(const TracedScene& traced, const SurfacePoint& x, const Cha
     if (at.black)
       return Rgb(0.0);
     // What a curved mirror reflects is met by the paths alone.
-    const bool curved = traced.scene.triangles[index(hit->triangle)].curved;
+    const bool curved = is_bent(traced.scene, hit->triangle);
     if (!last_leg && !curved && at.plane == chain.planes[reflections]) {
       throughput *= ideal_reflection(at.bsdf, cosine);
       target = reflected_in(traced.surfaces.planes[index(at.plane)], target);

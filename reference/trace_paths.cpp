@@ -283,7 +283,7 @@ void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& 
     return;
   path.ray.direction = to_world(path.at.normal, drawn->in);
   const bool through = drawn->in.z < 0.0;
-  const bool curved = traced.scene.triangles[index(path.at.triangle)].curved;
+  const bool curved = is_bent(traced.scene, path.at.triangle);
   if (drawn->lobe == Lobe::spread && !through) {
     path.ray.origin = path.at.origin;
     path.ray.leaving = path.at.leaving;

@@ -1,6 +1,7 @@
 #include "reference/traced_scene.h"
 
 #include "scenes/materials/refraction.h"
+#include "scenes/materials/normal_map.h"
 #include "scenes/rays/curved_origin.h"
 #include "scenes/shading_normal.h"
 
@@ -38,9 +39,9 @@ SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 
 }
 
 void bend(const TracedScene& traced, Vec2 barycentric, const Direction& out, SurfacePoint& at) {
-  if (!traced.scene.triangles[index(at.triangle)].curved)
+  if (!is_bent(traced.scene, at.triangle))
     return;
-  const Direction n = shading_normal(traced.scene, at.triangle, barycentric);
+  const Direction n = mapped_normal(traced.scene, traced.textures, at.triangle, barycentric);
   at.normal = visible_normal(at.front ? n : -n, at.face, out);
   at.origin = curved_origin(traced.scene, traced.surfaces, traced.rays, at.triangle, barycentric,
                             at.front);

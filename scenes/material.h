@@ -70,6 +70,8 @@ struct Material {
   std::optional<TextureUse> emissive_texture;
   std::optional<TextureUse> transmission_texture; ///< red
   std::optional<TextureUse> thickness_texture;    ///< green
+  std::optional<TextureUse> normal_texture;       ///< materials/normal_map.h
+  double normal_scale = 1.0;                      ///< of its red and green
 
   // What is decided before anything is decided by the material, and gone by then:
   // of these textures the constant ones become factors, the others are left out

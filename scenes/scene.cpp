@@ -51,6 +51,10 @@ void add_material(ContentHash& hash, const Material& material) {
     add_texture_use(hash, material.transmission_texture);
     add_texture_use(hash, material.thickness_texture);
   }
+  if (material.normal_texture) {
+    hash.add(material.normal_scale);
+    add_texture_use(hash, material.normal_texture);
+  }
   if (material.clear_coat > 0.0) {
     hash.add(material.clear_coat);
     hash.add(material.clear_coat_roughness);

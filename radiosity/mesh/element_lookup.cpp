@@ -53,7 +53,8 @@ static FaceRecord make_face(const Scene& scene, const SurfaceModel& model, const
     return face;
 
   face.side = index(mesh.sides_of_patch[index(patch_id)][static_cast<std::size_t>(facing)]);
-  face.curved = scene.triangles[triangle].curved;
+  face.mapped = material.normal_texture.has_value();
+  face.curved = face.mapped || scene.triangles[triangle].curved;
   face.glass = is_glass(material);
   face.solid = is_solid_glass(material);
   face.mirrors = is_mirror(material) || face.glass;

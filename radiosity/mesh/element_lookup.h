@@ -36,6 +36,7 @@ struct FaceRecord {
   bool glass = false;
   bool solid = false; ///< and the surface of a solid
   bool curved = false; ///< it reflects by a normal that turns (scenes/shading_normal.h)
+  bool mapped = false; ///< by a texture as well (scenes/materials/normal_map.h); then it is curved
   glm::dvec3 normal{0.0};    ///< towards this face
   double frame_offset = 0.0; ///< of its plane in the frame of the ray scene
 };

@@ -143,7 +143,7 @@ struct Search {
     const bool has_side = face.side != FaceRecord::nothing;
     const bool shows_lobes = !context.bsdfs.empty() && (has_side || face.mirrors) &&
                              has_lobes(material_of(light.scene, TriangleId{met->triangle}));
-    const bool turns = face.mirrors && face.curved;
+    const bool turns = face.mapped || (face.mirrors && face.curved);
     if (shows_lobes || turns || (has_side && (face.mirrors || context.visible.shading[face.side].textured)))
       return true;
     if (!face.mirrors || context.settings.mode != RenderMode::hybrid) {

@@ -1,6 +1,7 @@
 #include "raytrace/views/sight.h"
 
 #include "radiosity/scene/surface_colour.h"
+#include "scenes/materials/normal_map.h"
 #include "scenes/shading_normal.h"
 
 #include <algorithm>
@@ -22,11 +23,11 @@ static bool passes_most(const LightScene& light, const Hit& hit) {
 }
 
 /// The normal by which the surface reflects towards the eye.
-static Direction seen_normal(const Scene& scene, const FaceRecord& face, const Hit& hit,
+static Direction seen_normal(const LightScene& light, const FaceRecord& face, const Hit& hit,
                              const Vec3& along) {
   if (!face.curved)
     return face.normal;
-  const Direction n = shading_normal(scene, hit.triangle, hit.barycentric);
+  const Direction n = mapped_normal(light.scene, light.textures, hit.triangle, hit.barycentric);
   return visible_normal(hit.front ? n : -n, face.normal, -glm::normalize(along));
 }
 
@@ -46,7 +47,7 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
     sight.triangle = hit->triangle;
     sight.barycentric = hit->barycentric;
     sight.position = ray.origin + hit->distance * ray.direction;
-    sight.normal = seen_normal(light.scene, face, *hit, ray.direction);
+    sight.normal = seen_normal(light, face, *hit, ray.direction);
     if (face.side != FaceRecord::nothing) {
       sight.side = face.side;
       const glm::vec2 b(hit->barycentric);

@@ -164,8 +164,10 @@ static Material read_material(const Document& document, std::size_t index, Findi
     findings.about("unlit materials are lit: their colour is read as reflectance", material.name);
   if (const auto* coat = find(json, {"extensions", "KHR_materials_clearcoat"}))
     read_clear_coat(document, *coat, material, findings);
-  if (json.contains("normalTexture"))
-    findings.about("normal textures are left out in materials", material.name);
+  material.normal_texture =
+      read_texture_use(document, json, "normalTexture", material.name, findings);
+  if (material.normal_texture)
+    material.normal_scale = number_or(*find(json, "normalTexture"), "scale", 1.0);
   if (json.contains("occlusionTexture"))
     findings.about("occlusion textures are left out, occlusion is computed, in materials",
                    material.name);

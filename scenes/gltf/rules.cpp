@@ -25,6 +25,13 @@ constexpr Rule texture_use[] = {
     {.name = "extensions", .kind = object, .fields = texture_extensions},
 };
 
+constexpr Rule normal_texture[] = {
+    {.name = "index", .kind = index, .presence = required, .target = "textures"},
+    {.name = "texCoord", .kind = size},
+    {.name = "scale", .kind = number},
+    {.name = "extensions", .kind = object, .fields = texture_extensions},
+};
+
 constexpr Rule metallic_roughness[] = {
     {.name = "baseColorFactor", .kind = numbers, .length = 4},
     {.name = "metallicFactor", .kind = number},
@@ -73,6 +80,7 @@ constexpr Rule material[] = {
     {.name = "pbrMetallicRoughness", .kind = object, .fields = metallic_roughness},
     {.name = "emissiveFactor", .kind = numbers, .length = 3},
     {.name = "emissiveTexture", .kind = object, .fields = texture_use},
+    {.name = "normalTexture", .kind = object, .fields = normal_texture},
     {.name = "alphaMode", .kind = text},
     {.name = "alphaCutoff", .kind = number},
     {.name = "doubleSided", .kind = boolean},

@@ -80,6 +80,7 @@ std::set<std::uint64_t> texcoord_sets(const Json& material) {
         sets.insert(set);
   };
   add({"emissiveTexture"});
+  add({"normalTexture"});
   add({"pbrMetallicRoughness", "baseColorTexture"});
   add({"pbrMetallicRoughness", "metallicRoughnessTexture"});
   add({"extensions", "KHR_materials_pbrSpecularGlossiness", "diffuseTexture"});
@@ -240,7 +241,7 @@ void read_textures(const Document& document, Scene& scene, Findings& findings) {
   for (auto& material : scene.materials)
     for (auto* use : {&material.base_color_texture, &material.metallic_roughness_texture,
                       &material.emissive_texture, &material.transmission_texture,
-                      &material.thickness_texture})
+                      &material.thickness_texture, &material.normal_texture})
       settle(*use);
   // What is shown comes before what may be no more than a factor, as long as there is room.
   for (auto& material : scene.materials)

@@ -6,6 +6,7 @@
 #include "scenes/gltf/document.h"
 #include "scenes/materials/smooth_surfaces.h"
 #include "scenes/materials/texel_ranges.h"
+#include "scenes/materials/texture_slots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,24 +17,8 @@ namespace meninas {
 
 namespace {
 
-/// A place for a texture in a material.
-struct Slot {
-  std::optional<TextureUse> Material::*use;
-  TextureContent content;
-  glm::bvec4 read; ///< channels that count; of base colours alpha besides
-};
-constexpr std::size_t base_slot = 0;
-const std::array<Slot, 9> slots{{
-    {&Material::base_color_texture, TextureContent::colour, {true, true, true, false}},
-    {&Material::metallic_roughness_texture, TextureContent::numbers, {false, true, true, false}},
-    {&Material::emissive_texture, TextureContent::colour, {true, true, true, false}},
-    {&Material::transmission_texture, TextureContent::numbers, {true, false, false, false}},
-    {&Material::thickness_texture, TextureContent::numbers, {false, true, false, false}},
-    {&Material::specular_texture, TextureContent::numbers, {false, false, false, true}},
-    {&Material::specular_color_texture, TextureContent::colour, {true, true, true, false}},
-    {&Material::clear_coat_texture, TextureContent::numbers, {true, false, false, false}},
-    {&Material::clear_coat_roughness_texture, TextureContent::numbers, {false, true, false, false}},
-}};
+using Slot = TextureSlot;
+const auto& slots = texture_slots;
 
 /// sRGB, and beyond white as it goes on.
 float stored(float linear) {
@@ -69,7 +54,7 @@ glm::dvec4 value_of(const TexelRange& range) {
 }
 
 /// By slot, the value that stands for its texture.
-using Values = std::array<std::optional<glm::dvec4>, slots.size()>;
+using Values = std::array<std::optional<glm::dvec4>, std::tuple_size_v<decltype(texture_slots)>>;
 
 bool any(const Values& values) {
   return std::ranges::any_of(values, [](const auto& value) { return value.has_value(); });
@@ -140,6 +125,7 @@ public:
     for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
       const MaterialId material = scene_.triangles[t].material;
       if (is_textured(scene_.materials[index(material)]) ||
+          scene_.materials[index(material)].normal_texture ||
           has_unsettled_coat(scene_.materials[index(material)]))
         of_material[index(material)].push_back(TriangleId{t});
     }

@@ -1,6 +1,7 @@
 #include "scenes/materials/texture_lookup.h"
 
 #include "scenes/materials/texture_pyramid.h"
+#include "scenes/materials/texture_slots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,25 +60,16 @@ DecodedTextures decode_textures(const Scene& scene, const DecodeTexture& decode)
   DecodedTextures decoded;
   decoded.colours.resize(scene.textures.size());
   decoded.numbers.resize(scene.textures.size());
-  const auto need = [&](const std::optional<TextureUse>& use, std::vector<TexturePixels>& list,
-                        TextureContent content) {
-    if (!use || !list[index(use->texture)].texels.empty())
-      return;
-    TexturePixels& pixels = list[index(use->texture)];
-    pixels = decode(scene.textures[index(use->texture)], content);
-    pixels.coarser = coarser_levels(pixels);
-  };
-  for (const Material& material : scene.materials) {
-    need(material.base_color_texture, decoded.colours, TextureContent::colour);
-    need(material.emissive_texture, decoded.colours, TextureContent::colour);
-    need(material.metallic_roughness_texture, decoded.numbers, TextureContent::numbers);
-    need(material.transmission_texture, decoded.numbers, TextureContent::numbers);
-    need(material.thickness_texture, decoded.numbers, TextureContent::numbers);
-    need(material.specular_texture, decoded.numbers, TextureContent::numbers);
-    need(material.specular_color_texture, decoded.colours, TextureContent::colour);
-    need(material.clear_coat_texture, decoded.numbers, TextureContent::numbers);
-    need(material.clear_coat_roughness_texture, decoded.numbers, TextureContent::numbers);
-  }
+  for (const Material& material : scene.materials)
+    for (const TextureSlot& slot : texture_slots) {
+      const auto& use = material.*slot.use;
+      auto& list = slot.content == TextureContent::colour ? decoded.colours : decoded.numbers;
+      if (!use || !list[index(use->texture)].texels.empty())
+        continue;
+      TexturePixels& pixels = list[index(use->texture)];
+      pixels = decode(scene.textures[index(use->texture)], slot.content);
+      pixels.coarser = coarser_levels(pixels);
+    }
   return decoded;
 }
 
@@ -147,6 +139,18 @@ glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Ve
   return sum / looks;
 }
 
+glm::dvec4 texel_at(const Scene& scene, const std::vector<TexturePixels>& list,
+                    const TextureUse& use, TriangleId triangle, Vec2 barycentric,
+                    const Footprint& footprint) {
+  const auto place = [&](Vec2 weights) {
+    return transformed_texcoord(use, texcoord_at(scene, triangle, use.texcoord_set, weights));
+  };
+  const Vec2 origin = place(Vec2(0.0)); // the map is affine
+  const Footprint covered{place(footprint.longer) - origin, place(footprint.shorter) - origin};
+  return texture_value(list[index(use.texture)], scene.textures[index(use.texture)],
+                       place(barycentric), covered);
+}
+
 bool is_textured(const Material& material) {
   return material.base_color_texture || material.metallic_roughness_texture ||
          material.emissive_texture || material.transmission_texture || material.thickness_texture;
@@ -164,13 +168,7 @@ MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, T
   const Material& material = material_of(scene, triangle);
   MaterialPoint point = untextured(material);
   const auto value = [&](const TextureUse& use, const std::vector<TexturePixels>& list) {
-    const auto place = [&](Vec2 weights) {
-      return transformed_texcoord(use, texcoord_at(scene, triangle, use.texcoord_set, weights));
-    };
-    const Vec2 origin = place(Vec2(0.0)); // the map is affine
-    const Footprint covered{place(footprint.longer) - origin, place(footprint.shorter) - origin};
-    return texture_value(list[index(use.texture)], scene.textures[index(use.texture)],
-                         place(barycentric), covered);
+    return texel_at(scene, list, use, triangle, barycentric, footprint);
   };
   if (const auto& use = material.base_color_texture) {
     const glm::dvec4 texel = value(*use, textures.colours);

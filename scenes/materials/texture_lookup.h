@@ -51,6 +51,12 @@ struct Footprint {
 glm::dvec4 texture_value(const TexturePixels& pixels, const Texture& texture, Vec2 uv,
                          const Footprint& footprint = {});
 
+/// The value of a texture at a point of a triangle that shows it, from one of the two lists.
+glm::dvec4 texel_at(const Scene& scene, const std::vector<TexturePixels>& list,
+                    const TextureUse& use, TriangleId triangle, Vec2 barycentric,
+                    const Footprint& footprint);
+
+/// Whether its colours or numbers vary by texture. Normal maps turn it, no more.
 bool is_textured(const Material& material);
 
 /// Whether COLOR_0 changes anything on a triangle.

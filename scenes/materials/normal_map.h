@@ -1,0 +1,30 @@
+// Normal maps: a texture turns the normal within a frame that follows the texture coordinates.
+//
+//   n' = t_x T - t_y B + t_z N,   (t_x, t_y, t_z) = (2 r - 1) s, (2 g - 1) s, 2 b - 1
+//
+// N is the normal without the map (scenes/shading_normal.h), s the scale of glTF's normalTexture,
+// and T and B are the directions across N in which u and v grow (v runs down the image):
+//
+//   T = (e_2 x N) du_1 + (N x e_1) du_2,   B = (e_2 x N) dv_1 + (N x e_1) dv_2
+//
+// over the longer of the two, with e_k the edges of the triangle from its first corner and
+// (du_k, dv_k) their changes of the texture coordinates (Schueler 2006, Normal Mapping without
+// Precomputed Tangents, ShaderX 5). On flat triangles that is the frame of MikkTSpace; on curved
+// ones it differs from it by less than neighbouring triangles' frames differ.
+//
+// A normal that would look behind the face is lifted to where it just does not.
+#pragma once
+
+#include "scenes/materials/texture_lookup.h"
+
+namespace meninas {
+
+/// Whether the triangle's normal turns with a texture.
+bool has_normal_map(const Scene& scene, TriangleId triangle);
+
+/// n(b) of a point (scenes/shading_normal.h), turned by the map where there is one; towards the
+/// front. `barycentric` are the weights of the second and the third corner, as of `footprint`.
+Direction mapped_normal(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
+                        Vec2 barycentric, const Footprint& footprint = {});
+
+} // namespace meninas
