@@ -1,5 +1,7 @@
 #include "reference/mirror_planes.h"
 
+#include "scenes/materials/normal_map.h"
+
 #include <algorithm>
 
 namespace meninas::reference {

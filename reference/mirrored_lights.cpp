@@ -1,5 +1,7 @@
 #include "reference/mirrored_lights.h"
 
+#include "scenes/materials/normal_map.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -49,12 +49,6 @@ struct SurfacePoint {
 SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 barycentric,
                            bool front);
 
-/// Whether what the triangle reflects goes by a normal that turns.
-inline bool is_bent(const Scene& scene, TriangleId triangle) {
-  return scene.triangles[index(triangle)].curved ||
-         material_of(scene, triangle).normal_texture.has_value();
-}
-
 /// Makes a point of a curved triangle one of the curve (scenes/shading_normal.h),
 /// seen from the direction `out` above the face.
 void bend(const TracedScene& traced, Vec2 barycentric, const Direction& out, SurfacePoint& at);

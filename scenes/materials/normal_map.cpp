@@ -33,10 +33,6 @@ TextureFrame texture_frame(const Scene& scene, TriangleId triangle, const Textur
 
 } // namespace
 
-bool has_normal_map(const Scene& scene, TriangleId triangle) {
-  return material_of(scene, triangle).normal_texture.has_value();
-}
-
 Direction mapped_normal(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
                         Vec2 barycentric, const Footprint& footprint) {
   const Direction normal = shading_normal(scene, triangle, barycentric);

@@ -19,8 +19,11 @@
 
 namespace meninas {
 
-/// Whether the triangle's normal turns with a texture.
-bool has_normal_map(const Scene& scene, TriangleId triangle);
+/// Whether what the triangle reflects goes by a normal that turns: with its vertices or a map.
+inline bool is_bent(const Scene& scene, TriangleId triangle) {
+  return scene.triangles[index(triangle)].curved ||
+         material_of(scene, triangle).normal_texture.has_value();
+}
 
 /// n(b) of a point (scenes/shading_normal.h), turned by the map where there is one; towards the
 /// front. `barycentric` are the weights of the second and the third corner, as of `footprint`.

@@ -1,4 +1,5 @@
 // Surfaces with vertex normals look as the curves that they stand for.
+#include "image/image_file.h"
 #include "tests/raytrace/pictures.h"
 #include "tests/support/globes.h"
 #include "tests/support/metals.h"
@@ -177,6 +178,63 @@ TEST(CurvedSurfaces, FlatNormalsChangeNothing) {
                    size(24, 24, 4));
   };
   EXPECT_EQ(taken(GivenNormals::none).pixels, taken(GivenNormals::flat).pixels);
+}
+
+/// The image of a number between 0 and 1: PNG stores sRGB.
+float linear(double code) {
+  return static_cast<float>(code <= 0.04045 ? code / 12.92
+                                            : std::pow((code + 0.055) / 1.055, 2.4));
+}
+
+/// A floor under the sun whose left half is flat and whose right half leans to the right.
+Scene half_leaning_floor(const Vec3& lean, const Direction& sun) {
+  Image image(8, 2);
+  for (int x = 0; x < 8; ++x)
+    for (int y = 0; y < 2; ++y) {
+      const Vec3 n = 0.5 * (x < 4 ? Vec3(0, 0, 1) : lean) + 0.5;
+      image.at(x, y) = {linear(n.x), linear(n.y), linear(n.z)};
+    }
+  Material floor = diffuse(0.5);
+  floor.normal_texture = TextureUse{.texture = TextureId{0}};
+  Scene scene;
+  scene.textures = {{.name = "map", .encoded = encode_png(image, 0.0)}};
+  add_polygon(scene, "floor", {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}}, floor);
+  for (Vertex& v : scene.vertices)
+    v.texcoord[0] = {0.25 * v.position.x + 0.5, 0.25 * v.position.z + 0.5};
+  scene.lights.push_back({.name = "sun",
+                          .kind = PunctualKind::directional,
+                          .intensity = Rgb(2.0),
+                          .direction = -sun});
+  return scene;
+}
+
+// L = rho E (n'.l) / pi at the hit, and in interpolated pictures as well, as the map's share is
+// computed there. Texels are known to 1/255, and so is the direction to about 0.006.
+TEST(CurvedSurfaces, NormalMapsTurnTheLightOfDiffuseSurfaces) {
+  const Vec3 lean(0.6, 0.0, 0.8); // right, up and out of the image: x, -z and y of the floor
+  const Direction sun = glm::normalize(Vec3(1.0, 1.5, 0.5));
+  const Taken scene = lit_up(half_leaning_floor(lean, sun), coarse());
+  for (const DiffuseTerm term : {DiffuseTerm::interpolated, DiffuseTerm::direct})
+    for (const double x : {-1.0, 1.0}) {
+      RenderSettings settings = size(1, 1, 4);
+      settings.diffuse.term = term;
+      const Image image = picture(scene, look_at({x, 3.0, 0.1}, {x, 0.0, 0.0}, 0.01), settings);
+      const double cosine = x < 0.0 ? sun.y : lean.x * sun.x + lean.z * sun.y;
+      EXPECT_NEAR(image.pixels[0].g, 0.5 * 2.0 * cosine / std::numbers::pi, 0.008) << x;
+    }
+}
+
+// Behind its own wall a lamp is not seen, however much the normal leans towards it.
+TEST(CurvedSurfaces, NormalMapsLetNoLightThroughTheirWall) {
+  Scene scene = half_leaning_floor(Vec3(0.96, 0.0, 0.28), Direction(0, 1, 0));
+  scene.lights.front() = {.name = "bulb", .intensity = Rgb(1.0), .position = {2.5, -0.3, 0.0}};
+  const Taken taken = lit_up(scene, coarse());
+  for (const DiffuseTerm term : {DiffuseTerm::interpolated, DiffuseTerm::direct}) {
+    RenderSettings settings = size(1, 1, 4);
+    settings.diffuse.term = term;
+    const Image image = picture(taken, look_at({1.0, 3.0, 0.1}, {1.0, 0.0, 0.0}, 0.01), settings);
+    EXPECT_EQ(image.pixels[0].g, 0.0F);
+  }
 }
 
 } // namespace

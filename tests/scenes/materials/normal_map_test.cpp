@@ -1,0 +1,124 @@
+#include "scenes/materials/normal_map.h"
+
+#include "scenes/shading_normal.h"
+#include "tests/support/globes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace meninas::test {
+namespace {
+
+/// One texel that stands for a direction: x to the right of the image, y up.
+DecodedTextures map_of(const Vec3& direction) {
+  TexturePixels pixels{1, 1, {glm::vec4(0.5 * direction + 0.5, 1.0)}};
+  return {{}, {pixels}};
+}
+
+Material mapped(double scale = 1.0) {
+  Material material;
+  material.normal_texture = TextureUse{.texture = TextureId{0}};
+  material.normal_scale = scale;
+  return material;
+}
+
+/// The unit square z = 0, front towards +z, with the image upright on it.
+Scene square(const Material& material = mapped()) {
+  Scene scene;
+  add_polygon(scene, "square", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, material);
+  for (Vertex& v : scene.vertices)
+    v.texcoord[0] = {v.position.x, 1.0 - v.position.y}; // v runs down the image
+  scene.textures = {{.name = "map", .encoded = {}}};
+  return scene;
+}
+
+Direction normal_of(const Scene& scene, const Vec3& direction) {
+  return mapped_normal(scene, map_of(direction), TriangleId{0}, Vec2(0.3, 0.3));
+}
+
+constexpr double floats = 1e-6; // the texel is of floats
+
+// Upright on a square the image's right, up and out are x, y and z.
+TEST(NormalMap, TurnsTheNormalInTheFrameOfTheImage) {
+  for (const Vec3& d : {Vec3(0, 0, 1), Vec3(0.6, 0.0, 0.8), Vec3(0.0, 0.6, 0.8),
+                        Vec3(-0.48, 0.36, 0.8)})
+    EXPECT_LT(glm::distance(normal_of(square(), d), d), floats);
+}
+
+TEST(NormalMap, ScaleIsThatOfTheSlopes) {
+  const Direction n = normal_of(square(mapped(0.5)), Vec3(0.6, 0.0, 0.8));
+  EXPECT_LT(glm::distance(n, glm::normalize(Vec3(0.3, 0.0, 0.8))), floats);
+  EXPECT_LT(glm::distance(normal_of(square(mapped(-1.0)), Vec3(0.6, 0.0, 0.8)),
+                          Vec3(-0.6, 0.0, 0.8)),
+            floats);
+}
+
+// Turned by 90 degrees the image's right is the square's up; mirrored, its left.
+TEST(NormalMap, FollowsTheTextureCoordinates) {
+  Scene turned = square(), mirrored = square();
+  for (Vertex& v : turned.vertices)
+    v.texcoord[0] = {v.position.y, v.position.x}; // right is up, down is right
+  for (Vertex& v : mirrored.vertices)
+    v.texcoord[0].x = 1.0F - v.texcoord[0].x;
+  EXPECT_LT(glm::distance(normal_of(turned, Vec3(0.6, 0.0, 0.8)), Vec3(0.0, 0.6, 0.8)), floats);
+  EXPECT_LT(glm::distance(normal_of(turned, Vec3(0.0, 0.6, 0.8)), Vec3(-0.6, 0.0, 0.8)), floats);
+  EXPECT_LT(glm::distance(normal_of(mirrored, Vec3(0.6, 0.0, 0.8)), Vec3(-0.6, 0.0, 0.8)), floats);
+  EXPECT_LT(glm::distance(normal_of(mirrored, Vec3(0.0, 0.6, 0.8)), Vec3(0.0, 0.6, 0.8)), floats);
+}
+
+// A rotation of the coordinates turns the frame with the image, and repeating it changes nothing.
+TEST(NormalMap, FollowsTheTextureTransform) {
+  Material turned = mapped();
+  turned.normal_texture->rotation = 0.5 * std::numbers::pi;
+  turned.normal_texture->scale = Vec2(7.0);
+  const Scene scene = square(turned);
+  const Vec2 right =
+      transformed_texcoord(*turned.normal_texture, Vec2(1.0, 0.0)) -
+      transformed_texcoord(*turned.normal_texture, Vec2(0.0, 0.0)); // where the square's right goes
+  const Vec3 on_square = glm::normalize(Vec3(right.x, -right.y, 0.0));
+  const Direction n = normal_of(scene, Vec3(0.6 * on_square.x, 0.6 * on_square.y, 0.8));
+  EXPECT_LT(glm::distance(n, Vec3(0.6, 0.0, 0.8)), floats);
+}
+
+TEST(NormalMap, IsTheSameInLargeAndSmallScenesAndWherever) {
+  const glm::dmat3 rotation(Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0));
+  const Vec3 d(0.6, 0.0, 0.8);
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    const Scene moved = transformed(square(), rotation, scale, Vec3(3.0));
+    EXPECT_LT(glm::distance(normal_of(moved, d), rotation * d), floats) << scale;
+  }
+}
+
+TEST(NormalMap, SaysNothingWithoutCoordinatesOrDirection) {
+  Scene without = square();
+  for (Vertex& v : without.vertices)
+    v.texcoord[0] = {0.5F, 0.5F};
+  EXPECT_LT(glm::distance(normal_of(without, Vec3(0.6, 0.0, 0.8)), Vec3(0, 0, 1)), floats);
+  EXPECT_EQ(normal_of(square(), Vec3(0.0)), Vec3(0, 0, 1));
+}
+
+TEST(NormalMap, NeverLooksBehindTheFace) {
+  for (const Vec3& d : {Vec3(0.8, 0.0, -0.6), Vec3(0, 0, -1), Vec3(1, 0, 0)}) {
+    const Direction n = normal_of(square(), d);
+    EXPECT_NEAR(glm::length(n), 1.0, floats);
+    EXPECT_GT(n.z, 0.01);
+  }
+}
+
+// On a curve the frame stands on the shading normal.
+TEST(NormalMap, StandsOnTheCurve) {
+  Scene globe;
+  add_globe(globe, "globe", {}, mapped(), GivenNormals::smooth);
+  for (Vertex& v : globe.vertices)
+    v.texcoord[0] = {std::atan2(v.position.z, v.position.x), std::acos(v.position.y)};
+  globe.textures = {{.name = "map", .encoded = {}}};
+  for (std::uint32_t t = 0; t < globe.triangles.size(); t += 7) {
+    const Direction flat = mapped_normal(globe, map_of(Vec3(0, 0, 1)), TriangleId{t}, Vec2(0.3));
+    EXPECT_LT(glm::distance(flat, shading_normal(globe, TriangleId{t}, Vec2(0.3))), floats);
+  }
+}
+
+} // namespace
+} // namespace meninas::test
