@@ -139,7 +139,8 @@ std::map<NodeId, std::set<PlaneId>> faceted_nodes(const Scene& scene, const Surf
     const Material& material = scene.materials[index(surface.material)];
     const auto& faces = mirrors.mirror_of_surface[s];
     const bool is_facet = faces[0] == none<MirrorId> && faces[1] == none<MirrorId>;
-    if (!(is_mirror(material) || is_glass(material)) || !is_facet) {
+    const bool reflects = is_mirror(material) || (is_glass(material) && !is_blended(material));
+    if (!reflects || !is_facet) {
       continue;
     }
     for (const PatchId patch : surface.patches) {
@@ -206,7 +207,7 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
         quoted(names));
   }
   const auto is_frosted = [](const Material& m) {
-    return is_pane(m) && m.roughness > ideal_mirror_roughness;
+    return is_pane(m) && !is_blended(m) && m.roughness > ideal_mirror_roughness;
   };
   if (const auto names = names_where(materials, is_frosted); !names.empty()) {
     plan.warnings.push_back("frosted glass throws light on surfaces as clear glass does: " +

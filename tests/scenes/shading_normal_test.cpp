@@ -57,8 +57,8 @@ TEST(ShadingNormal, OfFlatFacetsIsTheirOwn) {
     const Scene scene = globe(normals);
     for_each_point(scene, [&](TriangleId triangle, Vec2 b) {
       EXPECT_FALSE(scene.triangles[index(triangle)].curved);
-      EXPECT_EQ(shading_normal(scene, triangle, b),
-                glm::normalize(shading_normal(scene, triangle, Vec2(0.0))));
+      const Direction face = glm::normalize(area_vector(corners(scene, triangle)));
+      EXPECT_LT(glm::distance(shading_normal(scene, triangle, b), face), 1e-15);
     });
   }
 }

@@ -169,10 +169,9 @@ TEST(GltfMaterials, WarnsOfUnlitAndMaps) {
       {{"name", "Leaf"},
        {"alphaMode", "BLEND"},
        {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}, {"metallicFactor", 0}}},
-       {"normalTexture", {{"index", 0}}},
        {"occlusionTexture", {{"index", 0}}},
        {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
-  for (const auto* part : {"unlit", "normal textures", "occlusion"})
+  for (const auto* part : {"unlit", "occlusion"})
     EXPECT_TRUE(warns(scene, {part, "'Leaf'"})) << part;
   EXPECT_TRUE(warns(load(with_material({{"alphaMode", "GLOW"}})), {"alphaMode"}));
 }
