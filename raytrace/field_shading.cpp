@@ -4,18 +4,24 @@
 
 namespace meninas {
 
-std::vector<SideShading> make_side_shading(const ElementMesh& mesh) {
+std::vector<SideShading> make_side_shading(const Scene& scene, const ElementMesh& mesh) {
   std::vector<SideShading> shading;
   shading.reserve(mesh.sides.size());
-  for (const auto& side : mesh.sides)
-    shading.push_back({glm::vec3(side.emission / std::numbers::pi),
-                       glm::vec3(side.reflectance / std::numbers::pi), side.textured});
+  for (const auto& side : mesh.sides) {
+    const Material& material = scene.materials[index(side.material)];
+    if (material.unlit)
+      shading.push_back({glm::vec3(shown_radiance(material, untextured(material))),
+                         glm::vec3(0.0F), side.textured});
+    else
+      shading.push_back({glm::vec3(side.emission / std::numbers::pi),
+                         glm::vec3(side.reflectance / std::numbers::pi), side.textured});
+  }
   return shading;
 }
 
 VisibleLight visible_light(const IrradianceField& field,
                            FieldContent content) {
-  return {make_side_shading(field.mesh()),
+  return {make_side_shading(field.scene->scene, field.mesh()),
           content == FieldContent::all ? field.irradiance : field.indirect, ReflectedPart::all,
           glm::vec3(field.scene->scene.background)};
 }

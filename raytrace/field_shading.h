@@ -19,7 +19,7 @@ struct SideShading {
 };
 
 /// By SideId.
-std::vector<SideShading> make_side_shading(const ElementMesh& mesh);
+std::vector<SideShading> make_side_shading(const Scene& scene, const ElementMesh& mesh);
 
 /// Which of the light that arrives at a surface is reflected:
 /// by its last leg, straight or by way of mirrors.

@@ -62,10 +62,16 @@ SideShading shading_at(const LandedLane& lane) {
     return side;
   const LightScene& light = context.light;
   const SurfaceColour colour =
-      surface_colour(light.scene, light.textures, TriangleId{hits.triangle[k]},
+      surface_colour(light.scene, light.textures, triangle,
                      {hits.b1[k], hits.b2[k]}, footprint_of(lane));
   const ReflectedPart part = context.visible.part;
   const bool emits = part == ReflectedPart::all || part == ReflectedPart::none;
+  const TriangleId triangle{hits.triangle[k]};
+  if (const Material& material = material_of(light.scene, triangle); material.unlit) {
+    const MaterialPoint point = material_at(light.scene, light.textures, triangle,
+                                            {hits.b1[k], hits.b2[k]}, footprint_of(lane));
+    return {emits ? glm::vec3(shown_radiance(material, point)) : glm::vec3(0.0F), glm::vec3(0.0F)};
+  }
   SideShading shading;
   if (emits)
     shading.emitted = colour.emission / std::numbers::pi;

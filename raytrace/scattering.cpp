@@ -231,7 +231,8 @@ glm::vec3 scattered_radiance(const LandedLane& lane, TileWorkspace& work) {
   if (!has_field)
     return glm::vec3(0.0F);
   glm::vec3 radiance = share_of_rays(context, state, face, hits, k) * shading_at(lane).emitted;
-  if (part != ReflectedPart::none)
+  if (part != ReflectedPart::none &&
+      !material_of(context.light.scene, TriangleId{hits.triangle[k]}).unlit)
     radiance += glm::vec3(even_reflectance(bsdf, out.z) / std::numbers::pi) *
                 irradiance_of_lane(context, state, face, hits, k, work);
   return radiance;

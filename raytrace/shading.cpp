@@ -121,7 +121,7 @@ void shade_by_runs(const RenderContext& context, const RayPacket& packet, const 
       } else {
         const SideShading shading = shading_at(lane);
         radiance = share_of_rays(context, state, face, hits, k) * shading.emitted;
-        if (k >= lit) {
+        if (k >= lit && shading.albedo_over_pi != glm::vec3(0.0F)) {
           const LaneRun run = run_from(context, packet, state, hits, face, k);
           radiance += shading.albedo_over_pi * irradiance_of_run(context, state, hits, run, work);
           lit = run.end;

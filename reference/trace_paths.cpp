@@ -27,6 +27,7 @@ struct Path {
   std::size_t chain_length = 0;     ///< mirrors since
   Backs backs = Backs::transparent; ///< to the eye, up to the first scattering
   bool alive = true;
+  bool by_mirrors = true; ///< from the eye so far: it sees what is unlit as it is shown
   MaterialId medium = none<MaterialId>; ///< the solid it has been refracted into
   SurfacePoint at;                      ///< where it is
 };
@@ -128,6 +129,24 @@ void add_emission(const TracedScene& traced, LightSearch search, Path& path) {
     weight = path.density / (path.density + p_l);
   }
   path.routes.add(path.throughput * emission * weight, path.radiance);
+}
+
+/// The ray goes on behind what it has met; where and how its direction was drawn still holds.
+void go_straight_on(Path& path) {
+  path.ray.origin = path.at.position;
+  path.ray.leaving = path.at.plane;
+}
+
+/// What is unlit shows its colour, and where it is open what is behind.
+bool ends_unlit(const TracedScene& traced, Path& path) {
+  const Material& material = material_of(traced.scene, path.at.triangle);
+  if (!material.unlit || !path.by_mirrors)
+    return false;
+  path.routes.add(path.throughput * shown_radiance(material, path.at.material), path.radiance);
+  path.throughput *= straight_transmission(path.at.bsdf, 1.0);
+  path.alive = path.throughput != Rgb(0.0);
+  go_straight_on(path);
+  return true;
 }
 
 /// A point of a light as it is seen from somewhere.
@@ -263,12 +282,6 @@ void add_connections(const TracedScene& traced, const std::vector<Connection>& c
     add_clear_connections(traced, std::span(clear).first(count), paths);
 }
 
-/// The ray goes on behind what it has met; where and how its direction was drawn still holds.
-void go_straight_on(Path& path) {
-  path.ray.origin = path.at.position;
-  path.ray.leaving = path.at.plane;
-}
-
 /// Draws the path's next direction, or ends it.
 void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& u) {
   const Direction out = local_out(path.at.normal, path.ray.direction);
@@ -310,6 +323,7 @@ void scatter(const TracedScene& traced, Path& path, const std::array<float, 4>& 
                          !material_of(traced.scene, path.at.triangle).specular_in_pass_one;
     path.routes = is_coat ? path.routes.scattered({.gloss = Rgb(1.0)}) : path.routes.reflected(1);
   } else {
+    path.by_mirrors = false;
     path.density = drawn->density;
     path.scattered_at = path.ray.origin;
     path.chain_length = 0;
@@ -362,6 +376,8 @@ trace_paths(const TracedScene& traced, const std::array<CameraRay, packet_size>&
         continue;
       }
       add_emission(traced, search, path);
+      if (ends_unlit(traced, path))
+        continue;
       look_for_surfaces(traced, paths, k, u, search, connections);
       look_for_images(traced, paths, k, u, chosen, connections);
       scatter(traced, path, u.scatter);

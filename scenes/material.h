@@ -55,6 +55,7 @@ struct Material {
       false; ///< what this rough metal, or this coat, throws, pass one carries as an ideal mirror does (smooth_surfaces.h)
   bool double_sided =
       false; ///< false: the front reflects, emits and mirrors, the back is opaque and black
+  bool unlit = false; ///< KHR_materials_unlit: it shows its base colour, whatever light it receives
   double ior = 1.5;
   double specular = 1.0; ///< KHR_materials_specular
   Rgb specular_color{1.0};
@@ -82,6 +83,9 @@ struct Material {
   std::optional<TextureUse> clear_coat_texture;           ///< red
   std::optional<TextureUse> clear_coat_roughness_texture; ///< green
 };
+
+/// An unlit surface (KHR_materials_unlit) has the radiance of its base colour to the eye, by way of
+/// mirrors too. To the light of others it is diffuse of that colour: it is no lamp.
 
 /// The reflectance of the material in pass one, which scatters evenly:
 /// all that it reflects but the ideal reflection of metals (lobes.h).

@@ -51,6 +51,8 @@ void add_material(ContentHash& hash, const Material& material) {
     add_texture_use(hash, material.transmission_texture);
     add_texture_use(hash, material.thickness_texture);
   }
+  if (material.unlit)
+    hash.add(std::uint64_t{3}); // no other flag of those that are left out where they are not set
   if (material.normal_texture) {
     hash.add(material.normal_scale);
     add_texture_use(hash, material.normal_texture);

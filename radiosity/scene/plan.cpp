@@ -169,8 +169,10 @@ void warn_of_facets(const Scene& scene, const SurfaceModel& surfaces, TransportP
 
 void warn_of_lights(const Scene& scene, TransportPlan& plan) {
   if (plan.emitters == 0 && scene.lights.empty() && scene.background == Rgb(0.0)) {
-    plan.warnings.push_back("nothing emits light: the picture will be black; --background 1 lights "
-                            "it from all around");
+    const bool shows = std::ranges::any_of(scene.materials, &Material::unlit);
+    plan.warnings.push_back(fmt::format(
+        "nothing emits light: {} will be black; --background 1 lights it from all around",
+        shows ? "what is not unlit" : "the picture"));
   }
   if (!scene.lights.empty() && (plan.mirrors.facets > 0 || !plan.worlds.cut.empty())) {
     plan.warnings.push_back("light of point, spot and directional lights is followed over the "

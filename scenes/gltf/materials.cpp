@@ -134,6 +134,20 @@ static void read_glass(const Document& document, const Json& json, Material& mat
         read_texture_use(document, *extension, "thicknessTexture", material.name, findings);
 }
 
+/// Of the model the base colour and alpha remain, to others a matt surface of that colour.
+static void read_unlit(Material& material) {
+  Material colour;
+  colour.name = material.name;
+  colour.unlit = true;
+  colour.double_sided = material.double_sided;
+  colour.base_color = material.base_color;
+  colour.base_color_texture = material.base_color_texture;
+  colour.alpha = material.alpha;
+  colour.alpha_mode = material.alpha_mode;
+  colour.alpha_cutoff = material.alpha_cutoff;
+  material = std::move(colour);
+}
+
 static void read_alpha(const Json& json, Material& material, Findings& findings) {
   const auto mode = text_or(json, "alphaMode", "OPAQUE");
   if (mode == "MASK")
@@ -160,8 +174,6 @@ static Material read_material(const Document& document, std::size_t index, Findi
   read_emission(document, index, json, material, findings);
   read_coat(document, json, material, findings);
   read_glass(document, json, material, findings);
-  if (find(json, {"extensions", "KHR_materials_unlit"}))
-    findings.about("unlit materials are lit: their colour is read as reflectance", material.name);
   if (const auto* coat = find(json, {"extensions", "KHR_materials_clearcoat"}))
     read_clear_coat(document, *coat, material, findings);
   material.normal_texture =
@@ -171,6 +183,8 @@ static Material read_material(const Document& document, std::size_t index, Findi
   if (json.contains("occlusionTexture"))
     findings.about("occlusion textures are left out, occlusion is computed, in materials",
                    material.name);
+  if (find(json, {"extensions", "KHR_materials_unlit"}))
+    read_unlit(material);
   return material;
 }
 

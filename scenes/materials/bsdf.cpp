@@ -136,6 +136,10 @@ MaterialPoint untextured(const Material& material) {
           material.emission,   passed,         material.thickness};
 }
 
+Rgb shown_radiance(const Material& material, const MaterialPoint& point) {
+  return material.unlit ? coverage(material, point) * point.base_color : point.emission;
+}
+
 Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
   Bsdf bsdf;
   const bool blended = is_blended(material);

@@ -5,6 +5,7 @@
 #include "tests/reference/tracing.h"
 #include "tests/support/coats.h"
 #include "tests/support/glass_rooms.h"
+#include "tests/support/globes.h"
 
 #include <gtest/gtest.h>
 
@@ -54,6 +55,31 @@ TEST(TwoPasses, AgreeWithPathsInAGlazedRoom) {
                    {{"lit through the pane", {1.5, 1.0, 0.4}, {1.0, 0.6, 0.0}},
                     {"seen through the pane", {1.2, 1.0, 1.8}, {0.9, 0.5, 0.0}},
                     {"by reflection in the pane as well", {1.9, 0.9, 1.5}, {1.0, 0.9, 0.8}}});
+}
+
+TEST(TwoPasses, AgreeWithPathsAtAnUnlitPicture) {
+  Scene scene = glazed_room();
+  Material& picture = scene.materials.back();
+  picture = double_sided(diffuse(Rgb(0.8, 0.4, 0.2)));
+  picture.unlit = true;
+  expect_agreement(scene, {{"the picture", {1.0, 0.9, 1.6}, {1.0, 0.9, 0.8}},
+                           {"the floor beside it", {1.0, 0.9, 1.8}, {1.0, 0.0, 1.2}}});
+}
+
+TEST(TwoPasses, AgreeWithPathsAroundAGlobe) {
+  Scene scene = glazed_room();
+  scene.materials.pop_back();
+  scene.nodes.pop_back();
+  scene.triangles.resize(scene.triangles.size() - 2);
+  const Globe globe{.centre = {1.0, 0.5, 0.8}, .radius = 0.4};
+  Scene matt = scene, shiny = scene;
+  add_globe(matt, "globe", globe, diffuse(Rgb(0.7, 0.6, 0.5)), GivenNormals::smooth);
+  expect_agreement(matt, {{"its lit side", {1.0, 1.2, 1.8}, {1.0, 0.75, 1.11}},
+                          {"its terminator", {1.9, 0.5, 0.9}, {1.39, 0.45, 0.85}},
+                          {"its shadow", {1.0, 0.8, 1.9}, {1.1, 0.0, 0.7}}});
+  add_globe(shiny, "globe", globe, mirror(0.9), GivenNormals::smooth);
+  expect_agreement(shiny, {{"what it reflects", {1.0, 1.2, 1.8}, {1.1, 0.7, 1.12}},
+                           {"what it throws on the floor", {1.8, 0.8, 1.8}, {1.0, 0.0, 1.6}}});
 }
 
 TEST(TwoPasses, AgreeWithPathsInARoomWithAVeil) {

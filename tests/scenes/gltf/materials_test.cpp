@@ -164,15 +164,26 @@ TEST(GltfMaterials, ClampsWhatIsNotPhysical) {
       testing::HasSubstr("materials[0] 'Sun': its emission is over"));
 }
 
-TEST(GltfMaterials, WarnsOfUnlitAndMaps) {
+TEST(GltfMaterials, OfUnlitOnesTheBaseColourRemains) {
+  const auto scene = load(with_material(
+      {{"pbrMetallicRoughness", {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}, {"metallicFactor", 1}}},
+       {"emissiveFactor", {1, 1, 1}},
+       {"extensions",
+        {{"KHR_materials_unlit", Json::object()},
+         {"KHR_materials_transmission", {{"transmissionFactor", 1.0}}}}}}));
+  const Material& material = scene.materials[0];
+  EXPECT_TRUE(material.unlit);
+  EXPECT_EQ(material.base_color, Rgb(0.2, 0.4, 0.6));
+  EXPECT_FALSE(is_emitter(material) || is_glass(material) || is_glossy(material));
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfMaterials, WarnsOfOcclusionMapsAndUnknownModes) {
   const auto scene = load(with_material(
       {{"name", "Leaf"},
-       {"alphaMode", "BLEND"},
        {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}, {"metallicFactor", 0}}},
-       {"occlusionTexture", {{"index", 0}}},
-       {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
-  for (const auto* part : {"unlit", "occlusion"})
-    EXPECT_TRUE(warns(scene, {part, "'Leaf'"})) << part;
+       {"occlusionTexture", {{"index", 0}}}}));
+  EXPECT_TRUE(warns(scene, {"occlusion", "'Leaf'"}));
   EXPECT_TRUE(warns(load(with_material({{"alphaMode", "GLOW"}})), {"alphaMode"}));
 }
 
