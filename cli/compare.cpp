@@ -50,6 +50,8 @@ void add_view_options(Options& command, CompareOptions& options) {
       [&](const std::string& text) {
         request.exposure = parse_number("--exposure", text, Sign::any);
       });
+  add_view_transform(command, "how PNGs and the page show what is brighter than a display",
+                     request.transform, "Picture");
 }
 
 void add_reference_options(Options& command, CompareOptions& options) {

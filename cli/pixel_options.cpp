@@ -116,6 +116,18 @@ void refuse(const Options& command, std::initializer_list<const char*> options,
   }
 }
 
+void add_view_transform(Options& command, const std::string& description, ViewTransform& transform,
+                        const std::string& group) {
+  command
+      .add("--view-transform", join_names(view_transforms),
+           fmt::format("{} [{}]", description, name_of(transform)),
+           [&](const std::string& text) {
+             transform =
+                 parse_choice("--view-transform", text, choices_of(view_transforms));
+           })
+      .group(group);
+}
+
 void add_pixel_options(Options& command, RunSettings& settings, const std::string& group) {
   const auto add = [&](const std::string& option, const std::string& shown,
                        const std::string& description, const TakeText& take) {

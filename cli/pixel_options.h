@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli/options.h"
+#include "image/view_transform.h"
 #include "runs/run_settings.h"
 
 #include <filesystem>
@@ -17,6 +18,10 @@ void refuse(const Options& command, std::initializer_list<const char*> options,
             const std::string& reason);
 
 void add_pixel_options(Options& command, RunSettings& settings, const std::string& group);
+
+/// `--view-transform`, of a picture or of several.
+void add_view_transform(Options& command, const std::string& description, ViewTransform& transform,
+                        const std::string& group);
 
 /// Throws UsageError when one of them was given that has no effect with the others,
 /// or on these pictures.

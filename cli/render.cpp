@@ -111,6 +111,8 @@ void add_picture_options(Options& command, RenderOptions& options) {
       [&](const std::string& text) {
         request.picture.exposure = parse_number("--exposure", text, Sign::any);
       });
+  add_view_transform(command, "how a PNG shows what is brighter than a display",
+                     request.picture.transform, picture_group);
   add_pixel_options(command, options.common.settings, picture_group);
   command
       .add_flag("--float", "write an EXR of 32 bits a channel [16]",
@@ -231,6 +233,7 @@ RenderRequest& completed_request(const Options& command, RenderOptions& options)
   }
   if (settings.view) {
     options.request.picture.exposure = 0.0; // colours are what they are
+    options.request.picture.transform = ViewTransform::srgb;
   }
   return options.request;
 }

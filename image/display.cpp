@@ -34,7 +34,8 @@ float srgb_decode(float encoded) {
   return static_cast<float>(srgb_to_linear(encoded));
 }
 
-std::vector<std::uint8_t> display_codes(const Image& picture, double exposure) {
+std::vector<std::uint8_t> display_codes(const Image& picture, double exposure,
+                                        ViewTransform transform) {
   expects(std::isfinite(exposure), "an exposure is finite");
 
   // A value rounds to code k or above when it reaches the linear value of k - 1/2, so its code
@@ -46,14 +47,18 @@ std::vector<std::uint8_t> display_codes(const Image& picture, double exposure) {
   const double scale = std::exp2(exposure);
   std::vector<std::uint8_t> codes;
   codes.reserve(3 * picture.pixels.size());
-  for (const auto& pixel : picture.pixels)
+  for (const auto& pixel : picture.pixels) {
+    glm::dvec3 exposed(0.0);
     for (int c = 0; c < 3; ++c) {
       expects(!std::isnan(pixel[c]), "no displayed value is NaN");
-      const double value =
-          pixel[c] > 0.0F ? std::min(pixel[c], std::numeric_limits<float>::max()) * scale : 0.0;
-      codes.push_back(static_cast<std::uint8_t>(std::ranges::upper_bound(thresholds, value) -
-                                                thresholds.begin()));
+      if (pixel[c] > 0.0F)
+        exposed[c] = std::min(pixel[c], std::numeric_limits<float>::max()) * scale;
     }
+    const glm::dvec3 shown = displayed(transform, exposed);
+    for (int c = 0; c < 3; ++c)
+      codes.push_back(static_cast<std::uint8_t>(std::ranges::upper_bound(thresholds, shown[c]) -
+                                                thresholds.begin()));
+  }
   return codes;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "image/image.h"
+#include "image/view_transform.h"
 
 #include <cstdint>
 #include <vector>
@@ -19,8 +20,9 @@ double automatic_exposure(const Image& picture);
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
-/// R, G, B of each pixel times 2^exposure as 8-bit sRGB code values, rounded to nearest.
-/// No value may be NaN.
-std::vector<std::uint8_t> display_codes(const Image& picture, double exposure);
+/// R, G, B of each pixel times 2^exposure, as the transform shows them, as 8-bit sRGB code values,
+/// rounded to nearest. No value may be NaN.
+std::vector<std::uint8_t> display_codes(const Image& picture, double exposure,
+                                        ViewTransform transform = ViewTransform::srgb);
 
 } // namespace meninas

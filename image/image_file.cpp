@@ -101,17 +101,29 @@ void write_exr(const fs::path& file, const Image& picture, std::span<const Layer
                                     [&] { return encode_exr(picture, layers, type, attributes); }));
 }
 
-std::vector<std::byte> encode_png(const Image& picture, double exposure, Compression compression) {
+std::vector<std::byte> encode_png(const Image& picture, const DisplaySettings& settings) {
   expect_picture(picture);
-  const auto codes = display_codes(picture, exposure);
-  return encoded_as("PNG",
-                    [&] { return encode_png(picture.width, picture.height, codes, compression); });
+  const auto codes = display_codes(picture, settings.exposure, settings.transform);
+  PngText text;
+  if (settings.transform != ViewTransform::srgb)
+    text = {"View transform", title_of(settings.transform)};
+  return encoded_as("PNG", [&] {
+    return encode_png(picture.width, picture.height, codes, settings.compression, text);
+  });
+}
+
+std::vector<std::byte> encode_png(const Image& picture, double exposure, Compression compression) {
+  return encode_png(picture, {.exposure = exposure, .compression = compression});
+}
+
+void write_png(const fs::path& file, const Image& picture, const DisplaySettings& settings) {
+  if (picture_format(file) != PictureFormat::png)
+    throw OutputError(file.string(), "", "a PNG's name must end in .png");
+  write_whole_file(file, encode_png(picture, settings));
 }
 
 void write_png(const fs::path& file, const Image& picture, double exposure) {
-  if (picture_format(file) != PictureFormat::png)
-    throw OutputError(file.string(), "", "a PNG's name must end in .png");
-  write_whole_file(file, encode_png(picture, exposure));
+  write_png(file, picture, {.exposure = exposure});
 }
 
 void check_writable_image(const fs::path& file) {

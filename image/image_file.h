@@ -10,6 +10,7 @@
 
 #include "image/image.h"
 #include "image/picture_options.h"
+#include "image/view_transform.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -39,10 +40,19 @@ void write_exr(const std::filesystem::path& file, const Image& picture,
                std::span<const Layer> layers = {}, PixelType type = PixelType::half,
                const Attributes& attributes = {});
 
-/// sRGB-encoded 8-bit PNG of the picture times 2^exposure,
-/// clipped at white and rounded to the nearest code value.
-/// No value may be NaN.
+/// How a PNG shows linear light: times 2^exposure, and then as the transform has it.
+struct DisplaySettings {
+  double exposure = 0.0; ///< stops
+  ViewTransform transform = ViewTransform::srgb;
+  Compression compression = Compression::small;
+};
+
+/// sRGB-encoded 8-bit PNG of the picture, rounded to the nearest code value. It says the
+/// transform's name (`View transform`), unless that does nothing but clip. No value may be NaN.
+void write_png(const std::filesystem::path& file, const Image& picture,
+               const DisplaySettings& settings);
 void write_png(const std::filesystem::path& file, const Image& picture, double exposure);
+std::vector<std::byte> encode_png(const Image& picture, const DisplaySettings& settings);
 std::vector<std::byte> encode_png(const Image& picture, double exposure,
                                   Compression compression = Compression::small);
 

@@ -57,7 +57,8 @@ void write_modes(const fs::path& folder, const Comparison& comparison) {
     write_exr(folder / (mode.id + ".exr"), mode.image,
               layered ? std::span<const Layer>(comparison.layers) : std::span<const Layer>(),
               PixelType::half, attributes);
-    write_png(folder / (mode.id + ".png"), mode.image, comparison.exposure);
+    write_png(folder / (mode.id + ".png"), mode.image,
+              {.exposure = comparison.exposure, .transform = comparison.transform});
   }
   for (const DifferencePicture& difference : difference_pictures(comparison)) {
     write_png(folder / (difference.name + ".png"), difference.image, 0.0);
@@ -87,6 +88,8 @@ std::string command_of(const CompareRequest& request) {
   if (request.size)
     command += fmt::format(" --size {}x{}", request.size->width, request.size->height);
   add("--exposure", request.exposure);
+  if (request.transform != ViewTransform::neutral)
+    command += fmt::format(" --view-transform {}", name_of(request.transform));
   if (request.reference == WithReference::yes)
     command += " --reference";
   add("--max-error", request.settings.max_error);
@@ -153,6 +156,7 @@ void compare_run(const CompareRequest& request, const RunEvents& events) {
     comparison.reference = std::move(picture.batches);
   }
 
+  comparison.transform = request.transform;
   comparison.exposure =
       request.exposure ? *request.exposure : automatic_exposure(comparison.modes.back().image);
   comparison.command = command_of(request);

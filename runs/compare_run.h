@@ -2,6 +2,7 @@
 // with what the modes differ in, as files and as one page.
 #pragma once
 
+#include "image/view_transform.h"
 #include "runs/run_events.h"
 #include "runs/run_settings.h"
 
@@ -19,6 +20,7 @@ struct CompareRequest {
   std::optional<std::string> camera;
   std::optional<PictureSize> size;
   std::optional<double> exposure; ///< stops; automatic for the most accurate picture
+  ViewTransform transform = ViewTransform::neutral; ///< of all PNGs and of the page
   WithReference reference = WithReference::no;
   RunSettings settings; ///< its mode is not heeded
 };

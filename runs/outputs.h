@@ -27,6 +27,7 @@ void make_folder(const std::filesystem::path& folder);
 struct PictureSettings {
   PixelType exr_type = PixelType::half;
   std::optional<double> exposure; ///< stops, of a PNG; chosen for the picture otherwise
+  ViewTransform transform = ViewTransform::neutral; ///< of a PNG
 };
 
 /// Layers go into EXRs only.

@@ -7,13 +7,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace meninas {
 
+/// A line of text in the file, of printable ASCII; the key has at most 79 letters. None without.
+struct PngText {
+  std::string_view key, text;
+};
+
 /// RGB of 8 bits, marked as sRGB. `codes`: width * height * 3 code values, rows from the top.
 /// Throws std::runtime_error where the library cannot go on.
 std::vector<std::byte> encode_png(int width, int height, std::span<const std::uint8_t> codes,
-                                  Compression compression);
+                                  Compression compression, const PngText& text = {});
 
 } // namespace meninas

@@ -137,7 +137,7 @@ void add_settings(ContentHash& hash, std::vector<Setting> settings) {
 bool is_of_pass_two(const Setting& setting) {
   constexpr std::array names{"mode",      "diffuse",     "camera",      "size",          "samples",
                              "max-error", "max-seconds", "exposure",    "layers",        "float",
-                             "view",      "filter",      "pixel-error", "glossy-samples"};
+                             "view",      "view-transform", "filter",      "pixel-error", "glossy-samples"};
   return std::ranges::find(names, setting.name) != names.end();
 }
 

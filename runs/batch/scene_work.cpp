@@ -77,9 +77,11 @@ void write_outputs(const BatchFolder& folder, const BatchPicture& picture,
 
 std::string thumbnail_of(const BatchPicture& picture, const Image& image) {
   constexpr int longest_side = 192;
-  const auto& exposure = picture.request.picture.exposure;
+  const PictureSettings& shown = picture.request.picture;
   return png_address(thumbnail(image, longest_side),
-                     exposure ? *exposure : automatic_exposure(image), Compression::quick);
+                     {.exposure = shown.exposure ? *shown.exposure : automatic_exposure(image),
+                      .transform = shown.transform,
+                      .compression = Compression::quick});
 }
 
 } // namespace

@@ -143,6 +143,7 @@ Json header_json(const Comparison& comparison) {
           {"width", picture.width},
           {"height", picture.height},
           {"exposure", comparison.exposure},
+          {"view_transform", name_of(comparison.transform)},
           {"version", program_version()},
           {"settings", settings_json(comparison)}};
 }
@@ -224,7 +225,8 @@ std::string compare_page_of(const Comparison& comparison) {
                  {"name", mode.name},
                  {"note", mode.note},
                  {"seconds", mode.seconds},
-                 {"png", png_address(mode.image, comparison.exposure)}};
+                 {"png", png_address(mode.image, {.exposure = comparison.exposure,
+                                                  .transform = comparison.transform})}};
     if (&mode != &comparison.modes.back()) {
       picture["compared_with"] = comparison.modes.back().name;
       picture["metrics"] = metrics_of(comparison, mode);
@@ -251,7 +253,8 @@ std::string compare_page_of(const Comparison& comparison) {
                                 {"meaning", meaning_of(layer.name)},
                                 {"file", "hybrid.exr"},
                                 {"stops", stops},
-                                {"png", png_address(layer.image, comparison.exposure + stops)}});
+                                {"png", png_address(layer.image, {.exposure = comparison.exposure + stops,
+                                                            .transform = comparison.transform})}});
     }
   }
   return fill_page(compare_page, text_of(json, -1));

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "image/image.h"
+#include "image/view_transform.h"
 #include "reference/light_layers.h"
 
 #include <filesystem>
@@ -29,6 +30,7 @@ struct Comparison {
   std::string scene, camera;
   std::string command;                               ///< that makes it again
   double exposure = 0.0;                             ///< stops, the same for all
+  ViewTransform transform = ViewTransform::neutral;  ///< likewise
   std::vector<ComparedMode> modes;                   ///< the less accurate first
   std::vector<Layer> layers;                         ///< of the hybrid picture
   std::vector<reference::LayerLuminances> reference; ///< batches of its own split, if there is one

@@ -53,6 +53,10 @@ std::string base64(std::span<const std::byte> bytes) {
   return text;
 }
 
+std::string png_address(const Image& picture, const DisplaySettings& settings) {
+  return "data:image/png;base64," + base64(encode_png(picture, settings));
+}
+
 std::string png_address(const Image& picture, double exposure, Compression compression) {
   return "data:image/png;base64," + base64(encode_png(picture, exposure, compression));
 }

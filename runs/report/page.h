@@ -22,7 +22,8 @@ std::string shell_quoted(const std::string& text);
 /// RFC 4648, section 4.
 std::string base64(std::span<const std::byte> bytes);
 
-/// The picture as it is shown, times 2^exposure: a PNG as a `data:` address.
+/// The picture as it is shown: a PNG as a `data:` address.
+std::string png_address(const Image& picture, const DisplaySettings& settings);
 std::string png_address(const Image& picture, double exposure,
                         Compression compression = Compression::small);
 

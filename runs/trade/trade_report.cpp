@@ -171,7 +171,8 @@ std::string trade_page_of(const TradeResult& result) {
   Json json = json_of(result);
   const double exposure = automatic_exposure(result.reference.mean);
   const auto small = [&](const Image& picture) {
-    return png_address(thumbnail(picture, longest_side), exposure);
+    return png_address(thumbnail(picture, longest_side),
+                       {.exposure = exposure, .transform = ViewTransform::neutral});
   };
   Json pictures = Json::array();
   for (const TradePoint& point : result.points)
