@@ -79,9 +79,6 @@ const std::map<std::string_view, std::string_view>& all_details() {
       {"--exposure",
        "an EXR is never scaled. It keeps scene, camera, seed, samples and background as attributes "
        "`meninas:...`."},
-      {"--view-transform",
-       "`neutral` is Khronos' PBR Neutral: colours stay as they are up to 0.8 and pale softly above. "
-       "`agx` is the AgX of Blender and three.js. `srgb` clips. EXRs stay linear."},
       {"--factors",
        "with `--reuse` a later run may change emission, diffuse reflectances, solver, tolerance and "
        "interpolation. Geometry, mirrors, elements and rays must be the same; a run says what differs "
@@ -111,7 +108,10 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "`--mesh hierarchical`."},
       {"--stats", "[all figures](stats.md)."},
       {"--view",
-       "the colours' range is printed; an EXR holds the numbers as well."}};
+       "the colours' range is printed; an EXR holds the numbers as well."},
+      {"--view-transform",
+       "`neutral` is Khronos' PBR Neutral: colours stay as they are up to 0.8 and pale softly above. "
+       "`agx` is the AgX of Blender and three.js. `srgb` clips. EXRs stay linear."}};
   return details;
 }
 

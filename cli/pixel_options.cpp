@@ -97,7 +97,7 @@ void check_view(const Options& command, const RunSettings& settings) {
   }
   refuse(command,
          {"--layers", "--diffuse", "--samples", "--filter", "--pixel-error", "--glossy-samples",
-          "--exposure", "--snapshots", "--error-map", "--error", "--time"},
+          "--exposure", "--view-transform", "--snapshots", "--error-map", "--error", "--time"},
          "has no effect with --view");
   if (settings.view == DebugView::mirror_depth && settings.mode == PictureMode::radiosity) {
     throw UsageError("--view", "mirror-depth has no effect with --mode radiosity: its mirrors are "
