@@ -61,18 +61,20 @@ SideShading shading_at(const LandedLane& lane) {
   if (!side.textured)
     return side;
   const LightScene& light = context.light;
-  const SurfaceColour colour =
-      surface_colour(light.scene, light.textures, triangle,
-                     {hits.b1[k], hits.b2[k]}, footprint_of(lane));
+  const TriangleId triangle{hits.triangle[k]};
+  const Vec2 barycentric(hits.b1[k], hits.b2[k]);
   const ReflectedPart part = context.visible.part;
   const bool emits = part == ReflectedPart::all || part == ReflectedPart::none;
-  const TriangleId triangle{hits.triangle[k]};
-  if (const Material& material = material_of(light.scene, triangle); material.unlit) {
-    const MaterialPoint point = material_at(light.scene, light.textures, triangle,
-                                            {hits.b1[k], hits.b2[k]}, footprint_of(lane));
-    return {emits ? glm::vec3(shown_radiance(material, point)) : glm::vec3(0.0F), glm::vec3(0.0F)};
-  }
   SideShading shading;
+  if (const Material& material = material_of(light.scene, triangle); material.unlit) {
+    if (emits)
+      shading.emitted = shown_radiance(
+          material,
+          material_at(light.scene, light.textures, triangle, barycentric, footprint_of(lane)));
+    return shading;
+  }
+  const SurfaceColour colour =
+      surface_colour(light.scene, light.textures, triangle, barycentric, footprint_of(lane));
   if (emits)
     shading.emitted = colour.emission / std::numbers::pi;
   if (part != ReflectedPart::none)
