@@ -114,11 +114,12 @@ static gltf::Vectors decode_filtered(const Bytes& filtered, std::size_t count,
 static std::vector<float> unit_vectors(std::size_t count, std::size_t width) {
   std::vector<float> values;
   for (std::size_t k = 0; k < count; ++k) {
-    double v[4] = {std::sin(1.0 + k), std::cos(2.0 * k), std::sin(3.0 * k + 0.5),
-                   width == 4 ? std::cos(0.7 * k) : 0.0};
+    const auto x = static_cast<double>(k);
+    const double v[4] = {std::sin(1.0 + x), std::cos(2.0 * x), std::sin(3.0 * x + 0.5),
+                         width == 4 ? std::cos(0.7 * x) : 0.0};
     const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3]);
-    for (const double x : v)
-      values.push_back(static_cast<float>(x / length));
+    for (const double part : v)
+      values.push_back(static_cast<float>(part / length));
   }
   return values;
 }
@@ -163,7 +164,7 @@ TEST(Meshopt, QuaternionFilterGivesRotations) {
 TEST(Meshopt, ExponentialFilterGivesFloats) {
   constexpr std::size_t count = 37;
   std::vector<float> values;
-  for (std::size_t k = 0; k < 3 * count; ++k)
+  for (int k = 0; k < 3 * static_cast<int>(count); ++k)
     values.push_back(static_cast<float>(std::sin(1.0 + k) * std::pow(10.0, k % 7)));
   constexpr int bits = 15;
   Bytes filtered(count * 12);
@@ -198,8 +199,9 @@ TEST(Meshopt, DataThatIsThereIsNotDecoded) {
       ASSERT_EQ(meshopt_decodeIndexBuffer(decoded.data(), count, stride, source, size), 0);
     else
       ASSERT_EQ(meshopt_decodeVertexBuffer(decoded.data(), count, stride, source, size), 0);
-    fallback.resize(std::max(fallback.size(), view["byteOffset"].get<std::size_t>()));
-    fallback.insert(fallback.end(), decoded.begin(), decoded.end());
+    const std::size_t offset = view["byteOffset"];
+    fallback.resize(std::max(fallback.size(), offset + decoded.size()));
+    std::ranges::copy(decoded, fallback.begin() + static_cast<std::ptrdiff_t>(offset));
     description["mode"] = "UNKNOWN"; // not looked at
   }
   auto& buffer = file.json["buffers"][1];
@@ -275,9 +277,14 @@ TEST(Meshopt, CorruptDataAndOtherVersionsAreNamed) {
 }
 
 TEST(Meshopt, MemoryIsCountedBeforeItIsTaken) {
-  const auto file = with_meshopt(bumpy_sheet());
-  EXPECT_THROW(load(file, {.memory_limit = 3000}), OutputError);
-  auto huge = file;
+  // Room for the file as it is, but not for the 220 kB that it becomes besides.
+  const auto large = with_meshopt(bumpy_sheet(60));
+  const std::uint64_t limit = as_text(large).size() + 1000;
+  EXPECT_THAT(error_of(large, {.memory_limit = limit}),
+              testing::AllOf(HasSubstr("bufferViews["), HasSubstr("over the memory limit")));
+  EXPECT_THROW(load(large, {.memory_limit = limit}), OutputError);
+
+  auto huge = with_meshopt(bumpy_sheet());
   first_extension(huge)["count"] = 1'000'000'000'000;
   EXPECT_THAT(error_of(huge), HasSubstr("bufferViews[2]: EXT_meshopt_compression: 1000000000000 "
                                         "elements of 12 bytes are over the memory limit"));
