@@ -1,6 +1,6 @@
 // Writes the files the fuzzer begins with into a folder:
 // small ones that together use all the loader reads, and the words of the format.
-#include "tests/scenes/gltf/compressed_files.h"
+#include "tests/scenes/gltf/compression/compressed_files.h"
 #include "tests/scenes/gltf/gltf_samples.h"
 
 #include <filesystem>

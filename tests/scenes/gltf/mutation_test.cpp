@@ -1,6 +1,6 @@
 // Broken on purpose in thousands of ways:
 // a file either becomes a scene with finite numbers or ends with a UserError.
-#include "tests/scenes/gltf/compressed_files.h"
+#include "tests/scenes/gltf/compression/compressed_files.h"
 #include "tests/scenes/gltf/gltf_samples.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "tests/scenes/gltf/compressed_files.h"
+#include "tests/scenes/gltf/compression/compressed_files.h"
 
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>

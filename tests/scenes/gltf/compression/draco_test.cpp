@@ -1,7 +1,7 @@
 // KHR_draco_mesh_compression: what the library's encoder packed comes out as it went in,
 // or as near as it was told to keep it.
 #include "scenes/gltf/accessors.h"
-#include "tests/scenes/gltf/compressed_files.h"
+#include "tests/scenes/gltf/compression/compressed_files.h"
 #include "tests/scenes/gltf/gltf_samples.h"
 
 #include <gmock/gmock.h>
