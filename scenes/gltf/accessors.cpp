@@ -203,33 +203,26 @@ private:
 
 } // namespace
 
-/// Buffers that only a decoder of compressed data could fill are empty on purpose.
-static std::string why_empty(const Json& view, std::size_t buffer) {
-  for (const std::string_view extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-    if (find(view, {"extensions", extension}))
-      return fmt::format(
-          "its data is only there in {}, which is not decoded: save the file without "
-          "mesh compression",
-          extension);
-  return fmt::format("buffers[{}] has no data", buffer);
-}
-
-std::span<const unsigned char> view_bytes(const Document& document, std::size_t view) {
-  const auto& json = element(document.root, "bufferViews", view);
-  const auto buffer = *index_at(json, "buffer");
+std::span<const unsigned char> bytes_of(const Document& document, const Json& range,
+                                        const std::string& where) {
+  const auto buffer = *index_at(range, "buffer");
   const std::span<const unsigned char> bytes = document.buffers[buffer];
-  const auto where = place(document.root, "bufferViews", view);
   const auto announced = size_or(element(document.root, "buffers", buffer), "byteLength", 0);
   if (bytes.empty() && announced > 0)
-    throw InputError(document.file, where, why_empty(json, buffer));
-  const auto offset = size_or(json, "byteOffset", 0);
-  const auto length = size_or(json, "byteLength", 0);
+    throw InputError(document.file, where, fmt::format("buffers[{}] has no data", buffer));
+  const auto offset = size_or(range, "byteOffset", 0);
+  const auto length = size_or(range, "byteLength", 0);
   if (offset > bytes.size() || length > bytes.size() - offset)
     throw InputError(
         document.file, where,
         fmt::format("{} bytes from byte {} do not fit into the {} bytes of buffers[{}]", length,
                     offset, bytes.size(), buffer));
   return bytes.subspan(offset, length);
+}
+
+std::span<const unsigned char> view_bytes(const Document& document, std::size_t view) {
+  return bytes_of(document, element(document.root, "bufferViews", view),
+                  place(document.root, "bufferViews", view));
 }
 
 std::uint64_t accessor_count(const Document& document, std::size_t accessor) {
@@ -266,6 +259,8 @@ static bool has_repeated_bits(std::uint32_t value, int stored, int bits) {
 double step_of_values(const Document& document, std::size_t accessor) {
   const Reader reader(document, accessor);
   const auto component = reader.component();
+  if (const auto step = document.steps.find(accessor); step != document.steps.end())
+    return step->second;
   if (component == Component::f32 || component == Component::u32)
     return 0.0;
   const bool has_sign = component == Component::i8 || component == Component::i16;

@@ -6,7 +6,10 @@
 
 namespace meninas::gltf {
 
-/// The bytes of a buffer view; throws InputError when they are not all there.
+/// The bytes that an object with `buffer`, `byteOffset` and `byteLength` names;
+/// throws InputError about `where` when they are not all there.
+std::span<const unsigned char> bytes_of(const Document& document, const Json& range,
+                                        const std::string& where);
 std::span<const unsigned char> view_bytes(const Document& document, std::size_t view);
 
 std::uint64_t accessor_count(const Document& document, std::size_t accessor);
@@ -19,7 +22,8 @@ struct Vectors {
 };
 Vectors decode_vectors(const Document& document, std::size_t accessor, std::size_t width);
 
-/// The distance between neighbouring values that an accessor can hold: of integers, 0 of floats.
+/// The distance between neighbouring values that an accessor can hold: of integers and of floats
+/// that were quantised to be compressed; 0 of other floats.
 ///
 /// Optimisers quantise to fewer bits than they store: b bits q become q 2^(s-b) + q 2^-(2b-s), the
 /// high bits repeated below (`quantize` of glTF-Transform). Where all of many values have that

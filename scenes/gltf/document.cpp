@@ -20,7 +20,23 @@ Document read_document(Bytes bytes, const std::filesystem::path& file,
 
   document.root = std::move(container.root);
   document.buffers = load_buffers(document, std::move(container.binary));
+  for (const auto& buffer : document.buffers)
+    document.buffer_bytes += buffer.size();
+  decode_meshopt(document);
+  decode_draco(document);
   return document;
+}
+
+std::size_t add_buffer(Document& document, Bytes bytes) {
+  document.root["buffers"].push_back({{"byteLength", bytes.size()}});
+  document.buffer_bytes += bytes.size();
+  document.buffers.push_back(std::move(bytes));
+  return document.buffers.size() - 1;
+}
+
+std::uint64_t memory_left(const Document& document) {
+  const auto limit = document.settings.memory_limit;
+  return limit - std::min(limit, document.buffer_bytes);
 }
 
 const Json* find(const Json& object, std::string_view key) {

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -37,6 +38,9 @@ struct Document {
   GltfSettings settings;
   Json root;
   std::vector<Bytes> buffers; ///< empty for a buffer that only an extension could fill
+  std::uint64_t buffer_bytes = 0; ///< of all buffers together
+  /// The distance between neighbouring values of accessors whose floats were quantised.
+  std::map<std::size_t, double> steps = {};
 };
 
 /// Splits a .glb or takes a .gltf, and parses the JSON, unless that would take more
@@ -62,6 +66,18 @@ Resource read_whole_file(const std::filesystem::path& file, std::uint64_t size_l
 Resource read_uri(const std::string& uri, const std::filesystem::path& folder,
                   const GltfSettings& settings);
 std::vector<Bytes> load_buffers(const Document& document, std::optional<Bytes> binary);
+
+// --- Data that is only there compressed, made plain, so that nothing after it knows of compression
+
+/// Buffer views of EXT_meshopt_compression and KHR_meshopt_compression whose own buffer is empty.
+void decode_meshopt(Document& document);
+/// Primitives of KHR_draco_mesh_compression whose positions are in no buffer.
+void decode_draco(Document& document);
+
+/// Adds a buffer with these bytes and returns its index.
+std::size_t add_buffer(Document& document, Bytes bytes);
+/// The limit less what the buffers hold, in bytes.
+std::uint64_t memory_left(const Document& document);
 
 // --- JSON that check_structure has passed
 

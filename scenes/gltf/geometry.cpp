@@ -25,10 +25,10 @@ struct Part {
   Normals normals;
   std::vector<Corners> triangles;
   MaterialId material = none<MaterialId>;
-  double step = 0.0; ///< of integer positions; 0: floats
+  double step = 0.0; ///< of positions that the file rounds; 0: others
 };
 
-/// What is read, and by vertex half the step of integer positions, in metres.
+/// What is read, and by vertex half the step of rounded positions, in metres.
 struct Geometry {
   Scene& scene;
   std::vector<float> half_steps;

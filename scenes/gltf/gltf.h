@@ -1,7 +1,7 @@
 // glTF 2.0 in: .gltf with files or data URIs, and .glb, into a Scene.
 //
 // Read: the default scene (or the one asked for), its node hierarchy with any matrix or TRS,
-// triangles, strips and fans, indexed or not, strided and sparse accessors,
+// triangles, strips and fans, indexed or not; strided and sparse accessors, Draco and meshopt;
 // metallic-roughness materials with the extensions KHR_materials_emissive_strength,
 // _ior, _specular, _transmission, _volume, KHR_texture_transform, KHR_lights_punctual,
 // perspective and orthographic cameras. Negative determinants keep the front in front.

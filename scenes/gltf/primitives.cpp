@@ -9,8 +9,12 @@
 
 namespace meninas::gltf {
 
+std::string primitive_place(const Json& root, std::size_t mesh, std::size_t number) {
+  return fmt::format("{}, primitive {}", place(root, "meshes", mesh), number);
+}
+
 std::string PrimitivePlace::where() const {
-  return fmt::format("{}, primitive {}", place(document.root, "meshes", in.mesh), number);
+  return primitive_place(document.root, in.mesh, number);
 }
 
 void PrimitivePlace::fail(const std::string& what) const {
@@ -34,14 +38,7 @@ Mode mode_of(const PrimitivePlace& at) {
 }
 
 std::optional<std::size_t> position_accessor(const PrimitivePlace& at) {
-  const auto accessor = index_at(at.json["attributes"], "POSITION");
-  if (!accessor)
-    return std::nullopt;
-  const auto& json = element(at.document.root, "accessors", *accessor);
-  if (!json.contains("bufferView") && find(at.json, {"extensions", "KHR_draco_mesh_compression"}))
-    at.fail("its data is only there in KHR_draco_mesh_compression, which is not decoded: save the "
-            "file without mesh compression");
-  return *accessor;
+  return index_at(at.json["attributes"], "POSITION");
 }
 
 std::size_t triangles_in(Mode mode, std::uint64_t corners) {

@@ -16,6 +16,9 @@ struct MeshPlace {
   std::vector<double> morph_weights;
 };
 
+/// meshes[0] 'Wall', primitive 2
+std::string primitive_place(const Json& root, std::size_t mesh, std::size_t number);
+
 /// A primitive and how to speak of it.
 struct PrimitivePlace {
   const Document& document;
@@ -23,7 +26,7 @@ struct PrimitivePlace {
   const MeshPlace& in;
   std::size_t number = 0;
 
-  std::string where() const; ///< meshes[0] 'Wall', primitive 2
+  std::string where() const;
   [[noreturn]] void fail(const std::string& what) const;
 };
 

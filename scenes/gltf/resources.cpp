@@ -156,6 +156,15 @@ Resource read_uri(const std::string& uri, const fs::path& folder, const GltfSett
   return resource;
 }
 
+/// A buffer for readers that cannot decode its compressed twin.
+static bool is_fallback(const Json& buffer) {
+  return std::ranges::any_of(
+      std::array{"EXT_meshopt_compression", "KHR_meshopt_compression"}, [&](const char* extension) {
+        const auto* marked = find(buffer, {"extensions", extension, "fallback"});
+        return marked && marked->get<bool>();
+      });
+}
+
 std::vector<Bytes> load_buffers(const Document& document, std::optional<Bytes> binary) {
   std::vector<Bytes> buffers;
   std::uint64_t total = 0;
@@ -168,11 +177,13 @@ std::vector<Bytes> load_buffers(const Document& document, std::optional<Bytes> b
       resource = read_uri(uri->get<std::string>(), document.folder, document.settings);
     else if (k == 0 && binary)
       resource.bytes = std::move(*binary);
+    if (!resource.problem.empty() && is_fallback(buffer))
+      resource = {};
     if (!resource.problem.empty())
       throw UserError(resource.kind, document.file, where, resource.problem);
 
     const auto announced = size_or(buffer, "byteLength", 0);
-    const bool has_data = uri || !resource.bytes.empty();
+    const bool has_data = !resource.bytes.empty() || (uri && !is_fallback(buffer));
     if (has_data && resource.bytes.size() < announced)
       throw InputError(document.file, where,
                        fmt::format("truncated: byteLength is {}, its data has {} bytes", announced,

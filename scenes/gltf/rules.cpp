@@ -87,16 +87,35 @@ constexpr Rule material[] = {
     {.name = "extensions", .kind = object, .fields = material_extensions},
 };
 
+constexpr Rule fallback[] = {{.name = "fallback", .kind = boolean}};
+constexpr Rule buffer_extensions[] = {
+    {.name = "EXT_meshopt_compression", .kind = object, .fields = fallback},
+    {.name = "KHR_meshopt_compression", .kind = object, .fields = fallback},
+};
 constexpr Rule buffer[] = {
     {.name = "uri", .kind = text},
     {.name = "byteLength", .kind = size, .presence = required},
+    {.name = "extensions", .kind = object, .fields = buffer_extensions},
+};
+constexpr Rule meshopt[] = {
+    {.name = "buffer", .kind = index, .presence = required, .target = "buffers"},
+    {.name = "byteOffset", .kind = size},
+    {.name = "byteLength", .kind = size, .presence = required},
+    {.name = "byteStride", .kind = size, .presence = required},
+    {.name = "count", .kind = size, .presence = required},
+    {.name = "mode", .kind = text, .presence = required},
+    {.name = "filter", .kind = text},
+};
+constexpr Rule view_extensions[] = {
+    {.name = "EXT_meshopt_compression", .kind = object, .fields = meshopt},
+    {.name = "KHR_meshopt_compression", .kind = object, .fields = meshopt},
 };
 constexpr Rule buffer_view[] = {
     {.name = "buffer", .kind = index, .presence = required, .target = "buffers"},
     {.name = "byteOffset", .kind = size},
     {.name = "byteLength", .kind = size, .presence = required},
     {.name = "byteStride", .kind = size},
-    {.name = "extensions", .kind = object},
+    {.name = "extensions", .kind = object, .fields = view_extensions},
 };
 constexpr Rule sparse_indices[] = {
     {.name = "bufferView", .kind = index, .presence = required, .target = "bufferViews"},
@@ -138,13 +157,19 @@ constexpr Rule texture[] = {
     {.name = "extensions", .kind = object, .fields = texture_formats},
 };
 
+constexpr Rule draco[] = {
+    {.name = "bufferView", .kind = index, .presence = required, .target = "bufferViews"},
+    {.name = "attributes", .kind = sizes, .presence = required}, // Draco's own numbers
+};
+constexpr Rule primitive_extensions[] = {
+    {.name = "KHR_draco_mesh_compression", .kind = object, .fields = draco}};
 constexpr Rule primitive[] = {
     {.name = "attributes", .kind = attributes, .presence = required, .target = "accessors"},
     {.name = "indices", .kind = index, .target = "accessors"},
     {.name = "material", .kind = index, .target = "materials"},
     {.name = "mode", .kind = size},
     {.name = "targets", .kind = attribute_sets, .target = "accessors"},
-    {.name = "extensions", .kind = object},
+    {.name = "extensions", .kind = object, .fields = primitive_extensions},
 };
 constexpr Rule mesh[] = {
     name_rule,

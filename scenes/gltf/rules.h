@@ -14,6 +14,7 @@ enum class Kind {
   indices,
   attributes,     ///< an object of indices
   attribute_sets, ///< an array of them
+  sizes,          ///< an object of whole numbers
   number,
   numbers,
   text,

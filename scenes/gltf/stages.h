@@ -22,8 +22,8 @@ std::vector<std::string> unique_names(const std::vector<std::string>& names);
 
 /// Fills vertices, triangles, nodes and their error bound.
 /// Materials of triangles are still indices into the file, none for a primitive without.
-/// Returns, by vertex, half the step of positions that the file rounds to integers, in metres;
-/// 0 of floats.
+/// Returns, by vertex, half the step of positions that the file rounds, to integers or by Draco,
+/// in metres; 0 of others.
 std::vector<float> read_geometry(const Document& document, std::span<const PlacedNode> nodes,
                                  Scene& scene, Findings& findings);
 

@@ -110,6 +110,11 @@ private:
       return check_object({&place, rule.name, std::nullopt, &value}, rule.fields);
     case attributes:
       return check_attributes(place, rule, value);
+    case sizes:
+      require(value.is_object(), place, rule, value, "an object");
+      for (const auto& [name, number] : value.items())
+        check_value(place, {.name = name, .kind = size}, number);
+      return;
     default:
       return check_array(place, rule, value);
     }

@@ -9,7 +9,7 @@
 // A smooth part is a set of triangles of one material across whose edges the normal turns by at
 // most 20 degrees. The part, or what grows in it around its widest triangles, is flat if its
 // vertices are within e of their plane of least squares and one of these holds:
-//   stated  e is what the file's own integers round by, and the surface ends where it ends by
+//   stated  e is what the file says that it rounds by, and the surface ends where it ends by
 //           edges or holes rather than by leaving the plane;
 //   unseen  e <= 1e-4 w, and no facet turns by more than 0.005: light moves by 0.1 % of its way at
 //           the most, however the vertices came off;
@@ -34,7 +34,7 @@ struct Flattening {
   double farthest = 0.0;    ///< metres
 };
 
-/// `half_steps` by vertex: half the step of positions that are integers in the file, in metres.
+/// `half_steps` by vertex: half the step of positions that the file rounds, in metres.
 Flattening flatten_nearly_flat(Scene& scene, std::span<const float> half_steps = {});
 
 } // namespace meninas

@@ -1,5 +1,6 @@
 // Writes the files the fuzzer begins with into a folder:
 // small ones that together use all the loader reads, and the words of the format.
+#include "tests/scenes/gltf/compression/compressed_files.h"
 #include "tests/scenes/gltf/gltf_samples.h"
 
 #include <filesystem>
@@ -45,7 +46,10 @@ int main(int count, char** arguments) {
   const std::pair<const char*, GltfFile> files[] = {
       {"square", square()},           {"everything", everything()},
       {"skinned", skinned_square()},  {"morphed", morphed_square()},
-      {"instanced", instanced_square()}, {"old", old_material()}};
+      {"instanced", instanced_square()}, {"old", old_material()},
+      {"meshopt", with_meshopt(bumpy_sheet(3))},
+      {"draco", with_draco(quantised_sheet(3))},
+      {"sequential", with_draco(bumpy_sheet(3), {.position_bits = 11, .normal_bits = 8, .edgebreaker = false})}};
   for (const auto& [name, file] : files) {
     const std::string text = as_text(file);
     write(folder / "seeds" / (std::string(name) + ".gltf"), Bytes(text.begin(), text.end()));

@@ -48,6 +48,8 @@ struct WrappedLibrary {
 constexpr std::array wrapped_libraries = {
     WrappedLibrary{"Embree", "embree", "scenes", "scenes/rays/"},
     WrappedLibrary{"tinygltf", "tiny_gltf", "scenes"},
+    WrappedLibrary{"Draco", "draco/", "scenes"},
+    WrappedLibrary{"meshoptimizer", "meshoptimizer.h", "scenes"},
     WrappedLibrary{"OpenImageIO", "OpenImageIO/", "image"},
     WrappedLibrary{"OpenEXR", "OpenEXR/", "image"},
     WrappedLibrary{"libpng", "png.h", "image"},

@@ -73,9 +73,6 @@ static const BadEdit structure_edits[] = {
     {"/extensionsRequired",
      {"KHR_texture_transform", "EXT_strange"},
      "extensionsRequired: the file needs EXT_strange"},
-    {"/extensionsRequired",
-     {"KHR_draco_mesh_compression"},
-     "extensionsRequired: the file needs KHR_draco_mesh_compression"},
     {"/extensionsRequired", {3}, "'extensionsRequired' must be an array of text"},
 };
 INSTANTIATE_TEST_SUITE_P(Structure, GltfBadEdit, testing::ValuesIn(structure_edits));
@@ -217,16 +214,6 @@ TEST(GltfBadInput, NothingToRender) {
   auto flat = square();
   flat.json["nodes"][0]["scale"] = {0, 0, 0};
   EXPECT_EQ(error_of(flat), "scene.gltf: nothing to render: all 2 triangles are without area");
-}
-
-TEST(GltfBadInput, CompressedMeshWithoutFallback) {
-  auto file = square();
-  square_primitive(file)["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
-  EXPECT_EQ(load(file).triangles.size(), 2u) << "the fallback is there";
-  file.json["accessors"][0].erase("bufferView");
-  EXPECT_THAT(
-      error_of(file),
-      HasSubstr("meshes[0], primitive 0: its data is only there in KHR_draco_mesh_compression"));
 }
 
 TEST(GltfBadInput, MemoryIsCountedBeforeItIsTaken) {

@@ -186,23 +186,8 @@ TEST(GltfExporters, RequiredLooksAreLeftOutAndRequiredGeometryIsNot) {
   const auto scene = load(file);
   EXPECT_TRUE(warns(scene, {"calls required", "'KHR_texture_basisu'", "'KHR_materials_variants'",
                             "'KHR_techniques_webgl'"}));
-  file.json["extensionsRequired"] = {"EXT_meshopt_compression"};
-  EXPECT_THAT(error_of(file), HasSubstr("needs EXT_meshopt_compression, which is not read: save it "
-                                        "without mesh compression"));
   file.json["extensionsRequired"] = {"ACME_shape"};
   EXPECT_THAT(error_of(file), HasSubstr("needs ACME_shape, which is not read"));
-}
-
-TEST(GltfExporters, CompressedDataWithoutAFallbackNamesItsExtension) {
-  auto file = square();
-  file.json["buffers"] = Json::array(
-      {{{"uri", data_uri(file.data)}, {"byteLength", file.data.size()}}, {{"byteLength", 48}}});
-  file.json["bufferViews"][0]["buffer"] = 1;
-  file.json["bufferViews"][0]["byteOffset"] = 0;
-  file.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = Json::object();
-  const TemporaryFolder folder;
-  EXPECT_THAT(error_of(folder.write("scene.gltf", file.json.dump())),
-              HasSubstr("bufferViews[0]: its data is only there in EXT_meshopt_compression"));
 }
 
 TEST(GltfExporters, ScenesThatListNodesTooOftenShowThemOnce) {

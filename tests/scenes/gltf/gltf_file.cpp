@@ -147,6 +147,9 @@ Bytes as_glb(const GltfFile& file) {
   auto json = file.json;
   if (!json.contains("buffers"))
     json["buffers"] = Json::array({{{"byteLength", file.data.size()}}});
+  // The data is in the binary chunk; it need not be in the text as well.
+  if (auto& first = json["buffers"][0]; first.value("uri", "") == data_uri(file.data))
+    first.erase("uri");
   auto text = json.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');
   auto data = file.data;

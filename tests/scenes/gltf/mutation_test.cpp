@@ -1,5 +1,6 @@
 // Broken on purpose in thousands of ways:
 // a file either becomes a scene with finite numbers or ends with a UserError.
+#include "tests/scenes/gltf/compression/compressed_files.h"
 #include "tests/scenes/gltf/gltf_samples.h"
 
 #include <gtest/gtest.h>
@@ -115,6 +116,33 @@ TEST(GltfMutation, BytesOfGlb) {
   // The JSON is the longer part; what follows it has numbers to break as well.
   flip_bytes(mutants, "scene.glb", whole, whole.size() - everything().data.size() - 8, 300);
   truncate(mutants, "scene.glb", whole, 100);
+}
+
+TEST(GltfMutation, CompressedData) {
+  const std::pair<const char*, GltfFile> files[] = {
+      {"meshopt.glb", with_meshopt(bumpy_sheet(5))},
+      {"edgebreaker.glb", with_draco(bumpy_sheet(5), {.position_bits = 11, .normal_bits = 8})},
+      {"lossless.glb", with_draco(quantised_sheet(5))},
+      {"sequential.glb", with_draco(bumpy_sheet(5), {.position_bits = 11, .edgebreaker = false})}};
+  for (const auto& [name, file] : files) {
+    const auto whole = as_glb(file);
+    const auto first = whole.size() - (file.data.size() + 3) / 4 * 4;
+    Mutants mutants;
+    mutants.try_one(name, whole, "unchanged");
+    ASSERT_EQ(mutants.loaded(), 1) << name;
+    flip_bytes(mutants, name, whole, first, 250);
+    for (std::size_t view = 0; view < file.json["bufferViews"].size(); ++view) {
+      auto shorter = file;
+      auto& json = shorter.json["bufferViews"][view];
+      auto& range = json.contains("extensions") ? *json["extensions"].begin() : json;
+      for (std::size_t size = range["byteLength"]; size > 0; size -= 1 + size / 10) {
+        range["byteLength"] = size - 1;
+        mutants.try_one(name, as_glb(shorter), std::string(name) + ", a view cut short");
+      }
+    }
+    EXPECT_GT(mutants.loaded(), 1) << name;
+    EXPECT_LT(mutants.loaded(), mutants.tried() * 19 / 20) << name;
+  }
 }
 
 TEST(GltfMutation, ValuesOfJson) {
