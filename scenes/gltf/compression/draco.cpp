@@ -5,6 +5,7 @@
 #include "scenes/gltf/accessors.h"
 #include "scenes/gltf/primitives.h"
 
+#include <draco/attributes/attribute_octahedron_transform.h>
 #include <draco/attributes/attribute_quantization_transform.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
@@ -273,11 +274,15 @@ private:
   /// The distance between neighbouring values of what was quantised; 0 otherwise.
   double step_of(int attribute) const {
     const auto* integers = decoder_->GetPortableAttribute(attribute);
-    draco::AttributeQuantizationTransform transform;
-    if (!integers || !integers->GetAttributeTransformData() ||
-        !transform.InitFromAttribute(*integers))
+    if (!integers || !integers->GetAttributeTransformData())
       return 0.0;
-    const double step = transform.range() / (std::exp2(transform.quantization_bits()) - 1.0);
+    double step = 0.0;
+    draco::AttributeQuantizationTransform of_values;
+    draco::AttributeOctahedronTransform of_normals; // by two numbers from -1 to 1
+    if (of_values.InitFromAttribute(*integers))
+      step = of_values.range() / (std::exp2(of_values.quantization_bits()) - 1.0);
+    else if (of_normals.InitFromAttribute(*integers))
+      step = 2.0 / (std::exp2(of_normals.quantization_bits()) - 1.0);
     return std::isfinite(step) ? step : 0.0;
   }
 
