@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Makes the pictures of README.md and docs/limits.md anew: docs/pictures.sh [PROGRAM]
+# From a checkout; PROGRAM is ./meninas unless another one is named. It takes some minutes.
+set -euo pipefail
+
+root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
+program=${1:-$root/meninas}
+
+# picture NAME SCENE OPTIONS...: docs/NAME.png of that scene of the gallery.
+picture() {
+  local name=$1 scene=$2
+  shift 2
+  printf '%s\n' "$name" >&2
+  "$program" render "$root/scenes/gallery/$scene.gltf" -o "$root/docs/$name.png" --quiet "$@"
+}
+
+picture meninas-radiosity meninas --size 720x800 --mode radiosity --quality fine
+picture meninas-hybrid meninas --size 720x800 --diffuse direct
+picture glass-screen glass-screen --size 480x360 --diffuse direct
+picture glass-solids glass-solids --size 480x360 --diffuse direct
+picture lattice lattice --size 480x360 --diffuse direct --background 0.8,0.9,1
+picture sunbeam sunbeam --size 480x360 --diffuse direct --background 0.4,0.6,1
+picture roughness-sweep roughness-sweep --size 512x256 --diffuse direct
