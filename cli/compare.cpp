@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/pixel_options.h"
 #include "cli/values.h"
 #include "runs/compare_run.h"
 
