@@ -1,6 +1,6 @@
 #include "radiosity/expected_cost.h"
 
-#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/field/curves/smoothing_groups.h"
 #include "radiosity/field/vertex_places.h"
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/light/element_light.h"

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace meninas {
 
@@ -64,6 +65,15 @@ bool samples_lamps(const RenderContext& context, const Bsdf& bsdf, const Specula
          (bsdf.coat > 0.0 || bsdf.glass > 0.0 || bsdf.metal != Rgb(0.0));
 }
 
+/// Where light that a rough curved surface reflects is looked for, in the frame of the ray scene.
+std::optional<glm::dvec3> curve_at(const LandedLane& lane, const Bsdf& bsdf) {
+  if (!lane.face.curved || bsdf.alpha == 0.0)
+    return std::nullopt;
+  const LightScene& light = lane.context.light;
+  return to_frame(light.rays.frame(),
+                  receiver_at(light, lane.face, lane.hits, lane.k).position);
+}
+
 void queue_lobe(const LandedLane& lane, const Scatterer& scatterer, const Meeting& at,
                 SpecularRay ray, TileWorkspace& work) {
   const RenderContext& context = lane.context;
@@ -81,10 +91,7 @@ void queue_lobe(const LandedLane& lane, const Scatterer& scatterer, const Meetin
   const std::uint16_t way = ray.way;
   const std::int32_t bounces = ray.bounces;
   const WorldId world = ray.world;
-  const glm::dvec3 curve =
-      face.curved ? to_frame(context.light.rays.frame(),
-                             receiver_at(context.light, face, lane.hits, lane.k).position)
-                  : glm::dvec3(0.0);
+  const std::optional<glm::dvec3> curve = curve_at(lane, bsdf);
   ray.since_lobe = bsdf.alpha > 0.0 ? 0.0F : ray.since_lobe + static_cast<float>(at.distance);
   ray.share /= static_cast<float>(n * n);
   // A mirror's direction is no lobe: such chains end by their throughput alone.
@@ -98,10 +105,9 @@ void queue_lobe(const LandedLane& lane, const Scatterer& scatterer, const Meetin
     const bool straight = through && bsdf.alpha == 0.0 && !bent;
     ray.medium = through ? media.behind : media.before;
     ray.direction = straight ? at.direction : to_world(normal, work.lobe[cell].in);
-    const bool from_curve = face.curved && !through && bsdf.alpha > 0.0;
-    ray.origin = from_curve ? curve : at.position;
-    ray.leaving = from_curve ? index(none<PlaneId>) : face.plane_class;
-    if (face.curved && !straight && !from_curve)
+    ray.origin = curve && !through ? *curve : at.position;
+    ray.leaving = curve && !through ? index(none<PlaneId>) : face.plane_class;
+    if (face.curved && !straight && (through || !curve))
       ray.direction = kept_above(ray.direction, through ? -face.normal : face.normal);
     // Directions of lobes are of unit length; the beam is as wide as it was.
     ray.travelled = straight

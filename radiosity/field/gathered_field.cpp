@@ -1,8 +1,8 @@
 #include "radiosity/field/gathered_field.h"
 
 #include "radiosity/field/refine_indirect.h"
-#include "radiosity/field/smooth_vertices.h"
-#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/field/curves/smooth_vertices.h"
+#include "radiosity/field/curves/smoothing_groups.h"
 
 
 namespace meninas {

@@ -1,7 +1,7 @@
 #include "radiosity/field/refine_direct.h"
 
 #include "radiosity/field/refine_indirect.h"
-#include "radiosity/field/facet_edges.h"
+#include "radiosity/field/curves/facet_edges.h"
 #include "radiosity/mesh/subdivision.h"
 #include "radiosity/field/vertex_light.h"
 

@@ -1,6 +1,6 @@
 #include "radiosity/field/refine_indirect.h"
 
-#include "radiosity/field/curved_vertices.h"
+#include "radiosity/field/curves/curved_vertices.h"
 #include "radiosity/mesh/subdivision.h"
 
 #include <algorithm>

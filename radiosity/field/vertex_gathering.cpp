@@ -1,9 +1,9 @@
 #include "radiosity/field/vertex_gathering.h"
 
 #include "radiosity/field/contact_vertices.h"
-#include "radiosity/field/curved_vertices.h"
+#include "radiosity/field/curves/curved_vertices.h"
 #include "radiosity/field/emission_kernels.h"
-#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/field/curves/smoothing_groups.h"
 #include "radiosity/field/gap_vertices.h"
 #include "radiosity/mesh/subdivision.h"
 #include "radiosity/field/penumbra_resampling.h"

@@ -1,8 +1,8 @@
 #include "radiosity/hierarchical/node_field.h"
 
 #include "radiosity/field/curved_means.h"
-#include "radiosity/field/smooth_vertices.h"
-#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/field/curves/smooth_vertices.h"
+#include "radiosity/field/curves/smoothing_groups.h"
 #include "radiosity/light/gather_noise.h"
 #include "radiosity/hierarchical/node_bends.h"
 #include "radiosity/hierarchical/node_edges.h"

@@ -1,7 +1,7 @@
 #include "radiosity/hierarchical/node_light.h"
 
 #include "radiosity/field/curved_means.h"
-#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/field/curves/smoothing_groups.h"
 #include "radiosity/mesh/subdivision.h"
 #include "radiosity/light/spot_parts.h"
 

@@ -10,7 +10,7 @@
 // Rows depend on geometry alone: they are kept for other light (transport/factor_file.h).
 // Limit: so the row of a small lamp in a finely tessellated scene has few rays as well,
 // and the energy balance, which follows the lamp's light by it, has their noise.
-// Vertices take means over small surfaces (field/smoothing_groups.h).
+// Vertices take means over small surfaces (field/curves/smoothing_groups.h).
 #pragma once
 
 #include "radiosity/scene/light_scene.h"

@@ -23,9 +23,6 @@
 
 namespace meninas {
 
-/// Colours are stored as sRGB and wanted linear; metalness and roughness are numbers as they are.
-enum class TextureContent { colour, numbers };
-
 using DecodeTexture = std::function<TexturePixels(const Texture&, TextureContent)>;
 
 /// By TextureId; without texels where no material uses it so.

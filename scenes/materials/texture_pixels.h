@@ -7,6 +7,9 @@
 
 namespace meninas {
 
+/// Colours are stored as sRGB and wanted linear; metalness and roughness are numbers as they are.
+enum class TextureContent { colour, numbers };
+
 /// Rows from the top; red, green, blue and alpha.
 struct TexturePixels {
   int width = 0, height = 0;

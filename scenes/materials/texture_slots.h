@@ -1,7 +1,8 @@
 // The places for textures in a material: as what each is decoded, and which channels count.
 #pragma once
 
-#include "scenes/materials/texture_lookup.h"
+#include "scenes/material.h"
+#include "scenes/materials/texture_pixels.h"
 
 #include <array>
 

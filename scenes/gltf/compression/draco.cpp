@@ -3,7 +3,7 @@
 // A few bytes can ask Draco for gigabytes. Its own decoders are used by way of two of their
 // overrides, which compute from the headers what is about to be taken and stop before it is.
 #include "scenes/gltf/accessors.h"
-#include "scenes/gltf/primitives.h"
+#include "scenes/gltf/geometry/primitives.h"
 
 #include <draco/attributes/attribute_octahedron_transform.h>
 #include <draco/attributes/attribute_quantization_transform.h>

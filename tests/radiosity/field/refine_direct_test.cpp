@@ -1,6 +1,6 @@
 // Elements divided where direct light bends: shadows are nearer to what they are,
 // for few vertices, and what is smooth stays as it was.
-#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/field/curves/smoothing_groups.h"
 #include "radiosity/mesh/subdivision.h"
 #include "radiosity/field/refine_direct.h"
 #include "radiosity/field/vertex_places.h"

@@ -1,4 +1,4 @@
-#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/field/curves/smoothing_groups.h"
 #include "radiosity/light/point_irradiance.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/globes.h"
@@ -50,8 +50,9 @@ TEST(Facets, MeetSmoothlyWhereTheFileGivesOneNormal) {
   const VertexElements on_curve = facets_around(*smooth->light);
   for (const std::size_t v : vertices_of(*smooth, "globe"))
     EXPECT_GE(around(on_curve, v).size(), 3U);
+  const VertexElements apart = facets_around(*sharp->light);
   for (const std::size_t v : vertices_of(*sharp, "globe"))
-    for (const ElementId element : around(facets_around(*sharp->light), v))
+    for (const ElementId element : around(apart, v))
       EXPECT_EQ(sharp->mesh.side_of_element[index(element)],
                 sharp->mesh.side_of_element[index(sharp->mesh.element_of_vertex[v])]);
 }

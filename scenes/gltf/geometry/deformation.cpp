@@ -1,7 +1,7 @@
-#include "scenes/gltf/deformation.h"
+#include "scenes/gltf/geometry/deformation.h"
 
 #include "scenes/gltf/accessors.h"
-#include "scenes/gltf/normals.h"
+#include "scenes/gltf/geometry/normals.h"
 
 #include <fmt/format.h>
 

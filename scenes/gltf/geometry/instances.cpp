@@ -1,4 +1,4 @@
-#include "scenes/gltf/instances.h"
+#include "scenes/gltf/geometry/instances.h"
 
 #include "scenes/gltf/accessors.h"
 

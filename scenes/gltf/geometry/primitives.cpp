@@ -1,7 +1,7 @@
-#include "scenes/gltf/primitives.h"
+#include "scenes/gltf/geometry/primitives.h"
 
 #include "scenes/gltf/accessors.h"
-#include "scenes/gltf/instances.h"
+#include "scenes/gltf/geometry/instances.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/field/curves/smoothing_groups.h"
 
-#include "radiosity/field/curved_vertices.h"
+#include "radiosity/field/curves/curved_vertices.h"
 #include "radiosity/mesh/mesh_cells.h"
 #include "radiosity/mesh/vertex_welder.h"
 #include "radiosity/scene/small_elements.h"

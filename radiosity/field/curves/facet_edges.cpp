@@ -1,6 +1,6 @@
-#include "radiosity/field/facet_edges.h"
+#include "radiosity/field/curves/facet_edges.h"
 
-#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/field/curves/smoothing_groups.h"
 #include "radiosity/field/vertex_light.h"
 
 #include <tbb/parallel_for.h>

@@ -6,7 +6,7 @@
 // So a matrix that flattens a mesh still moves its normals.
 #pragma once
 
-#include "scenes/gltf/primitives.h"
+#include "scenes/gltf/geometry/primitives.h"
 
 #include <glm/mat4x4.hpp>
 

@@ -1,4 +1,4 @@
-#include "scenes/gltf/normals.h"
+#include "scenes/gltf/geometry/normals.h"
 
 #include "scenes/gltf/accessors.h"
 

@@ -1,4 +1,4 @@
-#include "radiosity/field/curved_vertices.h"
+#include "radiosity/field/curves/curved_vertices.h"
 
 #include "radiosity/mesh/mesh_cells.h"
 #include "radiosity/mesh/vertex_welder.h"

@@ -1,6 +1,6 @@
-#include "radiosity/field/smooth_vertices.h"
+#include "radiosity/field/curves/smooth_vertices.h"
 
-#include "radiosity/field/smoothing_groups.h"
+#include "radiosity/field/curves/smoothing_groups.h"
 #include "scenes/sampling.h"
 
 #include <tbb/parallel_for.h>

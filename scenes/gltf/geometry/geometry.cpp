@@ -1,9 +1,9 @@
 // Triangles of every mesh node, in world space.
 #include "scenes/gltf/accessors.h"
-#include "scenes/gltf/deformation.h"
-#include "scenes/gltf/instances.h"
-#include "scenes/gltf/normals.h"
-#include "scenes/gltf/primitives.h"
+#include "scenes/gltf/geometry/deformation.h"
+#include "scenes/gltf/geometry/instances.h"
+#include "scenes/gltf/geometry/normals.h"
+#include "scenes/gltf/geometry/primitives.h"
 #include "scenes/shading_normal.h"
 
 #include <fmt/format.h>
