@@ -245,9 +245,24 @@ static std::vector<std::string> remarks_on(const decoder::Decoded& decoded,
   return remarks;
 }
 
+/// The view transform that a PNG of this program says, or nothing.
+static std::string view_transform_of(std::span<const std::byte> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                              std::min<std::size_t>(bytes.size(), 256));
+  const auto said = [&](ViewTransform transform) {
+    std::string chunk = "tEXtView transform";
+    chunk.append(1, '\0').append(title_of(transform));
+    return text.find(chunk) != std::string_view::npos;
+  };
+  const auto found = std::ranges::find_if(view_transforms, said);
+  return found == view_transforms.end() ? "" : std::string(title_of(*found));
+}
+
 ImageFile read_image(const fs::path& file, Picture picture) {
   const auto name = file.string();
-  const auto decoded = decode(read_bytes(file), name, decoder::Use::picture);
+  const auto bytes = read_bytes(file);
+  const auto transform = view_transform_of(bytes);
+  const auto decoded = decode(bytes, name, decoder::Use::picture);
   PictureChannels channels = picture_channels(*decoded);
   if (!channels.picture && (picture == Picture::needed || channels.layers.empty()))
     throw InputError(name, "", channels.problem);
@@ -255,6 +270,9 @@ ImageFile read_image(const fs::path& file, Picture picture) {
   ImageFile result;
   result.encoding = decoded->code_values == 0 ? Encoding::linear : Encoding::srgb;
   result.remarks = remarks_on(*decoded, channels);
+  if (!transform.empty())
+    result.remarks.push_back(
+        fmt::format("its colours are those of the view transform {}", transform));
   result.ignored_channels = std::move(channels.others);
   const auto image_of = [&](const ColourChannels& colour) {
     const auto& part = decoded->parts[colour.part];

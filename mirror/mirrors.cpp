@@ -17,7 +17,8 @@ namespace {
 
 /// Surfaces of one plane, one facing and one reflectance are one mirror, of glass those
 /// of one material, of coats those of one reflectance by the angle, ideal ones by themselves.
-using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double, MaterialId, bool>;
+/// What is curved is none of these.
+using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double, MaterialId, bool, bool>;
 
 /// What it reflects in the mean.
 Rgb reflectance_of(const Material& material) {
@@ -51,8 +52,7 @@ bool is_curved(const Scene& scene, const Patch& patch) {
   });
 }
 
-void add_face(const Scene& scene, const SurfaceModel& model, SurfaceId id, int face,
-              Candidate& candidate) {
+void add_face(Candidate& candidate, const SurfaceModel& model, SurfaceId id, int face) {
   const Surface& surface = model.surfaces[index(id)];
   candidate.faces.emplace_back(id, face);
   candidate.mirror.area += surface.area;
@@ -63,7 +63,6 @@ void add_face(const Scene& scene, const SurfaceModel& model, SurfaceId id, int f
       std::reverse(polygon.vertices.begin(),
                    polygon.vertices.begin() + static_cast<std::ptrdiff_t>(polygon.size));
     candidate.mirror.window.push_back(polygon);
-    candidate.curved = candidate.curved || is_curved(scene, patch);
     if (candidate.known_nodes.insert(patch.node).second)
       candidate.mirror.nodes.push_back(patch.node);
   }
@@ -86,7 +85,10 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
     const MaterialId by_angle = is_coat              ? first_with_coat_of(scene, material)
                                 : is_glass(material) ? surface.material
                                                      : none<MaterialId>;
-    const bool has_width = material.roughness > ideal_mirror_roughness;
+    const bool has_width = material.roughness > ideal_mirror_roughness || material.normal_texture;
+    const bool curved = std::ranges::any_of(surface.patches, [&](PatchId patch) {
+      return is_curved(scene, model.patches[index(patch)]);
+    });
     for (int face = 0; face < (material.double_sided ? 2 : 1); ++face) {
       const Plane plane = face == 0 ? surface.plane : flipped(surface.plane);
       const bool along =
@@ -97,7 +99,8 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
                           reflectance.g,
                           reflectance.b,
                           by_angle,
-                          has_width};
+                          has_width,
+                          curved};
       const auto [place, is_new] = known.emplace(key, candidates.size());
       if (is_new) {
         candidates.emplace_back();
@@ -107,8 +110,9 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
         candidates.back().mirror.by_angle = by_angle;
         candidates.back().mirror.is_coat = is_coat;
         candidates.back().mirror.has_width = has_width;
+        candidates.back().curved = curved;
       }
-      add_face(scene, model, static_cast<SurfaceId>(s), face, candidates[place->second]);
+      add_face(candidates[place->second], model, static_cast<SurfaceId>(s), face);
     }
   }
   return candidates;
@@ -134,7 +138,7 @@ MirrorSet find_mirrors(const Scene& scene, const SurfaceModel& surfaces,
   double total_area = 0.0;
   std::size_t counted = 0;
   for (const auto& candidate : candidates)
-    if (!candidate.mirror.is_coat) {
+    if (!candidate.mirror.is_coat && !candidate.curved) {
       total_area += candidate.mirror.area;
       ++counted;
     }

@@ -39,7 +39,7 @@ struct Mirror {
       none<MaterialId>; ///< glass or coated; none: a mirror of constant reflectance
   bool is_coat = false;
   bool has_width =
-      false; ///< what is seen in it is blurred: an ideal mirror only to the surfaces that it throws light on
+      false; ///< what is seen in it is blurred or bumpy: an ideal mirror only to the surfaces that it throws light on
   double area = 0.0;
   std::vector<ConvexPolygon>
       window; ///< convex, disjoint, counter-clockwise seen from the reflecting side

@@ -30,10 +30,19 @@ Direction normal_towards(const LandedLane& lane, const Direction& out) {
 
 static Receiver curved_receiver(const LightScene& light, const FaceRecord& face,
                                 const HitPacket& hits, std::uint32_t k) {
+  const TriangleId triangle{hits.triangle[k]};
+  const Vec2 at(hits.b1[k], hits.b2[k]);
   Receiver receiver;
-  receiver.position =
-      curved_origin(light.scene, light.surfaces, light.rays, TriangleId{hits.triangle[k]},
-                    {hits.b1[k], hits.b2[k]}, hits.front[k] != 0);
+  if (const Material& material = material_of(light.scene, triangle);
+      is_glass(material) && !is_blended(material)) {
+    // Light passes a pane at the pane itself.
+    const auto [a, b, c] = corners(light.scene, triangle);
+    receiver.position = a + at.x * (b - a) + at.y * (c - a);
+    receiver.plane_class = static_cast<PlaneId>(face.plane_class);
+  } else {
+    receiver.position = curved_origin(light.scene, light.surfaces, light.rays, triangle, at,
+                                      hits.front[k] != 0);
+  }
   receiver.normal = curve_normal(light, hits, k);
   if (face.side != FaceRecord::nothing) {
     receiver.tangent = light.mesh.sides[face.side].tangent;

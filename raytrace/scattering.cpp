@@ -67,7 +67,7 @@ bool samples_lamps(const RenderContext& context, const Bsdf& bsdf, const Specula
 
 /// Where light that a rough curved surface reflects is looked for, in the frame of the ray scene.
 std::optional<glm::dvec3> curve_at(const LandedLane& lane, const Bsdf& bsdf) {
-  if (!lane.face.curved || bsdf.alpha == 0.0)
+  if (!lane.face.curved || bsdf.alpha == 0.0 || bsdf.glass > 0.0)
     return std::nullopt;
   const LightScene& light = lane.context.light;
   return to_frame(light.rays.frame(),
@@ -120,7 +120,9 @@ void queue_lobe(const LandedLane& lane, const Scatterer& scatterer, const Meetin
       ray.world = none<WorldId>;
       ray.density = 0.0F;
     } else if (bsdf.alpha == 0.0) {
-      ray.world = through ? world : child(context.light.worlds, world, face.mirror);
+      ray.world = through       ? world
+                  : face.mapped ? none<WorldId>
+                                : child(context.light.worlds, world, face.mirror);
     } else {
       ray.world = real_world;
       ray.density = lamps_sampled && !through

@@ -43,6 +43,10 @@ void bend(const TracedScene& traced, Vec2 barycentric, const Direction& out, Sur
     return;
   const Direction n = mapped_normal(traced.scene, traced.textures, at.triangle, barycentric);
   at.normal = visible_normal(at.front ? n : -n, at.face, out);
+  // Light passes a pane at the pane itself.
+  const Material& material = material_of(traced.scene, at.triangle);
+  if (is_glass(material) && !is_blended(material))
+    return;
   at.origin = curved_origin(traced.scene, traced.surfaces, traced.rays, at.triangle, barycentric,
                             at.front);
   at.leaving = none<PlaneId>;

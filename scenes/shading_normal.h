@@ -26,6 +26,8 @@
 
 #include "scenes/scene.h"
 
+#include <array>
+
 namespace meninas {
 
 /// A corner's normal, if it is farther from that of the face by more than so many radians,

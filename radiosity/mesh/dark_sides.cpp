@@ -3,6 +3,8 @@
 #include "radiosity/mesh/enclosed_sides.h"
 #include "scenes/sampling.h"
 
+#include "scenes/materials/normal_map.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -97,6 +99,12 @@ DarkSides enclosed_patches(const SurfaceModel& surfaces, const EnclosedSides& en
   return dark;
 }
 
+bool is_bent_patch(const Scene& scene, const Patch& patch) {
+  return std::ranges::any_of(patch.triangles, [&](TriangleId triangle) {
+    return triangle != none<TriangleId> && is_bent(scene, triangle);
+  });
+}
+
 } // namespace
 
 DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays) {
@@ -113,6 +121,9 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
   }
 
   DarkSides dark = enclosed_patches(surfaces, find_enclosed_sides(scene, surfaces));
+  for (std::size_t p = 0; p < dark.size(); ++p)
+    if (material_of_patch(surfaces.patches[p]).unlit)
+      dark[p] = {0, 0}; // it is seen in the dark
   const std::size_t sources = emitters.size() + scene.lights.size();
   if (double_sided * sources * 2 * probe_points > max_emitter_probes ||
       scene.background != Rgb(0.0))
@@ -120,7 +131,9 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
   tbb::parallel_for(std::size_t{0}, surfaces.patches.size(), [&](std::size_t p) {
     const Patch& patch = surfaces.patches[p];
     const Material& material = material_of_patch(patch);
-    if (!material.double_sided || is_emitter(material))
+    // Light may reach a curve over a facet that it does not reach.
+    if (!material.double_sided || is_emitter(material) || material.unlit ||
+        is_bent_patch(scene, patch))
       return;
     const Surface& surface = surfaces.surfaces[index(patch.surface)];
     for (std::size_t facing = 0; facing < 2; ++facing) {

@@ -55,6 +55,9 @@ std::uint64_t hash_of_geometry(const Scene& scene) {
       hash.add(std::uint64_t{index(vertex)});
     }
     hash.add(std::uint64_t{scene.materials[index(triangle.material)].double_sided});
+    if (triangle.curved)
+      for (const VertexId vertex : triangle.vertices)
+        hash.add(Vec3(scene.vertices[index(vertex)].normal));
   }
   return hash.value();
 }
@@ -95,6 +98,9 @@ std::uint64_t hash_of_mirrors(const Scene& scene, const WorldTree& worlds) {
       add_glass(hash, clear_glass(material, untextured(material)));
     if (has_mirror_coat(material))
       add_coat(hash, mirror_coat(material));
+    if (is_blended(material))
+      for (const VertexId vertex : triangle.vertices)
+        hash.add(Rgb(double{scene.vertices[index(vertex)].color.a}));
     if (is_glass(material) && is_textured(material))
       for (const VertexId vertex : triangle.vertices)
         for (const glm::vec2& texcoord : scene.vertices[index(vertex)].texcoord)

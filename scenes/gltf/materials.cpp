@@ -165,7 +165,6 @@ static Material read_material(const Document& document, std::size_t index, Findi
   Material material;
   material.name = name_of_material(document, index);
   material.double_sided = json.value("doubleSided", false);
-  read_alpha(json, material, findings);
   const auto* glossy = find(json, {"extensions", "KHR_materials_pbrSpecularGlossiness"});
   if (glossy && !json.contains("pbrMetallicRoughness"))
     read_specular_glossiness(document, *glossy, material, findings);
@@ -174,6 +173,7 @@ static Material read_material(const Document& document, std::size_t index, Findi
   read_emission(document, index, json, material, findings);
   read_coat(document, json, material, findings);
   read_glass(document, json, material, findings);
+  read_alpha(json, material, findings);
   if (const auto* coat = find(json, {"extensions", "KHR_materials_clearcoat"}))
     read_clear_coat(document, *coat, material, findings);
   material.normal_texture =
@@ -204,12 +204,12 @@ static void settle_blending(Material& material, bool clear_vertices, Findings& f
   if (material.alpha_mode != AlphaMode::blend)
     return;
   const bool varies = material.base_color_texture || clear_vertices;
+  material.alpha_mode = AlphaMode::opaque; // until it is known to be no glass
   if (is_glass(material) && (material.alpha < 1.0 || varies))
     findings.about("alpha of glass is left out in materials", material.name);
-  if (is_glass(material) || (material.alpha == 1.0 && !varies)) {
-    material.alpha_mode = AlphaMode::opaque;
+  if (is_glass(material) || (material.alpha == 1.0 && !varies))
     return;
-  }
+  material.alpha_mode = AlphaMode::blend;
   material.transmission = varies ? 1.0 : 1.0 - material.alpha;
   material.emission *= material.alpha;
   // Like glass, what is not there is not there from both sides.

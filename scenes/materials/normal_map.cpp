@@ -23,12 +23,15 @@ TextureFrame texture_frame(const Scene& scene, TriangleId triangle, const Textur
         use, Vec2(scene.vertices[index(v)].texcoord[static_cast<std::size_t>(use.texcoord_set)]));
   };
   const Vec2 d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
-  const Vec3 across_2 = glm::cross(p[2] - p[0], normal), across_1 = glm::cross(normal, p[1] - p[0]);
-  const Vec3 t = across_2 * d1.x + across_1 * d2.x, b = across_2 * d1.y + across_1 * d2.y;
-  const double longest = std::max(glm::length(t), glm::length(b));
-  if (!(longest > 0.0) || !std::isfinite(longest))
+  const double det = d1.x * d2.y - d1.y * d2.x;
+  const double sign = det < 0.0 ? -1.0 : 1.0;
+  Vec3 along = sign * (d2.y * (p[1] - p[0]) - d1.y * (p[2] - p[0]));
+  along -= glm::dot(along, normal) * normal;
+  const double length = glm::length(along);
+  if (det == 0.0 || !(length > 0.0) || !std::isfinite(length))
     return {};
-  return {t / longest, b / longest};
+  const Direction t = along / length;
+  return {t, sign * glm::cross(normal, t)};
 }
 
 } // namespace
@@ -38,7 +41,8 @@ Direction mapped_normal(const Scene& scene, const DecodedTextures& textures, Tri
   const Direction normal = shading_normal(scene, triangle, barycentric);
   const Material& material = material_of(scene, triangle);
   const auto& use = material.normal_texture;
-  if (!use || textures.numbers[index(use->texture)].texels.empty())
+  if (!use || index(use->texture) >= textures.numbers.size() ||
+      textures.numbers[index(use->texture)].texels.empty())
     return normal;
   const glm::dvec4 texel =
       texel_at(scene, textures.numbers, *use, triangle, barycentric, footprint);

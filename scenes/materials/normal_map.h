@@ -2,15 +2,15 @@
 //
 //   n' = t_x T - t_y B + t_z N,   (t_x, t_y, t_z) = (2 r - 1) s, (2 g - 1) s, 2 b - 1
 //
-// N is the normal without the map (scenes/shading_normal.h), s the scale of glTF's normalTexture,
-// and T and B are the directions across N in which u and v grow (v runs down the image):
+// N is the normal without the map (scenes/shading_normal.h), s the scale of glTF's normalTexture.
+// T is the direction across N in which u grows, B = +-N x T that in which v does (it runs down the
+// image), both of unit length, as MikkTSpace has them:
 //
-//   T = (e_2 x N) du_1 + (N x e_1) du_2,   B = (e_2 x N) dv_1 + (N x e_1) dv_2
+//   T ~ sign (dv_2 e_1 - dv_1 e_2),   B = sign N x T,   sign = that of du_1 dv_2 - dv_1 du_2
 //
-// over the longer of the two, with e_k the edges of the triangle from its first corner and
-// (du_k, dv_k) their changes of the texture coordinates (Schueler 2006, Normal Mapping without
-// Precomputed Tangents, ShaderX 5). On flat triangles that is the frame of MikkTSpace; on curved
-// ones it differs from it by less than neighbouring triangles' frames differ.
+// with e_k the edges of the triangle from its first corner and (du_k, dv_k) their changes of the
+// texture coordinates. MikkTSpace takes means of T over the triangles around a vertex; here each
+// has its own, which differs from that by less than neighbours do.
 //
 // A normal that would look behind the face is lifted to where it just does not.
 #pragma once

@@ -339,8 +339,26 @@ private:
       ++result.vertices;
       result.farthest = std::max(result.farthest, glm::length(way));
     }
+    flatten_normals();
     drop_what_has_no_area();
     return result;
+  }
+
+  /// What is made flat reflects as what is flat: the normals of its triangles were as noisy.
+  void flatten_normals() {
+    for (Triangle& triangle : scene_.triangles) {
+      if (!triangle.curved)
+        continue;
+      std::array<VertexId, 3> corners{};
+      for (std::size_t k = 0; k < 3; ++k)
+        corners[k] = topology_.welded[index(triangle.vertices[k])];
+      std::ranges::sort(corners);
+      const auto found = planes_of_.find(corners[0]);
+      if (found != planes_of_.end() && std::ranges::any_of(found->second, [&](std::uint32_t id) {
+            return std::ranges::includes(flat_[id].vertices, corners);
+          }))
+        triangle.curved = false;
+    }
   }
 
   /// Slivers that stood across the plane have fallen into it.

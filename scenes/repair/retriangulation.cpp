@@ -73,7 +73,7 @@ public:
     PlaneMesh mesh;
     for (const TriangleId id : triangles_) {
       const Triangle& triangle = scene_.triangles[index(id)];
-      if (triangle.node != scene_.triangles[index(triangles_[0])].node)
+      if (triangle.curved || triangle.node != scene_.triangles[index(triangles_[0])].node)
         return std::nullopt;
       PlaneTriangle flat;
       for (std::size_t k = 0; k < 3; ++k)
@@ -88,7 +88,8 @@ public:
   /// Whether what vertices carry, as far as it is used, is affine over the surface.
   bool carries_affine(const PlaneMesh& mesh) {
     const Material& material = scene_.materials[index(surface_.material)];
-    const bool textures = is_textured(material) || material.alpha_mode == AlphaMode::mask;
+    const bool textures = is_textured(material) || material.normal_texture ||
+                          material.alpha_mode == AlphaMode::mask;
     const bool colours =
         std::ranges::any_of(triangles_, [&](TriangleId t) { return has_vertex_colors(scene_, t); });
     const auto largest = std::ranges::max_element(

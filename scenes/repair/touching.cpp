@@ -164,7 +164,8 @@ private:
     const Material& below = material_of(scene_, stays);
     if (is_solid_glass(mover))
       return -own;
-    const bool has_one_way = !is_glass(mover) && !mover.double_sided;
+    // Whether what is blended is open is not known yet.
+    const bool has_one_way = (!is_glass(mover) || is_blended(mover)) && !mover.double_sided;
     if (has_one_way && !below.double_sided && glm::dot(own, other) < 0.0)
       return std::nullopt; // a sheet of two sides, each of which is seen from its own
     return has_one_way || below.double_sided ? own : other;

@@ -91,9 +91,10 @@ TEST(CurvedSurfaces, AMirrorGlobeReflectsAsTheSphere) {
 
 // Under a directional light the globe has L = rho E cos / pi with the sphere's cosine: the
 // interpolated normal is off by 0.009 radians at most.
-TEST(CurvedSurfaces, ADiffuseGlobeIsShadedAsTheSphereUpToItsTerminator) {
+// Double-sided facets that turn away from the sun are lit where the curve over them is.
+void expect_shaded_as_a_sphere(const Material& material) {
   Scene scene;
-  add_globe(scene, "ball", {}, diffuse(0.8), GivenNormals::smooth);
+  add_globe(scene, "ball", {}, material, GivenNormals::smooth);
   const Direction towards = glm::normalize(Vec3(1.0, 0.3, 0.2));
   scene.lights.push_back({.name = "sun",
                           .kind = PunctualKind::directional,
@@ -122,6 +123,11 @@ TEST(CurvedSurfaces, ADiffuseGlobeIsShadedAsTheSphereUpToItsTerminator) {
       ++seen;
     }
   EXPECT_GT(seen, 1000);
+}
+
+TEST(CurvedSurfaces, ADiffuseGlobeIsShadedAsTheSphereUpToItsTerminator) {
+  expect_shaded_as_a_sphere(diffuse(0.8));
+  expect_shaded_as_a_sphere(double_sided(diffuse(0.8)));
 }
 
 /// A closed room of E = 1 and rho = 1/2 with a globe of the same rho: L = 2 / pi everywhere.

@@ -8,7 +8,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace meninas {
@@ -31,7 +33,7 @@ Vec2 barycentric_of(const std::array<Point3, 3>& p, const Point3& x) {
 
 /// Of the triangles of a patch the one that holds the point, or comes nearest to that.
 TrianglePoint point_of_patch(const LightScene& light, PatchId patch, const Point3& x) {
-  TrianglePoint best;
+  TrianglePoint best{light.surfaces.patches[index(patch)].triangles[0], Vec2(0.0)};
   double most = -std::numeric_limits<double>::infinity();
   for (const TriangleId triangle : light.surfaces.patches[index(patch)].triangles) {
     if (triangle == none<TriangleId>)
@@ -75,7 +77,8 @@ Places places_on_curves(const LightScene& light, const VertexSamples& found,
   std::vector<Point3> known;
   Places places;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (valid[v] == 0 || found.states[v] == VertexState::averaged ||
+    // Where a wall stands on the curve its two sides are apart.
+    if (valid[v] == 0 || found.states[v] == VertexState::averaged || is_at_contact(mesh, v) ||
         !is_curved(light, side_of_vertex(mesh, v)))
       continue;
     const std::size_t place = index(welder.vertex_at(0, mesh.vertices[v], known));
@@ -128,7 +131,8 @@ void join_on_curves(const LightScene& light, const VertexSamples& found,
       std::size_t count = 0;
       std::array<glm::vec3, 4> sum{};
       for (const std::size_t other : vertices) {
-        if (glm::dot(found.receivers[v].normal, found.receivers[other].normal) < least)
+        if (glm::dot(found.receivers[v].normal, found.receivers[other].normal) < least ||
+            found.receivers[v].coat != found.receivers[other].coat)
           continue;
         ++count;
         sum[0] += own.irradiance[other];

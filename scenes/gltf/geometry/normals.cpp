@@ -2,6 +2,7 @@
 
 #include "scenes/gltf/accessors.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meninas::gltf {

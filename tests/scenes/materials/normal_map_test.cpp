@@ -68,6 +68,25 @@ TEST(NormalMap, FollowsTheTextureCoordinates) {
   EXPECT_LT(glm::distance(normal_of(mirrored, Vec3(0.0, 0.6, 0.8)), Vec3(0.0, 0.6, 0.8)), floats);
 }
 
+// Stretched tenfold or sheared, the image's slopes are those across the surface: T and B are of
+// unit length, T where u grows.
+TEST(NormalMap, KeepsItsSlopesOnAStretchedImage) {
+  Scene stretched = square(), sheared = square();
+  for (Vertex& v : stretched.vertices)
+    v.texcoord[0].y *= 10.0F;
+  for (Vertex& v : sheared.vertices)
+    v.texcoord[0].y += v.texcoord[0].x;
+  for (const Scene& scene : {stretched, sheared}) {
+    const Direction right = normal_of(scene, Vec3(0.6, 0.0, 0.8)),
+                    up = normal_of(scene, Vec3(0.0, 0.6, 0.8));
+    EXPECT_NEAR(right.z, 0.8, floats);
+    EXPECT_NEAR(up.z, 0.8, floats);
+    EXPECT_NEAR(glm::dot(Vec3(right.x, right.y, 0.0), Vec3(up.x, up.y, 0.0)), 0.0, floats);
+  }
+  EXPECT_LT(glm::distance(normal_of(stretched, Vec3(0.6, 0.0, 0.8)), Vec3(0.6, 0.0, 0.8)), floats);
+  EXPECT_LT(glm::distance(normal_of(stretched, Vec3(0.0, 0.6, 0.8)), Vec3(0.0, 0.6, 0.8)), floats);
+}
+
 // A rotation of the coordinates turns the frame with the image, and repeating it changes nothing.
 TEST(NormalMap, FollowsTheTextureTransform) {
   Material turned = mapped();

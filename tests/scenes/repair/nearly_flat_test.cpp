@@ -1,5 +1,6 @@
 // What is flat but for rounding is made flat, and what is curved stays so.
 #include "scenes/repair/nearly_flat.h"
+#include "scenes/shading_normal.h"
 #include "scenes/surfaces/surfaces.h"
 #include "tests/scenes/soup.h"
 #include "tests/support/random.h"
@@ -86,6 +87,19 @@ TEST(NearlyFlat, AMirrorOfFourteenBitsIsOneSurface) {
         glm::length(glm::cross(find_surfaces(scene).surfaces[0].plane.normal, leaning_normal));
     EXPECT_LE(turn, std::sqrt(3.0) * step / 0.7) << columns;
   }
+}
+
+// Its normals are those of the plane; the facets turn by a thousandth and more until they are flat.
+TEST(NearlyFlat, WhatIsMadeFlatIsCurvedNoMore) {
+  constexpr double step = 2e-4;
+  Scene scene = rounded_to(step, grid(20, 20, leaning));
+  for (Vertex& vertex : scene.vertices)
+    vertex.normal = glm::vec3(leaning_normal);
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+    mark_curved(scene, TriangleId{t});
+  ASSERT_TRUE(std::ranges::any_of(scene.triangles, &Triangle::curved));
+  flatten_nearly_flat(scene, half_steps(scene, step));
+  EXPECT_TRUE(std::ranges::none_of(scene.triangles, &Triangle::curved));
 }
 
 TEST(NearlyFlat, NoiseThatNothingStatesIsTakenOutToo) {
