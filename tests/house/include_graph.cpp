@@ -16,6 +16,7 @@ constexpr std::size_t max_pairs = 20;
 const std::map<std::string, int, std::less<>> chapters = {
     {"radiosity/mesh", 0},         {"radiosity/scene", 1}, {"radiosity/transport", 2},
     {"radiosity/solvers", 3},      {"radiosity/light", 3}, {"radiosity/field", 4},
+    {"radiosity/field/curves", 4},
     {"radiosity/hierarchical", 5}, {"radiosity", 6},
     {"radiosity/queries", 8},      {"radiosity/solution", 8}};
 

@@ -1,3 +1,4 @@
+#include "radiosity/field/curves/curved_vertices.h"
 #include "radiosity/field/curves/smoothing_groups.h"
 #include "radiosity/light/point_irradiance.h"
 #include "tests/radiosity/lit_scene.h"
@@ -52,9 +53,14 @@ TEST(Facets, MeetSmoothlyWhereTheFileGivesOneNormal) {
     EXPECT_GE(around(on_curve, v).size(), 3U);
   const VertexElements apart = facets_around(*sharp->light);
   for (const std::size_t v : vertices_of(*sharp, "globe"))
-    for (const ElementId element : around(apart, v))
-      EXPECT_EQ(sharp->mesh.side_of_element[index(element)],
-                sharp->mesh.side_of_element[index(sharp->mesh.element_of_vertex[v])]);
+    for (const ElementId element : around(apart, v)) {
+      // Only around the poles do neighbours turn by less than what counts as one normal.
+      const auto normal_of = [&](ElementId e) {
+        return sharp->mesh.sides[index(sharp->mesh.side_of_element[index(e)])].normal;
+      };
+      EXPECT_GT(glm::dot(normal_of(element), normal_of(sharp->mesh.element_of_vertex[v])),
+                std::cos(same_normal_degrees * std::numbers::pi / 180.0));
+    }
 }
 
 // Facets that were divided are no facets: their light is not that of one element.
