@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace meninas {
@@ -117,11 +119,18 @@ std::string plan_run(const PlanRequest& request) {
   Stopwatch watch;
   Scene scene = load_scene(request.scene, request.settings);
   const double loading = watch.lap();
-  const Camera camera = choose_camera(scene, request.camera, {});
+  const Camera chosen = choose_camera(scene, request.camera, {});
+  const PictureSize size = choose_size(request.size, chosen);
+  std::vector<std::string> of_camera;
+  const Camera camera = cut_open(
+      scene, chosen, size,
+      {.warning = [&](const std::string& text) { of_camera.push_back(text); }, .note = {},
+       .progress = {}, .stages = {}});
   const auto prepared = prepare_scene(std::move(scene), settings);
-  const ExpectedCost expected = expect_cost(*prepared, camera, choose_size(request.size, camera),
-                                            request.settings, loading, limit.threads());
+  const ExpectedCost expected =
+      expect_cost(*prepared, camera, size, request.settings, loading, limit.threads());
   TransportPlan plan = prepared->plan;
+  std::ranges::copy(of_camera, std::back_inserter(plan.warnings));
   if (expected.bytes > memory_limit(request.settings)) {
     plan.warnings.push_back(fmt::format(
         "a run needs about {}, more than the memory limit of {}, and would be refused",

@@ -119,7 +119,8 @@ void add_camera(ContentHash& hash, const Camera& camera) {
   for (const Vec3& vector : {camera.position, camera.right, camera.up, camera.forward}) {
     hash.add(vector);
   }
-  for (const double number : {camera.vertical_fov, camera.half_height, camera.aspect}) {
+  for (const double number :
+       {camera.vertical_fov, camera.half_height, camera.aspect, camera.znear}) {
     hash.add(number);
   }
 }

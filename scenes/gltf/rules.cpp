@@ -175,10 +175,12 @@ constexpr Rule scene[] = {name_rule, {.name = "nodes", .kind = indices, .target 
 constexpr Rule perspective[] = {
     {.name = "yfov", .kind = number, .presence = required},
     {.name = "aspectRatio", .kind = number},
+    {.name = "znear", .kind = number},
 };
 constexpr Rule orthographic[] = {
     {.name = "xmag", .kind = number, .presence = required},
     {.name = "ymag", .kind = number, .presence = required},
+    {.name = "znear", .kind = number},
 };
 constexpr Rule camera[] = {
     name_rule,
