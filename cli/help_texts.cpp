@@ -62,6 +62,9 @@ const std::map<std::string_view, std::vector<std::string_view>>& first_options()
 
 const std::map<std::string_view, std::string_view>& all_details() {
   static const std::map<std::string_view, std::string_view> details{
+      {"--at",
+       "translations, rotations, scales and morph weights of all animations, by the keys around that "
+       "time; before the first and after the last key it is theirs. Cameras and lights move too."},
       {"--bends",
        "0.1 is a good value for `--mesh uniform`. Elements are divided up to three times. It helps "
        "`--diffuse direct` most; `--error` and `--time` use it by themselves."},
@@ -107,6 +110,8 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "first, from a uniform mesh unless `--mesh` says otherwise. `hierarchical` is an older name of "
        "`--mesh hierarchical`."},
       {"--stats", "[all figures](stats.md)."},
+      {"--variant",
+       "`meninas plan` lists the names that `KHR_materials_variants` gives."},
       {"--view",
        "the colours' range is printed; an EXR holds the numbers as well."}};
   return details;

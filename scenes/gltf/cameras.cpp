@@ -190,7 +190,8 @@ static PunctualLight read_light(const Document& document, std::size_t index,
   else
     throw InputError(document.file, where, fmt::format("type '{}' does not exist", one_line(type)));
 
-  light.intensity = vec3_or(json, "color", Rgb(1.0)) * number_or(json, "intensity", 1.0);
+  light.intensity = vec3_or(json, "color", Rgb(1.0)) * number_or(json, "intensity", 1.0) *
+                    document.settings.state.light_scale;
   if (glm::any(glm::lessThan(light.intensity, Rgb(0.0)))) {
     findings.about("lights of negative intensity are dark", name);
     light.intensity = glm::max(light.intensity, Rgb(0.0));

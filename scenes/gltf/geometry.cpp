@@ -162,7 +162,8 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& 
   part.positions = decode_positions(at, *accessor);
   part.step = step_of_values(at.document, *accessor);
   if (const auto* targets = find(at.json, "targets"); targets && !targets->empty()) {
-    findings.about("morph targets keep their default weights in nodes", at.in.node);
+    if (!at.document.settings.state.at)
+      findings.about("morph targets keep their default weights in nodes", at.in.node);
     apply_morph_targets(at.document, at.where(), at.json, at.in.morph_weights, part.positions);
   }
   part.texcoords = decode_texcoords(at, part.positions.size(), findings);
@@ -282,7 +283,8 @@ static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& no
                        Geometry& into, Findings& findings) {
   if (const auto skin = index_at(element(at.document.root, "nodes", node.index), "skin")) {
     if (apply_skin(at.document, at.where(), at.json, skins.joints(*skin), part.positions)) {
-      findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
+      if (!at.document.settings.state.at)
+        findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
       return add_part(at, part, glm::dmat4(1.0), into.node, into, findings);
     }
     findings.about("skins without joints in the scene are left out in nodes", at.in.node);

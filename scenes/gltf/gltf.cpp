@@ -2,6 +2,9 @@
 
 #include "scenes/repair/glass_plates.h"
 #include "scenes/gltf/stages.h"
+#include "scenes/gltf/state/animation.h"
+#include "scenes/gltf/state/variants.h"
+#include "scenes/gltf/state/visibility.h"
 #include "scenes/repair/hairline_gaps.h"
 #include "scenes/repair/nearly_flat.h"
 #include "scenes/materials/smooth_surfaces.h"
@@ -26,9 +29,12 @@ static constexpr std::string_view extensions_read[] = {
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_node_visibility",
     "KHR_texture_transform",
+    "MSFT_lod",
 };
 
 static bool is_read(const std::string& extension) {
@@ -94,7 +100,20 @@ static void check_extensions(const Document& document, Scene& scene, Findings& f
   }
 }
 
+/// The document as it is where and when it is asked for.
+static void put_in_state(Document& document, Scene& scene, Findings& findings) {
+  const SceneState& state = document.settings.state;
+  scene.variants = variant_names(document.root);
+  if (state.variant)
+    choose_variant(document, *state.variant);
+  if (state.at)
+    pose_at(document, *state.at, findings);
+  hide_nodes(document.root, findings);
+}
+
 static void report_animations(const Document& document, Scene& scene, Findings& findings) {
+  if (document.settings.state.at)
+    return;
   const auto count = count_of(document.root, "animations");
   for (std::size_t k = 0; k < count; ++k) {
     const auto name = name_of(element(document.root, "animations", k));
@@ -134,11 +153,12 @@ Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings)
 
 Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& file,
                 const GltfSettings& settings) {
-  const auto document = read_document(std::move(bytes), file, settings);
+  auto document = read_document(std::move(bytes), file, settings);
   Scene scene;
   scene.file = document.file;
   Findings findings;
   check_extensions(document, scene, findings);
+  put_in_state(document, scene, findings);
 
   const auto nodes = place_nodes(document, findings);
   const std::vector<float> half_steps = read_geometry(document, nodes, scene, findings);

@@ -130,13 +130,21 @@ constexpr Rule texture[] = {
     {.name = "extensions", .kind = object, .fields = texture_formats},
 };
 
+constexpr Rule variant_mapping[] = {
+    {.name = "material", .kind = index, .presence = required, .target = "materials"},
+    {.name = "variants", .kind = indices, .presence = required, .target = "variants"},
+};
+constexpr Rule variant_mappings[] = {
+    {.name = "mappings", .kind = objects, .presence = required, .fields = variant_mapping}};
+constexpr Rule primitive_extensions[] = {
+    {.name = "KHR_materials_variants", .kind = object, .fields = variant_mappings}};
 constexpr Rule primitive[] = {
     {.name = "attributes", .kind = attributes, .presence = required, .target = "accessors"},
     {.name = "indices", .kind = index, .target = "accessors"},
     {.name = "material", .kind = index, .target = "materials"},
     {.name = "mode", .kind = size},
     {.name = "targets", .kind = attribute_sets, .target = "accessors"},
-    {.name = "extensions", .kind = object},
+    {.name = "extensions", .kind = object, .fields = primitive_extensions},
 };
 constexpr Rule mesh[] = {
     name_rule,
@@ -153,9 +161,13 @@ constexpr Rule node_light[] = {
     {.name = "light", .kind = index, .presence = required, .target = "lights"}};
 constexpr Rule instancing[] = {
     {.name = "attributes", .kind = attributes, .presence = required, .target = "accessors"}};
+constexpr Rule visibility[] = {{.name = "visible", .kind = boolean}};
+constexpr Rule levels_of_detail[] = {{.name = "ids", .kind = indices, .target = "nodes"}};
 constexpr Rule node_extensions[] = {
     {.name = "KHR_lights_punctual", .kind = object, .fields = node_light},
     {.name = "EXT_mesh_gpu_instancing", .kind = object, .fields = instancing},
+    {.name = "KHR_node_visibility", .kind = object, .fields = visibility},
+    {.name = "MSFT_lod", .kind = object, .fields = levels_of_detail},
 };
 constexpr Rule node[] = {
     name_rule,
@@ -201,10 +213,33 @@ constexpr Rule light[] = {
 };
 constexpr Rule lights[] = {
     {.name = "lights", .kind = objects, .presence = required, .fields = light}};
+constexpr Rule variant[] = {{.name = "name", .kind = text, .presence = required}};
+constexpr Rule variants[] = {
+    {.name = "variants", .kind = objects, .presence = required, .fields = variant}};
 constexpr Rule root_extensions[] = {
-    {.name = "KHR_lights_punctual", .kind = object, .fields = lights}};
+    {.name = "KHR_lights_punctual", .kind = object, .fields = lights},
+    {.name = "KHR_materials_variants", .kind = object, .fields = variants},
+};
 
-constexpr Rule named[] = {name_rule};
+// Samplers belong to their animation: state/animation.cpp checks their indices, and what is absent.
+constexpr Rule channel_target[] = {
+    {.name = "node", .kind = index, .target = "nodes"},
+    {.name = "path", .kind = text},
+};
+constexpr Rule channel[] = {
+    {.name = "sampler", .kind = size},
+    {.name = "target", .kind = object, .fields = channel_target},
+};
+constexpr Rule key_sampler[] = {
+    {.name = "input", .kind = index, .target = "accessors"},
+    {.name = "output", .kind = index, .target = "accessors"},
+    {.name = "interpolation", .kind = text},
+};
+constexpr Rule animation[] = {
+    name_rule,
+    {.name = "channels", .kind = objects, .fields = channel},
+    {.name = "samplers", .kind = objects, .fields = key_sampler},
+};
 
 constexpr Rule root[] = {
     {.name = "extensionsUsed", .kind = texts},
@@ -220,7 +255,7 @@ constexpr Rule root[] = {
     {.name = "meshes", .kind = objects, .fields = mesh},
     {.name = "cameras", .kind = objects, .fields = camera},
     {.name = "skins", .kind = objects, .fields = skin},
-    {.name = "animations", .kind = objects, .fields = named},
+    {.name = "animations", .kind = objects, .fields = animation},
     {.name = "nodes", .kind = objects, .fields = node},
     {.name = "scenes", .kind = objects, .fields = scene},
     {.name = "scene", .kind = index, .target = "scenes"},

@@ -45,7 +45,7 @@ int main(int count, char** arguments) {
   const std::pair<const char*, GltfFile> files[] = {
       {"square", square()},           {"everything", everything()},
       {"skinned", skinned_square()},  {"morphed", morphed_square()},
-      {"instanced", instanced_square()}, {"old", old_material()}};
+      {"animated", animated_square()}, {"instanced", instanced_square()}, {"old", old_material()}};
   for (const auto& [name, file] : files) {
     const std::string text = as_text(file);
     write(folder / "seeds" / (std::string(name) + ".gltf"), Bytes(text.begin(), text.end()));
