@@ -250,6 +250,12 @@ void add_light_options(Options& command, CommonOptions& options) {
                 }
                 options.settings.background = radiance;
               });
+  command.add("--light-scale", "X",
+              "multiply the intensity of point, spot and directional lights [1]",
+              [&](const std::string& text) {
+                options.settings.gltf.state.light_scale =
+                    parse_number("--light-scale", text, Sign::positive);
+              });
 }
 
 void add_run_options(Options& command, CommonOptions& options) {

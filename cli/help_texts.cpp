@@ -101,6 +101,9 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "Salzman and Aupperle 1991) and is the fastest for a given accuracy in most scenes. `uniform` has "
        "a row of form factors for every element, which `--factors`, `--form-factors hemicube|analytic`, "
        "`--solver progressive` and `--interpolation average` choose by themselves."},
+      {"--light-scale",
+       "0.001464 (1/683) brings lights that were exported in candela and lux to W/sr and W/m². What "
+       "glows stays as it is."},
       {"--link-error",
        "the solve begins with few large nodes and divides those whose light is not linear to X. With "
        "far more `--elements` than X needs, more `--rays` help instead."},

@@ -9,6 +9,7 @@
 #include "scenes/repair/nearly_flat.h"
 #include "scenes/materials/smooth_surfaces.h"
 #include "scenes/repair/touching.h"
+#include "scenes/report/light_units.h"
 
 #include <fmt/format.h>
 
@@ -178,6 +179,8 @@ Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& f
   read_lights(document, nodes, scene, findings);
   for (const std::string& light : settle_lights(scene))
     findings.about("lights in the plane of a face are put before it", light);
+  if (const auto mixture = describe_mixed_units(scene))
+    findings.say(*mixture);
 
   report_animations(document, scene, findings);
   if (scene.degenerate_triangles > 0)
