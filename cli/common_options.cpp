@@ -123,6 +123,14 @@ void add_allow_external(Options& command, GltfSettings& settings) {
                    [&] { settings.external_files = ExternalFiles::anywhere; });
 }
 
+void add_state_options(Options& command, CommonOptions& options) {
+  SceneState& state = options.settings.gltf.state;
+  command.add("--variant", "NAME", "variant of the scene's materials [each primitive's own]",
+              [&](const std::string& text) { state.variant = text; });
+  command.add("--at", "SECONDS", "show the scene's animations at that time [the rest pose]",
+              [&](const std::string& text) { state.at = parse_number("--at", text, Sign::any); });
+}
+
 void add_quality(Options& command, CommonOptions& options) {
   add_choice(command, "--quality", qualities, RunSettings{}.quality,
              "preset of all options of accuracy; each can be given by itself",
@@ -241,6 +249,12 @@ void add_light_options(Options& command, CommonOptions& options) {
                                                                brightest_background));
                 }
                 options.settings.background = radiance;
+              });
+  command.add("--light-scale", "X",
+              "multiply the intensity of point, spot and directional lights [1]",
+              [&](const std::string& text) {
+                options.settings.gltf.state.light_scale =
+                    parse_number("--light-scale", text, Sign::positive);
               });
 }
 

@@ -33,6 +33,8 @@ struct CommonOptions {
 void add_scene(Options& command, CommonOptions& options);
 /// What add_scene adds, for commands that get their scenes otherwise.
 void add_allow_external(Options& command, GltfSettings& settings);
+/// Which variant of the materials, and which moment of the animations.
+void add_state_options(Options& command, CommonOptions& options);
 void add_quality(Options& command, CommonOptions& options);
 
 /// How finely the scene is divided, and how far mirrors are followed: what a plan depends on too.

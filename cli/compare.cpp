@@ -88,6 +88,7 @@ Command add_compare_command(Options& program) {
       .required();
   add_reference_options(command, *options);
   add_quality(command, options->common);
+  add_state_options(command, options->common);
   add_light_options(command, options->common);
   add_view_options(command, *options);
   add_mesh_options(command, options->common);

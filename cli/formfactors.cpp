@@ -135,6 +135,7 @@ Command add_formfactors_command(Options& program) {
                    [=] { options->request.format = FormFactorsFormat::matrix; });
   command.add_flag("--json", "print JSON",
                    [=] { options->request.format = FormFactorsFormat::json; });
+  add_state_options(command, options->common);
   add_method_options(command, request.factors);
   add_run_options(command, options->common);
   return {&command, [=, &command] { run(command, *options); }};

@@ -62,6 +62,9 @@ const std::map<std::string_view, std::vector<std::string_view>>& first_options()
 
 const std::map<std::string_view, std::string_view>& all_details() {
   static const std::map<std::string_view, std::string_view> details{
+      {"--at",
+       "translations, rotations, scales and morph weights of all animations, by the keys around that "
+       "time; before the first and after the last key it is theirs. Cameras and lights move too."},
       {"--bends",
        "0.1 is a good value for `--mesh uniform`. Elements are divided up to three times. It helps "
        "`--diffuse direct` most; `--error` and `--time` use it by themselves."},
@@ -98,6 +101,9 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "Salzman and Aupperle 1991) and is the fastest for a given accuracy in most scenes. `uniform` has "
        "a row of form factors for every element, which `--factors`, `--form-factors hemicube|analytic`, "
        "`--solver progressive` and `--interpolation average` choose by themselves."},
+      {"--light-scale",
+       "0.001464 (1/683) brings lights that were exported in candela and lux to W/sr and W/m². What "
+       "glows stays as it is."},
       {"--link-error",
        "the solve begins with few large nodes and divides those whose light is not linear to X. With "
        "far more `--elements` than X needs, more `--rays` help instead."},
@@ -107,6 +113,8 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "first, from a uniform mesh unless `--mesh` says otherwise. `hierarchical` is an older name of "
        "`--mesh hierarchical`."},
       {"--stats", "[all figures](stats.md)."},
+      {"--variant",
+       "`meninas plan` lists the names that `KHR_materials_variants` gives."},
       {"--view",
        "the colours' range is printed; an EXR holds the numbers as well."},
       {"--view-transform",

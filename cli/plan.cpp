@@ -55,6 +55,7 @@ Command add_plan_command(Options& program) {
   add_scene(command, options->common);
   command.add_flag("--json", "print JSON", [=] { options->request.format = PlanFormat::json; });
   add_quality(command, options->common);
+  add_state_options(command, options->common);
   add_light_options(command, options->common);
   add_mesh_options(command, options->common);
   add_pass_one_options(command, options->common);

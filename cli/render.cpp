@@ -123,6 +123,7 @@ void add_picture_options(Options& command, RenderOptions& options) {
 /// What makes a picture what it is, wherever it is written.
 void add_settings(Options& command, RenderOptions& options) {
   add_quality(command, options.common);
+  add_state_options(command, options.common);
   add_light_options(command, options.common);
   add_picture_options(command, options);
   add_mesh_options(command, options.common);

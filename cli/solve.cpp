@@ -37,6 +37,7 @@ Command add_solve_command(Options& program) {
            "use the form factors of an earlier run; only emission and diffuse reflectances may "
            "have changed");
   add_quality(command, options->common);
+  add_state_options(command, options->common);
   add_light_options(command, options->common);
   add_mesh_options(command, options->common);
   add_pass_one_options(command, options->common);

@@ -43,6 +43,7 @@ Command add_trade_command(Options& program) {
               [=](const std::string& text) { options->request.camera = text; });
   command.add("--size", "WxH", "size in pixels [as the reference, or 256 rows]",
               [=](const std::string& text) { options->request.size = parse_size("--size", text); });
+  add_state_options(command, options->common);
   add_light_options(command, options->common);
   add_run_options(command, options->common);
   return {&command, [=] { run(*options); }};

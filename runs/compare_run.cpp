@@ -121,8 +121,9 @@ void compare_run(const CompareRequest& request, const RunEvents& events) {
   figures.threads = limit.threads();
 
   Scene scene = load_scene(request.scene, request.settings);
-  const Camera camera = choose_camera(scene, request.camera, events);
-  const PictureSize size = choose_size(request.size, camera);
+  const Camera chosen = choose_camera(scene, request.camera, events);
+  const PictureSize size = choose_size(request.size, chosen);
+  const Camera camera = cut_open(scene, chosen, size, events);
   check_memory(scene, request.settings, size);
   Comparison comparison;
   comparison.scene = request.scene.filename().string();

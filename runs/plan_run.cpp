@@ -10,7 +10,10 @@
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace meninas {
@@ -97,6 +100,8 @@ std::string plan_text(const PreparedScene& prepared, const TransportPlan& plan,
   text += fact("punctual lights", std::to_string(plan.punctual_lights));
   text += fact("materials", fmt::format("{} glossy, {} transmissive, {} textured", plan.glossy,
                                         plan.transmissive, plan.textured));
+  if (const auto& variants = prepared->scene.variants; !variants.empty())
+    text += fact("variants", fmt::format("'{}': --variant NAME chooses one", fmt::join(variants, "', '")));
   text += fact("colours", plan.bands == 1 ? "one channel: everything is grey" : "three channels");
   text += fact("closed", plan.closed ? "yes, no light can escape" : "no, light can escape");
   text += fact("mesh", fmt::format("{} faces divided into {} elements",
@@ -117,11 +122,18 @@ std::string plan_run(const PlanRequest& request) {
   Stopwatch watch;
   Scene scene = load_scene(request.scene, request.settings);
   const double loading = watch.lap();
-  const Camera camera = choose_camera(scene, request.camera, {});
+  const Camera chosen = choose_camera(scene, request.camera, {});
+  const PictureSize size = choose_size(request.size, chosen);
+  std::vector<std::string> of_camera;
+  const Camera camera = cut_open(
+      scene, chosen, size,
+      {.warning = [&](const std::string& text) { of_camera.push_back(text); }, .note = {},
+       .progress = {}, .stages = {}});
   const auto prepared = prepare_scene(std::move(scene), settings);
-  const ExpectedCost expected = expect_cost(*prepared, camera, choose_size(request.size, camera),
-                                            request.settings, loading, limit.threads());
+  const ExpectedCost expected =
+      expect_cost(*prepared, camera, size, request.settings, loading, limit.threads());
   TransportPlan plan = prepared->plan;
+  std::ranges::copy(of_camera, std::back_inserter(plan.warnings));
   if (expected.bytes > memory_limit(request.settings)) {
     plan.warnings.push_back(fmt::format(
         "a run needs about {}, more than the memory limit of {}, and would be refused",
@@ -131,7 +143,7 @@ std::string plan_run(const PlanRequest& request) {
   const std::size_t patches = prepared->surfaces.patches.size();
   const auto odd = report_scene(prepared->scene, prepared->surfaces, *prepared->rays);
   return request.format == PlanFormat::json
-             ? plan_json(plan, patches, elements, expected, odd)
+             ? plan_json(plan, prepared->scene.variants, patches, elements, expected, odd)
              : plan_text(*prepared, plan, expected, limit.threads(), odd);
 }
 

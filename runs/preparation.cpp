@@ -1,6 +1,7 @@
 #include "runs/preparation.h"
 
 #include "image/image_file.h"
+#include "raytrace/pixels/section_plane.h"
 #include "runs/report/percent.h"
 #include "scenes/gltf/gltf.h"
 
@@ -81,6 +82,17 @@ PictureSize choose_size(const std::optional<PictureSize>& asked, const Camera& c
     size.width = static_cast<int>(std::lround(width));
   }
   return size;
+}
+
+Camera cut_open(const Scene& scene, const Camera& camera, PictureSize size,
+                const RunEvents& events) {
+  Camera cutting = with_section(scene, camera, double(size.width) / size.height);
+  if (cutting.section > 0.0) {
+    warn(events, fmt::format("camera '{}' cuts the scene open: what is nearer than its znear of "
+                             "{:.4g} m is not shown",
+                             camera.name, camera.znear));
+  }
+  return cutting;
 }
 
 } // namespace meninas

@@ -32,4 +32,9 @@ Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
 /// As asked, else 512 rows, as wide as the camera wants them, else square.
 PictureSize choose_size(const std::optional<PictureSize>& asked, const Camera& camera);
 
+/// The camera; one that cuts what a picture of that size would show starts at its section plane,
+/// which is said.
+Camera cut_open(const Scene& scene, const Camera& camera, PictureSize size,
+                const RunEvents& events);
+
 } // namespace meninas

@@ -159,8 +159,9 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
 
   Scene scene = load_scene(request.scene, request.settings);
   const bool is_lit = has_light(scene);
-  const Camera camera = choose_camera(scene, request.camera, events);
-  const PictureSize size = choose_size(request.size, camera);
+  const Camera chosen = choose_camera(scene, request.camera, events);
+  const PictureSize size = choose_size(request.size, chosen);
+  const Camera camera = cut_open(scene, chosen, size, events);
   check_memory(scene, request.settings, size);
   figures.seconds.load = watch.lap();
 

@@ -29,12 +29,12 @@ CameraRay camera_ray(const Camera& camera, double picture_aspect, double x, doub
   const double upwards = 1.0 - 2.0 * y;
   if (camera.projection == Projection::orthographic) {
     const Vec3 offset = camera.half_height * (across * camera.right + upwards * camera.up);
-    return {camera.position + offset, camera.forward};
+    return {camera.position + offset + camera.section * camera.forward, camera.forward};
   }
   // The vertical angle spans the height of the picture whatever its aspect is.
   const double half = std::tan(0.5 * camera.vertical_fov);
   const Vec3 towards = camera.forward + half * (across * camera.right + upwards * camera.up);
-  return {camera.position, glm::normalize(towards)};
+  return {camera.position + camera.section * towards, glm::normalize(towards)};
 }
 
 Camera default_camera(const Bounds& bounds) {

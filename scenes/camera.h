@@ -19,9 +19,11 @@ struct Camera {
   double vertical_fov = 0.8;    ///< radians, perspective only
   double half_height = 1.0;     ///< metres, orthographic only
   double aspect = 0.0;          ///< width / height the file asks for, 0 when it leaves that to the picture
+  double znear = 0.0;   ///< metres along forward within which the file wants nothing shown; 0: none
+  double section = 0.0; ///< metres along forward at which rays start, in a plane; 0: the eye's
 };
 
-/// Origin and direction of the ray through a point of the picture;
+/// Origin, in the section plane, and direction of the ray through a point of the picture;
 /// x and y run from 0 to 1, right and down.
 struct CameraRay {
   Point3 origin;

@@ -1,5 +1,7 @@
 #include "scenes/names.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -58,6 +60,18 @@ std::optional<std::string> nearest_name(std::string_view name, std::span<const s
     }
   }
   return nearest == nullptr ? std::nullopt : std::optional<std::string>(*nearest);
+}
+
+std::string unknown_name(std::string_view kind, std::string_view name,
+                         std::span<const std::string> known) {
+  std::string message = fmt::format("no {} '{}'", kind, name);
+  if (const auto nearest = nearest_name(name, known))
+    return message + fmt::format(", did you mean '{}'?", *nearest);
+  if (known.empty())
+    return message + fmt::format(", the scene has no {}s", kind);
+  return message + (known.size() == 1 ? fmt::format(", there is only '{}'", known.front())
+                                      : fmt::format(" among {} {}s such as '{}'", known.size(), kind,
+                                                    known.front()));
 }
 
 } // namespace meninas

@@ -12,4 +12,8 @@ namespace meninas {
 /// near.
 std::optional<std::string> nearest_name(std::string_view name, std::span<const std::string> known);
 
+/// "no camera 'x', did you mean 'y'?", or how many there are and the first of them.
+std::string unknown_name(std::string_view kind, std::string_view name,
+                         std::span<const std::string> known);
+
 } // namespace meninas

@@ -4,8 +4,6 @@
 #include "scenes/errors.h"
 #include "scenes/names.h"
 
-#include <fmt/format.h>
-
 namespace meninas {
 namespace {
 
@@ -123,17 +121,7 @@ std::size_t find_named(const Scene& scene, const std::vector<Thing>& things, std
     }
     names.push_back(things[i].name);
   }
-  std::string message = fmt::format("no {} '{}'", kind, name);
-  if (const auto nearest = nearest_name(name, names)) {
-    message += fmt::format(", did you mean '{}'?", *nearest);
-  } else if (names.empty()) {
-    message += fmt::format(", the scene has no {}s", kind);
-  } else {
-    message += names.size() == 1
-                   ? fmt::format(", there is only '{}'", names.front())
-                   : fmt::format(" among {} {}s such as '{}'", names.size(), kind, names.front());
-  }
-  throw UsageError(scene.file, message);
+  throw UsageError(scene.file, unknown_name(kind, name, names));
 }
 
 } // namespace

@@ -77,6 +77,7 @@ struct Scene {
   Rgb background{0.0}; ///< radiance of everything beyond the scene, from all directions
   std::vector<std::string>
       warnings; ///< what was read in a way the user may not expect, one line each
+  std::vector<std::string> variants; ///< names of KHR_materials_variants that the file has
   std::vector<std::string> ignored; ///< names of extensions and features that were left out
   std::size_t degenerate_triangles = 0;
 

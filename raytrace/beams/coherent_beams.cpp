@@ -198,9 +198,16 @@ PictureRays rays_of(const CameraFrame& camera, const TileArea& tile,
                     const RenderSettings& settings) {
   const Vec2 pixel = 1.0 / Vec2(settings.width, settings.height);
   const double x = tile.x0 * pixel.x, y = tile.y0 * pixel.y;
-  PictureRays rays{Vec3(camera.origin) + x * Vec3(camera.origin_x) + y * Vec3(camera.origin_y),
-                   pixel.x * Vec3(camera.origin_x),
-                   pixel.y * Vec3(camera.origin_y),
+  // Rays that start in a section plane are those from the eye, from there on.
+  const double section = camera.section;
+  const auto from_eye = [&](const glm::vec3& origin, const glm::vec3& direction) {
+    return section > 0.0 ? Vec3(origin) - section * Vec3(direction) : Vec3(origin);
+  };
+  const Vec3 origin_x = from_eye(camera.origin_x, camera.direction_x),
+             origin_y = from_eye(camera.origin_y, camera.direction_y);
+  PictureRays rays{from_eye(camera.origin, camera.direction) + x * origin_x + y * origin_y,
+                   pixel.x * origin_x,
+                   pixel.y * origin_y,
                    Vec3(camera.direction) + x * Vec3(camera.direction_x) +
                        y * Vec3(camera.direction_y),
                    pixel.x * Vec3(camera.direction_x),
@@ -211,7 +218,8 @@ PictureRays rays_of(const CameraFrame& camera, const TileArea& tile,
   // of that of a tile's own, not even all of the tile where the view is wide.
   const Direction n = glm::normalize(Vec3(camera.direction) + 0.5 * Vec3(camera.direction_x) +
                                      0.5 * Vec3(camera.direction_y));
-  rays.near = {n, glm::dot(n, rays.origin) + std::min(0.0, corner.x * glm::dot(n, rays.origin_x)) +
+  rays.near = {n, glm::dot(n, rays.origin) + section +
+                      std::min(0.0, corner.x * glm::dot(n, rays.origin_x)) +
                       std::min(0.0, corner.y * glm::dot(n, rays.origin_y))};
   return rays;
 }

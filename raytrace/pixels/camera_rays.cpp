@@ -14,15 +14,22 @@ CameraFrame make_camera_frame(const Camera& camera, double picture_aspect, const
     // The picture plane at distance one: from its upper left corner, right by x and down by y.
     const double half_height = std::tan(0.5 * camera.vertical_fov),
                  half_width = half_height * picture_aspect;
-    rays.origin = eye;
     rays.direction = camera.forward - half_width * camera.right + half_height * camera.up;
     rays.direction_x = 2.0 * half_width * camera.right;
     rays.direction_y = -2.0 * half_height * camera.up;
+    rays.origin = eye;
+    if (const double section = camera.section * frame.scale; section > 0.0) {
+      rays.section = static_cast<float>(section);
+      rays.origin += rays.section * rays.direction;
+      rays.origin_x = rays.section * rays.direction_x;
+      rays.origin_y = rays.section * rays.direction_y;
+    }
     return rays;
   }
   const double half_height = camera.half_height * frame.scale,
                half_width = half_height * picture_aspect;
-  rays.origin = eye - half_width * camera.right + half_height * camera.up;
+  rays.origin = eye - half_width * camera.right + half_height * camera.up +
+                camera.section * frame.scale * camera.forward;
   rays.origin_x = 2.0 * half_width * camera.right;
   rays.origin_y = -2.0 * half_height * camera.up;
   rays.direction = camera.forward;

@@ -12,6 +12,7 @@ struct CameraFrame {
   glm::vec3 origin, origin_x, origin_y; ///< origin(x, y) = origin + x origin_x + y origin_y
   glm::vec3 direction, direction_x,
       direction_y; ///< likewise; x and y run over the picture from 0 to 1, right and down
+  float section; ///< of perspective: origin(x, y) = eye + section direction(x, y)
 };
 
 /// Puts the camera rays through sixteen points of the picture into a packet.

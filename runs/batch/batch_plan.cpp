@@ -28,7 +28,14 @@ struct KnownScene {
   std::shared_ptr<const SceneFacts> facts;
   std::optional<BatchProblem> problem;
 };
-using KnownScenes = std::map<fs::path, KnownScene>;
+/// A file in a state of its materials, animations and lights is a scene of its own.
+using SceneFile = std::pair<fs::path, SceneState>;
+using KnownScenes = std::map<SceneFile, KnownScene>;
+
+/// That of all modes of a job: they share its settings.
+const SceneState& state_of(const BatchJob& job) {
+  return job.modes.front().request.settings.gltf.state;
+}
 
 bool is_pattern(const std::string& text) { return text.find_first_of("*?[{") != std::string::npos; }
 
@@ -64,11 +71,14 @@ FoundFiles find_files(const std::vector<BatchJob>& jobs) {
   return found;
 }
 
-KnownScenes read_scenes(const FoundFiles& found, const GltfSettings& gltf) {
+KnownScenes read_scenes(const FoundFiles& found, const std::vector<BatchJob>& jobs,
+                        const GltfSettings& gltf) {
   KnownScenes scenes;
-  for (const auto& [pattern, files] : found) {
-    for (const fs::path& file : files) {
-      scenes.emplace(file, KnownScene{});
+  for (const BatchJob& job : jobs) {
+    for (const fs::path& pattern : job.scenes) {
+      for (const fs::path& file : found.at(pattern)) {
+        scenes.emplace(SceneFile{file, state_of(job)}, KnownScene{});
+      }
     }
   }
   std::vector<KnownScenes::value_type*> list;
@@ -77,8 +87,10 @@ KnownScenes read_scenes(const FoundFiles& found, const GltfSettings& gltf) {
   }
   tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t k) {
     auto& [file, known] = *list[k];
+    GltfSettings own = gltf;
+    own.state = file.second;
     try {
-      known.facts = std::make_shared<const SceneFacts>(facts_of(load_gltf(file, gltf)));
+      known.facts = std::make_shared<const SceneFacts>(facts_of(load_gltf(file.first, own)));
     } catch (const UserError& error) {
       known.problem = {error.what(), static_cast<int>(error.code())};
     }
@@ -119,7 +131,8 @@ void add_camera(ContentHash& hash, const Camera& camera) {
   for (const Vec3& vector : {camera.position, camera.right, camera.up, camera.forward}) {
     hash.add(vector);
   }
-  for (const double number : {camera.vertical_fov, camera.half_height, camera.aspect}) {
+  for (const double number :
+       {camera.vertical_fov, camera.half_height, camera.aspect, camera.znear}) {
     hash.add(number);
   }
 }
@@ -258,7 +271,7 @@ SceneFacts facts_of(const Scene& scene) {
 std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<BatchJob>& jobs,
                                      const GltfSettings& gltf) {
   const FoundFiles found = find_files(jobs);
-  const KnownScenes scenes = read_scenes(found, gltf);
+  const KnownScenes scenes = read_scenes(found, jobs, gltf);
   std::map<fs::path, std::string> owners;
   std::vector<BatchPicture> pictures;
   for (const BatchJob& job : jobs) {
@@ -273,12 +286,13 @@ std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<Bat
       }
       for (const fs::path& scene : files) {
         if (seen.insert(scene).second) {
-          add_pictures({job, scene, scenes.at(scene)}, pictures);
+          add_pictures({job, scene, scenes.at({scene, state_of(job)})}, pictures);
         }
       }
     }
     for (BatchPicture& picture : std::span(pictures).subspan(first)) {
       picture.request.settings.gltf = gltf;
+      picture.request.settings.gltf.state = state_of(job);
     }
     check_distinct(file, job, std::span(pictures).subspan(first), owners);
   }

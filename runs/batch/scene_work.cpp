@@ -54,10 +54,13 @@ std::uint64_t rays_of(const RunFigures& figures) {
 ViewPicture view_of(const BatchPicture& picture, const LitScene* light, const RunEvents& events,
                     RunFigures& figures) {
   const RunSettings& settings = picture.request.settings;
-  return light == nullptr
-             ? render_reference_view(load_planned(picture), picture.camera, picture.size, settings,
-                                     events, figures)
-             : render_view(*light, picture.camera, picture.size, settings, events, figures);
+  if (light == nullptr) {
+    Scene scene = load_planned(picture);
+    const Camera camera = cut_open(scene, picture.camera, picture.size, events);
+    return render_reference_view(std::move(scene), camera, picture.size, settings, events, figures);
+  }
+  const Camera camera = cut_open(light->prepared->scene, picture.camera, picture.size, events);
+  return render_view(*light, camera, picture.size, settings, events, figures);
 }
 
 void write_outputs(const BatchFolder& folder, const BatchPicture& picture,

@@ -249,8 +249,8 @@ std::string per_node_json(const std::vector<NodeLight>& nodes) {
   return text_of(Json{{"nodes", std::move(list)}});
 }
 
-std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_t elements,
-                      const ExpectedCost& expected, std::span<const Oddity> odd) {
+std::string plan_json(const TransportPlan& plan, const std::vector<std::string>& variants,
+                      std::size_t patches, std::size_t elements, const ExpectedCost& expected, std::span<const Oddity> odd) {
   Json oddities = Json::array();
   for (const Oddity& one : odd) {
     oddities.push_back({{"kind", one.kind},
@@ -273,6 +273,7 @@ std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_
                   {"glossy", plan.glossy},
                   {"transmissive", plan.transmissive},
                   {"textured", plan.textured},
+                  {"variants", variants},
                   {"bands", plan.bands},
                   {"closed", plan.closed},
                   {"patches", patches},

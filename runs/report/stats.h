@@ -94,8 +94,8 @@ const char* stop_name(reference::StoppedBy limit);
 
 std::string stats_json(const RunFigures& figures);
 std::string per_node_json(const std::vector<NodeLight>& nodes);
-std::string plan_json(const TransportPlan& plan, std::size_t patches, std::size_t elements,
-                      const ExpectedCost& expected, std::span<const Oddity> odd);
+std::string plan_json(const TransportPlan& plan, const std::vector<std::string>& variants,
+                      std::size_t patches, std::size_t elements, const ExpectedCost& expected, std::span<const Oddity> odd);
 
 /// Writes the text whole or not at all.
 void write_text_file(const std::filesystem::path& file, const std::string& text);

@@ -59,6 +59,10 @@ std::vector<std::string> options_of(const RunSettings& settings) {
   };
   if (settings.quality != standard.quality)
     add("--quality", name_of(settings.quality));
+  add_given("--variant", settings.gltf.state.variant);
+  add_given("--at", settings.gltf.state.at);
+  if (settings.gltf.state.light_scale != standard.gltf.state.light_scale)
+    add("--light-scale", fmt::format("{}", settings.gltf.state.light_scale));
   if (settings.background)
     add("--background", fmt::format("{},{},{}", settings.background->r, settings.background->g,
                                     settings.background->b));

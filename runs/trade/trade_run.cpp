@@ -173,14 +173,19 @@ void trade_run(const TradeRequest& request, const RunEvents& events) {
     check_writable_file(request.folder / file);
   const ThreadLimit limit(request.settings.threads);
   const Scene scene = load_scene(request.scene, request.settings);
-  const Camera camera = choose_camera(scene, request.camera, events);
+  const Camera chosen = choose_camera(scene, request.camera, events);
   const TradeScene facts = look_at_scene(scene, events);
 
   TradeResult result;
+  std::optional<TradeReference> known;
+  if (request.reference)
+    known = read_reference(*request.reference, request.size);
+  const PictureSize size = known ? PictureSize{known->mean.width, known->mean.height}
+                                 : size_of(request, chosen);
+  const Camera camera = cut_open(scene, chosen, size, events);
   result.reference =
-      request.reference
-          ? read_reference(*request.reference, request.size)
-          : trace_reference(scene, camera, size_of(request, camera), for_reference * request.budget,
+      known ? std::move(*known)
+            : trace_reference(scene, camera, size, for_reference * request.budget,
                             request.settings.seed, {.warning = {}, .note = events.note, .progress = events.progress, .stages = {}});
   find_floor(result.reference);
   Measuring measuring{scene, camera, result.reference};

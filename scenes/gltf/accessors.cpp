@@ -233,7 +233,9 @@ Vectors decode_vectors(const Document& document, std::size_t accessor, std::size
   const Reader reader(document, accessor);
   if (reader.width() != width)
     reader.fail(fmt::format("type must be {} for this use, it is '{}'",
-                            width == 16 ? "MAT4" : fmt::format("VEC{}", width),
+                            width == 16  ? "MAT4"
+                            : width == 1 ? "SCALAR"
+                                         : fmt::format("VEC{}", width),
                             one_line(reader.type())));
   const auto component = reader.component();
   if (component == Component::u32)

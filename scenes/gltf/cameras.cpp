@@ -61,6 +61,12 @@ static void read_orthographic(const Document& document, const std::string& where
                      fmt::format("xmag {} and ymag {} show no area", xmag, ymag));
 }
 
+/// What is no distance cuts nothing.
+static double znear_of(const Json& projection) {
+  const auto znear = number_or(projection, "znear", 0.0);
+  return znear > 0.0 && std::isfinite(znear) ? znear : 0.0;
+}
+
 static Camera read_camera(const Document& document, std::size_t index, Findings& findings) {
   const auto where = place(document.root, "cameras", index);
   const auto& json = element(document.root, "cameras", index);
@@ -75,6 +81,7 @@ static Camera read_camera(const Document& document, std::size_t index, Findings&
     read_perspective(document, where, *projection, camera, findings);
   else
     read_orthographic(document, where, *projection, camera);
+  camera.znear = znear_of(*projection);
   return camera;
 }
 
@@ -109,8 +116,11 @@ static double bring_near(const Reach& reach, Point3& position) {
 }
 
 static void bring_near(const Reach& reach, Camera& camera, Findings& findings) {
-  if (bring_near(reach, camera.position) == 1.0 && camera.half_height <= reach.distance)
+  const bool moved = bring_near(reach, camera.position) != 1.0;
+  if (!moved && camera.half_height <= reach.distance)
     return;
+  if (moved)
+    camera.znear = 0.0; // it was measured from elsewhere
   findings.about("cameras were moved nearer or narrowed: they were too far away or too wide to see the scene",
                  camera.name);
   camera.half_height = std::min(camera.half_height, reach.distance);
@@ -180,7 +190,8 @@ static PunctualLight read_light(const Document& document, std::size_t index,
   else
     throw InputError(document.file, where, fmt::format("type '{}' does not exist", one_line(type)));
 
-  light.intensity = vec3_or(json, "color", Rgb(1.0)) * number_or(json, "intensity", 1.0);
+  light.intensity = vec3_or(json, "color", Rgb(1.0)) * number_or(json, "intensity", 1.0) *
+                    document.settings.state.light_scale;
   if (glm::any(glm::lessThan(light.intensity, Rgb(0.0)))) {
     findings.about("lights of negative intensity are dark", name);
     light.intensity = glm::max(light.intensity, Rgb(0.0));

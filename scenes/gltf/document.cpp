@@ -92,17 +92,22 @@ Vec3 vec3_or(const Json& object, std::string_view key, const Vec3& otherwise) {
   return numbers.size() < 3 ? otherwise : Vec3(numbers[0], numbers[1], numbers[2]);
 }
 
+/// Those of extensions have a place of their own.
+static const Json* array_of(const Json& root, std::string_view array) {
+  if (array == "lights")
+    return find(root, {"extensions", "KHR_lights_punctual", array});
+  if (array == "variants")
+    return find(root, {"extensions", "KHR_materials_variants", array});
+  return find(root, array);
+}
+
 std::size_t count_of(const Json& root, std::string_view array) {
-  const auto* value = array == "lights"
-                          ? find(root, {"extensions", "KHR_lights_punctual", "lights"})
-                          : find(root, array);
+  const auto* value = array_of(root, array);
   return value && value->is_array() ? value->size() : 0;
 }
 
 const Json& element(const Json& root, std::string_view array, std::size_t index) {
-  const auto* value = array == "lights"
-                          ? find(root, {"extensions", "KHR_lights_punctual", "lights"})
-                          : find(root, array);
+  const auto* value = array_of(root, array);
   expects(value && index < value->size(), "an index into the glTF file that was not checked");
   return (*value)[index];
 }

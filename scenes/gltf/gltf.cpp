@@ -2,10 +2,14 @@
 
 #include "scenes/repair/glass_plates.h"
 #include "scenes/gltf/stages.h"
+#include "scenes/gltf/state/animation.h"
+#include "scenes/gltf/state/variants.h"
+#include "scenes/gltf/state/visibility.h"
 #include "scenes/repair/hairline_gaps.h"
 #include "scenes/repair/nearly_flat.h"
 #include "scenes/materials/smooth_surfaces.h"
 #include "scenes/repair/touching.h"
+#include "scenes/report/light_units.h"
 
 #include <fmt/format.h>
 
@@ -28,10 +32,13 @@ static constexpr std::string_view extensions_read[] = {
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
+    "KHR_node_visibility",
     "KHR_texture_transform",
+    "MSFT_lod",
 };
 
 static bool is_read(const std::string& extension) {
@@ -95,7 +102,20 @@ static void check_extensions(const Document& document, Scene& scene, Findings& f
   }
 }
 
+/// The document as it is where and when it is asked for.
+static void put_in_state(Document& document, Scene& scene, Findings& findings) {
+  const SceneState& state = document.settings.state;
+  scene.variants = variant_names(document.root);
+  if (state.variant)
+    choose_variant(document, *state.variant);
+  if (state.at)
+    pose_at(document, *state.at, findings);
+  hide_nodes(document.root, findings);
+}
+
 static void report_animations(const Document& document, Scene& scene, Findings& findings) {
+  if (document.settings.state.at)
+    return;
   const auto count = count_of(document.root, "animations");
   for (std::size_t k = 0; k < count; ++k) {
     const auto name = name_of(element(document.root, "animations", k));
@@ -135,11 +155,12 @@ Scene load_gltf(const std::filesystem::path& file, const GltfSettings& settings)
 
 Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& file,
                 const GltfSettings& settings) {
-  const auto document = read_document(std::move(bytes), file, settings);
+  auto document = read_document(std::move(bytes), file, settings);
   Scene scene;
   scene.file = document.file;
   Findings findings;
   check_extensions(document, scene, findings);
+  put_in_state(document, scene, findings);
 
   const auto nodes = place_nodes(document, findings);
   const std::vector<float> half_steps = read_geometry(document, nodes, scene, findings);
@@ -161,6 +182,8 @@ Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& f
   read_lights(document, nodes, scene, findings);
   for (const std::string& light : settle_lights(scene))
     findings.about("lights in the plane of a face are put before it", light);
+  if (const auto mixture = describe_mixed_units(scene))
+    findings.say(*mixture);
 
   report_animations(document, scene, findings);
   if (scene.degenerate_triangles > 0)

@@ -161,8 +161,15 @@ constexpr Rule draco[] = {
     {.name = "bufferView", .kind = index, .presence = required, .target = "bufferViews"},
     {.name = "attributes", .kind = sizes, .presence = required}, // Draco's own numbers
 };
+constexpr Rule variant_mapping[] = {
+    {.name = "material", .kind = index, .presence = required, .target = "materials"},
+    {.name = "variants", .kind = indices, .presence = required, .target = "variants"},
+};
+constexpr Rule variant_mappings[] = {
+    {.name = "mappings", .kind = objects, .presence = required, .fields = variant_mapping}};
 constexpr Rule primitive_extensions[] = {
-    {.name = "KHR_draco_mesh_compression", .kind = object, .fields = draco}};
+    {.name = "KHR_draco_mesh_compression", .kind = object, .fields = draco},
+    {.name = "KHR_materials_variants", .kind = object, .fields = variant_mappings}};
 constexpr Rule primitive[] = {
     {.name = "attributes", .kind = attributes, .presence = required, .target = "accessors"},
     {.name = "indices", .kind = index, .target = "accessors"},
@@ -186,9 +193,13 @@ constexpr Rule node_light[] = {
     {.name = "light", .kind = index, .presence = required, .target = "lights"}};
 constexpr Rule instancing[] = {
     {.name = "attributes", .kind = attributes, .presence = required, .target = "accessors"}};
+constexpr Rule visibility[] = {{.name = "visible", .kind = boolean}};
+constexpr Rule levels_of_detail[] = {{.name = "ids", .kind = indices, .target = "nodes"}};
 constexpr Rule node_extensions[] = {
     {.name = "KHR_lights_punctual", .kind = object, .fields = node_light},
     {.name = "EXT_mesh_gpu_instancing", .kind = object, .fields = instancing},
+    {.name = "KHR_node_visibility", .kind = object, .fields = visibility},
+    {.name = "MSFT_lod", .kind = object, .fields = levels_of_detail},
 };
 constexpr Rule node[] = {
     name_rule,
@@ -208,10 +219,12 @@ constexpr Rule scene[] = {name_rule, {.name = "nodes", .kind = indices, .target 
 constexpr Rule perspective[] = {
     {.name = "yfov", .kind = number, .presence = required},
     {.name = "aspectRatio", .kind = number},
+    {.name = "znear", .kind = number},
 };
 constexpr Rule orthographic[] = {
     {.name = "xmag", .kind = number, .presence = required},
     {.name = "ymag", .kind = number, .presence = required},
+    {.name = "znear", .kind = number},
 };
 constexpr Rule camera[] = {
     name_rule,
@@ -232,10 +245,33 @@ constexpr Rule light[] = {
 };
 constexpr Rule lights[] = {
     {.name = "lights", .kind = objects, .presence = required, .fields = light}};
+constexpr Rule variant[] = {{.name = "name", .kind = text, .presence = required}};
+constexpr Rule variants[] = {
+    {.name = "variants", .kind = objects, .presence = required, .fields = variant}};
 constexpr Rule root_extensions[] = {
-    {.name = "KHR_lights_punctual", .kind = object, .fields = lights}};
+    {.name = "KHR_lights_punctual", .kind = object, .fields = lights},
+    {.name = "KHR_materials_variants", .kind = object, .fields = variants},
+};
 
-constexpr Rule named[] = {name_rule};
+// Samplers belong to their animation: state/animation.cpp checks their indices, and what is absent.
+constexpr Rule channel_target[] = {
+    {.name = "node", .kind = index, .target = "nodes"},
+    {.name = "path", .kind = text},
+};
+constexpr Rule channel[] = {
+    {.name = "sampler", .kind = size},
+    {.name = "target", .kind = object, .fields = channel_target},
+};
+constexpr Rule key_sampler[] = {
+    {.name = "input", .kind = index, .target = "accessors"},
+    {.name = "output", .kind = index, .target = "accessors"},
+    {.name = "interpolation", .kind = text},
+};
+constexpr Rule animation[] = {
+    name_rule,
+    {.name = "channels", .kind = objects, .fields = channel},
+    {.name = "samplers", .kind = objects, .fields = key_sampler},
+};
 
 constexpr Rule root[] = {
     {.name = "extensionsUsed", .kind = texts},
@@ -251,7 +287,7 @@ constexpr Rule root[] = {
     {.name = "meshes", .kind = objects, .fields = mesh},
     {.name = "cameras", .kind = objects, .fields = camera},
     {.name = "skins", .kind = objects, .fields = skin},
-    {.name = "animations", .kind = objects, .fields = named},
+    {.name = "animations", .kind = objects, .fields = animation},
     {.name = "nodes", .kind = objects, .fields = node},
     {.name = "scenes", .kind = objects, .fields = scene},
     {.name = "scene", .kind = index, .target = "scenes"},

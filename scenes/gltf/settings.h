@@ -1,6 +1,7 @@
-// Which scene of a file is read, and what the file may ask for.
+// Which scene of a file is read, in which state, and what the file may ask for.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,12 +12,21 @@ namespace meninas {
 /// a stranger's file must not make the program read the user's others.
 enum class ExternalFiles { inside_folder, anywhere };
 
+/// In which of its states a file is shown.
+struct SceneState {
+  std::optional<std::string> variant = std::nullopt; ///< of materials: KHR_materials_variants
+  std::optional<double> at = std::nullopt; ///< seconds into its animations; the rest pose otherwise
+  double light_scale = 1.0; ///< times the intensities of its KHR_lights_punctual
+  auto operator<=>(const SceneState&) const = default;
+};
+
 struct GltfSettings {
   /// Name or index of the scene in the file; the file's default otherwise.
   std::optional<std::string> scene = std::nullopt;
   ExternalFiles external_files = ExternalFiles::inside_folder;
   /// Bytes; files and geometry that need more are refused before they are read or decoded.
   std::uint64_t memory_limit = std::uint64_t{1} << 32;
+  SceneState state = {};
 };
 
 } // namespace meninas

@@ -1,6 +1,7 @@
 #include "scenes/gltf/tree.h"
 
 #include "scenes/gltf/stages.h"
+#include "scenes/gltf/state/visibility.h"
 #include "scenes/names.h"
 
 #include <fmt/format.h>
@@ -59,6 +60,7 @@ std::vector<FileNode> read_node_tree(const std::filesystem::path& file,
   check_structure(document.file, document.root);
 
   Findings findings; // said when the scene was read
+  hide_nodes(document.root, findings);
   const auto placed = place_nodes(document, findings);
   std::vector<std::size_t> place_of(count_of(document.root, "nodes"), placed.size());
   for (std::size_t k = 0; k < placed.size(); ++k)
@@ -104,14 +106,7 @@ NamedNodes nodes_called(const Scene& scene, std::span<const FileNode> tree,
   const bool is_there = std::ranges::find(tree, name, &FileNode::name) != tree.end();
   if (is_there)
     throw UsageError(scene.file, fmt::format("node '{}' has no mesh, nor has any below it", name));
-  const auto known = known_names(scene, tree);
-  const auto nearest = nearest_name(name, known);
-  throw UsageError(scene.file, nearest
-                                   ? fmt::format("no node '{}', did you mean '{}'?", name, *nearest)
-                               : known.size() == 1
-                                   ? fmt::format("no node '{}', there is only '{}'", name, known.front())
-                                   : fmt::format("no node '{}' among {} nodes such as '{}'", name,
-                                                 known.size(), known.front()));
+  throw UsageError(scene.file, unknown_name("node", name, known_names(scene, tree)));
 }
 
 } // namespace meninas

@@ -311,7 +311,7 @@ TEST_F(Outputs, ThePlanAsJson) {
   const json plan = json::parse(outcome.out);
   EXPECT_EQ(keys_of(plan), (std::set<std::string>{
                                "mirrors", "mirror_worlds", "worlds", "emitters", "punctual_lights",
-                               "glossy", "transmissive", "textured", "bands", "closed", "patches",
+                               "glossy", "transmissive", "textured", "variants", "bands", "closed", "patches",
                                "elements", "expected", "stages", "ignored", "warnings", "odd"}));
   ASSERT_EQ(plan["mirrors"].size(), 1U);
   EXPECT_EQ(plan["mirrors"][0]["name"], "mirror");

@@ -73,7 +73,8 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   try {
     // A folder that is not there: names of files lead nowhere.
     const Scene scene = read_gltf({data, data + size}, "/nonexistent/fuzz/scene.gltf",
-                                  {.memory_limit = std::uint64_t{1} << 24});
+                                  {.memory_limit = std::uint64_t{1} << 24,
+                                   .state = {.at = 0.5}});
     check(scene);
     look_at(scene);
   } catch (const UserError& error) {

@@ -49,6 +49,23 @@ TEST(Camera, OrthographicRaysAreParallel) {
   EXPECT_EQ(camera_ray(camera, 1.5, 0.5, 0.5).origin, camera.position);
 }
 
+TEST(Camera, RaysStartInTheSectionPlane) {
+  Camera camera = look_at({1.0, 2.0, 3.0}, Point3(-2.0, 1.0, 0.0), 0.9);
+  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+    camera.projection = projection;
+    for (const double x : {0.0, 0.3, 1.0}) {
+      camera.section = 0.0;
+      const CameraRay whole = camera_ray(camera, 1.6, x, 0.2);
+      camera.section = 2.5;
+      const CameraRay cut = camera_ray(camera, 1.6, x, 0.2);
+      EXPECT_EQ(cut.direction, whole.direction);
+      EXPECT_NEAR(glm::dot(cut.origin - camera.position, camera.forward), 2.5, 8.0 * rounding);
+      const Vec3 along = cut.origin - whole.origin; // on the same line
+      EXPECT_LT(glm::length(glm::cross(along, whole.direction)), 8.0 * rounding);
+    }
+  }
+}
+
 /// Where a point is in a square picture: the larger of |x| and |y|, 1 at its border; more than that
 /// behind the camera.
 double off_centre(const Camera& camera, const Point3& point) {

@@ -166,7 +166,8 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& 
   part.step = step_of_values(at.document, *accessor);
   part.normals = decode_normals(at, findings);
   if (const auto* targets = find(at.json, "targets"); targets && !targets->empty()) {
-    findings.about("morph targets keep their default weights in nodes", at.in.node);
+    if (!at.document.settings.state.at)
+      findings.about("morph targets keep their default weights in nodes", at.in.node);
     const Morph morph{at.document, at.where(), at.json, at.in.morph_weights};
     apply_morph_targets(morph, "POSITION", part.positions);
     apply_morph_targets(morph, "NORMAL", part.normals.values);
@@ -295,7 +296,8 @@ static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& no
   if (const auto skin = index_at(element(at.document.root, "nodes", node.index), "skin")) {
     if (apply_skin({at.document, at.where(), at.json, skins.joints(*skin)}, part.positions,
                    part.normals.values)) {
-      findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
+      if (!at.document.settings.state.at)
+        findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
       return add_part(at, part, glm::dmat4(1.0), into.node, into, findings);
     }
     findings.about("skins without joints in the scene are left out in nodes", at.in.node);

@@ -89,6 +89,18 @@ TEST(CoherentBeams, OfParallelRaysAreTheSame) {
   expect_same(half_room(), camera, 0.6);
 }
 
+TEST(CoherentBeams, StartAtASectionPlane) {
+  // Walls with two sides: the plane cuts two of them and the box, and what is before it is not met.
+  Scene scene = half_room();
+  for (Material& material : scene.materials)
+    material.double_sided = true;
+  Camera camera = look_at({5.0, 3.0, 6.0}, {0.8, 1.0, 1.2}, 0.5);
+  for (const double section : {5.0, 5.6, 6.2}) {
+    camera.section = section;
+    expect_same(scene, camera, 0.3);
+  }
+}
+
 TEST(CoherentBeams, LookThroughBacksFromOutside) {
   // The walls between the eye and the room have their backs to it; through a mirror they are black.
   expect_same(half_room(), look_at({5.0, 3.0, 6.0}, {0.8, 1.0, 1.2}, 0.7), 0.6);

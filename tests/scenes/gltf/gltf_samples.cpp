@@ -41,6 +41,13 @@ GltfFile everything() {
                  {"scale", {1, -2, 1}}});
   file.json["scenes"] = Json::array({{{"nodes", {3}}}});
   file.json["scene"] = 0;
+  animate(file, 0, "rotation", "CUBICSPLINE", {0, 1},
+          {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0});
+  file.json["nodes"][1]["extensions"]["KHR_node_visibility"]["visible"] = false;
+  file.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {2};
+  file.json["extensions"]["KHR_materials_variants"]["variants"] = Json::array({{{"name", "day"}}});
+  square_primitive(file)["extensions"]["KHR_materials_variants"]["mappings"] =
+      Json::array({{{"material", 0}, {"variants", {0}}}});
   return file;
 }
 
@@ -64,6 +71,28 @@ GltfFile morphed_square() {
   const auto shift = file.add_accessor<float>({0, 0, 4, 0, 0, 4, 0, 0, 4, 0, 0, 4}, "VEC3");
   square_primitive(file)["targets"] = Json::array({{{"NORMAL", shift}}, {{"POSITION", shift}}});
   file.json["meshes"][0]["weights"] = {1.0, 0.25};
+  return file;
+}
+
+void animate(GltfFile& file, std::size_t node, const std::string& path,
+             const std::string& interpolation, const std::vector<float>& times,
+             const std::vector<float>& values) {
+  const std::string type = path == "rotation" ? "VEC4" : path == "weights" ? "SCALAR" : "VEC3";
+  const auto input = file.add_accessor<float>(times, "SCALAR");
+  const auto output = file.add_accessor<float>(values, type);
+  const Json channel{{"sampler", 0}, {"target", {{"node", node}, {"path", path}}}};
+  const Json sampler{{"input", input}, {"output", output}, {"interpolation", interpolation}};
+  file.json["animations"].push_back(
+      {{"channels", Json::array({channel})}, {"samplers", Json::array({sampler})}});
+}
+
+GltfFile animated_square() {
+  auto file = morphed_square();
+  animate(file, 0, "translation", "CUBICSPLINE", {0, 1},
+          {0, 0, 0, 1, 2, 3, 0, 1, 0, 1, 0, 0, 4, 5, 6, 0, 0, 0});
+  animate(file, 0, "rotation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 1, 0, 0});
+  animate(file, 0, "scale", "STEP", {0, 1}, {1, 1, 1, 2, 2, 2});
+  animate(file, 0, "weights", "LINEAR", {0, 1}, {0, 0, 1, 1});
   return file;
 }
 

@@ -15,6 +15,15 @@ GltfFile skinned_square();
 /// The square with two morph targets and default weights.
 GltfFile morphed_square();
 
+/// Adds an animation of one channel, LINEAR, STEP or CUBICSPLINE: keys at these times, in seconds,
+/// with four numbers each of rotations, three of translations and scales, one for each weight.
+void animate(GltfFile& file, std::size_t node, const std::string& path,
+             const std::string& interpolation, const std::vector<float>& times,
+             const std::vector<float>& values);
+
+/// The morphed square with a channel of every kind in one second.
+GltfFile animated_square();
+
 /// Two copies of the square: moved, turned and scaled.
 GltfFile instanced_square();
 

@@ -50,7 +50,7 @@ public:
     try {
       // Big enough for every honest reading of these files,
       // small enough for a quick refusal of all others.
-      const auto scene = load_gltf(file, {.memory_limit = 1 << 24});
+      const auto scene = load_gltf(file, {.memory_limit = 1 << 24, .state = {.at = 0.5}});
       ++loaded_;
       EXPECT_TRUE(all_finite(scene)) << story;
     } catch (const UserError& error) {
