@@ -100,7 +100,7 @@ std::string plan_text(const PreparedScene& prepared, const TransportPlan& plan,
   text += fact("punctual lights", std::to_string(plan.punctual_lights));
   text += fact("materials", fmt::format("{} glossy, {} transmissive, {} textured", plan.glossy,
                                         plan.transmissive, plan.textured));
-  if (const auto& variants = prepared->scene.variants; !variants.empty())
+  if (const auto& variants = prepared.scene.variants; !variants.empty())
     text += fact("variants", fmt::format("'{}': --variant NAME chooses one", fmt::join(variants, "', '")));
   text += fact("colours", plan.bands == 1 ? "one channel: everything is grey" : "three channels");
   text += fact("closed", plan.closed ? "yes, no light can escape" : "no, light can escape");
@@ -143,7 +143,7 @@ std::string plan_run(const PlanRequest& request) {
   const std::size_t patches = prepared->surfaces.patches.size();
   const auto odd = report_scene(prepared->scene, prepared->surfaces, *prepared->rays);
   return request.format == PlanFormat::json
-             ? plan_json(plan, prepared->scene.variants, patches, elements, expected, odd)
+             ? plan_json(plan, prepared.scene.variants, patches, elements, expected, odd)
              : plan_text(*prepared, plan, expected, limit.threads(), odd);
 }
 
