@@ -72,8 +72,7 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "`interpolated` shows pass one as it is at the vertices. `direct` computes direct light, also "
        "that reflected by mirrors, at every hit: shadows are as sharp as they are. `gather` gathers "
        "all light at the hit, which takes longest."},
-      {"--elements",
-       "a huge ground plane gets at most 75 % of the elements."},
+      {"--elements", "a huge ground plane gets at most 75 % of the elements."},
       {"--element-size",
        "elements that thin walls or sheets cross are divided further, so that no light leaks through."},
       {"--error",
@@ -113,8 +112,7 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "first, from a uniform mesh unless `--mesh` says otherwise. `hierarchical` is an older name of "
        "`--mesh hierarchical`."},
       {"--stats", "[all figures](stats.md)."},
-      {"--variant",
-       "`meninas plan` lists the names that `KHR_materials_variants` gives."},
+      {"--variant", "`meninas plan` lists the names that `KHR_materials_variants` gives."},
       {"--view",
        "the colours' range is printed; an EXR holds the numbers as well."},
       {"--view-transform",

@@ -143,7 +143,7 @@ std::string plan_run(const PlanRequest& request) {
   const std::size_t patches = prepared->surfaces.patches.size();
   const auto odd = report_scene(prepared->scene, prepared->surfaces, *prepared->rays);
   return request.format == PlanFormat::json
-             ? plan_json(plan, prepared.scene.variants, patches, elements, expected, odd)
+             ? plan_json(plan, prepared->scene.variants, patches, elements, expected, odd)
              : plan_text(*prepared, plan, expected, limit.threads(), odd);
 }
 
