@@ -3,6 +3,7 @@
 #include "mirror/window.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/materials/smooth_surfaces.h"
+#include "scenes/surfaces/curved_patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@ namespace {
 
 /// Surfaces of one plane, one facing and one reflectance are one mirror, of glass those
 /// of one material, of coats those of one reflectance by the angle, ideal ones by themselves.
-/// What is curved is none of these.
+/// What is curved is a mirror by itself, and none that is enumerated.
 using MirrorKey = std::tuple<std::uint32_t, bool, double, double, double, MaterialId, bool, bool>;
 
 /// What it reflects in the mean.
@@ -45,12 +46,6 @@ struct Candidate {
 };
 
 Plane flipped(const Plane& plane) { return {-plane.normal, -plane.offset}; }
-
-bool is_curved(const Scene& scene, const Patch& patch) {
-  return std::ranges::any_of(patch.triangles, [&](TriangleId triangle) {
-    return triangle != none<TriangleId> && scene.triangles[index(triangle)].curved;
-  });
-}
 
 void add_face(Candidate& candidate, const SurfaceModel& model, SurfaceId id, int face) {
   const Surface& surface = model.surfaces[index(id)];

@@ -39,7 +39,8 @@ MirrorPlanes find_mirror_planes(const Scene& scene, const SurfaceModel& surfaces
     std::vector<PlaneId> planes;
     for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
       const Kind kind = kinds[index(scene.triangles[t].material)];
-      if (kind != Kind::none && kind <= last && (with_curved || !is_bent(scene, TriangleId{static_cast<std::uint32_t>(t)})))
+      const bool bent = is_bent(scene, TriangleId{static_cast<std::uint32_t>(t)});
+      if (kind != Kind::none && kind <= last && (with_curved || !bent))
         planes.push_back(surfaces.plane_of_triangle[t]);
     }
     std::ranges::sort(planes);

@@ -2,8 +2,7 @@
 
 #include "radiosity/mesh/enclosed_sides.h"
 #include "scenes/sampling.h"
-
-#include "scenes/materials/normal_map.h"
+#include "scenes/surfaces/curved_patches.h"
 
 #include <tbb/parallel_for.h>
 
@@ -99,12 +98,6 @@ DarkSides enclosed_patches(const SurfaceModel& surfaces, const EnclosedSides& en
   return dark;
 }
 
-bool is_bent_patch(const Scene& scene, const Patch& patch) {
-  return std::ranges::any_of(patch.triangles, [&](TriangleId triangle) {
-    return triangle != none<TriangleId> && is_bent(scene, triangle);
-  });
-}
-
 } // namespace
 
 DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays) {
@@ -133,7 +126,7 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
     const Material& material = material_of_patch(patch);
     // Light may reach a curve over a facet that it does not reach.
     if (!material.double_sided || is_emitter(material) || material.unlit ||
-        is_bent_patch(scene, patch))
+        material.normal_texture || is_curved(scene, patch))
       return;
     const Surface& surface = surfaces.surfaces[index(patch.surface)];
     for (std::size_t facing = 0; facing < 2; ++facing) {

@@ -41,8 +41,7 @@ Scene coloured_room() {
   return scene;
 }
 
-/// The emission that a ray from the origin of the room's globe meets, by the method of the walls
-/// at an infinite distance: the largest coordinate names the wall.
+/// The emission of the wall that a ray from inside the room meets.
 glm::vec3 wall_towards(const Scene& room, const Point3& from, const Direction& d) {
   double nearest = std::numeric_limits<double>::infinity();
   std::size_t wall = 0;
@@ -56,6 +55,21 @@ glm::vec3 wall_towards(const Scene& room, const Point3& from, const Direction& d
   return glm::vec3(room.materials[wall].emission);
 }
 
+/// Calls visit(x, y, point, direction) for pixels of a picture of 64 x 64 whose middle rays meet
+/// the unit sphere well inside its outline, which is outside that of its facets.
+template <typename Visit>
+void for_each_on_sphere(const Camera& camera, const Visit& visit) {
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const CameraRay ray = camera_ray(camera, 1.0, (x + 0.5) / 64.0, (y + 0.5) / 64.0);
+      const Direction d = glm::normalize(ray.direction);
+      const double b = glm::dot(ray.origin, d), c = glm::dot(ray.origin, ray.origin) - 1.0,
+                   root = b * b - c;
+      if (root >= 0.2)
+        visit(x, y, ray.origin + (-b - std::sqrt(root)) * d, d);
+    }
+}
+
 /// Of the pixels well inside the globe's outline, the share that shows another wall than the
 /// sphere's mirror image does.
 double wrong_share(GivenNormals normals) {
@@ -65,19 +79,11 @@ double wrong_share(GivenNormals normals) {
   const Camera camera = look_at({0.3, 0.4, 4.0}, Point3(0.0), 0.5);
   const Image image = picture(lit_up(scene, coarse()), camera, size(64, 64, 1));
   int wrong = 0, all = 0;
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x) {
-      const CameraRay ray = camera_ray(camera, 1.0, (x + 0.5) / 64.0, (y + 0.5) / 64.0);
-      const Direction d = glm::normalize(ray.direction);
-      const double b = glm::dot(ray.origin, d),
-                   c = glm::dot(ray.origin, ray.origin) - 1.0, root = b * b - c;
-      if (root < 0.2) // the facets' outline is inside the sphere's
-        continue;
-      const Point3 hit = ray.origin + (-b - std::sqrt(root)) * d;
-      const glm::vec3 truth = wall_towards(room, hit, d - 2.0 * glm::dot(d, hit) * hit);
-      ++all;
-      wrong += glm::distance(image.at(x, y), truth) > 1e-3F ? 1 : 0;
-    }
+  for_each_on_sphere(camera, [&](int x, int y, const Point3& hit, const Direction& d) {
+    const glm::vec3 truth = wall_towards(room, hit, d - 2.0 * glm::dot(d, hit) * hit);
+    ++all;
+    wrong += glm::distance(image.at(x, y), truth) > 1e-3F ? 1 : 0;
+  });
   return double(wrong) / double(all);
 }
 
@@ -105,23 +111,15 @@ void expect_shaded_as_a_sphere(const Material& material) {
   settings.diffuse.term = DiffuseTerm::direct;
   const Image image = picture(lit_up(scene, coarse()), camera, settings);
   int seen = 0;
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x) {
-      const CameraRay ray = camera_ray(camera, 1.0, (x + 0.5) / 64.0, (y + 0.5) / 64.0);
-      const Direction d = glm::normalize(ray.direction);
-      const double b = glm::dot(ray.origin, d),
-                   c = glm::dot(ray.origin, ray.origin) - 1.0, root = b * b - c;
-      if (root < 0.2)
-        continue;
-      // The facet is met up to 0.017 radii behind the sphere, at another place of it
-      // where the ray is slanted.
-      const Point3 hit = ray.origin + (-b - std::sqrt(root)) * d;
-      const double cosine = std::max(0.0, glm::dot(hit, towards));
-      EXPECT_NEAR(image.at(x, y).g, 0.8 * 3.0 / std::numbers::pi * cosine,
-                  0.8 * 3.0 / std::numbers::pi * 0.03)
-          << x << " " << y;
-      ++seen;
-    }
+  for_each_on_sphere(camera, [&](int x, int y, const Point3& hit, const Direction&) {
+    // The facet is met up to 0.017 radii behind the sphere, at another place of it
+    // where the ray is slanted.
+    const double cosine = std::max(0.0, glm::dot(hit, towards));
+    EXPECT_NEAR(image.at(x, y).g, 0.8 * 3.0 / std::numbers::pi * cosine,
+                0.8 * 3.0 / std::numbers::pi * 0.03)
+        << x << " " << y;
+    ++seen;
+  });
   EXPECT_GT(seen, 1000);
 }
 

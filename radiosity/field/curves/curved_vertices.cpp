@@ -4,6 +4,7 @@
 #include "radiosity/mesh/vertex_welder.h"
 #include "scenes/rays/curved_origin.h"
 #include "scenes/shading_normal.h"
+#include "scenes/surfaces/curved_patches.h"
 
 #include <tbb/parallel_for.h>
 
@@ -51,10 +52,7 @@ TrianglePoint point_of_patch(const LightScene& light, PatchId patch, const Point
 }
 
 bool is_curved(const LightScene& light, const MeshSide& side) {
-  return std::ranges::any_of(
-      light.surfaces.patches[index(side.patch)].triangles, [&](TriangleId triangle) {
-        return triangle != none<TriangleId> && light.scene.triangles[index(triangle)].curved;
-      });
+  return is_curved(light.scene, light.surfaces.patches[index(side.patch)]);
 }
 
 const MeshSide& side_of_vertex(const ElementMesh& mesh, std::size_t v) {
