@@ -33,6 +33,15 @@ TEST(ViewTransform, NeutralCompressesWhatIsBrighter) {
   EXPECT_LT(distance(displayed(ViewTransform::neutral, dvec3(1.96)), dvec3(shown)), 1e-12);
 }
 
+// (2, 0.54, 0.54) less 0.04 has the peak 1.96, which becomes 1 - 0.0576 / 1.44 = 0.96, one less; so
+// much of the way, 1 - 1 / 1.15, the colour pales.
+TEST(ViewTransform, NeutralPalesTowardsThePeak) {
+  const double pale = 1.0 - 1.0 / 1.15, other = 0.5 * 0.96 / 1.96;
+  const double shown = (1.0 - pale) * other + pale * 0.96;
+  EXPECT_LT(distance(displayed(ViewTransform::neutral, {2.0, 0.54, 0.54}), {0.96, shown, shown}),
+            1e-12);
+}
+
 // Middle grey, 0.18, is where the range of 16.5 stops says: sigmoid(10 / 16.5)^2.2 by the
 // polynomial, half of the display's range of codes; the matrices keep greys to 1e-3.
 TEST(ViewTransform, AgxShowsMiddleGreyAtHalfOfTheCodes) {

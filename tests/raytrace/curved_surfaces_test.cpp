@@ -98,7 +98,8 @@ TEST(CurvedSurfaces, AMirrorGlobeReflectsAsTheSphere) {
 // Under a directional light the globe has L = rho E cos / pi with the sphere's cosine: the
 // interpolated normal is off by 0.009 radians at most.
 // Double-sided facets that turn away from the sun are lit where the curve over them is.
-void expect_shaded_as_a_sphere(const Material& material) {
+void expect_shaded_as_a_sphere(const Material& material, DiffuseTerm term,
+                               double element_size = 0.5) {
   Scene scene;
   add_globe(scene, "ball", {}, material, GivenNormals::smooth);
   const Direction towards = glm::normalize(Vec3(1.0, 0.3, 0.2));
@@ -108,8 +109,10 @@ void expect_shaded_as_a_sphere(const Material& material) {
                           .direction = -towards});
   const Camera camera = look_at({0.0, 0.0, 4.0}, Point3(0.0), 0.5);
   RenderSettings settings = size(64, 64, 1);
-  settings.diffuse.term = DiffuseTerm::direct;
-  const Image image = picture(lit_up(scene, coarse()), camera, settings);
+  settings.diffuse.term = term;
+  PassOneSettings pass_one = coarse();
+  pass_one.mesh.element_size = element_size;
+  const Image image = picture(lit_up(scene, pass_one), camera, settings);
   int seen = 0;
   for_each_on_sphere(camera, [&](int x, int y, const Point3& hit, const Direction&) {
     // The facet is met up to 0.017 radii behind the sphere, at another place of it
@@ -124,8 +127,13 @@ void expect_shaded_as_a_sphere(const Material& material) {
 }
 
 TEST(CurvedSurfaces, ADiffuseGlobeIsShadedAsTheSphereUpToItsTerminator) {
-  expect_shaded_as_a_sphere(diffuse(0.8));
-  expect_shaded_as_a_sphere(double_sided(diffuse(0.8)));
+  expect_shaded_as_a_sphere(diffuse(0.8), DiffuseTerm::direct);
+  expect_shaded_as_a_sphere(double_sided(diffuse(0.8)), DiffuseTerm::direct);
+}
+
+// Vertices of facets that are divided gather by the curve's normal: the field is that of the sphere.
+TEST(CurvedSurfaces, TheFieldOfADividedGlobeIsThatOfTheSphere) {
+  expect_shaded_as_a_sphere(diffuse(0.8), DiffuseTerm::interpolated, 0.05);
 }
 
 /// A closed room of E = 1 and rho = 1/2 with a globe of the same rho: L = 2 / pi everywhere.
