@@ -1,4 +1,5 @@
 #include "mirror/mirrors.h"
+#include "tests/support/globes.h"
 #include "tests/support/random.h"
 #include "tests/support/scene_builder.h"
 
@@ -168,6 +169,25 @@ TEST(FindMirrors, AFacetedSphereIsNotEnumerated) {
   EXPECT_TRUE(set.mirrors.empty());
   EXPECT_EQ(set.facets, set.mirror_of_surface.size());
   EXPECT_GE(set.facets, 400U);
+}
+
+// What reflects by normals that turn has no one image, however few its planes are; a flat mirror
+// in the plane of one of its facets keeps its own.
+TEST(FindMirrors, WhatIsCurvedIsFollowedByRaysAlone) {
+  for (const GivenNormals normals : {GivenNormals::flat, GivenNormals::smooth}) {
+    Scene scene;
+    add_globe(scene, "ball", {.meridians = 4, .parallels = 3}, mirror(0.9), normals);
+    const std::size_t of_ball = mirrors_of(scene).mirrors.size();
+    EXPECT_EQ(of_ball > 0, normals == GivenNormals::flat);
+    const auto p = corners(scene, TriangleId{0});
+    const Vec3 aside = 3.0 * glm::normalize(p[1] - p[0]);
+    add_polygon(scene, "wall", {p[0] + aside, p[1] + aside, p[2] + aside}, mirror(0.9));
+    const MirrorSet set = mirrors_of(scene);
+    if (normals == GivenNormals::smooth) {
+      ASSERT_EQ(set.mirrors.size(), 1U);
+      EXPECT_NEAR(set.mirrors[0].area, glm::length(area_vector(p)), 1e-9);
+    }
+  }
 }
 
 TEST(FindMirrors, APlaneMirrorBesideAFacetedSphereStays) {
