@@ -70,8 +70,8 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "`--diffuse direct` most; `--error` and `--time` use it by themselves."},
       {"--diffuse",
        "`interpolated` shows pass one as it is at the vertices. `direct` computes direct light, also "
-       "that reflected by mirrors, at every hit: shadows are as sharp as they are. `gather` gathers "
-       "all light at the hit, which takes longest."},
+       "that reflected by mirrors, as fine as the view's pixels: shadows are as sharp as they are. "
+       "`gather` gathers all light at the hit, which takes longest."},
       {"--elements", "a huge ground plane gets at most 75 % of the elements."},
       {"--element-size",
        "elements that thin walls or sheets cross are divided further, so that no light leaks through."},

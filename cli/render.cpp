@@ -76,8 +76,8 @@ void add_picture_options(Options& command, RenderOptions& options) {
         options.common.settings.mode = parse_choice("--mode", text, modes);
       });
   add("--diffuse", "interpolated|direct|gather",
-      "light on diffuse surfaces: interpolated between vertices, direct light computed at each "
-      "hit, or all light gathered there [interpolated; direct with --quality fine]",
+      "light on diffuse surfaces: interpolated between vertices, direct light computed as fine as "
+      "pixels, or all light gathered at each hit [direct; interpolated with --quality draft]",
       [&](const std::string& text) { options.common.settings.diffuse = parse_diffuse(text); });
   add("--camera", "NAME", "camera to render [the first]",
       [&](const std::string& text) { request.camera = text; });

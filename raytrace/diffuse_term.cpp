@@ -61,26 +61,4 @@ glm::vec3 irradiance_at_point(const DiffuseSource& source, const glm::vec3& fiel
                  part);
 }
 
-glm::vec3 direct_of_pixel(const LightScene& light, const DiffuseSettings& settings,
-                          ReflectedPart part, std::span<const NumberedPoint> points,
-                          std::uint32_t seed, SharedLightWorkspace& work) {
-  constexpr double alike = 0.005; // relative: too little to be seen
-  std::uint32_t next = 0;
-  const auto next_point = [&] { return points[next++]; };
-  return part_of(mean_direct_irradiance(light, next_point,
-                                   {.points = 2,
-                                    .most_points = static_cast<int>(points.size()),
-                                    .images = settings.direct.images,
-                                    .rays = settings.shared_shadow_rays,
-                                    .penumbra_rays = settings.direct.penumbra_rays,
-                                    .solid_rays = settings.shared_solid_rays,
-                                    .unsure = alike,
-                                    .unsure_shadow = alike,
-                                    .brightest_most = true,
-                                    .punctual_everywhere = true,
-                                    .learns = true},
-                                   seed, work),
-                 part);
-}
-
 } // namespace meninas

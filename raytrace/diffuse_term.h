@@ -1,7 +1,8 @@
 // The diffuse term of pass two at a point: the irradiance that a surface reflects there.
 //
 //   interpolated   H = the field of pass one
-//   direct         H = D(x) + the interpolated field without D: what emitters and their mirror images send is computed at the point itself,
+//   direct         H = D(x) + the interpolated field without D: what emitters and their mirror images send is computed at the point itself.
+//                  A picture looks it up in a field that is as fine as its pixels (views/view_light.h),
 //                  so that shadows and mirror spots are as sharp as they are
 //   gather         H = D(x) + one gathering over the hemisphere, from elements as bright as the field says
 //
@@ -9,12 +10,11 @@
 // point_irradiance.h), so that none is counted twice.
 #pragma once
 
+#include "radiosity/field/view/view_field.h"
 #include "radiosity/light/point_irradiance.h"
-#include "radiosity/light/shared_light.h"
 #include "raytrace/field_shading.h"
 
 #include <memory>
-#include <span>
 
 namespace meninas {
 
@@ -24,10 +24,7 @@ struct DiffuseSettings {
   DiffuseTerm term = DiffuseTerm::interpolated;
   DirectSettings direct{
       .shadow_rays = 16, .penumbra_rays = 64, .solid_rays = 16}; ///< at a camera ray's hit
-  /// Where the hits of a pixel share them, to begin with:
-  /// fewer do, as later hits correct them. A hit by itself believes its first ones.
-  int shared_shadow_rays = 16;
-  int shared_solid_rays = 256; ///< of all hits of a pixel together
+  ViewRefinement refinement; ///< of the field that a picture with `direct` is looked up in
   FormFactorSettings gather; ///< how the rays of `gather` are followed
   PointGatheringSettings points{.rays = 64, .cluster_shadow_rays = 4}; ///< of `gather`, at a hit
   /// Of `gather`: in so many of the places where the rays of a hit land light is gathered once
@@ -59,11 +56,5 @@ struct DiffuseSource {
 /// H at a point, W/m^2. `field` is what the interpolated part of it says there.
 glm::vec3 irradiance_at_point(const DiffuseSource& source, const glm::vec3& field,
                               const Receiver& receiver, std::uint32_t seed, PointWorkspace& work);
-
-/// The mean of D over points of one plane that one pixel sees, which share their shadow rays:
-/// the term `direct`, but for the field.
-glm::vec3 direct_of_pixel(const LightScene& light, const DiffuseSettings& settings,
-                          ReflectedPart part, std::span<const NumberedPoint> points, std::uint32_t seed,
-                          SharedLightWorkspace& work);
 
 } // namespace meninas

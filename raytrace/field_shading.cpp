@@ -22,7 +22,8 @@ std::vector<SideShading> make_side_shading(const Scene& scene, const ElementMesh
 VisibleLight visible_light(const IrradianceField& field,
                            FieldContent content) {
   return {make_side_shading(field.scene->scene, field.mesh()),
-          content == FieldContent::all ? field.irradiance : field.indirect, ReflectedPart::all,
+          content == FieldContent::all ? field.irradiance : field.indirect, field.lookup(),
+          field.corners(), ReflectedPart::all,
           glm::vec3(field.scene->scene.background)};
 }
 
@@ -39,9 +40,15 @@ std::vector<LightPart> light_parts(const IrradianceField& field,
   std::vector<glm::vec3> straight = all.irradiance;
   for (std::size_t v = 0; v < straight.size(); ++v)
     straight[v] = glm::max(straight[v] - mirrored[v], glm::vec3(0.0F));
-  return {{"emission", {glowing, all.irradiance, ReflectedPart::none, all.background}},
-          {"diffuse.direct", {reflecting, std::move(straight), ReflectedPart::straight, {}}},
-          {"diffuse.mirrored", {reflecting, mirrored, ReflectedPart::mirrored, {}}}};
+  const auto part = [&](auto& shading, std::vector<glm::vec3> irradiance, ReflectedPart of,
+                        const glm::vec3& background) -> VisibleLight {
+    return {shading, std::move(irradiance), all.lookup, all.corners, of, background};
+  };
+  return {{"emission", part(glowing, all.irradiance, ReflectedPart::none, all.background)},
+          {"diffuse.direct",
+           part(reflecting, std::move(straight), ReflectedPart::straight, glm::vec3(0.0F))},
+          {"diffuse.mirrored",
+           part(reflecting, mirrored, ReflectedPart::mirrored, glm::vec3(0.0F))}};
 }
 
 } // namespace meninas

@@ -25,10 +25,12 @@ std::vector<SideShading> make_side_shading(const Scene& scene, const ElementMesh
 /// by its last leg, straight or by way of mirrors.
 enum class ReflectedPart { all, straight, mirrored, none };
 
-/// What landing points show.
+/// What landing points show. Refers to the field it is of.
 struct VisibleLight {
   std::vector<SideShading> shading;  ///< by SideId
   std::vector<glm::vec3> irradiance; ///< by ElementVertexId: of the part, all of it or the indirect
+  const ElementTable& lookup;        ///< of the field, as the next
+  std::span<const ElementCorners> corners; ///< by cell
   ReflectedPart part = ReflectedPart::all;
   glm::vec3 background{0.0F}; ///< radiance where nothing is met
 };
@@ -52,17 +54,18 @@ struct LightPart {
 std::vector<LightPart> light_parts(const IrradianceField& field,
                                    FieldContent content);
 
-/// Sums over points (s, t) of one element: of 1, s, t and s t. The field is linear in them.
+/// Sums over points (s, t) of one cell: of 1, s, t and s t. The field is linear in them.
 struct PointSums {
   float n = 0.0F, s = 0.0F, t = 0.0F, st = 0.0F;
 };
 
-/// The sum of the irradiances, and of the radiances, at points of an element.
+/// The sum of the irradiances at points of a cell.
 /// Points of a triangle have no sum of s t: its third corner stands for its fourth, so the bilinear
 /// form without the product s t is the linear one.
-inline glm::vec3 field_irradiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
-                                  std::uint32_t element, const PointSums& p) {
-  const auto& corners = mesh.corners[element];
+inline glm::vec3 field_irradiance(std::span<const ElementCorners> cells,
+                                  std::span<const glm::vec3> irradiance, std::uint32_t cell,
+                                  const PointSums& p) {
+  const auto& corners = cells[cell];
   const glm::vec3& h0 = irradiance[index(corners[0])];
   const glm::vec3& h1 = irradiance[index(corners[1])];
   const glm::vec3& h2 = irradiance[index(corners[2])];
@@ -70,29 +73,21 @@ inline glm::vec3 field_irradiance(const ElementMesh& mesh, std::span<const glm::
   return (p.n - p.s - p.t + p.st) * h0 + (p.s - p.st) * h1 + p.st * h2 + (p.t - p.st) * h3;
 }
 
-inline glm::vec3 field_radiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
-                                const SideShading& shading, std::uint32_t element,
-                                const PointSums& p) {
-  return p.n * shading.emitted +
-         shading.albedo_over_pi * field_irradiance(mesh, irradiance, element, p);
-}
 
 /// The one point (u, v) of a side.
 struct FieldPoint {
-  std::uint32_t element;
+  std::uint32_t element; ///< or cell of the field
   PointSums place;
 };
-inline FieldPoint field_point(const LandingTable& landing, std::uint32_t side, glm::vec2 uv) {
-  const Landing at = land(landing, side, uv);
-  const float st = landing.sides[side].triangle ? 0.0F : at.st.x * at.st.y;
+inline FieldPoint field_point(const ElementTable& lookup, std::uint32_t side, glm::vec2 uv) {
+  const Landing at = land(lookup, side, uv);
+  const float st = lookup.sides[side].triangle ? 0.0F : at.st.x * at.st.y;
   return {at.element, {1.0F, at.st.x, at.st.y, st}};
 }
 
-inline glm::vec3 field_radiance(const ElementMesh& mesh, std::span<const glm::vec3> irradiance,
-                                const SideShading& shading, const LandingTable& landing,
-                                std::uint32_t side, glm::vec2 uv) {
-  const FieldPoint at = field_point(landing, side, uv);
-  return field_radiance(mesh, irradiance, shading, at.element, at.place);
+inline glm::vec3 field_irradiance(const VisibleLight& visible, std::uint32_t side, glm::vec2 uv) {
+  const FieldPoint at = field_point(visible.lookup, side, uv);
+  return field_irradiance(visible.corners, visible.irradiance, at.element, at.place);
 }
 
 } // namespace meninas

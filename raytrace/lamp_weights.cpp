@@ -26,7 +26,7 @@ float share_of_rays(const RenderContext& context, const LaneState& state, const 
   const double area =
       side.textured
           ? light.mesh
-                .area[field_point(light.landing, face.side, uv_of(light, face, hits, k)).element]
+                .area[field_point(light.landing.elements, face.side, uv_of(light, face, hits, k)).element]
           : light.surfaces.patches[index(side.patch)].area;
   const double distance =
       double{ray.since_lobe} + double{hits.distance[k]} / light.rays.frame().scale;

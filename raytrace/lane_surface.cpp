@@ -115,9 +115,8 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
                              const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
                              TileWorkspace& work) {
   const LightScene& light = context.light;
-  const FieldPoint at = field_point(light.landing, face.side, uv_of(light, face, hits, k));
   const glm::vec3 field =
-      field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
+      field_irradiance(context.visible, face.side, uv_of(light, face, hits, k));
   const bool in_lobe = state.specular && state.specular[k].lobes > 0;
   const DiffuseSettings& diffuse = in_lobe ? context.behind_lobes : context.settings.diffuse;
   if (diffuse.term == DiffuseTerm::interpolated && face.mapped &&
@@ -136,8 +135,9 @@ glm::vec3 radiance_of_lane(const LandedLane& lane, TileWorkspace& work) {
   if (context.settings.diffuse.term != DiffuseTerm::interpolated || face.mapped)
     return shading.emitted +
            shading.albedo_over_pi * irradiance_of_lane(context, state, face, hits, k, work);
-  return field_radiance(context.light.mesh, context.visible.irradiance, shading,
-                        context.light.landing, face.side, uv_of(context.light, face, hits, k));
+  return shading.emitted +
+         shading.albedo_over_pi *
+             field_irradiance(context.visible, face.side, uv_of(context.light, face, hits, k));
 }
 
 } // namespace meninas

@@ -1,4 +1,5 @@
 #include "raytrace/pixels/sample_choice.h"
+#include "raytrace/views/view_light.h"
 
 namespace meninas {
 
@@ -18,12 +19,17 @@ static std::vector<SampleRound> chosen_samples(const IrradianceField& field,
       picture);
 }
 
-Rendering render_layers(const IrradianceField& field, const Camera& camera,
-                        const RenderSettings& settings, const Progress& progress) {
+Rendering render_layers(const IrradianceField& coarse, const Camera& camera,
+                        const RenderSettings& asked, const Progress& progress) {
+  const ViewLight light = light_for_view(coarse, camera, asked);
+  const IrradianceField& field = light.field ? *light.field : coarse;
+  const RenderSettings& settings = light.settings;
   expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
   expects(field.mirrored.size() == field.irradiance.size(), "the field knows its mirrored part");
   Rendering result;
   result.image = Image(settings.width, settings.height);
+  result.finer = light.field;
+  result.shadow_rays = light.shadow_rays;
   const auto gathering = make_gathering(field, settings.diffuse);
   const auto rounds = chosen_samples(field, gathering.get(), camera, settings, result);
   result.samples = counts_of(rounds, result.image.pixels.size());

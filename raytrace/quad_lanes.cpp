@@ -56,8 +56,9 @@ LaneIndices faces_of(const HitPacket& hits) {
 }
 
 MENINAS_WIDE_LANES
-LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const SideRecord& side,
+LanePoints land_on_quad(const LightScene& light, const ElementTable& lookup, const FaceRecord& face,
                         const HitPacket& hits, std::uint32_t lanes) {
+  const SideRecord& side = lookup.sides[face.side];
   LanePoints at;
   if (face.map != UvMap::general) {
     const glm::vec2 uv0 = face.uv0, uv1 = face.uv1, uv2 = face.uv2;
@@ -94,7 +95,7 @@ LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const S
   if (side.divided)
     for_each_lane(lanes, [&](std::uint32_t k) {
       const Landing found =
-          descend(light.landing, false, {at.element[k], glm::vec2(at.s[k], at.t[k])});
+          descend(lookup, false, {at.element[k], glm::vec2(at.s[k], at.t[k])});
       at.element[k] = found.element;
       at.s[k] = found.st.x;
       at.t[k] = found.st.y;
@@ -118,7 +119,7 @@ static inline ElementLanes lanes_on(const AllBits& elements, std::uint32_t eleme
 }
 
 MENINAS_WIDE_LANES
-glm::vec3 quad_radiance(const ElementMesh& mesh, const VisibleLight& visible, std::uint32_t side,
+glm::vec3 quad_radiance(const VisibleLight& visible, std::uint32_t side,
                         const LanePoints& at, std::uint32_t lanes) {
   alignas(64) LaneIndices elements = at.element;
   if (lanes != all_lanes)
@@ -135,7 +136,7 @@ glm::vec3 quad_radiance(const ElementMesh& mesh, const VisibleLight& visible, st
     const std::uint32_t element = elements[static_cast<std::size_t>(std::countr_zero(lanes))];
     const ElementLanes here = lanes_on(all, element, s, t);
     lanes &= ~here.lanes;
-    irradiance += field_irradiance(mesh, visible.irradiance, element, here.sums);
+    irradiance += field_irradiance(visible.corners, visible.irradiance, element, here.sums);
   }
   const SideShading& shading = visible.shading[side];
   return count * shading.emitted + shading.albedo_over_pi * irradiance;

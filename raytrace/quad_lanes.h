@@ -20,7 +20,7 @@ inline glm::vec2 uv_of(const LightScene& light, const FaceRecord& face, const Hi
 using LaneFloats = std::array<float, packet_size>;
 using LaneIndices = std::array<std::uint32_t, packet_size>;
 
-/// Where on a quad side the lanes have landed: element, and place in it.
+/// Where on a quad side the lanes have landed: element or cell of the field, and place in it.
 struct alignas(64) LanePoints {
   LaneIndices element;
   LaneFloats s, t;
@@ -28,7 +28,7 @@ struct alignas(64) LanePoints {
 
 /// land(), sixteen at a time, of the lanes that have hit the face. Where the others are said to be
 /// is without meaning: they may have hit nothing, and then have no triangle to be looked up.
-LanePoints land_on_quad(const LightScene& light, const FaceRecord& face, const SideRecord& side,
+LanePoints land_on_quad(const LightScene& light, const ElementTable& lookup, const FaceRecord& face,
                         const HitPacket& hits, std::uint32_t lanes);
 
 /// Calls visit(k) for the lanes whose bits are set.
@@ -48,7 +48,7 @@ LaneIndices faces_of(const HitPacket& hits);
 
 /// The sum of the radiances at the points of some lanes, with one look-up for each element:
 /// the bilinear field is linear in the sums of 1, s, t and s t.
-glm::vec3 quad_radiance(const ElementMesh& mesh, const VisibleLight& visible, std::uint32_t side,
+glm::vec3 quad_radiance(const VisibleLight& visible, std::uint32_t side,
                         const LanePoints& at, std::uint32_t lanes);
 
 } // namespace meninas

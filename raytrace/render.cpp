@@ -2,6 +2,7 @@
 
 #include "raytrace/views/features.h"
 #include "raytrace/pixels/sample_choice.h"
+#include "raytrace/views/view_light.h"
 
 #include <algorithm>
 #include <iterator>
@@ -32,11 +33,15 @@ static Rendering render_light(const IrradianceField& field,
 Rendering render(const IrradianceField& field, const Camera& camera,
                  const RenderSettings& settings, const Progress& progress) {
   expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
+  const ViewLight light = light_for_view(field, camera, settings);
+  const IrradianceField& shown = light.field ? *light.field : field;
   Rendering result = settings.layers == WithLayers::yes
-                         ? render_layers(field, camera, settings, progress)
-                         : render_light(field, camera, settings, progress);
+                         ? render_layers(shown, camera, light.settings, progress)
+                         : render_light(shown, camera, light.settings, progress);
   std::ranges::move(render_features(field, camera, settings),
                     std::back_inserter(result.layers));
+  result.finer = light.field;
+  result.shadow_rays += light.shadow_rays;
   return result;
 }
 

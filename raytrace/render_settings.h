@@ -7,6 +7,7 @@
 #include "raytrace/pixels/pixel_filter.h"
 
 #include <array>
+#include <memory>
 #include <string_view>
 
 namespace meninas {
@@ -50,6 +51,7 @@ struct Rendering {
   SampleCounts samples;
   std::vector<Layer>
       layers; ///< of render_layers: they add up to the image, in their order; then features
+  std::shared_ptr<const IrradianceField> finer; ///< that the picture shows (views/view_light.h); null: the one that was asked for
   std::uint64_t camera_rays = 0;
   std::uint64_t specular_rays = 0;
   std::uint64_t sure_rays = 0;   ///< of these two, not traced (coherent_beams.h)

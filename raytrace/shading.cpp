@@ -6,90 +6,11 @@
 #include "raytrace/scattering.h"
 #include "raytrace/specular_rays.h"
 
-#include <limits>
 #include <numbers>
 
 namespace meninas {
 
 namespace {
-
-/// Lanes in a row whose samples of one pixel have landed on one side.
-struct LaneRun {
-  std::uint32_t first, end;
-};
-
-/// The sum of H over a run, D from shadow rays that all share.
-glm::vec3 run_irradiance(const RenderContext& context, const LaneState& state,
-                               const FaceRecord& face, const HitPacket& hits, LaneRun run,
-                               TileWorkspace& work) {
-  const LightScene& light = context.light;
-  glm::vec3 field(0.0F);
-  work.points.clear();
-  for (std::uint32_t k = run.first; k < run.end; ++k) {
-    const FaceRecord& own = face_of(light.landing, hits, k);
-    const FieldPoint at = field_point(light.landing, face.side, uv_of(light, own, hits, k));
-    field += field_irradiance(light.mesh, context.visible.irradiance, at.element, at.place);
-    // What the plane of an element cannot see, the curve over it may.
-    const ElementId element = own.curved ? none<ElementId> : static_cast<ElementId>(at.element);
-    work.points.push_back({receiver_at(light, own, hits, k), k - run.first, element});
-  }
-  const DiffuseSettings& diffuse = context.settings.diffuse;
-  const std::uint32_t key = hash(state.key(run.first, context.settings.seed), diffuse.draw);
-  return field +
-         static_cast<float>(run.end - run.first) *
-             direct_of_pixel(light, diffuse, context.visible.part, work.points, key, work.shared);
-}
-
-/// The sum of H over a run, lane by lane:
-/// of the first four, which are spread over the pixel, where they agree.
-glm::vec3 irradiance_of_each(const RenderContext& context, const LaneState& state,
-                             const HitPacket& hits, LaneRun run, TileWorkspace& work) {
-  constexpr std::uint32_t few = 4;
-  constexpr float alike = 0.005F; // relative: too little to be seen
-  glm::vec3 sum(0.0F), low(std::numeric_limits<float>::infinity()), high(0.0F);
-  for (std::uint32_t k = run.first; k < run.end; ++k) {
-    const glm::vec3 h =
-        irradiance_of_lane(context, state, face_of(context.light.landing, hits, k), hits, k, work);
-    sum += h;
-    low = glm::min(low, h);
-    high = glm::max(high, h);
-    if (k + 1 == run.first + few && run.end - run.first == packet_size &&
-        glm::all(glm::lessThanEqual(high - low, alike * high)))
-      return static_cast<float>(packet_size) / static_cast<float>(few) * sum;
-  }
-  return sum;
-}
-
-/// The sum of H over a run where it is not that of the field alone.
-glm::vec3 irradiance_of_run(const RenderContext& context, const LaneState& state,
-                            const HitPacket& hits, LaneRun run, TileWorkspace& work) {
-  const ReflectedPart part = context.visible.part;
-  const bool shares = context.settings.diffuse.term == DiffuseTerm::direct &&
-                      run.end - run.first > 1 && part != ReflectedPart::none;
-  const FaceRecord& face = face_of(context.light.landing, hits, run.first);
-  return shares ? run_irradiance(context, state, face, hits, run, work)
-                : irradiance_of_each(context, state, hits, run, work);
-}
-
-/// From lane k on those that have come to the same side,
-/// in the same pixel and by the same way, with light that a run can add up.
-LaneRun run_from(const RenderContext& context, const RayPacket& packet, const LaneState& state,
-                 const HitPacket& hits, const FaceRecord& face, std::uint32_t k) {
-  LaneRun run{k, k + 1};
-  if (context.settings.diffuse.term != DiffuseTerm::direct ||
-      context.visible.shading[face.side].textured)
-    return run;
-  const auto goes_on = [&](std::uint32_t j) {
-    return hits.triangle[j] != index(none<TriangleId>) && state.pixel[j] == state.pixel[k] &&
-           state.way(j) == state.way(k) &&
-           face_of(context.light.landing, hits, j).side == face.side &&
-           face_of(context.light.landing, hits, j).curved == face.curved &&
-           (!state.specular || state.throughput(j) == state.throughput(k));
-  };
-  while (run.end < packet.count && goes_on(run.end))
-    ++run.end;
-  return run;
-}
 
 /// Queues the ray that goes on from where a lane has met an ideal mirror.
 void reflect_lane(const LandedLane& lane, TileWorkspace& work) {
@@ -105,12 +26,11 @@ glm::vec3 radiance_by_itself(const LandedLane& lane, TileWorkspace& work) {
   return lane.face.side == FaceRecord::nothing ? glm::vec3(0.0F) : radiance_of_lane(lane, work);
 }
 
-/// Where light is computed at the hits: lane by lane, or by runs of lanes.
-void shade_by_runs(const RenderContext& context, const RayPacket& packet, const LaneState& state,
-                   const HitPacket& hits, TileWorkspace& work) {
+/// Where light is computed at the hits: lane by lane.
+void shade_by_lanes(const RenderContext& context, const RayPacket& packet, const LaneState& state,
+                    const HitPacket& hits, TileWorkspace& work) {
   const LightScene& light = context.light;
-  glm::vec3 sum(0.0F);   // of lanes of one pixel in a row
-  std::uint32_t lit = 0; // lanes before have their light
+  glm::vec3 sum(0.0F); // of lanes of one pixel in a row
   for (std::uint32_t k = 0; k < packet.count; ++k) {
     glm::vec3 radiance = context.visible.background;
     if (hits.triangle[k] != index(none<TriangleId>)) {
@@ -121,11 +41,9 @@ void shade_by_runs(const RenderContext& context, const RayPacket& packet, const 
       } else {
         const SideShading shading = shading_at(lane);
         radiance = share_of_rays(context, state, face, hits, k) * shading.emitted;
-        if (k >= lit && shading.albedo_over_pi != glm::vec3(0.0F)) {
-          const LaneRun run = run_from(context, packet, state, hits, face, k);
-          radiance += shading.albedo_over_pi * irradiance_of_run(context, state, hits, run, work);
-          lit = run.end;
-        }
+        if (shading.albedo_over_pi != glm::vec3(0.0F))
+          radiance +=
+              shading.albedo_over_pi * irradiance_of_lane(context, state, face, hits, k, work);
       }
       reflect_lane(lane, work);
     }
@@ -142,7 +60,7 @@ void shade_by_runs(const RenderContext& context, const RayPacket& packet, const 
 bool lands_together(const RenderContext& context, const LaneState& state, const FaceRecord& face,
                     const HitPacket& hits, std::uint32_t lanes) {
   if (face.side == FaceRecord::nothing || face.mapped || std::has_single_bit(lanes) ||
-      context.light.landing.sides[face.side].triangle)
+      context.visible.lookup.sides[face.side].triangle)
     return false;
   const auto k = static_cast<std::uint32_t>(std::countr_zero(lanes));
   const SideShading& side = context.visible.shading[face.side];
@@ -164,7 +82,7 @@ std::uint32_t lanes_of_first_pixel(const LaneState& state, std::uint32_t lanes) 
 void add_quad(const RenderContext& context, const LaneState& state, const FaceRecord& face,
               const HitPacket& hits, std::uint32_t lanes, TileWorkspace& work) {
   const LightScene& light = context.light;
-  const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits, lanes);
+  const LanePoints at = land_on_quad(light, context.visible.lookup, face, hits, lanes);
   while (lanes != 0) {
     const auto first = static_cast<std::uint32_t>(std::countr_zero(lanes));
     std::uint32_t alike = lanes_of_first_pixel(state, lanes);
@@ -175,7 +93,7 @@ void add_quad(const RenderContext& context, const LaneState& state, const FaceRe
       });
     lanes &= ~alike;
     work.sums[state.way(first)][state.pixel[first]] +=
-        state.throughput(first) * quad_radiance(light.mesh, context.visible, face.side, at, alike);
+        state.throughput(first) * quad_radiance(context.visible, face.side, at, alike);
   }
 }
 
@@ -209,7 +127,7 @@ void shade_face(const RenderContext& context, const RayPacket& packet, const Lan
 void shade_packet(const RenderContext& context, const RayPacket& packet, const LaneState& state,
                   const HitPacket& hits, TileWorkspace& work) {
   if (context.settings.diffuse.term != DiffuseTerm::interpolated)
-    return shade_by_runs(context, packet, state, hits, work);
+    return shade_by_lanes(context, packet, state, hits, work);
   const LaneIndices faces = faces_of(hits);
   for (std::uint32_t rest = (1U << packet.count) - 1U, lanes = 0; rest != 0; rest &= ~lanes) {
     lanes =
@@ -221,7 +139,7 @@ void shade_packet(const RenderContext& context, const RayPacket& packet, const L
 void shade_alike(const RenderContext& context, const RayPacket& packet, const LaneState& state,
                  const HitPacket& hits, TileWorkspace& work) {
   if (context.settings.diffuse.term != DiffuseTerm::interpolated)
-    return shade_by_runs(context, packet, state, hits, work);
+    return shade_by_lanes(context, packet, state, hits, work);
   shade_face(context, packet, state, hits, all_lanes, work);
 }
 

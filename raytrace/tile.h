@@ -59,8 +59,6 @@ struct TileWorkspace {
   std::vector<PunctualArrival> highlights;
   std::vector<EmissionSample> lamps;
   PointWorkspace point;        ///< of diffuse terms computed at the hit
-  SharedLightWorkspace shared; ///< of those that a pixel's hits share
-  std::vector<NumberedPoint> points; ///< of a run
   std::uint64_t camera_rays = 0, specular_rays = 0;
   std::uint64_t sure_rays = 0; ///< of these, not traced
 };

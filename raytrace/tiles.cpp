@@ -100,7 +100,7 @@ static RayTotals totals_of(const tbb::enumerable_thread_specific<TileWorkspace>&
     totals.camera += work.camera_rays;
     totals.specular += work.specular_rays;
     totals.sure += work.sure_rays;
-    totals.shadow += work.point.direct.shadow_rays + work.shared.point.shadow_rays;
+    totals.shadow += work.point.direct.shadow_rays;
     totals.gather += work.point.rays;
   }
   return totals;
@@ -122,7 +122,6 @@ RayTotals trace_picture(const TracedView& view, const SampleShare& share, const 
     const TileArea tile{x0, y0, std::min(tile_size, settings.width - x0),
                         std::min(tile_size, settings.height - y0)};
     TileWorkspace& work = workspaces.local();
-    work.shared.blockers_of.clear();
     render_tile(context, tile, work, store);
     if (progress)
       progress("render", double(++done) / (columns * rows));
@@ -140,7 +139,6 @@ RayTotals trace_pixels(const TracedView& view, std::span<const glm::ivec2> pixel
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
   tbb::parallel_for(std::size_t{0}, (pixels.size() + run - 1) / run, [&](std::size_t first) {
     TileWorkspace& work = workspaces.local();
-    work.shared.blockers_of.clear();
     for (std::size_t k = run * first; k < std::min(run * (first + 1), pixels.size()); ++k) {
       const auto keep = [&](int, int, const SeenRadiance& seen) {
         store(static_cast<int>(k), 0, seen);

@@ -7,19 +7,28 @@ namespace meninas {
 RenderQuality render_quality(Quality quality) {
   switch (quality) {
   case Quality::draft:
-    return {
-        .samples = 16, .hit_shadow_rays = 8, .shared_shadow_rays = 4, .pixel_penumbra_rays = 256};
+    return {.samples = 16,
+            .hit_shadow_rays = 8,
+            .pixel_penumbra_rays = 256,
+            .vertex_penumbra_rays = 64,
+            .cell_tolerance = 0.04,
+            .finest_cell = 0.5};
   case Quality::normal:
     return {.samples = 16,
+            .diffuse = DiffuseTerm::direct,
             .hit_shadow_rays = 16,
-            .shared_shadow_rays = 16,
-            .pixel_penumbra_rays = 1024};
+            .pixel_penumbra_rays = 1024,
+            .vertex_penumbra_rays = 128,
+            .cell_tolerance = 0.02,
+            .finest_cell = 0.2};
   case Quality::fine:
     return {.samples = 64,
             .diffuse = DiffuseTerm::direct,
             .hit_shadow_rays = 16,
-            .shared_shadow_rays = 16,
-            .pixel_penumbra_rays = 1024};
+            .pixel_penumbra_rays = 1024,
+            .vertex_penumbra_rays = 512,
+            .cell_tolerance = 0.01,
+            .finest_cell = 0.1};
   }
   return {};
 }
@@ -49,7 +58,10 @@ static DiffuseSettings diffuse_settings(const TwoPassChoice& choice, DiffuseTerm
   result.term = term;
   result.direct.seed = choice.seed;
   result.direct.shadow_rays = quality.hit_shadow_rays;
-  result.shared_shadow_rays = quality.shared_shadow_rays;
+  result.refinement.seed = choice.seed;
+  result.refinement.penumbra_rays = quality.vertex_penumbra_rays;
+  result.refinement.tolerance = quality.cell_tolerance;
+  result.refinement.finest = quality.finest_cell;
   result.direct.penumbra_rays =
       std::max(choice.pixel_error ? 1 : least, quality.pixel_penumbra_rays / samples);
   result.gather = form_factors;

@@ -20,10 +20,11 @@ struct RenderQuality {
   int samples = 0;                                 ///< camera rays per pixel
   DiffuseTerm diffuse = DiffuseTerm::interpolated; ///< of a hybrid picture
   int hit_shadow_rays = 0; ///< from a hit to an emitter, where light is computed there
-  int shared_shadow_rays =
-      0; ///< likewise, to begin with, from each of a pixel's hits that share them
   int pixel_penumbra_rays =
       0; ///< likewise, where the first ones disagree, shared out among a pixel's samples
+  int vertex_penumbra_rays = 0; ///< likewise, from a vertex of the view's cells (ViewRefinement)
+  double cell_tolerance = 0.0;  ///< of what these show (ViewRefinement)
+  double finest_cell = 0.0;     ///< pixels (ViewRefinement)
 };
 RenderQuality render_quality(Quality quality);
 

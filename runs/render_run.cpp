@@ -55,7 +55,8 @@ Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
   figures.seconds.render =
       watch.lap() - pass_one.form_factors - pass_one.solve - pass_one.interpolate;
   report_error({result.solution.field, camera, settings, result.solution.solver},
-               wanted_report(request, events), {result.rendering.image, result.rendering.samples},
+               wanted_report(request, events),
+               {result.rendering.image, result.rendering.samples, result.rendering.finer.get()},
                result.rendering.layers, events, figures);
   return std::move(result.rendering);
 }
@@ -122,7 +123,8 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   check_field(*request.solution, lit.field, settings.render);
   ViewPicture picture = render_view(lit, camera, size, known, events, figures);
   report_error({lit.field, camera, settings, figures.solver}, wanted_report(request, events),
-               {picture.image, picture.samples}, picture.layers, events, figures);
+               {picture.image, picture.samples, picture.finer.get()}, picture.layers, events,
+               figures);
   return picture;
 }
 

@@ -20,6 +20,7 @@ public:
       : folder_(request.folder), prepared_(prepared), camera_(camera), render_(render),
         settings_(settings) {
     render_.layers = WithLayers::no; // of an average nothing is known but the sum
+    render_.diffuse.term = DiffuseTerm::interpolated; // light on its way is as soft as it is
     for (const fs::path& file : like) {
       extensions_.insert(picture_format(file) == PictureFormat::exr ? ".exr" : ".png");
     }

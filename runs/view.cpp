@@ -67,7 +67,8 @@ ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettin
   ViewPicture picture{.image = std::move(rendering.image),
                       .samples = std::move(rendering.samples),
                       .layers = std::move(rendering.layers),
-                      .attributes = attributes_of(scene, camera, settings)};
+                      .attributes = attributes_of(scene, camera, settings),
+                      .finer = std::move(rendering.finer)};
   picture.attributes.emplace_back("mode", used.mode == RenderMode::hybrid ? "hybrid" : "radiosity");
   picture.attributes.emplace_back("samples", std::to_string(used.samples));
   picture.attributes.emplace_back("filter", std::string(name_of(used.filter)));

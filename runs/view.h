@@ -39,6 +39,7 @@ struct ViewPicture {
   SampleCounts samples;
   std::vector<Layer> layers;
   Attributes attributes;
+  std::shared_ptr<const IrradianceField> finer = nullptr; ///< Rendering::finer
 };
 
 /// What the two passes have rendered, with the attributes of this view.

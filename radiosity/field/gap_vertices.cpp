@@ -56,7 +56,7 @@ bool meets_light(const PointGathering& gathering, const std::vector<Rgb>& irradi
   if (face.side == FaceRecord::nothing)
     return face.mirrors;
   const glm::vec2 uv = landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
-  return irradiance[land(light.landing, face.side, uv).element] != Rgb(0.0);
+  return irradiance[land(light.landing.elements, face.side, uv).element] != Rgb(0.0);
 }
 
 /// Those of the points of an element from which the ray along the normal comes to light, by bits.

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace meninas {
@@ -26,12 +27,23 @@ struct VertexIrradiance {
   std::vector<glm::vec3> indirect_mirrored; ///< likewise of `mirrored`
 };
 
+/// Cells between whose corners a field is interpolated, where these are finer than the elements of its mesh.
+struct FieldCells {
+  ElementTable lookup;                 ///< from (u, v) of a side to the cell
+  std::vector<ElementCorners> corners; ///< by cell: the elements first, then their parts
+};
+
 /// The values with the scene on whose mesh they are, which is finer than the mesh that was solved
 /// where elements were divided for the field.
 struct IrradianceField : VertexIrradiance {
   std::shared_ptr<const LightScene> scene;
+  std::shared_ptr<const FieldCells> cells = nullptr; ///< null: the elements (view_field.h). Vertices of theirs come after those of the mesh
 
   const ElementMesh& mesh() const { return scene->mesh; }
+  const ElementTable& lookup() const { return cells ? cells->lookup : scene->landing.elements; }
+  std::span<const ElementCorners> corners() const {
+    return cells ? cells->corners : scene->mesh.corners;
+  }
 };
 
 struct InterpolatedField {

@@ -84,8 +84,7 @@ static Point3 nearest_in(const std::array<Point3, 3>& triangle, const Point3& x)
   return inside ? x : nearest;
 }
 
-/// The point of an element nearest to one of its corners: of a region that may be another place.
-static Point3 nearest_in(const ElementMesh& mesh, ElementId element, const Point3& corner) {
+Point3 nearest_in(const ElementMesh& mesh, ElementId element, const Point3& corner) {
   const RegionElement* region = region_of(mesh, element);
   if (region == nullptr || region->triangles.empty())
     return corner;

@@ -27,6 +27,9 @@ inline std::span<const ElementId> around(const VertexElements& all, std::size_t 
 /// The mean of an element's corners.
 Point3 centre_of(const ElementMesh& mesh, ElementId element);
 
+/// The point of an element nearest to one of its leaf: of a region that may be another place.
+Point3 nearest_in(const ElementMesh& mesh, ElementId element, const Point3& x);
+
 /// Where every vertex gathers, by ElementVertexId: drawn a little towards the middle of its
 /// elements, so that it is inside its own surface and not in the wall that stands on its edge.
 std::vector<Receiver> vertex_receivers(const ElementMesh& mesh);

@@ -194,12 +194,16 @@ void find_lights(const Lighting& light, const NumberedPoint& point, std::uint32_
 void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t seed,
                const SharedLightSettings& settings, SharedLightWorkspace& work) {
   const Receiver& receiver = point.receiver;
-  find_lights(light, point, seed, settings, work);
-  work.at_point.clear();
-  work.parts.clear();
-  for (const VirtualLight& image : work.point.lights)
-    work.at_point.push_back(
-        image_at(light, receiver, image, sum_of(work, light, image, settings), work));
+  const bool knows_images = settings.one_place && point.number > 0 &&
+                            std::ranges::none_of(work.point.lights, &VirtualLight::stands_for_others);
+  if (!knows_images) {
+    find_lights(light, point, seed, settings, work);
+    work.at_point.clear();
+    work.parts.clear();
+    for (const VirtualLight& image : work.point.lights)
+      work.at_point.push_back(
+          image_at(light, receiver, image, sum_of(work, light, image, settings), work));
+  }
   const double most = settings.brightest_most ? max_brought(work) : 0.0;
 
   for (std::size_t i = 0; i < work.at_point.size(); ++i) {
@@ -228,19 +232,22 @@ void meet_blocker(const Lighting& light, const LegBlocker& by, ImageSum& image) 
     blockers.met.push_back(*std::move(blocker));
 }
 
-/// Later means know what rays have met.
-/// Where that is ever more, as it is of finely divided things, rays alone are better.
-void learn(std::vector<ImageSum>& images) {
+/// Later means know what rays have met: returns whether that is more than before.
+/// Where it is ever more, as it is of finely divided things, rays alone are better.
+bool learn(std::vector<ImageSum>& images) {
   constexpr std::size_t most_known = 8;
+  bool any = false;
   for (ImageSum& image : images) {
     if (!image.blockers || image.blockers->met.empty())
       continue;
     auto& [known, met, learned] = *image.blockers;
     learned += met.size();
+    any = true;
     known.insert(known.begin(), met.begin(), met.end());
     known.resize(image.blockers->too_many() ? 0 : std::min(known.size(), most_known));
     met.clear();
   }
+  return any;
 }
 
 /// The waiting rays by their number of mirrors, fewest first, in order where these are as many.
@@ -312,7 +319,8 @@ double penumbra_error(const SharedLightWorkspace& work, const PointSum& sum) {
   for (const ImageSum& image : work.images) {
     const double visible = image.all > 0.0 ? image.seen / image.all : 0.0;
     const double brought = brought_by(image, image.form_factor / sum.points);
-    error += visible * (1.0 - visible) * std::pow(image.rays, -1.5) * brought * brought;
+    if (image.rays > 0)
+      error += visible * (1.0 - visible) * std::pow(image.rays, -1.5) * brought * brought;
   }
   return std::sqrt(error);
 }
@@ -358,7 +366,8 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
     const NumberedPoint next = next_point();
     add_point(light, next, seed, settings, work);
     solid_points.push_back(next.receiver.position);
-    add_punctual(light, next.receiver, sum, work);
+    if (!settings.one_place || sum.points == 0)
+      add_punctual(light, next.receiver, sum, work);
     if (++sum.points < wanted)
       continue;
 
@@ -372,14 +381,11 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
                          penumbra_error(work, sum) <= settings.unsure_shadow * brightest;
     const bool dark = sum.points >= 2 * settings.points && brightest == 0.0;
     if (has_settled || dark || sum.points >= settings.most_points) {
-      learn(work.images);
+      work.has_learned = learn(work.images);
+      work.shadow_error = penumbra_error(work, sum);
       const ArrivingLight by_solids =
           light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);
-      if (!settings.punctual_everywhere || light.punctual.empty())
-        return mean + by_solids;
-      while (sum.punctual_points < settings.most_points)
-        add_punctual(light, next_point().receiver, sum, work);
-      return mean_of(work, sum) + by_solids;
+      return mean + by_solids;
     }
     before = mean.total;
     for (ImageSum& image : work.images)

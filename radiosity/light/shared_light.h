@@ -1,5 +1,5 @@
 // Direct irradiance where several points of one plane share their shadow rays:
-// points of an element, or those on which the samples of a pixel land.
+// points of an element. One point may send its rays in rounds, as many as it takes.
 //
 //   mean_p D(x_p)  ~  sum_w tau_w sum_e E_e  mean_p F(x_p, T_w e past known blockers)  sum_pk g_pk V_pk / sum_pk g_pk
 //
@@ -17,10 +17,6 @@
 // They take the shadows of known blockers out of F exactly and send their rays past them:
 // once all are known V is 1, and a penumbra has no noise.
 // Means are true whatever is known, as it was learned from other rays.
-//
-// Shadows of punctual lights have no penumbra: a mean that settles where four points of sixteen
-// agree takes an edge that leaves them on one side for none, always the same way, so that no
-// number of means makes up for it. Where that shows, in pixels, all points ask for these lights.
 #pragma once
 
 #include "radiosity/light/element_images.h"
@@ -46,8 +42,7 @@ struct SharedLightSettings {
   double unsure_shadow = 0.005; ///< error of the mean by shadow rays, relative
   bool brightest_most =
       false; ///< images that bring less than the brightest one in sight take fewer rays
-  /// Punctual lights are asked for from all of `most_points`, also where the mean has settled.
-  bool punctual_everywhere = false;
+  bool one_place = false; ///< all points are the same one, which sends rays in rounds
   bool learns = false; ///< what blocks its rays, and uses what others have learned
 };
 
@@ -104,6 +99,8 @@ struct SharedLightWorkspace {
   std::vector<std::uint32_t> order, first_with; ///< of these
   ElementImages elements;
   std::vector<PunctualArrival> arrivals;
+  double shadow_error = 0.0; ///< of the last mean, about, by the choice of shadow rays: its brightest channel, W/m^2
+  bool has_learned = false;  ///< something that blocks, from the last mean
   /// By world and emitter. Kept from mean to mean until it is cleared:
   /// to be done where results are not to depend on what came before.
   std::unordered_map<std::uint64_t, ImageBlockers> blockers_of;

@@ -66,13 +66,13 @@ static FaceRecord make_face(const Scene& scene, const SurfaceModel& model, const
 }
 
 /// From every cell to its children, its line or its element.
-static void add_descent(const ElementMesh& mesh, LandingTable& table) {
+static void add_descent(const ElementMesh& mesh, ElementTable& table) {
   for (std::size_t number = 0; number < mesh.cells.size(); ++number) {
     const MeshCell& cell = mesh.cells[number];
     const bool is_cut = !mesh.line_of_cell.empty() && mesh.line_of_cell[number] != uncut;
     table.descent.push_back(!is_leaf(cell) ? index(cell.first_child)
-                            : is_cut       ? LandingTable::cut | mesh.line_of_cell[number]
-                                           : LandingTable::leaf | cell.first_element);
+                            : is_cut       ? ElementTable::cut | mesh.line_of_cell[number]
+                                           : ElementTable::leaf | cell.first_element);
     if (!is_cut)
       continue;
     // The lines of a leaf follow one another, each after the one that leads to it.
@@ -84,12 +84,23 @@ static void add_descent(const ElementMesh& mesh, LandingTable& table) {
         std::copy(from.line.begin(), from.line.end(), table.lines[line].line.begin());
         const bool ends = (from.next[k] & CellLine::region) != 0;
         table.lines[line].next[k] =
-            ends ? LandingTable::leaf | (cell.first_element + (from.next[k] & ~CellLine::region))
-                 : LandingTable::cut | from.next[k];
+            ends ? ElementTable::leaf | (cell.first_element + (from.next[k] & ~CellLine::region))
+                 : ElementTable::cut | from.next[k];
         if (!ends)
           last = std::max(last, from.next[k]);
       }
   }
+}
+
+ElementTable make_element_table(const ElementMesh& mesh, bool all_divided) {
+  ElementTable table;
+  const auto by_cells = [&](const MeshSide& side) { return all_divided || is_divided(side); };
+  for (const auto& side : mesh.sides)
+    table.sides.push_back({by_cells(side) ? side.first_cell : side.first_element, side.nu, side.nv,
+                           side.triangle, by_cells(side)});
+  if (std::any_of(mesh.sides.begin(), mesh.sides.end(), by_cells))
+    add_descent(mesh, table);
+  return table;
 }
 
 LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces,
@@ -106,11 +117,7 @@ LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces
       table.faces.push_back(face);
     }
   }
-  for (const auto& side : mesh.sides)
-    table.sides.push_back({is_divided(side) ? side.first_cell : side.first_element, side.nu,
-                           side.nv, side.triangle, is_divided(side)});
-  if (std::any_of(mesh.sides.begin(), mesh.sides.end(), is_divided))
-    add_descent(mesh, table);
+  table.elements = make_element_table(mesh);
   return table;
 }
 

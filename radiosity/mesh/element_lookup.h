@@ -55,15 +55,23 @@ struct LandingLine {
   std::array<std::uint32_t, 2> next{0, 0}; ///< as in `descent`
 };
 
-struct LandingTable {
+/// From (u, v) of a side to the element.
+struct ElementTable {
   /// Marks the element in `descent`, and the line of a leaf that is cut.
   static constexpr std::uint32_t leaf = 0x80000000U, cut = 0x40000000U;
 
-  std::vector<FaceRecord> faces; ///< [2 triangle + (0 front, 1 back)]
   std::vector<SideRecord> sides; ///< by SideId
   std::vector<std::uint32_t>
       descent; ///< by CellId: `leaf` and the element, `cut` and a line, or the first child; empty when nothing is divided
   std::vector<LandingLine> lines;
+};
+
+/// That of a mesh. With `all_divided` every side is looked up by way of its cells.
+ElementTable make_element_table(const ElementMesh& mesh, bool all_divided = false);
+
+struct LandingTable {
+  std::vector<FaceRecord> faces; ///< [2 triangle + (0 front, 1 back)]
+  ElementTable elements;
 };
 
 LandingTable make_landing_table(const Scene& scene, const SurfaceModel& surfaces,
@@ -101,20 +109,21 @@ struct Landing {
 };
 
 /// From a root cell of a divided side to the element.
-inline Landing descend(const LandingTable& table, bool triangle, Landing root) {
+inline Landing descend(const ElementTable& table, bool triangle, Landing root) {
   std::uint32_t at = table.descent[root.element];
-  while ((at & (LandingTable::leaf | LandingTable::cut)) == 0) {
+  while ((at & ElementTable::leaf) == 0) {
+    if ((at & ElementTable::cut) != 0) {
+      const LandingLine& line = table.lines[at & ~ElementTable::cut];
+      const float height = line.line[0] + line.line[1] * root.st.x + line.line[2] * root.st.y +
+                           line.line[3] * root.st.x * root.st.y;
+      at = line.next[height >= 0.0F ? 1 : 0];
+      continue;
+    }
     const ChildPoint<glm::vec2> child = child_at(root.st, triangle);
     at = table.descent[at + child.child];
     root.st = child.st;
   }
-  while ((at & LandingTable::leaf) == 0) {
-    const LandingLine& line = table.lines[at & ~LandingTable::cut];
-    const float height = line.line[0] + line.line[1] * root.st.x + line.line[2] * root.st.y +
-                         line.line[3] * root.st.x * root.st.y;
-    at = line.next[height >= 0.0F ? 1 : 0];
-  }
-  return {at & ~LandingTable::leaf, root.st};
+  return {at & ~ElementTable::leaf, root.st};
 }
 
 /// The element, or the root cell of a divided side.
@@ -136,7 +145,7 @@ inline Landing land_on_root(const SideRecord& side, glm::vec2 uv) {
   return {side.first_element + local, upper ? glm::vec2(1.0F - s, 1.0F - t) : glm::vec2(s, t)};
 }
 
-inline Landing land(const LandingTable& table, std::uint32_t side, glm::vec2 uv) {
+inline Landing land(const ElementTable& table, std::uint32_t side, glm::vec2 uv) {
   const SideRecord& record = table.sides[side];
   const Landing at = land_on_root(record, uv);
   return record.divided ? descend(table, record.triangle, at) : at;

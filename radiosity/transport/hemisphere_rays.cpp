@@ -166,7 +166,7 @@ std::optional<MirroredRay> meet_coat(const LightScene& light, const MetFace& met
 ElementHit& note_landing(const LightScene& light, const FaceRecord& face, const HitPacket& hits,
                          std::uint32_t k, GatherWorkspace& work) {
   const glm::vec2 uv = landing_uv(face, light.surfaces, hits.triangle[k], hits.b1[k], hits.b2[k]);
-  const Landing at = land(light.landing, face.side, uv);
+  const Landing at = land(light.landing.elements, face.side, uv);
   if (work.keeps_places)
     work.places.push_back(at.st);
   ElementHit& landing = work.result.landings.emplace_back();

@@ -1,5 +1,7 @@
 #include "raytrace/error/error_forecast.h"
 
+#include "raytrace/views/view_light.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,14 +9,12 @@ namespace meninas {
 
 namespace {
 
-// Exponents: of pixels whose light is a smooth function between edges,
-// of direct light, and of what rays gather.
-constexpr double at_edges = 1.7, of_shadows = 1.4, of_noise = 1.1;
+// Exponents: of pixels whose light is a smooth function between edges, and of what rays gather.
+constexpr double at_edges = 1.7, of_noise = 1.1;
 constexpr double rays_of_a_hit = 64.0; ///< of a hit that gathers, where sampling is adaptive
 
-/// What so many samples of a pixel take, in hits of their own:
-/// they share shadow rays (radiosity/light/shared_light.h).
-double hits_of(double samples) { return samples <= 4.0 ? samples : 4.0 + 0.3 * (samples - 4.0); }
+/// So many samples of a pixel take as long as the vertices of a field that is made for the view.
+constexpr double samples_of_vertices = 200.0;
 
 /// Samples of a pixel in the mean.
 double samples_a_pixel(const MeasuredRun& run, int samples) {
@@ -29,9 +29,7 @@ double samples_a_pixel(const MeasuredRun& run, int samples) {
 /// nothing is left to gain where no pixel would take more.
 double pixel_decline(const MeasuredRun& run, const Parameters& knobs) {
   const int samples = knobs.samples;
-  const double exponent = knobs.term == DiffuseTerm::interpolated ? at_edges
-                          : knobs.term == DiffuseTerm::direct     ? of_shadows
-                                                                  : of_noise;
+  const double exponent = knobs.term == DiffuseTerm::gather ? of_noise : at_edges;
   if (samples < run.knobs.samples)
     return std::pow(samples_a_pixel(run, samples) / run.samples_a_pixel, -exponent);
   double decline = 1.0;
@@ -54,12 +52,11 @@ double pass_two_seconds(const MeasuredRun& run, const Parameters& knobs) {
   const double share = samples / run.samples_a_pixel;
   if (knobs.term == run.knobs.term)
     return run.pass_two_seconds * (knobs.term == DiffuseTerm::direct
-                                       ? hits_of(samples) / hits_of(run.samples_a_pixel)
+                                       ? (samples_of_vertices + samples) /
+                                             (samples_of_vertices + run.samples_a_pixel)
                                        : share);
-  constexpr double together =
-      0.6; // of what single hits take: those of a tile know each other's blockers
   const double hits = run.pixels * (knobs.term == DiffuseTerm::direct
-                                        ? together * hits_of(samples) * run.error.direct_seconds
+                                        ? vertices_of_a_pixel * run.error.direct_seconds
                                         : samples * gather_seconds(run));
   return share * run.pass_two_seconds + hits;
 }

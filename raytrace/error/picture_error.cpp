@@ -233,10 +233,13 @@ PictureErrorSettings error_settings(const TwoPassSettings& settings, std::size_t
   return how;
 }
 
-PictureError estimate_error(const IrradianceField& field,
-                            const Camera& camera, const TwoPassSettings& settings,
-                            const SolverResult& solver, const SampledPicture& picture,
-                            const PictureErrorSettings& how) {
+PictureError estimate_error(const IrradianceField& coarse, const Camera& camera,
+                            const TwoPassSettings& asked, const SolverResult& solver,
+                            const SampledPicture& picture, const PictureErrorSettings& how) {
+  const IrradianceField& field = picture.finer ? *picture.finer : coarse;
+  TwoPassSettings settings = asked;
+  if (picture.finer)
+    settings.render.diffuse.term = DiffuseTerm::interpolated;
   constexpr int emitter_samples = 4; // slivers of lamps that one misses are the error of no light
   constexpr double noise_of_interpolated = 4.0 / 9.0;
   Stopwatch watch;

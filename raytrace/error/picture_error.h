@@ -59,6 +59,7 @@ struct PictureError {
 struct SampledPicture {
   const Image& image;
   const SampleCounts& samples;
+  const IrradianceField* finer = nullptr; ///< Rendering::finer
 };
 
 /// So many pixels that finding out takes a few per cent of the rays of pass one, within limits.

@@ -25,12 +25,12 @@ static std::vector<glm::ivec2> spread_pixels(const RenderSettings& settings,
   return pixels;
 }
 
-/// By ElementVertexId, how far a value is from the mean of those an edge away.
-static std::vector<glm::vec3> bends(const ElementMesh& mesh,
+/// By vertex of the cells, how far a value is from the mean of those an edge away.
+static std::vector<glm::vec3> bends(std::span<const ElementCorners> cells,
                                     const std::vector<glm::vec3>& irradiance) {
   std::vector<glm::vec3> sums(irradiance.size(), glm::vec3(0.0F));
   std::vector<float> counts(irradiance.size(), 0.0F);
-  for (const ElementCorners& corners : mesh.corners)
+  for (const ElementCorners& corners : cells)
     for (std::size_t c = 0; c < 4; ++c) {
       const auto a = index(corners[c]), b = index(corners[(c + 1) % 4]);
       if (a == b)
@@ -56,7 +56,7 @@ static Image bend_picture(const IrradianceField& field, FieldContent light,
   settings.samples = 1;
   settings.diffuse.term = DiffuseTerm::interpolated;
   VisibleLight visible = visible_light(field, light);
-  visible.irradiance = bends(field.mesh(), visible.irradiance);
+  visible.irradiance = bends(visible.corners, visible.irradiance);
   visible.background = glm::vec3(0.0F);
   for (SideShading& side : visible.shading)
     side.emitted = glm::vec3(0.0F);

@@ -57,7 +57,7 @@ std::optional<float> value_of(DebugView view, const IrradianceField& field,
     return static_cast<float>(element) + 1.0F;
   if (view == DebugView::closure)
     return closure_error(rows[element]);
-  const glm::vec3 h = field_irradiance(field.mesh(), field.irradiance, element, sight.place.place);
+  const glm::vec3 h = field_irradiance(field.mesh().corners, field.irradiance, element, sight.place.place);
   return glm::dot(h, glm::vec3(0.2126F, 0.7152F, 0.0722F)); // Rec.709
 }
 

@@ -39,7 +39,7 @@ static glm::vec3 value_of(Feature feature, const IrradianceField& field,
   case Feature::irradiance:
     break;
   }
-  return on_field ? field_irradiance(light.mesh, field.irradiance, sight.place.element,
+  return on_field ? field_irradiance(light.mesh.corners, field.irradiance, sight.place.element,
                                      sight.place.place)
                   : glm::vec3(0.0F);
 }

@@ -47,11 +47,12 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
     sight.triangle = hit->triangle;
     sight.barycentric = hit->barycentric;
     sight.position = ray.origin + hit->distance * ray.direction;
+    sight.distance += hit->distance * glm::length(ray.direction);
     sight.normal = seen_normal(light, face, *hit, ray.direction);
     if (face.side != FaceRecord::nothing) {
       sight.side = face.side;
       const glm::vec2 b(hit->barycentric);
-      sight.place = field_point(light.landing, face.side,
+      sight.place = field_point(light.landing.elements, face.side,
                                 landing_uv(face, light.surfaces, index(hit->triangle), b.x, b.y));
     }
     const bool clear = face.glass && passes_most(light, *hit);

@@ -15,6 +15,7 @@ struct Sight {
   std::uint32_t side = FaceRecord::nothing; ///< index of the SideId, if the face carries radiosity
   FieldPoint place{};                       ///< on that side
   int mirrors = 0;                          ///< on the way
+  double distance = 0.0; ///< from the eye, metres, unfolded at the mirrors
 };
 
 /// The eye looks straight through glass that is mostly clear.

@@ -2,6 +2,7 @@
 
 #include "radiosity/expected_cost.h"
 #include "raytrace/error/probes.h"
+#include "raytrace/views/view_light.h"
 #include "runs/steering/memory.h"
 
 namespace meninas {
@@ -24,8 +25,12 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
   cost.interpolate = share * pass_one.interpolate;
   cost.solve = pass_one.solve;
   const double pixels = double(size.width) * size.height;
-  cost.render = pixels * two_pass.render.samples *
-                camera_ray_seconds(prepared.light, camera, two_pass.render);
+  RenderSettings shown = two_pass.render;
+  if (shown.diffuse.term == DiffuseTerm::direct) {
+    cost.render = pixels * vertices_of_a_pixel * camera_ray_seconds(prepared.light, camera, shown);
+    shown.diffuse.term = DiffuseTerm::interpolated;
+  }
+  cost.render += pixels * shown.samples * camera_ray_seconds(prepared.light, camera, shown);
   cost.write = 0.01 + encoded_pixel * pixels;
   cost.total =
       cost.prepare + cost.form_factors + cost.solve + cost.interpolate + cost.render + cost.write;

@@ -2,7 +2,8 @@
 //
 // Pass one as radiosity/expected_cost.h says; pass two is
 //
-//   render         pixels x samples x one camera ray with its diffuse term
+//   render         pixels x (samples x one camera ray with its diffuse term
+//                            + vertices of the view's field x one hit with direct light)
 //
 // over the threads that work. What is measured is a few thousandths of the work,
 // so that it takes a fraction of a second in any scene. Bytes come from counts (memory.h). Limit: references are not foretold, they end when told.

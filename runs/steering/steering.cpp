@@ -183,7 +183,7 @@ SteeredRun run_with(Steering& steering, const Parameters& knobs, bool may_end) {
   how.pixels = std::min(how.pixels * more, request.size.width * request.size.height);
   const PictureError error =
       estimate_error(lit.field, request.camera, two_pass, run.figures.solver,
-                     {run.picture.image, run.picture.samples}, how);
+                     {run.picture.image, run.picture.samples, run.picture.finer.get()}, how);
   run.figures.error_estimate = error;
   run.figures.seconds.estimate = watch.lap();
   const RunSeconds& seconds = run.figures.seconds;

@@ -135,7 +135,7 @@ void measure_point(Measuring& measuring, TradePoint& point) {
                         figures.seconds.interpolate;
   point.elements = figures.elements;
   point.estimate = estimate_error(result.solution.field, measuring.camera, two_pass, result.solution.solver,
-      {result.rendering.image, result.rendering.samples}, error_settings(two_pass, point.elements));
+      {result.rendering.image, result.rendering.samples, result.rendering.finer.get()}, error_settings(two_pass, point.elements));
   point.picture = std::move(result.rendering.image);
 }
 

@@ -86,9 +86,9 @@ TEST(QuadLanes, LanesThatHitNothingAreLeftAlone) {
     hits.b2[k] = hit ? 0.01F * float(k) : std::numeric_limits<float>::infinity();
     hits.front[k] = 1;
   }
-  const LanePoints at = land_on_quad(light, face, light.landing.sides[face.side], hits, landed);
+  const LanePoints at = land_on_quad(light, light.landing.elements, face, hits, landed);
   for_each_lane(landed, [&](std::uint32_t k) {
-    const Landing alone = land(light.landing, face.side, uv_of(light, face, hits, k));
+    const Landing alone = land(light.landing.elements, face.side, uv_of(light, face, hits, k));
     EXPECT_EQ(at.element[k], alone.element);
     EXPECT_EQ(at.s[k], alone.st.x);
     EXPECT_EQ(at.t[k], alone.st.y);

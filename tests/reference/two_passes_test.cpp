@@ -18,7 +18,7 @@ Rgb seen_by_two_passes(const RadiositySolution& solution, Point3 eye, Point3 tar
   settings.samples = 64;
   settings.glossy_samples = 64;
   settings.diffuse.term = DiffuseTerm::direct;
-  settings.diffuse.shared_solid_rays = 1 << 14;
+  settings.diffuse.refinement.solid_rays = 1 << 14;
   return render(solution.field, look_at(eye, target, 1e-4),
                 settings)
       .image.pixels[0];

@@ -97,22 +97,27 @@ std::optional<Direction> given_normal(const LightScene& light, const MeshSide& s
   return normal_at(light, side, x);
 }
 
+Receiver received_on_curve(const LightScene& light, const MeshSide& side, const Point3& vertex,
+                           Receiver receiver) {
+  if (!is_curved(light, side))
+    return receiver;
+  // Light is gathered a little inside the facet, by the normal at the vertex itself:
+  // that of its neighbours.
+  const TrianglePoint at = point_of_patch(light, side.patch, receiver.position);
+  receiver.position = curved_origin(light.scene, light.surfaces, light.rays, at.triangle,
+                                    at.barycentric, side.facing == Facing::front);
+  receiver.normal = normal_at(light, side, vertex);
+  receiver.plane_class = none<PlaneId>;
+  return receiver;
+}
+
 void receive_on_curves(const LightScene& light, VertexSamples& found) {
   if (std::ranges::none_of(light.scene.triangles, &Triangle::curved))
     return;
   const ElementMesh& mesh = found.mesh;
   tbb::parallel_for(std::size_t{0}, mesh.vertices.size(), [&](std::size_t v) {
-    const MeshSide& side = side_of_vertex(mesh, v);
-    if (!is_curved(light, side))
-      return;
-    // Light is gathered a little inside the facet, by the normal at the vertex itself:
-    // that of its neighbours.
-    Receiver& receiver = found.receivers[v];
-    const TrianglePoint at = point_of_patch(light, side.patch, receiver.position);
-    receiver.position = curved_origin(light.scene, light.surfaces, light.rays, at.triangle,
-                                      at.barycentric, side.facing == Facing::front);
-    receiver.normal = normal_at(light, side, mesh.vertices[v]);
-    receiver.plane_class = none<PlaneId>;
+    found.receivers[v] =
+        received_on_curve(light, side_of_vertex(mesh, v), mesh.vertices[v], found.receivers[v]);
   });
 }
 

@@ -22,6 +22,10 @@ std::optional<Direction> given_normal(const LightScene& light, const MeshSide& s
 /// Directions that are nearer than so many degrees are one normal of the file.
 inline constexpr double same_normal_degrees = 3.0;
 
+/// A receiver beside a vertex of a side, moved to the curve there; as it is where nothing curves.
+Receiver received_on_curve(const LightScene& light, const MeshSide& side, const Point3& vertex,
+                           Receiver receiver);
+
 /// Moves the receivers on curved surfaces to their curves.
 void receive_on_curves(const LightScene& light, VertexSamples& found);
 

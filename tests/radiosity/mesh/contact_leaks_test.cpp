@@ -227,7 +227,7 @@ TEST(ContactLeaks, RegionsMakeUpTheirLeavesAndAreWherePointsLand) {
           // Rounding may put points of the rim beyond it.
           const Vec2 within = uv_at(patch, glm::mix(x, region.centroid, 1e-4));
           EXPECT_EQ(locate(mesh, cell.side, within).element, element);
-          EXPECT_EQ(land(l->light->landing, index(cell.side), glm::vec2(within)).element, e);
+          EXPECT_EQ(land(l->light->landing.elements, index(cell.side), glm::vec2(within)).element, e);
         }
         EXPECT_GE(uv.x, 0.0);
         sum += x / double(points);

@@ -50,8 +50,7 @@ TEST(ElementMesh, LocateInvertsPatchUv) {
   for (const double size : {0.05, 0.31, 10.0}) {
     const Meshed m = meshed(all_shapes(), {.element_size = size});
     Random random(1);
-    const LandingTable table = make_landing_table(
-        m.scene, m.surfaces, find_mirrors(m.scene, m.surfaces), m.mesh, Point3(0.0), 1.0);
+    const ElementTable table = make_element_table(m.mesh);
     for (std::uint32_t s = 0; s < m.mesh.sides.size(); ++s) {
       const MeshSide& side = m.mesh.sides[s];
       for (std::uint32_t local = 0; local < side.element_count; ++local) {

@@ -115,8 +115,7 @@ TEST(MeshDivision, LocateFindsEveryElement) {
   for (const Scene& scene : scenes()) {
     const Meshed m = meshed(scene, {.target_elements = 100});
     const ElementMesh mesh = divided_at_random(m, 4, 0.15, 3);
-    const LandingTable table = make_landing_table(
-        m.scene, m.surfaces, find_mirrors(m.scene, m.surfaces), mesh, Point3(0.0), 1.0);
+    const ElementTable table = make_element_table(mesh);
     Random random(4);
     for (std::uint32_t e = 0; e < element_count(mesh); ++e) {
       const MeshCell& cell = cell_of(mesh, ElementId{e});

@@ -1,0 +1,144 @@
+#include "radiosity/field/view/lattice_cells.h"
+
+#include "scenes/sampling.h"
+
+namespace meninas {
+
+namespace {
+
+/// Steps along s and t of corner k, in widths of the cell.
+constexpr std::array<LatticePoint, 4> quad_steps{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+constexpr std::array<LatticePoint, 3> triangle_steps{{{0, 0}, {1, 0}, {0, 1}}};
+
+std::int64_t width_at(int level) { return std::int64_t{1} << (LatticeCells::finest - level); }
+
+LatticePoint moved(LatticePoint from, LatticePoint steps, std::int64_t width) {
+  return {from.x + steps.x * width, from.y + steps.y * width};
+}
+
+LatticePoint middle(LatticePoint a, LatticePoint b) { return {(a.x + b.x) / 2, (a.y + b.y) / 2}; }
+
+} // namespace
+
+std::size_t LatticeCells::KeyHash::operator()(const Key& key) const {
+  const auto low = [](std::int64_t x) { return static_cast<std::uint32_t>(x); };
+  const auto high = [](std::int64_t x) { return static_cast<std::uint32_t>(x >> 32); };
+  return hash(hash(static_cast<std::uint32_t>(key.owner), low(key.x), low(key.y)),
+              static_cast<std::uint32_t>(key.owner >> 32U), hash(high(key.x), high(key.y)));
+}
+
+LatticeCells::LatticeCells(const ElementMesh& mesh, std::span<const ElementId> elements)
+    : mesh_(mesh) {
+  cells_.reserve(elements.size());
+  for (const ElementId element : elements) {
+    const MeshCell& of = cell_of(mesh, element);
+    const std::int64_t width = width_at(of.level);
+    LatticeCell cell{.element = element,
+                     .origin = {of.i * width, of.j * width},
+                     .level = of.level,
+                     .flipped = of.flipped};
+    add_corners(cell);
+    cells_.push_back(cell);
+  }
+}
+
+bool LatticeCells::is_triangle(const LatticeCell& cell) const {
+  return mesh_.sides[index(mesh_.side_of_element[index(cell.element)])].triangle;
+}
+
+LatticeCells::Key LatticeCells::key_of(ElementId element, LatticePoint at) const {
+  constexpr std::uint64_t is_region = std::uint64_t{1} << 32U;
+  const std::uint64_t owner = region_of(mesh_, element) != nullptr
+                                  ? is_region | index(element)
+                                  : index(mesh_.side_of_element[index(element)]);
+  return {owner, at.x, at.y};
+}
+
+std::uint32_t LatticeCells::vertex_at(const LatticeCell& cell, LatticePoint at, std::uint8_t level,
+                                      const std::array<std::uint32_t, 4>* between) {
+  const auto number = static_cast<std::uint32_t>(vertices_.size());
+  const auto [found, is_new] = numbers_.try_emplace(key_of(cell.element, at), number);
+  if (is_new)
+    vertices_.push_back(
+        {cell.element, at, level, between ? *between : std::array{number, number, number, number}});
+  return found->second;
+}
+
+void LatticeCells::add_corners(LatticeCell& cell) {
+  const std::int64_t width = (cell.flipped ? -1 : 1) * width_at(cell.level);
+  for (std::size_t c = 0; c < 4; ++c) {
+    const bool repeats = c == 3 && is_triangle(cell);
+    const LatticePoint steps = is_triangle(cell) ? triangle_steps[repeats ? 2 : c] : quad_steps[c];
+    cell.corners[c] = vertex_at(cell, moved(cell.origin, steps, width), cell.level, nullptr);
+  }
+}
+
+void LatticeCells::divide(std::uint32_t number) {
+  const LatticeCell cell = cells_[number];
+  const bool triangle = is_triangle(cell);
+  const auto level = static_cast<std::uint8_t>(cell.level + 1);
+  const std::size_t count = triangle ? 3 : 4;
+  const auto at = [&](std::size_t c) { return vertices_[cell.corners[c % count]].at; };
+  std::array<std::uint32_t, 4> edges{};
+  for (std::size_t c = 0; c < count; ++c) {
+    const std::uint32_t a = cell.corners[c], b = cell.corners[(c + 1) % count];
+    const std::array between{a, b, a, b};
+    edges[c] = vertex_at(cell, middle(at(c), at(c + 1)), level, &between);
+  }
+  const auto child = [&](LatticePoint origin, bool flipped, std::array<std::uint32_t, 4> corners) {
+    cells_.push_back({cell.element, origin, level, flipped, corners});
+  };
+  const auto& c = cell.corners;
+  cells_[number].first_child = static_cast<std::uint32_t>(cells_.size());
+  if (triangle) {
+    const auto [ab, bc, ca, unused] = edges;
+    child(at(0), cell.flipped, {c[0], ab, ca, ca});
+    child(vertices_[ab].at, cell.flipped, {ab, c[1], bc, bc});
+    child(vertices_[ca].at, cell.flipped, {ca, bc, c[2], c[2]});
+    child(vertices_[bc].at, !cell.flipped, {bc, ca, ab, ab});
+    return;
+  }
+  const std::uint32_t centre = vertex_at(cell, middle(at(0), at(2)), level, &cell.corners);
+  child(at(0), false, {c[0], edges[0], centre, edges[3]});
+  child(vertices_[edges[0]].at, false, {edges[0], c[1], edges[1], centre});
+  child(vertices_[edges[3]].at, false, {edges[3], centre, edges[2], c[3]});
+  child(vertices_[centre].at, false, {centre, edges[1], c[2], edges[2]});
+}
+
+std::array<std::uint32_t, 4> LatticeCells::edge_middles(const LatticeCell& divided) const {
+  const LatticeCell* children = &cells_[divided.first_child];
+  if (is_triangle(divided))
+    return {children[0].corners[1], children[1].corners[2], children[0].corners[2],
+            LatticeCells::no_vertex};
+  return {children[0].corners[1], children[1].corners[2], children[2].corners[2],
+          children[0].corners[3]};
+}
+
+std::uint32_t LatticeCells::middle_of(std::uint32_t a, std::uint32_t b) const {
+  const LatticeVertex &from = vertices_[a], &to = vertices_[b];
+  const auto found = numbers_.find(key_of(from.element, middle(from.at, to.at)));
+  return found == numbers_.end() ? no_vertex : found->second;
+}
+
+Vec2 LatticeCells::place_in_patch(const LatticeVertex& vertex) const {
+  const MeshSide& side = mesh_.sides[index(mesh_.side_of_element[index(vertex.element)])];
+  const auto root = static_cast<double>(width_at(0));
+  return {double(vertex.at.x) / (root * side.nu), double(vertex.at.y) / (root * side.nv)};
+}
+
+Vec2 LatticeCells::place_in_element(const LatticeVertex& vertex) const {
+  const MeshCell& cell = cell_of(mesh_, vertex.element);
+  const std::int64_t width = (cell.flipped ? -1 : 1) * width_at(cell.level);
+  const LatticePoint from = moved({0, 0}, {cell.i, cell.j}, width_at(cell.level));
+  return {double(vertex.at.x - from.x) / double(width),
+          double(vertex.at.y - from.y) / double(width)};
+}
+
+bool LatticeCells::is_at_border(const LatticeVertex& vertex) const {
+  const MeshSide& side = mesh_.sides[index(mesh_.side_of_element[index(vertex.element)])];
+  const auto& [x, y] = vertex.at;
+  const std::int64_t most_x = side.nu * width_at(0), most_y = side.nv * width_at(0);
+  return x == 0 || y == 0 || (side.triangle ? x + y == most_x : x == most_x || y == most_y);
+}
+
+} // namespace meninas

@@ -1,0 +1,381 @@
+#include "radiosity/field/view/view_field.h"
+
+#include "radiosity/field/curves/curved_vertices.h"
+#include "radiosity/field/vertex_places.h"
+#include "radiosity/field/view/cell_lookup.h"
+#include "radiosity/field/view/lattice_cells.h"
+#include "radiosity/field/view/seen_cells.h"
+#include "radiosity/light/light_samples.h"
+#include "radiosity/light/shared_light.h"
+#include "scenes/sampling.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace meninas {
+
+namespace {
+
+using Workspaces = tbb::enumerable_thread_specific<SharedLightWorkspace>;
+using KnownBlockers = std::unordered_map<std::uint64_t, ImageBlockers>;
+
+/// What a vertex of the cells has, W/m^2.
+struct VertexLight {
+  glm::vec3 direct{0.0F}, direct_mirrored{0.0F};
+  glm::vec3 indirect{0.0F}, indirect_mirrored{0.0F};
+  float surplus = 0.0F; ///< as a share of what is there
+};
+
+float brightest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
+
+/// Where D is received at a point of the view.
+Receiver receiver_of(const LightScene& light, const SeenPoint& point) {
+  const ElementId element{point.element};
+  const MeshSide& side = light.mesh.sides[index(light.mesh.side_of_element[point.element])];
+  const Point3 at = point_at(light.surfaces.patches[index(side.patch)],
+                             patch_uv_of(light.mesh, cell_of(light.mesh, element), Vec2(point.st)));
+  return received_on_curve(light, side, at,
+                           {at, side.normal, side.plane_class, side.tangent, side.coat});
+}
+
+/// And at a vertex: on borders, and beside what cuts an element, a little inside.
+Receiver receiver_of(const LightScene& light, const LatticeCells& cells,
+                     const LatticeVertex& vertex) {
+  constexpr double inset = 0.02;
+  const ElementMesh& mesh = light.mesh;
+  const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(vertex.element)])];
+  const Point3 at =
+      point_at(light.surfaces.patches[index(side.patch)], cells.place_in_patch(vertex));
+  const bool of_region = region_of(mesh, vertex.element) != nullptr;
+  Receiver receiver{of_region ? nearest_in(mesh, vertex.element, at) : at, side.normal,
+                    side.plane_class, side.tangent, side.coat};
+  if (of_region || cells.is_at_border(vertex)) {
+    const int levels = vertex.level - cell_of(mesh, vertex.element).level;
+    receiver.position =
+        glm::mix(receiver.position, centre_of(mesh, vertex.element), std::ldexp(inset, -levels));
+  }
+  return received_on_curve(light, side, at, receiver);
+}
+
+/// The same wherever the vertex is asked for.
+std::uint32_t seed_of(const ElementMesh& mesh, const LatticeVertex& vertex, std::uint32_t seed) {
+  const auto folded = [](std::int64_t x) { return static_cast<std::uint32_t>(x ^ (x >> 32)); };
+  return hash(hash(index(mesh.side_of_element[index(vertex.element)]), folded(vertex.at.x),
+                   folded(vertex.at.y)),
+              seed, 0x71e3);
+}
+
+/// Vertices in rows of one element each.
+struct VertexRows {
+  std::vector<std::uint32_t> vertices;
+  std::vector<std::size_t> begin; ///< rows + 1
+};
+
+VertexRows rows_from(std::size_t first, const std::vector<LatticeVertex>& all) {
+  VertexRows rows;
+  rows.vertices.resize(all.size() - first);
+  std::iota(rows.vertices.begin(), rows.vertices.end(), static_cast<std::uint32_t>(first));
+  const auto element_of = [&](std::uint32_t v) { return index(all[v].element); };
+  std::ranges::stable_sort(rows.vertices, {}, element_of);
+  for (std::size_t k = 0; k < rows.vertices.size(); ++k)
+    if (k == 0 || element_of(rows.vertices[k]) != element_of(rows.vertices[k - 1]))
+      rows.begin.push_back(k);
+  rows.begin.push_back(rows.vertices.size());
+  return rows;
+}
+
+class ViewRefiner {
+public:
+  ViewRefiner(const IrradianceField& field, SeenCells seen, const ViewRefinement& how)
+      : field_(field), mesh_(field.mesh()), light_(*field.scene), how_(how), seen_(std::move(seen)),
+        cells_(seen_.lattice()), blockers_(seen_.roots()) {}
+
+  ViewField refined() {
+    light_from(0);
+    dark_ = darkness();
+    for (std::size_t new_cells = 0, new_vertices = 0;;) {
+      const std::vector<std::uint32_t> divide = to_divide(new_cells, new_vertices);
+      if (divide.empty())
+        break;
+      new_cells = cells_.cells().size();
+      new_vertices = cells_.vertices().size();
+      for (const std::uint32_t cell : divide)
+        seen_.divide(cell);
+      light_from(new_vertices);
+    }
+    settle();
+    return result();
+  }
+
+private:
+  /// Light at the vertices from that number on. What blocks rays to an element's vertices is known to
+  /// those that come after, of the same element, in their order.
+  void light_from(std::size_t first) {
+    const auto& vertices = cells_.vertices();
+    lights_.resize(vertices.size());
+    const VertexRows rows = rows_from(first, vertices);
+    tbb::parallel_for(std::size_t{0}, rows.begin.size() - 1, [&](std::size_t row) {
+      SharedLightWorkspace& work = workspaces_.local();
+      const std::size_t begin = rows.begin[row], end = rows.begin[row + 1];
+      KnownBlockers& known = blockers_[seen_.root_of(vertices[rows.vertices[begin]].element)];
+      std::swap(work.blockers_of, known);
+      for (std::size_t k = begin; k < end; ++k)
+        light_vertex(rows.vertices[k], work);
+      std::swap(work.blockers_of, known);
+    });
+  }
+
+  ArrivingLight direct_at(const LatticeVertex& vertex, double pixels, SharedLightWorkspace& work) {
+    constexpr int rounds = 8, times_learned = 4;
+    const Receiver receiver = receiver_of(light_, cells_, vertex);
+    // What the plane of an element cannot see, the curve over it may.
+    const ElementId element =
+        receiver.plane_class == none<PlaneId> ? none<ElementId> : vertex.element;
+    const SharedLightSettings settings{.points = 1,
+                                       .most_points = pixels > 4.0   ? rounds
+                                                      : pixels > 1.5 ? rounds / 2
+                                                                     : rounds / 4,
+                                       .images = how_.images,
+                                       .rays = how_.rays,
+                                       .penumbra_rays = std::max(1, how_.penumbra_rays / rounds),
+                                       .solid_rays = how_.solid_rays,
+                                       .unsure = 1.0,
+                                       .unsure_shadow = 0.1 * how_.tolerance,
+                                       .brightest_most = true,
+                                       .one_place = true,
+                                       .learns = true};
+    const auto found = [&] {
+      std::uint32_t next = 0;
+      return mean_direct_irradiance(
+          light_,
+          [&] {
+            return NumberedPoint{receiver, next++, element};
+          },
+          settings, seed_of(mesh_, vertex, how_.seed), work);
+    };
+    ArrivingLight light = found();
+    for (int k = 0; k < times_learned && work.has_learned; ++k)
+      light = found();
+    return light;
+  }
+
+  void light_vertex(std::uint32_t v, SharedLightWorkspace& work) {
+    const LatticeVertex& vertex = cells_.vertices()[v];
+    VertexLight& light = lights_[v];
+    const ElementPoint at{vertex.element, cells_.place_in_element(vertex)};
+    light.indirect = value_in(mesh_, field_.indirect, at);
+    if (!field_.indirect_mirrored.empty())
+      light.indirect_mirrored = value_in(mesh_, field_.indirect_mirrored, at);
+    const ArrivingLight d = direct_at(vertex, seen_.pixels_of_vertex(v), work);
+    light.direct = glm::vec3(d.total);
+    light.direct_mirrored = glm::vec3(d.mirrored);
+
+    const auto [a, b, c, e] = vertex.between;
+    if (a == v)
+      return;
+    const glm::vec3 expected =
+        0.25F * (lights_[a].direct + lights_[b].direct + lights_[c].direct + lights_[e].direct);
+    const float off =
+        brightest(glm::abs(light.direct - expected)) - 2.0F * static_cast<float>(work.shadow_error);
+    light.surplus = std::max(0.0F, off) /
+                    (brightest(glm::max(light.direct, expected) + light.indirect) + dark_);
+  }
+
+  /// A share of the mean of what is seen: what is darker is not told apart.
+  float darkness() const {
+    constexpr double share = 0.05;
+    double sum = 0.0, points = 0.0;
+    for (std::uint32_t c = 0; c < seen_.roots(); ++c) {
+      for (const std::uint32_t v : cells_.cells()[c].corners)
+        sum += 0.25 * double(seen_.points(c)) *
+               double{brightest(lights_[v].direct + lights_[v].indirect)};
+      points += double(seen_.points(c));
+    }
+    return points > 0.0 ? static_cast<float>(share * sum / points) : 0.0F;
+  }
+
+  /// The most light at its corners.
+  float brightest_of(const LatticeCell& cell) const {
+    float most = 0.0F;
+    for (const std::uint32_t v : cell.corners)
+      most = std::max(most, brightest(lights_[v].direct + lights_[v].indirect));
+    return most;
+  }
+
+  /// The largest difference of D at its corners, as a share of what is there.
+  float spread_of(const LatticeCell& cell) const {
+    glm::vec3 low(std::numeric_limits<float>::infinity()), high(0.0F);
+    for (const std::uint32_t v : cell.corners) {
+      low = glm::min(low, lights_[v].direct);
+      high = glm::max(high, lights_[v].direct);
+    }
+    return brightest(high - low) / (brightest_of(cell) + dark_);
+  }
+
+  /// Whether a vertex of that level tells to divide a cell of so many pixels.
+  bool stands_out(std::uint32_t v, int level, double pixels) const {
+    constexpr double within_pixel = 2.5;
+    const double bound = pixels > 1.0 ? how_.tolerance : within_pixel * how_.tolerance / pixels;
+    return cells_.vertices()[v].level == level && double{lights_[v].surplus} > bound &&
+           pixels > how_.finest;
+  }
+
+  /// Of cells that were made with the last vertices.
+  bool tells_to_divide(std::uint32_t number, bool first) const {
+    constexpr float spread_to_surplus = 4.0F;
+    const LatticeCell& cell = cells_.cells()[number];
+    const double pixels = seen_.pixels(number);
+    const float alike = spread_to_surplus * static_cast<float>(how_.tolerance);
+    return pixels > how_.coarse ||
+           (pixels > 1.0 && ((first && spread_of(cell) > alike) ||
+                             seen_.lit_apart(number) > alike * (brightest_of(cell) + dark_))) ||
+           std::ranges::any_of(
+               cell.corners, [&](std::uint32_t v) { return stands_out(v, cell.level, pixels); }) ||
+           is_told_to_divide(number, true);
+  }
+
+  /// By vertices in the middle of its edges: all that there are, or those of the last round.
+  bool is_told_to_divide(std::uint32_t number, bool by_all) const {
+    const LatticeCell& cell = cells_.cells()[number];
+    const std::size_t count = cells_.is_triangle(cell) ? 3 : 4;
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::uint32_t a = cell.corners[c], b = cell.corners[(c + 1) % count];
+      if (!by_all && (ends_[a] == 0 || ends_[b] == 0))
+        continue;
+      const std::uint32_t middle = cells_.middle_of(a, b);
+      if (middle != LatticeCells::no_vertex &&
+          stands_out(middle, cell.level + 1, seen_.pixels(number)))
+        return true;
+    }
+    return false;
+  }
+
+  /// Cells from `new_cells` on, and vertices from `new_vertices` on, are of the last round.
+  std::vector<std::uint32_t> to_divide(std::size_t new_cells, std::size_t new_vertices) {
+    ends_.assign(lights_.size(), 0);
+    for (std::size_t v = new_vertices; v < lights_.size(); ++v)
+      if (double{lights_[v].surplus} > how_.tolerance)
+        for (const std::uint32_t end : cells_.vertices()[v].between)
+          ends_[end] = 1;
+    std::vector<std::uint8_t> marked(cells_.cells().size(), 0);
+    tbb::parallel_for(std::size_t{0}, marked.size(), [&](std::size_t c) {
+      const LatticeCell& cell = cells_.cells()[c];
+      const auto number = static_cast<std::uint32_t>(c);
+      if (cell.first_child == LatticeCell::leaf && seen_.is_seen(number) &&
+          cell.level + 1 < LatticeCells::finest)
+        marked[c] = c >= new_cells ? tells_to_divide(number, new_cells == 0)
+                                   : is_told_to_divide(number, false);
+    });
+    std::vector<std::uint32_t> divide;
+    for (std::uint32_t c = 0; c < marked.size(); ++c)
+      if (marked[c] != 0)
+        divide.push_back(c);
+    return divide;
+  }
+
+  /// Vertices on the edge of a larger cell take what that has there: no crack is left.
+  void settle_edge(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t middle = cells_.middle_of(a, b);
+    if (middle == LatticeCells::no_vertex)
+      return;
+    VertexLight& light = lights_[middle];
+    light.direct = 0.5F * (lights_[a].direct + lights_[b].direct);
+    light.direct_mirrored = 0.5F * (lights_[a].direct_mirrored + lights_[b].direct_mirrored);
+    settle_edge(a, middle);
+    settle_edge(middle, b);
+  }
+
+  /// Larger cells first.
+  void settle() {
+    const auto& cells = cells_.cells();
+    // The ends of edges that one cell alone was divided along.
+    std::vector<std::uint8_t> times(lights_.size(), 0);
+    for (const LatticeCell& cell : cells)
+      if (cell.first_child != LatticeCell::leaf)
+        for (const std::uint32_t middle : cells_.edge_middles(cell))
+          if (middle != LatticeCells::no_vertex)
+            ++times[middle];
+    ends_.assign(lights_.size(), 0);
+    for (std::size_t v = 0; v < times.size(); ++v)
+      if (times[v] == 1)
+        for (const std::uint32_t end : cells_.vertices()[v].between)
+          ends_[end] = 1;
+    std::vector<std::uint32_t> leaves;
+    for (std::uint32_t c = 0; c < cells.size(); ++c)
+      if (cells[c].first_child == LatticeCell::leaf)
+        leaves.push_back(c);
+    std::ranges::stable_sort(leaves, {}, [&](std::uint32_t c) { return cells[c].level; });
+    for (const std::uint32_t c : leaves) {
+      const std::size_t count = cells_.is_triangle(cells[c]) ? 3 : 4;
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t a = cells[c].corners[k], b = cells[c].corners[(k + 1) % count];
+        if (ends_[a] != 0 && ends_[b] != 0)
+          settle_edge(a, b);
+      }
+    }
+  }
+
+  ViewField result() {
+    ViewField result{field_, 0};
+    IrradianceField& field = result.field;
+    field.cells = std::make_shared<const FieldCells>(
+        cell_lookup(mesh_, cells_, seen_.roots(), field.irradiance.size()));
+    const bool mirrored = !field.mirrored.empty();
+    for (const VertexLight& light : lights_) {
+      field.irradiance.push_back(light.direct + light.indirect);
+      field.indirect.push_back(light.indirect);
+      if (!mirrored)
+        continue;
+      field.mirrored.push_back(light.direct_mirrored + light.indirect_mirrored);
+      field.indirect_mirrored.push_back(light.indirect_mirrored);
+    }
+    for (const SharedLightWorkspace& work : workspaces_)
+      result.shadow_rays += work.point.shadow_rays;
+    return result;
+  }
+
+  const IrradianceField& field_;
+  const ElementMesh& mesh_;
+  const LightScene& light_;
+  const ViewRefinement& how_;
+  SeenCells seen_;
+  const LatticeCells& cells_;           ///< of what is seen
+  std::vector<KnownBlockers> blockers_; ///< by root
+  std::vector<VertexLight> lights_;     ///< by vertex of the cells
+  std::vector<std::uint8_t> ends_;      ///< likewise
+  float dark_ = 0.0F;                   ///< H_dark
+  Workspaces workspaces_;
+};
+
+} // namespace
+
+ViewField view_field(const IrradianceField& field, std::vector<SeenPoint> seen, double apart,
+                     const ViewRefinement& how) {
+  expects(field.indirect.size() == field.irradiance.size(), "the field knows its indirect part");
+  const LightScene& light = *field.scene;
+  Workspaces workspaces;
+  std::function<float(const SeenPoint&)> lit;
+  if (!light.punctual.empty())
+    lit = [&](const SeenPoint& point) {
+      SharedLightWorkspace& work = workspaces.local();
+      punctual_arrivals(light, receiver_of(light, point), work.point, work.arrivals);
+      Rgb sum(0.0);
+      for (const PunctualArrival& arrival : work.arrivals)
+        sum += arrival.irradiance;
+      return static_cast<float>(largest(sum));
+    };
+  ViewField result =
+      ViewRefiner(field, SeenCells(light.mesh, std::move(seen), apart, lit), how).refined();
+  for (const SharedLightWorkspace& work : workspaces)
+    result.shadow_rays += work.point.shadow_rays;
+  return result;
+}
+
+} // namespace meninas

@@ -1,0 +1,54 @@
+// The field for one view: direct light as fine as its pixels.
+//
+// Radiosity that is found for a view is importance-driven (Smits, Arvo, Salesin 1992): where nobody looks nothing is
+// refined. Elements are divided where they are seen, each by itself (lattice_cells.h), while they are wider than
+// `coarse` pixels. Those wider than a pixel are divided while direct light D at a new vertex
+// differs from the mean of what it is in the middle of by more than its noise and a share of all light H there,
+//
+//   abs(D - D_mean) - 2 noise  >  tolerance (H + H_dark)                   the hierarchical surplus.
+//
+// Within a pixel an edge counts by the share of the pixel that it crosses: cells of p < 1 pixels are divided down to
+// `finest` where the surplus exceeds 2.5 tolerance / p, so that edges end within pixels.
+//
+// In a smooth place the surplus falls to a quarter with each level, at the edge of a shadow it stays: smooth light
+// costs few vertices, and an edge a row of cells as small as pixels. A cell beside smaller ones is
+// divided as well where the surplus in the middle of their common edge says so: an edge that is found is followed.
+// D is computed past known blockers (shared_light.h); a vertex that stands for many pixels
+// takes more shadow rays than one among its like.
+// Indirect light is interpolated between the vertices of the mesh, which have gathered it.
+//
+// Shadows of punctual lights have no penumbra that tells of them from afar: each point that is seen asks for
+// these lights, and a cell whose points differ is divided down to pixels.
+//
+// Limits: shadows of lamps that are narrower than coarse / 2 pixels, and far from other edges, may be missed.
+#pragma once
+
+#include "radiosity/field/irradiance_field.h"
+#include "radiosity/field/view/seen_cells.h"
+
+#include <vector>
+
+namespace meninas {
+
+struct ViewRefinement {
+  double coarse = 8.0;     ///< pixels
+  double finest = 0.1;     ///< pixels: no smaller cell is divided
+  double tolerance = 0.02; ///< dimensionless
+  int rays = 8;            ///< from a vertex to an image of an emitter, to begin with
+  int penumbra_rays =
+      128;              ///< where some arrive and some do not, from one that stands for many pixels
+  int solid_rays = 256; ///< to a body of solid glass that fills the hemisphere
+  int images = 256;     ///< of emitters; of more, a choice
+  std::uint32_t seed = 0;
+};
+
+struct ViewField {
+  IrradianceField field; ///< with cells of its own; its first values are those of the mesh
+  std::uint64_t shadow_rays = 0;
+};
+
+/// Points are a pixel apart, or `apart` pixels. Precondition: the field knows its indirect part.
+ViewField view_field(const IrradianceField& field, std::vector<SeenPoint> seen, double apart,
+                     const ViewRefinement& how);
+
+} // namespace meninas

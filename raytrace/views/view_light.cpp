@@ -1,0 +1,69 @@
+#include "raytrace/views/view_light.h"
+
+#include "radiosity/field/view/view_field.h"
+#include "raytrace/views/sight.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace meninas {
+
+namespace {
+
+/// How far the rays through two points of the picture are apart, t along both.
+double apart_at(const CameraRay& a, const CameraRay& b, double t) {
+  return glm::length((b.origin - a.origin) + t * (b.direction - a.direction));
+}
+
+/// The points at the corners of each pixel, or of each `step` by `step`.
+std::vector<SeenPoint> seen_points(const LightScene& light, const Camera& camera,
+                                   const RenderSettings& settings, int step) {
+  const int width = settings.width, height = settings.height;
+  const double aspect = double(width) / height;
+  std::vector<std::vector<SeenPoint>> rows(
+      static_cast<std::size_t>((height + step - 1) / step + 1));
+  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
+    const double y = std::min(double(row) * step / height, 1.0);
+    for (int column = 0; column < width + step; column += step) {
+      const Vec2 at(std::min(double(column) / width, 1.0), y);
+      const Sight sight = look(light, camera, aspect, at, settings.max_bounces);
+      if (sight.side == FaceRecord::nothing)
+        continue;
+      const auto ray = [&](const Vec2& to) { return camera_ray(camera, aspect, to.x, to.y); };
+      const CameraRay middle = ray(at);
+      const double w =
+          std::max(apart_at(middle, ray(at + Vec2(1.0 / width, 0.0)), sight.distance),
+                   apart_at(middle, ray(at + Vec2(0.0, 1.0 / height)), sight.distance));
+      if (w > 0.0)
+        rows[row].push_back({sight.place.element,
+                             {sight.place.place.s, sight.place.place.t},
+                             static_cast<float>(w)});
+    }
+  });
+  std::vector<SeenPoint> points;
+  for (const std::vector<SeenPoint>& row : rows)
+    points.insert(points.end(), row.begin(), row.end());
+  return points;
+}
+
+} // namespace
+
+ViewLight light_for_view(const IrradianceField& field, const Camera& camera,
+                         const RenderSettings& settings) {
+  constexpr double most_points = 1 << 22;
+  if (settings.diffuse.term != DiffuseTerm::direct)
+    return {nullptr, settings, 0};
+  const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(
+                                   double(settings.width) * settings.height / most_points))));
+  ViewField finer = view_field(field, seen_points(*field.scene, camera, settings, step), step,
+                               settings.diffuse.refinement);
+  ViewLight light{std::make_shared<const IrradianceField>(std::move(finer.field)), settings,
+                  finer.shadow_rays};
+  light.settings.diffuse.term = DiffuseTerm::interpolated;
+  return light;
+}
+
+} // namespace meninas

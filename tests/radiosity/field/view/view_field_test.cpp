@@ -1,0 +1,194 @@
+#include "form_factors/point_form_factor.h"
+#include "radiosity/field/view/view_field.h"
+#include "tests/radiosity/lit_scene.h"
+#include "tests/support/random.h"
+#include "tests/support/scene_builder.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meninas::test {
+namespace {
+
+/// A floor of 4 m by 4 m about the origin, which alone scatters, y up.
+void add_floor(Scene& scene) {
+  add_polygon(scene, "floor", {{-2, 0, -2}, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}}, diffuse(0.5));
+}
+
+std::vector<Point3> lamp_over_the_floor() {
+  return {{-0.5, 2, -0.5}, {0.5, 2, -0.5}, {0.5, 2, 0.5}, {-0.5, 2, 0.5}};
+}
+
+PunctualLight sun_from_above() {
+  PunctualLight sun{.name = "sun", .kind = PunctualKind::directional, .intensity = Rgb(1.0)};
+  sun.direction = {0, -1, 0};
+  return sun;
+}
+
+struct SolvedFloor {
+  std::unique_ptr<LitScene> scene;
+  RadiositySolution solution;
+  SideId side = none<SideId>;
+
+  explicit SolvedFloor(Scene of, double element_size)
+      : scene(lit(std::move(of), {.element_size = element_size})) {
+    PassOneSettings settings;
+    settings.form_factors.rays = settings.interpolation.rays = 64;
+    solution = solve_pass_one(scene->light, settings);
+    side = scene->mesh.side_of_element[elements_of(*scene, "floor").front()];
+  }
+
+  const IrradianceField& field() const { return solution.field; }
+
+  /// (u, v) of a place on the floor.
+  Vec2 uv(double x, double z) const {
+    const MeshSide& of = field().mesh().sides[index(side)];
+    return uv_at(scene->surfaces.patches[index(of.patch)], Point3(x, 0, z));
+  }
+
+  /// A square of the floor about a place, seen from straight above, `across` by `across` pixels.
+  std::vector<SeenPoint> square(const Point3& centre, double half, int across) const {
+    std::vector<SeenPoint> seen;
+    const double width = 2.0 * half / across;
+    for (int j = 0; j <= across; ++j)
+      for (int i = 0; i <= across; ++i) {
+        const ElementPoint at = locate(
+            field().mesh(), side, uv(centre.x - half + i * width, centre.z - half + j * width));
+        seen.push_back({index(at.element), glm::vec2(at.st), static_cast<float>(width)});
+      }
+    return seen;
+  }
+};
+
+double irradiance(const SolvedFloor& floor, const IrradianceField& field, double x, double z) {
+  const Landing at = land(field.lookup(), index(floor.side), glm::vec2(floor.uv(x, z)));
+  const ElementCorners& corners = field.corners()[at.element];
+  const auto h = [&](std::size_t c) { return double{field.irradiance[index(corners[c])].g}; };
+  const double s = double{at.st.x}, t = double{at.st.y};
+  return (1.0 - t) * ((1.0 - s) * h(0) + s * h(1)) + t * ((1.0 - s) * h(3) + s * h(2));
+}
+
+TEST(ViewField, IsTheClosedFormWithinItsTolerance) {
+  Scene scene;
+  add_floor(scene);
+  add_polygon(scene, "lamp", lamp_over_the_floor(), diffuse(0.0, 10.0));
+  const SolvedFloor floor(std::move(scene), 2.0);
+  const ViewField view = view_field(floor.field(), floor.square({0, 0, 0}, 1.5, 64), 1.0, {});
+  Random random(1);
+  double coarse = 0.0, fine = 0.0;
+  for (int n = 0; n < 500; ++n) {
+    const double x = random.between(-1.5, 1.5), z = random.between(-1.5, 1.5);
+    const double exact = 10.0 * point_form_factor({x, 0, z}, {0, 1, 0}, lamp_over_the_floor());
+    coarse = std::max(coarse, std::abs(irradiance(floor, floor.field(), x, z) / exact - 1.0));
+    fine = std::max(fine, std::abs(irradiance(floor, view.field, x, z) / exact - 1.0));
+  }
+  EXPECT_GT(coarse, 0.1) << "or else nothing is tested";
+  EXPECT_LT(fine, 0.02) << "the tolerance";
+}
+
+TEST(ViewField, HasNoCracksBesideSmallerCells) {
+  Scene scene;
+  add_floor(scene);
+  scene.lights = {sun_from_above()};
+  add_polygon(scene, "blade", {{-3, 1, -3}, {-3, 1, 3}, {0.1, 1, 3}, {0.3, 1, -3}},
+              double_sided(diffuse(0.0)));
+  const SolvedFloor floor(std::move(scene), 1.0);
+  const ViewField view = view_field(floor.field(), floor.square({0, 0, 0}, 1.9, 128), 1.0, {});
+  // Cells have edges at all multiples of 2^-k m; from one side to the other nothing jumps. A step of
+  // 1e-6 m in a cell of 1/10 of a pixel, 3 mm, changes light by a three-thousandth of all.
+  Random random(2);
+  for (int n = 0; n < 4000; ++n) {
+    const double edge = std::round(random.between(-60.0, 60.0)) / 32.0,
+                 z = random.between(-1.8, 1.8);
+    EXPECT_NEAR(irradiance(floor, view.field, edge - 5e-7, z),
+                irradiance(floor, view.field, edge + 5e-7, z), 1e-3)
+        << edge << " " << z;
+  }
+}
+
+// The shadow of a rod a pixel and a half wide is dark along all of its length: sun finds it by the points
+// that are seen, and what has been found is followed.
+TEST(ViewField, ThinShadowsAreNotBroken) {
+  constexpr double half = 1.5, pixel = 2.0 * half / 100, rod = 0.75 * pixel;
+  Scene scene;
+  add_floor(scene);
+  scene.lights = {sun_from_above()};
+  add_polygon(scene, "rod", {{-rod, 1, -3}, {-rod + 0.7, 1, 3}, {rod + 0.7, 1, 3}, {rod, 1, -3}},
+              double_sided(diffuse(0.0)));
+  const SolvedFloor floor(std::move(scene), 1.0);
+  const ViewField view = view_field(floor.field(), floor.square({0, 0, 0}, half, 100), 1.0, {});
+  for (int k = -50; k <= 50; ++k) {
+    const double z = 0.028 * k, x = 0.7 * (z + 3.0) / 6.0;
+    // Cells of a tenth of a pixel, and what light surfaces throw back: none.
+    EXPECT_LT(irradiance(floor, view.field, x, z), 0.05) << z;
+    EXPECT_GT(irradiance(floor, view.field, x + 3.0 * rod, z), 0.95) << z;
+  }
+}
+
+TEST(ViewField, OnlyWhatIsSeenIsDivided) {
+  Scene scene;
+  add_floor(scene);
+  scene.lights = {sun_from_above()};
+  add_polygon(scene, "blade", {{-3, 1, -3}, {-3, 1, 3}, {0.1, 1, 3}, {0.3, 1, -3}},
+              double_sided(diffuse(0.0)));
+  const SolvedFloor floor(std::move(scene), 0.5);
+  const ViewField view = view_field(floor.field(), floor.square({1.0, 0, 1.0}, 0.2, 64), 1.0, {});
+  const IrradianceField& before = floor.field();
+  ASSERT_GT(view.field.corners().size(), before.corners().size());
+  // The values of the mesh come first, as they were, and elsewhere are what is looked up.
+  for (std::size_t v = 0; v < before.irradiance.size(); ++v)
+    EXPECT_EQ(view.field.irradiance[v], before.irradiance[v]);
+  Random random(4);
+  for (int n = 0; n < 200; ++n) {
+    const double x = random.between(-1.9, 0.4), z = random.between(-1.9, 1.9);
+    EXPECT_EQ(irradiance(floor, view.field, x, z), irradiance(floor, before, x, z));
+  }
+}
+
+TEST(ViewField, IsTheSameWithAnyNumberOfThreads) {
+  Scene scene;
+  add_floor(scene);
+  add_polygon(scene, "lamp", lamp_over_the_floor(), diffuse(0.0, 10.0));
+  scene.lights = {sun_from_above()};
+  add_polygon(scene, "blade", {{-3, 1, -3}, {-3, 1, 3}, {0.1, 1, 3}, {0.3, 1, -3}},
+              double_sided(diffuse(0.0)));
+  const SolvedFloor floor(std::move(scene), 0.5);
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return view_field(floor.field(), floor.square({0, 0, 0}, 1.0, 48), 1.0, {});
+  };
+  const ViewField one = with_threads(1), four = with_threads(4);
+  EXPECT_EQ(one.field.irradiance, four.field.irradiance);
+  EXPECT_EQ(one.field.lookup().descent, four.field.lookup().descent);
+}
+
+// A wall of no thickness stands on the floor, across its elements, with the lamp on one side:
+// on the other no light comes under it.
+TEST(ViewField, NoLightPassesUnderAWall) {
+  Scene scene;
+  add_floor(scene);
+  add_polygon(scene, "wall", {{0.13, 0, -2}, {0.13, 3, -2}, {0.13, 3, 2}, {0.13, 0, 2}},
+              double_sided(diffuse(0.0)));
+  add_polygon(scene, "lamp", {{1.0, 2, -0.5}, {1.5, 2, -0.5}, {1.5, 2, 0.5}, {1.0, 2, 0.5}},
+              diffuse(0.0, 10.0));
+  const SolvedFloor floor(std::move(scene), 0.5);
+  const ViewField view = view_field(floor.field(), floor.square({0.13, 0, 0}, 0.6, 64), 1.0, {});
+  Random random(6);
+  for (int n = 0; n < 300; ++n) {
+    const double z = random.between(-0.6, 0.6), away = random.between(1e-4, 0.5);
+    const double exact =
+        10.0 * point_form_factor({0.13 + away, 0, z}, {0, 1, 0},
+                                 std::vector<Point3>{
+                                     {1.0, 2, -0.5}, {1.5, 2, -0.5}, {1.5, 2, 0.5}, {1.0, 2, 0.5}});
+    EXPECT_EQ(irradiance(floor, view.field, 0.13 - away, z), 0.0) << away << " " << z;
+    EXPECT_NEAR(irradiance(floor, view.field, 0.13 + away, z), exact, 0.02 * exact)
+        << away << " " << z;
+  }
+}
+
+} // namespace
+} // namespace meninas::test
