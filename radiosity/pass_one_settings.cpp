@@ -65,21 +65,20 @@ static double target_elements(const PassOneChoice& choice, const PassOneQuality&
 }
 
 static InterpolationSettings interpolation_settings(const PassOneChoice& choice,
-                                                    const PassOneSettings& settings,
-                                                    DirectLightAt direct_light) {
+                                                    const PassOneSettings& settings) {
   InterpolationSettings interpolation;
   interpolation.method = choice.interpolation.value_or(interpolation.method);
   interpolation.rays = settings.form_factors.rays;
   interpolation.bend = choice.bends.value_or(0.0);
   // Edges are few: what they are off by counts less than what all light is, and the more so
-  // the closer that is looked at. At hits direct light has no vertices.
+  // the closer that is looked at.
   constexpr double of_edges = 0.02;
-  if (settings.cut == MeshCut::hierarchical && direct_light == DirectLightAt::vertices)
+  if (settings.cut == MeshCut::hierarchical)
     interpolation.shadow_bend = std::sqrt(of_edges * settings.hierarchical.link_error);
   return interpolation;
 }
 
-PassOneSettings pass_one_settings(const PassOneChoice& choice, DirectLightAt direct_light) {
+PassOneSettings pass_one_settings(const PassOneChoice& choice) {
   const PassOneQuality quality = pass_one_quality(choice.quality);
   PassOneSettings settings;
   settings.cut = mesh_cut(choice);
@@ -96,7 +95,7 @@ PassOneSettings pass_one_settings(const PassOneChoice& choice, DirectLightAt dir
   settings.solver.tolerance = choice.tolerance.value_or(settings.solver.tolerance);
   settings.solver.max_shots = choice.steps;
   settings.hierarchical.link_error = choice.link_error.value_or(quality.link_error);
-  settings.interpolation = interpolation_settings(choice, settings, direct_light);
+  settings.interpolation = interpolation_settings(choice, settings);
   // Means of elements show nowhere but where they are interpolated; else they light other elements,
   // and many average out.
   if (settings.interpolation.method == Interpolation::gather) {

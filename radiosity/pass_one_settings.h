@@ -75,10 +75,7 @@ struct PassOneChoice {
 /// `progressive` or the interpolation `average` want a row for every element.
 MeshCut mesh_cut(const PassOneChoice& choice);
 
-/// Where direct light of pictures is interpolated, or computed at each hit of a camera ray.
-enum class DirectLightAt { vertices, hits };
-PassOneSettings pass_one_settings(const PassOneChoice& choice,
-                                  DirectLightAt direct_light = DirectLightAt::vertices);
+PassOneSettings pass_one_settings(const PassOneChoice& choice);
 
 /// The samples of low-discrepancy sequences are evenly spread where their number is a power of two.
 int power_of_two(int at_least);

@@ -73,8 +73,7 @@ static DiffuseSettings diffuse_settings(const TwoPassChoice& choice, DiffuseTerm
 TwoPassSettings two_pass_settings(const TwoPassChoice& choice, RenderMode mode) {
   const DiffuseTerm term = diffuse_term(choice, mode);
   TwoPassSettings result;
-  result.pass_one = pass_one_settings(
-      choice, term == DiffuseTerm::interpolated ? DirectLightAt::vertices : DirectLightAt::hits);
+  result.pass_one = pass_one_settings(choice);
   RenderSettings& render = result.render;
   render.mode = mode;
   render.samples = power_of_two(choice.samples.value_or(render_quality(choice.quality).samples));

@@ -14,10 +14,10 @@ RunSettings with_quality(Quality quality) {
   return settings;
 }
 
-// README: `fine` computes direct light at the hits, unless it is told otherwise.
+// Drafts interpolate; others have direct light as fine as pixels, unless they are told otherwise.
 TEST(DiffuseTerm, IsThePresets) {
   EXPECT_EQ(diffuse_term(with_quality(Quality::draft)), DiffuseTerm::interpolated);
-  EXPECT_EQ(diffuse_term(with_quality(Quality::normal)), DiffuseTerm::interpolated);
+  EXPECT_EQ(diffuse_term(with_quality(Quality::normal)), DiffuseTerm::direct);
   EXPECT_EQ(diffuse_term(with_quality(Quality::fine)), DiffuseTerm::direct);
   EXPECT_EQ(two_pass_settings(with_quality(Quality::fine)).render.diffuse.term,
             DiffuseTerm::direct);

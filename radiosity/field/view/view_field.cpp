@@ -24,7 +24,7 @@ namespace meninas {
 namespace {
 
 using Workspaces = tbb::enumerable_thread_specific<SharedLightWorkspace>;
-using KnownBlockers = std::unordered_map<std::uint64_t, ImageBlockers>;
+using OccludersOfImages = std::unordered_map<std::uint64_t, ImageBlockers>;
 
 /// What a vertex of the cells has, W/m^2.
 struct VertexLight {
@@ -124,7 +124,7 @@ private:
     tbb::parallel_for(std::size_t{0}, rows.begin.size() - 1, [&](std::size_t row) {
       SharedLightWorkspace& work = workspaces_.local();
       const std::size_t begin = rows.begin[row], end = rows.begin[row + 1];
-      KnownBlockers& known = blockers_[seen_.root_of(vertices[rows.vertices[begin]].element)];
+      OccludersOfImages& known = blockers_[seen_.root_of(vertices[rows.vertices[begin]].element)];
       std::swap(work.blockers_of, known);
       for (std::size_t k = begin; k < end; ++k)
         light_vertex(rows.vertices[k], work);
@@ -347,7 +347,7 @@ private:
   const ViewRefinement& how_;
   SeenCells seen_;
   const LatticeCells& cells_;           ///< of what is seen
-  std::vector<KnownBlockers> blockers_; ///< by root
+  std::vector<OccludersOfImages> blockers_; ///< by root
   std::vector<VertexLight> lights_;     ///< by vertex of the cells
   std::vector<std::uint8_t> ends_;      ///< likewise
   float dark_ = 0.0F;                   ///< H_dark
