@@ -38,6 +38,7 @@ void add_view_options(Options& command, CompareOptions& options) {
   };
   add("--camera", "NAME", "camera to render [the first]",
       [&](const std::string& text) { request.camera = text; });
+  add_projection(command, options.common.settings, "Picture");
   const PictureSize standard;
   add("--size", "WxH",
       fmt::format("size in pixels [{}x{}, or as wide as the camera asks]", standard.width, standard.height),

@@ -92,7 +92,7 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "`light` splits the picture into nine layers that add up to it to the last bit: `emission`, "
        "`diffuse.direct` (light that came straight to the surface) and `diffuse.mirrored` (light that "
        "came by way of mirrors), each seen straight, in one mirror (`.mirror`) and in several "
-       "(`.mirrors`). `depth` (metres along the view axis), `normal` (world space, towards the eye), "
+       "(`.mirrors`). `depth` (metres along the view axis; from the eye in panoramas), `normal` (world space, towards the eye), "
        "`albedo` (diffuse), `element` (counted from 1) and `irradiance` (of pass one, W/m²) are those "
        "of the first surface at the middle of each pixel, a mirror among them; 0 where there is none."},
       {"--mesh",
@@ -106,6 +106,11 @@ const std::map<std::string_view, std::string_view>& all_details() {
       {"--link-error",
        "the solve begins with few large nodes and divides those whose light is not linear to X. With "
        "far more `--elements` than X needs, more `--rays` help instead."},
+      {"--projection",
+       "`equirectangular` is the whole sphere, 1024x512 unless `--size` says otherwise, what is ahead of "
+       "the camera in the middle. `cube` is a row of six squares, 3072x512: right, left, up, down, "
+       "ahead, behind, each as one who stands there sees it; the lower edge of up and the upper edge "
+       "of down meet the face ahead. `znear` and the lens of a camera have no effect on them."},
       {"--snapshots", "see [progressive pictures](progressive.md)."},
       {"--solver",
        "all of them end at the error that `--tolerance` allows. `progressive` shoots light, brightest "

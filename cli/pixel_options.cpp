@@ -116,6 +116,18 @@ void refuse(const Options& command, std::initializer_list<const char*> options,
   }
 }
 
+void add_projection(Options& command, RunSettings& settings, const std::string& group) {
+  const Choices<Projection> panoramas{{"equirectangular", Projection::equirectangular},
+                                      {"cube", Projection::cube}};
+  command
+      .add("--projection", fmt::format("{}", fmt::join(names_of(panoramas), "|")),
+           "all around the camera's place, in one picture [the camera's own projection]",
+           [&settings, panoramas](const std::string& text) {
+             settings.projection = parse_choice("--projection", text, panoramas);
+           })
+      .group(group);
+}
+
 void add_view_transform(Options& command, const std::string& description, ViewTransform& transform,
                         const std::string& group) {
   command

@@ -19,6 +19,9 @@ void refuse(const Options& command, std::initializer_list<const char*> options,
 
 void add_pixel_options(Options& command, RunSettings& settings, const std::string& group);
 
+/// `--projection`, of panoramas.
+void add_projection(Options& command, RunSettings& settings, const std::string& group);
+
 /// `--view-transform`, of a picture or of several.
 void add_view_transform(Options& command, const std::string& description, ViewTransform& transform,
                         const std::string& group);

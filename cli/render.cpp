@@ -81,6 +81,7 @@ void add_picture_options(Options& command, RenderOptions& options) {
       [&](const std::string& text) { options.common.settings.diffuse = parse_diffuse(text); });
   add("--camera", "NAME", "camera to render [the first]",
       [&](const std::string& text) { request.camera = text; });
+  add_projection(command, options.common.settings, picture_group);
   const PictureSize standard;
   add("--size", "WxH",
       fmt::format("size in pixels [{}x{}, or as wide as the camera asks]", standard.width, standard.height),

@@ -3,6 +3,7 @@
 #include "scenes/materials/bsdf.h"
 #include "scenes/materials/microfacets.h"
 #include "scenes/materials/refraction.h"
+#include "scenes/materials/sheen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,11 +56,11 @@ void add_ideal(const Bsdf& bsdf, const Direction& out, std::vector<LobeRay>& ray
     rays.push_back({*behind, facet_transmittance(bsdf, out.z), true});
 }
 
-void add_cell(const Bsdf& bsdf, const Cell& cell, double metal_norm, double coat_norm,
-              std::vector<LobeRay>& rays) {
+void add_cell(const Bsdf& bsdf, const Direction& out, const Cell& cell, double metal_norm,
+              double coat_norm, std::vector<LobeRay>& rays) {
   const Rgb weight = bsdf.metal * (cell.visible * metal_norm) + cell.coat * coat_norm;
   if (!(bsdf.glass > 0.0)) {
-    rays.push_back({cell.in, weight});
+    rays.push_back({cell.in, lobe_below_sheen(bsdf, out.z, cell.in.z) * weight});
     return;
   }
   rays.push_back({cell.in, weight + cell.glass * metal_norm});
@@ -111,7 +112,7 @@ void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift
   const double metal_norm = norm(albedo.f0 + albedo.f90, metal_sum);
   const double coat_norm = norm(bsdf.coat * coat_albedo(bsdf, out.z), coat_sum);
   for (const Cell& cell : cells)
-    add_cell(bsdf, cell, metal_norm, coat_norm, rays);
+    add_cell(bsdf, out, cell, metal_norm, coat_norm, rays);
 }
 
 void lobe_sample(const Bsdf& bsdf, const Direction& out, Vec2 u, std::vector<LobeRay>& rays) {
@@ -119,7 +120,7 @@ void lobe_sample(const Bsdf& bsdf, const Direction& out, Vec2 u, std::vector<Lob
   if (bsdf.alpha == 0.0)
     return add_ideal(bsdf, out, rays);
   if (const auto cell = cell_at(bsdf, out, u.x, u.y))
-    add_cell(bsdf, *cell, 1.0, 1.0, rays);
+    add_cell(bsdf, out, *cell, 1.0, 1.0, rays);
 }
 
 } // namespace meninas

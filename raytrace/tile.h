@@ -96,6 +96,7 @@ struct RenderContext {
   std::vector<std::uint8_t>
       blurred; ///< by WorldId: 1 where one of its mirrors has a lobe of its own, which rays follow
   std::vector<FrustumFace> frustum_faces; ///< for coherent_beams.h; empty: all rays are traced
+  std::vector<std::uint32_t> net_u, net_v; ///< likewise of the lens; empty where there is none
 };
 
 inline bool is_chosen(const RenderContext& context, int x, int y) {

@@ -72,7 +72,13 @@ static RenderContext context_of(const TracedView& view, const SampleShare& share
                         {},
                         {},
                         blurred_worlds(light),
+                        {},
+                        {},
                         {}};
+  if (context.camera.lens_x != glm::vec3(0.0F)) {
+    context.net_u = pixel_net(share.samples, 2);
+    context.net_v = pixel_net(share.samples, 3);
+  }
   // The rays of a lobe share the pixel:
   // what one of them sees of a shadow, the others see differently.
   context.behind_lobes = settings.diffuse;
@@ -111,8 +117,9 @@ RayTotals trace_picture(const TracedView& view, const SampleShare& share, const 
   const RenderSettings& settings = view.settings;
   const FilterPlaces places = places_of(settings);
   RenderContext context = context_of(view, share, places);
-  context.frustum_faces =
-      frustum_faces(view.light, max_frustum_faces(settings, context.net_x.size()));
+  if (is_affine(context.camera))
+    context.frustum_faces =
+        frustum_faces(view.light, max_frustum_faces(settings, context.net_x.size()));
   const int columns = (settings.width + tile_size - 1) / tile_size,
             rows = (settings.height + tile_size - 1) / tile_size;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;

@@ -61,7 +61,8 @@ LayerRadiance trace_batch(const TracedScene& traced, const Camera& camera,
     const auto u = sobol4(k, seed);
     const double x = pixel % settings.width + double(u[0]);
     const double y = pixel / settings.width + double(u[1]);
-    rays[k] = camera_ray(camera, aspect, x / settings.width, y / settings.height);
+    rays[k] = camera_ray(camera, aspect, x / settings.width, y / settings.height,
+                         Vec2(concentric_disc(u[2], u[3])));
   }
   const auto count = static_cast<std::size_t>(batch.samples);
   LayerRadiance mean{};

@@ -121,7 +121,7 @@ void compare_run(const CompareRequest& request, const RunEvents& events) {
   figures.threads = limit.threads();
 
   Scene scene = load_scene(request.scene, request.settings);
-  const Camera chosen = choose_camera(scene, request.camera, events);
+  const Camera chosen = choose_camera(scene, request.camera, request.settings, events);
   const PictureSize size = choose_size(request.size, chosen);
   const Camera camera = cut_open(scene, chosen, size, events);
   check_memory(scene, request.settings, size);

@@ -122,7 +122,7 @@ std::string plan_run(const PlanRequest& request) {
   Stopwatch watch;
   Scene scene = load_scene(request.scene, request.settings);
   const double loading = watch.lap();
-  const Camera chosen = choose_camera(scene, request.camera, {});
+  const Camera chosen = choose_camera(scene, request.camera, request.settings, {});
   const PictureSize size = choose_size(request.size, chosen);
   std::vector<std::string> of_camera;
   const Camera camera = cut_open(

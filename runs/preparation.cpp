@@ -3,6 +3,7 @@
 #include "image/image_file.h"
 #include "raytrace/pixels/section_plane.h"
 #include "runs/report/percent.h"
+#include "scenes/errors.h"
 #include "scenes/gltf/gltf.h"
 
 #include <fmt/format.h>
@@ -56,29 +57,50 @@ void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
   }
 }
 
+Camera projected(Camera camera, const RunSettings& settings) {
+  camera.projection = settings.projection.value_or(camera.projection);
+  return camera;
+}
+
+Camera default_view(const Bounds& bounds, const RunSettings& settings) {
+  Camera camera = projected(default_camera(bounds), settings);
+  const Point3 centre = 0.5 * bounds.low + 0.5 * bounds.high;
+  if (is_panorama(camera.projection) && glm::all(glm::lessThan(glm::abs(centre), Vec3(1e300)))) {
+    camera.position = centre;
+    camera.up = {0.0, 1.0, 0.0};
+    camera.forward = glm::cross(camera.up, camera.right);
+  }
+  return camera;
+}
+
 Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
-                     const RunEvents& events) {
+                     const RunSettings& settings, const RunEvents& events) {
   if (name) {
-    return find_camera(scene, *name);
+    return projected(find_camera(scene, *name), settings);
   }
   if (scene.cameras.empty()) {
-    return default_camera(bounds_of(scene));
+    return default_view(bounds_of(scene), settings);
   }
   if (scene.cameras.size() > 1) {
     note(events, fmt::format("camera '{}', the first of {}", scene.cameras.front().name,
                              scene.cameras.size()));
   }
-  return scene.cameras.front();
+  return projected(scene.cameras.front(), settings);
 }
 
 PictureSize choose_size(const std::optional<PictureSize>& asked, const Camera& camera) {
   if (asked) {
+    if (camera.projection == Projection::cube && asked->width != cube_faces * asked->height) {
+      throw UsageError("--size", fmt::format("{}x{} is no row of six squares, such as {}x{}",
+                                             asked->width, asked->height,
+                                             cube_faces * asked->height, asked->height));
+    }
     return *asked;
   }
   PictureSize size;
-  if (camera.aspect > 0.0) {
+  if (const double aspect = natural_aspect(camera); aspect > 0.0) {
     // An absurd aspect still makes a picture.
-    const double width = std::clamp(camera.aspect * size.height, 1.0, 16.0 * size.height);
+    const double width = std::clamp(aspect * size.height, 1.0, 16.0 * size.height);
     size.width = static_cast<int>(std::lround(width));
   }
   return size;
@@ -86,6 +108,10 @@ PictureSize choose_size(const std::optional<PictureSize>& asked, const Camera& c
 
 Camera cut_open(const Scene& scene, const Camera& camera, PictureSize size,
                 const RunEvents& events) {
+  if (is_panorama(camera.projection) && camera.lens_radius > 0.0) {
+    warn(events, fmt::format("camera '{}' has a lens, which panoramas do without: all is sharp",
+                             camera.name));
+  }
   Camera cutting = with_section(scene, camera, double(size.width) / size.height);
   if (cutting.section > 0.0) {
     warn(events, fmt::format("camera '{}' cuts the scene open: what is nearer than its znear of "

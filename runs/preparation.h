@@ -25,15 +25,22 @@ std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& s
 void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
                       const RunEvents& events);
 
-/// The camera of that name, else the file's first, else a default view of the whole scene.
-Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
-                     const RunEvents& events);
+/// The camera with the projection that the settings ask for.
+Camera projected(Camera camera, const RunSettings& settings);
 
-/// As asked, else 512 rows, as wide as the camera wants them, else square.
+/// Of a scene without a camera: all of it from outside, or around from its middle.
+Camera default_view(const Bounds& bounds, const RunSettings& settings);
+
+/// The camera of that name, else the file's first, else a default view, as projected().
+Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
+                     const RunSettings& settings, const RunEvents& events);
+
+/// As asked, else 512 rows, as wide as the camera wants them, else square. Throws UsageError where
+/// the six faces of a cube would be no squares.
 PictureSize choose_size(const std::optional<PictureSize>& asked, const Camera& camera);
 
-/// The camera; one that cuts what a picture of that size would show starts at its section plane,
-/// which is said.
+/// The camera; one that cuts what a picture of that size would show starts at its section plane.
+/// Says so, and that panoramas do without a lens.
 Camera cut_open(const Scene& scene, const Camera& camera, PictureSize size,
                 const RunEvents& events);
 

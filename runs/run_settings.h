@@ -34,6 +34,7 @@ enum class PictureMode {
 struct RunSettings : TwoPassChoice {
   GltfSettings gltf; ///< how the scene's file is read
   PictureMode mode = PictureMode::hybrid;
+  std::optional<Projection> projection; ///< in place of the camera's
   std::optional<DebugView> view;     ///< painted instead of light
   std::optional<double> max_error;   ///< of a reference
   std::optional<double> max_seconds; ///< of a reference

@@ -3,6 +3,7 @@
 #include "radiosity/solution/solution_file.h"
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
+#include "runs/steering/setting_options.h"
 #include "scenes/content_hash.h"
 #include "scenes/stopwatch.h"
 
@@ -20,6 +21,8 @@ static Attributes attributes_of(const Scene& scene, const Camera& camera,
                         {"sceneHash", hex_digits(content_hash(scene))},
                         {"camera", camera.name},
                         {"seed", std::to_string(settings.seed)}};
+  if (is_panorama(camera.projection))
+    attributes.emplace_back("projection", name_of(camera.projection));
   if (const Rgb& background = scene.background; background != Rgb(0.0))
     attributes.emplace_back("background",
                             fmt::format("{},{},{}", background.r, background.g, background.b));

@@ -59,6 +59,8 @@ struct Material {
   double ior = 1.5;
   double specular = 1.0; ///< KHR_materials_specular
   Rgb specular_color{1.0};
+  Rgb sheen_color{0.0}; ///< KHR_materials_sheen (materials/sheen.h), in [0, 1]; black: there is none
+  double sheen_roughness = 0.0; ///< in [0, 1]
   double transmission = 0.0;
   double thickness =
       0.0; ///< KHR_materials_volume, metres: above 0 what is behind the surface is full of the glass
@@ -80,6 +82,8 @@ struct Material {
   double clear_coat = 0.0, clear_coat_roughness = 0.0; ///< lacquer, in [0, 1] (clear_coat.h)
   std::optional<TextureUse> specular_texture;          ///< alpha
   std::optional<TextureUse> specular_color_texture;
+  std::optional<TextureUse> sheen_color_texture;
+  std::optional<TextureUse> sheen_roughness_texture;      ///< alpha
   std::optional<TextureUse> clear_coat_texture;           ///< red
   std::optional<TextureUse> clear_coat_roughness_texture; ///< green
 };

@@ -55,6 +55,12 @@ void add_material(ContentHash& hash, const Material& material) {
     hash.add(material.normal_scale);
     add_texture_use(hash, material.normal_texture);
   }
+  if (material.sheen_color != Rgb(0.0)) {
+    hash.add(material.sheen_color);
+    hash.add(material.sheen_roughness);
+    add_texture_use(hash, material.sheen_color_texture);
+    add_texture_use(hash, material.sheen_roughness_texture);
+  }
   if (material.clear_coat > 0.0) {
     hash.add(material.clear_coat);
     hash.add(material.clear_coat_roughness);

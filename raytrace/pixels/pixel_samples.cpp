@@ -15,6 +15,7 @@ namespace {
 /// Samples of one or more pixels, lane by lane.
 struct alignas(64) SampleLanes {
   std::array<std::uint32_t, packet_size> bits_x, bits_y; ///< of the place in the pixel
+  std::array<std::uint32_t, packet_size> bits_u, bits_v; ///< of that on the lens, if there is one
   std::array<float, packet_size> left, top;              ///< of the pixel in the picture, in pixels
   std::array<std::uint32_t, packet_size> pixel, number;
   std::uint32_t count = 0;
@@ -48,6 +49,30 @@ void places_in_picture(const std::array<std::uint32_t, packet_size>& bits,
     places[k] = (start[k] + places[k]) * pixel;
 }
 
+/// Points of the disc, as evenly spread as those of the square.
+std::array<glm::vec2, packet_size> places_on_lens(const SampleLanes& lanes) {
+  std::array<glm::vec2, packet_size> places;
+  for (std::size_t k = 0; k < packet_size; ++k)
+    places[k] = concentric_disc(static_cast<float>(lanes.bits_u[k] >> 8U) * 0x1p-24F,
+                                static_cast<float>(lanes.bits_v[k] >> 8U) * 0x1p-24F);
+  return places;
+}
+
+void set_rays(const RenderContext& context, const SampleLanes& lanes,
+              const std::array<float, packet_size>& x, const std::array<float, packet_size>& y,
+              RayPacket& packet) {
+  if (is_panorama(context.camera.projection)) {
+    alignas(64) std::array<float, packet_size> middle;
+    for (std::size_t k = 0; k < packet_size; ++k)
+      middle[k] = (lanes.left[k] + 0.5F) / static_cast<float>(context.settings.width);
+    set_panorama_rays(packet, context.camera, x, y, middle);
+    return;
+  }
+  set_camera_rays(packet, context.camera, x, y);
+  if (!context.net_u.empty())
+    start_on_lens(packet, context.camera, places_on_lens(lanes));
+}
+
 void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileWorkspace& work) {
   alignas(64) std::array<float, packet_size> x, y;
   places_in_picture(lanes.bits_x, lanes.left, context.settings.width, context.filter, x);
@@ -61,7 +86,7 @@ void trace_samples(const RenderContext& context, const SampleLanes& lanes, TileW
     shade_behind_mirrors(context, packet, state, *path, hits, work);
     return;
   }
-  set_camera_rays(packet, context.camera, x, y);
+  set_rays(context, lanes, x, y, packet);
   trace_together(context, packet, state, work);
   // Lobes send many rays on: what is under way stays within memory.
   constexpr std::size_t max_queued = 1 << 17;
@@ -102,6 +127,10 @@ void trace_camera_rays(const RenderContext& context, const TileArea& tile, TileW
         lanes.bits_x[first + k] = context.net_x[sample + k] ^ shift_x;
       for (std::uint32_t k = 0; k < count; ++k)
         lanes.bits_y[first + k] = context.net_y[sample + k] ^ shift_y;
+      for (std::uint32_t k = 0; k < count && !context.net_u.empty(); ++k) {
+        lanes.bits_u[first + k] = context.net_u[sample + k] ^ hash(shift_x, 2);
+        lanes.bits_v[first + k] = context.net_v[sample + k] ^ hash(shift_x, 3);
+      }
       for (std::uint32_t k = 0; k < count; ++k)
         lanes.number[first + k] = context.first_sample + sample + k;
       std::fill_n(lanes.left.begin() + first, count, static_cast<float>(px));

@@ -22,13 +22,15 @@ struct Bound {
 static std::array<Bound, 6> bounds_before(const Camera& camera, double picture_aspect,
                                           double depth) {
   const bool perspective = camera.projection == Projection::perspective;
-  const double half_height =
-      perspective ? std::tan(0.5 * camera.vertical_fov) : camera.half_height;
+  const double half_height = half_height_of(camera, picture_aspect);
+  // Rays from the edge of a lens are so much off those from its centre, at the most.
+  const double beside =
+      camera.lens_radius * std::max(1.0, std::abs(1.0 - depth / camera.focus_distance));
   const Vec3 across = half_height * picture_aspect * camera.right, upwards = half_height * camera.up;
   const Point3& eye = camera.position;
   const auto side = [&](const Vec3& axis, const Vec3& half) {
     // In perspective the plane through the eye and the edge of the picture at distance one.
-    return perspective ? Bound{eye, glm::length(half) * camera.forward - axis}
+    return perspective ? Bound{eye + beside * axis, glm::length(half) * camera.forward - axis}
                        : Bound{eye + half, -axis};
   };
   return {side(camera.right, across), side(-camera.right, -across), side(camera.up, upwards),
@@ -66,7 +68,7 @@ static double depth_of(const Bounds& bounds, const Camera& camera) {
 
 Camera with_section(const Scene& scene, Camera camera, double picture_aspect) {
   constexpr double a_hair = 2e-5; // of the radius: frusta are certain to half of it
-  if (!(camera.znear > 0.0))
+  if (!(camera.znear > 0.0) || is_panorama(camera.projection))
     return camera;
   const Bounds all = bounds_of(scene);
   const Vec3 size = all.high - all.low;

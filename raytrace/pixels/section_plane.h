@@ -2,7 +2,7 @@
 //
 // Camera rays start in the plane dot(x - eye, forward) = znear, so what is nearer is not seen by
 // them; light, mirrors and shadows know nothing of it. Where nothing is nearer in the picture, rays
-// start at the eye.
+// start at the eye, and so do those of panoramas, which have no such plane.
 #pragma once
 
 #include "scenes/scene.h"

@@ -28,8 +28,10 @@ static glm::vec3 value_of(Feature feature, const IrradianceField& field,
   const bool on_field = sight.side != FaceRecord::nothing;
   switch (feature) {
   case Feature::depth:
-    return glm::vec3(
-        static_cast<float>(glm::dot(sight.position - camera.position, camera.forward)));
+    return glm::vec3(static_cast<float>(
+        is_panorama(camera.projection)
+            ? glm::distance(sight.position, camera.position)
+            : glm::dot(sight.position - camera.position, camera.forward)));
   case Feature::normal:
     return sight.normal;
   case Feature::albedo:

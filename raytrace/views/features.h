@@ -7,7 +7,7 @@
 
 namespace meninas {
 
-/// In all channels of the layer: of depth along the view axis, metres;
+/// In all channels of the layer: of depth along the view axis, or of distance from the eye in panoramas, metres;
 /// R, G, B = x, y, z of the unit normal towards the eye, in the world;
 /// diffuse reflectance with textures, 0 on mirrors; index of the element counted from 1 (exact
 /// up to 2^24), 0 where there is none; irradiance of the field of pass one, W/m^2.

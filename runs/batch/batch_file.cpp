@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -77,6 +78,35 @@ CameraChoice camera_at(const Place& place) {
   return path;
 }
 
+/// From, and then every 1 / fps until beyond `to`; or a list.
+std::vector<double> times_at(const Place& place) {
+  const Json& json = place.json;
+  if (json.is_array()) {
+    return json.get<std::vector<double>>();
+  }
+  const double from = number_or(json, "from", 0.0), to = json["to"], fps = json["fps"];
+  if (!(to >= from)) {
+    place.fail(fmt::format("ends at {}, before it begins at {}", to, from));
+  }
+  // Ends that are whole frames in decimals are a hair before or after in binary.
+  constexpr double hair = 1e-6, most = 1e6;
+  const double last = std::floor((to - from) * fps + hair);
+  if (!(last < most)) {
+    place.fail(fmt::format("asks for {:.3g} frames, more than {:.0f}", last + 1.0, most));
+  }
+  std::vector<double> times;
+  for (int frame = 0; frame <= static_cast<int>(last); ++frame) {
+    times.push_back(from + frame / fps);
+  }
+  return times;
+}
+
+/// As many as cameras_along() will give.
+std::size_t frames_of(const CameraPath& path) {
+  const auto* poses = std::get_if<std::vector<Pose>>(&path.shape);
+  return path.frames || !poses ? static_cast<std::size_t>(path.frames.value_or(1)) : poses->size();
+}
+
 /// A job's own value, else the default, with the place it stands at;
 /// nothing where neither says anything.
 std::optional<Place> chosen(const Place& job, const std::optional<Place>& defaults,
@@ -114,6 +144,10 @@ Json merged_settings(const Place& job, const std::optional<Place>& defaults) {
       }
     }
     settings.merge_patch(own.json);
+  }
+  if (settings.contains("at") && chosen(job, defaults, "at")) {
+    const bool own = job.json.contains("settings") && job.json["settings"].contains("at");
+    (own ? job : *defaults).at("settings").at("at").fail("the job has an 'at' of its own");
   }
   return settings;
 }
@@ -157,14 +191,28 @@ void read_outputs(const std::optional<Place>& outputs, BatchJob& job) {
   });
 }
 
+/// A path goes side by side with the scene's animations.
+void check_frames(const Place& camera, const BatchJob& job) {
+  const auto* path = std::get_if<CameraPath>(&job.cameras.back());
+  if (path && !job.times.empty() && frames_of(*path) != job.times.size()) {
+    camera.fail(fmt::format("has {} frames, but 'at' has {}: a path and the scene's animations go "
+                            "side by side",
+                            frames_of(*path), job.times.size()));
+  }
+}
+
 BatchJob job_at(const Place& place, const std::optional<Place>& defaults, std::size_t number,
                 const SettingsParser& parse) {
   BatchJob job{.name = place.json.value("name", std::to_string(number)),
                .place = place.pointer,
                .scenes = {},
+               .times = {},
                .cameras = {},
                .modes = {},
                .outputs = {}};
+  if (const auto times = chosen(place, defaults, "at")) {
+    job.times = times_at(*times);
+  }
   const auto scenes = chosen(place, defaults, "scenes");
   if (!scenes) {
     place.fail("'scenes' is missing, here and in the defaults");
@@ -173,7 +221,10 @@ BatchJob job_at(const Place& place, const std::optional<Place>& defaults, std::s
     job.scenes.push_back(place.file.parent_path() / scene.json.get<std::string>());
   });
   if (const auto cameras = chosen(place, defaults, "cameras")) {
-    for_each_of(*cameras, [&](const Place& camera) { job.cameras.push_back(camera_at(camera)); });
+    for_each_of(*cameras, [&](const Place& camera) {
+      job.cameras.push_back(camera_at(camera));
+      check_frames(camera, job);
+    });
   } else {
     job.cameras.emplace_back();
   }

@@ -7,7 +7,8 @@
 //             {"scenes": "hall.glb", "cameras": {"orbit": {"radius":
 //             2}, "frames": 36}, "settings": {"samples": 64}}]}
 //
-// A job stands for one picture for each of its scenes, cameras (or frames of a path) and modes.
+// A job stands for one picture for each of its scenes, times of its animations, cameras (or frames
+// of a path) and modes; the frames of a path and the times of a job go side by side.
 // What a job leaves out it has from the defaults; settings,
 // which have the names and values of the options of `meninas render`, are merged one by one.
 #pragma once
@@ -38,6 +39,7 @@ struct BatchJob {
   std::string name;
   std::string place;                         ///< in the file, RFC 6901
   std::vector<std::filesystem::path> scenes; ///< as written: files and patterns
+  std::vector<double> times; ///< of the scenes' animations, seconds; none: the state of the settings
   std::vector<CameraChoice> cameras;
   std::vector<JobMode> modes;
   std::vector<std::string> outputs; ///< templates

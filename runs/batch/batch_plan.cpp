@@ -32,9 +32,14 @@ struct KnownScene {
 using SceneFile = std::pair<fs::path, SceneState>;
 using KnownScenes = std::map<SceneFile, KnownScene>;
 
-/// That of all modes of a job: they share its settings.
-const SceneState& state_of(const BatchJob& job) {
-  return job.modes.front().request.settings.gltf.state;
+/// Those of all modes of a job, which share its settings: one for each of its times, or one.
+std::vector<SceneState> states_of(const BatchJob& job) {
+  const SceneState& state = job.modes.front().request.settings.gltf.state;
+  std::vector<SceneState> states(std::max<std::size_t>(1, job.times.size()), state);
+  for (std::size_t k = 0; k < job.times.size(); ++k) {
+    states[k].at = job.times[k];
+  }
+  return states;
 }
 
 bool is_pattern(const std::string& text) { return text.find_first_of("*?[{") != std::string::npos; }
@@ -77,7 +82,9 @@ KnownScenes read_scenes(const FoundFiles& found, const std::vector<BatchJob>& jo
   for (const BatchJob& job : jobs) {
     for (const fs::path& pattern : job.scenes) {
       for (const fs::path& file : found.at(pattern)) {
-        scenes.emplace(SceneFile{file, state_of(job)}, KnownScene{});
+        for (const SceneState& state : states_of(job)) {
+          scenes.emplace(SceneFile{file, state}, KnownScene{});
+        }
       }
     }
   }
@@ -100,7 +107,7 @@ KnownScenes read_scenes(const FoundFiles& found, const std::vector<BatchJob>& jo
 
 /// A camera of a job in a scene: one, or the frames of a path.
 std::vector<Camera> chosen_cameras(const CameraChoice& choice, const Scene& cameras_only,
-                                   const Bounds& bounds) {
+                                   const Bounds& bounds, const RunSettings& settings) {
   const auto& cameras = cameras_only.cameras;
   if (const auto* path = std::get_if<CameraPath>(&choice)) {
     return cameras_along(*path, bounds);
@@ -108,7 +115,7 @@ std::vector<Camera> chosen_cameras(const CameraChoice& choice, const Scene& came
   const auto* name = std::get_if<std::string>(&choice);
   const auto is_named = [&](const Camera& camera) { return camera.name == *name; };
   if (name == nullptr || (cameras.empty() && *name == "*")) {
-    return {cameras.empty() ? default_camera(bounds) : cameras.front()};
+    return {cameras.empty() ? default_view(bounds, settings) : cameras.front()};
   }
   if (!is_pattern(*name) || std::ranges::any_of(cameras, is_named)) {
     return {find_camera(cameras_only, *name)};
@@ -132,9 +139,11 @@ void add_camera(ContentHash& hash, const Camera& camera) {
     hash.add(vector);
   }
   for (const double number :
-       {camera.vertical_fov, camera.half_height, camera.aspect, camera.znear}) {
+       {camera.vertical_fov, camera.half_height, camera.aspect, camera.znear, camera.lens_radius,
+        camera.focus_distance}) {
     hash.add(number);
   }
+  hash.add(static_cast<std::uint64_t>(camera.sensor_fit));
 }
 
 void add_settings(ContentHash& hash, std::vector<Setting> settings) {
@@ -146,11 +155,12 @@ void add_settings(ContentHash& hash, std::vector<Setting> settings) {
 }
 
 /// Settings of the picture alone. What is not listed counts for pass one:
-/// at worst it is solved once too often.
+/// at worst it is solved once too often. States of a scene are known by what is there then.
 bool is_of_pass_two(const Setting& setting) {
   constexpr std::array names{"mode",      "diffuse",     "camera",      "size",          "samples",
                              "max-error", "max-seconds", "exposure",    "layers",        "float",
-                             "view",      "view-transform", "filter",      "pixel-error", "glossy-samples"};
+                             "view",      "view-transform", "filter",      "pixel-error", "glossy-samples",
+                             "at",        "variant",        "projection"};
   return std::ranges::find(names, setting.name) != names.end();
 }
 
@@ -178,16 +188,20 @@ std::string picture_key(const BatchPicture& picture, const std::vector<Setting>&
   return hex_digits(hash.value());
 }
 
-/// What a job asks for in one scene.
+/// What a job asks for in one scene, in one of its states.
 struct JobScene {
   const BatchJob& job;
   const fs::path& scene;
+  const SceneState& state;
+  std::size_t frame; ///< of the job's times
   const KnownScene& known;
 };
 
-BatchPicture broken_picture(const BatchJob& job, const fs::path& scene, BatchProblem problem) {
+BatchPicture broken_picture(const BatchJob& job, const fs::path& scene, BatchProblem problem,
+                            std::optional<std::size_t> frame = std::nullopt) {
   BatchPicture picture;
-  picture.name = fmt::format("{} {}", job.place, scene.string());
+  picture.name = fmt::format("{} {}", job.place, scene.string()) +
+                 (frame ? fmt::format(" frame {}", *frame) : "");
   picture.job = job.name;
   picture.scene = scene;
   picture.problem = std::move(problem);
@@ -200,11 +214,12 @@ BatchPicture picture_of(const JobScene& at, const JobMode& mode, const Camera& c
   picture.mode = mode.name;
   picture.scene = at.scene;
   picture.facts = at.known.facts;
-  picture.camera = camera;
+  picture.camera = projected(camera, mode.request.settings);
   picture.frame = frame;
-  picture.size = choose_size(mode.request.size, camera);
+  picture.size = choose_size(mode.request.size, picture.camera);
   picture.request = mode.request;
   picture.request.scene = at.scene;
+  picture.request.settings.gltf.state = at.state;
   const NameParts parts{at.scene.stem().string(), camera.name, mode.name, at.job.name, frame};
   for (const std::string& name_template : at.job.outputs) {
     picture.outputs.push_back(output_name(name_template, parts));
@@ -218,8 +233,9 @@ BatchPicture picture_of(const JobScene& at, const JobMode& mode, const Camera& c
 }
 
 void add_pictures(const JobScene& at, std::vector<BatchPicture>& pictures) {
+  const auto frame_of_time = at.job.times.empty() ? std::nullopt : std::optional(at.frame);
   if (at.known.problem) {
-    pictures.push_back(broken_picture(at.job, at.scene, *at.known.problem));
+    pictures.push_back(broken_picture(at.job, at.scene, *at.known.problem, frame_of_time));
     return;
   }
   Scene named;
@@ -227,16 +243,21 @@ void add_pictures(const JobScene& at, std::vector<BatchPicture>& pictures) {
   named.cameras = at.known.facts->cameras;
   for (const CameraChoice& choice : at.job.cameras) {
     try {
-      const auto cameras = chosen_cameras(choice, named, at.known.facts->bounds);
+      auto cameras = chosen_cameras(choice, named, at.known.facts->bounds,
+                                    at.job.modes.front().request.settings);
       const bool path = std::holds_alternative<CameraPath>(choice);
+      if (path && !at.job.times.empty()) {
+        cameras = {cameras.at(at.frame)}; // side by side with the animations
+      }
       for (std::size_t k = 0; k < cameras.size(); ++k) {
+        const std::size_t frame = path && at.job.times.empty() ? k : at.frame;
         for (const JobMode& mode : at.job.modes) {
-          pictures.push_back(picture_of(at, mode, cameras[k], path ? static_cast<int>(k) : 0));
+          pictures.push_back(picture_of(at, mode, cameras[k], static_cast<int>(frame)));
         }
       }
     } catch (const UserError& error) {
       const int code = static_cast<int>(ExitCode::bad_input);
-      pictures.push_back(broken_picture(at.job, at.scene, {error.what(), code}));
+      pictures.push_back(broken_picture(at.job, at.scene, {error.what(), code}, frame_of_time));
     }
   }
 }
@@ -276,6 +297,7 @@ std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<Bat
   std::vector<BatchPicture> pictures;
   for (const BatchJob& job : jobs) {
     const std::size_t first = pictures.size();
+    const std::vector<SceneState> states = states_of(job);
     std::set<fs::path> seen;
     for (const fs::path& pattern : job.scenes) {
       const auto& files = found.at(pattern);
@@ -285,14 +307,18 @@ std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<Bat
             broken_picture(job, pattern, {pattern.string() + ": no file matches", code}));
       }
       for (const fs::path& scene : files) {
-        if (seen.insert(scene).second) {
-          add_pictures({job, scene, scenes.at({scene, state_of(job)})}, pictures);
+        if (!seen.insert(scene).second) {
+          continue;
+        }
+        for (std::size_t k = 0; k < states.size(); ++k) {
+          add_pictures({job, scene, states[k], k, scenes.at({scene, states[k]})}, pictures);
         }
       }
     }
     for (BatchPicture& picture : std::span(pictures).subspan(first)) {
+      const SceneState state = picture.request.settings.gltf.state;
       picture.request.settings.gltf = gltf;
-      picture.request.settings.gltf.state = state_of(job);
+      picture.request.settings.gltf.state = state;
     }
     check_distinct(file, job, std::span(pictures).subspan(first), owners);
   }

@@ -1,8 +1,11 @@
 // What a batch has to do: its jobs taken apart into single pictures,
 // each with the scene, the camera and the settings it is made of.
 //
-// Pictures are in the order of jobs, scenes, cameras, frames and modes:
+// Pictures are in the order of jobs, scenes, times, cameras, frames and modes:
 // the same for every process that reads the same files.
+//
+// A scene at a time of its animations is a scene of its own, known by its content: where cameras
+// alone move, all times have one content and one solution.
 #pragma once
 
 #include "runs/batch/batch_file.h"
@@ -43,7 +46,7 @@ struct BatchPicture {
   std::optional<BatchProblem> problem; ///< a scene that cannot be read, a camera it does not have
 };
 
-/// Reads every scene once.
+/// Reads every scene once in each of its states.
 /// Throws InputError, at the job's place, when two pictures would be one file.
 std::vector<BatchPicture> plan_batch(const std::filesystem::path& file,
                                      const std::vector<BatchJob>& jobs,

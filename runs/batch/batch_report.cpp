@@ -49,6 +49,9 @@ Json picture_json(const BatchPicture& picture, const PictureResult& result) {
             {"files", files},
             {"seconds", record.seconds},
             {"rays", record.rays}};
+  if (const auto& at = picture.request.settings.gltf.state.at) {
+    json["at"] = *at;
+  }
   if (result.status == PictureStatus::failed) {
     json["error"] = record.error;
     json["exit_code"] = record.exit_code;

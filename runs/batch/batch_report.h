@@ -27,7 +27,7 @@ struct BatchCounts {
 BatchCounts count(std::span<const PictureResult> results);
 
 /// {"jobs_file", "version", "pictures": [{"name", "status", "job", "scene", "camera", "mode",
-/// "frame", "width", "height", "files", "seconds", "rays", "error"?, "exit_code"?}], "counts":
+/// "frame", "at"?, "width", "height", "files", "seconds", "rays", "error"?, "exit_code"?}], "counts":
 /// {"pictures", "made", "found", "failed", "open"}, "solves":
 /// [{"scene", "key", "solved", "seconds", "elements", "error_bound", "converged"}],
 /// "seconds", "rays", "rays_per_second", "peak_memory_bytes", "threads"}.

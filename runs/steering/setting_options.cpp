@@ -44,6 +44,20 @@ const char* name_of(Interpolation method) {
   return method == Interpolation::average ? "average" : "gather";
 }
 
+const char* name_of(Projection projection) {
+  switch (projection) {
+  case Projection::perspective:
+    return "perspective";
+  case Projection::orthographic:
+    return "orthographic";
+  case Projection::equirectangular:
+    return "equirectangular";
+  case Projection::cube:
+    return "cube";
+  }
+  return "";
+}
+
 std::vector<std::string> options_of(const RunSettings& settings) {
   const RunSettings standard;
   std::vector<std::string> options;
@@ -63,6 +77,8 @@ std::vector<std::string> options_of(const RunSettings& settings) {
   add_given("--at", settings.gltf.state.at);
   if (settings.gltf.state.light_scale != standard.gltf.state.light_scale)
     add("--light-scale", fmt::format("{}", settings.gltf.state.light_scale));
+  if (settings.projection)
+    add("--projection", name_of(*settings.projection));
   if (settings.background)
     add("--background", fmt::format("{},{},{}", settings.background->r, settings.background->g,
                                     settings.background->b));

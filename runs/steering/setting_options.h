@@ -13,6 +13,7 @@ const char* name_of(Quality quality);
 const char* name_of(DiffuseTerm term);
 const char* name_of(FormFactorMethod method);
 const char* name_of(Interpolation method);
+const char* name_of(Projection projection);
 
 /// {"--quality", "draft", "--rays", "64", ...}: what differs from the defaults,
 /// of what makes a picture of the two passes. `render` with these options makes the same bits.

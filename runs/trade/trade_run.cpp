@@ -173,7 +173,7 @@ void trade_run(const TradeRequest& request, const RunEvents& events) {
     check_writable_file(request.folder / file);
   const ThreadLimit limit(request.settings.threads);
   const Scene scene = load_scene(request.scene, request.settings);
-  const Camera chosen = choose_camera(scene, request.camera, events);
+  const Camera chosen = choose_camera(scene, request.camera, request.settings, events);
   const TradeScene facts = look_at_scene(scene, events);
 
   TradeResult result;

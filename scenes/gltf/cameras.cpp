@@ -61,6 +61,57 @@ static void read_orthographic(const Document& document, const std::string& where
                      fmt::format("xmag {} and ymag {} show no area", xmag, ymag));
 }
 
+/// What a camera's extras say, or those of its node, as Blender writes custom properties:
+///   fstop, focus_distance (metres)   depth of field: a thin lens of radius f / (2 fstop)
+///   focal_length (millimetres)       f; otherwise that of 36 mm across the frame's longer side
+///   sensor_fit                       AUTO, HORIZONTAL or VERTICAL (if left out), Blender's names
+static double extra_number(const Json& extras, const char* key) {
+  const auto* value = find(extras, key);
+  return value && value->is_number() ? value->get<double>() : 0.0;
+}
+
+static void read_lens(const Json& extras, Camera& camera, const std::string& where,
+                      Findings& findings) {
+  if (!extras.contains("fstop") && !extras.contains("focus_distance"))
+    return;
+  constexpr double sensor = 0.036; // metres
+  const auto fstop = extra_number(extras, "fstop");
+  const auto distance = extra_number(extras, "focus_distance");
+  const auto given = 1e-3 * extra_number(extras, "focal_length");
+  const auto across = 2.0 * std::tan(0.5 * camera.vertical_fov) * std::max(1.0, camera.aspect);
+  const auto radius = 0.5 * (given > 0.0 ? given : sensor / across) / fstop;
+  const bool possible = fstop > 0.0 && distance > 0.0 && std::isfinite(distance) &&
+                        std::isfinite(radius) && camera.projection == Projection::perspective;
+  if (!possible) {
+    findings.about("depth of field is left out, which takes a positive fstop and focus_distance and "
+                   "is not for orthographic cameras, in cameras",
+                   where);
+    return;
+  }
+  camera.lens_radius = radius;
+  camera.focus_distance = distance;
+}
+
+static void read_extras(const Json& owner, Camera& camera, const std::string& where,
+                        Findings& findings) {
+  const auto* extras = find(owner, "extras");
+  if (!extras || !extras->is_object())
+    return;
+  read_lens(*extras, camera, where, findings);
+  const auto* fit = find(*extras, "sensor_fit");
+  if (!fit)
+    return;
+  if (*fit == "HORIZONTAL")
+    camera.sensor_fit = SensorFit::horizontal;
+  else if (*fit == "AUTO")
+    camera.sensor_fit = SensorFit::longer;
+  else if (*fit == "VERTICAL")
+    camera.sensor_fit = SensorFit::vertical;
+  else
+    findings.about("sensor_fit that is not AUTO, HORIZONTAL or VERTICAL is left out in cameras",
+                   where);
+}
+
 /// What is no distance cuts nothing.
 static double znear_of(const Json& projection) {
   const auto znear = number_or(projection, "znear", 0.0);
@@ -82,6 +133,7 @@ static Camera read_camera(const Document& document, std::size_t index, Findings&
   else
     read_orthographic(document, where, *projection, camera);
   camera.znear = znear_of(*projection);
+  read_extras(json, camera, where, findings);
   return camera;
 }
 
@@ -144,6 +196,7 @@ void read_cameras(const Document& document, std::span<const PlacedNode> nodes, S
       continue;
     auto camera = read_camera(document, *index, findings);
     const auto name = first_name(document, node.index, "cameras", *index, "camera");
+    read_extras(element(document.root, "nodes", node.index), camera, name, findings);
     if (!orient(camera, node.world)) {
       findings.about("cameras scaled to nothing are left out", name);
       continue;

@@ -174,6 +174,7 @@ static Material read_material(const Document& document, std::size_t index, Findi
   read_coat(document, json, material, findings);
   read_glass(document, json, material, findings);
   read_alpha(json, material, findings);
+  read_thin_layers(document, json, material, findings);
   if (const auto* coat = find(json, {"extensions", "KHR_materials_clearcoat"}))
     read_clear_coat(document, *coat, material, findings);
   material.normal_texture =
@@ -261,6 +262,8 @@ void read_materials(const Document& document, Scene& scene, Findings& findings) 
   const std::vector<std::uint8_t> clear = with_clear_vertices(scene);
   for (std::size_t m = 0; m < scene.materials.size(); ++m)
     settle_blending(scene.materials[m], clear[m] != 0, findings);
+  for (auto& material : scene.materials)
+    settle_thin_layers(material, findings);
 }
 
 } // namespace meninas::gltf

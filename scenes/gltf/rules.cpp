@@ -41,13 +41,31 @@ constexpr Rule metallic_roughness[] = {
 };
 constexpr Rule clear_coat[] = {
     {.name = "clearcoatFactor", .kind = number},
+    {.name = "clearcoatTexture", .kind = object, .fields = texture_use},
     {.name = "clearcoatRoughnessFactor", .kind = number},
+    {.name = "clearcoatRoughnessTexture", .kind = object, .fields = texture_use},
 };
+constexpr Rule sheen[] = {
+    {.name = "sheenColorFactor", .kind = numbers, .length = 3},
+    {.name = "sheenColorTexture", .kind = object, .fields = texture_use},
+    {.name = "sheenRoughnessFactor", .kind = number},
+    {.name = "sheenRoughnessTexture", .kind = object, .fields = texture_use},
+};
+constexpr Rule iridescence[] = {
+    {.name = "iridescenceFactor", .kind = number},
+    {.name = "iridescenceIor", .kind = number},
+    {.name = "iridescenceThicknessMinimum", .kind = number},
+    {.name = "iridescenceThicknessMaximum", .kind = number},
+};
+constexpr Rule anisotropy[] = {{.name = "anisotropyStrength", .kind = number}};
+constexpr Rule dispersion[] = {{.name = "dispersion", .kind = number}};
 constexpr Rule emissive_strength[] = {{.name = "emissiveStrength", .kind = number}};
 constexpr Rule ior[] = {{.name = "ior", .kind = number}};
 constexpr Rule specular[] = {
     {.name = "specularFactor", .kind = number},
+    {.name = "specularTexture", .kind = object, .fields = texture_use},
     {.name = "specularColorFactor", .kind = numbers, .length = 3},
+    {.name = "specularColorTexture", .kind = object, .fields = texture_use},
 };
 constexpr Rule transmission[] = {
     {.name = "transmissionFactor", .kind = number},
@@ -68,7 +86,11 @@ constexpr Rule specular_glossiness[] = {
 constexpr Rule material_extensions[] = {
     {.name = "KHR_materials_clearcoat", .kind = object, .fields = clear_coat},
     {.name = "KHR_materials_pbrSpecularGlossiness", .kind = object, .fields = specular_glossiness},
+    {.name = "KHR_materials_anisotropy", .kind = object, .fields = anisotropy},
+    {.name = "KHR_materials_dispersion", .kind = object, .fields = dispersion},
     {.name = "KHR_materials_emissive_strength", .kind = object, .fields = emissive_strength},
+    {.name = "KHR_materials_iridescence", .kind = object, .fields = iridescence},
+    {.name = "KHR_materials_sheen", .kind = object, .fields = sheen},
     {.name = "KHR_materials_ior", .kind = object, .fields = ior},
     {.name = "KHR_materials_specular", .kind = object, .fields = specular},
     {.name = "KHR_materials_transmission", .kind = object, .fields = transmission},

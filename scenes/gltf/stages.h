@@ -39,6 +39,12 @@ void read_specular_glossiness(const Document& document, const Json& model, Mater
 void read_clear_coat(const Document& document, const Json& extension, Material& material,
                      Findings& findings);
 
+/// Sheen, iridescence, anisotropy, dispersion: what is read of them, and what is done instead.
+void read_thin_layers(const Document& document, const Json& json, Material& material,
+                      Findings& findings);
+/// Once it is known what is blended.
+void settle_thin_layers(Material& material, Findings& findings);
+
 /// `use.texture` is the file's texture;
 /// null when there is no image to be had, which is then in the findings.
 std::optional<TextureUse> read_texture_use(const Document& document, const Json& owner,

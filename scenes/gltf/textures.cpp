@@ -95,6 +95,11 @@ std::set<std::uint64_t> texcoord_sets(const Json& material) {
     add({"extensions", "KHR_materials_clearcoat", "clearcoatTexture"});
     add({"extensions", "KHR_materials_clearcoat", "clearcoatRoughnessTexture"});
   }
+  const auto* sheen = find(material, {"extensions", "KHR_materials_sheen"});
+  if (sheen && vec3_or(*sheen, "sheenColorFactor", Rgb(0.0)) != Rgb(0.0)) {
+    add({"extensions", "KHR_materials_sheen", "sheenColorTexture"});
+    add({"extensions", "KHR_materials_sheen", "sheenRoughnessTexture"});
+  }
   // Of a pane it is a texture of nothing, and without absorption it says nothing.
   const auto* volume = find(material, {"extensions", "KHR_materials_volume"});
   if (volume && number_or(*volume, "thicknessFactor", 0.0) > 0.0 &&
@@ -246,7 +251,8 @@ void read_textures(const Document& document, Scene& scene, Findings& findings) {
   // What is shown comes before what may be no more than a factor, as long as there is room.
   for (auto& material : scene.materials)
     for (auto* use : {&material.specular_texture, &material.specular_color_texture,
-                      &material.clear_coat_texture, &material.clear_coat_roughness_texture})
+                      &material.clear_coat_texture, &material.clear_coat_roughness_texture,
+                      &material.sheen_color_texture, &material.sheen_roughness_texture})
       settle(*use);
 }
 

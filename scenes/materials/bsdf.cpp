@@ -4,6 +4,7 @@
 #include "scenes/materials/lobes.h"
 #include "scenes/materials/microfacets.h"
 #include "scenes/materials/refraction.h"
+#include "scenes/materials/sheen.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -49,6 +50,8 @@ struct LobeChances {
 LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
   const double e = coat_albedo(bsdf, out.z);
   LobeChances chances{largest(bsdf.diffuse) * (1.0 - e), largest(bsdf.metal) + bsdf.coat * e};
+  if (bsdf.sheen != Rgb(0.0))
+    chances.diffuse += largest(bsdf.sheen) * sheen_albedo(bsdf.sheen_roughness, out.z);
   if (bsdf.glass > 0.0) {
     const GlassShares glass = glass_shares(bsdf.pane, out.z);
     chances.reflection += bsdf.glass * largest(glass.reflected);
@@ -70,6 +73,8 @@ LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
 
 /// 1 - e_avg: the share of even light that gets below the coat.
 double mean_below_coat(const Bsdf& bsdf) {
+  if (bsdf.coat == 0.0)
+    return 1.0;
   const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
   return std::max(0.0, 1.0 - mean.f0 * largest(bsdf.coat_f0) - mean.f90 * bsdf.coat_f90);
 }
@@ -82,15 +87,17 @@ Rgb mean_of_coat(const Bsdf& bsdf) {
   return bsdf.coat * (mean.f0 * bsdf.coat_f0 + Rgb(mean.f90 * bsdf.coat_f90));
 }
 
-/// rho_d (1 - e(o)) (1 - e(i)) / (1 - e_avg)
+/// rho_d (1 - e(o)) (1 - e(i)) / (1 - e_avg), and likewise below fibres. With both the mean of the
+/// product is below that of either: never too much.
 Rgb diffuse_coupled(const Bsdf& bsdf, double cos_out, double cos_in) {
-  if (bsdf.coat == 0.0)
+  if (bsdf.coat == 0.0 && bsdf.sheen == Rgb(0.0))
     return bsdf.diffuse;
-  const double below = mean_below_coat(bsdf);
+  const double below = std::min(mean_below_coat(bsdf), mean_below_sheen(bsdf));
   if (below == 0.0)
     return Rgb(0.0);
+  const double both = below_sheen(bsdf, cos_out) * below_sheen(bsdf, cos_in);
   return bsdf.diffuse *
-         ((1.0 - coat_albedo(bsdf, cos_out)) * (1.0 - coat_albedo(bsdf, cos_in)) / below);
+         ((1.0 - coat_albedo(bsdf, cos_out)) * (1.0 - coat_albedo(bsdf, cos_in)) * both / below);
 }
 
 /// (1 - E(o)) (1 - E(i)) / (pi (1 - E_avg)) of what facets of metal spread.
@@ -130,16 +137,6 @@ static Rgb left_by_half(const Material& material, const MaterialPoint& point) {
   return is_solid_glass(material) ? attenuation(material, 0.5 * point.thickness) : Rgb(1.0);
 }
 
-MaterialPoint untextured(const Material& material) {
-  const double passed = is_blended(material) ? 1.0 - material.alpha : material.transmission;
-  return {material.base_color, material.alpha, material.metallic, material.roughness,
-          material.emission,   passed,         material.thickness};
-}
-
-Rgb shown_radiance(const Material& material, const MaterialPoint& point) {
-  return material.unlit ? coverage(material, point) * point.base_color : point.emission;
-}
-
 Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
   Bsdf bsdf;
   const bool blended = is_blended(material);
@@ -156,6 +153,10 @@ Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
     bsdf.coat_f0 = f0;
     bsdf.coat_f90 = material.specular;
     bsdf.coat = material.specular > 0.0 ? dielectric * (1.0 - point.transmission) : 0.0;
+  }
+  if (point.transmission == 0.0) {
+    bsdf.sheen = material.sheen_color;
+    bsdf.sheen_roughness = material.sheen_roughness;
   }
   bsdf.glass = blended ? point.transmission : dielectric * point.transmission;
   if (blended)
@@ -180,7 +181,8 @@ Rgb straight_transmission(const Bsdf& bsdf, double cosine) {
 }
 
 Rgb ideal_reflection(const Bsdf& bsdf, double cosine) {
-  return bsdf.alpha == 0.0 ? facet_reflectance(bsdf, cosine) : Rgb(0.0);
+  return bsdf.alpha == 0.0 ? below_sheen(bsdf, cosine) * facet_reflectance(bsdf, cosine)
+                           : Rgb(0.0);
 }
 
 Rgb facet_reflectance(const Bsdf& bsdf, double cosine) {
@@ -198,7 +200,7 @@ Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in)
   if (bsdf.alpha == 0.0 || (bsdf.coat == 0.0 && bsdf.glass == 0.0 && bsdf.metal == Rgb(0.0)))
     return Rgb(0.0);
   const FacetLobe lobe = facet_lobe(bsdf.alpha, out, in);
-  return lobe.f * facet_reflectance(bsdf, lobe.cosine);
+  return lobe.f * lobe_below_sheen(bsdf, out.z, in.z) * facet_reflectance(bsdf, lobe.cosine);
 }
 
 LobeShares lobe_shares(const Bsdf& bsdf, const Direction& out, const Direction& in) {
@@ -224,7 +226,10 @@ Rgb even_reflectance(const Bsdf& bsdf, double cosine) {
   Rgb share = bsdf.diffuse * (1.0 - coat_albedo(bsdf, cosine));
   if (has_facets_of_metal(bsdf))
     share += spread_by_facets(bsdf, mean_met_again(bsdf)) * met_again(bsdf, cosine);
-  return share;
+  if (bsdf.sheen == Rgb(0.0))
+    return share;
+  return below_sheen(bsdf, cosine) * share +
+         bsdf.sheen * sheen_albedo(bsdf.sheen_roughness, cosine);
 }
 
 Rgb metal_all_in_lobe(const Bsdf& bsdf, double cosine) {
@@ -234,7 +239,8 @@ Rgb metal_all_in_lobe(const Bsdf& bsdf, double cosine) {
   return bsdf.metal + spread_by_facets(bsdf, mean_met_again(bsdf)) * (again / (1.0 - again));
 }
 
-Rgb mean_reflectance(const Bsdf& bsdf) {
+/// Without fibres.
+static Rgb mean_below_fibres(const Bsdf& bsdf) {
   Rgb share = bsdf.diffuse;
   if (bsdf.coat > 0.0)
     share = share * mean_below_coat(bsdf) + mean_of_coat(bsdf);
@@ -244,10 +250,17 @@ Rgb mean_reflectance(const Bsdf& bsdf) {
   return share + bsdf.metal * (1.0 - again) + spread_by_facets(bsdf, again) * again;
 }
 
+Rgb mean_reflectance(const Bsdf& bsdf) {
+  const Rgb below = mean_below_fibres(bsdf);
+  return bsdf.sheen == Rgb(0.0) ? below
+                                : mean_below_sheen(bsdf) * below +
+                                      bsdf.sheen * mean_sheen_albedo(bsdf.sheen_roughness);
+}
+
 bool has_lobes(const Material& material) {
   const bool is_painted_mirror = is_mirror(material) && material.base_color_texture;
   return is_glass(material) || is_glossy(material) || has_visible_coat(material) ||
-         is_painted_mirror;
+         is_painted_mirror || material.sheen_color != Rgb(0.0);
 }
 
 bool has_visible_coat(const Material& material) {
@@ -277,7 +290,7 @@ Bsdf clear_glass(const Material& material, const MaterialPoint& point) {
   Bsdf clear = make_bsdf(material, point);
   if (!is_mirror(material))
     clear.metal = Rgb(0.0);
-  clear.diffuse = Rgb(0.0);
+  clear.diffuse = clear.sheen = Rgb(0.0);
   clear.coat = 0.0;
   clear.roughness = clear.alpha = 0.0;
   clear.pane.tint *= left_by_half(material, point);
@@ -286,7 +299,7 @@ Bsdf clear_glass(const Material& material, const MaterialPoint& point) {
 
 Bsdf mirror_coat(const Material& material) {
   Bsdf coat = make_bsdf(material, untextured(material));
-  coat.diffuse = coat.metal = Rgb(0.0);
+  coat.diffuse = coat.metal = coat.sheen = Rgb(0.0);
   coat.glass = 0.0;
   coat.roughness = coat.alpha = 0.0;
   return coat;
@@ -330,8 +343,8 @@ Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
   Rgb f = diffuse_coupled(bsdf, out.z, in.z) * std::numbers::inv_pi;
   f += reflection_lobe(bsdf, out, in);
   if (has_facets_of_metal(bsdf))
-    f += spread_metal(bsdf, out.z, in.z);
-  return f;
+    f += lobe_below_sheen(bsdf, out.z, in.z) * spread_metal(bsdf, out.z, in.z);
+  return f + sheen_lobe(bsdf, out.z, in.z);
 }
 
 double sample_density(const Bsdf& bsdf, const Direction& out, const Direction& in) {
@@ -366,7 +379,7 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
                         Lobe::straight};
     }
     return BsdfSample{{-out.x, -out.y, out.z},
-                      facet_reflectance(bsdf, out.z) / chances.reflection,
+                      ideal_reflection(bsdf, out.z) / chances.reflection,
                       0.0,
                       Lobe::ideal_reflection};
   }

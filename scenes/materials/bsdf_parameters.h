@@ -28,6 +28,8 @@ struct Bsdf {
   double coat_f90 = 0.0;
   double roughness = 1.0;
   double alpha = 1.0; ///< 0 stands for ideal reflection and transmission
+  Rgb sheen{0.0};     ///< colour of the fibres above it all (sheen.h)
+  double sheen_roughness = 0.0;
   double glass = 0.0; ///< share of the surface that is glass
   Glass pane;         ///< what it is there
 };

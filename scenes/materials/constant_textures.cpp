@@ -1,6 +1,7 @@
 #include "scenes/materials/constant_textures.h"
 
 #include "scenes/materials/clear_coat.h"
+#include "scenes/materials/sheen.h"
 #include "scenes/materials/coverage.h"
 #include "scenes/surfaces/disjoint_sets.h"
 #include "scenes/gltf/document.h"
@@ -84,6 +85,10 @@ void fold(Material& material, const Values& values) {
     material.clear_coat *= channel(7, 0);
   if (values[8])
     material.clear_coat_roughness *= channel(8, 1);
+  if (values[10])
+    material.sheen_color *= glm::clamp(Rgb(*values[10]), 0.0, 1.0);
+  if (values[11])
+    material.sheen_roughness *= channel(11, 3);
   for (std::size_t s = 0; s < slots.size(); ++s)
     if (values[s])
       (material.*slots[s].use).reset();
@@ -93,7 +98,8 @@ void fold(Material& material, const Values& values) {
 bool has_unsettled_coat(const Material& material) {
   return material.clear_coat > 0.0 || material.specular_texture ||
          material.specular_color_texture || material.clear_coat_texture ||
-         material.clear_coat_roughness_texture;
+         material.clear_coat_roughness_texture || material.sheen_color_texture ||
+         material.sheen_roughness_texture;
 }
 
 /// What is no factor by now is left out.
@@ -107,8 +113,9 @@ void settle_coat(Material& material, gltf::Findings& findings) {
   for (auto* use : {&material.specular_texture, &material.specular_color_texture,
                     &material.clear_coat_texture, &material.clear_coat_roughness_texture})
     use->reset();
-  if (const std::string told = settle_clear_coat(material); !told.empty())
-    findings.about(told, material.name);
+  for (const std::string& told : {settle_clear_coat(material), settle_sheen(material)})
+    if (!told.empty())
+      findings.about(told, material.name);
 }
 
 using Triangles = std::vector<TriangleId>;

@@ -25,7 +25,7 @@ bool is_smooth_metal(const Material& material) {
 bool is_smooth_coat(const Material& material) {
   constexpr double min_reflectance = 0.01; // of light from everywhere, of a tenth of glass
   return material.metallic == 0.0 && !material.metallic_roughness_texture &&
-         has_visible_coat(material) && may_be_smooth(material) &&
+         material.sheen_color == Rgb(0.0) && has_visible_coat(material) && may_be_smooth(material) &&
          largest(mean_shares(mirror_coat(material)).reflected) >= min_reflectance;
 }
 

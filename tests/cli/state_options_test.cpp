@@ -16,20 +16,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Numbers at the end of the buffer, and their accessor.
-std::size_t add_floats(TinyRoom& room, const std::vector<float>& values, const std::string& type,
-                       std::size_t width) {
-  const auto bytes = std::as_bytes(std::span(values));
-  room.root["bufferViews"].push_back(
-      {{"buffer", 0}, {"byteOffset", room.binary.size()}, {"byteLength", bytes.size()}});
-  room.binary.insert(room.binary.end(), bytes.begin(), bytes.end());
-  room.root["accessors"].push_back({{"bufferView", room.root["bufferViews"].size() - 1},
-                                    {"componentType", 5126},
-                                    {"count", values.size() / width},
-                                    {"type", type}});
-  return room.root["accessors"].size() - 1;
-}
-
 constexpr int back_wall = 2, lamp = 5; // nodes, and their meshes
 
 /// By night the back wall glows; the lamp rises by 0.05 m in a second; a bulb of 20 W/sr.

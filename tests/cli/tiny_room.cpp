@@ -4,6 +4,7 @@
 
 #include <array>
 #include <fstream>
+#include <span>
 
 namespace meninas::test {
 namespace {
@@ -85,6 +86,19 @@ TinyRoom tiny_room() {
            mirroring);
   add_camera(room);
   return room;
+}
+
+std::size_t add_floats(TinyRoom& room, const std::vector<float>& values, const std::string& type,
+                       std::size_t width) {
+  const auto bytes = std::as_bytes(std::span(values));
+  room.root["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", room.binary.size()}, {"byteLength", bytes.size()}});
+  room.binary.insert(room.binary.end(), bytes.begin(), bytes.end());
+  room.root["accessors"].push_back({{"bufferView", room.root["bufferViews"].size() - 1},
+                                    {"componentType", 5126},
+                                    {"count", values.size() / width},
+                                    {"type", type}});
+  return room.root["accessors"].size() - 1;
 }
 
 void write_room(const std::filesystem::path& file, const TinyRoom& room) {

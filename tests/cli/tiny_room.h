@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace meninas::test {
@@ -17,6 +18,10 @@ struct TinyRoom {
 /// Five grey walls, the front one open;
 /// `lamp` under the ceiling, `mirror` in front of the left wall, `camera` before the room.
 TinyRoom tiny_room();
+
+/// Numbers at the end of the buffer, so many to an element, and their accessor.
+std::size_t add_floats(TinyRoom& room, const std::vector<float>& values, const std::string& type,
+                       std::size_t width);
 
 void write_room(const std::filesystem::path& file, const TinyRoom& room);
 

@@ -263,12 +263,12 @@ TEST(GltfGeometry, ClampsVertexColours) {
 TEST(GltfGeometry, LeavesOutWhatItDoesNotRead) {
   auto file = square();
   file.json["animations"] = Json::array({{{"name", "Walk"}}, Json::object()});
-  file.json["extensionsUsed"] = {"KHR_materials_sheen"};
+  file.json["extensionsUsed"] = {"KHR_materials_subsurface"};
   file.json["materials"][0]["extensions"]["VENDOR_undeclared"] = Json::object();
   const auto scene = load(file);
   EXPECT_TRUE(warns(scene, {"animations", "'Walk'", "'animation1'"}));
-  EXPECT_TRUE(warns(scene, {"extensions", "'KHR_materials_sheen'", "'VENDOR_undeclared'"}));
-  EXPECT_THAT(scene.ignored, testing::UnorderedElementsAre("KHR_materials_sheen",
+  EXPECT_TRUE(warns(scene, {"extensions", "'KHR_materials_subsurface'", "'VENDOR_undeclared'"}));
+  EXPECT_THAT(scene.ignored, testing::UnorderedElementsAre("KHR_materials_subsurface",
                                                            "VENDOR_undeclared", "animations"));
 }
 

@@ -181,6 +181,52 @@ TEST(GltfCameras, ReadsAnOrthographicCamera) {
   EXPECT_EQ(scene.cameras[0].aspect, 3.0);
 }
 
+static Camera first_camera(const Json& extras, const Json& of_node = Json::object()) {
+  const auto scene = load(with_camera({{"type", "perspective"},
+                                       {"perspective", {{"yfov", 0.7}, {"aspectRatio", 1.5}}},
+                                       {"extras", extras}},
+                                      of_node));
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+  return scene.cameras.at(0);
+}
+
+TEST(GltfCameras, ReadTheirLensFromExtras) {
+  EXPECT_EQ(first_camera(Json::object()).lens_radius, 0.0);
+  const auto given = first_camera({{"fstop", 2.0}, {"focus_distance", 3.0}, {"focal_length", 50}});
+  EXPECT_NEAR(given.lens_radius, 0.0125, 1e-15);
+  EXPECT_EQ(given.focus_distance, 3.0);
+  // 36 mm across the width of the frame: f = 18 mm / (1.5 tan 0.35).
+  const auto assumed = first_camera({{"fstop", 2.0}, {"focus_distance", 3.0}});
+  EXPECT_NEAR(assumed.lens_radius, 0.25 * 0.018 / (1.5 * std::tan(0.35)) , 1e-15);
+  const auto by_node =
+      first_camera(Json::object(), {{"extras", {{"fstop", 4}, {"focus_distance", 1}}}});
+  EXPECT_NEAR(by_node.lens_radius, 0.5 * assumed.lens_radius, 1e-15);
+  EXPECT_EQ(first_camera({{"sensor_fit", "AUTO"}}).sensor_fit, SensorFit::longer);
+  EXPECT_EQ(first_camera({{"sensor_fit", "HORIZONTAL"}}).sensor_fit, SensorFit::horizontal);
+  EXPECT_EQ(first_camera({{"sensor_fit", "VERTICAL"}}).sensor_fit, SensorFit::vertical);
+  EXPECT_EQ(first_camera("anything").lens_radius, 0.0);
+}
+
+TEST(GltfCameras, SayWhichLensIsLeftOut) {
+  for (const Json& extras : {Json{{"fstop", 2.0}}, Json{{"fstop", 0.0}, {"focus_distance", 1.0}},
+                             Json{{"fstop", "wide"}, {"focus_distance", 1.0}},
+                             Json{{"fstop", 1e-320}, {"focus_distance", 1.0}}}) {
+    const auto scene = load(with_camera({{"type", "perspective"},
+                                         {"perspective", {{"yfov", 0.7}}},
+                                         {"extras", extras}}));
+    EXPECT_EQ(scene.cameras.at(0).lens_radius, 0.0);
+    EXPECT_TRUE(warns(scene, {"depth of field is left out"})) << extras;
+  }
+  const auto plan = load(with_camera({{"type", "orthographic"},
+                                      {"orthographic", {{"xmag", 6.0}, {"ymag", 2.0}}},
+                                      {"extras", {{"fstop", 2.0}, {"focus_distance", 1.0}}}}));
+  EXPECT_TRUE(warns(plan, {"depth of field is left out", "orthographic"}));
+  EXPECT_TRUE(warns(load(with_camera({{"type", "perspective"},
+                                      {"perspective", {{"yfov", 0.7}}},
+                                      {"extras", {{"sensor_fit", "FILL"}}}})),
+                    {"sensor_fit that is not"}));
+}
+
 TEST(GltfCameras, NamesAreUnique) {
   auto file =
       with_camera({{"type", "perspective"}, {"perspective", {{"yfov", 0.7}}}}, {{"name", "Eye"}});

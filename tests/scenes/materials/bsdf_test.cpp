@@ -51,6 +51,12 @@ Material mixture() {
   return material;
 }
 
+Material with_sheen(Material material, double roughness) {
+  material.sheen_color = Rgb(1.0, 0.8, 0.3);
+  material.sheen_roughness = roughness;
+  return material;
+}
+
 Bsdf bsdf_of(const Material& material) { return make_bsdf(material, untextured(material)); }
 
 struct NamedMaterial {
@@ -192,7 +198,10 @@ INSTANTIATE_TEST_SUITE_P(
                     NamedMaterial{"coarse coat", plastic(0.2)}, NamedMaterial{"mirror", metal(0.0)},
                     NamedMaterial{"brushed", metal(0.3)}, NamedMaterial{"rough metal", metal(1.0)},
                     NamedMaterial{"mixture", mixture()}, NamedMaterial{"pane", pane(0.0)},
-                    NamedMaterial{"frosted", pane(0.5)}, NamedMaterial{"satin pane", pane(0.2)}),
+                    NamedMaterial{"frosted", pane(0.5)}, NamedMaterial{"satin pane", pane(0.2)},
+                    NamedMaterial{"velvet", with_sheen(plastic(1.0), 0.3)},
+                    NamedMaterial{"waxed cloth", with_sheen(plastic(0.15), 0.6)},
+                    NamedMaterial{"lame", with_sheen(metal(0.4), 1.0)}),
     [](const auto& given) {
       std::string name = given.param.name;
       std::ranges::replace(name, ' ', '_');

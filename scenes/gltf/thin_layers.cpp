@@ -1,0 +1,108 @@
+// What materials have over them or in them beyond metal and roughness: sheen, a thin film,
+// brushed metal, glass that splits colours.
+#include "scenes/materials/thin_film.h"
+#include "scenes/gltf/stages.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meninas::gltf {
+
+/// KHR_materials_sheen, of what is opaque (sheen.h).
+static void read_sheen(const Document& document, const Json& extension, Material& material,
+                       Findings& findings) {
+  const auto color = vec3_or(extension, "sheenColorFactor", Rgb(0.0));
+  material.sheen_color = glm::clamp(color, 0.0, 1.0);
+  material.sheen_roughness = std::clamp(number_or(extension, "sheenRoughnessFactor", 0.0), 0.0, 1.0);
+  if (material.sheen_color != color)
+    findings.about("sheen colours were clamped to [0, 1] in materials", material.name);
+  if (material.sheen_color == Rgb(0.0))
+    return;
+  material.sheen_color_texture =
+      read_texture_use(document, extension, "sheenColorTexture", material.name, findings);
+  if (material.sheen_roughness > 0.0)
+    material.sheen_roughness_texture =
+        read_texture_use(document, extension, "sheenRoughnessTexture", material.name, findings);
+}
+
+/// A film of the mean thickness that its texture may have.
+static ThinFilm film_of(const Json& extension) {
+  const auto least = std::max(0.0, number_or(extension, "iridescenceThicknessMinimum", 100.0));
+  const auto most = std::max(0.0, number_or(extension, "iridescenceThicknessMaximum", 400.0));
+  ThinFilm film;
+  film.ior = std::clamp(number_or(extension, "iridescenceIor", 1.3), 1.0, 5.0);
+  film.thickness = extension.contains("iridescenceThicknessTexture") ? 0.5 * (least + most) : most;
+  return film;
+}
+
+/// KHR_materials_iridescence: the mean colour of the film (thin_film.h) in place of the colour of
+/// metal and of F0.
+static void read_iridescence(const Json& extension, Material& material, Findings& findings) {
+  const auto share = std::clamp(number_or(extension, "iridescenceFactor", 0.0), 0.0, 1.0);
+  if (share == 0.0)
+    return;
+  const bool mixed = material.metallic > 0.0 &&
+                     (material.metallic < 1.0 || material.metallic_roughness_texture);
+  if (extension.contains("iridescenceTexture") || mixed) {
+    findings.about("iridescence that a texture limits, or of what is metal in part, is left out in "
+                   "materials",
+                   material.name);
+    return;
+  }
+  findings.about("iridescence has the film's mean colour, whatever the angle, in materials",
+                 material.name);
+  const ThinFilm film = film_of(extension);
+  if (material.metallic > 0.0) {
+    material.base_color =
+        glm::mix(material.base_color, mean_film_reflectance(film, material.base_color), share);
+    return;
+  }
+  const double ratio = (material.ior - 1.0) / (material.ior + 1.0);
+  if (ratio == 0.0)
+    return; // reflects nothing by its factors
+  const Rgb f0 = glm::min(ratio * ratio * material.specular_color, Rgb(1.0));
+  const Rgb of_film = schlick_f0_of_mean(mean_film_reflectance(film, f0));
+  material.specular_color = glm::mix(f0, of_film, share) / (ratio * ratio);
+}
+
+/// KHR_materials_anisotropy: facets of alpha across the direction and of alpha_t = alpha +
+/// (1 - alpha) strength^2 along it. The round lobe of sqrt(alpha alpha_t) is as bright in its middle,
+/// where D = 1 / (pi alpha alpha_t).
+static void read_anisotropy(const Json& extension, Material& material, Findings& findings) {
+  const auto strength = std::clamp(number_or(extension, "anisotropyStrength", 0.0), 0.0, 1.0);
+  if (strength == 0.0)
+    return;
+  findings.about("anisotropic highlights are round, as bright in their middle, in materials",
+                 material.name);
+  const auto alpha = material.roughness * material.roughness;
+  const auto along = std::lerp(alpha, 1.0, strength * strength);
+  material.roughness = std::sqrt(std::sqrt(alpha * along));
+}
+
+void read_thin_layers(const Document& document, const Json& json, Material& material,
+                      Findings& findings) {
+  const auto* extensions = find(json, "extensions");
+  if (!extensions)
+    return;
+  if (const auto* sheen = find(*extensions, "KHR_materials_sheen"))
+    read_sheen(document, *sheen, material, findings);
+  if (const auto* iridescence = find(*extensions, "KHR_materials_iridescence"))
+    read_iridescence(*iridescence, material, findings);
+  if (const auto* anisotropy = find(*extensions, "KHR_materials_anisotropy"))
+    read_anisotropy(*anisotropy, material, findings);
+  const auto* dispersion = find(*extensions, "KHR_materials_dispersion");
+  if (dispersion && number_or(*dispersion, "dispersion", 0.0) > 0.0 && is_glass(material))
+    findings.about("dispersion is left out, all colours are refracted by the ior, in materials",
+                   material.name);
+}
+
+void settle_thin_layers(Material& material, Findings& findings) {
+  if (material.sheen_color == Rgb(0.0) || !is_glass(material))
+    return;
+  findings.about("sheen of what light passes is left out in materials", material.name);
+  material.sheen_color = Rgb(0.0);
+  material.sheen_color_texture.reset();
+  material.sheen_roughness_texture.reset();
+}
+
+} // namespace meninas::gltf

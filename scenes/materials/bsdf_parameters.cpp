@@ -1,0 +1,17 @@
+#include "scenes/materials/bsdf_parameters.h"
+
+#include "scenes/materials/coverage.h"
+
+namespace meninas {
+
+MaterialPoint untextured(const Material& material) {
+  const double passed = is_blended(material) ? 1.0 - material.alpha : material.transmission;
+  return {material.base_color, material.alpha, material.metallic, material.roughness,
+          material.emission,   passed,         material.thickness};
+}
+
+Rgb shown_radiance(const Material& material, const MaterialPoint& point) {
+  return material.unlit ? coverage(material, point) * point.base_color : point.emission;
+}
+
+} // namespace meninas

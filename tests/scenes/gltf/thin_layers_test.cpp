@@ -1,0 +1,101 @@
+// Sheen, iridescence, anisotropy, dispersion: what is read of them, and what the user is told.
+#include "scenes/materials/thin_film.h"
+#include "tests/scenes/gltf/gltf_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace meninas::test {
+namespace {
+
+/// A material with an extension; `model` is its pbrMetallicRoughness.
+Scene with_extension(const std::string& name, const Json& extension,
+                     const Json& model = {{"metallicFactor", 0.0}}, const Json& more = Json::object()) {
+  auto file = square();
+  Json material{{"name", "cloth"}, {"pbrMetallicRoughness", model}, {"extensions", more}};
+  material["extensions"][name] = extension;
+  file.json["materials"][0] = material;
+  file.json["extensionsUsed"] = {name};
+  return load(file);
+}
+
+TEST(GltfThinLayers, ReadSheen) {
+  const Scene scene = with_extension("KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0.25, 2.0}},
+                                                             {"sheenRoughnessFactor", 0.7}});
+  EXPECT_EQ(scene.materials.at(0).sheen_color, Rgb(0.5, 0.25, 1.0));
+  EXPECT_EQ(scene.materials.at(0).sheen_roughness, 0.7);
+  EXPECT_TRUE(warns(scene, {"sheen colours were clamped", "'cloth'"}));
+  EXPECT_TRUE(scene.ignored.empty());
+  EXPECT_NE(content_hash(scene), content_hash(with_extension("KHR_materials_sheen", Json::object())));
+}
+
+TEST(GltfThinLayers, SheenIsOfWhatIsOpaque) {
+  const Scene scene = with_extension(
+      "KHR_materials_sheen", {{"sheenColorFactor", {1, 1, 1}}}, {{"metallicFactor", 0.0}},
+      {{"KHR_materials_transmission", {{"transmissionFactor", 0.5}}}});
+  EXPECT_EQ(scene.materials.at(0).sheen_color, Rgb(0.0));
+  EXPECT_TRUE(warns(scene, {"sheen of what light passes is left out", "'cloth'"}));
+}
+
+TEST(GltfThinLayers, IridescenceIsTheFilmsMeanColour) {
+  const Json film{{"iridescenceFactor", 0.5}, {"iridescenceIor", 1.4},
+                  {"iridescenceThicknessMaximum", 300.0}};
+  const Scene metal = with_extension("KHR_materials_iridescence", film,
+                                     {{"baseColorFactor", {0.5, 0.6, 0.7, 1.0}},
+                                      {"metallicFactor", 1.0}, {"roughnessFactor", 0.2}});
+  const Rgb base(0.5, 0.6, 0.7);
+  EXPECT_EQ(metal.materials.at(0).base_color,
+            0.5 * base + 0.5 * mean_film_reflectance({1.4, 300.0}, base));
+  EXPECT_TRUE(warns(metal, {"film's mean colour", "'cloth'"}));
+
+  const Scene paint = with_extension("KHR_materials_iridescence", film);
+  const Material& material = paint.materials.at(0);
+  EXPECT_EQ(material.base_color, Rgb(1.0)) << "what is below keeps its colour";
+  const Rgb f0 = 0.04 * material.specular_color;
+  const Rgb of_film = schlick_f0_of_mean(mean_film_reflectance({1.4, 300.0}, Rgb(0.04)));
+  for (int band = 0; band < 3; ++band)
+    EXPECT_NEAR(f0[band], 0.5 * 0.04 + 0.5 * of_film[band], 1e-12);
+}
+
+TEST(GltfThinLayers, IridescenceThatVariesIsLeftOutOrAMean) {
+  auto file = square();
+  file.json["materials"][0] = {
+      {"name", "shell"},
+      {"pbrMetallicRoughness", {{"metallicFactor", 1.0}}},
+      {"extensions",
+       {{"KHR_materials_iridescence",
+         {{"iridescenceFactor", 1.0}, {"iridescenceThicknessTexture", {{"index", 0}}}}}}}};
+  EXPECT_EQ(load(file).materials.at(0).base_color, mean_film_reflectance({1.3, 250.0}, Rgb(1.0)));
+  file.json["materials"][0]["extensions"]["KHR_materials_iridescence"]["iridescenceTexture"] = {
+      {"index", 0}};
+  const Scene limited = load(file);
+  EXPECT_EQ(limited.materials.at(0).base_color, Rgb(1.0));
+  EXPECT_TRUE(warns(limited, {"iridescence that a texture limits", "'shell'"}));
+}
+
+TEST(GltfThinLayers, AnisotropicLobesAreRoundAndAsBright) {
+  const Scene scene = with_extension(
+      "KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.0}},
+      {{"metallicFactor", 1.0}, {"roughnessFactor", 0.4}});
+  const double alpha = 0.16, along = alpha + (1.0 - alpha) * 0.25;
+  EXPECT_NEAR(std::pow(scene.materials.at(0).roughness, 4), alpha * along, 1e-12);
+  EXPECT_TRUE(warns(scene, {"anisotropic highlights are round", "'cloth'"}));
+  const Scene none = with_extension("KHR_materials_anisotropy", Json::object(),
+                                    {{"metallicFactor", 1.0}, {"roughnessFactor", 0.4}});
+  EXPECT_EQ(none.materials.at(0).roughness, 0.4);
+  EXPECT_TRUE(none.warnings.empty());
+}
+
+TEST(GltfThinLayers, DispersionIsNamedWhereThereIsGlass) {
+  const Json glass{{"KHR_materials_transmission", {{"transmissionFactor", 1.0}}}};
+  EXPECT_TRUE(warns(with_extension("KHR_materials_dispersion", {{"dispersion", 0.2}},
+                                   {{"metallicFactor", 0.0}}, glass),
+                    {"dispersion is left out, all colours are refracted by the ior", "'cloth'"}));
+  EXPECT_TRUE(with_extension("KHR_materials_dispersion", {{"dispersion", 0.2}}).warnings.empty())
+      << "there is nothing to refract";
+}
+
+} // namespace
+} // namespace meninas::test
