@@ -15,9 +15,9 @@ picture() {
 }
 
 picture meninas-radiosity meninas --size 720x800 --mode radiosity --quality fine
-picture meninas-hybrid meninas --size 720x800 --diffuse direct
-picture glass-screen glass-screen --size 480x360 --diffuse direct
-picture glass-solids glass-solids --size 480x360 --diffuse direct
-picture lattice lattice --size 480x360 --diffuse direct --background 0.8,0.9,1
-picture sunbeam sunbeam --size 480x360 --diffuse direct --background 0.4,0.6,1
-picture roughness-sweep roughness-sweep --size 512x256 --diffuse direct
+picture meninas-hybrid meninas --size 720x800
+picture glass-screen glass-screen --size 480x360
+picture glass-solids glass-solids --size 480x360
+picture lattice lattice --size 480x360 --background 0.8,0.9,1
+picture sunbeam sunbeam --size 480x360 --background 0.4,0.6,1
+picture roughness-sweep roughness-sweep --size 512x256

@@ -34,9 +34,10 @@ std::vector<SeenPoint> seen_points(const LightScene& light, const Camera& camera
         continue;
       const auto ray = [&](const Vec2& to) { return camera_ray(camera, aspect, to.x, to.y); };
       const CameraRay middle = ray(at);
+      const Vec2 inward(at.x < 0.5 ? 1.0 : -1.0, at.y < 0.5 ? 1.0 : -1.0);
       const double w =
-          std::max(apart_at(middle, ray(at + Vec2(1.0 / width, 0.0)), sight.distance),
-                   apart_at(middle, ray(at + Vec2(0.0, 1.0 / height)), sight.distance));
+          std::max(apart_at(middle, ray(at + Vec2(inward.x / width, 0.0)), sight.distance),
+                   apart_at(middle, ray(at + Vec2(0.0, inward.y / height)), sight.distance));
       if (w > 0.0)
         rows[row].push_back({sight.place.element,
                              {sight.place.place.s, sight.place.place.t},
