@@ -141,7 +141,6 @@ RayTotals trace_pixels(const TracedView& view, std::span<const glm::ivec2> pixel
   const RenderSettings& settings = view.settings;
   const FilterPlaces places = places_of(settings);
   const RenderContext context = context_of(view, {{0, std::max(settings.samples, 1)}}, places);
-  // Runs of pixels know each other's blockers, as those of a tile do.
   constexpr std::size_t run = 32;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
   tbb::parallel_for(std::size_t{0}, (pixels.size() + run - 1) / run, [&](std::size_t first) {

@@ -58,6 +58,7 @@ Rendering run_two_pass(const PreparedScene& prepared, const Camera& camera,
                wanted_report(request, events),
                {result.rendering.image, result.rendering.samples, result.rendering.finer.get()},
                result.rendering.layers, events, figures);
+  result.rendering.finer.reset();
   return std::move(result.rendering);
 }
 
@@ -125,6 +126,7 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   report_error({lit.field, camera, settings, figures.solver}, wanted_report(request, events),
                {picture.image, picture.samples, picture.finer.get()}, picture.layers, events,
                figures);
+  picture.finer.reset();
   return picture;
 }
 

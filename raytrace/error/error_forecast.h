@@ -1,10 +1,10 @@
 // How the error of a picture and the time it takes change with the settings, from one run to the next.
 //
 // From a measured run with its parts of the error (raytrace/error/picture_error.h) and seconds:
-//   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide), the rest of mesh^2 r^-1; pass one r
+//   elements x r   mesh_direct^2 r^-1/2 (an edge hides in a strip one element wide; none with direct light), the rest of mesh^2 r^-1; pass one r
 //   rays x r       form_factors^2 r^-1.2 (low-discrepancy rays); pass one (128 + rays), as direct light costs about so much
-//   samples x 4    pixels^2 4^-1.7 (stratified samples at edges), 4^-1.4 with direct light at hits, 4^-1.1 where they gather; pass two as the pixels that would take them
-//   direct         mesh_direct^2 none, of which the rest of mesh^2 is not known to less than a hundredth; pass two six tenths of what the hits take that were made to find out, as those of a tile share, also with fewer samples, down to four
+//   samples x 4    pixels^2 4^-1.7 (stratified samples at edges), 4^-1.1 where they gather; pass two as the pixels that would take them
+//   direct         mesh_direct^2 none, of which the rest of mesh^2 is not known to less than a hundredth; pass two three tenths of a hit a pixel more, of those that were made to find out: the vertices of the view's field
 //   gather         mesh^2 and form_factors^2 none, but the noise of a hit's own rays, a share in pixels^2; pass two as the hits say
 //                  and once light is gathered, mesh^2 is what it is gathered from, and falls with r^-e
 //   the estimate   as the pixels it looks at, a share of the elements within limits; two thirds of it 128 + rays, a third the samples drawn again, of each number as many pixels

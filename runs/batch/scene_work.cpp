@@ -60,7 +60,9 @@ ViewPicture view_of(const BatchPicture& picture, const LitScene* light, const Ru
     return render_reference_view(std::move(scene), camera, picture.size, settings, events, figures);
   }
   const Camera camera = cut_open(light->prepared->scene, picture.camera, picture.size, events);
-  return render_view(*light, camera, picture.size, settings, events, figures);
+  ViewPicture view = render_view(*light, camera, picture.size, settings, events, figures);
+  view.finer.reset();
+  return view;
 }
 
 void write_outputs(const BatchFolder& folder, const BatchPicture& picture,

@@ -1,5 +1,6 @@
 #include "runs/steering/memory.h"
 
+#include "raytrace/views/view_light.h"
 #include "scenes/errors.h"
 
 #include <fmt/format.h>
@@ -42,7 +43,12 @@ std::uint64_t view_memory(const SceneSizes& scene, const RunSettings& settings, 
                         static_cast<double>(settings.features.size());
   constexpr double per_plane = 3.0 * sizeof(glm::vec3), per_picture = 4e6;
   const double own_scene = reference ? static_cast<double>(scene_memory(scene, settings)) : 0.0;
-  return whole(per_picture + per_plane * planes * pixels + own_scene);
+  // The cells of the view's field, and the points that are seen.
+  constexpr double per_vertex = 350.0, per_point = 48.0;
+  const double finer = diffuse_term(settings) == DiffuseTerm::direct && !reference
+                           ? (vertices_of_a_pixel * per_vertex + per_point) * pixels
+                           : 0.0;
+  return whole(per_picture + per_plane * planes * pixels + own_scene + finer);
 }
 
 std::uint64_t expected_memory(const SceneSizes& scene, const RunSettings& settings,

@@ -184,6 +184,7 @@ SteeredRun run_with(Steering& steering, const Parameters& knobs, bool may_end) {
   const PictureError error =
       estimate_error(lit.field, request.camera, two_pass, run.figures.solver,
                      {run.picture.image, run.picture.samples, run.picture.finer.get()}, how);
+  run.picture.finer.reset();
   run.figures.error_estimate = error;
   run.figures.seconds.estimate = watch.lap();
   const RunSeconds& seconds = run.figures.seconds;

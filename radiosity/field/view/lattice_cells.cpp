@@ -2,6 +2,8 @@
 
 #include "scenes/sampling.h"
 
+#include <algorithm>
+
 namespace meninas {
 
 namespace {
@@ -40,6 +42,29 @@ LatticeCells::LatticeCells(const ElementMesh& mesh, std::span<const ElementId> e
     add_corners(cell);
     cells_.push_back(cell);
   }
+  halve_edges_of_roots();
+}
+
+/// Corners of elements in the middle of a larger one's edge.
+void LatticeCells::halve_edges_of_roots() {
+  for (const LatticeCell& cell : cells_)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::uint32_t a = cell.corners[c], b = cell.corners[(c + 1) % 4];
+      const std::uint32_t middle = a == b ? no_vertex : middle_of(a, b);
+      if (middle == no_vertex || (is_triangle(cell) && c == 3))
+        continue;
+      vertices_[middle].between = {a, b, a, b};
+      vertices_[middle].level = static_cast<std::uint8_t>(cell.level + 1);
+    }
+}
+
+bool LatticeCells::stands_apart(ElementId element) const {
+  if (region_of(mesh_, element) != nullptr)
+    return true;
+  const std::size_t cell = index(mesh_.cell_of_element[index(element)]);
+  return (!mesh_.walled_edges.empty() && mesh_.walled_edges[cell] != 0) ||
+         std::ranges::any_of(mesh_.corners[index(element)],
+                             [&](ElementVertexId v) { return is_at_contact(mesh_, index(v)); });
 }
 
 bool LatticeCells::is_triangle(const LatticeCell& cell) const {
@@ -47,10 +72,9 @@ bool LatticeCells::is_triangle(const LatticeCell& cell) const {
 }
 
 LatticeCells::Key LatticeCells::key_of(ElementId element, LatticePoint at) const {
-  constexpr std::uint64_t is_region = std::uint64_t{1} << 32U;
-  const std::uint64_t owner = region_of(mesh_, element) != nullptr
-                                  ? is_region | index(element)
-                                  : index(mesh_.side_of_element[index(element)]);
+  constexpr std::uint64_t is_element = std::uint64_t{1} << 32U;
+  const std::uint64_t owner = stands_apart(element) ? is_element | index(element)
+                                                    : index(mesh_.side_of_element[index(element)]);
   return {owner, at.x, at.y};
 }
 
@@ -136,6 +160,8 @@ Vec2 LatticeCells::place_in_element(const LatticeVertex& vertex) const {
 
 bool LatticeCells::is_at_border(const LatticeVertex& vertex) const {
   const MeshSide& side = mesh_.sides[index(mesh_.side_of_element[index(vertex.element)])];
+  if (stands_apart(vertex.element))
+    return true;
   const auto& [x, y] = vertex.at;
   const std::int64_t most_x = side.nu * width_at(0), most_y = side.nv * width_at(0);
   return x == 0 || y == 0 || (side.triangle ? x + y == most_x : x == most_x || y == most_y);

@@ -4,7 +4,7 @@
 // Corners of cells have whole coordinates, 2^24 to the edge of a root cell of the side, so that cells which
 // meet in a point of one side share its vertex whatever their sizes. A cell at level l of the side is
 // 2^(24 - l) wide; its corners and children are those of MeshCell (element_mesh.h, cell_children.h).
-// The regions of a cut leaf share none: something stands between them.
+// Elements that something stands in or beside share none: what is behind it has other light.
 #pragma once
 
 #include "radiosity/mesh/element_mesh.h"
@@ -25,9 +25,10 @@ struct LatticePoint {
 struct LatticeVertex {
   ElementId element; ///< one of those that it is in
   LatticePoint at;
-  std::uint8_t level = 0; ///< of the largest cells that have it for a corner
+  std::uint8_t level =
+      0; ///< of the cells that it was made for: one more than that whose edge it halves
   /// What it is in the middle of: the ends of an edge, each twice, or the corners of a cell.
-  /// A corner of an element has none: all are itself.
+  /// A corner of an element that halves no edge of another has none: all are itself.
   std::array<std::uint32_t, 4> between{};
 };
 
@@ -66,8 +67,10 @@ public:
   /// (s, t) of a vertex in its element, and (u, v) in its patch.
   Vec2 place_in_element(const LatticeVertex& vertex) const;
   Vec2 place_in_patch(const LatticeVertex& vertex) const;
-  /// Whether the vertex is on the border of its patch.
+  /// Whether the vertex is on the border of its patch, or of an element beside which something stands.
   bool is_at_border(const LatticeVertex& vertex) const;
+  /// Whether something stands in an element, or beside it.
+  bool stands_apart(ElementId element) const;
 
 private:
   struct Key {
@@ -83,6 +86,7 @@ private:
   std::uint32_t vertex_at(const LatticeCell& cell, LatticePoint at, std::uint8_t level,
                           const std::array<std::uint32_t, 4>* between);
   void add_corners(LatticeCell& cell);
+  void halve_edges_of_roots();
 
   const ElementMesh& mesh_;
   std::vector<LatticeCell> cells_;

@@ -1,10 +1,10 @@
 #include "radiosity/field/view/view_field.h"
 
-#include "radiosity/field/curves/curved_vertices.h"
 #include "radiosity/field/vertex_places.h"
 #include "radiosity/field/view/cell_lookup.h"
 #include "radiosity/field/view/lattice_cells.h"
 #include "radiosity/field/view/seen_cells.h"
+#include "radiosity/field/view/view_receivers.h"
 #include "radiosity/light/light_samples.h"
 #include "radiosity/light/shared_light.h"
 #include "scenes/sampling.h"
@@ -30,39 +30,11 @@ using OccludersOfImages = std::unordered_map<std::uint64_t, ImageBlockers>;
 struct VertexLight {
   glm::vec3 direct{0.0F}, direct_mirrored{0.0F};
   glm::vec3 indirect{0.0F}, indirect_mirrored{0.0F};
+  float error = 0.0F;   ///< of D, about, by the choice of shadow rays, its brightest channel
   float surplus = 0.0F; ///< as a share of what is there
 };
 
 float brightest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
-
-/// Where D is received at a point of the view.
-Receiver receiver_of(const LightScene& light, const SeenPoint& point) {
-  const ElementId element{point.element};
-  const MeshSide& side = light.mesh.sides[index(light.mesh.side_of_element[point.element])];
-  const Point3 at = point_at(light.surfaces.patches[index(side.patch)],
-                             patch_uv_of(light.mesh, cell_of(light.mesh, element), Vec2(point.st)));
-  return received_on_curve(light, side, at,
-                           {at, side.normal, side.plane_class, side.tangent, side.coat});
-}
-
-/// And at a vertex: on borders, and beside what cuts an element, a little inside.
-Receiver receiver_of(const LightScene& light, const LatticeCells& cells,
-                     const LatticeVertex& vertex) {
-  constexpr double inset = 0.02;
-  const ElementMesh& mesh = light.mesh;
-  const MeshSide& side = mesh.sides[index(mesh.side_of_element[index(vertex.element)])];
-  const Point3 at =
-      point_at(light.surfaces.patches[index(side.patch)], cells.place_in_patch(vertex));
-  const bool of_region = region_of(mesh, vertex.element) != nullptr;
-  Receiver receiver{of_region ? nearest_in(mesh, vertex.element, at) : at, side.normal,
-                    side.plane_class, side.tangent, side.coat};
-  if (of_region || cells.is_at_border(vertex)) {
-    const int levels = vertex.level - cell_of(mesh, vertex.element).level;
-    receiver.position =
-        glm::mix(receiver.position, centre_of(mesh, vertex.element), std::ldexp(inset, -levels));
-  }
-  return received_on_curve(light, side, at, receiver);
-}
 
 /// The same wherever the vertex is asked for.
 std::uint32_t seed_of(const ElementMesh& mesh, const LatticeVertex& vertex, std::uint32_t seed) {
@@ -118,6 +90,7 @@ private:
   /// Light at the vertices from that number on. What blocks rays to an element's vertices is known to
   /// those that come after, of the same element, in their order.
   void light_from(std::size_t first) {
+    constexpr std::size_t most_kept = 64;
     const auto& vertices = cells_.vertices();
     lights_.resize(vertices.size());
     const VertexRows rows = rows_from(first, vertices);
@@ -128,12 +101,30 @@ private:
       std::swap(work.blockers_of, known);
       for (std::size_t k = begin; k < end; ++k)
         light_vertex(rows.vertices[k], work);
+      // What nothing has been learned of takes room alone, and so do more images than few vertices need.
+      std::erase_if(work.blockers_of, [](const auto& image) { return image.second.learned == 0; });
+      if (work.blockers_of.size() > most_kept)
+        work.blockers_of.clear();
       std::swap(work.blockers_of, known);
     });
+    tbb::parallel_for(first, vertices.size(),
+                      [&](std::size_t v) { find_surplus(static_cast<std::uint32_t>(v)); });
+    forget_but(rows);
+  }
+
+  /// Elements to which nothing was added will hardly be divided again.
+  void forget_but(const VertexRows& rows) {
+    std::vector<std::uint8_t> is_active(blockers_.size(), 0);
+    for (const std::size_t k : std::span(rows.begin).first(rows.begin.size() - 1))
+      is_active[seen_.root_of(cells_.vertices()[rows.vertices[k]].element)] = 1;
+    for (std::size_t root = 0; root < blockers_.size(); ++root)
+      if (is_active[root] == 0)
+        OccludersOfImages().swap(blockers_[root]);
   }
 
   ArrivingLight direct_at(const LatticeVertex& vertex, double pixels, SharedLightWorkspace& work) {
-    constexpr int rounds = 8, times_learned = 4;
+    constexpr int rounds = 8;
+    constexpr std::uint32_t times_learned = 4;
     const Receiver receiver = receiver_of(light_, cells_, vertex);
     // What the plane of an element cannot see, the curve over it may.
     const ElementId element =
@@ -177,15 +168,26 @@ private:
     light.direct = glm::vec3(d.total);
     light.direct_mirrored = glm::vec3(d.mirrored);
 
-    const auto [a, b, c, e] = vertex.between;
+    light.error = static_cast<float>(work.shadow_error);
+  }
+
+  /// What D at a vertex has that its neighbours do not tell, beyond twice the error of the difference.
+  void find_surplus(std::uint32_t v) {
+    const auto [a, b, c, e] = cells_.vertices()[v].between;
     if (a == v)
       return;
-    const glm::vec3 expected =
-        0.25F * (lights_[a].direct + lights_[b].direct + lights_[c].direct + lights_[e].direct);
-    const float off =
-        brightest(glm::abs(light.direct - expected)) - 2.0F * static_cast<float>(work.shadow_error);
-    light.surplus = std::max(0.0F, off) /
-                    (brightest(glm::max(light.direct, expected) + light.indirect) + dark_);
+    VertexLight& light = lights_[v];
+    glm::vec3 expected(0.0F);
+    float variance = light.error * light.error;
+    for (const std::uint32_t other : {a, b, c, e}) {
+      expected += 0.25F * lights_[other].direct;
+      variance += 0.125F * lights_[other].error * lights_[other].error;
+    }
+    const float off = brightest(glm::abs(light.direct - expected)) - 2.0F * std::sqrt(variance);
+    const float all =
+        brightest(glm::max(light.direct, expected) + glm::max(light.indirect, glm::vec3(0.0F))) +
+        dark_;
+    light.surplus = off > 0.0F && all > 0.0F ? off / all : 0.0F;
   }
 
   /// A share of the mean of what is seen: what is darker is not told apart.
@@ -295,7 +297,7 @@ private:
   /// Larger cells first.
   void settle() {
     const auto& cells = cells_.cells();
-    // The ends of edges that one cell alone was divided along.
+    // The ends of edges that not both cells beside them were divided along.
     std::vector<std::uint8_t> times(lights_.size(), 0);
     for (const LatticeCell& cell : cells)
       if (cell.first_child != LatticeCell::leaf)
@@ -303,9 +305,9 @@ private:
           if (middle != LatticeCells::no_vertex)
             ++times[middle];
     ends_.assign(lights_.size(), 0);
-    for (std::size_t v = 0; v < times.size(); ++v)
-      if (times[v] == 1)
-        for (const std::uint32_t end : cells_.vertices()[v].between)
+    for (std::uint32_t v = 0; v < times.size(); ++v)
+      if (const auto& between = cells_.vertices()[v].between; times[v] < 2 && between[0] != v)
+        for (const std::uint32_t end : between)
           ends_[end] = 1;
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t c = 0; c < cells.size(); ++c)
@@ -327,7 +329,7 @@ private:
     IrradianceField& field = result.field;
     field.cells = std::make_shared<const FieldCells>(
         cell_lookup(mesh_, cells_, seen_.roots(), field.irradiance.size()));
-    const bool mirrored = !field.mirrored.empty();
+    const bool mirrored = !field.mirrored.empty() && !field.indirect_mirrored.empty();
     for (const VertexLight& light : lights_) {
       field.irradiance.push_back(light.direct + light.indirect);
       field.indirect.push_back(light.indirect);
@@ -346,11 +348,11 @@ private:
   const LightScene& light_;
   const ViewRefinement& how_;
   SeenCells seen_;
-  const LatticeCells& cells_;           ///< of what is seen
+  const LatticeCells& cells_;               ///< of what is seen
   std::vector<OccludersOfImages> blockers_; ///< by root
-  std::vector<VertexLight> lights_;     ///< by vertex of the cells
-  std::vector<std::uint8_t> ends_;      ///< likewise
-  float dark_ = 0.0F;                   ///< H_dark
+  std::vector<VertexLight> lights_;         ///< by vertex of the cells
+  std::vector<std::uint8_t> ends_;          ///< likewise
+  float dark_ = 0.0F;                       ///< H_dark
   Workspaces workspaces_;
 };
 

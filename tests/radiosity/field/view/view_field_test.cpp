@@ -1,5 +1,6 @@
 #include "form_factors/point_form_factor.h"
 #include "radiosity/field/view/view_field.h"
+#include "radiosity/mesh/subdivision.h"
 #include "tests/radiosity/lit_scene.h"
 #include "tests/support/random.h"
 #include "tests/support/scene_builder.h"
@@ -166,27 +167,58 @@ TEST(ViewField, IsTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(one.field.lookup().descent, four.field.lookup().descent);
 }
 
-// A wall of no thickness stands on the floor, across its elements, with the lamp on one side:
-// on the other no light comes under it.
+// A wall of no thickness stands on the floor, across its elements or along their edges, with the lamp on
+// one side: on the other no light comes under it.
 TEST(ViewField, NoLightPassesUnderAWall) {
+  const std::vector<Point3> lamp{{1.0, 2, -0.5}, {1.5, 2, -0.5}, {1.5, 2, 0.5}, {1.0, 2, 0.5}};
+  for (const double at : {0.13, 0.0, 0.5}) {
+    Scene scene;
+    add_floor(scene);
+    add_polygon(scene, "wall", {{at, 0, -2}, {at, 3, -2}, {at, 3, 2}, {at, 0, 2}},
+                double_sided(diffuse(0.0)));
+    add_polygon(scene, "lamp", lamp, diffuse(0.0, 10.0));
+    const SolvedFloor floor(std::move(scene), 0.5);
+    const ViewField view = view_field(floor.field(), floor.square({at, 0, 0}, 0.6, 64), 1.0, {});
+    Random random(6);
+    for (int n = 0; n < 300; ++n) {
+      const double z = random.between(-0.6, 0.6), away = random.between(1e-4, 0.5);
+      const double exact = 10.0 * point_form_factor({at + away, 0, z}, {0, 1, 0}, lamp);
+      EXPECT_EQ(irradiance(floor, view.field, at - away, z), 0.0) << at << " " << away << " " << z;
+      EXPECT_NEAR(irradiance(floor, view.field, at + away, z), exact, 0.02 * exact)
+          << at << " " << away << " " << z;
+    }
+  }
+}
+
+// Elements of different sizes: the smaller ones' corners in the middle of a larger edge are no cracks.
+TEST(ViewField, HasNoCracksBesideSmallerElements) {
   Scene scene;
   add_floor(scene);
-  add_polygon(scene, "wall", {{0.13, 0, -2}, {0.13, 3, -2}, {0.13, 3, 2}, {0.13, 0, 2}},
+  scene.lights = {sun_from_above()};
+  add_polygon(scene, "blade", {{-3, 1, -3}, {-3, 1, 3}, {0.1, 1, 3}, {0.3, 1, -3}},
               double_sided(diffuse(0.0)));
-  add_polygon(scene, "lamp", {{1.0, 2, -0.5}, {1.5, 2, -0.5}, {1.5, 2, 0.5}, {1.0, 2, 0.5}},
-              diffuse(0.0, 10.0));
-  const SolvedFloor floor(std::move(scene), 0.5);
-  const ViewField view = view_field(floor.field(), floor.square({0.13, 0, 0}, 0.6, 64), 1.0, {});
-  Random random(6);
-  for (int n = 0; n < 300; ++n) {
-    const double z = random.between(-0.6, 0.6), away = random.between(1e-4, 0.5);
-    const double exact =
-        10.0 * point_form_factor({0.13 + away, 0, z}, {0, 1, 0},
-                                 std::vector<Point3>{
-                                     {1.0, 2, -0.5}, {1.5, 2, -0.5}, {1.5, 2, 0.5}, {1.0, 2, 0.5}});
-    EXPECT_EQ(irradiance(floor, view.field, 0.13 - away, z), 0.0) << away << " " << z;
-    EXPECT_NEAR(irradiance(floor, view.field, 0.13 + away, z), exact, 0.02 * exact)
-        << away << " " << z;
+  const SolvedFloor coarse(scene, 1.0);
+  std::vector<std::uint8_t> marked(element_count(coarse.scene->mesh), 0);
+  for (const std::size_t e : elements_of(*coarse.scene, "floor"))
+    marked[e] = e % 3 == 0 ? 1 : 0;
+  SolvedFloor floor(std::move(scene), 1.0);
+  floor.scene->mesh = divide_elements(coarse.scene->mesh, floor.scene->surfaces, marked);
+  ASSERT_FALSE(floor.scene->mesh.hanging.empty());
+  floor.scene->light = light_scene_on(*floor.scene->light, floor.scene->mesh);
+  PassOneSettings settings;
+  settings.form_factors.rays = settings.interpolation.rays = 64;
+  floor.solution = solve_pass_one(floor.scene->light, settings);
+  const ViewField view = view_field(floor.field(), floor.square({0, 0, 0}, 1.9, 64), 1.0, {});
+  Random random(8);
+  for (int n = 0; n < 4000; ++n) {
+    const double edge = std::round(random.between(-30.0, 30.0)) / 16.0,
+                 z = random.between(-1.8, 1.8);
+    EXPECT_NEAR(irradiance(floor, view.field, edge - 5e-7, z),
+                irradiance(floor, view.field, edge + 5e-7, z), 1e-3)
+        << edge << " " << z;
+    EXPECT_NEAR(irradiance(floor, view.field, z, edge - 5e-7),
+                irradiance(floor, view.field, z, edge + 5e-7), 1e-3)
+        << z << " " << edge;
   }
 }
 
