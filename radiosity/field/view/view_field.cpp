@@ -142,18 +142,19 @@ private:
                                        .brightest_most = true,
                                        .one_place = true,
                                        .learns = true};
-    const auto found = [&] {
+    // Each time by other rays: those that have taught what blocks them have missed the rest.
+    const auto found = [&](std::uint32_t time) {
       std::uint32_t next = 0;
       return mean_direct_irradiance(
           light_,
           [&] {
             return NumberedPoint{receiver, next++, element};
           },
-          settings, seed_of(mesh_, vertex, how_.seed), work);
+          settings, seed_of(mesh_, vertex, hash(how_.seed, time)), work);
     };
-    ArrivingLight light = found();
-    for (int k = 0; k < times_learned && work.has_learned; ++k)
-      light = found();
+    ArrivingLight light = found(0);
+    for (std::uint32_t time = 1; time <= times_learned && work.has_learned; ++time)
+      light = found(time);
     return light;
   }
 
