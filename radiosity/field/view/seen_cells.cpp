@@ -78,7 +78,7 @@ SeenCells::Range SeenCells::range_of(std::size_t first, std::size_t end, double 
     low = std::min(low, seen_[k].lit);
     high = std::max(high, seen_[k].lit);
   }
-  return {first, end, edge / double{narrowest}, high - low};
+  return {first, end, edge / double{narrowest}, low, high};
 }
 
 void SeenCells::stand_for(std::uint32_t cell) {
@@ -106,7 +106,7 @@ void SeenCells::divide(std::uint32_t number) {
       ++next;
     Range part = range_of(first, next, edge);
     if (!part.seen && range.seen && range.pixels <= 4.0 * apart_)
-      part = {next, next, 0.5 * range.pixels, 0.0F, true};
+      part = {.first = next, .end = next, .pixels = 0.5 * range.pixels};
     ranges_.push_back(part);
   }
   for (auto point = begin; point != end; ++point)

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace meninas {
@@ -35,8 +36,9 @@ public:
   std::size_t points(std::uint32_t cell) const { return ranges_[cell].end - ranges_[cell].first; }
   double pixels(std::uint32_t cell) const { return ranges_[cell].pixels; }
 
-  /// Between its points, the difference of what punctual lights send.
-  float lit_apart(std::uint32_t cell) const { return ranges_[cell].lit_apart; }
+  /// The least and the most that punctual lights send to its points; the least is more where it has none.
+  float least_lit(std::uint32_t cell) const { return ranges_[cell].least_lit; }
+  float most_lit(std::uint32_t cell) const { return ranges_[cell].most_lit; }
 
   /// What a vertex stands for: the pixels of the largest cell that has it for a corner.
   double pixels_of_vertex(std::uint32_t vertex) const { return double{pixels_of_vertex_[vertex]}; }
@@ -49,7 +51,7 @@ private:
   struct Range {
     std::size_t first = 0, end = 0; ///< of the points
     double pixels = 0.0;
-    float lit_apart = 0.0F;
+    float least_lit = std::numeric_limits<float>::infinity(), most_lit = 0.0F;
     bool seen = true;
   };
 

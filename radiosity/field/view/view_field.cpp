@@ -30,8 +30,9 @@ using OccludersOfImages = std::unordered_map<std::uint64_t, ImageBlockers>;
 struct VertexLight {
   glm::vec3 direct{0.0F}, direct_mirrored{0.0F};
   glm::vec3 indirect{0.0F}, indirect_mirrored{0.0F};
-  float error = 0.0F;   ///< of D, about, by the choice of shadow rays, its brightest channel
-  float surplus = 0.0F; ///< as a share of what is there
+  float punctual = 0.0F; ///< of D, its brightest channel
+  float error = 0.0F;    ///< of D, about, by the choice of shadow rays, its brightest channel
+  float surplus = 0.0F;  ///< as a share of what is there
 };
 
 float brightest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
@@ -169,6 +170,7 @@ private:
     light.direct = glm::vec3(d.total);
     light.direct_mirrored = glm::vec3(d.mirrored);
 
+    light.punctual = static_cast<float>(largest(d.punctual));
     light.error = static_cast<float>(work.shadow_error);
   }
 
@@ -222,6 +224,19 @@ private:
     return brightest(high - low) / (brightest_of(cell) + dark_);
   }
 
+  /// Whether the points in a cell, and its corners, receive different light from punctual lights.
+  bool has_edge_of_points(std::uint32_t number, float alike) const {
+    float least = seen_.least_lit(number), most = seen_.most_lit(number);
+    if (least > most)
+      return false;
+    const LatticeCell& cell = cells_.cells()[number];
+    for (const std::uint32_t v : cell.corners) {
+      least = std::min(least, lights_[v].punctual);
+      most = std::max(most, lights_[v].punctual);
+    }
+    return most - least > alike * (std::max(most, brightest_of(cell)) + dark_);
+  }
+
   /// Whether a vertex of that level tells to divide a cell of so many pixels.
   bool stands_out(std::uint32_t v, int level, double pixels) const {
     constexpr double within_pixel = 2.5;
@@ -233,12 +248,12 @@ private:
   /// Of cells that were made with the last vertices.
   bool tells_to_divide(std::uint32_t number, bool first) const {
     constexpr float spread_to_surplus = 4.0F;
+    constexpr double narrow_shadow = 0.5; // pixels
     const LatticeCell& cell = cells_.cells()[number];
     const double pixels = seen_.pixels(number);
     const float alike = spread_to_surplus * static_cast<float>(how_.tolerance);
-    return pixels > how_.coarse ||
-           (pixels > 1.0 && ((first && spread_of(cell) > alike) ||
-                             seen_.lit_apart(number) > alike * (brightest_of(cell) + dark_))) ||
+    return pixels > how_.coarse || (first && pixels > 1.0 && spread_of(cell) > alike) ||
+           (pixels > narrow_shadow && has_edge_of_points(number, alike)) ||
            std::ranges::any_of(
                cell.corners, [&](std::uint32_t v) { return stands_out(v, cell.level, pixels); }) ||
            is_told_to_divide(number, true);
