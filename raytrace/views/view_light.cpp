@@ -18,17 +18,17 @@ double apart_at(const CameraRay& a, const CameraRay& b, double t) {
   return glm::length((b.origin - a.origin) + t * (b.direction - a.direction));
 }
 
-/// The points at the corners of each pixel, or of each `step` by `step`.
+/// The points at the corners of each pixel and, where they are less than a pixel apart, between these.
 std::vector<SeenPoint> seen_points(const LightScene& light, const Camera& camera,
-                                   const RenderSettings& settings, int step) {
+                                   const RenderSettings& settings, double apart) {
   const int width = settings.width, height = settings.height;
   const double aspect = double(width) / height;
-  std::vector<std::vector<SeenPoint>> rows(
-      static_cast<std::size_t>((height + step - 1) / step + 1));
+  const auto columns = static_cast<std::size_t>(std::ceil(width / apart)) + 1;
+  std::vector<std::vector<SeenPoint>> rows(static_cast<std::size_t>(std::ceil(height / apart)) + 1);
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
-    const double y = std::min(double(row) * step / height, 1.0);
-    for (int column = 0; column < width + step; column += step) {
-      const Vec2 at(std::min(double(column) / width, 1.0), y);
+    const double y = std::min(double(row) * apart / height, 1.0);
+    for (std::size_t column = 0; column < columns; ++column) {
+      const Vec2 at(std::min(double(column) * apart / width, 1.0), y);
       const Sight sight = look(light, camera, aspect, at, settings.max_bounces);
       if (sight.side == FaceRecord::nothing)
         continue;
@@ -57,9 +57,11 @@ ViewLight light_for_view(const IrradianceField& field, const Camera& camera,
   constexpr double most_points = 1 << 22;
   if (settings.diffuse.term != DiffuseTerm::direct)
     return {nullptr, settings, 0};
-  const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(
-                                   double(settings.width) * settings.height / most_points))));
-  ViewField finer = view_field(field, seen_points(*field.scene, camera, settings, step), step,
+  // Shadows of punctual lights are found by the points that ask for them.
+  const double wanted = field.scene->punctual.empty() ? 1.0 : 0.5;
+  const double pixels = double(settings.width) * settings.height;
+  const double apart = std::max(wanted, std::sqrt(pixels / most_points));
+  ViewField finer = view_field(field, seen_points(*field.scene, camera, settings, apart), apart,
                                settings.diffuse.refinement);
   ViewLight light{std::make_shared<const IrradianceField>(std::move(finer.field)), settings,
                   finer.shadow_rays};

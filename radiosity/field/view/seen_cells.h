@@ -30,6 +30,8 @@ public:
   std::size_t roots() const { return roots_; }
   std::uint32_t root_of(ElementId element) const { return root_of_[index(element)]; }
 
+  double apart() const { return apart_; }
+
   /// Of a cell: whether it is seen, how many points are in it, and its longest edge in pixels
   /// of the narrowest.
   bool is_seen(std::uint32_t cell) const { return ranges_[cell].seen; }

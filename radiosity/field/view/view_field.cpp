@@ -248,7 +248,7 @@ private:
   /// Of cells that were made with the last vertices.
   bool tells_to_divide(std::uint32_t number, bool first) const {
     constexpr float spread_to_surplus = 4.0F;
-    constexpr double narrow_shadow = 0.5; // pixels
+    const double narrow_shadow = 0.5 * std::min(seen_.apart(), 1.0); // pixels
     const LatticeCell& cell = cells_.cells()[number];
     const double pixels = seen_.pixels(number);
     const float alike = spread_to_surplus * static_cast<float>(how_.tolerance);

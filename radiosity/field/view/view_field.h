@@ -18,7 +18,7 @@
 // Indirect light is interpolated between the vertices of the mesh, which have gathered it.
 //
 // Shadows of punctual lights have no penumbra that tells of them from afar: each point that is seen asks for
-// these lights, and a cell whose points and corners differ is divided down to half a pixel.
+// these lights, and a cell whose points and corners differ is divided down to half of the way between points.
 //
 // Limits: shadows of lamps that are narrower than coarse / 2 pixels, and far from other edges, may be missed.
 #pragma once
