@@ -42,11 +42,11 @@ protected:
 
 TEST_F(ProjectionOption, PicturesAreAsWideAsWholeSpheresAndCubes) {
   ASSERT_EQ(render({"--projection", "equirectangular"}).code, 0);
-  const Image sphere = read_image(folder_ / "a.exr").image;
+  const Image sphere = read_image(folder_ / "a.exr").picture;
   EXPECT_EQ(sphere.width, 1024);
   EXPECT_EQ(sphere.height, 512);
   ASSERT_EQ(render({"--projection", "cube"}).code, 0);
-  const Image cube = read_image(folder_ / "a.exr").image;
+  const Image cube = read_image(folder_ / "a.exr").picture;
   EXPECT_EQ(cube.width, 3072);
   EXPECT_EQ(cube.height, 512);
 }
