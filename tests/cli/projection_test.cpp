@@ -70,7 +70,7 @@ TEST_F(ProjectionOption, LensesShowInBothModes) {
                      mode, "--quiet"})
                     .code,
                 0);
-      return read_image(folder_ / "a.exr").image.pixels;
+      return read_image(folder_ / "a.exr").picture.pixels;
     };
     EXPECT_NE(picture("lens.glb"), picture("room.glb")) << mode;
   }
@@ -99,8 +99,8 @@ TEST_F(ProjectionOption, IsComparedWithTheReference) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(read_file(folder_ / "compared/index.html"),
               HasSubstr("--projection equirectangular"));
-  const Image hybrid = read_image(folder_ / "compared/hybrid.exr").image,
-              truth = read_image(folder_ / "compared/reference.exr").image;
+  const Image hybrid = read_image(folder_ / "compared/hybrid.exr").picture,
+              truth = read_image(folder_ / "compared/reference.exr").picture;
   ASSERT_EQ(truth.width, 32);
   double off = 0.0, mean = 0.0;
   for (std::size_t k = 0; k < truth.pixels.size(); ++k) {
