@@ -43,6 +43,7 @@ std::vector<BatchPicture> planned(const Settings& settings) {
   return plan_batch("bench", {BatchJob{.name = "0",
                                        .place = "/",
                                        .scenes = {settings.scene},
+                                       .times = {},
                                        .cameras = {path},
                                        .modes = {mode},
                                        .outputs = {"{frame}.exr"}}});
