@@ -106,11 +106,6 @@ const std::map<std::string_view, std::string_view>& all_details() {
       {"--link-error",
        "the solve begins with few large nodes and divides those whose light is not linear to X. With "
        "far more `--elements` than X needs, more `--rays` help instead."},
-      {"--projection",
-       "`equirectangular` is the whole sphere, 1024x512 unless `--size` says otherwise, what is ahead of "
-       "the camera in the middle. `cube` is a row of six squares, 3072x512: right, left, up, down, "
-       "ahead, behind, each as one who stands there sees it; the lower edge of up and the upper edge "
-       "of down meet the face ahead. `znear` and the lens of a camera have no effect on them."},
       {"--snapshots", "see [progressive pictures](progressive.md)."},
       {"--solver",
        "all of them end at the error that `--tolerance` allows. `progressive` shoots light, brightest "

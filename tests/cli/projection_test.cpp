@@ -25,7 +25,7 @@ protected:
       if (node["name"] == "camera")
         node["translation"] = {0.5, 0.5, 0.5};
     write_room(folder_ / "room.glb", room);
-    room.root["cameras"][0]["extras"] = {{"fstop", 1.0}, {"focus_distance", 0.5}};
+    room.root["cameras"][0]["extras"] = {{"fstop", 1.0}, {"focus_distance", 0.5}, {"focal_length", 400.0}};
     write_room(folder_ / "lens.glb", room);
   }
 

@@ -1,4 +1,5 @@
-// Where direct light is received for one view.
+// Where direct light is received for one view: the place, normal and plane at which D is computed, in metres,
+// for the points that are seen and for the vertices of the cells that they are in.
 #pragma once
 
 #include "radiosity/field/view/lattice_cells.h"
