@@ -63,19 +63,6 @@ TEST_F(ProjectionOption, SaysWhatCannotBe) {
   EXPECT_THAT(outcome.err, HasSubstr("has a lens, which panoramas do without"));
 }
 
-TEST_F(ProjectionOption, LensesShowInBothModes) {
-  for (const std::string mode : {"hybrid", "reference"}) {
-    const auto picture = [&](const std::string& file) {
-      EXPECT_EQ(run({"render", file, "-o", "a.exr", "--size", "16x16", "--samples", "16", "--mode",
-                     mode, "--quiet"})
-                    .code,
-                0);
-      return read_image(folder_ / "a.exr").picture.pixels;
-    };
-    EXPECT_NE(picture("lens.glb"), picture("room.glb")) << mode;
-  }
-}
-
 TEST_F(ProjectionOption, IsASettingOfBatchesAndSharesTheirSolves) {
   std::ofstream(folder_ / "jobs.json") << json{
       {"defaults",
