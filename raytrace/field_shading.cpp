@@ -1,5 +1,7 @@
 #include "raytrace/field_shading.h"
 
+#include "scenes/materials/coverage.h"
+
 #include <numbers>
 
 namespace meninas {

@@ -5,6 +5,7 @@
 #include "raytrace/lamp_weights.h"
 #include "raytrace/quad_lanes.h"
 #include "scenes/rays/curved_origin.h"
+#include "scenes/materials/coverage.h"
 #include "scenes/materials/normal_map.h"
 #include "scenes/shading_normal.h"
 

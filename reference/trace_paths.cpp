@@ -2,6 +2,7 @@
 
 #include "reference/light_images.h"
 #include "reference/mirrored_lights.h"
+#include "scenes/materials/coverage.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/materials/normal_map.h"
 #include "scenes/sampling.h"

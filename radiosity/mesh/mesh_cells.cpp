@@ -4,6 +4,14 @@
 
 namespace meninas {
 
+double longest_edge(const ElementMesh& mesh, const ElementCorners& corners) {
+  double longest = 0.0;
+  for (std::size_t c = 0; c < 4; ++c)
+    longest = std::max(longest, glm::distance(mesh.vertices[index(corners[c])],
+                                              mesh.vertices[index(corners[(c + 1) % 4])]));
+  return longest;
+}
+
 Point3 point_in(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& cell,
                 Vec2 st) {
   return point_at(surfaces.patches[index(mesh.sides[index(cell.side)].patch)],

@@ -21,6 +21,9 @@ void divide_cell(ElementMesh& mesh, std::uint32_t cell);
 /// Points closer than about this are one vertex, metres.
 double vertex_grain(const ElementMesh& mesh, const SurfaceModel& surfaces);
 
+/// The longest edge between corners, metres.
+double longest_edge(const ElementMesh& mesh, const ElementCorners& corners);
+
 /// The point (s, t) of a cell.
 Point3 point_in(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshCell& cell,
                 Vec2 st);

@@ -62,10 +62,7 @@ bool is_divisible(const ElementMesh& mesh, const SurfaceModel& surfaces, const M
     return false;
   const ElementCorners& corners = mesh.corners[leaf.first_element];
   // Corners may have become one vertex: then the area tells how long the edges are at least.
-  double longest = std::sqrt(leaf.area);
-  for (std::size_t k = 0; k < 4; ++k)
-    longest = std::max(longest, glm::distance(mesh.vertices[index(corners[k])],
-                                              mesh.vertices[index(corners[(k + 1) % 4])]));
+  const double longest = std::max(std::sqrt(leaf.area), longest_edge(mesh, corners));
   return leaf.area > 64.0 * vertex_grain(mesh, surfaces) * longest;
 }
 

@@ -87,16 +87,6 @@ void set_camera_rays(RayPacket& packet, const CameraFrame& camera,
   set_limits(packet);
 }
 
-static void set_ray(RayPacket& packet, std::size_t k, const glm::vec3& origin,
-                    const glm::vec3& direction) {
-  packet.origin_x[k] = origin.x;
-  packet.origin_y[k] = origin.y;
-  packet.origin_z[k] = origin.z;
-  packet.direction_x[k] = direction.x;
-  packet.direction_y[k] = direction.y;
-  packet.direction_z[k] = direction.z;
-}
-
 /// In right, up and forward.
 static glm::vec3 around_sphere(float x, float y) {
   constexpr float pi = std::numbers::pi_v<float>;
@@ -112,17 +102,18 @@ void set_panorama_rays(RayPacket& packet, const CameraFrame& camera,
                        const std::array<float, packet_size>& x,
                        const std::array<float, packet_size>& y,
                        const std::array<float, packet_size>& middle) {
-  for (std::size_t k = 0; k < packet_size; ++k) {
+  constexpr std::uint32_t nowhere = index(none<PlaneId>); // that rays leave
+  for (std::uint32_t k = 0; k < packet_size; ++k) {
     if (camera.projection == Projection::equirectangular) {
-      set_ray(packet, k, camera.origin, camera.faces[0] * around_sphere(x[k], y[k]));
+      set_ray(packet, k, camera.origin, camera.faces[0] * around_sphere(x[k], y[k]), nowhere);
       continue;
     }
     const float whole = static_cast<float>(cube_faces);
     const float face = std::clamp(std::floor(whole * middle[k]), 0.0F, whole - 1.0F);
     const glm::vec3 on_face{2.0F * (whole * x[k] - face) - 1.0F, 1.0F - 2.0F * y[k], 1.0F};
-    set_ray(packet, k, camera.origin, camera.faces[static_cast<std::size_t>(face)] * on_face);
+    set_ray(packet, k, camera.origin, camera.faces[static_cast<std::size_t>(face)] * on_face,
+            nowhere);
   }
-  set_limits(packet);
 }
 
 void start_on_lens(RayPacket& packet, const CameraFrame& camera,

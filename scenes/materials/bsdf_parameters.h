@@ -34,9 +34,6 @@ struct Bsdf {
   Glass pane;         ///< what it is there
 };
 
-/// The radiance that a point shows by itself: what it emits, or of an unlit surface its colour.
-Rgb shown_radiance(const Material& material, const MaterialPoint& point);
-
 /// Whether what it passes goes straight through openings, however rough the rest is.
 inline bool is_open(const Bsdf& bsdf) {
   return bsdf.glass > 0.0 && bsdf.pane.faces == GlassFaces::none;

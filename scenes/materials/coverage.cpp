@@ -17,12 +17,6 @@ double partly_covered_share(const TexturePixels& pixels, double alpha) {
   return there > 0 ? double(partly) / double(there) : 1.0;
 }
 
-MaterialPoint untextured(const Material& material) {
-  const double passed = is_blended(material) ? 1.0 - material.alpha : material.transmission;
-  return {material.base_color, material.alpha, material.metallic, material.roughness,
-          material.emission,   passed,         material.thickness};
-}
-
 Rgb shown_radiance(const Material& material, const MaterialPoint& point) {
   return material.unlit ? coverage(material, point) * point.base_color : point.emission;
 }

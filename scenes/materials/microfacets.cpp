@@ -1,5 +1,7 @@
 #include "scenes/materials/microfacets.h"
 
+#include "scenes/materials/table_cell.h"
+
 #include "scenes/material.h"
 #include "scenes/sampling.h"
 
@@ -124,19 +126,8 @@ const AlbedoTable& albedo_table() {
   return table;
 }
 
-/// Cell and place in it of x in [0, 1] divided into steps.
-struct Cell {
-  std::size_t first;
-  double place;
-};
-Cell cell_of(double x, int steps) {
-  const double scaled = std::clamp(x, 0.0, 1.0) * steps;
-  const int first = std::min(static_cast<int>(scaled), steps - 1);
-  return {static_cast<std::size_t>(first), scaled - first};
-}
-
-Cell roughness_cell(double roughness) {
-  return cell_of((roughness - ideal_mirror_roughness) / (1.0 - ideal_mirror_roughness),
+TableCell roughness_cell(double roughness) {
+  return table_cell((roughness - ideal_mirror_roughness) / (1.0 - ideal_mirror_roughness),
                  roughness_steps);
 }
 
@@ -146,8 +137,8 @@ SchlickAlbedo schlick_albedo(double roughness, double cosine) {
   if (roughness <= ideal_mirror_roughness)
     return ideal_albedo(cosine);
   const AlbedoTable& table = albedo_table();
-  const Cell r = roughness_cell(roughness);
-  const Cell c = cell_of(std::sqrt(std::max(0.0, cosine)), cosine_steps);
+  const TableCell r = roughness_cell(roughness);
+  const TableCell c = table_cell(std::sqrt(std::max(0.0, cosine)), cosine_steps);
   return mixed(mixed(table.at[r.first][c.first], table.at[r.first][c.first + 1], c.place),
                mixed(table.at[r.first + 1][c.first], table.at[r.first + 1][c.first + 1], c.place),
                r.place);
@@ -157,7 +148,7 @@ SchlickAlbedo mean_schlick_albedo(double roughness) {
   // 2 integral of (1 - c)^5 c dc = 1/21
   if (roughness <= ideal_mirror_roughness)
     return {20.0 / 21.0, 1.0 / 21.0};
-  const Cell r = roughness_cell(roughness);
+  const TableCell r = roughness_cell(roughness);
   const AlbedoTable& table = albedo_table();
   return mixed(table.mean[r.first], table.mean[r.first + 1], r.place);
 }

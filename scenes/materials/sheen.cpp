@@ -1,5 +1,7 @@
 #include "scenes/materials/sheen.h"
 
+#include "scenes/materials/table_cell.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +12,7 @@ namespace meninas {
 namespace {
 
 constexpr int roughness_steps = 16, cosine_steps = 32; // of the square root of the cosine
-constexpr double least_roughness = 0.1; ///< smoother fibres are as those
+constexpr double least_roughness = 0.1;                ///< smoother fibres are as those
 
 /// The fit of Conty and Kulla: its parameters between those for a = 0 and a = 1.
 class Shadowing {
@@ -91,24 +93,16 @@ const Table& sheen_table() {
   return table;
 }
 
-struct Cell {
-  std::size_t first;
-  double place;
-};
-Cell cell_of(double x, int steps) {
-  const double scaled = std::clamp(x, 0.0, 1.0) * steps;
-  const int first = std::min(static_cast<int>(scaled), steps - 1);
-  return {static_cast<std::size_t>(first), scaled - first};
-}
-Cell roughness_cell(double roughness) {
-  return cell_of((roughness - least_roughness) / (1.0 - least_roughness), roughness_steps);
+TableCell roughness_cell(double roughness) {
+  return table_cell((roughness - least_roughness) / (1.0 - least_roughness), roughness_steps);
 }
 
 } // namespace
 
 double sheen_albedo(double roughness, double cosine) {
   const Table& table = sheen_table();
-  const Cell r = roughness_cell(roughness), c = cell_of(std::sqrt(std::max(0.0, cosine)), cosine_steps);
+  const TableCell r = roughness_cell(roughness),
+                  c = table_cell(std::sqrt(std::max(0.0, cosine)), cosine_steps);
   const auto along = [&](const auto& row) {
     return std::lerp(row[c.first], row[c.first + 1], c.place);
   };
@@ -117,7 +111,7 @@ double sheen_albedo(double roughness, double cosine) {
 
 double mean_sheen_albedo(double roughness) {
   const Table& table = sheen_table();
-  const Cell r = roughness_cell(roughness);
+  const TableCell r = roughness_cell(roughness);
   return std::lerp(table.mean[r.first], table.mean[r.first + 1], r.place);
 }
 
@@ -134,9 +128,8 @@ double mean_below_sheen(const Bsdf& bsdf) {
 }
 
 double lobe_below_sheen(const Bsdf& bsdf, double cos_out, double cos_in) {
-  return bsdf.sheen == Rgb(0.0)
-             ? 1.0
-             : std::min(below_sheen(bsdf, cos_out), below_sheen(bsdf, cos_in));
+  return bsdf.sheen == Rgb(0.0) ? 1.0
+                                : std::min(below_sheen(bsdf, cos_out), below_sheen(bsdf, cos_in));
 }
 
 Rgb sheen_lobe(const Bsdf& bsdf, double cos_out, double cos_in) {

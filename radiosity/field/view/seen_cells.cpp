@@ -1,6 +1,7 @@
 #include "radiosity/field/view/seen_cells.h"
 
 #include "radiosity/mesh/cell_children.h"
+#include "radiosity/mesh/mesh_cells.h"
 
 #include <tbb/parallel_for.h>
 
@@ -15,12 +16,7 @@ namespace meninas {
 namespace {
 
 double longest_edge(const ElementMesh& mesh, ElementId element) {
-  const ElementCorners& corners = mesh.corners[index(element)];
-  double longest = 0.0;
-  for (std::size_t c = 0; c < 4; ++c)
-    longest = std::max(longest, glm::distance(mesh.vertices[index(corners[c])],
-                                              mesh.vertices[index(corners[(c + 1) % 4])]));
-  return longest;
+  return longest_edge(mesh, mesh.corners[index(element)]);
 }
 
 /// The elements that points are in, by their order.

@@ -35,8 +35,6 @@ struct VertexLight {
   float surplus = 0.0F;  ///< as a share of what is there
 };
 
-float brightest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
-
 /// The same wherever the vertex is asked for.
 std::uint32_t seed_of(const ElementMesh& mesh, const LatticeVertex& vertex, std::uint32_t seed) {
   const auto folded = [](std::int64_t x) { return static_cast<std::uint32_t>(x ^ (x >> 32)); };
@@ -169,7 +167,6 @@ private:
     const ArrivingLight d = direct_at(vertex, seen_.pixels_of_vertex(v), work);
     light.direct = glm::vec3(d.total);
     light.direct_mirrored = glm::vec3(d.mirrored);
-
     light.punctual = static_cast<float>(largest(d.punctual));
     light.error = static_cast<float>(work.shadow_error);
   }
@@ -186,9 +183,9 @@ private:
       expected += 0.25F * lights_[other].direct;
       variance += 0.125F * lights_[other].error * lights_[other].error;
     }
-    const float off = brightest(glm::abs(light.direct - expected)) - 2.0F * std::sqrt(variance);
+    const float off = largest(glm::abs(light.direct - expected)) - 2.0F * std::sqrt(variance);
     const float all =
-        brightest(glm::max(light.direct, expected) + glm::max(light.indirect, glm::vec3(0.0F))) +
+        largest(glm::max(light.direct, expected) + glm::max(light.indirect, glm::vec3(0.0F))) +
         dark_;
     light.surplus = off > 0.0F && all > 0.0F ? off / all : 0.0F;
   }
@@ -200,7 +197,7 @@ private:
     for (std::uint32_t c = 0; c < seen_.roots(); ++c) {
       for (const std::uint32_t v : cells_.cells()[c].corners)
         sum += 0.25 * double(seen_.points(c)) *
-               double{brightest(lights_[v].direct + lights_[v].indirect)};
+               double{largest(lights_[v].direct + lights_[v].indirect)};
       points += double(seen_.points(c));
     }
     return points > 0.0 ? static_cast<float>(share * sum / points) : 0.0F;
@@ -210,7 +207,7 @@ private:
   float brightest_of(const LatticeCell& cell) const {
     float most = 0.0F;
     for (const std::uint32_t v : cell.corners)
-      most = std::max(most, brightest(lights_[v].direct + lights_[v].indirect));
+      most = std::max(most, largest(lights_[v].direct + lights_[v].indirect));
     return most;
   }
 
@@ -221,7 +218,7 @@ private:
       low = glm::min(low, lights_[v].direct);
       high = glm::max(high, lights_[v].direct);
     }
-    return brightest(high - low) / (brightest_of(cell) + dark_);
+    return largest(high - low) / (brightest_of(cell) + dark_);
   }
 
   /// Whether the points in a cell, and its corners, receive different light from punctual lights.

@@ -30,6 +30,16 @@ PunctualLight sun_from_above() {
   return sun;
 }
 
+/// A blade over the floor whose slanting edge throws a sharp shadow.
+Scene floor_half_in_the_sun() {
+  Scene scene;
+  add_floor(scene);
+  scene.lights = {sun_from_above()};
+  add_polygon(scene, "blade", {{-3, 1, -3}, {-3, 1, 3}, {0.1, 1, 3}, {0.3, 1, -3}},
+              double_sided(diffuse(0.0)));
+  return scene;
+}
+
 struct SolvedFloor {
   std::unique_ptr<LitScene> scene;
   RadiositySolution solution;
@@ -92,11 +102,7 @@ TEST(ViewField, IsTheClosedFormWithinItsTolerance) {
 }
 
 TEST(ViewField, HasNoCracksBesideSmallerCells) {
-  Scene scene;
-  add_floor(scene);
-  scene.lights = {sun_from_above()};
-  add_polygon(scene, "blade", {{-3, 1, -3}, {-3, 1, 3}, {0.1, 1, 3}, {0.3, 1, -3}},
-              double_sided(diffuse(0.0)));
+  Scene scene = floor_half_in_the_sun();
   const SolvedFloor floor(std::move(scene), 1.0);
   const ViewField view = view_field(floor.field(), floor.square({0, 0, 0}, 1.9, 128), 1.0, {});
   // Cells have edges at all multiples of 2^-k m; from one side to the other nothing jumps. A step of
@@ -131,11 +137,7 @@ TEST(ViewField, ThinShadowsAreNotBroken) {
 }
 
 TEST(ViewField, OnlyWhatIsSeenIsDivided) {
-  Scene scene;
-  add_floor(scene);
-  scene.lights = {sun_from_above()};
-  add_polygon(scene, "blade", {{-3, 1, -3}, {-3, 1, 3}, {0.1, 1, 3}, {0.3, 1, -3}},
-              double_sided(diffuse(0.0)));
+  Scene scene = floor_half_in_the_sun();
   const SolvedFloor floor(std::move(scene), 0.5);
   const ViewField view = view_field(floor.field(), floor.square({1.0, 0, 1.0}, 0.2, 64), 1.0, {});
   const IrradianceField& before = floor.field();
@@ -192,11 +194,7 @@ TEST(ViewField, NoLightPassesUnderAWall) {
 
 // Elements of different sizes: the smaller ones' corners in the middle of a larger edge are no cracks.
 TEST(ViewField, HasNoCracksBesideSmallerElements) {
-  Scene scene;
-  add_floor(scene);
-  scene.lights = {sun_from_above()};
-  add_polygon(scene, "blade", {{-3, 1, -3}, {-3, 1, 3}, {0.1, 1, 3}, {0.3, 1, -3}},
-              double_sided(diffuse(0.0)));
+  Scene scene = floor_half_in_the_sun();
   const SolvedFloor coarse(scene, 1.0);
   std::vector<std::uint8_t> marked(element_count(coarse.scene->mesh), 0);
   for (const std::size_t e : elements_of(*coarse.scene, "floor"))
