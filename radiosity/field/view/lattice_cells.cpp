@@ -167,4 +167,47 @@ bool LatticeCells::is_at_border(const LatticeVertex& vertex) const {
   return x == 0 || y == 0 || (side.triangle ? x + y == most_x : x == most_x || y == most_y);
 }
 
+/// All vertices between two, the middle before what is between it and the ends.
+static void add_hanging(const LatticeCells& cells, std::uint32_t a, std::uint32_t b,
+                        std::vector<HangingCorner>& hanging) {
+  const std::uint32_t middle = cells.middle_of(a, b);
+  if (middle == LatticeCells::no_vertex)
+    return;
+  hanging.push_back({middle, a, b});
+  add_hanging(cells, a, middle, hanging);
+  add_hanging(cells, middle, b, hanging);
+}
+
+std::vector<HangingCorner> hanging_corners(const LatticeCells& all) {
+  const std::vector<LatticeCell>& cells = all.cells();
+  // Edges are looked up where not both cells beside them were divided along them: at the ends of these.
+  std::vector<std::uint8_t> times(all.vertices().size(), 0), is_end(times.size(), 0);
+  for (const LatticeCell& cell : cells)
+    if (cell.first_child != LatticeCell::leaf)
+      for (const std::uint32_t middle : all.edge_middles(cell))
+        if (middle != LatticeCells::no_vertex)
+          ++times[middle];
+  for (std::uint32_t v = 0; v < times.size(); ++v)
+    if (const auto& between = all.vertices()[v].between; times[v] < 2 && between[0] != v)
+      for (const std::uint32_t end : between)
+        is_end[end] = 1;
+
+  // Larger cells first: corners of smaller ones hang on them.
+  std::vector<std::uint32_t> leaves;
+  for (std::uint32_t c = 0; c < cells.size(); ++c)
+    if (cells[c].first_child == LatticeCell::leaf)
+      leaves.push_back(c);
+  std::ranges::stable_sort(leaves, {}, [&](std::uint32_t c) { return cells[c].level; });
+  std::vector<HangingCorner> hanging;
+  for (const std::uint32_t c : leaves) {
+    const std::size_t count = all.is_triangle(cells[c]) ? 3 : 4;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t a = cells[c].corners[k], b = cells[c].corners[(k + 1) % count];
+      if (is_end[a] != 0 && is_end[b] != 0)
+        add_hanging(all, a, b, hanging);
+    }
+  }
+  return hanging;
+}
+
 } // namespace meninas

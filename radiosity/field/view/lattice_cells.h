@@ -94,4 +94,13 @@ private:
   std::unordered_map<Key, std::uint32_t, KeyHash> numbers_;
 };
 
+/// A corner of some cells in the middle of an edge of a larger one, or of a part of that edge.
+/// There is no crack where its value is the mean of those at the ends.
+struct HangingCorner {
+  std::uint32_t vertex, end_a, end_b;
+};
+
+/// Those whose ends hang themselves after these.
+std::vector<HangingCorner> hanging_corners(const LatticeCells& cells);
+
 } // namespace meninas

@@ -67,7 +67,7 @@ SeenCells::SeenCells(const ElementMesh& mesh, std::vector<SeenPoint> seen, doubl
 
 SeenCells::Range SeenCells::range_of(std::size_t first, std::size_t end, double edge) const {
   if (first == end)
-    return {.seen = false};
+    return {};
   float narrowest = std::numeric_limits<float>::infinity(), low = narrowest, high = 0.0F;
   for (std::size_t k = first; k < end; ++k) {
     narrowest = std::min(narrowest, seen_[k].width);
@@ -101,7 +101,7 @@ void SeenCells::divide(std::uint32_t number) {
     while (next != range.end && child_of(seen_[next]) == k)
       ++next;
     Range part = range_of(first, next, edge);
-    if (!part.seen && range.seen && range.pixels <= 4.0 * apart_)
+    if (first == next && range.pixels <= 4.0 * apart_)
       part = {.first = next, .end = next, .pixels = 0.5 * range.pixels};
     ranges_.push_back(part);
   }

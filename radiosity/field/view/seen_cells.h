@@ -32,9 +32,8 @@ public:
 
   double apart() const { return apart_; }
 
-  /// Of a cell: whether it is seen, how many points are in it, and its longest edge in pixels
-  /// of the narrowest.
-  bool is_seen(std::uint32_t cell) const { return ranges_[cell].seen; }
+  /// Of a cell: how many points are in it, and its longest edge in pixels of the narrowest; 0 where nothing
+  /// of it is seen.
   std::size_t points(std::uint32_t cell) const { return ranges_[cell].end - ranges_[cell].first; }
   double pixels(std::uint32_t cell) const { return ranges_[cell].pixels; }
 
@@ -54,7 +53,6 @@ private:
     std::size_t first = 0, end = 0; ///< of the points
     double pixels = 0.0;
     float least_lit = std::numeric_limits<float>::infinity(), most_lit = 0.0F;
-    bool seen = true;
   };
 
   Range range_of(std::size_t first, std::size_t end, double edge) const;

@@ -283,8 +283,7 @@ private:
     tbb::parallel_for(std::size_t{0}, marked.size(), [&](std::size_t c) {
       const LatticeCell& cell = cells_.cells()[c];
       const auto number = static_cast<std::uint32_t>(c);
-      if (cell.first_child == LatticeCell::leaf && seen_.is_seen(number) &&
-          cell.level + 1 < LatticeCells::finest)
+      if (cell.first_child == LatticeCell::leaf && cell.level + 1 < LatticeCells::finest)
         marked[c] = c >= new_cells ? tells_to_divide(number, new_cells == 0)
                                    : is_told_to_divide(number, false);
     });
@@ -296,44 +295,11 @@ private:
   }
 
   /// Vertices on the edge of a larger cell take what that has there: no crack is left.
-  void settle_edge(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t middle = cells_.middle_of(a, b);
-    if (middle == LatticeCells::no_vertex)
-      return;
-    VertexLight& light = lights_[middle];
-    light.direct = 0.5F * (lights_[a].direct + lights_[b].direct);
-    light.direct_mirrored = 0.5F * (lights_[a].direct_mirrored + lights_[b].direct_mirrored);
-    settle_edge(a, middle);
-    settle_edge(middle, b);
-  }
-
-  /// Larger cells first.
   void settle() {
-    const auto& cells = cells_.cells();
-    // The ends of edges that not both cells beside them were divided along.
-    std::vector<std::uint8_t> times(lights_.size(), 0);
-    for (const LatticeCell& cell : cells)
-      if (cell.first_child != LatticeCell::leaf)
-        for (const std::uint32_t middle : cells_.edge_middles(cell))
-          if (middle != LatticeCells::no_vertex)
-            ++times[middle];
-    ends_.assign(lights_.size(), 0);
-    for (std::uint32_t v = 0; v < times.size(); ++v)
-      if (const auto& between = cells_.vertices()[v].between; times[v] < 2 && between[0] != v)
-        for (const std::uint32_t end : between)
-          ends_[end] = 1;
-    std::vector<std::uint32_t> leaves;
-    for (std::uint32_t c = 0; c < cells.size(); ++c)
-      if (cells[c].first_child == LatticeCell::leaf)
-        leaves.push_back(c);
-    std::ranges::stable_sort(leaves, {}, [&](std::uint32_t c) { return cells[c].level; });
-    for (const std::uint32_t c : leaves) {
-      const std::size_t count = cells_.is_triangle(cells[c]) ? 3 : 4;
-      for (std::size_t k = 0; k < count; ++k) {
-        const std::uint32_t a = cells[c].corners[k], b = cells[c].corners[(k + 1) % count];
-        if (ends_[a] != 0 && ends_[b] != 0)
-          settle_edge(a, b);
-      }
+    for (const auto& [vertex, a, b] : hanging_corners(cells_)) {
+      VertexLight& light = lights_[vertex];
+      light.direct = 0.5F * (lights_[a].direct + lights_[b].direct);
+      light.direct_mirrored = 0.5F * (lights_[a].direct_mirrored + lights_[b].direct_mirrored);
     }
   }
 

@@ -12,7 +12,7 @@
 //
 // In a smooth place the surplus falls to a quarter with each level, at the edge of a shadow it stays: smooth light
 // costs few vertices, and an edge a row of cells as small as pixels. A cell beside smaller ones is
-// divided as well where the surplus in the middle of their common edge says so: an edge that is found is followed.
+// divided as well where the surplus on their common edge says so: an edge that is found is followed.
 // D is computed past known blockers (shared_light.h); a vertex that stands for many pixels
 // takes more shadow rays than one among its like.
 // Indirect light is interpolated between the vertices of the mesh, which have gathered it.

@@ -101,20 +101,34 @@ TEST(ViewField, IsTheClosedFormWithinItsTolerance) {
   EXPECT_LT(fine, 0.02) << "the tolerance";
 }
 
-TEST(ViewField, HasNoCracksBesideSmallerCells) {
+/// The same by a lamp of 1 m, whose light is curved everywhere.
+Scene floor_half_under_a_lamp() {
   Scene scene = floor_half_in_the_sun();
-  const SolvedFloor floor(std::move(scene), 1.0);
-  const ViewField view = view_field(floor.field(), floor.square({0, 0, 0}, 1.9, 128), 1.0, {});
-  // Cells have edges at all multiples of 2^-k m; from one side to the other nothing jumps. A step of
-  // 1e-6 m in a cell of 1/10 of a pixel, 3 mm, changes light by a three-thousandth of all.
+  scene.lights.clear();
+  add_polygon(scene, "lamp", lamp_over_the_floor(), diffuse(0.0, 10.0));
+  return scene;
+}
+
+/// From one side of any line of the lattice, down to 1/64 m, to the other nothing jumps: a step of 1e-6 m
+/// changes light by no more than 1e-4 of what the lamp sends.
+void expect_no_cracks(const SolvedFloor& floor, const IrradianceField& field) {
   Random random(2);
-  for (int n = 0; n < 4000; ++n) {
-    const double edge = std::round(random.between(-60.0, 60.0)) / 32.0,
-                 z = random.between(-1.8, 1.8);
-    EXPECT_NEAR(irradiance(floor, view.field, edge - 5e-7, z),
-                irradiance(floor, view.field, edge + 5e-7, z), 1e-3)
-        << edge << " " << z;
+  for (int n = 0; n < 10'000; ++n) {
+    const double edge = std::round(random.between(-110.0, 110.0)) / 64.0,
+                 at = random.between(-1.7, 1.7);
+    EXPECT_NEAR(irradiance(floor, field, edge - 5e-7, at),
+                irradiance(floor, field, edge + 5e-7, at), 1e-4)
+        << edge << " " << at;
+    EXPECT_NEAR(irradiance(floor, field, at, edge - 5e-7),
+                irradiance(floor, field, at, edge + 5e-7), 1e-4)
+        << at << " " << edge;
   }
+}
+
+TEST(ViewField, HasNoCracksBesideSmallerCells) {
+  const SolvedFloor floor(floor_half_under_a_lamp(), 1.0);
+  const ViewField view = view_field(floor.field(), floor.square({0, 0, 0}, 1.9, 128), 1.0, {});
+  expect_no_cracks(floor, view.field);
 }
 
 // The shadow of a rod a pixel and a half wide is dark along all of its length: sun finds it by the points
@@ -194,12 +208,12 @@ TEST(ViewField, NoLightPassesUnderAWall) {
 
 // Elements of different sizes: the smaller ones' corners in the middle of a larger edge are no cracks.
 TEST(ViewField, HasNoCracksBesideSmallerElements) {
-  Scene scene = floor_half_in_the_sun();
+  const Scene scene = floor_half_under_a_lamp();
   const SolvedFloor coarse(scene, 1.0);
   std::vector<std::uint8_t> marked(element_count(coarse.scene->mesh), 0);
   for (const std::size_t e : elements_of(*coarse.scene, "floor"))
     marked[e] = e % 3 == 0 ? 1 : 0;
-  SolvedFloor floor(std::move(scene), 1.0);
+  SolvedFloor floor(scene, 1.0);
   floor.scene->mesh = divide_elements(coarse.scene->mesh, floor.scene->surfaces, marked);
   ASSERT_FALSE(floor.scene->mesh.hanging.empty());
   floor.scene->light = light_scene_on(*floor.scene->light, floor.scene->mesh);
@@ -207,17 +221,39 @@ TEST(ViewField, HasNoCracksBesideSmallerElements) {
   settings.form_factors.rays = settings.interpolation.rays = 64;
   floor.solution = solve_pass_one(floor.scene->light, settings);
   const ViewField view = view_field(floor.field(), floor.square({0, 0, 0}, 1.9, 64), 1.0, {});
-  Random random(8);
-  for (int n = 0; n < 4000; ++n) {
-    const double edge = std::round(random.between(-30.0, 30.0)) / 16.0,
-                 z = random.between(-1.8, 1.8);
-    EXPECT_NEAR(irradiance(floor, view.field, edge - 5e-7, z),
-                irradiance(floor, view.field, edge + 5e-7, z), 1e-3)
-        << edge << " " << z;
-    EXPECT_NEAR(irradiance(floor, view.field, z, edge - 5e-7),
-                irradiance(floor, view.field, z, edge + 5e-7), 1e-3)
-        << z << " " << edge;
+  expect_no_cracks(floor, view.field);
+  // The same where no element is divided.
+  const ViewField whole = view_field(floor.field(), floor.square({0, 0, 0}, 1.9, 64), 1.0,
+                                     {.coarse = 1e3, .tolerance = 1e3});
+  expect_no_cracks(floor, whole.field);
+}
+
+// A blade just over the floor, under a lamp of 2 cm: the edge of its shadow is sharp, and half a pixel
+// away from it light is right.
+TEST(ViewField, ASharpEdgeEndsWithinAPixel) {
+  constexpr double half = 1.5, pixel = 2.0 * half / 200, slope = 0.37;
+  const std::vector<Point3> lamp{
+      {-0.01, 2, -0.01}, {0.01, 2, -0.01}, {0.01, 2, 0.01}, {-0.01, 2, 0.01}};
+  Scene scene;
+  add_floor(scene);
+  add_polygon(scene, "lamp", lamp, diffuse(0.0, 1e4));
+  add_polygon(scene, "blade",
+              {{-3, 1e-3, -3}, {-3, 1e-3, 3}, {3.0 * slope, 1e-3, 3}, {-3.0 * slope, 1e-3, -3}},
+              double_sided(diffuse(0.0)));
+  const SolvedFloor floor(std::move(scene), 1.0);
+  const ViewField view = view_field(floor.field(), floor.square({0, 0, 0}, half, 200), 1.0, {});
+  Random random(7);
+  int wrong = 0;
+  constexpr int points = 4000;
+  for (int n = 0; n < points; ++n) {
+    const double z = random.between(-1.4, 1.4), away = random.between(0.5, 2.0) * pixel;
+    for (const double side : {-1.0, 1.0}) {
+      const double x = slope * z + side * away;
+      const double lit = 1e4 * point_form_factor({x, 0, z}, {0, 1, 0}, lamp);
+      wrong += std::abs(irradiance(floor, view.field, x, z) - (side > 0.0 ? lit : 0.0)) > 0.1 * lit;
+    }
   }
+  EXPECT_LT(wrong, points / 100);
 }
 
 } // namespace
