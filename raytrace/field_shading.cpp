@@ -23,7 +23,7 @@ VisibleLight visible_light(const IrradianceField& field,
                            FieldContent content) {
   return {make_side_shading(field.scene->scene, field.mesh()),
           content == FieldContent::all ? field.irradiance : field.indirect, ReflectedPart::all,
-          glm::vec3(field.scene->scene.background)};
+          glm::vec3(field.scene->scene.background.constant), field.scene->sky};
 }
 
 std::vector<LightPart> light_parts(const IrradianceField& field,
@@ -39,9 +39,9 @@ std::vector<LightPart> light_parts(const IrradianceField& field,
   std::vector<glm::vec3> straight = all.irradiance;
   for (std::size_t v = 0; v < straight.size(); ++v)
     straight[v] = glm::max(straight[v] - mirrored[v], glm::vec3(0.0F));
-  return {{"emission", {glowing, all.irradiance, ReflectedPart::none, all.background}},
-          {"diffuse.direct", {reflecting, std::move(straight), ReflectedPart::straight, {}}},
-          {"diffuse.mirrored", {reflecting, mirrored, ReflectedPart::mirrored, {}}}};
+  return {{"emission", {glowing, all.irradiance, ReflectedPart::none, all.background, all.sky}},
+          {"diffuse.direct", {reflecting, std::move(straight), ReflectedPart::straight, {}, nullptr}},
+          {"diffuse.mirrored", {reflecting, mirrored, ReflectedPart::mirrored, {}, nullptr}}};
 }
 
 } // namespace meninas

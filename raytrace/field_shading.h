@@ -30,7 +30,8 @@ struct VisibleLight {
   std::vector<SideShading> shading;  ///< by SideId
   std::vector<glm::vec3> irradiance; ///< by ElementVertexId: of the part, all of it or the indirect
   ReflectedPart part = ReflectedPart::all;
-  glm::vec3 background{0.0F}; ///< radiance where nothing is met
+  glm::vec3 background{0.0F}; ///< radiance where nothing is met, from everywhere
+  const RadianceMap* sky = nullptr; ///< the same by direction
 };
 
 /// How much of the light a field's values are.

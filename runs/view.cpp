@@ -4,6 +4,7 @@
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
 #include "scenes/content_hash.h"
+#include "scenes/sky/radiance_map.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
@@ -20,7 +21,9 @@ static Attributes attributes_of(const Scene& scene, const Camera& camera,
                         {"sceneHash", hex_digits(content_hash(scene))},
                         {"camera", camera.name},
                         {"seed", std::to_string(settings.seed)}};
-  if (const Rgb& background = scene.background; background != Rgb(0.0))
+  if (scene.background.map)
+    attributes.emplace_back("environment", scene.background.map->name);
+  else if (const Rgb& background = scene.background.constant; background != Rgb(0.0))
     attributes.emplace_back("background",
                             fmt::format("{},{},{}", background.r, background.g, background.b));
   return attributes;

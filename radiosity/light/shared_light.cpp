@@ -2,6 +2,7 @@
 
 #include "form_factors/point_form_factor.h"
 #include "radiosity/light/direct_irradiance.h"
+#include "radiosity/light/portal_light.h"
 #include "radiosity/light/shadow_paths.h"
 #include "scenes/sampling.h"
 
@@ -22,6 +23,8 @@ struct PointSum {
 std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const VirtualLight& image,
                      const SharedLightSettings& settings) {
   const std::uint64_t key = (std::uint64_t{index(image.world)} << 32) | image.emitter;
+  // What hides the sky may be beyond the opening.
+  const bool learns = settings.learns && !light.emitters[image.emitter].shows_sky();
   const auto [found, is_new] =
       work.image_of.try_emplace(key, static_cast<std::uint32_t>(work.images.size()));
   if (is_new)
@@ -30,7 +33,7 @@ std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const Vi
                            .world = image.world,
                            .emitter = image.emitter,
                            .from_a_point = static_cast<std::uint32_t>(settings.rays),
-                           .blockers = settings.learns ? &work.blockers_of[key] : nullptr});
+                           .blockers = learns ? &work.blockers_of[key] : nullptr});
   return found->second;
 }
 
@@ -142,8 +145,9 @@ void add_rays(const Lighting& light, const Receiver& receiver, const WorthyImage
     const double weight = image.afar > 0.0
                               ? image.afar
                               : image.weight * area / rays * form_factor_share(receiver, image, y);
-    work.waiting.push_back(
-        {image.world, mirrors, at.image, emitter.plane_class, weight, receiver.position, y});
+    const Leg leg = shadow_leg(light.scene, emitter,
+                               {receiver.position, y, none<PlaneId>, emitter.plane_class});
+    work.waiting.push_back({image.world, mirrors, at.image, leg.arriving, weight, leg.from, leg.to});
   }
 }
 
@@ -284,7 +288,9 @@ void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightW
         continue;
       }
       image.seen += ray.weight;
-      image.left += ray.weight * left_between(light.scene, end_of(receiver), {}, work.point.folded[k]);
+      image.left += ray.weight *
+                    left_between(light.scene, end_of(receiver), {}, work.point.folded[k]) *
+                    shown_by(light.scene, light.emitters[image.emitter], work.point.folded[k]);
     }
     first += count;
   }
