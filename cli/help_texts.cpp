@@ -75,9 +75,6 @@ const std::map<std::string_view, std::string_view>& all_details() {
       {"--elements", "a huge ground plane gets at most 75 % of the elements."},
       {"--element-size",
        "elements that thin walls or sheets cross are divided further, so that no light leaks through."},
-      {"--environment",
-       "+X is in the middle of the picture, +Z to the right of it. Small suns in it become directional "
-       "light ([skies](skies.md))."},
       {"--error",
        "the run makes a quick picture, estimates its error and chooses the next settings, until the "
        "estimate is below X. It says which options make the same picture again."},
@@ -109,9 +106,6 @@ const std::map<std::string_view, std::string_view>& all_details() {
       {"--link-error",
        "the solve begins with few large nodes and divides those whose light is not linear to X. With "
        "far more `--elements` than X needs, more `--rays` help instead."},
-      {"--sky",
-       "`uniform`; `overcast` (Moon and Spencer 1942) and `clear` (Kittler 1967) as of the CIE, white; "
-       "`preetham` (Preetham, Shirley and Smits 1999) with colours ([skies](skies.md))."},
       {"--snapshots", "see [progressive pictures](progressive.md)."},
       {"--solver",
        "all of them end at the error that `--tolerance` allows. `progressive` shoots light, brightest "

@@ -171,13 +171,13 @@ std::optional<Connection> connect(const TracedScene& traced, const Path& path, c
                     routes_on(traced, path, out, in).reflected(chain.planes.size())};
 }
 
-void add_connection(const TracedScene& traced, const Paths& paths, std::uint32_t k,
-                    const Chain& chain, const LightPoint& point, LightSearch search,
-                    std::vector<Connection>& connections) {
-  if (auto connection = connect(traced, paths[k], chain, point, search)) {
-    connection->path = k;
-    connections.push_back(std::move(*connection));
-  }
+/// Keeps what a path has found.
+void keep(std::optional<Connection> connection, std::uint32_t path,
+          std::vector<Connection>& connections) {
+  if (!connection)
+    return;
+  connection->path = path;
+  connections.push_back(std::move(*connection));
 }
 
 /// Looks for emitting surfaces directly and by way of chains of mirrors.
@@ -192,8 +192,8 @@ void look_for_surfaces(const TracedScene& traced, const Paths& paths, std::uint3
     const auto chain = choose_chain(traced, paths[k].at.origin, length, numbers[3]);
     if (!chain)
       continue;
-    add_connection(traced, paths, k, *chain, choose_point(traced, chain->image, numbers), search,
-                   connections);
+    keep(connect(traced, paths[k], *chain, choose_point(traced, chain->image, numbers), search), k,
+         connections);
   }
 }
 
@@ -203,8 +203,8 @@ void look_for_sky(const TracedScene& traced, const Paths& paths, std::uint32_t k
   const std::size_t longest = traced.mirror_planes.empty() ? 0 : longest_chain;
   for (std::size_t length = 0; length <= longest; ++length)
     if (const auto chain = choose_chain(traced, paths[k].at.origin, length, u[length][3]))
-      add_connection(traced, paths, k, *chain, choose_sky(traced, chain->image, u[length]),
-                     search, connections);
+      keep(connect(traced, paths[k], *chain, choose_sky(traced, chain->image, u[length]), search),
+           k, connections);
 }
 
 /// Looks for punctual lights, by all chains at once.

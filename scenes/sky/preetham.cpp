@@ -1,7 +1,6 @@
 #include "scenes/sky/preetham.h"
 
-#include "scenes/sky/analytic_sky.h"
-
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -58,7 +57,7 @@ SkyColour PreethamSky::colour(const Direction& d) const {
 
 Rgb PreethamSky::radiance(const Direction& d) const {
   const SkyColour c = colour(d);
-  const double luminance = std::max(0.0, 1000.0 * c.luminance / lux_per_watt);
+  const double luminance = std::max(0.0, 1000.0 * c.luminance / 683.0);
   const Rgb rgb =
       rec709_of_xyz(luminance * Vec3(c.x / c.y, 1.0, (1.0 - c.x - c.y) / c.y));
   return glm::max(rgb, Rgb(0.0));

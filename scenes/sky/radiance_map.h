@@ -7,7 +7,7 @@
 // L is bilinear; it wraps around in u.
 //
 // The rays that gather light from everywhere seldom meet a small sun, and then it is too bright.
-// Such suns are therefore found (sky/suns.h) and given as directional light, exactly as much
+// Such suns are therefore found (radiance_map.cpp) and given as directional light, exactly as much
 //
 //   E_sun = integral of (L - L_without) dw      W/m^2 at normal incidence
 //

@@ -219,7 +219,7 @@ TEST(SkyPortals, AWindowShowsEachPointItsPartOfTheSky) {
   }
 }
 
-TEST(SkyPortals, WhatStandsOutsideTakesItsPart) {
+TEST(SkyPortals, HousesOutsideTakeTheirPart) {
   // A wall outside hides the lower half of the sky from a point at the height of its upper edge.
   const auto sky = [](const Direction&) { return 1.0; };
   Scene scene = room_with_window(diffuse(0.0));
