@@ -1,5 +1,6 @@
 #include "cli/common_options.h"
 
+#include "cli/sky_options.h"
 #include "cli/values.h"
 
 #include <fmt/format.h>
@@ -11,10 +12,6 @@ namespace meninas {
 namespace {
 
 constexpr const char* pass_one_group = "Accuracy of pass one";
-
-// As of emission in files:
-// its square is still in the range of the floats that pictures are made of.
-constexpr double brightest_background = 1e30;
 
 const Choices<Quality> qualities{
     {"draft", Quality::draft}, {"normal", Quality::normal}, {"fine", Quality::fine}};
@@ -241,15 +238,7 @@ void add_pass_one_options(Options& command, CommonOptions& options) {
 }
 
 void add_light_options(Options& command, CommonOptions& options) {
-  command.add("--background", "L|R,G,B", "radiance of the sky around the scene, W/m^2/sr [0]",
-              [&](const std::string& text) {
-                const Rgb radiance = parse_colour("--background", text);
-                if (!glm::all(glm::lessThanEqual(radiance, Rgb(brightest_background)))) {
-                  throw UsageError("--background", fmt::format("'{}' is over {:g} W/m^2/sr", text,
-                                                               brightest_background));
-                }
-                options.settings.background = radiance;
-              });
+  add_sky_options(command, options.settings);
   command.add("--light-scale", "X",
               "multiply the intensity of point, spot and directional lights [1]",
               [&](const std::string& text) {

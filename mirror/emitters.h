@@ -21,6 +21,8 @@
 
 namespace meninas {
 
+inline constexpr std::uint32_t no_portal = std::numeric_limits<std::uint32_t>::max();
+
 /// One emitting face: the front or the back of a patch.
 struct Emitter {
   ConvexPolygon polygon; ///< counter-clockwise seen from the side that emits
@@ -29,6 +31,9 @@ struct Emitter {
   Rgb radiosity{0.0}; ///< E = pi L
   double area = 0.0;
   MaterialId coat = none<MaterialId>; ///< above it, where that is a mirror: of what reflects, not of lamps
+  std::uint32_t portal = no_portal; ///< of an opening, whose light comes from beyond it, its number (radiosity/scene/sky_portals.h)
+
+  bool shows_sky() const { return portal != no_portal; }
 };
 
 struct EmitterNode {

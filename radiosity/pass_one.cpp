@@ -68,6 +68,7 @@ RadiositySolution field_of(const std::shared_ptr<const LightScene>& light,
 
 bool nothing_emits(const LightScene& light) {
   return light.emitters.empty() && light.punctual.empty() && light.background == Rgb(0.0) &&
+         light.sky == nullptr &&
          std::ranges::all_of(light.mesh.emission,
                              [](const Rgb& emission) { return emission == Rgb(0.0); });
 }

@@ -26,7 +26,7 @@ VisibleLight visible_light(const IrradianceField& field,
   return {make_side_shading(field.scene->scene, field.mesh()),
           content == FieldContent::all ? field.irradiance : field.indirect, field.lookup(),
           field.corners(), ReflectedPart::all,
-          glm::vec3(field.scene->scene.background)};
+          glm::vec3(field.scene->scene.background.constant), field.scene->sky};
 }
 
 std::vector<LightPart> light_parts(const IrradianceField& field,
@@ -42,15 +42,16 @@ std::vector<LightPart> light_parts(const IrradianceField& field,
   std::vector<glm::vec3> straight = all.irradiance;
   for (std::size_t v = 0; v < straight.size(); ++v)
     straight[v] = glm::max(straight[v] - mirrored[v], glm::vec3(0.0F));
-  const auto part = [&](auto& shading, std::vector<glm::vec3> irradiance, ReflectedPart of,
-                        const glm::vec3& background) -> VisibleLight {
-    return {shading, std::move(irradiance), all.lookup, all.corners, of, background};
+  const auto part = [&](auto& shading, std::vector<glm::vec3> irradiance,
+                        ReflectedPart of) -> VisibleLight {
+    return {shading, std::move(irradiance), all.lookup, all.corners, of, glm::vec3(0.0F), nullptr};
   };
-  return {{"emission", part(glowing, all.irradiance, ReflectedPart::none, all.background)},
-          {"diffuse.direct",
-           part(reflecting, std::move(straight), ReflectedPart::straight, glm::vec3(0.0F))},
-          {"diffuse.mirrored",
-           part(reflecting, mirrored, ReflectedPart::mirrored, glm::vec3(0.0F))}};
+  VisibleLight emission = part(glowing, all.irradiance, ReflectedPart::none);
+  emission.background = all.background;
+  emission.sky = all.sky;
+  return {{"emission", std::move(emission)},
+          {"diffuse.direct", part(reflecting, std::move(straight), ReflectedPart::straight)},
+          {"diffuse.mirrored", part(reflecting, mirrored, ReflectedPart::mirrored)}};
 }
 
 } // namespace meninas

@@ -32,7 +32,8 @@ struct VisibleLight {
   const ElementTable& lookup;        ///< of the field, as the next
   std::span<const ElementCorners> corners; ///< by cell
   ReflectedPart part = ReflectedPart::all;
-  glm::vec3 background{0.0F}; ///< radiance where nothing is met
+  glm::vec3 background{0.0F}; ///< radiance where nothing is met, from everywhere
+  const RadianceMap* sky = nullptr; ///< the same by direction
 };
 
 /// How much of the light a field's values are.

@@ -3,6 +3,7 @@
 #include "image/image_file.h"
 #include "scenes/materials/constant_textures.h"
 #include "scenes/errors.h"
+#include "scenes/sky/cube_faces.h"
 
 #include <fmt/format.h>
 
@@ -32,6 +33,13 @@ static DecodedTextures decoded_or_white(const Scene& scene, std::vector<std::str
 DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings) {
   DecodedTextures textures = decoded_or_white(scene, warnings);
   std::ranges::move(fold_constant_textures(scene, textures), std::back_inserter(warnings));
+  settle_environment(
+      scene.background,
+      [](std::span<const std::byte> encoded, const std::string& name) {
+        Bitmap image = decode_image(encoded, Encoding::srgb, name);
+        return TexturePixels{image.width, image.height, std::move(image.pixels)};
+      },
+      warnings);
   return textures;
 }
 

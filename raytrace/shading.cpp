@@ -5,12 +5,29 @@
 #include "raytrace/quad_lanes.h"
 #include "raytrace/scattering.h"
 #include "raytrace/specular_rays.h"
+#include "scenes/sky/radiance_map.h"
 
 #include <numbers>
 
 namespace meninas {
 
 namespace {
+
+/// Whether some of what meets nothing shows light.
+bool shows_sky(const VisibleLight& visible) {
+  return visible.sky != nullptr || visible.background != glm::vec3(0.0F);
+}
+
+/// What lane k shows where it has met nothing. Lobes have the light of suns by themselves.
+glm::vec3 sky_seen(const VisibleLight& visible, const RayPacket& packet, const LaneState& state,
+                   std::uint32_t k) {
+  if (visible.sky == nullptr)
+    return visible.background;
+  const bool in_lobe = state.specular && state.specular[k].lobes > 0;
+  return radiance_from(*visible.sky,
+                       {packet.direction_x[k], packet.direction_y[k], packet.direction_z[k]},
+                       in_lobe ? Suns::left_out : Suns::shown);
+}
 
 /// Queues the ray that goes on from where a lane has met an ideal mirror.
 void reflect_lane(const LandedLane& lane, TileWorkspace& work) {
@@ -32,8 +49,10 @@ void shade_by_lanes(const RenderContext& context, const RayPacket& packet, const
   const LightScene& light = context.light;
   glm::vec3 sum(0.0F); // of lanes of one pixel in a row
   for (std::uint32_t k = 0; k < packet.count; ++k) {
-    glm::vec3 radiance = context.visible.background;
-    if (hits.triangle[k] != index(none<TriangleId>)) {
+    glm::vec3 radiance(0.0F);
+    if (hits.triangle[k] == index(none<TriangleId>)) {
+      radiance = sky_seen(context.visible, packet, state, k);
+    } else {
       const FaceRecord& face = face_of(light.landing, hits, k);
       const LandedLane lane{context, packet, state, face, hits, k};
       if (meets_lobes(context, face, hits, k) || face.side == FaceRecord::nothing) {
@@ -105,8 +124,10 @@ void shade_face(const RenderContext& context, const RayPacket& packet, const Lan
   };
   const auto first = static_cast<std::uint32_t>(std::countr_zero(lanes));
   if (hits.triangle[first] == index(none<TriangleId>)) {
-    if (context.visible.background != glm::vec3(0.0F))
-      for_each_lane(lanes, [&](std::uint32_t k) { add(k, context.visible.background); });
+    if (shows_sky(context.visible))
+      for_each_lane(lanes, [&](std::uint32_t k) {
+        add(k, sky_seen(context.visible, packet, state, k));
+      });
     return;
   }
   const FaceRecord& face = face_of(context.light.landing, hits, first);

@@ -5,6 +5,7 @@
 #include "reference/mirror_planes.h"
 #include "scenes/materials/constant_textures.h"
 #include "scenes/rays/mixed_scales.h"
+#include "scenes/sky/cube_faces.h"
 
 #include <algorithm>
 #include <iterator>
@@ -30,6 +31,13 @@ bool is_see_through(const Material& material) {
 TracedScene make_traced_scene(Scene scene) {
   DecodedTextures textures = decode_textures(scene, decode);
   std::ranges::move(fold_constant_textures(scene, textures), std::back_inserter(scene.warnings));
+  settle_environment(
+      scene.background,
+      [](std::span<const std::byte> encoded, const std::string& name) {
+        Bitmap image = decode_image(encoded, Encoding::srgb, name);
+        return TexturePixels{image.width, image.height, std::move(image.pixels)};
+      },
+      scene.warnings);
   SurfaceModel surfaces = find_surfaces(scene);
   RayScene rays = make_ray_scene(scene, surfaces);
   std::ranges::move(warnings_of_mixed_scales(scene, surfaces, rays),
@@ -50,10 +58,11 @@ TracedScene make_traced_scene(Scene scene) {
         " planes of mirrors is left out: of at most " + std::to_string(max_mirror_planes) +
         " it is followed");
   std::vector<LightImage> light_images = make_light_images(scene, surfaces, bsdfs, mirror_planes);
+  SkyTable sky = make_sky_table(scene.background);
   const bool see_through = std::ranges::any_of(scene.materials, is_see_through);
   return {std::move(scene),        std::move(surfaces), std::move(rays),   std::move(normals),
           std::move(textures),     std::move(bsdfs),    std::move(lights), std::move(mirror_planes),
-          std::move(light_images), see_through};
+          std::move(light_images), std::move(sky),      see_through};
 }
 
 } // namespace meninas::reference

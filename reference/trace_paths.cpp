@@ -1,6 +1,7 @@
 #include "reference/trace_paths.h"
 
 #include "reference/light_images.h"
+#include "reference/light_points.h"
 #include "reference/mirrored_lights.h"
 #include "scenes/materials/coverage.h"
 #include "scenes/materials/lobes.h"
@@ -44,19 +45,6 @@ struct Connection {
   std::size_t path = 0;
 };
 
-/// The random numbers of a vertex: four for each of its decisions.
-struct VertexNumbers {
-  std::array<std::array<float, 4>, longest_chain + 1> light;
-  std::array<float, 4> scatter;
-};
-VertexNumbers vertex_numbers(std::uint32_t path, std::uint32_t bounce, std::uint32_t seed) {
-  VertexNumbers numbers;
-  numbers.scatter = sobol4(path, hash(seed, bounce, 1));
-  for (std::uint32_t length = 0; length <= longest_chain; ++length)
-    numbers.light[length] = sobol4(path, hash(seed, bounce, 2 + length));
-  return numbers;
-}
-
 /// The solid that a path has crossed to where it is:
 /// that whose surface it meets from inside, or else the one it was refracted into.
 MaterialId solid_before(const TracedScene& traced, const Path& path) {
@@ -65,8 +53,24 @@ MaterialId solid_before(const TracedScene& traced, const Path& path) {
   return inside ? met : path.medium;
 }
 
+/// Light from where nothing is met, with the weight of having been met.
+void add_sky(const TracedScene& traced, LightSearch search, Path& path) {
+  const Environment& sky = traced.scene.background;
+  double weight = 1.0;
+  if (path.density > 0.0 && !traced.sky.columns.empty()) {
+    const double p_l = sky_density(sky, traced.sky, path.ray.direction) *
+                       chain_chance(traced, path.chain_length);
+    weight = search == LightSearch::meeting    ? 1.0
+             : search == LightSearch::choosing ? 0.0
+                                               : path.density / (path.density + p_l);
+  }
+  path.routes.add(weight * path.throughput * radiance_from(sky, path.ray.direction),
+                  path.radiance);
+}
+
 /// Carries the living paths whose backs are alike to the next surface; those that meet none end.
-void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts& counts) {
+void intersect(const TracedScene& traced, Backs backs, LightSearch search, Paths& paths,
+               PathCounts& counts) {
   const RayFrame& frame = traced.rays.frame();
   RayPacket packet{};
   std::array<std::size_t, packet_size> lanes{};
@@ -89,7 +93,7 @@ void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts&
     const TriangleId triangle{hits.triangle[lane]};
     path.alive = triangle != none<TriangleId>;
     if (!path.alive) {
-      path.routes.add(path.throughput * traced.scene.background, path.radiance);
+      add_sky(traced, search, path);
       continue;
     }
     path.at =
@@ -100,20 +104,6 @@ void intersect(const TracedScene& traced, Backs backs, Paths& paths, PathCounts&
       path.throughput *= attenuation(traced.scene.materials[index(solid)],
                                      glm::distance(path.at.position, path.ray.origin));
   }
-}
-
-/// p_l of the direction from x to a point of a light.
-double choosing_density(const TracedScene& traced, const Point3& x, const SurfacePoint& light) {
-  const Vec3 leg = light.position - x;
-  const double distance2 = glm::dot(leg, leg);
-  const double cosine = std::abs(glm::dot(light.face, leg)) / std::sqrt(distance2);
-  const double area_density = traced.lights.area_density[index(light.triangle)];
-  return cosine > 0.0 ? area_density * distance2 / cosine : 0.0;
-}
-
-/// p_l of a chain of that many mirrors, as a share of that of direct light.
-double chain_chance(const TracedScene& traced, std::size_t length) {
-  return std::pow(double(traced.mirror_planes.size()), -double(length));
 }
 
 /// Light the surface emits towards the path, with the weight of having been met.
@@ -150,25 +140,6 @@ bool ends_unlit(const TracedScene& traced, Path& path) {
   return true;
 }
 
-/// A point of a light as it is seen from somewhere.
-struct LightPoint {
-  Point3 position;
-  PlaneId plane = none<PlaneId>;
-  Rgb light{0.0};       ///< radiance
-  double density = 0.0; ///< p_l
-};
-
-LightPoint choose_point(const TracedScene& traced, const Point3& view,
-                        const std::array<float, 4>& u) {
-  const Light& light = choose_light(traced.lights, u[0]);
-  const Vec2 place = even_barycentric(u[1], u[2]);
-  SurfacePoint at = surface_point(traced, light.triangle, place, true);
-  if (glm::dot(view - at.position, at.face) < 0.0)
-    at = surface_point(traced, light.triangle, place, false);
-  return {at.position, at.plane, at.hole ? Rgb(0.0) : at.material.emission,
-          choosing_density(traced, view, at)};
-}
-
 /// The routes of what is scattered towards `out` from `in`;
 /// glass that is passed is no part of them.
 LightRoutes routes_on(const TracedScene& traced, const Path& path, const Direction& out,
@@ -185,8 +156,7 @@ LightRoutes routes_on(const TracedScene& traced, const Path& path, const Directi
 /// Light from a chosen point of a light, over a chain of mirrors or none,
 /// with the weight of having been chosen.
 std::optional<Connection> connect(const TracedScene& traced, const Path& path, const Chain& chain,
-                                  const std::array<float, 4>& u, LightSearch search) {
-  const LightPoint point = choose_point(traced, chain.image, u);
+                                  const LightPoint& point, LightSearch search) {
   const Vec3 leg = first_target(traced, chain, point.position) - path.at.origin;
   if (point.light == Rgb(0.0) || point.density == 0.0 || glm::dot(leg, leg) == 0.0)
     return std::nullopt;
@@ -202,22 +172,40 @@ std::optional<Connection> connect(const TracedScene& traced, const Path& path, c
                     routes_on(traced, path, out, in).reflected(chain.planes.size())};
 }
 
+/// Keeps what a path has found.
+void keep(std::optional<Connection> connection, std::uint32_t path,
+          std::vector<Connection>& connections) {
+  if (!connection)
+    return;
+  connection->path = path;
+  connections.push_back(std::move(*connection));
+}
+
 /// Looks for emitting surfaces directly and by way of chains of mirrors.
 void look_for_surfaces(const TracedScene& traced, const Paths& paths, std::uint32_t k,
                        const VertexNumbers& u, LightSearch search,
                        std::vector<Connection>& connections) {
-  if (traced.lights.lights.empty() || search == LightSearch::meeting)
+  if (traced.lights.lights.empty())
     return;
   const std::size_t longest = traced.mirror_planes.empty() ? 0 : longest_chain;
   for (std::size_t length = 0; length <= longest; ++length) {
     const auto& numbers = u.light[length];
     const auto chain = choose_chain(traced, paths[k].at.origin, length, numbers[3]);
-    auto connection = chain ? connect(traced, paths[k], *chain, numbers, search) : std::nullopt;
-    if (!connection)
+    if (!chain)
       continue;
-    connection->path = k;
-    connections.push_back(std::move(*connection));
+    keep(connect(traced, paths[k], *chain, choose_point(traced, chain->image, numbers), search), k,
+         connections);
   }
+}
+
+/// Looks for the sky in the same way.
+void look_for_sky(const TracedScene& traced, const Paths& paths, std::uint32_t k,
+                  const SkyNumbers& u, LightSearch search, std::vector<Connection>& connections) {
+  const std::size_t longest = traced.mirror_planes.empty() ? 0 : longest_chain;
+  for (std::size_t length = 0; length <= longest; ++length)
+    if (const auto chain = choose_chain(traced, paths[k].at.origin, length, u[length][3]))
+      keep(connect(traced, paths[k], *chain, choose_sky(traced, chain->image, u[length]), search),
+           k, connections);
 }
 
 /// Looks for punctual lights, by all chains at once.
@@ -363,8 +351,8 @@ trace_paths(const TracedScene& traced, const std::array<CameraRay, packet_size>&
   std::vector<ImageConnection> chosen;
   const auto goes_on = [](const Path& path) { return path.alive; };
   for (std::uint32_t bounce = 0; std::ranges::any_of(paths, goes_on); ++bounce) {
-    intersect(traced, Backs::transparent, paths, counts);
-    intersect(traced, Backs::absorb, paths, counts);
+    intersect(traced, Backs::transparent, search, paths, counts);
+    intersect(traced, Backs::absorb, search, paths, counts);
     connections.clear();
     for (std::uint32_t k = 0; k < packet_size; ++k) {
       Path& path = paths[k];
@@ -379,7 +367,11 @@ trace_paths(const TracedScene& traced, const std::array<CameraRay, packet_size>&
       add_emission(traced, search, path);
       if (ends_unlit(traced, path))
         continue;
-      look_for_surfaces(traced, paths, k, u, search, connections);
+      if (search != LightSearch::meeting) {
+        look_for_surfaces(traced, paths, k, u, search, connections);
+        if (!traced.sky.columns.empty())
+          look_for_sky(traced, paths, k, sky_numbers(k, bounce, seed), search, connections);
+      }
       look_for_images(traced, paths, k, u, chosen, connections);
       scatter(traced, path, u.scatter);
       if (path.alive)

@@ -6,6 +6,7 @@
 
 #include "reference/light_image.h"
 #include "reference/light_table.h"
+#include "reference/sky_table.h"
 #include "scenes/materials/bsdf.h"
 #include "scenes/rays/ray_scene.h"
 #include "scenes/surfaces/surfaces.h"
@@ -25,6 +26,7 @@ struct TracedScene {
   LightTable lights;
   std::vector<PlaneId> mirror_planes; ///< mirrored_lights.h
   std::vector<LightImage> light_images;
+  SkyTable sky;
   bool see_through = false; ///< there are panes or cut-outs that light passes straight
 };
 

@@ -14,7 +14,7 @@
 namespace meninas {
 
 Scene under_background(Scene scene, const RunSettings& settings) {
-  scene.background = settings.background.value_or(scene.background);
+  surround(scene, settings.background, settings.environment);
   return scene;
 }
 

@@ -12,9 +12,9 @@ static void warn_of_scene(const reference::TracedScene& traced, const RunEvents&
   for (const std::string& warning : traced.scene.warnings) {
     warn(events, warning);
   }
-  const bool is_dark = traced.lights.lights.empty() && traced.light_images.empty() &&
-                       traced.scene.background == Rgb(0.0);
-  if (is_dark) {
+  const bool unlit = traced.lights.lights.empty() && traced.light_images.empty() &&
+                     is_dark(traced.scene.background);
+  if (unlit) {
     warn(events, "nothing emits light: the picture will be black; --background 1 lights it from "
                  "all around");
   }

@@ -5,6 +5,7 @@
 #include "raytrace/two_pass_settings.h"
 #include "raytrace/views/debug_view.h"
 #include "reference/reference_picture.h"
+#include "runs/environment_choice.h"
 #include "scenes/gltf/gltf.h"
 
 #include <optional>
@@ -38,7 +39,8 @@ struct RunSettings : TwoPassChoice {
   std::optional<DebugView> view;     ///< painted instead of light
   std::optional<double> max_error;   ///< of a reference
   std::optional<double> max_seconds; ///< of a reference
-  std::optional<Rgb> background;     ///< radiance beyond the scene
+  std::optional<Rgb> background;     ///< radiance beyond the scene, from everywhere
+  EnvironmentChoice environment;     ///< or by direction
   std::optional<std::uint64_t>
       memory_limit; ///< bytes of the whole run; all the machine has otherwise
   int threads = 0;  ///< 0: all the machine has

@@ -5,6 +5,7 @@
 #include "runs/reference_run.h"
 #include "runs/steering/setting_options.h"
 #include "scenes/content_hash.h"
+#include "scenes/sky/radiance_map.h"
 #include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,9 @@ static Attributes attributes_of(const Scene& scene, const Camera& camera,
                         {"seed", std::to_string(settings.seed)}};
   if (is_panorama(camera.projection))
     attributes.emplace_back("projection", name_of(camera.projection));
-  if (const Rgb& background = scene.background; background != Rgb(0.0))
+  if (scene.background.map)
+    attributes.emplace_back("environment", scene.background.map->name);
+  else if (const Rgb& background = scene.background.constant; background != Rgb(0.0))
     attributes.emplace_back("background",
                             fmt::format("{},{},{}", background.r, background.g, background.b));
   return attributes;

@@ -167,7 +167,10 @@ std::uint64_t content_hash(const Scene& scene) {
   for (const PunctualLight& light : scene.lights) {
     add_light(hash, light);
   }
-  hash.add(scene.background);
+  if (scene.background.map || scene.background.encoded)
+    hash.add(content_hash(scene.background));
+  else
+    hash.add(scene.background.constant);
   return hash.value();
 }
 

@@ -7,6 +7,7 @@
 
 #include "scenes/camera.h"
 #include "scenes/material.h"
+#include "scenes/sky/environment.h"
 #include "scenes/types.h"
 
 #include <array>
@@ -74,7 +75,7 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<PunctualLight> lights;
   std::vector<Texture> textures;
-  Rgb background{0.0}; ///< radiance of everything beyond the scene, from all directions
+  Environment background; ///< radiance of everything beyond the scene, by direction
   std::vector<std::string>
       warnings; ///< what was read in a way the user may not expect, one line each
   std::vector<std::string> variants; ///< names of KHR_materials_variants that the file has

@@ -2,6 +2,7 @@
 
 #include "radiosity/light/light_samples.h"
 #include "form_factors/point_form_factor.h"
+#include "radiosity/light/portal_light.h"
 #include "radiosity/light/shadow_paths.h"
 #include "scenes/sampling.h"
 
@@ -23,6 +24,11 @@ namespace {
 
 bool agree(const VisibleShare& share) {
   return share.arrived == 0 || share.arrived == share.samples;
+}
+
+/// Whether it matters of each sample what arrives of it, not only whether.
+bool are_weighed(const Lighting& light, const Emitter& emitter) {
+  return !light.scene.by_angle.empty() || is_uneven(light.scene, emitter);
 }
 
 /// The samples of one image from a point.
@@ -49,6 +55,7 @@ void sample_visibility(const Lighting& light, const ImageFromPoint& from, int en
                        DirectWorkspace& work, VisibleShare& share) {
   const auto& [image, receiver, seed] = from;
   const Emitter& emitter = light.emitters[image.emitter];
+  const bool weighs = are_weighed(light, emitter);
   const ImageSampling sampling{hash(seed, image.emitter, index(image.world)),
                                PolygonFan(image.polygon, area_vector(image.polygon.span()))};
   for (int first = share.samples; first < end; first += 16) {
@@ -58,7 +65,8 @@ void sample_visibility(const Lighting& light, const ImageFromPoint& from, int en
       const auto lane = static_cast<std::size_t>(k);
       points[lane] = sampling.point(first + k);
       fold(light.scene, image.world,
-           {receiver.position, points[lane], receiver.plane_class, emitter.plane_class},
+           shadow_leg(light.scene, emitter,
+                      {receiver.position, points[lane], receiver.plane_class, emitter.plane_class}),
            work.folded[lane]);
     }
     const std::uint32_t dark =
@@ -66,7 +74,7 @@ void sample_visibility(const Lighting& light, const ImageFromPoint& from, int en
     const bool were_seen = share.arrived > 0;
     share.samples += count;
     share.arrived += count - std::popcount(dark);
-    if (agree(share) && light.scene.by_angle.empty())
+    if (agree(share) && !weighs)
       continue;
     for (; share.weighed < first; ++share.weighed) {
       const double weight = form_factor_share(receiver, image, sampling.point(share.weighed));
@@ -79,14 +87,15 @@ void sample_visibility(const Lighting& light, const ImageFromPoint& from, int en
       share.all += weight;
       if (((dark >> k) & 1U) == 0U)
         share.seen +=
-            weight * left_between(light.scene, end_of(receiver), end_of(emitter), work.folded[k]);
+            weight * left_between(light.scene, end_of(receiver), end_of(emitter), work.folded[k]) *
+            shown_by(light.scene, emitter, work.folded[k]);
     }
     share.weighed = share.samples;
   }
 }
 
-Rgb visible_fraction(const Lighting& light, const VisibleShare& share) {
-  if (agree(share) && light.scene.by_angle.empty())
+Rgb visible_fraction(const Lighting& light, const Emitter& emitter, const VisibleShare& share) {
+  if (agree(share) && !are_weighed(light, emitter))
     return Rgb(share.arrived > 0 ? 1.0 : 0.0);
   return share.all > 0.0 ? share.seen / share.all : Rgb(0.0);
 }
@@ -132,21 +141,24 @@ void sample_dim_images(const Lighting& light, const Receiver& receiver,
            depth_of(dim[first + count]) == depth_of(dim[first]);
          ++count) {
       const VirtualLight& image = work.lights[dim[first + count]];
+      const Emitter& emitter = light.emitters[image.emitter];
       const Vec2 sample(sobol2(0, hash(seed, image.emitter, index(image.world)), SobolPair::first));
       const Point3 y = point_on(image.polygon, area_vector(image.polygon.span()), sample);
       if (!light.scene.by_angle.empty())
         weight[count] = form_factor_share(receiver, image, y);
       fold(light.scene, image.world,
-           {receiver.position, y, receiver.plane_class, light.emitters[image.emitter].plane_class},
+           shadow_leg(light.scene, emitter,
+                      {receiver.position, y, receiver.plane_class, emitter.plane_class}),
            work.folded[count]);
     }
     const std::uint32_t dark = blocked(light.scene, work.folded, count, work.shadow_rays);
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t own = dim[first + k];
+      const Emitter& emitter = light.emitters[work.lights[own].emitter];
       if (((dark >> k) & 1U) == 0U && (light.scene.by_angle.empty() || weight[k] > 0.0))
         work.visible[own] =
-            left_between(light.scene, end_of(receiver), end_of(light.emitters[work.lights[own].emitter]),
-                         work.folded[k]);
+            left_between(light.scene, end_of(receiver), end_of(emitter), work.folded[k]) *
+            shown_by(light.scene, emitter, work.folded[k]);
     }
     first += count;
   }
@@ -188,7 +200,7 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
     if (everywhere || !agree(sampled.share))
       sample_visibility(light, {image, receiver, seed}, sampled.penumbra_samples, work,
                         sampled.share);
-    add(k, visible_fraction(light, sampled.share));
+    add(k, visible_fraction(light, light.emitters[image.emitter], sampled.share));
     sum.in_part = sum.in_part || !agree(sampled.share);
     work.sampled.push_back(sampled);
   }
@@ -199,7 +211,9 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
     for (SampledImage& sampled : work.sampled) {
       sample_visibility(light, {work.lights[sampled.light], receiver, seed},
                         sampled.penumbra_samples, work, sampled.share);
-      add(sampled.light, visible_fraction(light, sampled.share));
+      add(sampled.light,
+          visible_fraction(light, light.emitters[work.lights[sampled.light].emitter],
+                           sampled.share));
     }
   }
 

@@ -1,5 +1,7 @@
 #include "radiosity/light/first_light.h"
 
+#include <numbers>
+
 namespace meninas {
 
 namespace {
@@ -10,15 +12,25 @@ void add(std::vector<Rgb>& sum, const std::vector<Rgb>& part) {
     sum[i] += part[i];
 }
 
-/// Empty without a background. What was cut of an element's rays is taken to fare like the rest.
-std::vector<Rgb> sky_irradiance(const LightScene& light, const std::vector<RowClosure>& closure) {
-  std::vector<Rgb> irradiance;
-  if (light.background == Rgb(0.0))
-    return irradiance;
+/// By the rays of the elements. Empty without a sky. What was cut of them is taken to fare like
+/// the rest.
+struct SkyIrradiance {
+  std::vector<Rgb> gathered, by_portals;
+};
+SkyIrradiance sky_irradiance(const LightScene& light, const std::vector<RowClosure>& closure) {
+  SkyIrradiance found;
+  if (light.background == Rgb(0.0) && light.sky == nullptr)
+    return found;
+  const auto irradiance = [&](const RowClosure& row, const glm::vec3& even, const glm::vec3& sky) {
+    return (light.background * Rgb(even) + std::numbers::pi * Rgb(sky)) /
+           glm::max(Rgb(1e-9), 1.0 - Rgb(row.cut_light));
+  };
   for (const RowClosure& row : closure)
-    irradiance.push_back(light.background * Rgb(row.escaped_light) /
-                         glm::max(Rgb(1e-9), 1.0 - Rgb(row.cut_light)));
-  return irradiance;
+    found.gathered.push_back(irradiance(row, row.escaped_light - row.owned_light, row.sky));
+  if (!light.portals.empty())
+    for (const RowClosure& row : closure)
+      found.by_portals.push_back(irradiance(row, row.owned_light, row.by_portals));
+  return found;
 }
 
 /// D alone; what of it is gathered by the form-factor method is left out.
@@ -40,7 +52,8 @@ FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
                        const std::vector<RowClosure>& closure, const DirectIrradiance& direct,
                        FormFactorMethod method) {
   FirstLight first;
-  first.entering = sky_irradiance(light, closure);
+  SkyIrradiance sky = sky_irradiance(light, closure);
+  first.entering = std::move(sky.gathered);
   first.irradiance = std::move(gathered);
   add(first.irradiance, first.entering);
   if (method != FormFactorMethod::analytic)
@@ -48,6 +61,7 @@ FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
   first.shadow_rays = direct.shadow_rays;
   add(first.irradiance, direct.irradiance);
   add(first.entering, direct.punctual);
+  add(first.entering, sky.by_portals);
 
   first.reflectance = light.mesh.reflectance;
   for (std::size_t i = 0; i < first.irradiance.size(); ++i)

@@ -58,6 +58,8 @@ void emission_samples(const Lighting& light, const Receiver& receiver,
   const auto count = static_cast<std::uint32_t>(std::clamp(sampling.per_image, 1, 16));
   for (const VirtualLight& image : work.lights) {
     const Emitter& emitter = light.emitters[image.emitter];
+    if (emitter.shows_sky())
+      continue; // rays find it
     const Vec3 area = area_vector(image.polygon.span());
     const PolygonFan fan(image.polygon, area);
     const auto seed = hash(sampling.seed, image.emitter, index(image.world));

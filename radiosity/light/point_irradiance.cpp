@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 namespace meninas {
 
@@ -42,8 +43,10 @@ PointLight landed_light(const PointGathering& gathering, const GatheredRays& gat
     if (by_mirrors)
       emission.mirrored += emitted;
   }
-  const Rgb straight = gathering.light.background * Rgb(gathered.escaped_straight);
-  const Rgb by_mirrors = gathering.light.background * Rgb(gathered.escaped_light) - straight;
+  const Rgb straight = gathering.light.background * Rgb(gathered.escaped_straight - gathered.owned_straight) +
+                       std::numbers::pi * Rgb(gathered.sky_straight);
+  const Rgb by_mirrors = gathering.light.background * Rgb(gathered.escaped_light - gathered.owned_light) +
+                         std::numbers::pi * Rgb(gathered.sky) - straight;
   sum.total += straight + by_mirrors;
   sum.mirrored += by_mirrors;
   const Rgb kept = kept_light(gathered);

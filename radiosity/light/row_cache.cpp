@@ -12,6 +12,11 @@ void append(const GatheredRays& more, GatheredRays& result) {
   result.black += more.black;
   result.cut += more.cut;
   result.escaped_straight += more.escaped_straight;
+  result.sky += more.sky;
+  result.sky_straight += more.sky_straight;
+  result.owned_light += more.owned_light;
+  result.owned_straight += more.owned_straight;
+  result.by_portals += more.by_portals;
   result.mirror_absorbed += more.mirror_absorbed;
   result.escaped_light += more.escaped_light;
   result.black_light += more.black_light;

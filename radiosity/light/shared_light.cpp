@@ -2,6 +2,7 @@
 
 #include "form_factors/point_form_factor.h"
 #include "radiosity/light/direct_irradiance.h"
+#include "radiosity/light/portal_light.h"
 #include "radiosity/light/shadow_paths.h"
 #include "scenes/sampling.h"
 
@@ -22,6 +23,8 @@ struct PointSum {
 std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const VirtualLight& image,
                      const SharedLightSettings& settings) {
   const std::uint64_t key = (std::uint64_t{index(image.world)} << 32) | image.emitter;
+  // What hides the sky may be beyond the opening.
+  const bool learns = settings.learns && !light.emitters[image.emitter].shows_sky();
   const auto [found, is_new] =
       work.image_of.try_emplace(key, static_cast<std::uint32_t>(work.images.size()));
   if (is_new)
@@ -30,7 +33,7 @@ std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const Vi
                            .world = image.world,
                            .emitter = image.emitter,
                            .from_a_point = static_cast<std::uint32_t>(settings.rays),
-                           .blockers = settings.learns ? &work.blockers_of[key] : nullptr});
+                           .blockers = learns ? &work.blockers_of[key] : nullptr});
   return found->second;
 }
 
@@ -142,8 +145,9 @@ void add_rays(const Lighting& light, const Receiver& receiver, const WorthyImage
     const double weight = image.afar > 0.0
                               ? image.afar
                               : image.weight * area / rays * form_factor_share(receiver, image, y);
-    work.waiting.push_back(
-        {image.world, mirrors, at.image, emitter.plane_class, weight, receiver.position, y});
+    const Leg leg = shadow_leg(light.scene, emitter,
+                               {receiver.position, y, none<PlaneId>, emitter.plane_class});
+    work.waiting.push_back({image.world, mirrors, at.image, leg.arriving, weight, leg.from, leg.to});
   }
 }
 
@@ -291,7 +295,10 @@ void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightW
         continue;
       }
       image.seen += ray.weight;
-      image.left += ray.weight * left_between(light.scene, end_of(receiver), {}, work.point.folded[k]);
+      const Rgb left = left_between(light.scene, end_of(receiver), {}, work.point.folded[k]) *
+                       shown_by(light.scene, light.emitters[image.emitter], work.point.folded[k]);
+      image.left += ray.weight * left;
+      image.squares += ray.weight * largest(left) * largest(left);
     }
     first += count;
   }
@@ -313,14 +320,31 @@ ArrivingLight mean_of(const SharedLightWorkspace& work, const PointSum& sum) {
   return mean;
 }
 
+/// The variance of what a ray finds of an image: V (1 - V), and of an uneven sky that of what it shows.
+double variance_of(const Lighting& light, const ImageSum& image) {
+  if (!(image.all > 0.0))
+    return 0.0;
+  const double visible = image.seen / image.all;
+  if (!is_uneven(light.scene, light.emitters[image.emitter]))
+    return visible * (1.0 - visible);
+  const double mean = largest(image.left) / image.all;
+  return std::max(0.0, image.squares / image.all - mean * mean);
+}
+
+/// Whether rays have found different things of an image.
+bool shows_differences(const Lighting& light, const ImageSum& image) {
+  constexpr double alike = 1e-4;
+  return (image.seen > 0.0 && image.seen < image.all) ||
+         (is_uneven(light.scene, light.emitters[image.emitter]) && variance_of(light, image) > alike);
+}
+
 /// About the error of the mean by the shadow rays' choice.
-double penumbra_error(const SharedLightWorkspace& work, const PointSum& sum) {
+double penumbra_error(const Lighting& light, const SharedLightWorkspace& work, const PointSum& sum) {
   double error = 0.0;
   for (const ImageSum& image : work.images) {
-    const double visible = image.all > 0.0 ? image.seen / image.all : 0.0;
     const double brought = brought_by(image, image.form_factor / sum.points);
     if (image.rays > 0)
-      error += visible * (1.0 - visible) * std::pow(image.rays, -1.5) * brought * brought;
+      error += variance_of(light, image) * std::pow(image.rays, -1.5) * brought * brought;
   }
   return std::sqrt(error);
 }
@@ -378,18 +402,18 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
     const double brightest = largest(mean.total);
     const bool has_settled = sum.points > settings.points &&
                          largest(glm::abs(mean.total - before)) <= settings.unsure * brightest &&
-                         penumbra_error(work, sum) <= settings.unsure_shadow * brightest;
+                         penumbra_error(light, work, sum) <= settings.unsure_shadow * brightest;
     const bool dark = sum.points >= 2 * settings.points && brightest == 0.0;
     if (has_settled || dark || sum.points >= settings.most_points) {
       work.has_learned = learn(work.images);
-      work.shadow_error = penumbra_error(work, sum);
+      work.shadow_error = penumbra_error(light, work, sum);
       const ArrivingLight by_solids =
           light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);
       return mean + by_solids;
     }
     before = mean.total;
     for (ImageSum& image : work.images)
-      image.from_a_point = image.seen > 0.0 && image.seen < image.all
+      image.from_a_point = shows_differences(light, image)
                                ? static_cast<std::uint32_t>(settings.penumbra_rays)
                                : 1;
     wanted = std::min(2 * sum.points, settings.most_points);

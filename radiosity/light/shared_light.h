@@ -63,7 +63,8 @@ struct ImageSum {
   std::uint32_t emitter = 0;
   double form_factor = 0.0;          ///< sum over points, past known blockers
   double all = 0.0, seen = 0.0;      ///< weights of its shadow rays, and of those that arrive
-  Rgb left{0.0};                     ///< of the latter, what glass on their way leaves
+  Rgb left{0.0};                     ///< of the latter, what glass on their way leaves, and of the sky what they show
+  double squares = 0.0;              ///< the same, the square of its brightest channel
   std::uint32_t rays = 0;            ///< shadow rays so far
   std::uint32_t from_a_point = 1;    ///< from each of the next points
   ImageBlockers* blockers = nullptr; ///< null where none are learned

@@ -119,7 +119,7 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
       dark[p] = {0, 0}; // it is seen in the dark
   const std::size_t sources = emitters.size() + scene.lights.size();
   if (double_sided * sources * 2 * probe_points > max_emitter_probes ||
-      scene.background != Rgb(0.0))
+      !is_dark(scene.background))
     return dark;
   tbb::parallel_for(std::size_t{0}, surfaces.patches.size(), [&](std::size_t p) {
     const Patch& patch = surfaces.patches[p];

@@ -3,6 +3,7 @@
 #include "radiosity/scene/cut_out_mirrors.h"
 #include "radiosity/mesh/small_surfaces.h"
 #include "radiosity/scene/surface_colour.h"
+#include "scenes/sky/radiance_map.h"
 
 #include <algorithm>
 #include <numbers>
@@ -85,6 +86,36 @@ static std::vector<Bsdf> reflecting_by_angle(const Scene& scene) {
   return bsdfs;
 }
 
+/// The scene's punctual lights, and the suns of its sky.
+static std::vector<PunctualLight> lights_and_suns(const Scene& scene) {
+  std::vector<PunctualLight> lights = scene.lights;
+  if (scene.background.map)
+    for (const DistantSun& sun : scene.background.map->suns)
+      lights.push_back({.name = scene.background.map->name,
+                        .kind = PunctualKind::directional,
+                        .intensity = sun.irradiance,
+                        .direction = -sun.towards});
+  return lights;
+}
+
+/// The openings to the sky as emitters, of its radiance in the mean over the outside of each.
+static void add_portals(LightScene& light) {
+  light.portals = find_sky_portals(light.scene, light.surfaces, light.rays);
+  for (std::uint32_t p = 0; p < light.portals.size(); ++p) {
+    const SkyPortal& portal = light.portals[p];
+    Emitter emitter;
+    emitter.polygon = portal.polygon;
+    emitter.plane = portal.plane;
+    emitter.plane_class = portal.plane_class;
+    emitter.radiosity = light.sky == nullptr
+                            ? light.background
+                            : Rgb(std::numbers::pi * mean_beyond(*light.sky, -portal.plane.normal));
+    emitter.area = portal.area;
+    emitter.portal = p;
+    light.emitters.push_back(emitter);
+  }
+}
+
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
                             const MirrorsAndWorlds& reflected, const ElementMesh& mesh,
                             const DecodedTextures& textures) {
@@ -101,8 +132,10 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    {},
                    {},
                    {},
-                   scene.lights,
-                   std::numbers::pi * scene.background,
+                   {},
+                   lights_and_suns(scene),
+                   std::numbers::pi * scene.background.constant,
+                   scene.background.map.get(),
                    reflecting_by_angle(scene),
                    std::ranges::any_of(scene.materials, is_glass),
                    cut_out_mirrors(surfaces, rays, mirrors),
@@ -126,6 +159,7 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
     light.from_source[s] = 1;
     add_emitters(surfaces, mesh, mesh.sides[s], light.emitters);
   }
+  add_portals(light);
   light.emitter_tree = make_emitter_tree(light.emitters);
   return light;
 }

@@ -11,6 +11,7 @@
 #include "mirror/virtual_lights.h"
 #include "radiosity/mesh/element_mesh.h"
 #include "radiosity/mesh/element_lookup.h"
+#include "radiosity/scene/sky_portals.h"
 #include "scenes/surfaces/solid_bodies.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/rays/ray_scene.h"
@@ -35,8 +36,10 @@ struct LightScene {
   std::vector<std::uint8_t>
       from_source; ///< by SideId: 1 where the closed form owns its emission in the enumerated worlds
   LightTree emitter_tree;            ///< over the emitters
-  std::vector<PunctualLight> punctual; ///< always from the source
-  Rgb background{0.0}; ///< irradiance pi L of the whole sky, gathered by rays that escape
+  std::vector<SkyPortal> portals; ///< openings that are among the emitters, last
+  std::vector<PunctualLight> punctual; ///< always from the source; the suns of the sky among them
+  Rgb background{0.0}; ///< irradiance pi L of an even sky, gathered by rays that escape
+  const RadianceMap* sky = nullptr; ///< a sky that is not even, as the same rays see it
   std::vector<Bsdf>
       by_angle; ///< by MaterialId, clear glass and coats that are mirrors (scenes/materials/lobes.h), without textures; empty where there are none
   bool has_glass = false;

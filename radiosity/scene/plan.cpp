@@ -168,7 +168,7 @@ void warn_of_facets(const Scene& scene, const SurfaceModel& surfaces, TransportP
 }
 
 void warn_of_lights(const Scene& scene, TransportPlan& plan) {
-  if (plan.emitters == 0 && scene.lights.empty() && scene.background == Rgb(0.0)) {
+  if (plan.emitters == 0 && scene.lights.empty() && is_dark(scene.background)) {
     const bool shows = std::ranges::any_of(scene.materials, &Material::unlit);
     plan.warnings.push_back(fmt::format(
         "nothing emits light: {} will be black; --background 1 lights it from all around",
@@ -363,6 +363,9 @@ TransportPlan plan_transport(const Scene& scene, const SurfaceModel& surfaces,
   warn_of_colored_mirrors(scene, plan);
   warn_of_facets(scene, surfaces, plan);
   plan.stages = describe_stages(surfaces, plan, materials);
+  if (const std::string sky = description(scene.background); !sky.empty()) {
+    plan.stages.insert(plan.stages.begin(), "sky: " + sky);
+  }
   return plan;
 }
 

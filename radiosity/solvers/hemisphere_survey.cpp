@@ -23,8 +23,10 @@ struct Workspace {
 };
 
 /// Whether some emission is not found in closed form:
-/// that of emitters gathered as a whole, or beyond the enumerated worlds.
+/// that of emitters gathered as a whole, beyond the enumerated worlds, or of an uneven sky.
 bool gathers_emission(const LightScene& light) {
+  if (light.sky != nullptr)
+    return true;
   const auto& sides = light.mesh.sides;
   for (std::size_t s = 0; s < sides.size(); ++s)
     if (sides[s].emission != Rgb(0.0) && light.from_source[s] == 0)

@@ -95,8 +95,8 @@ ShotSolution solve_by_shots(const LightScene& light, const HemisphereSurvey& sur
   const auto& [source, reflectance] = from;
   const auto& [rays, solver] = settings;
   const ShotScene scene{light, survey, rays, make_shooting_blocks(light.mesh, survey.exposed)};
-  const bool grey = grey_mirrors(light.scene) && std::ranges::all_of(source, is_grey) &&
-                    std::ranges::all_of(reflectance, is_grey);
+  const bool grey = grey_mirrors(light.scene) && std::ranges::all_of(source, is_grey_colour) &&
+                    std::ranges::all_of(reflectance, is_grey_colour);
   const ShotBound bound = bound_of_shots(light, survey, rays, source, reflectance);
   if (grey)
     return run<double>(scene, values_of<double>(source), values_of<double>(reflectance), bound,

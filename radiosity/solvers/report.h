@@ -7,7 +7,7 @@
 
 namespace meninas {
 
-inline bool is_grey(const Rgb& colour) { return colour.r == colour.g && colour.g == colour.b; }
+inline bool is_grey_colour(const Rgb& colour) { return colour.r == colour.g && colour.g == colour.b; }
 
 /// In a grey system all channels are alike; this takes red.
 template <typename Value>

@@ -97,8 +97,8 @@ SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
   expects(source.size() == transport.size && reflectance.size() == transport.size,
           "source and reflectance have one value per element");
   check_size(settings.method, transport.size);
-  const bool grey = transport.bands == 1 && std::ranges::all_of(source, is_grey) &&
-                    std::ranges::all_of(reflectance, is_grey);
+  const bool grey = transport.bands == 1 && std::ranges::all_of(source, is_grey_colour) &&
+                    std::ranges::all_of(reflectance, is_grey_colour);
   if (grey)
     return solve_system<double>(
         {transport, values_of<double>(source), values_of<double>(reflectance)}, settings, plan);

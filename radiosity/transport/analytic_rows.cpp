@@ -257,6 +257,9 @@ FormFactors analytic_transport(const LightScene& light, const FormFactorSettings
   if (light.has_glass)
     throw UsageError(light.scene.file, "--form-factors analytic takes glass for opaque: rays or "
                                        "hemicubes see through it");
+  if (light.sky != nullptr)
+    throw UsageError(light.scene.file, "--form-factors analytic knows how much of the sky is seen, "
+                                       "not where: rays or hemicubes do");
   if (size > most_elements)
     throw UsageError(
         light.scene.file,

@@ -41,6 +41,9 @@ struct RowClosure {
   float landed = 0.0F, escaped = 0.0F, black = 0.0F, cut = 0.0F;
   glm::vec3 mirror_absorbed{0.0F}; ///< sum over rays of 1 - tau at their end
   glm::vec3 escaped_light{0.0F}, black_light{0.0F}, cut_light{0.0F}; ///< sums over rays of tau
+  glm::vec3 sky{0.0F}; ///< sum over escaped rays of tau L, of a sky that is not even; W/m^2/sr
+  glm::vec3 owned_light{0.0F}; ///< of `escaped_light`, what portals bring (sky_portals.h)
+  glm::vec3 by_portals{0.0F}; ///< as `sky`, by portals
 };
 
 struct FormFactors {

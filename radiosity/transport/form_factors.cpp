@@ -301,6 +301,9 @@ RowClosure closure_of(const GatheredRays& gathered) {
   const auto share = static_cast<float>(1.0 / exposed);
   closure.mirror_absorbed = gathered.mirror_absorbed * share;
   closure.escaped_light = gathered.escaped_light * share;
+  closure.sky = gathered.sky * share;
+  closure.owned_light = gathered.owned_light * share;
+  closure.by_portals = gathered.by_portals * share;
   closure.black_light = (gathered.black_light - static_cast<float>(gathered.covered_rays)) * share;
   closure.cut_light = gathered.cut_light * share;
   return closure;

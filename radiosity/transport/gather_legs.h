@@ -12,6 +12,7 @@
 #include "radiosity/transport/glass_rays.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/sampling.h"
+#include "scenes/sky/radiance_map.h"
 
 #include <bit>
 
@@ -130,6 +131,21 @@ glm::vec3 left_on_leg(const LightScene& light, const Legs& legs, const HitPacket
       double{hits.distance[k]} * glm::length(direction) / light.rays.frame().scale;
   return left_by_solid(light, TriangleId{hits.triangle[k]}, hits.front[k] != 0, legs.medium(k),
                        metres);
+}
+
+/// What a ray that escapes finds of the sky, and who owns it.
+inline void meet_sky(const LightScene& light, const Carried& ray, const glm::vec3& left, Ends& ends) {
+  const RayFrame& frame = light.rays.frame();
+  const double within = ray.meetings > 0 ? light.surfaces.tolerance : 0.0;
+  const bool owned = !light.portals.empty() && ray.world != none<WorldId> &&
+                     !is_by_solids(ray.world) &&
+                     last_portal(light.portals, ray.origin / frame.scale + frame.centre,
+                                 ray.direction, within) != no_portal;
+  if (owned)
+    ends.owned_light += left;
+  if (light.sky != nullptr)
+    (owned ? ends.by_portals : ends.sky) +=
+        left * radiance_from(*light.sky, ray.direction, Suns::left_out);
 }
 
 } // namespace meninas

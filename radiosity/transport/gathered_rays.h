@@ -28,6 +28,9 @@ struct GatheredRays {
   glm::vec3 escaped_light{0.0F}, black_light{0.0F},
       cut_light{0.0F};              ///< sums of w tau over the rays that ended so
   glm::vec3 escaped_straight{0.0F}; ///< of `escaped_light`, by rays that met no mirror
+  glm::vec3 sky{0.0F}, sky_straight{0.0F}; ///< sums of w tau L(d) of escaped rays, as these two, of a sky that is not even
+  glm::vec3 owned_light{0.0F}, owned_straight{0.0F}; ///< of `escaped_light` and `escaped_straight`, what portals bring
+  glm::vec3 by_portals{0.0F}; ///< the same of rays that left by portals, which are not among these: W/m^2/sr
   std::uint64_t traced = 0;
   ContactMask covered = 0;
   double covered_rays = 0.0; ///< of `black`, those from where something stands
@@ -76,7 +79,8 @@ struct GatherWorkspace {
 struct Ends {
   double landed = 0.0, escaped = 0.0, black = 0.0, cut = 0.0;
   std::uint32_t black_lanes = 0;
-  glm::vec3 mirror_absorbed{0.0F}, escaped_light{0.0F}, black_light{0.0F}, cut_light{0.0F};
+  glm::vec3 mirror_absorbed{0.0F}, escaped_light{0.0F}, black_light{0.0F}, cut_light{0.0F}, sky{0.0F}, by_portals{0.0F};
+  glm::vec3 owned_light{0.0F}; ///< of `escaped_light`, what portals bring
 
   void escape(float weight, const glm::vec3& throughput) {
     escaped += weight;
@@ -108,6 +112,9 @@ inline void add(const Ends& ends, GatheredRays& result) {
   result.cut += ends.cut;
   result.mirror_absorbed += ends.mirror_absorbed;
   result.escaped_light += ends.escaped_light;
+  result.sky += ends.sky;
+  result.by_portals += ends.by_portals;
+  result.owned_light += ends.owned_light;
   result.black_light += ends.black_light;
   result.cut_light += ends.cut_light;
 }

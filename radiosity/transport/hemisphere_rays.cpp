@@ -193,6 +193,8 @@ std::uint32_t sort_hits(const LightScene& light, const FormFactorSettings& setti
     glm::vec3 tau = legs.throughput(k);
     if (hits.triangle[k] == index(none<TriangleId>)) {
       ends.escape(weight, tau);
+      if (light.sky != nullptr || !light.portals.empty())
+        meet_sky(light, legs.carried(k), weight * tau, ends);
       continue;
     }
     const FaceRecord& face =
@@ -262,6 +264,8 @@ void trace_first_legs(const LightScene& light, const Rays& rays, const RaySource
     work.black_lanes.push_back(sort([&](std::uint32_t k) { return let_in[k]; }));
   }
   work.result.escaped_straight = work.result.escaped_light;
+  work.result.owned_straight = work.result.owned_light;
+  work.result.sky_straight = work.result.sky;
   work.result.traced += ray_count(rays);
 }
 

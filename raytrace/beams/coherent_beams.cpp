@@ -130,7 +130,9 @@ struct Search {
   bool settle(const Block& block, std::uint32_t at, const PictureBlock& seen, std::size_t begin) {
     const std::size_t end = sure.in_block.size();
     if (begin == end) {
-      mark(block, at, nullptr, true);
+      // The sky is looked up by rays that have directions.
+      if (context.visible.sky == nullptr)
+        mark(block, at, nullptr, true);
       return true;
     }
     const FrustumPiece* piece = met_by_all(seen, sure.legs[at].longest, begin);

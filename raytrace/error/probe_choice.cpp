@@ -58,6 +58,7 @@ static Image bend_picture(const IrradianceField& field, FieldContent light,
   VisibleLight visible = visible_light(field, light);
   visible.irradiance = bends(visible.corners, visible.irradiance);
   visible.background = glm::vec3(0.0F);
+  visible.sky = nullptr;
   for (SideShading& side : visible.shading)
     side.emitted = glm::vec3(0.0F);
   return first_picture(*field.scene, visible, camera, settings);

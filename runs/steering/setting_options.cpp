@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <cmath>
+
 namespace meninas {
 
 const char* name_of(Quality quality) {
@@ -58,6 +61,43 @@ const char* name_of(Projection projection) {
   return "";
 }
 
+/// What surrounds the scene.
+static void add_sky(const EnvironmentChoice& sky, std::vector<std::string>& options) {
+  const auto add = [&](const char* option, const std::string& value) {
+    options.emplace_back(option);
+    options.push_back(value);
+  };
+  const auto add_given = [&](const char* option, const auto& value) {
+    if (value)
+      add(option, fmt::format("{}", *value));
+  };
+  add_given("--environment", sky.file);
+  if (sky.sky)
+    add("--sky", std::string(name_of(*sky.sky)));
+  add_given("--environment-rotation", sky.rotation);
+  add_given("--environment-strength", sky.strength);
+  if (sky.sun)
+    add("--sun", fmt::format("{},{}", sky.sun->azimuth, sky.sun->elevation));
+  if (sky.place)
+    add("--place", fmt::format("{},{}", sky.place->latitude, sky.place->longitude));
+  if (sky.time) {
+    const auto seconds = static_cast<int>(std::lround(3600.0 * sky.time->hours));
+    // Hours beyond midnight are those of an offset: the same moment, said in Universal Time.
+    using namespace std::chrono;
+    const sys_days day = year(sky.time->year) / month(static_cast<unsigned>(sky.time->month)) /
+                         std::chrono::day(static_cast<unsigned>(sky.time->day));
+    const sys_seconds moment = day + std::chrono::seconds(seconds);
+    const auto whole = floor<days>(moment);
+    const year_month_day date(whole);
+    const hh_mm_ss clock(moment - whole);
+    add("--date", fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", int(date.year()),
+                              unsigned(date.month()), unsigned(date.day()), clock.hours().count(),
+                              clock.minutes().count(), clock.seconds().count()));
+  }
+  add_given("--turbidity", sky.turbidity);
+  add_given("--sky-illuminance", sky.illuminance);
+}
+
 std::vector<std::string> options_of(const RunSettings& settings) {
   const RunSettings standard;
   std::vector<std::string> options;
@@ -82,6 +122,7 @@ std::vector<std::string> options_of(const RunSettings& settings) {
   if (settings.background)
     add("--background", fmt::format("{},{},{}", settings.background->r, settings.background->g,
                                     settings.background->b));
+  add_sky(settings.environment, options);
   add_given("--element-size", settings.element_size);
   add_given("--elements", settings.elements);
   RunSettings unchosen = settings;

@@ -96,6 +96,8 @@ Vec3 vec3_or(const Json& object, std::string_view key, const Vec3& otherwise) {
 static const Json* array_of(const Json& root, std::string_view array) {
   if (array == "lights")
     return find(root, {"extensions", "KHR_lights_punctual", array});
+  if (array == "imageBasedLights")
+    return find(root, {"extensions", "EXT_lights_image_based", "lights"});
   if (array == "variants")
     return find(root, {"extensions", "KHR_materials_variants", array});
   return find(root, array);

@@ -20,6 +20,7 @@ namespace meninas {
 using namespace gltf;
 
 static constexpr std::string_view extensions_read[] = {
+    "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
@@ -184,6 +185,7 @@ Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& f
   mark_smooth_surfaces(scene);
   read_cameras(document, nodes, scene, findings);
   read_lights(document, nodes, scene, findings);
+  read_image_based_light(document, scene, findings);
   for (const std::string& light : settle_lights(scene))
     findings.about("lights in the plane of a face are put before it", light);
   if (const auto mixture = describe_mixed_units(scene))

@@ -236,7 +236,15 @@ constexpr Rule node[] = {
     {.name = "weights", .kind = numbers},
     {.name = "extensions", .kind = object, .fields = node_extensions},
 };
-constexpr Rule scene[] = {name_rule, {.name = "nodes", .kind = indices, .target = "nodes"}};
+constexpr Rule scene_sky[] = {
+    {.name = "light", .kind = index, .presence = required, .target = "imageBasedLights"}};
+constexpr Rule scene_extensions[] = {
+    {.name = "EXT_lights_image_based", .kind = object, .fields = scene_sky}};
+constexpr Rule scene[] = {
+    name_rule,
+    {.name = "nodes", .kind = indices, .target = "nodes"},
+    {.name = "extensions", .kind = object, .fields = scene_extensions},
+};
 
 constexpr Rule perspective[] = {
     {.name = "yfov", .kind = number, .presence = required},
@@ -270,7 +278,15 @@ constexpr Rule lights[] = {
 constexpr Rule variant[] = {{.name = "name", .kind = text, .presence = required}};
 constexpr Rule variants[] = {
     {.name = "variants", .kind = objects, .presence = required, .fields = variant}};
+constexpr Rule image_based_light[] = {
+    name_rule,
+    {.name = "intensity", .kind = number},
+    {.name = "rotation", .kind = numbers, .length = 4},
+};
+constexpr Rule image_based_lights[] = {
+    {.name = "lights", .kind = objects, .presence = required, .fields = image_based_light}};
 constexpr Rule root_extensions[] = {
+    {.name = "EXT_lights_image_based", .kind = object, .fields = image_based_lights},
     {.name = "KHR_lights_punctual", .kind = object, .fields = lights},
     {.name = "KHR_materials_variants", .kind = object, .fields = variants},
 };

@@ -58,6 +58,12 @@ std::set<std::uint64_t> texcoord_sets(const Json& material);
 /// one per image and wrapping.
 void read_textures(const Document& document, Scene& scene, Findings& findings);
 
+/// The bytes of one of the file's images.
+Resource image_bytes(const Document& document, std::size_t index);
+
+/// EXT_lights_image_based of the chosen scene, still encoded.
+void read_image_based_light(const Document& document, Scene& scene, Findings& findings);
+
 void read_cameras(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
                   Findings& findings);
 void read_lights(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,

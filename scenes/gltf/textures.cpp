@@ -152,7 +152,7 @@ static std::string name_of_image(const Json& image, std::size_t index) {
   return uri.starts_with("data:") ? fmt::format("image{}", index) : one_line(uri);
 }
 
-static Resource read_image(const Document& document, std::size_t index) {
+Resource image_bytes(const Document& document, std::size_t index) {
   const auto& image = element(document.root, "images", index);
   if (const auto* uri = find(image, "uri"))
     return read_uri(uri->get<std::string>(), document.folder, document.settings);
@@ -183,7 +183,7 @@ public:
 private:
   TextureId add(std::size_t image, const Sampler& sampler) {
     const auto where = place(document_.root, "images", image);
-    const auto resource = read_image(document_, image);
+    const auto resource = image_bytes(document_, image);
     if (!resource.problem.empty() || resource.bytes.empty())
       return leave_out(where, resource.problem.empty() ? "the image is empty" : resource.problem);
     if (const auto size = image_size(resource.bytes); size && !has_room_for(*size))

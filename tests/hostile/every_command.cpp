@@ -107,7 +107,7 @@ double brightest(const Scene& scene) {
   const bool by_chance =
       std::ranges::any_of(scene.materials, [](const Material& m) { return is_glass(m); }) ||
       std::ranges::any_of(scene.materials, has_lobes);
-  return sky_alone && !by_chance ? glm::compMax(scene.background)
+  return sky_alone && !by_chance ? glm::compMax(scene.background.constant)
                                  : std::numeric_limits<double>::infinity();
 }
 
@@ -231,7 +231,7 @@ void run_every_command(Scene scene, Random& random, const Effort& effort) {
   if (exact && scene.triangles.size() <= effort.few_triangles / 4 &&
       settings.mesh == MeshCut::uniform)
     settings.form_factors = FormFactorMethod::analytic;
-  scene.background = settings.background.value_or(scene.background);
+  scene.background = settings.background.value_or(scene.background.constant);
   try {
     run(std::move(scene), settings, random, effort);
   } catch (const Finding& finding) {

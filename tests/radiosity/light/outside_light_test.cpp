@@ -148,7 +148,7 @@ TEST(PunctualLight, ElementsAndVerticesReceiveIt) {
 TEST(Background, AnOpenFloorReceivesPiTimesItsRadianceByEverySolver) {
   Scene scene;
   add_polygon(scene, "floor", {{0, 0, 1}, {1, 0, 1}, {1, 0, 0}, {0, 0, 0}}, diffuse(0.5));
-  scene.background = {0.5, 1.0, 2.0};
+  scene.background = Rgb(0.5, 1.0, 2.0);
   const auto l = lit(scene, {.element_size = 0.5});
   PassOneSettings settings;
   settings.form_factors.rays = settings.interpolation.rays = 16;
@@ -159,7 +159,7 @@ TEST(Background, AnOpenFloorReceivesPiTimesItsRadianceByEverySolver) {
       settings.solver.method = solver;
       const RadiositySolution solution = solve_pass_one(l->light, settings);
       for (const auto& h : solution.field.irradiance)
-        EXPECT_LE(glm::distance(Rgb(h), std::numbers::pi * scene.background), 1e-5);
+        EXPECT_LE(glm::distance(Rgb(h), std::numbers::pi * scene.background.constant), 1e-5);
       EXPECT_NEAR(solution.energy.imbalance, 0.0, 1e-6);
     }
 }

@@ -1,0 +1,26 @@
+// What shadow rays find beyond openings to the sky (radiosity/scene/sky_portals.h).
+//
+//   E shown = pi L(d),   d the direction in which the last leg of a ray leaves
+//
+// as a factor of the opening's own E = pi L_0: exactly 1 where the sky is even.
+#pragma once
+
+#include "mirror/emitters.h"
+#include "radiosity/light/shadow_paths.h"
+
+namespace meninas {
+
+/// Whether the opening's rays have to be weighed one by one.
+inline bool is_uneven(const LightScene& light, const Emitter& emitter) {
+  return emitter.shows_sky() && (light.sky != nullptr || light.portals.size() > 1);
+}
+
+/// Where a shadow ray from x by a point y of an emitter's image ends: there, or of an opening
+/// beyond the scene, in no plane.
+Leg shadow_leg(const LightScene& light, const Emitter& emitter, Leg to_emitter);
+
+/// What an unblocked segment of shadow_leg() shows, over the emitter's own E; 0 where the ray leaves by
+/// another opening behind this one, which has its light.
+Rgb shown_by(const LightScene& light, const Emitter& emitter, const FoldedSegment& segment);
+
+} // namespace meninas

@@ -1,0 +1,38 @@
+// Openings through which a room is lit by the sky: panes of glass, and holes in its walls.
+//
+//   E = pi L   W/m^2 of an even sky; of another, L(d) in the direction in which a ray leaves
+//
+// An opening is an emitter of direct light (direct_irradiance.h): Lambert's closed form of its
+// polygon, times what its shadow rays, which go on to beyond the scene, find there. The rays of
+// the form factors leave out what escapes by an opening in an enumerated mirror world, and so no light
+// counts twice. A ray that crosses several belongs to the last.
+#pragma once
+
+#include "mirror/emitters.h"
+#include "scenes/rays/ray_scene.h"
+#include "scenes/surfaces/surfaces.h"
+
+#include <span>
+#include <vector>
+
+namespace meninas {
+
+/// An opening as it is seen from inside.
+struct SkyPortal {
+  ConvexPolygon polygon; ///< counter-clockwise seen from inside
+  Plane plane;           ///< normal inwards
+  PlaneId plane_class = none<PlaneId>;
+  double area = 0.0;
+};
+
+/// Those of a scene under a sky; none where they would be most of what is seen.
+std::vector<SkyPortal> find_sky_portals(const Scene& scene, const SurfaceModel& surfaces,
+                                        const RayScene& rays);
+
+/// The last of the portals by which a ray leaves, no_portal where it leaves by none.
+/// A portal whose plane it sets out from is one of them if the ray has come from inside (within > 0
+/// metres, as behind glass), and not if it begins there.
+std::uint32_t last_portal(std::span<const SkyPortal> portals, const Point3& origin,
+                          const Vec3& direction, double within);
+
+} // namespace meninas
