@@ -1,8 +1,12 @@
 #include "scenes/content_hash.h"
 
+#include "scenes/errors.h"
+
 #include <fmt/format.h>
 
 #include <bit>
+#include <fstream>
+#include <iterator>
 
 namespace meninas {
 
@@ -43,6 +47,16 @@ void ContentHash::add(std::span<const std::byte> bytes) {
 }
 
 void ContentHash::add(std::string_view text) { add(std::as_bytes(std::span(text))); }
+
+std::uint64_t hash_of_file(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(file.string(), "", "no such file");
+  std::ifstream stream(file, std::ios::binary);
+  ContentHash hash;
+  hash.add(std::string(std::istreambuf_iterator<char>(stream), {}));
+  return hash.value();
+}
 
 std::string hex_digits(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,6 +28,9 @@ public:
 private:
   std::uint64_t state_ = 0x9e3779b97f4a7c15ULL;
 };
+
+/// Of a file's bytes. Throws InputError where there is none.
+std::uint64_t hash_of_file(const std::filesystem::path& file);
 
 /// Sixteen hexadecimal digits.
 std::string hex_digits(std::uint64_t hash);

@@ -23,10 +23,10 @@ Rgb shown_by(const LightScene& light, const Emitter& emitter, const FoldedSegmen
     return Rgb(1.0);
   const Leg& last = segment.legs.back();
   const Vec3 direction = last.to - last.from;
-  // A leg from a mirror is known to come from inside.
   if (light.portals.size() > 1 &&
       last_portal(light.portals, last.from, direction,
-                  segment.legs.size() > 1 ? light.surfaces.tolerance : 0.0) != emitter.portal)
+                  least_height(light.surfaces.tolerance, segment.legs.size() > 1)) !=
+          emitter.portal)
     return Rgb(0.0);
   if (light.sky == nullptr)
     return Rgb(1.0);

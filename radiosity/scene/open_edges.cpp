@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t most_loose_edges = 4096;
 constexpr std::size_t most_corners = 32; ///< of a convex polygon: clipping adds some
+constexpr std::size_t most_cut = 512;    ///< of an outline that is cut: that takes up to their cube
 
 using EdgeEnds = std::pair<VertexId, VertexId>;
 
@@ -147,6 +148,17 @@ bool is_ear(const std::vector<Point3>& line, std::size_t k, const Vec3& normal) 
   return true;
 }
 
+/// A convex outline, in parts that share its first corner.
+void cut_fan(std::vector<Point3> line, std::vector<std::vector<Point3>>& polygons) {
+  using Offset = std::vector<Point3>::difference_type;
+  while (line.size() > most_corners) {
+    const auto last = line.begin() + Offset{most_corners};
+    polygons.emplace_back(line.begin(), last);
+    line.erase(line.begin() + 1, last - 1);
+  }
+  polygons.push_back(std::move(line));
+}
+
 void cut_ears(std::vector<Point3> line, std::vector<std::vector<Point3>>& polygons) {
   const Vec3 normal = area_vector(line);
   while (line.size() > 3) {
@@ -177,9 +189,9 @@ std::vector<std::vector<Point3>> open_polygons(const Scene& scene, const Surface
     std::vector<Point3> corners = without_straight(line, tolerance);
     if (corners.size() < 3)
       continue;
-    if (is_convex(corners) && corners.size() <= most_corners)
-      polygons.push_back(std::move(corners));
-    else
+    if (is_convex(corners))
+      cut_fan(std::move(corners), polygons);
+    else if (corners.size() <= most_cut)
       cut_ears(std::move(corners), polygons);
   }
   return polygons;

@@ -1,5 +1,6 @@
 #include "radiosity/scene/plan.h"
 
+#include "scenes/sky/radiance_map.h"
 #include "scenes/surfaces/closedness.h"
 #include "radiosity/scene/enclosed_lights.h"
 #include "radiosity/scene/mirror_depth_bound.h"
@@ -174,14 +175,16 @@ void warn_of_lights(const Scene& scene, TransportPlan& plan) {
         "nothing emits light: {} will be black; --background 1 lights it from all around",
         shows ? "what is not unlit" : "the picture"));
   }
-  if (!scene.lights.empty() && (plan.mirrors.facets > 0 || !plan.worlds.cut.empty())) {
+  const bool has_suns = scene.background.map && !scene.background.map->suns.empty();
+  const bool has_points = !scene.lights.empty() || has_suns;
+  if (has_points && (plan.mirrors.facets > 0 || !plan.worlds.cut.empty())) {
     plan.warnings.push_back("light of point, spot and directional lights is followed over the "
                             "mirror worlds alone: what "
                             "small mirrors or longer chains of mirrors would throw is left out");
   }
   const auto solids =
       names_where(materials_where(scene, [](TriangleId) { return true; }), is_solid_glass);
-  if (!scene.lights.empty() && !solids.empty()) {
+  if (has_points && !solids.empty()) {
     plan.warnings.push_back("solid glass does not bend the light of point, spot and directional "
                             "lights: to that its faces are sheets, passed straight: " +
                             quoted(solids));

@@ -17,23 +17,25 @@ constexpr std::size_t most_portals = 64;
 constexpr int points = 16;          ///< of an opening that are asked
 constexpr double open_enough = 0.25; ///< share of rays outwards that escape
 constexpr double shut_enough = 0.25; ///< share of rays inwards that may escape
+constexpr double near_enough = 0.25; ///< share of what is seen from inside that it may be
+constexpr double worth_while = 1e-3; ///< share of the scene's area that it lights
 
-/// What a ray meets past panes, if anything.
-bool escapes(const Scene& scene, const RayScene& rays, Ray ray) {
+/// How far a ray comes past panes, metres: infinitely far where it meets nothing else.
+double free_path(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays, Ray ray) {
   constexpr int most_panes = 16;
+  double path = 0.0;
   for (int pane = 0; pane < most_panes; ++pane) {
     const auto hit = closest_hit(rays, ray);
     if (!hit)
-      return true;
+      return std::numeric_limits<double>::infinity();
+    path += hit->distance;
     const Material& material = material_of(scene, hit->triangle);
     if (!is_glass(material) || is_solid_glass(material))
-      return false;
+      break;
     ray.origin += hit->distance * ray.direction;
-    ray.leaving = none<PlaneId>;
-    // Past the pane: its plane is unknown to the ray, so it begins a little behind.
-    ray.origin += 1e-6 * hit->distance * ray.direction;
+    ray.leaving = surfaces.plane_of_triangle[index(hit->triangle)];
   }
-  return false;
+  return path;
 }
 
 /// A ray from a point of the opening, number k of `points`, to its front or back, cosine-distributed.
@@ -79,29 +81,53 @@ double hair_of(const SurfaceModel& surfaces, const SkyPortal& opening) {
   return std::max(4.0 * surfaces.tolerance, 1e-5 * std::sqrt(opening.area));
 }
 
-/// What rays from points of a polygon find on either side of it.
+/// What rays from points of a polygon find on one side of it.
 struct Outlook {
-  double front = 0.0, back = 0.0; ///< shares that escape
-  bool is_open = true;            ///< no point of it is on a surface but a pane's
+  double escaping = 0.0; ///< share of them
+  double near = 0.0;     ///< mean of min(1, A / pi d^2) of the others: the opening's share of what is seen from there
+  double lit = 0.0;      ///< mean of pi d^2 of the others: about the area of what it lights, m^2
 };
 
 Outlook outlook_of(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
-                   const SkyPortal& opening) {
+                   const SkyPortal& opening, double side) {
+  const Outlooks from(opening, hair_of(surfaces, opening));
+  Outlook outlook;
+  int ended = 0;
+  for (std::uint32_t k = 0; k < points; ++k) {
+    const double path = free_path(scene, surfaces, rays, from.ray(k, side));
+    if (std::isinf(path)) {
+      outlook.escaping += 1.0 / points;
+      continue;
+    }
+    const double about = std::numbers::pi * path * path;
+    outlook.near += opening.area < about ? opening.area / about : 1.0;
+    outlook.lit += about;
+    ++ended;
+  }
+  outlook.near /= std::max(1, ended);
+  outlook.lit /= std::max(1, ended);
+  return outlook;
+}
+
+/// Whether no point of it is on a surface but a pane's.
+bool is_open(const SurfaceModel& surfaces, const RayScene& rays, const SkyPortal& opening) {
+  if (opening.plane_class != none<PlaneId>)
+    return true;
   const double off = hair_of(surfaces, opening);
   const Outlooks from(opening, off);
   const Vec3 hair = off * opening.plane.normal;
-  Outlook outlook;
   for (std::uint32_t k = 0; k < points; ++k) {
     const Point3 y = from.point(k);
-    if (opening.plane_class == none<PlaneId> &&
-        occluded(rays, {y + hair, y - hair, none<PlaneId>, none<PlaneId>}))
-      outlook.is_open = false;
-    if (escapes(scene, rays, from.ray(k, 1.0)))
-      outlook.front += 1.0 / points;
-    if (escapes(scene, rays, from.ray(k, -1.0)))
-      outlook.back += 1.0 / points;
+    if (occluded(rays, {y + hair, y - hair, none<PlaneId>, none<PlaneId>}))
+      return false;
   }
-  return outlook;
+  return true;
+}
+
+/// Whether rays from what it lights would seldom find the sky through it: a window, not the mouth of a pot.
+bool is_window(const Outlook& inside, const Outlook& outside, double scene_area) {
+  return inside.escaping <= shut_enough && outside.escaping >= open_enough &&
+         inside.near <= near_enough && inside.lit >= worth_while * scene_area;
 }
 
 /// Leaves out portals behind which all rays leave by another, as a hole behind its pane.
@@ -180,13 +206,19 @@ std::vector<SkyPortal> find_sky_portals(const Scene& scene, const SurfaceModel& 
   std::vector<SkyPortal> candidates = candidates_of(scene, surfaces);
   if (candidates.size() > 4 * most_portals)
     candidates.resize(4 * most_portals);
+  double area = 0.0;
+  for (const Surface& surface : surfaces.surfaces)
+    area += surface.area;
   for (SkyPortal& opening : candidates) {
-    const Outlook outlook = outlook_of(scene, surfaces, rays, opening);
-    if (!outlook.is_open || portals.size() == most_portals)
+    if (portals.size() == most_portals)
+      break;
+    if (!is_open(surfaces, rays, opening))
       continue;
-    if (outlook.front <= shut_enough && outlook.back >= open_enough)
+    const Outlook front = outlook_of(scene, surfaces, rays, opening, 1.0),
+                  back = outlook_of(scene, surfaces, rays, opening, -1.0);
+    if (is_window(front, back, area))
       portals.push_back(std::move(opening));
-    else if (outlook.back <= shut_enough && outlook.front >= open_enough)
+    else if (is_window(back, front, area))
       portals.push_back(turned_round(std::move(opening)));
   }
   keep_last(surfaces, portals);
@@ -194,7 +226,7 @@ std::vector<SkyPortal> find_sky_portals(const Scene& scene, const SurfaceModel& 
 }
 
 std::uint32_t last_portal(std::span<const SkyPortal> portals, const Point3& origin,
-                          const Vec3& direction, double within) {
+                          const Vec3& direction, double least_height) {
   std::uint32_t last = no_portal;
   double farthest = -std::numeric_limits<double>::infinity();
   const double length = glm::length(direction);
@@ -205,7 +237,7 @@ std::uint32_t last_portal(std::span<const SkyPortal> portals, const Point3& orig
       continue;
     const double height = glm::dot(plane.normal, origin) - plane.offset;
     const double t = height / -approach;
-    if ((within > 0.0 ? height < -within : height <= 0.0) || t * length <= farthest)
+    if (height <= least_height || t * length <= farthest)
       continue;
     if (contains(portals[p], origin + t * direction)) {
       last = p;

@@ -25,14 +25,21 @@ struct SkyPortal {
   double area = 0.0;
 };
 
-/// Those of a scene under a sky; none where they would be most of what is seen.
+/// Those of a scene under a sky: openings that are open to it on one side alone, less than a quarter of what
+/// is seen from where rays through them end, and light a thousandth of the scene's area; the 64 largest.
+/// The light of others, as of a doorway without a room or of a pot's mouth, is gathered.
 std::vector<SkyPortal> find_sky_portals(const Scene& scene, const SurfaceModel& surfaces,
                                         const RayScene& rays);
 
-/// The last of the portals by which a ray leaves, no_portal where it leaves by none.
-/// A portal whose plane it sets out from is one of them if the ray has come from inside (within > 0
-/// metres, as behind glass), and not if it begins there.
+/// How high above a portal's plane a ray must set out to leave by it, metres. A receiver sees nothing of an
+/// emitter in whose plane it is (mirror/virtual_lights.h); a mirror there has sent what came from inside.
+constexpr double least_height(double tolerance, bool reflected) {
+  return reflected ? -tolerance : tolerance;
+}
+
+/// The last of the portals by which a ray leaves from `origin`, where it has set out or was last
+/// reflected; no_portal where it leaves by none.
 std::uint32_t last_portal(std::span<const SkyPortal> portals, const Point3& origin,
-                          const Vec3& direction, double within);
+                          const Vec3& direction, double least_height);
 
 } // namespace meninas

@@ -35,6 +35,7 @@ struct Carried {
   std::uint32_t meetings = 0;
   int reflections = 0;
   MaterialId medium = none<MaterialId>;
+  double straight = 0.0; ///< in directions: so far behind the origin it has set out or was last reflected
 };
 
 /// Rays straight from the receiver are what their packet says,
@@ -118,7 +119,7 @@ struct MirroredLegs {
   Carried carried(std::uint32_t k) const {
     const MirroredRay& ray = rays[k];
     return {ray.origin, ray.direction, ray.weight,      ray.throughput, ray.world,
-            ray.number, ray.meetings,  ray.reflections, ray.medium};
+            ray.number, ray.meetings,  ray.reflections, ray.medium, ray.straight};
   }
 };
 
@@ -136,11 +137,12 @@ glm::vec3 left_on_leg(const LightScene& light, const Legs& legs, const HitPacket
 /// What a ray that escapes finds of the sky, and who owns it.
 inline void meet_sky(const LightScene& light, const Carried& ray, const glm::vec3& left, Ends& ends) {
   const RayFrame& frame = light.rays.frame();
-  const double within = ray.meetings > 0 ? light.surfaces.tolerance : 0.0;
-  const bool owned = !light.portals.empty() && ray.world != none<WorldId> &&
-                     !is_by_solids(ray.world) &&
-                     last_portal(light.portals, ray.origin / frame.scale + frame.centre,
-                                 ray.direction, within) != no_portal;
+  // Panes on the way are passed straight: the whole of the last leg counts, as for shadow rays.
+  const Point3 from = (ray.origin - ray.straight * ray.direction) / frame.scale + frame.centre;
+  const bool owned =
+      !light.portals.empty() && ray.world != none<WorldId> && !is_by_solids(ray.world) &&
+      last_portal(light.portals, from, ray.direction,
+                  least_height(light.surfaces.tolerance, ray.reflections > 0)) != no_portal;
   if (owned)
     ends.owned_light += left;
   if (light.sky != nullptr)

@@ -57,6 +57,7 @@ struct MirroredRay {
   glm::vec3 throughput;
   WorldId world;
   MaterialId medium = none<MaterialId>; ///< the solid that it was refracted into
+  double straight; ///< from where it set out or was last reflected to the origin, in directions
   std::uint32_t leaving;
   std::uint32_t number;   ///< among the rays of its receiver
   std::uint32_t meetings; ///< with mirrors and glass, so far

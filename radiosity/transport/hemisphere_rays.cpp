@@ -50,6 +50,7 @@ struct MetFace {
 /// Where a ray meets a mirror, glass or a coat: on its exact plane, not at the rounded distance.
 struct Meeting {
   glm::dvec3 position;
+  double along; ///< the ray's directions from its origin to there
   Direction normal; ///< towards the ray; it turns with a curved surface
   double approach;  ///< the direction along the normal
   double cosine;
@@ -75,7 +76,7 @@ Meeting meeting_of(const LightScene& light, const FaceRecord& face, const HitPac
   const Direction normal = normal_met(light, face, hits, k, from);
   const double along = face.curved ? glm::dot(normal, from.direction) : approach;
   const double cosine = std::min(1.0, std::abs(along) / glm::length(from.direction));
-  return {from.origin + t * from.direction, normal, along, cosine,
+  return {from.origin + t * from.direction, t, normal, along, cosine,
           mirror_shares(light, face, hits, k, cosine)};
 }
 
@@ -120,14 +121,17 @@ float choice_of(const Carried& from, std::uint32_t seed, std::uint32_t kind) {
 MirroredRay going_on(const LightScene& light, const MetFace& met, const Carried& from,
                      const Meeting& at, std::uint32_t seed) {
   const auto& [face, hits, k] = met;
-  MirroredRay ray{at.position, from.direction,   from.weight, from.throughput,   from.world,
-                  from.medium, face.plane_class, from.number, from.meetings + 1, from.reflections};
+  MirroredRay ray{at.position,       from.direction,           from.weight,
+                  from.throughput,   from.world,               from.medium,
+                  0.0,               face.plane_class,         from.number,
+                  from.meetings + 1, from.reflections};
   float chance = 1.0F;
   if (face.glass) {
     const float reflected = largest(at.shares.reflected), passed = largest(at.shares.passed);
     chance = reflected + passed > 0.0F ? reflected / (reflected + passed) : 0.0F;
     if (choice_of(from, seed, 0x91a55) >= chance && pass(light, met, at.normal, from, ray)) {
       ray.throughput *= at.shares.passed / (1.0F - chance);
+      ray.straight = from.straight + at.along;
       return ray;
     }
   }
@@ -157,6 +161,7 @@ std::optional<MirroredRay> meet_coat(const LightScene& light, const MetFace& met
                      from.throughput * at.shares.reflected / chance,
                      world,
                      from.medium,
+                     0.0,
                      face.plane_class,
                      from.number,
                      from.meetings + 1,

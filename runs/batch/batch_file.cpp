@@ -4,6 +4,7 @@
 #include "runs/json/json_place.h"
 #include "runs/json/json_schema.h"
 #include "runs/pages/batch_schema_text.h"
+#include "scenes/content_hash.h"
 #include "scenes/errors.h"
 
 #include <fmt/format.h>
@@ -171,6 +172,10 @@ JobMode mode_of(const std::string& name, const Place& job, const std::optional<P
   mode.settings.push_back({"mode", name});
   try {
     mode.request = parse({}, mode.settings);
+    if (auto& picture = mode.request.settings.environment.file) {
+      picture = (job.file.parent_path() / *picture).string();
+      mode.environment = hash_of_file(*picture);
+    }
   } catch (const UserError& error) {
     blame(job, defaults, mode.settings, error.what());
   }

@@ -33,6 +33,7 @@ struct JobMode {
   std::string name;              ///< radiosity, hybrid, reference
   RenderRequest request;         ///< without scene, camera and outputs
   std::vector<Setting> settings; ///< what the request was made of, `mode` among them
+  std::uint64_t environment = 0; ///< a hash of the picture of the surroundings, if there is one
 };
 
 struct BatchJob {

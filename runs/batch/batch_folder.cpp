@@ -200,13 +200,7 @@ bool is_done(const fs::path& folder, const BatchPicture& picture) {
 std::vector<std::uint64_t> hashes_of(const fs::path& folder, const std::vector<fs::path>& files) {
   std::vector<std::uint64_t> hashes;
   for (const fs::path& file : files) {
-    std::error_code error;
-    if (!fs::is_regular_file(folder / file, error)) {
-      throw InputError((folder / file).string(), "", "no such file");
-    }
-    ContentHash hash;
-    hash.add(text_of(folder / file));
-    hashes.push_back(hash.value());
+    hashes.push_back(hash_of_file(folder / file));
   }
   return hashes;
 }

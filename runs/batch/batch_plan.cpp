@@ -164,16 +164,18 @@ bool is_of_pass_two(const Setting& setting) {
   return std::ranges::find(names, setting.name) != names.end();
 }
 
-std::string solution_key(const SceneFacts& facts, std::vector<Setting> settings) {
+std::string solution_key(const SceneFacts& facts, const JobMode& mode) {
+  std::vector<Setting> settings = mode.settings;
   std::erase_if(settings, is_of_pass_two);
   ContentHash hash;
   hash.add(program_version());
   hash.add(facts.hash);
+  hash.add(mode.environment);
   add_settings(hash, std::move(settings));
   return hex_digits(hash.value());
 }
 
-std::string picture_key(const BatchPicture& picture, const std::vector<Setting>& settings) {
+std::string picture_key(const BatchPicture& picture, const JobMode& mode) {
   ContentHash hash;
   hash.add(program_version());
   hash.add(picture.facts->hash);
@@ -181,7 +183,8 @@ std::string picture_key(const BatchPicture& picture, const std::vector<Setting>&
   add_camera(hash, picture.camera);
   hash.add(static_cast<std::uint64_t>(picture.size.width));
   hash.add(static_cast<std::uint64_t>(picture.size.height));
-  add_settings(hash, settings);
+  hash.add(mode.environment);
+  add_settings(hash, mode.settings);
   for (const fs::path& output : picture.outputs) {
     hash.add(output.string());
   }
@@ -225,9 +228,9 @@ BatchPicture picture_of(const JobScene& at, const JobMode& mode, const Camera& c
     picture.outputs.push_back(output_name(name_template, parts));
   }
   picture.name = picture.outputs.front().string();
-  picture.key = picture_key(picture, mode.settings);
+  picture.key = picture_key(picture, mode);
   if (mode.request.settings.mode != PictureMode::reference) {
-    picture.solution_key = solution_key(*at.known.facts, mode.settings);
+    picture.solution_key = solution_key(*at.known.facts, mode);
   }
   return picture;
 }

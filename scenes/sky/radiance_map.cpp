@@ -168,14 +168,14 @@ double mean_beyond(const RadianceMap& map, const Direction& axis) {
 //
 //   L_c = 100 times the mean luminance of min(L, L_c),   E = sum of (L - capped L) dw,
 //
-// if all lie within 3 degrees of their mean direction; the 16 brightest. One of 512 rays that meets
+// if all lie within 3 degrees of their mean direction, themselves no wider; the 16 brightest. One of 512 rays that meets
 // 100 times the mean adds 20 % to what the others bring: more would be a spot in the picture.
 
 namespace {
 
 constexpr double over_mean = 100.0;
 constexpr std::size_t most_suns = 16;
-const double widest_cosine = std::cos(3.0 / 180.0 * std::numbers::pi);
+constexpr double widest = 3.0 / 180.0 * std::numbers::pi; ///< from its middle
 
 /// What bilinear interpolation makes of a map's texels: the mean over each is not the texel's own,
 /// but sums over texels that touch no pole are the same to second order in their size.
@@ -190,7 +190,8 @@ std::uint32_t number_of(const RadianceMap& map, int column, int row) {
 
 /// The luminance over which texels are suns; infinite where there is no light.
 double cap_of(const RadianceMap& map) {
-  double cap = std::numeric_limits<double>::infinity();
+  constexpr double nothing = 1e-6; // of the mean
+  double cap = std::numeric_limits<double>::infinity(), least = 0.0;
   for (int round = 0; round < 64; ++round) {
     double sum = 0.0;
     for (int j = 0; j < map.height; ++j) {
@@ -202,9 +203,11 @@ double cap_of(const RadianceMap& map) {
     const double next = over_mean * sum / (4.0 * std::numbers::pi);
     if (!(next > 0.0))
       return std::numeric_limits<double>::infinity();
+    if (round == 0)
+      least = nothing / over_mean * next;
     if (next >= 0.999 * cap)
       break;
-    cap = next;
+    cap = std::max(next, least);
   }
   return cap;
 }
@@ -235,6 +238,13 @@ Direction middle_of(const RadianceMap& map, std::uint32_t texel) {
   return direction_at(map, (texel % width + 0.5) / map.width, (texel / width + 0.5) / map.height);
 }
 
+/// Half of the diagonal of a texel of that row.
+double half_width(const RadianceMap& map, int row) {
+  const double polar = std::numbers::pi * (row + 0.5) / map.height;
+  return 0.5 * std::hypot(std::numbers::pi / map.height,
+                          2.0 * std::numbers::pi / map.width * std::sin(polar));
+}
+
 /// What is left of a texel.
 glm::vec3 capped(const glm::vec3& texel, double cap) {
   return glm::vec3(cap / luminance_of(texel) * glm::dvec3(texel));
@@ -254,7 +264,8 @@ bool is_sun(const RadianceMap& map, double cap, Cluster& cluster) {
     return false;
   cluster.sun.towards = towards / length;
   return std::ranges::all_of(cluster.texels, [&](std::uint32_t texel) {
-    return glm::dot(middle_of(map, texel), cluster.sun.towards) >= widest_cosine;
+    return half_width(map, static_cast<int>(texel) / map.width) <= widest &&
+           glm::dot(middle_of(map, texel), cluster.sun.towards) >= std::cos(widest);
   });
 }
 

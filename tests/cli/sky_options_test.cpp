@@ -142,5 +142,29 @@ TEST_F(SkyOptions, EveryCommandThatHasABackgroundHasThem) {
   EXPECT_EQ(batch.code, 0) << batch.err;
 }
 
+TEST_F(SkyOptions, ABatchFindsItsPictureBesideItsFileAndKnowsItsContent) {
+  std::filesystem::create_directory(folder_ / "jobs");
+  const auto write_jobs = [&](const std::string& picture) {
+    std::ofstream(folder_ / "jobs/jobs.json")
+        << R"({"jobs": [{"scenes": "../room.glb", "outputs": "out.exr", "settings": {"quality": "draft", "size": "16x12", "environment": ")"
+        << picture << R"("}}]})";
+  };
+  const auto batch = [&] { return run({"batch", "jobs/jobs.json", "-o", "pictures", "--resume"}); };
+  write_jobs("none.exr");
+  const Outcome missing = batch();
+  EXPECT_EQ(missing.code, 3) << missing.err;
+  EXPECT_THAT(missing.err, HasSubstr("none.exr: no such file"));
+  write_jobs("../sky.exr");
+  ASSERT_EQ(batch().code, 0);
+  const Image before = read_image(folder_ / "pictures/out.exr").picture;
+  // Another picture of that name is another sky.
+  Image sky(16, 8);
+  sky.pixels.assign(sky.pixels.size(), glm::vec3(4.0F, 2.0F, 1.0F));
+  write_exr(folder_ / "sky.exr", sky, {}, PixelType::float32);
+  ASSERT_EQ(batch().code, 0);
+  const Image after = read_image(folder_ / "pictures/out.exr").picture;
+  EXPECT_GT(after.pixels[16 * 6].r, 2.0F * before.pixels[16 * 6].r);
+}
+
 } // namespace
 } // namespace meninas::test

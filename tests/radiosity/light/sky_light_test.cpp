@@ -270,6 +270,68 @@ TEST(SkyPortals, APanePassesWhatItsAngleLetsThrough) {
     }
 }
 
+TEST(SkyPortals, WhatStandsOutsideTakesItsPartOnce) {
+  // Rays of the form factors set out again behind what they pass outside the window: its light is still the window's.
+  Material veil = double_sided(diffuse(0.0));
+  veil.alpha_mode = AlphaMode::blend;
+  veil.alpha = 0.5;
+  const Material pane = double_sided(glass(Rgb(1.0)));
+  for (const Material* outside : {&veil, &pane}) {
+    Scene scene = room_with_window(diffuse(0.0));
+    add_polygon(scene, "outside", {{5, -90, -90}, {5, -90, 90}, {5, 90, 90}, {5, 90, -90}}, *outside);
+    scene.background = Rgb(1.0);
+    const auto l = lit(scene, {.element_size = 0.5});
+    ASSERT_EQ(l->light->portals.size(), 1U);
+    const RadiositySolution solution = solve_pass_one(l->light, with_rays(64));
+    const ElementMesh& mesh = solution.field.mesh();
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      if (!is_inside_floor(mesh.vertices[v]))
+        continue;
+      const double here = through_window(mesh.vertices[v], {0, 1, 0}, [&](const Direction& d) {
+        return outside == &veil ? 0.5 : pane_transmittance(1.5, d.x);
+      });
+      // By some tens of shadow rays.
+      EXPECT_NEAR(solution.field.irradiance[v].g, here, 0.03 * here + 1e-3);
+    }
+  }
+}
+
+/// Walls of `sides` faces about the y axis, a floor, and a ceiling with a round hole.
+Scene drum(double radius, double height, double hole, int sides) {
+  Scene scene;
+  const auto on = [&](double r, double y, int k) {
+    const double phi = -2.0 * pi * k / sides;
+    return Point3(r * std::cos(phi), y, r * std::sin(phi));
+  };
+  for (int k = 0; k < sides; ++k) {
+    const Material black = double_sided(diffuse(0.0));
+    add_polygon(scene, "wall", {on(radius, 0, k), on(radius, 0, k + 1), on(radius, height, k + 1), on(radius, height, k)}, black);
+    add_polygon(scene, "floor", {on(radius, 0, k + 1), on(radius, 0, k), {0, 0, 0}}, black);
+    add_polygon(scene, "ceiling", {on(radius, height, k), on(radius, height, k + 1), on(hole, height, k + 1), on(hole, height, k)}, black);
+  }
+  scene.background = Rgb(1.0);
+  return scene;
+}
+
+TEST(SkyPortals, ARoundOpeningIsAFewPolygons) {
+  constexpr int sides = 96;
+  const auto l = lit(drum(3.0, 3.0, 0.5, sides), {.element_size = 3.0});
+  EXPECT_EQ(l->light->portals.size(), 4U) << "of 32 corners at most";
+  double area = 0.0;
+  for (const SkyPortal& portal : l->light->portals)
+    area += portal.area;
+  EXPECT_NEAR(area, 0.5 * sides * 0.25 * std::sin(2.0 * pi / sides), 1e-12);
+}
+
+TEST(SkyPortals, TheMouthOfAPotIsNone) {
+  // What it lights is lit by a large part of the sky, which rays find.
+  EXPECT_TRUE(lit(drum(0.5, 0.5, 0.4, 12), {.element_size = 1.0})->light->portals.empty());
+  // A narrow mouth of a small pot on a wide floor lights too little.
+  Scene garden = drum(0.1, 0.1, 0.02, 12);
+  add_polygon(garden, "ground", {{-9, -0.1, 9}, {9, -0.1, 9}, {9, -0.1, -9}, {-9, -0.1, -9}}, diffuse(0.5));
+  EXPECT_TRUE(lit(garden, {.element_size = 3.0})->light->portals.empty());
+}
+
 TEST(SkyPortals, EnergyIsBalancedAndBitsAreTheSameForAnyThreadCount) {
   Scene scene = room_with_window(diffuse(0.6));
   scene.background = sky_of([](const Direction& d) { return Rgb(1.0 + d.y, 1.0, 1.0 - d.y); });

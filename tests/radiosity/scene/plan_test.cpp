@@ -1,10 +1,13 @@
 #include "radiosity/scene/plan.h"
+#include "tests/support/glass_rooms.h"
 #include "tests/support/scene_builder.h"
+#include "tests/support/skies.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace meninas::test {
 namespace {
@@ -225,6 +228,16 @@ TEST(Plan, ManyFacetedMirrorsAreToldInOneLine) {
     // The boxes stand in a row: they share bottom, top, front and back, each has two of its own.
     EXPECT_THAT(line, HasSubstr(std::to_string(4 + 2 * count) + " planes"));
   }
+}
+
+TEST(Plan, SunsOfAPictureAreDirectionalLights) {
+  Scene scene = room_with(solid_glass(Rgb(1.0)));
+  const auto says = [&] { return plan_of(scene).warnings; };
+  scene.background = sky_of([](const Direction&) { return Rgb(1.0); });
+  EXPECT_THAT(says(), Not(Contains(HasSubstr("solid glass does not bend"))));
+  scene.background =
+      sky_of([](const Direction& d) { return Rgb(d.y > std::cos(0.02) ? 1e6 : 1.0); });
+  EXPECT_THAT(says(), Contains(HasSubstr("solid glass does not bend")));
 }
 
 } // namespace

@@ -142,6 +142,24 @@ TEST(RadianceMaps, LargeOrFaintLightsStayInTheMap) {
   EXPECT_EQ(with_sun({-1.0, 0.0, 0.0}, 1.0, 1e5).suns.size(), 1U) << "across the seam";
 }
 
+TEST(RadianceMaps, ASunMayBeAllTheLightThereIs) {
+  RadianceMap raw = raw_map(2048, 1024, glm::vec3(0.0F));
+  raw.texels[7] = glm::vec3(1e6F); // about the pole
+  TexelFaults faults;
+  const RadianceMap map = make_radiance_map(std::move(raw), {}, faults);
+  ASSERT_EQ(map.suns.size(), 1U);
+  const double all = 1e6 * texel_solid_angle(map, 0);
+  EXPECT_NEAR(map.suns[0].irradiance.g, all, 1e-5 * all);
+  EXPECT_GT(map.suns[0].towards.y, 0.9999);
+}
+
+TEST(RadianceMaps, TexelsWiderThanASunAreNone) {
+  RadianceMap raw = raw_map(64, 32, glm::vec3(1.0F));
+  raw.texels[64 * 12 + 5] = glm::vec3(1e6F);
+  TexelFaults faults;
+  EXPECT_TRUE(make_radiance_map(std::move(raw), {}, faults).suns.empty());
+}
+
 TEST(Environments, SayWhatTheyAre) {
   EXPECT_TRUE(is_dark(Environment{}));
   EXPECT_FALSE(is_dark(Environment(Rgb(0.0, 0.1, 0.0))));

@@ -32,8 +32,9 @@ TEST(SunPosition, AgreesWithPublishedPlaces) {
     const SunAngles sun = sun_angles(known.place, known.time);
     EXPECT_NEAR(sun.elevation, known.sun.elevation, known.error);
     const Direction found = direction_of(sun), expected = direction_of(known.sun);
-    if (known.sun.elevation < 89.0 && known.place.latitude < 89.0)
+    if (known.sun.elevation < 89.0 && known.place.latitude < 89.0) {
       EXPECT_LT(glm::degrees(std::acos(std::min(1.0, glm::dot(found, expected)))), 0.02);
+    }
   }
 }
 
