@@ -116,6 +116,12 @@ void add_picture_options(Options& command, RenderOptions& options) {
                      request.picture.transform, picture_group);
   add_pixel_options(command, options.common.settings, picture_group);
   command
+      .add("--depth", "8|16", "bits of a PNG's channel [8]",
+           [&](const std::string& text) {
+             request.picture.png_bits = parse_choice("--depth", text, Choices<int>{{"8", 8}, {"16", 16}});
+           })
+      .group(picture_group);
+  command
       .add_flag("--float", "write an EXR of 32 bits a channel [16]",
                 [&] { request.picture.exr_type = PixelType::float32; })
       .group(picture_group);

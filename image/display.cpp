@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 namespace meninas {
@@ -16,14 +17,16 @@ static double srgb_to_linear(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
+static double linear_to_srgb(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
 float srgb_encode(float linear) {
   if (!(linear > 0.0F))
     return 0.0F;
   if (linear >= 1.0F)
     return 1.0F;
-  const double value = linear;
-  return static_cast<float>(value <= 0.0031308 ? 12.92 * value
-                                               : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055);
+  return static_cast<float>(linear_to_srgb(linear));
 }
 
 float srgb_decode(float encoded) {
@@ -34,18 +37,13 @@ float srgb_decode(float encoded) {
   return static_cast<float>(srgb_to_linear(encoded));
 }
 
-std::vector<std::uint8_t> display_codes(const Image& picture, double exposure,
-                                        ViewTransform transform) {
+/// One code value for each channel of each pixel, as it is shown.
+template <typename Code>
+static std::vector<Code> shown_codes(const Image& picture, double exposure, ViewTransform transform,
+                                     const std::function<Code(double)>& code_of) {
   expects(std::isfinite(exposure), "an exposure is finite");
-
-  // A value rounds to code k or above when it reaches the linear value of k - 1/2, so its code
-  // is the number of such thresholds it reaches: exact rounding without a power for every pixel.
-  std::array<double, 255> thresholds{};
-  for (std::size_t k = 0; k < thresholds.size(); ++k)
-    thresholds[k] = srgb_to_linear((static_cast<double>(k) + 0.5) / 255.0);
-
   const double scale = std::exp2(exposure);
-  std::vector<std::uint8_t> codes;
+  std::vector<Code> codes;
   codes.reserve(3 * picture.pixels.size());
   for (const auto& pixel : picture.pixels) {
     glm::dvec3 exposed(0.0);
@@ -56,10 +54,30 @@ std::vector<std::uint8_t> display_codes(const Image& picture, double exposure,
     }
     const glm::dvec3 shown = displayed(transform, exposed);
     for (int c = 0; c < 3; ++c)
-      codes.push_back(static_cast<std::uint8_t>(std::ranges::upper_bound(thresholds, shown[c]) -
-                                                thresholds.begin()));
+      codes.push_back(code_of(shown[c]));
   }
   return codes;
+}
+
+std::vector<std::uint8_t> display_codes(const Image& picture, double exposure,
+                                        ViewTransform transform) {
+  // A value rounds to code k or above when it reaches the linear value of k - 1/2, so its code
+  // is the number of such thresholds it reaches: exact rounding without a power for every pixel.
+  std::array<double, 255> thresholds{};
+  for (std::size_t k = 0; k < thresholds.size(); ++k)
+    thresholds[k] = srgb_to_linear((static_cast<double>(k) + 0.5) / 255.0);
+  return shown_codes<std::uint8_t>(picture, exposure, transform, [&](double shown) {
+    return static_cast<std::uint8_t>(std::ranges::upper_bound(thresholds, shown) -
+                                     thresholds.begin());
+  });
+}
+
+std::vector<std::uint16_t> display_codes_16(const Image& picture, double exposure,
+                                            ViewTransform transform) {
+  return shown_codes<std::uint16_t>(picture, exposure, transform, [](double shown) {
+    return static_cast<std::uint16_t>(
+        std::lround(65535.0 * linear_to_srgb(std::clamp(shown, 0.0, 1.0))));
+  });
 }
 
 // --- Automatic exposure

@@ -20,9 +20,11 @@ double automatic_exposure(const Image& picture);
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
-/// R, G, B of each pixel times 2^exposure, as the transform shows them, as 8-bit sRGB code values,
-/// rounded to nearest. No value may be NaN.
+/// R, G, B of each pixel times 2^exposure, as the transform shows them, as sRGB code values of 8 or
+/// 16 bits, rounded to nearest. No value may be NaN.
 std::vector<std::uint8_t> display_codes(const Image& picture, double exposure,
                                         ViewTransform transform = ViewTransform::srgb);
+std::vector<std::uint16_t> display_codes_16(const Image& picture, double exposure,
+                                            ViewTransform transform = ViewTransform::srgb);
 
 } // namespace meninas

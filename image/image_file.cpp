@@ -103,11 +103,15 @@ void write_exr(const fs::path& file, const Image& picture, std::span<const Layer
 
 std::vector<std::byte> encode_png(const Image& picture, const DisplaySettings& settings) {
   expect_picture(picture);
-  const auto codes = display_codes(picture, settings.exposure, settings.transform);
+  expects(settings.bits == 8 || settings.bits == 16, "a PNG has 8 or 16 bits a channel");
   PngText text;
   if (settings.transform != ViewTransform::srgb)
     text = {"View transform", title_of(settings.transform)};
   return encoded_as("PNG", [&] {
+    if (settings.bits == 16)
+      return encode_png(picture.width, picture.height,
+                        display_codes_16(picture, settings.exposure, settings.transform), text);
+    const auto codes = display_codes(picture, settings.exposure, settings.transform);
     return encode_png(picture.width, picture.height, codes, settings.compression, text);
   });
 }

@@ -44,10 +44,11 @@ void write_exr(const std::filesystem::path& file, const Image& picture,
 struct DisplaySettings {
   double exposure = 0.0; ///< stops
   ViewTransform transform = ViewTransform::srgb;
-  Compression compression = Compression::small;
+  Compression compression = Compression::small; ///< of 8 bits
+  int bits = 8;                                 ///< of a channel, or 16
 };
 
-/// sRGB-encoded 8-bit PNG of the picture, rounded to the nearest code value. It says the
+/// sRGB-encoded PNG of the picture, rounded to the nearest code value. It says the
 /// transform's name (`View transform`), unless that does nothing but clip. No value may be NaN.
 void write_png(const std::filesystem::path& file, const Image& picture,
                const DisplaySettings& settings);

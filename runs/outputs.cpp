@@ -101,7 +101,8 @@ void write_pictures(const std::vector<fs::path>& files, const Image& picture,
       exposure = automatic_exposure(picture);
       note(events, fmt::format("exposure {:+.2f} EV (automatic)", *exposure));
     }
-    write_png(file, picture, {.exposure = *exposure, .transform = settings.transform});
+    write_png(file, picture,
+              {.exposure = *exposure, .transform = settings.transform, .bits = settings.png_bits});
   }
   const bool has_png = std::ranges::any_of(
       files, [](const fs::path& file) { return picture_format(file) == PictureFormat::png; });

@@ -28,6 +28,7 @@ struct PictureSettings {
   PixelType exr_type = PixelType::half;
   std::optional<double> exposure; ///< stops, of a PNG; chosen for the picture otherwise
   ViewTransform transform = ViewTransform::neutral; ///< of a PNG
+  int png_bits = 8;                                 ///< of a channel, or 16
 };
 
 /// Layers go into EXRs only.

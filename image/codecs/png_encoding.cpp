@@ -30,6 +30,14 @@ static std::vector<std::byte> text_chunk(const PngText& text) {
   return chunk;
 }
 
+static void add_text(const PngText& text, std::vector<std::byte>& png) {
+  if (text.key.empty())
+    return;
+  constexpr std::ptrdiff_t behind_header = 8 + 25; // the signature and IHDR
+  const auto chunk = text_chunk(text);
+  png.insert(png.begin() + behind_header, chunk.begin(), chunk.end());
+}
+
 std::vector<std::byte> encode_png(int width, int height, std::span<const std::uint8_t> codes,
                                   Compression compression, const PngText& text) {
   png_image image{};
@@ -47,12 +55,73 @@ std::vector<std::byte> encode_png(int width, int height, std::span<const std::ui
                                 nullptr) == 0)
     throw std::runtime_error(image.message);
   std::vector<std::byte> png(bytes.get(), bytes.get() + size);
-  if (!text.key.empty()) {
-    constexpr std::ptrdiff_t behind_header = 8 + 25; // the signature and IHDR
-    const auto chunk = text_chunk(text);
-    png.insert(png.begin() + behind_header, chunk.begin(), chunk.end());
-  }
+  add_text(text, png);
   return png;
+}
+
+// --- 16 bits: the library's simple interface has them for linear light alone
+
+namespace {
+
+struct Written {
+  std::vector<std::byte> png;
+  std::string error;
+};
+
+void append(png_structp png, png_bytep bytes, std::size_t count) {
+  auto& written = *static_cast<Written*>(png_get_io_ptr(png));
+  const auto first = reinterpret_cast<const std::byte*>(bytes);
+  written.png.insert(written.png.end(), first, first + count);
+}
+
+[[noreturn]] void fail(png_structp png, png_const_charp reason) {
+  static_cast<Written*>(png_get_error_ptr(png))->error = reason;
+  png_longjmp(png, 1);
+}
+
+void ignore(png_structp, png_const_charp) {}
+
+/// False where the library has jumped out of it. Nothing here may need a destructor.
+bool write_rows(png_structp png, png_infop info, png_uint_32 width, png_uint_32 height,
+                const png_byte* codes) {
+  if (setjmp(png_jmpbuf(png)) != 0)
+    return false;
+  constexpr int depth = 16;
+  png_set_IHDR(png, info, width, height, depth, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_write_info(png, info);
+  const std::size_t row = std::size_t{6} * width;
+  for (png_uint_32 y = 0; y < height; ++y)
+    png_write_row(png, codes + y * row);
+  png_write_end(png, info);
+  return true;
+}
+
+} // namespace
+
+std::vector<std::byte> encode_png(int width, int height, std::span<const std::uint16_t> codes,
+                                  const PngText& text) {
+  std::vector<png_byte> big_endian;
+  big_endian.reserve(2 * codes.size());
+  for (const std::uint16_t code : codes) {
+    big_endian.push_back(static_cast<png_byte>(code >> 8));
+    big_endian.push_back(static_cast<png_byte>(code & 0xff));
+  }
+  Written written;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &written, fail, ignore);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  bool is_whole = false;
+  if (info != nullptr) {
+    png_set_write_fn(png, &written, append, nullptr);
+    is_whole = write_rows(png, info, static_cast<png_uint_32>(width),
+                          static_cast<png_uint_32>(height), big_endian.data());
+  }
+  png_destroy_write_struct(&png, &info);
+  if (!is_whole)
+    throw std::runtime_error(written.error.empty() ? "no memory for a PNG" : written.error);
+  add_text(text, written.png);
+  return std::move(written.png);
 }
 
 } // namespace meninas

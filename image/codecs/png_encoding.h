@@ -17,9 +17,11 @@ struct PngText {
   std::string_view key, text;
 };
 
-/// RGB of 8 bits, marked as sRGB. `codes`: width * height * 3 code values, rows from the top.
+/// RGB of 8 or 16 bits, marked as sRGB. `codes`: width * height * 3 code values, rows from the top.
 /// Throws std::runtime_error where the library cannot go on.
 std::vector<std::byte> encode_png(int width, int height, std::span<const std::uint8_t> codes,
                                   Compression compression, const PngText& text = {});
+std::vector<std::byte> encode_png(int width, int height, std::span<const std::uint16_t> codes,
+                                  const PngText& text = {});
 
 } // namespace meninas

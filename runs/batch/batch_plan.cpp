@@ -160,7 +160,7 @@ bool is_of_pass_two(const Setting& setting) {
   constexpr std::array names{"mode",      "diffuse",     "camera",      "size",          "samples",
                              "max-error", "max-seconds", "exposure",    "layers",        "float",
                              "view",      "view-transform", "filter",      "pixel-error", "glossy-samples",
-                             "at",        "variant",        "projection"};
+                             "at",        "variant",        "projection",  "depth"};
   return std::ranges::find(names, setting.name) != names.end();
 }
 

@@ -39,13 +39,13 @@ TEST_F(PlannedCost, IsTheSumOfItsStages) {
 
 TEST_F(PlannedCost, GrowsWithWhatIsAskedFor) {
   // Counts go into it as factors:
-  // ten times as many are more, whatever else the machine does meanwhile.
+  // a hundred times as many are more, whatever else the machine does meanwhile.
   const auto stage = [&](const char* name, std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--quality", "draft"});
     return expected(std::move(arguments)).at("seconds").at(name).get<double>();
   };
-  EXPECT_GT(stage("render", {"--size", "320x320"}), 3.0 * stage("render", {"--size", "32x32"}));
-  EXPECT_GT(stage("form_factors", {"--size", "8x8", "--element-size", "0.02"}),
+  EXPECT_GT(stage("render", {"--size", "1600x1600"}), 3.0 * stage("render", {"--size", "32x32"}));
+  EXPECT_GT(stage("form_factors", {"--size", "8x8", "--element-size", "0.01"}),
             3.0 * stage("form_factors", {"--size", "8x8", "--element-size", "0.2"}));
   EXPECT_GT(stage("interpolate", {"--size", "8x8", "--rays", "4096"}),
             3.0 * stage("interpolate", {"--size", "8x8", "--rays", "64"}));

@@ -66,6 +66,29 @@ TEST_F(Png, EveryCodeValueComesBack) {
     EXPECT_EQ(read.at(code, 0), glm::vec3(srgb_decode(static_cast<float>(code) / 255.0F))) << code;
 }
 
+TEST_F(Png, SixteenBitsTellTwoHundredTimesAsManyValues) {
+  Image picture(1000, 3);
+  for (int k = 0; k < 1000; ++k)
+    for (int y = 0; y < 3; ++y)
+      picture.at(k, y) = {1e-3F * float(k), 0.5F, 0.25F * float(y)};
+  write_png(folder / "a.png", picture,
+            {.exposure = -1.0, .transform = ViewTransform::neutral, .bits = 16});
+  const ImageFile file = read_image(folder / "a.png");
+  for (int k = 0; k < 1000; ++k)
+    for (int y = 0; y < 3; ++y) {
+      const glm::dvec3 shown =
+          displayed(ViewTransform::neutral, 0.5 * glm::dvec3(picture.at(k, y)));
+      for (int c = 0; c < 3; ++c)
+        // Half a code value, in linear light at most 2.275 / 2 of it, and a float's rounding.
+        EXPECT_NEAR(file.picture.at(k, y)[c], shown[c], 1.2 / 65535.0) << k << ' ' << y << ' ' << c;
+    }
+  const auto read = bytes_of(folder / "a.png");
+  const std::string bytes(reinterpret_cast<const char*>(read.data()), read.size());
+  EXPECT_EQ(bytes[24], 16);
+  EXPECT_NE(bytes.find("View transform"), std::string::npos);
+  EXPECT_NE(bytes.find("sRGB"), std::string::npos);
+}
+
 TEST_F(Png, PixelsKeepTheirPlaceAndChannel) {
   Image picture(3, 2);
   picture.at(2, 0) = {1.0F, 0.0F, 0.0F};
