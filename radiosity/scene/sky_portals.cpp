@@ -17,8 +17,7 @@ constexpr std::size_t most_portals = 64;
 constexpr int points = 16;          ///< of an opening that are asked
 constexpr double open_enough = 0.25; ///< share of rays outwards that escape
 constexpr double shut_enough = 0.25; ///< share of rays inwards that may escape
-constexpr double near_enough = 0.25; ///< share of what is seen from inside that it may be
-constexpr double worth_while = 1e-3; ///< share of the scene's area that it lights
+constexpr double small_enough = 0.5; ///< share of the area that it lights
 
 /// How far a ray comes past panes, metres: infinitely far where it meets nothing else.
 double free_path(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays, Ray ray) {
@@ -84,7 +83,6 @@ double hair_of(const SurfaceModel& surfaces, const SkyPortal& opening) {
 /// What rays from points of a polygon find on one side of it.
 struct Outlook {
   double escaping = 0.0; ///< share of them
-  double near = 0.0;     ///< mean of min(1, A / pi d^2) of the others: the opening's share of what is seen from there
   double lit = 0.0;      ///< mean of pi d^2 of the others: about the area of what it lights, m^2
 };
 
@@ -99,12 +97,9 @@ Outlook outlook_of(const Scene& scene, const SurfaceModel& surfaces, const RaySc
       outlook.escaping += 1.0 / points;
       continue;
     }
-    const double about = std::numbers::pi * path * path;
-    outlook.near += opening.area < about ? opening.area / about : 1.0;
-    outlook.lit += about;
+    outlook.lit += std::numbers::pi * path * path;
     ++ended;
   }
-  outlook.near /= std::max(1, ended);
   outlook.lit /= std::max(1, ended);
   return outlook;
 }
@@ -125,9 +120,9 @@ bool is_open(const SurfaceModel& surfaces, const RayScene& rays, const SkyPortal
 }
 
 /// Whether rays from what it lights would seldom find the sky through it: a window, not the mouth of a pot.
-bool is_window(const Outlook& inside, const Outlook& outside, double scene_area) {
+bool is_window(const SkyPortal& opening, const Outlook& inside, const Outlook& outside) {
   return inside.escaping <= shut_enough && outside.escaping >= open_enough &&
-         inside.near <= near_enough && inside.lit >= worth_while * scene_area;
+         opening.area <= small_enough * inside.lit;
 }
 
 /// Leaves out portals behind which all rays leave by another, as a hole behind its pane.
@@ -206,9 +201,6 @@ std::vector<SkyPortal> find_sky_portals(const Scene& scene, const SurfaceModel& 
   std::vector<SkyPortal> candidates = candidates_of(scene, surfaces);
   if (candidates.size() > 4 * most_portals)
     candidates.resize(4 * most_portals);
-  double area = 0.0;
-  for (const Surface& surface : surfaces.surfaces)
-    area += surface.area;
   for (SkyPortal& opening : candidates) {
     if (portals.size() == most_portals)
       break;
@@ -216,9 +208,9 @@ std::vector<SkyPortal> find_sky_portals(const Scene& scene, const SurfaceModel& 
       continue;
     const Outlook front = outlook_of(scene, surfaces, rays, opening, 1.0),
                   back = outlook_of(scene, surfaces, rays, opening, -1.0);
-    if (is_window(front, back, area))
+    if (is_window(opening, front, back))
       portals.push_back(std::move(opening));
-    else if (is_window(back, front, area))
+    else if (is_window(opening, back, front))
       portals.push_back(turned_round(std::move(opening)));
   }
   keep_last(surfaces, portals);

@@ -25,9 +25,9 @@ struct SkyPortal {
   double area = 0.0;
 };
 
-/// Those of a scene under a sky: openings that are open to it on one side alone, less than a quarter of what
-/// is seen from where rays through them end, and light a thousandth of the scene's area; the 64 largest.
-/// The light of others, as of a doorway without a room or of a pot's mouth, is gathered.
+/// Those of a scene under a sky: openings that are open to it on one side alone, no more than half as large
+/// as what they light, about pi d^2 for rays that end after d metres; the 64 largest. The light of others, as
+/// of a shelf or a pot's mouth, is gathered.
 std::vector<SkyPortal> find_sky_portals(const Scene& scene, const SurfaceModel& surfaces,
                                         const RayScene& rays);
 

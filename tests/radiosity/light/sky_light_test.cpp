@@ -275,8 +275,9 @@ TEST(SkyPortals, WhatStandsOutsideTakesItsPartOnce) {
   Material veil = double_sided(diffuse(0.0));
   veil.alpha_mode = AlphaMode::blend;
   veil.alpha = 0.5;
-  const Material pane = double_sided(glass(Rgb(1.0)));
-  for (const Material* outside : {&veil, &pane}) {
+  veil.transmission = 0.5;
+  const Material pane = double_sided(glass(Rgb(0.5), 1.0)); // reflects nothing
+  for (const Material* outside : std::initializer_list<const Material*>{&veil, &pane}) {
     Scene scene = room_with_window(diffuse(0.0));
     add_polygon(scene, "outside", {{5, -90, -90}, {5, -90, 90}, {5, 90, 90}, {5, 90, -90}}, *outside);
     scene.background = Rgb(1.0);
@@ -288,10 +289,11 @@ TEST(SkyPortals, WhatStandsOutsideTakesItsPartOnce) {
       if (!is_inside_floor(mesh.vertices[v]))
         continue;
       const double here = through_window(mesh.vertices[v], {0, 1, 0}, [&](const Direction& d) {
-        return outside == &veil ? 0.5 : pane_transmittance(1.5, d.x);
+        return d.x > 0.0 ? 0.5 : 0.0;
       });
       // By some tens of shadow rays.
-      EXPECT_NEAR(solution.field.irradiance[v].g, here, 0.03 * here + 1e-3);
+      EXPECT_NEAR(solution.field.irradiance[v].g, here, 0.03 * here + 1e-3)
+          << (outside == &veil ? "veil " : "pane ") << mesh.vertices[v].x << " " << mesh.vertices[v].z;
     }
   }
 }
@@ -326,10 +328,6 @@ TEST(SkyPortals, ARoundOpeningIsAFewPolygons) {
 TEST(SkyPortals, TheMouthOfAPotIsNone) {
   // What it lights is lit by a large part of the sky, which rays find.
   EXPECT_TRUE(lit(drum(0.5, 0.5, 0.4, 12), {.element_size = 1.0})->light->portals.empty());
-  // A narrow mouth of a small pot on a wide floor lights too little.
-  Scene garden = drum(0.1, 0.1, 0.02, 12);
-  add_polygon(garden, "ground", {{-9, -0.1, 9}, {9, -0.1, 9}, {9, -0.1, -9}, {-9, -0.1, -9}}, diffuse(0.5));
-  EXPECT_TRUE(lit(garden, {.element_size = 3.0})->light->portals.empty());
 }
 
 TEST(SkyPortals, EnergyIsBalancedAndBitsAreTheSameForAnyThreadCount) {
