@@ -3,6 +3,7 @@
 #include "image/image_file.h"
 #include "reference/light_images.h"
 #include "reference/mirror_planes.h"
+#include "scenes/errors.h"
 #include "scenes/materials/constant_textures.h"
 #include "scenes/rays/mixed_scales.h"
 #include "scenes/sky/cube_faces.h"
@@ -15,11 +16,18 @@ namespace meninas::reference {
 
 namespace {
 
-TexturePixels decode(const Texture& texture, TextureContent content) {
-  Bitmap bitmap = decode_image(
-      texture.encoded, content == TextureContent::colour ? Encoding::srgb : Encoding::linear,
-      texture.name);
-  return {bitmap.width, bitmap.height, std::move(bitmap.pixels)};
+/// White, which leaves the factor as it is, where it cannot be decoded.
+TexturePixels decode(const Texture& texture, TextureContent content,
+                     std::vector<std::string>& warnings) {
+  try {
+    Bitmap bitmap = decode_image(
+        texture.encoded, content == TextureContent::colour ? Encoding::srgb : Encoding::linear,
+        texture.name);
+    return {bitmap.width, bitmap.height, std::move(bitmap.pixels)};
+  } catch (const InputError& problem) {
+    warnings.push_back(std::string(problem.what()) + ": the factor is used alone");
+    return {1, 1, {glm::vec4(1.0F)}};
+  }
 }
 
 bool is_see_through(const Material& material) {
@@ -29,7 +37,10 @@ bool is_see_through(const Material& material) {
 } // namespace
 
 TracedScene make_traced_scene(Scene scene) {
-  DecodedTextures textures = decode_textures(scene, decode);
+  DecodedTextures textures =
+      decode_textures(scene, [&](const Texture& texture, TextureContent content) {
+        return decode(texture, content, scene.warnings);
+      });
   std::ranges::move(fold_constant_textures(scene, textures), std::back_inserter(scene.warnings));
   settle_environment(
       scene.background,

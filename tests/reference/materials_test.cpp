@@ -1,5 +1,6 @@
 // What the scene model holds beyond diffuse walls and ideal mirrors.
 #include "image/image_file.h"
+#include "reference/scene_setup.h"
 #include "tests/reference/tracing.h"
 #include "tests/support/rooms.h"
 
@@ -186,6 +187,18 @@ TEST(ReferenceMaterials, PolishedWhiteInAFurnaceIsInvisible) {
   const MeanRadiance seen = radiance_seen(scene, {0.5, 0.6, 0.95}, {0.45, 0.5, 0.7}, 1024);
   for (int band = 0; band < 3; ++band)
     EXPECT_NEAR(seen.mean[band], 2.0 / pi, 4.0 * seen.error[band] + 3e-3 * 2.0 / pi);
+}
+
+TEST(ReferenceMaterials, ATextureThatCannotBeReadIsLeftOutAndSaid) {
+  Scene scene = furnace(0.5, {});
+  scene.textures.push_back({.name = "wall.ktx2", .encoded = std::vector<std::byte>(64)});
+  scene.materials[0].base_color_texture = TextureUse{.texture = TextureId{0}};
+  const reference::TracedScene traced = reference::make_traced_scene(scene);
+  ASSERT_FALSE(traced.scene.warnings.empty());
+  EXPECT_NE(traced.scene.warnings.back().find("wall.ktx2"), std::string::npos);
+  EXPECT_NE(traced.scene.warnings.back().find("the factor is used alone"), std::string::npos);
+  // A furnace of E = 1 and reflectance 0.5 glows with 2 / pi.
+  expect_radiance(radiance_seen(scene, {0.5, 0.5, 0.9}, {0.5, 0.5, 0.0}, 256), Rgb(2.0 / pi));
 }
 
 } // namespace
