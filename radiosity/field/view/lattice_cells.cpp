@@ -178,7 +178,8 @@ static void add_hanging(const LatticeCells& cells, std::uint32_t a, std::uint32_
   add_hanging(cells, middle, b, hanging);
 }
 
-std::vector<HangingCorner> hanging_corners(const LatticeCells& all) {
+std::vector<HangingCorner> hanging_corners(const LatticeCells& all,
+                                           std::vector<std::uint32_t> leaves) {
   const std::vector<LatticeCell>& cells = all.cells();
   // Edges are looked up where not both cells beside them were divided along them: at the ends of these.
   std::vector<std::uint8_t> times(all.vertices().size(), 0), is_end(times.size(), 0);
@@ -193,10 +194,6 @@ std::vector<HangingCorner> hanging_corners(const LatticeCells& all) {
         is_end[end] = 1;
 
   // Larger cells first: corners of smaller ones hang on them.
-  std::vector<std::uint32_t> leaves;
-  for (std::uint32_t c = 0; c < cells.size(); ++c)
-    if (cells[c].first_child == LatticeCell::leaf)
-      leaves.push_back(c);
   std::ranges::stable_sort(leaves, {}, [&](std::uint32_t c) { return cells[c].level; });
   std::vector<HangingCorner> hanging;
   for (const std::uint32_t c : leaves) {

@@ -100,7 +100,8 @@ struct HangingCorner {
   std::uint32_t vertex, end_a, end_b;
 };
 
-/// Those whose ends hang themselves after these.
-std::vector<HangingCorner> hanging_corners(const LatticeCells& cells);
+/// Those on the edges of these leaves; those whose ends hang themselves after these.
+std::vector<HangingCorner> hanging_corners(const LatticeCells& cells,
+                                           std::vector<std::uint32_t> leaves);
 
 } // namespace meninas

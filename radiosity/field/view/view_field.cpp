@@ -294,9 +294,14 @@ private:
     return divide;
   }
 
-  /// Vertices on the edge of a larger cell take what that has there: no crack is left.
+  /// Vertices on the edge of a larger cell take what that has there: no crack is left. Where
+  /// nobody looks there is none to be seen, and the edge of what is seen stays as fine as it is.
   void settle() {
-    for (const auto& [vertex, a, b] : hanging_corners(cells_)) {
+    std::vector<std::uint32_t> seen;
+    for (std::uint32_t c = 0; c < cells_.cells().size(); ++c)
+      if (cells_.cells()[c].first_child == LatticeCell::leaf && seen_.pixels(c) > 0.0)
+        seen.push_back(c);
+    for (const auto& [vertex, a, b] : hanging_corners(cells_, std::move(seen))) {
       VertexLight& light = lights_[vertex];
       light.direct = 0.5F * (lights_[a].direct + lights_[b].direct);
       light.direct_mirrored = 0.5F * (lights_[a].direct_mirrored + lights_[b].direct_mirrored);
