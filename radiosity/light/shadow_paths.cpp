@@ -54,6 +54,27 @@ Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample) {
       polygon, [&](std::size_t k) { return share_of(polygon, area, k); }, sample);
 }
 
+double area_of(std::span<const ConvexPolygon> parts) {
+  double sum = 0.0;
+  for (const ConvexPolygon& part : parts)
+    sum += glm::length(area_vector(part.span()));
+  return sum;
+}
+
+Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& last, Vec2 sample) {
+  double before = 0.0;
+  for (const ConvexPolygon& part : parts.first(parts.size() - 1)) {
+    const Vec3 own = area_vector(part.span());
+    const double share = glm::length(own) / area;
+    if (sample.x < before + share)
+      return point_on(part, own, Vec2((sample.x - before) / share, sample.y));
+    before += share;
+  }
+  const double within =
+      before < 1.0 ? std::clamp((sample.x - before) / (1.0 - before), 0.0, 1.0) : 0.5;
+  return point_on(parts.back(), last, Vec2(within, sample.y));
+}
+
 void fold(const LightScene& light, WorldId world, const Leg& whole, FoldedSegment& segment) {
   segment.world = world;
   fold_legs(light.worlds, light.mirrors, world, whole, segment.legs);

@@ -27,6 +27,11 @@ struct PolygonFan {
 Point3 point_on(const PolygonFan& fan, Vec2 sample);
 Point3 point_on(const ConvexPolygon& polygon, const Vec3& area, Vec2 sample);
 
+/// Of parts of a polygon: their area, and a point with density one over it. `last` is the area vector
+/// of the last one.
+double area_of(std::span<const ConvexPolygon> parts);
+Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& last, Vec2 sample);
+
 /// What blocks a segment, and on which of its legs:
 /// none where it touches an end of the leg, or a mirror has a hole.
 struct LegBlocker {

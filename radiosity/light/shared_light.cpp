@@ -23,8 +23,6 @@ struct PointSum {
 std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const VirtualLight& image,
                      const SharedLightSettings& settings) {
   const std::uint64_t key = (std::uint64_t{index(image.world)} << 32) | image.emitter;
-  // What hides the sky may be beyond the opening.
-  const bool learns = settings.learns && !light.emitters[image.emitter].shows_sky();
   const auto [found, is_new] =
       work.image_of.try_emplace(key, static_cast<std::uint32_t>(work.images.size()));
   if (is_new)
@@ -33,7 +31,7 @@ std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const Vi
                            .world = image.world,
                            .emitter = image.emitter,
                            .from_a_point = static_cast<std::uint32_t>(settings.rays),
-                           .blockers = learns ? &work.blockers_of[key] : nullptr});
+                           .blockers = settings.learns ? &work.blockers_of[key] : nullptr});
   return found->second;
 }
 
@@ -91,29 +89,6 @@ ImageAtPoint image_at(const Lighting& light, const Receiver& receiver, const Vir
   }
   at.form_factor = image.weight * form_factor_of(receiver, parts_of(at, image, work));
   return at;
-}
-
-double area_of(std::span<const ConvexPolygon> parts) {
-  double sum = 0.0;
-  for (const ConvexPolygon& part : parts)
-    sum += glm::length(area_vector(part.span()));
-  return sum;
-}
-
-/// A point of polygons that share a plane, with density one over their area:
-/// of a part by its share of the area. `last` is the area vector of the last one.
-Point3 point_on(std::span<const ConvexPolygon> parts, double area, const Vec3& last, Vec2 sample) {
-  double before = 0.0;
-  for (const ConvexPolygon& part : parts.first(parts.size() - 1)) {
-    const Vec3 own = area_vector(part.span());
-    const double share = glm::length(own) / area;
-    if (sample.x < before + share)
-      return point_on(part, own, Vec2((sample.x - before) / share, sample.y));
-    before += share;
-  }
-  const double within =
-      before < 1.0 ? std::clamp((sample.x - before) / (1.0 - before), 0.0, 1.0) : 0.5;
-  return point_on(parts.back(), last, Vec2(within, sample.y));
 }
 
 /// An image at a point, and what it is worth beside the brightest one there.

@@ -270,7 +270,7 @@ TEST(SkyPortals, APanePassesWhatItsAngleLetsThrough) {
     }
 }
 
-TEST(SkyPortals, WhatStandsOutsideTakesItsPartOnce) {
+TEST(SkyPortals, WhatIsOutsideTakesItsPartOnce) {
   // Rays of the form factors set out again behind what they pass outside the window: its light is still the window's.
   Material veil = double_sided(diffuse(0.0));
   veil.alpha_mode = AlphaMode::blend;
