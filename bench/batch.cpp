@@ -81,8 +81,8 @@ void one_after_the_other(const std::vector<BatchPicture>& pictures, const fs::pa
                       folder / "solution.glb", {}, figures);
   for (const BatchPicture& picture : pictures) {
     const ViewPicture view = render_view(lit, picture.camera, picture.size, settings, {}, figures);
-    write_pictures({folder / picture.outputs.front()}, view.image, view.layers, {}, view.attributes,
-                   {});
+    write_pictures({folder / picture.outputs.front()}, {view.image, view.layers, &view.edges}, {},
+                   view.attributes, {});
   }
 }
 

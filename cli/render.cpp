@@ -64,6 +64,19 @@ void add_outputs(Options& command, RenderOptions& options) {
       .group(study_group);
 }
 
+void add_depth_options(Options& command, PictureSettings& picture) {
+  command
+      .add("--depth", "8|16", "bits of a PNG's channel [8]",
+           [&](const std::string& text) {
+             picture.png_bits = parse_choice("--depth", text, Choices<int>{{"8", 8}, {"16", 16}});
+           })
+      .group(picture_group);
+  command
+      .add_flag("--float", "write an EXR of 32 bits a channel [16]",
+                [&] { picture.exr_type = PixelType::float32; })
+      .group(picture_group);
+}
+
 void add_picture_options(Options& command, RenderOptions& options) {
   RenderRequest& request = options.request;
   const auto add = [&](const std::string& option, const std::string& shown,
@@ -115,16 +128,7 @@ void add_picture_options(Options& command, RenderOptions& options) {
   add_view_transform(command, "how a PNG shows what is brighter than a display",
                      request.picture.transform, picture_group);
   add_pixel_options(command, options.common.settings, picture_group);
-  command
-      .add("--depth", "8|16", "bits of a PNG's channel [8]",
-           [&](const std::string& text) {
-             request.picture.png_bits = parse_choice("--depth", text, Choices<int>{{"8", 8}, {"16", 16}});
-           })
-      .group(picture_group);
-  command
-      .add_flag("--float", "write an EXR of 32 bits a channel [16]",
-                [&] { request.picture.exr_type = PixelType::float32; })
-      .group(picture_group);
+  add_depth_options(command, request.picture);
 }
 
 /// What makes a picture what it is, wherever it is written.
@@ -235,6 +239,7 @@ RenderRequest& completed_request(const Options& command, RenderOptions& options)
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
   const RunSettings& settings = options.common.settings;
+  options.request.settings.display = display_of(options.request.pictures, options.request.picture);
   if (settings.layers == WithLayers::yes || !settings.features.empty() || settings.view) {
     // In halves parts would not add up, and indices would be rounded.
     options.request.picture.exr_type = PixelType::float32;

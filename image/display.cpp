@@ -40,6 +40,7 @@ float srgb_decode(float encoded) {
 /// One code value for each channel of each pixel, as it is shown.
 template <typename Code>
 static std::vector<Code> shown_codes(const Image& picture, double exposure, ViewTransform transform,
+                                     std::span<const ShownPixel> instead,
                                      const std::function<Code(double)>& code_of) {
   expects(std::isfinite(exposure), "an exposure is finite");
   const double scale = std::exp2(exposure);
@@ -56,25 +57,29 @@ static std::vector<Code> shown_codes(const Image& picture, double exposure, View
     for (int c = 0; c < 3; ++c)
       codes.push_back(code_of(shown[c]));
   }
+  for (const ShownPixel& other : instead)
+    for (int c = 0; c < 3; ++c)
+      codes.at(3 * other.pixel + static_cast<std::size_t>(c)) = code_of(double{other.shown[c]});
   return codes;
 }
 
 std::vector<std::uint8_t> display_codes(const Image& picture, double exposure,
-                                        ViewTransform transform) {
+                                        ViewTransform transform, std::span<const ShownPixel> instead) {
   // A value rounds to code k or above when it reaches the linear value of k - 1/2, so its code
   // is the number of such thresholds it reaches: exact rounding without a power for every pixel.
   std::array<double, 255> thresholds{};
   for (std::size_t k = 0; k < thresholds.size(); ++k)
     thresholds[k] = srgb_to_linear((static_cast<double>(k) + 0.5) / 255.0);
-  return shown_codes<std::uint8_t>(picture, exposure, transform, [&](double shown) {
+  return shown_codes<std::uint8_t>(picture, exposure, transform, instead, [&](double shown) {
     return static_cast<std::uint8_t>(std::ranges::upper_bound(thresholds, shown) -
                                      thresholds.begin());
   });
 }
 
 std::vector<std::uint16_t> display_codes_16(const Image& picture, double exposure,
-                                            ViewTransform transform) {
-  return shown_codes<std::uint16_t>(picture, exposure, transform, [](double shown) {
+                                            ViewTransform transform,
+                                            std::span<const ShownPixel> instead) {
+  return shown_codes<std::uint16_t>(picture, exposure, transform, instead, [](double shown) {
     return static_cast<std::uint16_t>(
         std::lround(65535.0 * linear_to_srgb(std::clamp(shown, 0.0, 1.0))));
   });

@@ -4,7 +4,9 @@
 #include "image/image.h"
 #include "image/view_transform.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace meninas {
@@ -20,11 +22,26 @@ double automatic_exposure(const Image& picture);
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
+/// What a pixel shows, linear in [0, 1], where that is not what the transform makes of its mean.
+struct ShownPixel {
+  std::size_t pixel; ///< row by row
+  glm::vec3 shown;
+};
+
+/// What pixels show at one exposure, by one transform.
+struct ShownPixels {
+  double exposure = 0.0; ///< stops
+  ViewTransform transform = ViewTransform::srgb;
+  std::vector<ShownPixel> pixels;
+};
+
 /// R, G, B of each pixel times 2^exposure, as the transform shows them, as sRGB code values of 8 or
-/// 16 bits, rounded to nearest. No value may be NaN.
+/// 16 bits, rounded to nearest: of `instead` where that has the pixel. No value may be NaN.
 std::vector<std::uint8_t> display_codes(const Image& picture, double exposure,
-                                        ViewTransform transform = ViewTransform::srgb);
+                                        ViewTransform transform = ViewTransform::srgb,
+                                        std::span<const ShownPixel> instead = {});
 std::vector<std::uint16_t> display_codes_16(const Image& picture, double exposure,
-                                            ViewTransform transform = ViewTransform::srgb);
+                                            ViewTransform transform = ViewTransform::srgb,
+                                            std::span<const ShownPixel> instead = {});
 
 } // namespace meninas

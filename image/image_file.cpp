@@ -107,13 +107,18 @@ std::vector<std::byte> encode_png(const Image& picture, const DisplaySettings& s
   PngText text;
   if (settings.transform != ViewTransform::srgb)
     text = {"View transform", title_of(settings.transform)};
-  return encoded_as("PNG", [&] {
-    if (settings.bits == 16)
-      return encode_png(picture.width, picture.height,
-                        display_codes_16(picture, settings.exposure, settings.transform), text);
-    const auto codes = display_codes(picture, settings.exposure, settings.transform);
-    return encode_png(picture.width, picture.height, codes, settings.compression, text);
-  });
+  std::span<const ShownPixel> edges;
+  if (settings.edges && settings.edges->exposure == settings.exposure &&
+      settings.edges->transform == settings.transform)
+    edges = settings.edges->pixels;
+  const auto encoded = [&](const auto& codes) {
+    return encoded_as("PNG", [&] {
+      return encode_png(picture.width, picture.height, codes, settings.compression, text);
+    });
+  };
+  return settings.bits == 16
+             ? encoded(display_codes_16(picture, settings.exposure, settings.transform, edges))
+             : encoded(display_codes(picture, settings.exposure, settings.transform, edges));
 }
 
 std::vector<std::byte> encode_png(const Image& picture, double exposure, Compression compression) {

@@ -8,6 +8,7 @@
 // it cannot be written, InputError when it cannot be read, each naming the file.
 #pragma once
 
+#include "image/display.h"
 #include "image/image.h"
 #include "image/picture_options.h"
 #include "image/view_transform.h"
@@ -44,7 +45,8 @@ void write_exr(const std::filesystem::path& file, const Image& picture,
 struct DisplaySettings {
   double exposure = 0.0; ///< stops
   ViewTransform transform = ViewTransform::srgb;
-  Compression compression = Compression::small; ///< of 8 bits
+  const ShownPixels* edges = nullptr; ///< in place of their means, if of this exposure and transform
+  Compression compression = Compression::small;
   int bits = 8;                                 ///< of a channel, or 16
 };
 

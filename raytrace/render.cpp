@@ -1,7 +1,7 @@
 #include "raytrace/render.h"
 
 #include "raytrace/views/features.h"
-#include "raytrace/pixels/sample_choice.h"
+#include "raytrace/pixels/bright_edges.h"
 #include "raytrace/views/view_light.h"
 
 #include <algorithm>
@@ -30,6 +30,26 @@ static Rendering render_light(const IrradianceField& field,
   return result;
 }
 
+/// What a display shows at the edges of bright things.
+static void show_edges(const IrradianceField& field, const Camera& camera,
+                       const RenderSettings& settings, Rendering& result) {
+  const DisplayChoice& display = *settings.display;
+  result.edges.exposure = display.exposure.value_or(automatic_exposure(result.image));
+  result.edges.transform = display.transform;
+  const PixelMask pixels = bright_edges(result.image, result.edges.exposure);
+  if (std::ranges::find(pixels, 1) == pixels.end())
+    return;
+  const VisibleLight all = visible_light(field, field_content(field, settings.diffuse));
+  const auto gathering = make_gathering(field, settings.diffuse);
+  result.edges.pixels = shown_at_edges(
+      settings,
+      [&](const SampleShare& share, const StorePixel& store) {
+        add(result, trace_picture({*field.scene, all, gathering.get(), camera, settings}, share, {},
+                                  store));
+      },
+      pixels, result.edges);
+}
+
 Rendering render(const IrradianceField& field, const Camera& camera,
                  const RenderSettings& settings, const Progress& progress) {
   expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
@@ -38,6 +58,8 @@ Rendering render(const IrradianceField& field, const Camera& camera,
   Rendering result = settings.layers == WithLayers::yes
                          ? render_layers(shown, camera, light.settings, progress)
                          : render_light(shown, camera, light.settings, progress);
+  if (settings.display)
+    show_edges(shown, camera, light.settings, result);
   std::ranges::move(render_features(field, camera, settings),
                     std::back_inserter(result.layers));
   result.finer = light.field;

@@ -2,12 +2,14 @@
 // what each pixel sees, W/m^2/sr, as the mean over its samples.
 #pragma once
 
+#include "image/display.h"
 #include "image/image.h"
 #include "raytrace/diffuse_term.h"
 #include "raytrace/pixels/pixel_filter.h"
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 namespace meninas {
@@ -23,6 +25,12 @@ inline constexpr std::array all_features{Feature::depth, Feature::normal, Featur
                                          Feature::element, Feature::irradiance};
 /// "depth"
 std::string_view name_of(Feature feature);
+
+/// How a display will show the picture.
+struct DisplayChoice {
+  std::optional<double> exposure; ///< stops; the automatic one otherwise
+  ViewTransform transform = ViewTransform::srgb;
+};
 
 struct RenderSettings {
   RenderMode mode = RenderMode::hybrid;
@@ -41,6 +49,8 @@ struct RenderSettings {
   WithLayers layers = WithLayers::no; ///< as `render_layers` makes them
   std::vector<Feature> features;      ///< layers after those
   DiffuseSettings diffuse;
+  /// Edges of what is brighter than a display that shows the picture so (pixels/bright_edges.h).
+  std::optional<DisplayChoice> display;
 };
 
 /// By pixel, row by row; empty: all have as many as the settings say.
@@ -49,6 +59,7 @@ using SampleCounts = std::vector<std::uint32_t>;
 struct Rendering {
   Image image; ///< radiance
   SampleCounts samples;
+  ShownPixels edges; ///< as RenderSettings::display asks for
   std::vector<Layer>
       layers; ///< of render_layers: they add up to the image, in their order; then features
   std::shared_ptr<const IrradianceField> finer; ///< that the picture shows (views/view_light.h); null: the one that was asked for

@@ -78,6 +78,7 @@ TwoPassSettings two_pass_settings(const TwoPassChoice& choice, RenderMode mode) 
   render.mode = mode;
   render.samples = power_of_two(choice.samples.value_or(render_quality(choice.quality).samples));
   render.seed = choice.seed;
+  render.display = choice.display;
   render.layers = choice.layers;
   render.features = choice.features;
   render.filter = choice.filter;

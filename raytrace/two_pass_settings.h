@@ -37,6 +37,7 @@ struct TwoPassChoice : PassOneChoice {
   PixelFilter filter = PixelFilter::box; ///< not of a reference
   std::optional<double> pixel_error;     ///< of a hybrid picture: adaptive sampling
   std::optional<int> glossy_samples;     ///< of a hybrid picture: directions into a lobe
+  std::optional<DisplayChoice> display;  ///< that will show the picture, not a reference
 };
 
 /// Whether the field knows the light that does not come from emitters by itself:

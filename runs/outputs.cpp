@@ -83,30 +83,43 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-void write_pictures(const std::vector<fs::path>& files, const Image& picture,
-                    std::span<const Layer> layers, const PictureSettings& settings,
-                    const Attributes& attributes, const RunEvents& events) {
+static bool has_png(const std::vector<fs::path>& files) {
+  return std::ranges::any_of(
+      files, [](const fs::path& file) { return picture_format(file) == PictureFormat::png; });
+}
+
+std::optional<DisplayChoice> display_of(const std::vector<fs::path>& files,
+                                        const PictureSettings& settings) {
+  if (!has_png(files))
+    return std::nullopt;
+  return DisplayChoice{settings.exposure, settings.transform};
+}
+
+void write_pictures(const std::vector<fs::path>& files, const WrittenPicture& picture,
+                    const PictureSettings& settings, const Attributes& attributes,
+                    const RunEvents& events) {
   std::optional<double> exposure = settings.exposure;
-  const PixelType type = type_for(picture, layers, settings.exr_type);
+  const PixelType type = type_for(picture.image, picture.layers, settings.exr_type);
   if (type != settings.exr_type && std::ranges::any_of(files, [](const fs::path& file) {
         return picture_format(file) == PictureFormat::exr;
       }))
     note(events, "values that 16 bits do not hold: the EXR has 32 bits a channel");
   for (const fs::path& file : files) {
     if (picture_format(file) == PictureFormat::exr) {
-      write_exr(file, picture, layers, type, attributes);
+      write_exr(file, picture.image, picture.layers, type, attributes);
       continue;
     }
     if (!exposure) {
-      exposure = automatic_exposure(picture);
+      exposure = automatic_exposure(picture.image);
       note(events, fmt::format("exposure {:+.2f} EV (automatic)", *exposure));
     }
-    write_png(file, picture,
-              {.exposure = *exposure, .transform = settings.transform, .bits = settings.png_bits});
+    write_png(file, picture.image,
+              {.exposure = *exposure,
+               .transform = settings.transform,
+               .edges = picture.edges,
+               .bits = settings.png_bits});
   }
-  const bool has_png = std::ranges::any_of(
-      files, [](const fs::path& file) { return picture_format(file) == PictureFormat::png; });
-  if (settings.exposure && has_png) {
+  if (settings.exposure && has_png(files)) {
     note(events, fmt::format("exposure {:+.2f} EV", *settings.exposure));
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "image/image_file.h"
+#include "raytrace/render_settings.h"
 #include "runs/run_events.h"
 
 #include <filesystem>
@@ -31,9 +32,18 @@ struct PictureSettings {
   int png_bits = 8;                                 ///< of a channel, or 16
 };
 
-/// Layers go into EXRs only.
-void write_pictures(const std::vector<std::filesystem::path>& files, const Image& picture,
-                    std::span<const Layer> layers, const PictureSettings& settings,
-                    const Attributes& attributes, const RunEvents& events);
+/// A picture, with layers for EXRs alone and edges for PNGs alone.
+struct WrittenPicture {
+  const Image& image;
+  std::span<const Layer> layers = {};
+  const ShownPixels* edges = nullptr;
+};
+void write_pictures(const std::vector<std::filesystem::path>& files, const WrittenPicture& picture,
+                    const PictureSettings& settings, const Attributes& attributes,
+                    const RunEvents& events);
+
+/// How PNGs among these files show the picture, if there are any.
+std::optional<DisplayChoice> display_of(const std::vector<std::filesystem::path>& files,
+                                        const PictureSettings& settings);
 
 } // namespace meninas

@@ -185,7 +185,7 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
     warn_of_darkness(picture.image, camera, events);
   }
   watch.lap();
-  write_pictures(request.pictures, picture.image, picture.layers, request.picture,
+  write_pictures(request.pictures, {picture.image, picture.layers, &picture.edges}, request.picture,
                  picture.attributes, events);
   figures.seconds.write = watch.lap();
   figures.seconds.total = total.lap();

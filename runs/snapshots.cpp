@@ -33,9 +33,11 @@ public:
         irradiance += glm::vec3(state.ambient);
       }
     }
-    const Image with_ambient = picture(lit);
+    const Rendering with_ambient = picture(lit);
     if (!settings_.exposure) {
-      settings_.exposure = automatic_exposure(with_ambient);
+      settings_.exposure = automatic_exposure(with_ambient.image);
+      if (render_.display)
+        render_.display->exposure = settings_.exposure;
     }
     const std::string name = fmt::format("shots-{:06}", state.shots);
     write(name + "-ambient", with_ambient, state.shots);
@@ -43,15 +45,16 @@ public:
   }
 
 private:
-  Image picture(const VertexIrradiance& values) const {
-    return render({values, prepared_.light}, camera_, render_).image;
+  Rendering picture(const VertexIrradiance& values) const {
+    return render({values, prepared_.light}, camera_, render_);
   }
-  void write(const std::string& name, const Image& image, int shots) const {
+  void write(const std::string& name, const Rendering& shown, int shots) const {
     std::vector<fs::path> files;
     for (const std::string& extension : extensions_) {
       files.push_back(folder_ / (name + extension));
     }
-    write_pictures(files, image, {}, settings_, {{"shots", std::to_string(shots)}}, {});
+    write_pictures(files, {shown.image, {}, &shown.edges}, settings_,
+                   {{"shots", std::to_string(shots)}}, {});
   }
 
   fs::path folder_;

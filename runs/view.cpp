@@ -72,6 +72,7 @@ ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettin
   const RenderSettings used = two_pass_settings(settings).render;
   ViewPicture picture{.image = std::move(rendering.image),
                       .samples = std::move(rendering.samples),
+                      .edges = std::move(rendering.edges),
                       .layers = std::move(rendering.layers),
                       .attributes = attributes_of(scene, camera, settings),
                       .finer = std::move(rendering.finer)};
@@ -127,6 +128,7 @@ ViewPicture render_reference_view(Scene scene, const Camera& camera, PictureSize
                                   RunFigures& figures) {
   ViewPicture result{.image = {},
                      .samples = {},
+                     .edges = {},
                      .layers = {},
                      .attributes = attributes_of(scene, camera, settings)};
   reference::ReferenceSettings limits = reference_settings(settings);

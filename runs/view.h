@@ -37,6 +37,7 @@ LitScene read_lit_scene(const std::filesystem::path& solution, Scene scene,
 struct ViewPicture {
   Image image;
   SampleCounts samples;
+  ShownPixels edges; ///< of a PNG
   std::vector<Layer> layers;
   Attributes attributes;
   std::shared_ptr<const IrradianceField> finer = nullptr; ///< Rendering::finer

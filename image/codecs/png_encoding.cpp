@@ -101,7 +101,7 @@ bool write_rows(png_structp png, png_infop info, png_uint_32 width, png_uint_32 
 } // namespace
 
 std::vector<std::byte> encode_png(int width, int height, std::span<const std::uint16_t> codes,
-                                  const PngText& text) {
+                                  Compression compression, const PngText& text) {
   std::vector<png_byte> big_endian;
   big_endian.reserve(2 * codes.size());
   for (const std::uint16_t code : codes) {
@@ -114,6 +114,8 @@ std::vector<std::byte> encode_png(int width, int height, std::span<const std::ui
   bool is_whole = false;
   if (info != nullptr) {
     png_set_write_fn(png, &written, append, nullptr);
+    if (compression == Compression::quick)
+      png_set_compression_level(png, Z_BEST_SPEED);
     is_whole = write_rows(png, info, static_cast<png_uint_32>(width),
                           static_cast<png_uint_32>(height), big_endian.data());
   }

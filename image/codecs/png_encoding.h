@@ -22,6 +22,6 @@ struct PngText {
 std::vector<std::byte> encode_png(int width, int height, std::span<const std::uint8_t> codes,
                                   Compression compression, const PngText& text = {});
 std::vector<std::byte> encode_png(int width, int height, std::span<const std::uint16_t> codes,
-                                  const PngText& text = {});
+                                  Compression compression, const PngText& text = {});
 
 } // namespace meninas

@@ -227,6 +227,7 @@ BatchPicture picture_of(const JobScene& at, const JobMode& mode, const Camera& c
   for (const std::string& name_template : at.job.outputs) {
     picture.outputs.push_back(output_name(name_template, parts));
   }
+  picture.request.settings.display = display_of(picture.outputs, mode.request.picture);
   picture.name = picture.outputs.front().string();
   picture.key = picture_key(picture, mode);
   if (mode.request.settings.mode != PictureMode::reference) {

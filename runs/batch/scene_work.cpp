@@ -77,7 +77,8 @@ void write_outputs(const BatchFolder& folder, const BatchPicture& picture,
                         "cannot be made a folder: " + error.message());
     }
   }
-  write_pictures(files, view.image, view.layers, picture.request.picture, view.attributes, {});
+  write_pictures(files, {view.image, view.layers, &view.edges}, picture.request.picture,
+                 view.attributes, {});
 }
 
 std::string thumbnail_of(const BatchPicture& picture, const Image& image) {

@@ -25,7 +25,7 @@ Written written(float brightest) {
                          .note = [&](const std::string& text) { result.notes.push_back(text); },
                          .progress = {},
                          .stages = {}};
-  write_pictures({folder / "a.exr"}, picture, {}, {}, {}, events);
+  write_pictures({folder / "a.exr"}, {picture}, {}, {}, events);
   result.brightest = read_image(folder / "a.exr").picture.pixels[0];
   std::filesystem::remove_all(folder);
   return result;
