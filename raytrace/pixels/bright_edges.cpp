@@ -8,7 +8,7 @@
 namespace meninas {
 
 PixelMask bright_edges(const Image& picture, double exposure) {
-  constexpr float clearly_less = 0.9F; // of white
+  constexpr float clearly_less = 0.75F;
   const auto white = static_cast<float>(std::exp2(-exposure));
   const auto brightest = [&](int x, int y) {
     const glm::vec3& p = picture.at(x, y);
@@ -21,7 +21,7 @@ PixelMask bright_edges(const Image& picture, double exposure) {
   };
   for_each_neighbours(picture.width, picture.height, [&](int x, int y, int u, int v) {
     const float one = brightest(x, y), other = brightest(u, v);
-    if (std::max(one, other) >= white && std::min(one, other) < clearly_less * white)
+    if (std::max(one, other) >= white && std::min(one, other) < clearly_less * std::max(one, other))
       edge(x, y) = edge(u, v) = 1;
   });
   return edges;

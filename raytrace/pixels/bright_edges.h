@@ -15,7 +15,8 @@
 
 namespace meninas {
 
-/// 1 for pixels that are white or more at this exposure, beside one that is clearly less, and for that one.
+/// 1 for pixels that are white or more at this exposure, beside one that is clearly less bright,
+/// and for that one.
 PixelMask bright_edges(const Image& picture, double exposure);
 
 /// What these pixels show by all samples of the settings, at the exposure and by the transform of

@@ -63,12 +63,13 @@ TEST(BrightEdges, PixelsShowAsMuchWhiteAsTheyHave) {
 }
 
 TEST(BrightEdges, AreBetweenWhiteAndLess) {
-  Image picture(6, 1);
-  picture.pixels = {glm::vec3(0.1F), glm::vec3(0.8F), glm::vec3(2.0F),
-                    glm::vec3(0.95F), glm::vec3(3.0F), glm::vec3(3.0F)};
-  EXPECT_EQ(bright_edges(picture, 0.0), (PixelMask{0, 1, 1, 0, 0, 0}));
-  EXPECT_EQ(bright_edges(picture, -1.0), (PixelMask{0, 1, 1, 1, 1, 0}));
-  EXPECT_EQ(bright_edges(picture, -2.0), PixelMask(6, 0));
+  Image picture(7, 1);
+  picture.pixels = {glm::vec3(0.1F),  glm::vec3(0.2F), glm::vec3(0.95F), glm::vec3(2.0F),
+                    glm::vec3(1.8F), glm::vec3(3.0F), glm::vec3(3.0F)};
+  // Also a pixel that is nearly white by its mean, between what is more and what is less.
+  EXPECT_EQ(bright_edges(picture, 0.0), (PixelMask{0, 0, 1, 1, 1, 1, 0}));
+  EXPECT_EQ(bright_edges(picture, 1.0), (PixelMask{0, 1, 1, 1, 1, 1, 0}));
+  EXPECT_EQ(bright_edges(picture, -2.0), PixelMask(7, 0));
 }
 
 } // namespace
