@@ -4,8 +4,8 @@
 //
 // s is the scale of glTF's normalTexture. N_k are the corners' normals without the map
 // (scenes/shading_normal.h), T_k the unit vectors across them along which u grows, and
-// B_k = w_k N_k x T_k those up the image, against v; between the corners all three are linear, and
-// not of unit length (glTF 2.0, 3.7.2.1; Mikkelsen 2008, Simulation of Wrinkled Surfaces Revisited).
+// B_k = w_k N_k x T_k those up the image, against v; all three are linear between the corners, not
+// of unit length (glTF 2.0, 3.7.2.1; Mikkelsen 2008, Simulation of Wrinkled Surfaces Revisited).
 //
 // T_k and w_k = +-1 are the scene's tangents. Where it has none, or one along N_k, the triangle's
 // own stand for them:

@@ -14,8 +14,9 @@
 // with theta_k the angle at the corner, seen along N. A triangle over which the coordinates do not
 // change goes with the first that reach it, and adds nothing.
 //
-// Which corners are one, and in what order triangles are met, is as in mikktspace.c (Mikkelsen
-// 2011), but that it keeps directions apart that are opposite to the last bit.
+// Corners are one, and triangles are met in the order, as in mikktspace.c (Mikkelsen 2011); but
+// that keeps directions apart that are opposite to the last bit, and does not sort its last edges,
+// where it may miss neighbours.
 #pragma once
 
 #include "scenes/types.h"

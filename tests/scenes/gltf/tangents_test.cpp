@@ -83,7 +83,8 @@ TEST(GltfTangents, AreThereForNormalMapsAlone) {
 TEST(GltfTangents, MayBeBytesAndShorts) {
   const auto rounded = [](auto most) {
     using T = decltype(most);
-    const T x = static_cast<T>(0.6 * most), y = static_cast<T>(0.8 * most), w = static_cast<T>(-most);
+    const T x = static_cast<T>(0.6 * most), y = static_cast<T>(0.8 * most),
+            w = static_cast<T>(-most);
     auto file = with_tangents<T>(mapped_square(), {x, y, 0, w, x, y, 0, w, x, y, 0, w, x, y, 0, w});
     file.json["accessors"].back()["normalized"] = true;
     return load(file);
@@ -122,20 +123,18 @@ TEST(GltfTangents, FollowJointsAndTargets) {
   auto morphed = with_tangent(mapped(morphed_square()), 1, 0, 0, 1);
   square_primitive(morphed)["targets"][0]["TANGENT"] =
       morphed.add_accessor<float>({0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0}, "VEC3");
-  expect_normal(load(morphed), to_the_right,
-                0.6 * glm::normalize(Vec3(1, 1, 0)) + Vec3(0, 0, 0.8));
+  expect_normal(load(morphed), to_the_right, 0.6 * glm::normalize(Vec3(1, 1, 0)) + Vec3(0, 0, 0.8));
 }
 
 // One that cannot be used leaves that corner to the coordinates of its triangle; where none can
 // they are made. All of this is the upright image's frame.
 TEST(GltfTangents, ThatCannotBeUsedAreNamedAndLeftOut) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  for (const glm::vec4& bad : {glm::vec4(0, 0, 0, 1), glm::vec4(nan, 0, 0, 1),
-                               glm::vec4(1, 0, 0, nan), glm::vec4(1, 0, 0, 0),
-                               glm::vec4(0.001, 0, 1, 1), glm::vec4(0, 0, -5, 1)}) {
+  for (const glm::vec4& bad :
+       {glm::vec4(0, 0, 0, 1), glm::vec4(nan, 0, 0, 1), glm::vec4(1, 0, 0, nan),
+        glm::vec4(1, 0, 0, 0), glm::vec4(0.001, 0, 1, 1), glm::vec4(0, 0, -5, 1)}) {
     const Scene one = load(with_tangents<float>(
-        mapped_square(),
-        {bad.x, bad.y, bad.z, bad.w, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}));
+        mapped_square(), {bad.x, bad.y, bad.z, bad.w, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}));
     const Scene all = load(with_tangent(mapped_square(), bad.x, bad.y, bad.z, bad.w));
     EXPECT_EQ(Vec3(one.tangents.at(0)), Vec3(0.0));
     for (const Scene& scene : {one, all}) {
@@ -162,9 +161,9 @@ TEST(GltfTangents, TooFewOrOfAnotherKindEndTheReading) {
   EXPECT_THAT(error_of(file), testing::HasSubstr("type must be VEC4"));
 }
 
-// A transform turns the image on its coordinates, along which TANGENT is. With u' = m u cos r +
-// v sin r and v' = -m u sin r + v cos r, u to the right and v down, u' grows along (m cos r, -sin r)
-// and v' against (m sin r, cos r).
+// A transform turns the image on its coordinates, along which TANGENT is. With
+// u' = m u cos r + v sin r and v' = -m u sin r + v cos r, u to the right and v down, u' grows along
+// (m cos r, -sin r) and v' against (m sin r, cos r).
 TEST(GltfTangents, TurnWithTheTransformOfTheTexture) {
   const double r = 0.3;
   for (const double m : {1.0, -1.0}) {
@@ -260,9 +259,18 @@ TEST(GltfTangents, MapsGoSmoothlyOverTheEdgesOfCurves) {
   }
 }
 
-// Between the corners T and N are linear. In the middle of a facet of a pipe without offsets both
-// are shorter alike, and the normal is that of the curve.
+// Between the corners T and N are linear. Halfway between x and y T is shorter than 1, and the
+// slope is less. In the middle of a facet of a pipe without offsets T and N are shorter alike, and
+// the normal is that of the curve.
 TEST(GltfTangents, AreLinearBetweenCorners) {
+  const Scene turning =
+      load(with_tangents<float>(mapped_square(), {1, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 1, 0, 0, 1}));
+  EXPECT_LT(glm::distance(normal_of(turning, to_the_right, 0, {0.5, 0.0}),
+                          glm::normalize(Vec3(0.3, 0.3, 0.8))),
+            floats);
+  EXPECT_LT(glm::distance(normal_of(turning, upwards, 0, {0.5, 0.0}),
+                          glm::normalize(Vec3(-0.3, 0.3, 0.8))),
+            floats);
   Mesh mesh = pipe();
   for (std::uint32_t v = 0; v < mesh.texcoords.size() / 2; ++v)
     mesh.texcoords[2 * v + 1] -= static_cast<float>(offset(v / 2));
@@ -270,9 +278,9 @@ TEST(GltfTangents, AreLinearBetweenCorners) {
   for (std::uint32_t c = 0; c < facets; ++c) {
     const double angle = 0.5 * (angle_of(c) + angle_of(c + 1));
     const Vec3 n(std::sin(angle), 0.0, std::cos(angle)), round(n.z, 0.0, -n.x);
-    EXPECT_LT(glm::distance(normal_of(scene, to_the_right, 2 * c, {0.5, 0.0}),
-                            0.6 * round + 0.8 * n),
-              floats);
+    EXPECT_LT(
+        glm::distance(normal_of(scene, to_the_right, 2 * c, {0.5, 0.0}), 0.6 * round + 0.8 * n),
+        floats);
   }
 }
 
