@@ -63,6 +63,8 @@ TEST(GltfTangents, TurnTheNormal) {
   expect_normal(scene, upwards, {-0.6, 0.0, 0.8});
   expect_normal(load(with_tangent(mapped_square(), 0, 1, 0, -1)), upwards, {0.6, 0.0, 0.8});
   EXPECT_TRUE(scene.warnings.empty());
+  // Made unit and across the normal.
+  EXPECT_EQ(load(with_tangent(mapped_square(), 0, 3, -4, 1)).tangents[1], glm::vec4(0, 1, 0, 1));
 }
 
 TEST(GltfTangents, AreMadeWhereThereAreNone) {
