@@ -105,27 +105,32 @@ private:
   }
 
   /// Position, normal and texture coordinates in bits, in which both zeros are one.
-  std::array<std::uint64_t, 8> key(std::uint32_t f, std::size_t k) const {
-    const Vec3 p = position(f, k),
-               n = mesh_.normals.empty() ? Vec3(glm::vec3(faces_[f].normal)) : given_normal(f, k);
-    const Vec2 uv = mesh_.texcoords[mesh_.triangles[f][k]];
+  std::array<std::uint64_t, 8> key(std::uint32_t vertex, const Vec3& n) const {
+    const Vec3& p = mesh_.positions[vertex];
+    const Vec2& uv = mesh_.texcoords[vertex];
     std::array<std::uint64_t, 8> bits{};
     std::ranges::transform(std::array{p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y}, bits.begin(),
                            [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); });
     return bits;
   }
 
+  /// Vertices that are equal have one number. Without normals corners have those of their faces.
   void number_points() {
-    std::vector<std::uint32_t> order(3 * faces_.size());
+    const bool by_vertex = !mesh_.normals.empty();
+    std::vector<std::uint32_t> order(by_vertex ? mesh_.positions.size() : 3 * faces_.size());
     std::iota(order.begin(), order.end(), 0U);
-    const auto key_of = [&](std::uint32_t corner) { return key(corner / 3, corner % 3); };
+    const auto key_of = [&](std::uint32_t k) {
+      return by_vertex ? key(k, mesh_.normals[k])
+                       : key(mesh_.triangles[k / 3][k % 3], Vec3(glm::vec3(faces_[k / 3].normal)));
+    };
     std::ranges::sort(order, {}, key_of);
-    std::uint32_t number = 0;
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      if (k > 0 && key_of(order[k]) != key_of(order[k - 1]))
-        ++number;
-      faces_[order[k] / 3].points[order[k] % 3] = number;
-    }
+    std::vector<std::uint32_t> numbers(order.size(), 0);
+    for (std::size_t k = 1; k < order.size(); ++k)
+      numbers[order[k]] =
+          numbers[order[k - 1]] + (key_of(order[k]) != key_of(order[k - 1]) ? 1 : 0);
+    for (std::uint32_t f = 0; f < faces_.size(); ++f)
+      for (std::uint32_t k = 0; k < 3; ++k)
+        faces_[f].points[k] = numbers[by_vertex ? mesh_.triangles[f][k] : 3 * f + k];
   }
 
   struct Edge {
