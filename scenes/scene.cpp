@@ -107,6 +107,10 @@ void add_geometry(ContentHash& hash, const Scene& scene) {
       hash.add(Vec3(vertex.normal));
     }
   }
+  for (const glm::vec4& tangent : scene.tangents) {
+    hash.add(Vec3(tangent));
+    hash.add(double{tangent.w});
+  }
   hash.add(std::uint64_t{scene.triangles.size()});
   for (const Triangle& triangle : scene.triangles) {
     for (const VertexId vertex : triangle.vertices) {

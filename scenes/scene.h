@@ -87,6 +87,10 @@ struct Scene {
   /// Geometry is only distinguished above it (coplanar, coincident, degenerate).
   double position_error = 0.0;
   std::vector<float> position_errors; ///< the same by vertex; what has none has that of all
+
+  /// T and the sign of B (materials/normal_map.h), by vertex of what normal maps are on; what has
+  /// none, or zero, has those of its triangle.
+  std::vector<glm::vec4> tangents;
 };
 
 inline const Point3& position(const Scene& scene, VertexId vertex) {

@@ -30,6 +30,9 @@ float stored(float linear) {
 AllowedRange constant(const Slot& slot) {
   return [slot](const glm::vec4& low, const glm::vec4& high) {
     constexpr float most = static_cast<float>((constant_codes + 0.25) / 255.0); // and rounding
+    if (slot.use == &Material::normal_texture &&
+        glm::any(glm::greaterThan(glm::abs(glm::vec2(low) - 0.5F), glm::vec2(most))))
+      return false;
     for (int c = 0; c < 4; ++c) {
       if (!slot.read[c] || low[c] == high[c])
         continue;

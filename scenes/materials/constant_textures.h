@@ -25,7 +25,7 @@
 // Textures of specular reflection and of clear coats are read for this alone: where they vary, the
 // factors count without them, and that is said by name.
 //
-// A normal map that is constant is none.
+// A normal map that is constant and leans to no side is none.
 //
 // A cut-out material (alphaMode MASK) none of whose triangles shows a hole is opaque. One that is
 // blended (BLEND) by a texture is opaque likewise; it is a cut-out where few texels are neither

@@ -2,20 +2,19 @@
 
 #include "scenes/shading_normal.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 namespace meninas {
 
 namespace {
 
-/// T and B; zero where the texture coordinates do not change.
-struct TextureFrame {
-  Vec3 along_u{0.0}, along_v{0.0};
-};
+/// T with its sign w; zero where nothing is known.
+using Tangent = glm::dvec4;
 
-TextureFrame texture_frame(const Scene& scene, TriangleId triangle, const TextureUse& use,
-                           const Direction& normal) {
+/// Of the triangle's own texture coordinates; zero where they do not change.
+Tangent own_tangent(const Scene& scene, TriangleId triangle, const TextureUse& use) {
   const auto p = corners(scene, triangle);
   const auto uv = [&](std::size_t k) {
     const VertexId v = scene.triangles[index(triangle)].vertices[k];
@@ -25,34 +24,68 @@ TextureFrame texture_frame(const Scene& scene, TriangleId triangle, const Textur
   const Vec2 d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
   const double det = d1.x * d2.y - d1.y * d2.x;
   const double sign = det < 0.0 ? -1.0 : 1.0;
-  Vec3 along = sign * (d2.y * (p[1] - p[0]) - d1.y * (p[2] - p[0]));
-  along -= glm::dot(along, normal) * normal;
+  const Vec3 along = sign * (d2.y * (p[1] - p[0]) - d1.y * (p[2] - p[0]));
   const double length = glm::length(along);
   if (det == 0.0 || !(length > 0.0) || !std::isfinite(length))
-    return {};
-  const Direction t = along / length;
-  return {t, sign * glm::cross(normal, t)};
+    return Tangent(0.0);
+  return Tangent(along / length, -sign);
+}
+
+/// Made perpendicular to the normal; zero along it.
+Tangent across(const Tangent& tangent, const Direction& normal) {
+  constexpr double along = 0.01; // a sine; nearer to it rounding decides
+  const Vec3 flat = Vec3(tangent) - glm::dot(Vec3(tangent), normal) * normal;
+  const double length = glm::length(flat);
+  return length > along ? Tangent(flat / length, tangent.w) : Tangent(0.0);
+}
+
+/// The axes of the map at a point.
+struct MapFrame {
+  Vec3 along{0.0}, up{0.0}, out{0.0};
+};
+
+MapFrame map_frame(const Scene& scene, TriangleId triangle, Vec2 barycentric,
+                   const TextureUse& use) {
+  const std::array<double, 3> weights{1.0 - barycentric.x - barycentric.y, barycentric.x,
+                                      barycentric.y};
+  const auto normals = corner_normals(scene, triangle);
+  std::optional<Tangent> own;
+  MapFrame frame;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t vertex = index(scene.triangles[index(triangle)].vertices[k]);
+    Tangent tangent(0.0);
+    if (vertex < scene.tangents.size())
+      tangent = across(Tangent(scene.tangents[vertex]), normals[k]);
+    if (tangent == Tangent(0.0)) {
+      if (!own)
+        own = own_tangent(scene, triangle, use);
+      tangent = across(*own, normals[k]);
+    }
+    frame.along += weights[k] * Vec3(tangent);
+    frame.up += weights[k] * tangent.w * glm::cross(normals[k], Vec3(tangent));
+    frame.out += weights[k] * normals[k];
+  }
+  return frame;
 }
 
 } // namespace
 
 Direction mapped_normal(const Scene& scene, const DecodedTextures& textures, TriangleId triangle,
                         Vec2 barycentric, const Footprint& footprint) {
-  const Direction normal = shading_normal(scene, triangle, barycentric);
   const Material& material = material_of(scene, triangle);
   const auto& use = material.normal_texture;
   if (!use || index(use->texture) >= textures.numbers.size() ||
       textures.numbers[index(use->texture)].texels.empty())
-    return normal;
+    return shading_normal(scene, triangle, barycentric);
   const glm::dvec4 texel =
       texel_at(scene, textures.numbers, *use, triangle, barycentric, footprint);
   const Vec2 slope = material.normal_scale * (2.0 * Vec2(texel) - 1.0);
-  const TextureFrame frame = texture_frame(scene, triangle, *use, normal);
+  const MapFrame frame = map_frame(scene, triangle, barycentric, *use);
   const Vec3 turned =
-      slope.x * frame.along_u - slope.y * frame.along_v + (2.0 * texel.b - 1.0) * normal;
+      slope.x * frame.along + slope.y * frame.up + (2.0 * texel.b - 1.0) * frame.out;
   const double length = glm::length(turned);
   if (!(length > 1e-6))
-    return normal;
+    return glm::normalize(frame.out);
   constexpr double lowest = 0.02; // a cosine
   const Direction face = glm::normalize(area_vector(corners(scene, triangle)));
   const Direction n = turned / length;

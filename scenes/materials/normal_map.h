@@ -1,16 +1,19 @@
 // Normal maps: a texture turns the normal within a frame that follows the texture coordinates.
 //
-//   n' = t_x T - t_y B + t_z N,   (t_x, t_y, t_z) = (2 r - 1) s, (2 g - 1) s, 2 b - 1
+//   n' ~ t_x T(b) + t_y B(b) + t_z N(b),   (t_x, t_y, t_z) = (2 r - 1) s, (2 g - 1) s, 2 b - 1
 //
-// N is the normal without the map (scenes/shading_normal.h), s the scale of glTF's normalTexture.
-// T is the direction across N in which u grows, B = +-N x T that in which v does (it runs down the
-// image), both of unit length, as MikkTSpace has them:
+// s is the scale of glTF's normalTexture. N_k are the corners' normals without the map
+// (scenes/shading_normal.h), T_k the unit vectors across them along which u grows, and
+// B_k = w_k N_k x T_k those up the image, against v; all three are linear between the corners, not
+// of unit length (glTF 2.0, 3.7.2.1; Mikkelsen 2008, Simulation of Wrinkled Surfaces Revisited).
 //
-//   T ~ sign (dv_2 e_1 - dv_1 e_2),   B = sign N x T,   sign = that of du_1 dv_2 - dv_1 du_2
+// T_k and w_k = +-1 are the scene's tangents. Where it has none, or one along N_k, the triangle's
+// own stand for them:
+//
+//   T ~ sign (dv_2 e_1 - dv_1 e_2),   w = -sign,   sign = that of du_1 dv_2 - dv_1 du_2
 //
 // with e_k the edges of the triangle from its first corner and (du_k, dv_k) their changes of the
-// texture coordinates. MikkTSpace takes means of T over the triangles around a vertex; here each
-// has its own, which differs from that by less than neighbours do.
+// texture coordinates.
 //
 // A normal that would look behind the face is lifted to where it just does not.
 #pragma once

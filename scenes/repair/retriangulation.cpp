@@ -47,12 +47,23 @@ Affine affine_through(const std::array<Vec2, 3>& p, const std::array<glm::dvec4,
   return affine;
 }
 
-/// What a vertex carries besides its place, in three parts.
-using Carried = std::array<glm::dvec4, 3>;
-Carried carried_by(const Vertex& vertex) {
+constexpr std::size_t tangent_part = 3;
+
+/// What a vertex carries besides its place: texture coordinates, colour and tangent.
+using Carried = std::array<glm::dvec4, 4>;
+Carried carried_by(const Scene& scene, VertexId id) {
+  const Vertex& vertex = scene.vertices[index(id)];
+  const bool has_tangent = index(id) < scene.tangents.size();
   return {glm::dvec4(vertex.texcoord[0], 0.0, 0.0), glm::dvec4(vertex.texcoord[1], 0.0, 0.0),
-          glm::dvec4(vertex.color)};
+          glm::dvec4(vertex.color),
+          has_tangent ? glm::dvec4(scene.tangents[index(id)]) : glm::dvec4(0.0)};
 }
+
+/// A vertex that is added, and its tangent.
+struct NewVertex {
+  Vertex vertex;
+  glm::vec4 tangent{0.0F};
+};
 
 class Surgeon {
 public:
@@ -94,24 +105,24 @@ public:
         std::ranges::any_of(triangles_, [&](TriangleId t) { return has_vertex_colors(scene_, t); });
     const auto largest = std::ranges::max_element(
         mesh.triangles, {}, [&](const PlaneTriangle& t) { return area_of(mesh, t); });
+    const bool tangents = material.normal_texture && !scene_.tangents.empty();
+    const std::array used{textures, textures, colours, tangents};
     std::array<Vec2, 3> places;
     for (std::size_t k = 0; k < 3; ++k)
       places[k] = mesh.points[largest->corners[k]];
-    for (std::size_t part = 0; part < 3; ++part) {
+    for (std::size_t part = 0; part < used.size(); ++part) {
       std::array<glm::dvec4, 3> values;
       for (std::size_t k = 0; k < 3; ++k)
-        values[k] = carried_by(scene_.vertices[index(vertices_[largest->corners[k]])])[part];
+        values[k] = carried_by(scene_, vertices_[largest->corners[k]])[part];
       carried_[part] = affine_through(places, values);
-      if (part < 2 ? !textures : !colours)
-        continue;
-      if (!fits(mesh, part))
+      if (used[part] && !fits(mesh, part))
         return false;
     }
     return true;
   }
 
   /// The new triangles, and their new vertices behind those of the scene.
-  std::vector<Triangle> replace(const PlaneMesh& mesh, std::vector<Vertex>& added,
+  std::vector<Triangle> replace(const PlaneMesh& mesh, std::vector<NewVertex>& added,
                                 std::size_t vertices_before) {
     for (std::size_t p = vertices_.size(); p < mesh.points.size(); ++p) {
       vertices_.push_back(static_cast<VertexId>(vertices_before + added.size()));
@@ -175,24 +186,25 @@ private:
 
   bool fits(const PlaneMesh& mesh, std::size_t part) const {
     constexpr double close = 1e-4; // of the range: far less than a texel
-    double range = 0.0, worst = 0.0;
-    const glm::dvec4 first = carried_by(scene_.vertices[index(vertices_[0])])[part];
+    double range = part == tangent_part ? 1.0 : 0.0, worst = 0.0;
+    const glm::dvec4 first = carried_by(scene_, vertices_[0])[part];
     for (const auto& [vertex, number] : all_) {
-      const glm::dvec4 value = carried_by(scene_.vertices[index(vertex)])[part];
+      const glm::dvec4 value = carried_by(scene_, vertex)[part];
       range = std::max(range, glm::length(value - first));
       worst = std::max(worst, glm::length(value - carried_[part](mesh.points[number])));
     }
     return worst <= close * range;
   }
 
-  Vertex vertex_at(const Vec2& p) const {
-    Vertex vertex;
+  NewVertex vertex_at(const Vec2& p) const {
+    NewVertex made{{}, glm::vec4(carried_[tangent_part](p))};
+    Vertex& vertex = made.vertex;
     const Point3 x = origin_ + p.x * frame_.tangent + p.y * frame_.bitangent;
     vertex.position = x - signed_distance(surface_.plane, x) * surface_.plane.normal;
     for (std::size_t k = 0; k < 2; ++k)
       vertex.texcoord[k] = glm::vec2(glm::dvec2(carried_[k](p)));
     vertex.color = glm::vec4(carried_[2](p));
-    return vertex;
+    return made;
   }
 
   const Scene& scene_;
@@ -204,7 +216,7 @@ private:
   std::unordered_map<std::uint32_t, std::uint32_t> numbers_; ///< of points, by welded vertex
   std::vector<VertexId> vertices_;                           ///< by point
   std::vector<std::pair<VertexId, std::uint32_t>> all_;      ///< every corner, and its point
-  std::array<Affine, 3> carried_;
+  std::array<Affine, 4> carried_;
 };
 
 double wanted_by(const SurfaceModel& model, const Surface& surface) {
@@ -256,7 +268,7 @@ bool retriangulate_slivers(Scene& scene, const SurfaceModel& model) {
   if (wasteful.empty())
     return false;
   const Topology topology = find_topology(scene, Precision(scene));
-  std::vector<Vertex> added;
+  std::vector<NewVertex> added;
   std::vector<std::uint8_t> removed(scene.triangles.size(), 0);
   std::map<TriangleId, std::vector<Triangle>> replaced; ///< by the first one of their surface
   for (const SurfaceId id : wasteful) {
@@ -283,7 +295,13 @@ bool retriangulate_slivers(Scene& scene, const SurfaceModel& model) {
       triangles.push_back(scene.triangles[t]);
   }
   scene.triangles = std::move(triangles);
-  scene.vertices.insert(scene.vertices.end(), added.begin(), added.end());
+  if (!scene.tangents.empty())
+    scene.tangents.resize(scene.vertices.size(), glm::vec4(0.0F));
+  for (const NewVertex& made : added) {
+    scene.vertices.push_back(made.vertex);
+    if (!scene.tangents.empty())
+      scene.tangents.push_back(made.tangent);
+  }
   return true;
 }
 

@@ -236,6 +236,22 @@ TEST(CurvedSurfaces, NormalMapsTurnTheLightOfDiffuseSurfaces) {
     }
 }
 
+// Tangents that are given turn the map on its surface: here its right is -z, and w is -1, so that
+// its up, which would be -x, is x.
+TEST(CurvedSurfaces, NormalMapsFollowTheTangents) {
+  const Direction sun = glm::normalize(Vec3(1.0, 1.5, 0.5));
+  for (const Vec3& lean : {Vec3(0.6, 0.0, 0.8), Vec3(0.0, 0.6, 0.8)}) {
+    Scene scene = half_leaning_floor(lean, sun);
+    scene.tangents.assign(4, glm::vec4(0, 0, -1, -1));
+    const Taken taken = lit_up(scene, coarse());
+    RenderSettings settings = size(1, 1, 4);
+    settings.diffuse.term = DiffuseTerm::direct;
+    const Image image = picture(taken, look_at({1.0, 3.0, 0.1}, {1.0, 0.0, 0.0}, 0.01), settings);
+    const double cosine = lean.y * sun.x + lean.z * sun.y - lean.x * sun.z;
+    EXPECT_NEAR(image.pixels[0].g, 0.5 * 2.0 * cosine / std::numbers::pi, 0.008) << lean.x;
+  }
+}
+
 // Behind its own wall a lamp is not seen, however much the normal leans towards it.
 TEST(CurvedSurfaces, NormalMapsLetNoLightThroughTheirWall) {
   Scene scene = half_leaning_floor(Vec3(0.96, 0.0, 0.28), Direction(0, 1, 0));

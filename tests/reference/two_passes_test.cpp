@@ -1,5 +1,6 @@
 // The two passes against paths, where light goes by glass and gloss:
 // two programs that share the materials and nothing else.
+#include "image/image_file.h"
 #include "raytrace/two_pass.h"
 #include "scenes/materials/smooth_surfaces.h"
 #include "tests/reference/tracing.h"
@@ -8,6 +9,8 @@
 #include "tests/support/globes.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace meninas::test {
 namespace {
@@ -80,6 +83,27 @@ TEST(TwoPasses, AgreeWithPathsAroundAGlobe) {
   add_globe(shiny, "globe", globe, mirror(0.9), GivenNormals::smooth);
   expect_agreement(shiny, {{"what it reflects", {1.0, 1.2, 1.8}, {1.1, 0.7, 1.12}},
                            {"what it throws on the floor", {1.8, 0.8, 1.8}, {1.0, 0.0, 1.6}}});
+}
+
+// A mirror that a map turns along tangents which are not those of its coordinates, and which turn
+// themselves from corner to corner.
+TEST(TwoPasses, AgreeWithPathsInAMirrorWithANormalMap) {
+  Scene scene = glowing_room();
+  Material bent = mirror(0.9);
+  bent.normal_texture = TextureUse{.texture = TextureId{0}};
+  add_polygon(scene, "mirror", {{0.2, 0.0, 0.8}, {1.8, 0.0, 0.8}, {1.8, 1.7, 0.8}, {0.2, 1.7, 0.8}},
+              bent);
+  lay_texture(scene);
+  Image lean(1, 1);
+  lean.at(0, 0) = {0.380F, 0.214F, 0.787F}; // the codes 0.65, 0.5 and 0.9 of sRGB
+  scene.textures = {{.name = "lean", .encoded = encode_png(lean, 0.0)}};
+  scene.tangents.assign(scene.vertices.size(), glm::vec4(0.0F));
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double turn = 0.5 + 0.4 * static_cast<double>(k);
+    scene.tangents[scene.vertices.size() - 4 + k] = {std::cos(turn), std::sin(turn), 0.0, -1.0};
+  }
+  expect_agreement(scene, {{"below", {1.0, 0.9, 1.6}, {0.8, 0.4, 0.8}},
+                           {"above", {1.0, 0.9, 1.6}, {1.3, 1.4, 0.8}}});
 }
 
 TEST(TwoPasses, AgreeWithPathsInARoomWithAVeil) {

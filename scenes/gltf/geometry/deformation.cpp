@@ -110,8 +110,8 @@ static glm::dmat4 blend(const Document& document, const std::string& where,
   return total > 0.0 ? sum / total : joints[0];
 }
 
-bool apply_skin(const Skinning& skinning, std::vector<Vec3>& positions,
-                std::vector<Vec3>& normals) {
+bool apply_skin(const Skinning& skinning, std::vector<Vec3>& positions, std::vector<Vec3>& normals,
+                Tangents& tangents) {
   const auto& [document, where, primitive, joints] = skinning;
   const auto& attributes = primitive["attributes"];
   std::vector<Vectors> indices;
@@ -136,6 +136,8 @@ bool apply_skin(const Skinning& skinning, std::vector<Vec3>& positions,
     positions[v] = Vec3(matrix * glm::dvec4(positions[v], 1.0));
     if (!normals.empty())
       normals[v] = moved_normal(matrix, normals[v]);
+    if (!tangents.directions.empty())
+      move_tangent(matrix, tangents.directions[v], tangents.signs[v]);
   }
   return true;
 }

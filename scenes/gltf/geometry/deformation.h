@@ -8,6 +8,7 @@
 // The node of a skinned mesh does not move it: where it is follows from the joints alone.
 #pragma once
 
+#include "scenes/gltf/geometry/tangents.h"
 #include "scenes/gltf/stages.h"
 
 #include <map>
@@ -48,8 +49,9 @@ struct Skinning {
   std::span<const glm::dmat4> joints;
 };
 
-/// Positions of a primitive in the world, and its normals, if there are any.
+/// Positions of a primitive in the world, and its normals and tangents, if there are any.
 /// False, with nothing moved, when it has no joints and weights.
-bool apply_skin(const Skinning& skinning, std::vector<Vec3>& positions, std::vector<Vec3>& normals);
+bool apply_skin(const Skinning& skinning, std::vector<Vec3>& positions, std::vector<Vec3>& normals,
+                Tangents& tangents);
 
 } // namespace meninas::gltf

@@ -2,8 +2,7 @@
 #include "scenes/gltf/accessors.h"
 #include "scenes/gltf/geometry/deformation.h"
 #include "scenes/gltf/geometry/instances.h"
-#include "scenes/gltf/geometry/normals.h"
-#include "scenes/gltf/geometry/primitives.h"
+#include "scenes/gltf/geometry/part.h"
 #include "scenes/shading_normal.h"
 
 #include <fmt/format.h>
@@ -15,24 +14,12 @@ namespace meninas::gltf {
 
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
-
-/// One primitive as it stands in the file, in the coordinates of its mesh.
-struct Part {
-  std::vector<Vec3> positions;
-  std::vector<std::array<glm::vec2, 2>> texcoords;
-  std::vector<glm::vec4> colors; ///< empty without COLOR_0
-  Normals normals;
-  std::vector<Corners> triangles;
-  MaterialId material = none<MaterialId>;
-  double step = 0.0; ///< of positions that the file rounds; 0: others
-};
-
 /// What is read, and by vertex half the step of rounded positions, in metres.
 struct Geometry {
   Scene& scene;
   std::vector<float> half_steps;
   NodeId node = none<NodeId>; ///< whose parts are read
+  GeometrySize size;          ///< of all parts
 };
 
 // Coordinates whose fourth powers leave the range of doubles cannot be computed with.
@@ -165,13 +152,20 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& 
   part.positions = decode_positions(at, *accessor);
   part.step = step_of_values(at.document, *accessor);
   part.normals = decode_normals(at, findings);
+  part.normal_map = normal_map_of(at);
+  if (part.normal_map)
+    part.tangents = decode_tangents(at);
   if (const auto* targets = find(at.json, "targets"); targets && !targets->empty()) {
     if (!at.document.settings.state.at)
       findings.about("morph targets keep their default weights in nodes", at.in.node);
     const Morph morph{at.document, at.where(), at.json, at.in.morph_weights};
     apply_morph_targets(morph, "POSITION", part.positions);
     apply_morph_targets(morph, "NORMAL", part.normals.values);
+    apply_morph_targets(morph, "TANGENT", part.tangents.directions);
   }
+  if (part.normal_map)
+    part.tangents = usable_tangents(at, std::move(part.tangents), part.normals.values,
+                                    *part.normal_map, findings);
   part.texcoords = decode_texcoords(at, part.positions.size(), findings);
   check_texcoords(at, findings);
   part.colors = decode_colors(at, findings);
@@ -237,6 +231,15 @@ static bool is_degenerate(const std::array<Point3, 3>& p, double error) {
   return !(2.0 * glm::length(area_vector(p)) > error * longest);
 }
 
+static void set_last_tangent(Scene& scene, const glm::dmat4& world, const Tangents& tangents,
+                             std::size_t vertex) {
+  Vec3 direction = tangents.directions[vertex];
+  double sign = tangents.signs[vertex];
+  move_tangent(world, direction, sign);
+  scene.tangents.resize(scene.vertices.size(), glm::vec4(0.0F));
+  scene.tangents.back() = glm::vec4(direction, sign);
+}
+
 static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat4& world,
                      NodeId node, Geometry& into, Findings& findings) {
   Scene& scene = into.scene;
@@ -273,6 +276,8 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
         if (!part.normals.values.empty())
           scene.vertices.back().normal =
               glm::vec3(moved_normal(world, part.normals.values[corners[c]]));
+        if (!part.tangents.directions.empty())
+          set_last_tangent(scene, world, part.tangents, corners[c]);
       }
       triangle.vertices[c] = id;
     }
@@ -290,19 +295,32 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
     findings.about("triangles without area are in nodes", at.in.node);
 }
 
+/// Tangents that the file does not give, and room for the vertices that they make.
+static void complete(const PrimitivePlace& at, Part& part, double copies, Geometry& into) {
+  const auto given = static_cast<double>(part.positions.size());
+  settle_tangents(part);
+  const auto [bytes, vertices] =
+      size_of_vertices(copies, static_cast<double>(part.positions.size()) - given);
+  into.size.bytes += bytes;
+  into.size.vertices += vertices;
+  check_size(at.document, into.size);
+}
+
 /// A primitive where its node puts it: moved by the joints, or by the matrix of each instance.
 static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& node, Skins& skins,
                        Geometry& into, Findings& findings) {
   if (const auto skin = index_at(element(at.document.root, "nodes", node.index), "skin")) {
     if (apply_skin({at.document, at.where(), at.json, skins.joints(*skin)}, part.positions,
-                   part.normals.values)) {
+                   part.normals.values, part.tangents)) {
       if (!at.document.settings.state.at)
         findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
+      complete(at, part, 1.0, into);
       return add_part(at, part, glm::dmat4(1.0), into.node, into, findings);
     }
     findings.about("skins without joints in the scene are left out in nodes", at.in.node);
   }
   const auto copies = instance_matrices(at.document, node);
+  complete(at, part, static_cast<double>(copies.size()), into);
   if (copies.empty())
     findings.about("instanced nodes without an instance are left out", at.in.node);
   for (const auto& world : copies)
@@ -311,9 +329,8 @@ static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& no
 
 std::vector<float> read_geometry(const Document& document, std::span<const PlacedNode> nodes,
                                  Scene& scene, Findings& findings) {
-  check_geometry_size(document, nodes);
+  Geometry geometry{scene, {}, none<NodeId>, geometry_size(document, nodes)};
   Skins skins(document, nodes);
-  Geometry geometry{scene, {}, none<NodeId>};
   std::vector<std::string> names;
   for (const auto& node : nodes) {
     const auto mesh = index_at(element(document.root, "nodes", node.index), "mesh");

@@ -41,6 +41,17 @@ std::optional<std::size_t> position_accessor(const PrimitivePlace& at) {
   return index_at(at.json["attributes"], "POSITION");
 }
 
+std::optional<TextureUse> normal_map_of(const PrimitivePlace& at) {
+  const auto material = index_at(at.json, "material");
+  if (!material)
+    return std::nullopt;
+  const Json& json = element(at.document.root, "materials", *material);
+  if (find(json, {"extensions", "KHR_materials_unlit"}))
+    return std::nullopt;
+  Findings said_with_the_material;
+  return read_texture_use(at.document, json, "normalTexture", "", said_with_the_material);
+}
+
 std::size_t triangles_in(Mode mode, std::uint64_t corners) {
   if (corners < 3)
     return 0;
@@ -56,17 +67,24 @@ static double deformation_bytes(const PrimitivePlace& at, bool is_skinned) {
 
 namespace {
 
-struct Needs {
-  double bytes = 0.0;
-  double vertices = 0.0;
+/// Bytes that tangents take: by vertex, and while they are made, by triangle.
+struct TangentNeeds {
+  double per_vertex = 0.0, per_triangle = 0.0;
 };
+TangentNeeds tangent_needs(const PrimitivePlace& at) {
+  if (!normal_map_of(at))
+    return {};
+  const bool are_made = !at.json["attributes"].contains("TANGENT");
+  return {sizeof(glm::vec4) + 4.0 * sizeof(double), are_made ? 256.0 : 0.0};
+}
 
 } // namespace
 
-static Needs needs_of(const PrimitivePlace& at, double copies, bool is_skinned) {
-  constexpr double per_vertex = sizeof(Vertex) + 2 * sizeof(Point3) +
-                                sizeof(std::array<glm::vec2, 2>) + sizeof(glm::vec4) +
-                                4 * sizeof(double) + sizeof(VertexId);
+constexpr double bytes_per_vertex = sizeof(Vertex) + 2 * sizeof(Point3) +
+                                    sizeof(std::array<glm::vec2, 2>) + sizeof(glm::vec4) +
+                                    4 * sizeof(double) + sizeof(VertexId);
+
+static GeometrySize size_of(const PrimitivePlace& at, double copies, bool is_skinned) {
   constexpr double per_corner = sizeof(std::uint32_t);
   constexpr double per_triangle = sizeof(Triangle) + 3 * sizeof(std::uint32_t);
   const auto mode = mode_of(at);
@@ -76,19 +94,21 @@ static Needs needs_of(const PrimitivePlace& at, double copies, bool is_skinned) 
   const auto count = accessor_count(at.document, *accessor);
   const auto indices = index_at(at.json, "indices");
   const auto corners = indices ? accessor_count(at.document, *indices) : count;
-  return {(copies * per_vertex + deformation_bytes(at, is_skinned)) * static_cast<double>(count) +
+  const auto triangles = static_cast<double>(triangles_in(mode, corners));
+  const TangentNeeds tangents = tangent_needs(at);
+  return {(copies * (bytes_per_vertex + tangents.per_vertex) + deformation_bytes(at, is_skinned)) *
+                  static_cast<double>(count) +
               per_corner * static_cast<double>(corners) +
-              copies * per_triangle * static_cast<double>(triangles_in(mode, corners)),
+              (copies * per_triangle + tangents.per_triangle) * triangles,
           copies * static_cast<double>(count)};
 }
 
-void check_geometry_size(const Document& document, std::span<const PlacedNode> nodes) {
+GeometrySize geometry_size(const Document& document, std::span<const PlacedNode> nodes) {
   // Primitives with their attributes;
   // each takes a fraction of a microsecond to look at, also where nothing of it is seen.
   constexpr std::size_t max_looks = 50000000;
-  const auto limit = static_cast<double>(document.settings.memory_limit);
   std::size_t looks = 0;
-  Needs all;
+  GeometrySize all;
   std::set<std::size_t> skins;
   for (const auto& node : nodes) {
     const auto& json = element(document.root, "nodes", node.index);
@@ -108,15 +128,25 @@ void check_geometry_size(const Document& document, std::span<const PlacedNode> n
                           fmt::format("up to here the nodes' meshes have over {} primitives and "
                                       "attributes, more than are read",
                                       max_looks));
-      const auto needs = needs_of(at, copies, skin.has_value());
+      const auto needs = size_of(at, copies, skin.has_value());
       all.bytes += needs.bytes;
       all.vertices += needs.vertices;
     });
   }
-  if (all.bytes > limit || all.vertices >= static_cast<double>(index(none<VertexId>)))
+  check_size(document, all);
+  return all;
+}
+
+void check_size(const Document& document, const GeometrySize& size) {
+  const auto limit = static_cast<double>(document.settings.memory_limit);
+  if (size.bytes > limit || size.vertices >= static_cast<double>(index(none<VertexId>)))
     throw OutputError(document.file, "geometry",
                       fmt::format("needs about {:.0f} MiB, the memory limit is {:.0f} MiB",
-                                  all.bytes / (1 << 20), limit / (1 << 20)));
+                                  size.bytes / (1 << 20), limit / (1 << 20)));
+}
+
+GeometrySize size_of_vertices(double copies, double vertices) {
+  return {copies * (bytes_per_vertex + sizeof(glm::vec4)) * vertices, copies * vertices};
 }
 
 } // namespace meninas::gltf

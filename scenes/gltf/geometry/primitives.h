@@ -44,10 +44,25 @@ Mode mode_of(const PrimitivePlace& at);
 /// None for a primitive that nothing can be seen of: glTF 2.0, 3.7.2.1 lets positions be absent.
 std::optional<std::size_t> position_accessor(const PrimitivePlace& at);
 
+/// The normal map of its material, if it is read.
+std::optional<TextureUse> normal_map_of(const PrimitivePlace& at);
+
 std::size_t triangles_in(Mode mode, std::uint64_t corners);
 
-/// Throws OutputError when the geometry would take more than the limit of memory, or has more
-/// primitives than any scene: instances multiply, so a small file can ask for any amount of either.
-void check_geometry_size(const Document& document, std::span<const PlacedNode> nodes);
+/// What the geometry of the scene takes.
+struct GeometrySize {
+  double bytes = 0.0, vertices = 0.0;
+};
+
+/// Of vertices and triangles before any is made; a vertex whose corners have several tangents makes
+/// more (part.h). Throws OutputError when there are more primitives than any scene has, or as
+/// below: instances multiply, so a small file can ask for any amount of either.
+GeometrySize geometry_size(const Document& document, std::span<const PlacedNode> nodes);
+
+/// Throws OutputError when that is more than the limit of memory.
+void check_size(const Document& document, const GeometrySize& size);
+
+/// Of vertices that a part has in so many copies.
+GeometrySize size_of_vertices(double copies, double vertices);
 
 } // namespace meninas::gltf

@@ -12,9 +12,17 @@ GltfFile everything() {
       {"values", {{"bufferView", sparse_values}}}};
   square_primitive(file)["attributes"]["TEXCOORD_0"] =
       file.add_accessor<std::uint16_t>({0, 0, 9, 9, 99, 99, 999, 999}, "VEC2");
+  square_primitive(file)["attributes"]["NORMAL"] =
+      file.add_accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+  square_primitive(file)["attributes"]["TANGENT"] =
+      file.add_accessor<float>({1, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0, -1, 0, 1, 0, -1}, "VEC4");
+  file.json["materials"][0]["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
   const auto strip = file.add_accessor<std::int16_t>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3");
   file.json["meshes"][0]["primitives"].push_back(
       {{"attributes", {{"POSITION", strip}}}, {"mode", 5}});
+  Json without_tangents = square_primitive(file);
+  without_tangents["attributes"].erase("TANGENT");
+  file.json["meshes"][0]["primitives"].push_back(without_tangents);
   file.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
   file.json["materials"][0]["extensions"] = {
       {"KHR_materials_emissive_strength", {{"emissiveStrength", 3}}},

@@ -5,7 +5,7 @@
 
 namespace meninas::test {
 
-/// Sparse and strided accessors, strips, textures with their transform,
+/// Sparse and strided accessors, strips, tangents, textures with their transform,
 /// cameras, a light, extensions of materials, a tree of nodes.
 GltfFile everything();
 

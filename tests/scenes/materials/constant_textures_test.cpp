@@ -370,5 +370,20 @@ TEST(TexelRanges, HoldTheTexelsThatATriangleShows) {
   EXPECT_LE(shown_count, 20) << "of 400: found, and not seen by any sample";
 }
 
+// Blank maps of exporters have 127 or 128, and JPEG's noise; one that leans turns the surface.
+TEST(ConstantTextures, NormalMapsThatLeanToNoSideAreNone) {
+  const auto stays = [](const glm::vec4& texel) {
+    Material material;
+    material.normal_texture = TextureUse{.texture = TextureId{0}};
+    Scene scene = square(material);
+    fold(scene, filled(4, 4, texel));
+    return scene.materials[0].normal_texture.has_value();
+  };
+  EXPECT_FALSE(stays(codes(128, 128, 255)));
+  EXPECT_FALSE(stays(codes(127, 126, 254)));
+  EXPECT_TRUE(stays(codes(160, 128, 250)));
+  EXPECT_TRUE(stays(codes(128, 90, 250)));
+}
+
 } // namespace
 } // namespace meninas::test

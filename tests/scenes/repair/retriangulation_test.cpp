@@ -290,5 +290,22 @@ TEST(Retriangulation, AffineTextureCoordinatesGoOn) {
   EXPECT_FALSE(retriangulate_slivers(seam.scene, find_surfaces(seam.scene)));
 }
 
+TEST(Retriangulation, TangentsOfNormalMapsGoOn) {
+  Sheet sheet = fan_about_middle(96, 2.5);
+  sheet.scene.textures.push_back({"map", {}});
+  sheet.scene.materials[0].normal_texture = TextureUse{TextureId{0}};
+  const glm::vec4 along(0.6F, 0.0F, 0.8F, -1.0F);
+  sheet.scene.tangents.assign(sheet.scene.vertices.size(), along);
+  Sheet turning = sheet;
+  ASSERT_TRUE(retriangulate_slivers(sheet.scene, find_surfaces(sheet.scene)));
+  ASSERT_GT(sheet.scene.vertices.size(), 97u);
+  ASSERT_EQ(sheet.scene.tangents.size(), sheet.scene.vertices.size());
+  for (const glm::vec4& tangent : sheet.scene.tangents)
+    EXPECT_LT(glm::distance(tangent, along), 1e-5F);
+
+  turning.scene.tangents[7] = {0.8F, 0.0F, -0.6F, -1.0F};
+  EXPECT_FALSE(retriangulate_slivers(turning.scene, find_surfaces(turning.scene)));
+}
+
 } // namespace
 } // namespace meninas::test

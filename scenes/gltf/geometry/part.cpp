@@ -1,0 +1,80 @@
+#include "scenes/gltf/geometry/part.h"
+
+#include "scenes/gltf/geometry/mikktspace.h"
+#include "scenes/materials/texture_lookup.h"
+
+#include <limits>
+
+namespace meninas::gltf {
+
+namespace {
+
+constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+
+template <typename T>
+void repeat(std::vector<T>& values, std::uint32_t k) {
+  if (values.empty())
+    return;
+  const T value = values[k];
+  values.push_back(value);
+}
+
+/// Finds for each corner a vertex that has its tangent.
+class Division {
+public:
+  explicit Division(Part& part)
+      : part_(part), tangents_(part.positions.size(), glm::vec4(0.0F)),
+        next_(part.positions.size(), nobody) {}
+
+  void give(std::uint32_t& corner, const glm::vec4& tangent) {
+    while (tangents_[corner] != glm::vec4(0.0F) && tangents_[corner] != tangent) {
+      if (next_[corner] == nobody) {
+        next_[corner] = static_cast<std::uint32_t>(tangents_.size());
+        divide(corner);
+      }
+      corner = next_[corner];
+    }
+    tangents_[corner] = tangent;
+  }
+
+  const std::vector<glm::vec4>& tangents() const { return tangents_; }
+
+private:
+  void divide(std::uint32_t vertex) {
+    repeat(part_.positions, vertex);
+    repeat(part_.texcoords, vertex);
+    repeat(part_.colors, vertex);
+    repeat(part_.normals.values, vertex);
+    tangents_.emplace_back(0.0F);
+    next_.push_back(nobody);
+  }
+
+  Part& part_;
+  std::vector<glm::vec4> tangents_;
+  std::vector<std::uint32_t> next_; ///< the vertex that was made of this one
+};
+
+} // namespace
+
+void settle_tangents(Part& part) {
+  if (!part.normal_map || !part.tangents.directions.empty())
+    return;
+  std::vector<Vec2> texcoords;
+  const auto set = static_cast<std::size_t>(part.normal_map->texcoord_set);
+  texcoords.reserve(part.texcoords.size());
+  for (const auto& sets : part.texcoords)
+    texcoords.push_back(transformed_texcoord(*part.normal_map, Vec2(sets[set])));
+  const auto made =
+      mikktspace_tangents({part.positions, part.normals.values, texcoords, part.triangles});
+  Division division(part);
+  for (std::size_t t = 0; t < made.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (made[t][k] != glm::vec4(0.0F))
+        division.give(part.triangles[t][k], made[t][k]);
+  for (const glm::vec4& tangent : division.tangents()) {
+    part.tangents.directions.emplace_back(tangent);
+    part.tangents.signs.push_back(double{tangent.w});
+  }
+}
+
+} // namespace meninas::gltf
