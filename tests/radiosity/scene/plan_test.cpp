@@ -1,5 +1,5 @@
 #include "radiosity/scene/plan.h"
-#include "tests/support/scene_builder.h"
+#include "tests/support/translucent.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -80,6 +80,20 @@ TEST(Plan, MaterialsThatAreOnNothingDoNotCount) {
 
 TEST(Plan, DoubleSidedEmittersEmitTwice) {
   EXPECT_EQ(plan_of(room_with(double_sided(diffuse(0.0, 1.0)))).emitters, 3U);
+}
+
+TEST(Plan, TranslucentSurfacesAreNamed) {
+  const TransportPlan one = plan_of(room_with(translucent(Rgb(0.5), 0.5, Rgb(0.5))));
+  EXPECT_EQ(one.bands, 1);
+  EXPECT_THAT(
+      one.stages,
+      Contains("translucent surfaces: 1 material passes diffuse light to the other side, in "
+               "both passes: 'first'"));
+  Scene scene = room_with(translucent(Rgb(0.5), 0.5, {0.5, 0.5, 0.4}));
+  scene.materials[2] = scene.materials[0];
+  const TransportPlan two = plan_of(scene);
+  EXPECT_EQ(two.bands, 3) << "what comes through has a colour";
+  EXPECT_THAT(two.stages, Contains(HasSubstr("2 materials pass diffuse light")));
 }
 
 TEST(Plan, LobesAreNamedAndWarnedAboutWhereTheyThrowShapes) {
