@@ -76,7 +76,8 @@ std::vector<Behind> all_behind(const ElementMesh& mesh) {
   for (const auto& [front, back] : mesh.sides_of_patch) {
     if (front == none<SideId> || back == none<SideId> || side_behind(mesh, front) == none<SideId>)
       continue;
-    for (const auto& [pair, area] : BackToBack(mesh, front, back).overlaps()) {
+    const BackToBack sides(mesh, front, back);
+    for (const auto& [pair, area] : sides.overlaps()) {
       all.push_back({pair.first, pair.second, area});
       all.push_back({pair.second, pair.first, area});
     }

@@ -155,8 +155,11 @@ TEST_P(TranslucencyTest, ASmallSheetUnderALampGlowsBehind) {
   add_polygon(scene, "sheet",
               {{-0.005, 0, -0.005}, {0.005, 0, -0.005}, {0.005, 0, 0.005}, {-0.005, 0, 0.005}},
               translucent(Rgb(0.8), 0.25, {1.0, 0.5, 0.2}));
+  // Black, and so large that the lamp is a small part of all there is: its light is found from it.
+  add_polygon(scene, "ground", {{-5, -3, 5}, {5, -3, 5}, {5, -3, -5}, {-5, -3, -5}}, diffuse(0.0));
   const double factor = point_form_factor(Point3(0.0), {0, 1, 0}, lamp);
-  PassOneSettings precise = settings(0.01);
+  PassOneSettings precise = settings(0.0);
+  precise.mesh.target_elements = 4;
   precise.direct.shadow_rays = 64;
   const auto l = lit(scene, precise.mesh);
   const RadiositySolution solution = solve_pass_one(l->light, precise);
