@@ -1,6 +1,7 @@
 #include "radiosity/energy.h"
 
 #include "radiosity/scene/surface_colour.h"
+#include "radiosity/transport/translucency.h"
 #include "scenes/materials/lobes.h"
 
 #include <algorithm>
@@ -48,6 +49,17 @@ std::vector<Rgb> passed_on_by_elements(const LightScene& light) {
   return shares;
 }
 
+/// Of that light, what comes out behind translucent surfaces.
+std::vector<Rgb> passed_by_elements(const ElementMesh& mesh, const std::vector<float>& exposed) {
+  const TranslucentLinks links = translucent_links(mesh, exposed);
+  if (links.empty())
+    return {};
+  std::vector<double> areas = mesh.area;
+  for (std::size_t e = 0; e < areas.size(); ++e)
+    areas[e] *= double{exposed[e]};
+  return passed_on(links, areas, std::vector<Rgb>(areas.size(), Rgb(1.0)));
+}
+
 } // namespace
 
 EnergyBalance energy_balance(const LightScene& light, const ElementSolution& solution,
@@ -55,6 +67,7 @@ EnergyBalance energy_balance(const LightScene& light, const ElementSolution& sol
                              const std::vector<Rgb>& entering) {
   const ElementMesh& mesh = light.mesh;
   const std::vector<Rgb> carried_on = passed_on_by_elements(light);
+  const std::vector<Rgb> passed = passed_by_elements(mesh, solution.exposed);
   EnergyBalance energy;
   for (std::size_t i = 0; i < mesh.area.size(); ++i) {
     const double area = mesh.area[i] * solution.exposed[i];
@@ -62,7 +75,8 @@ EnergyBalance energy_balance(const LightScene& light, const ElementSolution& sol
     energy.emitted += area * mesh.emission[i];
     if (!entering.empty())
       energy.emitted += area * entering[i];
-    const Rgb kept = 1.0 - mesh.reflectance[i] - carried_on[i];
+    const Rgb kept = passed.empty() ? 1.0 - mesh.reflectance[i] - carried_on[i]
+                                    : 1.0 - mesh.reflectance[i] - carried_on[i] - passed[i];
     energy.absorbed += area * kept * solution.irradiance[i];
     const Rgb followed = leaving / glm::max(Rgb(1e-9), 1.0 - Rgb(rows[i].cut_light));
     energy.absorbed += Rgb(rows[i].black_light) * followed;

@@ -23,21 +23,24 @@ ElementSolution on_elements(const ElementMesh& mesh, const ReflectedLight& solve
 }
 
 /// Elements receive what their corners do, by ElementId; none where it is not they that tell.
-void take_received(const ElementMesh& mesh, const std::vector<Rgb>& received,
-                   ElementSolution& solution) {
+void take_received(const ElementMesh& mesh, const TranslucentLinks& translucent,
+                   const std::vector<Rgb>& received, ElementSolution& solution) {
   for (std::size_t e = 0; e < received.size(); ++e) {
     if (!(solution.exposed[e] > 0.0F))
       continue;
     solution.irradiance[e] = received[e];
     solution.radiosity[e] = mesh.emission[e] + mesh.reflectance[e] * solution.irradiance[e];
   }
+  for (std::size_t e = 0; !translucent.empty() && e < received.size(); ++e)
+    if (solution.exposed[e] > 0.0F)
+      solution.radiosity[e] += passed_from_behind(translucent, e, solution.irradiance);
 }
 
 /// H at the vertices: D there, and the rest gathered from the elements, by nodes where these say so.
 InterpolatedField at_vertices(const LightScene& light, const PassOneSettings& settings,
                               ReflectedLight& solved, const std::vector<Rgb>& irradiance) {
   const ElementLight elements{std::move(solved.solver.radiosity), irradiance,
-                              solved.first.from_source};
+                              solved.first.from_source, solved.first.translucent};
   if (solved.receivers)
     return field_by_nodes(light, elements, *solved.receivers,
                           {settings.form_factors, settings.direct, settings.interpolation});
@@ -52,7 +55,7 @@ RadiositySolution field_of(const std::shared_ptr<const LightScene>& light,
   RadiositySolution solution;
   static_cast<ElementSolution&>(solution) = on_elements(light->mesh, solved);
   InterpolatedField found = at_vertices(*light, settings, solved, solution.irradiance);
-  take_received(light->mesh, found.received, solution);
+  take_received(light->mesh, solved.first.translucent, found.received, solution);
   solution.field = {std::move(found.field),
                     found.mesh ? light_scene_on(*light, std::move(*found.mesh)) : light};
   solution.seconds = {solved.form_factor_seconds, solved.solve_seconds, watch.lap()};

@@ -3,6 +3,7 @@
 //   B_i = E_i + rho_i sum over worlds w of tau_w sum_j F^w_ij B_j       (Eq. 1, on elements)
 //   H(x) = D(x) + sum over worlds w of tau_w sum_j F^w_xj B_j           (at the vertices, interpolated between)
 //
+// Of translucent surfaces, tau times H of their other side comes to B (transport/translucency.h).
 // B, E, H in W/m^2. Ideal mirrors are no unknowns: they are in the form factors F^w.
 // The unknowns are those of a cut through the hierarchy of elements: its leaves, or nodes as large as
 // the light allows (MeshCut), which users get by default.

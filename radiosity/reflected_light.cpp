@@ -36,7 +36,8 @@ ShotWatch shown(Watched& watched, const PassOneWatch& watch) {
         interpolate(light, {{}, std::move(irradiance), first.from_source}, settings.form_factors,
                     settings.direct, {Interpolation::average});
     watch.look({shots.shots, interpolated.field,
-                ambient_irradiance(area, closure, shots.unshot, first.reflectance)});
+                ambient_irradiance(area, closure, shots.unshot,
+                                   total_shares(first.reflectance, first.translucent))});
     watched.seconds += stopwatch.lap();
   };
   return {watch.every, look};
@@ -54,17 +55,18 @@ ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& fac
   solved.rays_traced = factors.rays_traced;
 
   // Split by who owns the path: direct light, gathered emission, and reflected light by the transport.
-  solved.first =
-      first_light(light, {gathered_emission(light, factors), factors.closure, factors.covered},
-                  settings.form_factors.method, settings.direct, progress);
+  solved.first = first_light(
+      light, {gathered_emission(light, factors), factors.closure, factors.covered, factors.exposed},
+      settings.form_factors.method, settings.direct, progress);
   solved.form_factor_seconds = stopwatch.lap();
 
   Watched watched{light, settings, solved.first, factors.closure, factors.exposed};
   ShotPlan plan;
   if (settings.solver.method == SolverMethod::progressive)
     plan = {make_shooting_blocks(light.mesh, factors.exposed), shown(watched, watch)};
-  solved.solver = solve(factors.transport, solved.first.source, solved.first.reflectance,
-                        settings.solver, plan);
+  solved.solver =
+      solve(factors.transport, solved.first.source,
+            {solved.first.reflectance, solved.first.translucent}, settings.solver, plan);
   solved.arrived = apply_transport(factors.transport, solved.solver.radiosity);
   solved.solve_seconds = stopwatch.lap() - watched.seconds;
   return solved;
@@ -75,14 +77,15 @@ ReflectedLight reflected_by_shots(const LightScene& light, const PassOneSettings
   Stopwatch stopwatch;
   ReflectedLight solved;
   const HemisphereSurvey survey = survey_hemispheres(light, settings.form_factors, progress);
-  solved.first = first_light(light, {survey.gathered, survey.closure, survey.covered},
-                             settings.form_factors.method, settings.direct, progress);
+  solved.first =
+      first_light(light, {survey.gathered, survey.closure, survey.covered, survey.exposed},
+                  settings.form_factors.method, settings.direct, progress);
   solved.form_factor_seconds = stopwatch.lap();
 
   Watched watched{light, settings, solved.first, survey.closure, survey.exposed};
-  ShotSolution shots =
-      solve_by_shots(light, survey, {solved.first.source, solved.first.reflectance},
-                     {settings.form_factors, settings.solver}, progress, shown(watched, watch));
+  ShotSolution shots = solve_by_shots(
+      light, survey, {solved.first.source, {solved.first.reflectance, solved.first.translucent}},
+      {settings.form_factors, settings.solver}, progress, shown(watched, watch));
   solved.solver = std::move(shots.solver);
   solved.arrived = std::move(shots.arrived);
   solved.closure = survey.closure;

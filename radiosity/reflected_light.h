@@ -2,6 +2,7 @@
 //
 //   X = rho (D + G) + rho T X,      H = D + G + T X,      B = E + X        W/m^2, by ElementId
 //
+// and of translucent surfaces with tau times what their other side receives (transport/translucency.h),
 // with D + G the light that no element has reflected yet (light/first_light.h) and
 // T = sum over worlds w of tau_w F^w. It is solved in one of three ways:
 //

@@ -14,10 +14,8 @@ FieldContent field_content(const IrradianceField& field, const DiffuseSettings& 
 
 std::vector<Rgb> reflected_by_elements(const IrradianceField& field) {
   const ElementMesh& mesh = field.mesh();
-  std::vector<Rgb> reflected = corner_means(mesh, field.irradiance);
-  for (std::size_t e = 0; e < reflected.size(); ++e)
-    reflected[e] *= mesh.reflectance[e];
-  return reflected;
+  return scattered(mesh.reflectance, translucent_links(mesh, {}),
+                   corner_means(mesh, field.irradiance));
 }
 
 std::unique_ptr<const PointGathering> make_gathering(const IrradianceField& field,

@@ -38,7 +38,7 @@ struct DiffuseSettings {
 FieldContent field_content(const IrradianceField& field, const DiffuseSettings& settings);
 
 /// The reflected radiosity of the elements, as a field says:
-/// rho times the mean of H at their corners.
+/// rho times the mean of H at their corners, and tau times that of the elements behind.
 std::vector<Rgb> reflected_by_elements(const IrradianceField& field);
 
 /// What the term needs besides the field; for `gather` alone.

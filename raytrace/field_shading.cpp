@@ -16,7 +16,8 @@ std::vector<SideShading> make_side_shading(const Scene& scene, const ElementMesh
                          glm::vec3(0.0F), side.textured});
     else
       shading.push_back({glm::vec3(side.emission / std::numbers::pi),
-                         glm::vec3(side.reflectance / std::numbers::pi), side.textured});
+                         glm::vec3(side.reflectance / std::numbers::pi), side.textured,
+                         glm::vec3(side.transmittance / std::numbers::pi)});
   }
   return shading;
 }
@@ -35,7 +36,7 @@ std::vector<LightPart> light_parts(const IrradianceField& field,
   const auto& mirrored = content == FieldContent::all ? field.mirrored : field.indirect_mirrored;
   auto glowing = all.shading, reflecting = all.shading;
   for (auto& side : glowing)
-    side.albedo_over_pi = glm::vec3(0.0F);
+    side.albedo_over_pi = side.passed_over_pi = glm::vec3(0.0F);
   for (auto& side : reflecting)
     side.emitted = glm::vec3(0.0F);
 

@@ -1,5 +1,6 @@
 // The diffuse term of pass two: outgoing radiance of the field of pass one at a landing point,
-//   L = L_e + rho_d H / pi,
+//   L = L_e + (rho_d H + tau_d H_behind) / pi,
+// H_behind what the other side of a translucent surface receives at the same place,
 // the one place where radiosity becomes radiance.
 #pragma once
 
@@ -16,6 +17,10 @@ struct SideShading {
   glm::vec3 emitted{0.0F};        ///< L_e
   glm::vec3 albedo_over_pi{0.0F}; ///< rho_d / pi
   bool textured = false; ///< these are factors: each point has its own (shading_at)
+  glm::vec3 passed_over_pi{0.0F}; ///< tau_d / pi of a translucent surface
+
+  /// Whether a point shows more than its place in the field tells.
+  bool is_by_point() const { return textured || passed_over_pi != glm::vec3(0.0F); }
 };
 
 /// By SideId.

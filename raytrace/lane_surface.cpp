@@ -35,8 +35,8 @@ static Receiver curved_receiver(const LightScene& light, const FaceRecord& face,
   const Vec2 at(hits.b1[k], hits.b2[k]);
   Receiver receiver;
   if (const Material& material = material_of(light.scene, triangle);
-      is_glass(material) && !is_blended(material)) {
-    // Light passes a pane at the pane itself.
+      (is_glass(material) && !is_blended(material)) || is_translucent(material)) {
+    // Light passes a pane or a translucent surface at itself.
     const auto [a, b, c] = corners(light.scene, triangle);
     receiver.position = a + at.x * (b - a) + at.y * (c - a);
     receiver.plane_class = static_cast<PlaneId>(face.plane_class);
@@ -89,6 +89,8 @@ SideShading shading_at(const LandedLane& lane) {
     shading.emitted = colour.emission / std::numbers::pi;
   if (part != ReflectedPart::none)
     shading.albedo_over_pi = colour.reflectance / std::numbers::pi;
+  if (part != ReflectedPart::none)
+    shading.passed_over_pi = colour.transmittance / std::numbers::pi;
   return shading;
 }
 
@@ -129,16 +131,36 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
                              diffuse.draw == 0 ? key : hash(key, diffuse.draw), work.point);
 }
 
+glm::vec3 irradiance_behind(const LandedLane& lane, TileWorkspace& work) {
+  const auto& [context, packet, state, face, hits, k] = lane;
+  HitPacket turned = hits;
+  turned.front[k] = hits.front[k] != 0 ? 0 : 1;
+  const FaceRecord& behind = face_of(context.light.landing, turned, k);
+  return behind.side == FaceRecord::nothing
+             ? glm::vec3(0.0F)
+             : irradiance_of_lane(context, state, behind, turned, k, work);
+}
+
+/// What a translucent surface shows of light from behind.
+static glm::vec3 passed_radiance(const LandedLane& lane, const SideShading& shading,
+                                 TileWorkspace& work) {
+  return shading.passed_over_pi == glm::vec3(0.0F)
+             ? glm::vec3(0.0F)
+             : shading.passed_over_pi * irradiance_behind(lane, work);
+}
+
 glm::vec3 radiance_of_lane(const LandedLane& lane, TileWorkspace& work) {
   const auto& [context, packet, state, face, hits, k] = lane;
   SideShading shading = shading_at(lane);
   shading.emitted *= share_of_rays(context, state, face, hits, k);
   if (context.settings.diffuse.term != DiffuseTerm::interpolated || face.mapped)
     return shading.emitted +
-           shading.albedo_over_pi * irradiance_of_lane(context, state, face, hits, k, work);
+           shading.albedo_over_pi * irradiance_of_lane(context, state, face, hits, k, work) +
+           passed_radiance(lane, shading, work);
   return shading.emitted +
          shading.albedo_over_pi *
-             field_irradiance(context.visible, face.side, uv_of(context.light, face, hits, k));
+             field_irradiance(context.visible, face.side, uv_of(context.light, face, hits, k)) +
+         passed_radiance(lane, shading, work);
 }
 
 } // namespace meninas

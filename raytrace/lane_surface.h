@@ -1,6 +1,8 @@
 // The surface on which a lane of a packet has landed: where light is received, and how it is reflected.
 //
-//   L = L_e + rho H / pi        W/m^2/sr, with H the irradiance there, W/m^2
+//   L = L_e + (rho H + tau H_behind) / pi        W/m^2/sr
+//
+// with H the irradiance there and, of translucent surfaces, H_behind that of the other side, W/m^2.
 #pragma once
 
 #include "raytrace/tile.h"
@@ -24,7 +26,10 @@ glm::vec3 irradiance_of_lane(const RenderContext& context, const LaneState& stat
                              const FaceRecord& face, const HitPacket& hits, std::uint32_t k,
                              TileWorkspace& work);
 
-/// L_e + rho H / pi where the lane has landed on a side, rho as in pass one.
+/// H of the other side there; 0 where that is none.
+glm::vec3 irradiance_behind(const LandedLane& lane, TileWorkspace& work);
+
+/// L_e + (rho H + tau H_behind) / pi where the lane has landed on a side, rho as in pass one.
 glm::vec3 radiance_of_lane(const LandedLane& lane, TileWorkspace& work);
 
 } // namespace meninas

@@ -243,6 +243,9 @@ glm::vec3 scattered_radiance(const LandedLane& lane, TileWorkspace& work) {
       !material_of(context.light.scene, TriangleId{hits.triangle[k]}).unlit)
     radiance += glm::vec3(even_reflectance(bsdf, out.z) / std::numbers::pi) *
                 irradiance_of_lane(context, state, face, hits, k, work);
+  if (part != ReflectedPart::none && bsdf.passed != Rgb(0.0))
+    radiance += glm::vec3(even_transmittance(bsdf, out.z) / std::numbers::pi) *
+                irradiance_behind(lane, work);
   return radiance;
 }
 

@@ -2,6 +2,7 @@
 //
 //   L(o) = L_e + rho(o) H / pi + sum_k w_k L(i_k) + sum_p f(o, i_p) E_p + sum_e f(o, i_e) cos_e L_e
 //
+// and of translucent surfaces tau(o) H_behind / pi (lane_surface.h).
 // rho(o) is what the lobes without a direction of their own reflect towards o (even_reflectance,
 // scenes/materials/bsdf.h), H the field; the first sum is over the grid of the lobe,
 // each of whose rays is followed as those of a mirror are (lobe_grid.h);

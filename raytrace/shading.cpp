@@ -63,6 +63,8 @@ void shade_by_lanes(const RenderContext& context, const RayPacket& packet, const
         if (shading.albedo_over_pi != glm::vec3(0.0F))
           radiance +=
               shading.albedo_over_pi * irradiance_of_lane(context, state, face, hits, k, work);
+        if (shading.passed_over_pi != glm::vec3(0.0F))
+          radiance += shading.passed_over_pi * irradiance_behind(lane, work);
       }
       reflect_lane(lane, work);
     }
@@ -85,7 +87,7 @@ bool lands_together(const RenderContext& context, const LaneState& state, const 
   const SideShading& side = context.visible.shading[face.side];
   // What rays of lobes show of lamps is weighed ray by ray.
   const bool weighed = state.specular && !context.bsdfs.empty() && side.emitted != glm::vec3(0.0F);
-  return !side.textured && !weighed && !meets_lobes(context, face, hits, k);
+  return !side.is_by_point() && !weighed && !meets_lobes(context, face, hits, k);
 }
 
 /// Those of the lanes that belong to the pixel of the first.

@@ -141,11 +141,11 @@ bool ends_unlit(const TracedScene& traced, Path& path) {
 }
 
 /// The routes of what is scattered towards `out` from `in`;
-/// glass that is passed is no part of them.
+/// glass that is passed is no part of them, translucent surfaces scatter evenly.
 LightRoutes routes_on(const TracedScene& traced, const Path& path, const Direction& out,
                       const Direction& in) {
   if (in.z < 0.0)
-    return path.routes;
+    return path.at.bsdf.passed == Rgb(0.0) ? path.routes : path.routes.scattered({});
   LobeShares shares = lobe_shares(path.at.bsdf, out, in);
   // What pass one takes for a mirror is one on the way of light, as glass is.
   if (material_of(traced.scene, path.at.triangle).specular_in_pass_one)

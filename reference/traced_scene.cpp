@@ -43,9 +43,9 @@ void bend(const TracedScene& traced, Vec2 barycentric, const Direction& out, Sur
     return;
   const Direction n = mapped_normal(traced.scene, traced.textures, at.triangle, barycentric);
   at.normal = visible_normal(at.front ? n : -n, at.face, out);
-  // Light passes a pane at the pane itself.
+  // Light passes a pane or a translucent surface at itself.
   const Material& material = material_of(traced.scene, at.triangle);
-  if (is_glass(material) && !is_blended(material))
+  if ((is_glass(material) && !is_blended(material)) || is_translucent(material))
     return;
   at.origin = curved_origin(traced.scene, traced.surfaces, traced.rays, at.triangle, barycentric,
                             at.front);

@@ -37,6 +37,11 @@ bool is_glass(const Material& material) {
          (material.metallic < 1.0 || material.metallic_roughness_texture || is_blended(material));
 }
 
+bool is_translucent(const Material& material) {
+  return material.diffuse_transmission > 0.0 && material.diffuse_transmission_color != Rgb(0.0) &&
+         (material.metallic < 1.0 || material.metallic_roughness_texture);
+}
+
 bool is_solid_glass(const Material& material) {
   return is_glass(material) && material.thickness > 0.0 && !is_blended(material);
 }

@@ -15,6 +15,12 @@
 // with one it is the surface of a solid (KHR_materials_volume).
 // Where a transmission texture is black, the surface is opaque from both sides.
 //
+// A translucent surface (diffuse_transmission > 0, KHR_materials_diffuse_transmission: cloth, paper, a
+// leaf) passes evenly, as from its other side, what it does not reflect of what gets below its coat,
+// and is there from both sides as well:
+//
+//   rho_d = base_color (1 - t) (1 - metallic),   tau_d = t diffuse_transmission_color (1 - metallic)
+//
 // Alpha of alphaMode BLEND is coverage (materials/coverage.h): such a surface is a pane that passes
 // 1 - alpha straight.
 #pragma once
@@ -61,6 +67,8 @@ struct Material {
   Rgb specular_color{1.0};
   Rgb sheen_color{0.0}; ///< KHR_materials_sheen (materials/sheen.h), in [0, 1]; black: there is none
   double sheen_roughness = 0.0; ///< in [0, 1]
+  double diffuse_transmission = 0.0;   ///< t, in [0, 1]: above 0 it is a translucent surface
+  Rgb diffuse_transmission_color{1.0}; ///< in [0, 1]
   double transmission = 0.0;
   double thickness =
       0.0; ///< KHR_materials_volume, metres: above 0 what is behind the surface is full of the glass
@@ -75,6 +83,8 @@ struct Material {
   std::optional<TextureUse> thickness_texture;    ///< green
   std::optional<TextureUse> normal_texture;       ///< materials/normal_map.h
   double normal_scale = 1.0;                      ///< of its red and green
+  std::optional<TextureUse> diffuse_transmission_texture; ///< alpha
+  std::optional<TextureUse> diffuse_transmission_color_texture;
 
   // What is decided before anything is decided by the material, and gone by then:
   // of these textures the constant ones become factors, the others are left out
@@ -112,7 +122,10 @@ bool is_glossy(const Material& material);
 /// most, and at a point 1 - alpha.
 bool is_blended(const Material& material);
 
-/// It lets light through: a pane, the surface of a solid, or what is blended.
+/// It passes light evenly to its other side.
+bool is_translucent(const Material& material);
+
+/// It lets light through straight or refracted: a pane, the surface of a solid, or what is blended.
 bool is_glass(const Material& material);
 
 /// The surface of a solid.

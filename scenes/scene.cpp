@@ -61,6 +61,13 @@ void add_material(ContentHash& hash, const Material& material) {
     add_texture_use(hash, material.sheen_color_texture);
     add_texture_use(hash, material.sheen_roughness_texture);
   }
+  if (material.diffuse_transmission > 0.0) {
+    hash.add(std::uint64_t{4}); // no other's
+    hash.add(material.diffuse_transmission);
+    hash.add(material.diffuse_transmission_color);
+    add_texture_use(hash, material.diffuse_transmission_texture);
+    add_texture_use(hash, material.diffuse_transmission_color_texture);
+  }
   if (material.clear_coat > 0.0) {
     hash.add(material.clear_coat);
     hash.add(material.clear_coat_roughness);

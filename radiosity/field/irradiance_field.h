@@ -3,9 +3,12 @@
 // It is irradiance H, W/m^2, on every side of every patch; reflectance is applied at the hit:
 //
 //   B(x) = E(x) + rho(x) H(x)
+//
+// On translucent surfaces tau(x) H(x) of the other side is added, at the same (u, v).
 #pragma once
 
 #include "radiosity/scene/light_scene.h"
+#include "radiosity/transport/translucency.h"
 
 #include <cstdint>
 #include <memory>
@@ -59,6 +62,7 @@ struct ElementLight {
   std::vector<Rgb> reflected;   ///< B without emission
   std::vector<Rgb> irradiance;  ///< H
   std::vector<Rgb> from_source; ///< the part of H found from the source; empty: not known
+  TranslucentLinks translucent = {}; ///< what comes through from one to another
 };
 
 /// The field at a point of a side.

@@ -27,8 +27,8 @@ bool is_beyond(const BendBound& bound, double area, const Rgb& rho, const glm::v
          2.0 * bound.x * (there + of_mean * bound.scale.radiosity);
 }
 
-const Rgb& reflectance_at(const ElementMesh& mesh, ElementVertexId vertex) {
-  return mesh.reflectance[index(mesh.element_of_vertex[index(vertex)])];
+Rgb share_at(const ElementMesh& mesh, ElementVertexId vertex) {
+  return scattered_share(mesh, index(mesh.element_of_vertex[index(vertex)]));
 }
 
 void add_parts(const NodeTree& tree, TreeNodeId id, std::vector<TreeNodeId>& parts) {
@@ -54,8 +54,8 @@ bool is_bent(const ElementMesh& mesh, const NodeTree& tree, TreeNodeId id,
     glm::vec3 interpolated(0.0F);
     for (std::size_t c = 0; c < corners.size(); ++c)
       interpolated += probe.weight[c] * gathered.indirect[index(corners[c])];
-    return is_beyond(bound, area, reflectance_at(mesh, probe.vertex),
-                     gathered.indirect[p] - interpolated, gathered.irradiance[p]);
+    return is_beyond(bound, area, share_at(mesh, probe.vertex), gathered.indirect[p] - interpolated,
+                     gathered.irradiance[p]);
   });
 }
 
@@ -87,7 +87,7 @@ std::vector<TreeNodeId> parts_at_bent_edges(const ElementMesh& mesh, const NodeT
     const bool is_cross = cross != crosses.end() && cross->node == id;
     const double area = area_below(mesh, tree, id);
     const bool is_bent = is_cross && std::ranges::any_of(cross->of_edges, [&](ElementVertexId v) {
-                           return is_beyond(bound, area, reflectance_at(mesh, v), bends[index(v)],
+                           return is_beyond(bound, area, share_at(mesh, v), bends[index(v)],
                                             gathered.irradiance[index(cross->middle)]);
                          });
     if (is_bent)

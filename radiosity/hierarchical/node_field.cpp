@@ -161,6 +161,22 @@ std::vector<Rgb> received_at_corners(const ElementLight& elements, const Hierarc
   return received;
 }
 
+/// To those of translucent surfaces, in place of what has come through them as they were solved.
+void add_from_behind(const ElementLight& elements, std::vector<Rgb> received,
+                     std::vector<Rgb>& reflected) {
+  if (elements.translucent.empty())
+    return;
+  for (std::size_t e = 0; e < received.size(); ++e)
+    if (elements.irradiance[e] == Rgb(0.0))
+      received[e] = Rgb(0.0);
+  for (std::size_t e = 0; e < received.size(); ++e) {
+    if (elements.irradiance[e] == Rgb(0.0))
+      reflected[e] -= passed_from_behind(elements.translucent, e, elements.irradiance);
+    reflected[e] =
+        glm::max(reflected[e] + passed_from_behind(elements.translucent, e, received), Rgb(0.0));
+  }
+}
+
 /// The radiosity of the elements by the field that they make themselves, found with few rays:
 /// `found` has it in between.
 std::vector<Rgb> reflected_by_field(const VertexSource& few, const HierarchicalSolution& receivers,
@@ -175,6 +191,7 @@ std::vector<Rgb> reflected_by_field(const VertexSource& few, const HierarchicalS
   for (std::size_t e = 0; e < received.size(); ++e)
     if (elements.irradiance[e] != Rgb(0.0))
       reflected[e] = found.mesh.reflectance[e] * received[e];
+  add_from_behind(elements, received, reflected);
   found.field = std::move(lit);
   found.states = std::move(states);
   return reflected;

@@ -73,7 +73,7 @@ Powers powers_at(const ElementMesh& mesh, std::span<const ElementId> elements,
   for (const ElementId element : elements) {
     const std::size_t e = index(element);
     powers.arriving += mesh.area[e] * largest(irradiance[e]);
-    powers.reflected += mesh.area[e] * largest(mesh.reflectance[e] * irradiance[e]);
+    powers.reflected += mesh.area[e] * largest(scattered_share(mesh, e) * irradiance[e]);
   }
   return powers;
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace meninas {
 
@@ -28,16 +30,43 @@ struct Received {
   Transport links;
 };
 
+/// tau_cd, the mean over the elements of c of the sum over those of d.
+TranslucentLinks translucent_links_of_receivers(const NodeCut& cut,
+                                                const TranslucentLinks& elements,
+                                                const std::vector<double>& areas) {
+  TranslucentLinks links;
+  if (elements.empty())
+    return links;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Rgb> sums;
+  std::vector<double> area(cut.receivers.size(), 0.0);
+  for (std::uint32_t e = 0; e < areas.size(); ++e) {
+    const std::uint32_t c = cut.receiver_of_element[e];
+    area[c] += areas[e];
+    for (std::uint32_t k = elements.row_begin[e]; k < elements.row_begin[e + 1]; ++k)
+      sums[{c, cut.receiver_of_element[elements.columns[k]]}] +=
+          areas[e] * elements.transmittance[k];
+  }
+  links.row_begin.assign(area.size() + 1, 0);
+  for (const auto& [pair, sum] : sums) {
+    ++links.row_begin[pair.first + 1];
+    links.columns.push_back(pair.second);
+    links.transmittance.push_back(area[pair.first] > 0.0 ? sum / area[pair.first] : Rgb(0.0));
+  }
+  for (std::size_t c = 0; c < area.size(); ++c)
+    links.row_begin[c + 1] += links.row_begin[c];
+  return links;
+}
+
 Received solve_receivers(const NodeTree& tree, const NodeCut& cut, const FirstLight& first,
                          const std::vector<double>& areas, const SolverSettings& settings) {
   Received received;
   received.links = between_receivers(cut);
   const std::vector<Rgb> reflectance = means_below(tree, cut, areas, first.reflectance);
   const std::vector<Rgb> from_first = transport_product(cut.rows, first.source);
-  std::vector<Rgb> source = from_first;
-  for (std::size_t c = 0; c < source.size(); ++c)
-    source[c] *= reflectance[c];
-  received.solver = solve(received.links, source, reflectance, settings);
+  const TranslucentLinks translucent =
+      translucent_links_of_receivers(cut, first.translucent, areas);
+  const std::vector<Rgb> source = scattered(reflectance, translucent, from_first);
+  received.solver = solve(received.links, source, {reflectance, translucent}, settings);
   received.irradiance = apply_transport(received.links, received.solver.radiosity);
   for (std::size_t c = 0; c < source.size(); ++c)
     received.irradiance[c] += from_first[c];
@@ -70,7 +99,8 @@ std::vector<Rgb> pulled(const NodeTree& tree, const NodeCut& cut, const std::vec
 std::vector<std::uint8_t> to_divide(const NodeTree& tree, const NodeCut& cut,
                                     const FirstLight& first, const std::vector<double>& areas,
                                     const std::vector<Rgb>& irradiance, double link_error) {
-  const std::vector<Rgb> reflectance = means_below(tree, cut, areas, first.reflectance),
+  const std::vector<Rgb> reflectance = means_below(
+                             tree, cut, areas, total_shares(first.reflectance, first.translucent)),
                          at_first = means_below(tree, cut, areas, first.irradiance),
                          from_source = means_below(tree, cut, areas, first.from_source);
   std::vector<Rgb> gathered = irradiance, radiosity;
@@ -153,8 +183,10 @@ void light_up(const NodeProblem& problem, LitCut& lit) {
                        : light_by_corners(light, problem.tree, lit.covered, *problem.vertices,
                                           problem.direct, problem.progress);
   }
-  lit.first = first_light(light, by_element(lit.cut, lit.cut.emission),
-                          by_element(lit.cut, lit.cut.closure), lit.direct, FormFactorMethod::rays);
+  const std::vector<RowClosure> closure = by_element(lit.cut, lit.cut.closure);
+  lit.first =
+      first_light(light, {by_element(lit.cut, lit.cut.emission), closure, lit.covered, lit.exposed},
+                  lit.direct, FormFactorMethod::rays);
 }
 
 /// The mean of the squares over the square of the mean.
@@ -246,8 +278,10 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
   result.arrived = by_element(cut, received.irradiance);
   result.solver = std::move(received.solver);
   result.solver.radiosity = result.first.source;
-  for (std::size_t e = 0; e < result.arrived.size(); ++e)
-    result.solver.radiosity[e] += result.first.reflectance[e] * result.arrived[e];
+  const std::vector<Rgb> again =
+      scattered(result.first.reflectance, result.first.translucent, result.arrived);
+  for (std::size_t e = 0; e < again.size(); ++e)
+    result.solver.radiosity[e] += again[e];
   result.closure = by_element(cut, cut.closure);
   result.exposed = std::move(lit.exposed);
   result.rays_traced = cut.rays_traced;

@@ -8,6 +8,7 @@
 //   B_j = S_j + rho_j H_c,   H_c = sum_j F_cj B_j = s_c + sum_d F_cd rho_d H_d,   s_c = sum_j F_cj S_j,
 //
 // d over the receivers, F_cd the sum of F_cj over the elements j below d, rho_d their mean:
+// (of translucent surfaces, tau times what their other side receives comes to B_j: transport/translucency.h),
 // first light is gathered from the elements themselves, and what follows from receivers,
 // over links between nodes (F_cd, c, d). The system of receivers is solved by any solver (solve.h).
 // Receivers are then divided where

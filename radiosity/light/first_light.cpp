@@ -48,13 +48,12 @@ DirectIrradiance found_light(const LightScene& light, std::span<const std::uint6
 
 } // namespace
 
-FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
-                       const std::vector<RowClosure>& closure, const DirectIrradiance& direct,
+FirstLight first_light(const LightScene& light, FoundByRays rays, const DirectIrradiance& direct,
                        FormFactorMethod method) {
   FirstLight first;
-  SkyIrradiance sky = sky_irradiance(light, closure);
+  SkyIrradiance sky = sky_irradiance(light, rays.closure);
   first.entering = std::move(sky.gathered);
-  first.irradiance = std::move(gathered);
+  first.irradiance = std::move(rays.gathered);
   add(first.irradiance, first.entering);
   if (method != FormFactorMethod::analytic)
     first.from_source = direct.irradiance;
@@ -64,15 +63,15 @@ FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
   add(first.entering, sky.by_portals);
 
   first.reflectance = light.mesh.reflectance;
-  for (std::size_t i = 0; i < first.irradiance.size(); ++i)
-    first.source.push_back(first.reflectance[i] * first.irradiance[i]);
+  first.translucent = translucent_links(light.mesh, rays.exposed);
+  first.source = scattered(first.reflectance, first.translucent, first.irradiance);
   return first;
 }
 
 FirstLight first_light(const LightScene& light, FoundByRays rays, FormFactorMethod method,
                        const DirectSettings& settings, const Progress& progress) {
-  return first_light(light, std::move(rays.gathered), rays.closure,
-                     found_light(light, rays.covered, method, settings, progress), method);
+  const DirectIrradiance direct = found_light(light, rays.covered, method, settings, progress);
+  return first_light(light, std::move(rays), direct, method);
 }
 
 } // namespace meninas

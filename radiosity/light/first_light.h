@@ -1,4 +1,5 @@
-// Light that no element has reflected yet: the source of eq. 1, S = rho (D + G).
+// Light that no element has scattered yet: the source of eq. 1, S = rho (D + G), and of translucent
+// surfaces with what comes through them (transport/translucency.h).
 //
 //   D   from emitters and punctual lights, also by way of enumerated mirror worlds, in closed form (element_light.h)
 //   G   emission that the transport's rays have gathered, and the background: pi L for the share of an element's rays that escape
@@ -8,6 +9,7 @@
 #pragma once
 
 #include "radiosity/light/element_light.h"
+#include "radiosity/transport/translucency.h"
 
 namespace meninas {
 
@@ -15,20 +17,21 @@ struct FirstLight {
   std::vector<Rgb> irradiance, source, reflectance; ///< D + G, S = rho (D + G), rho by ElementId
   std::vector<Rgb> from_source;                     ///< D; empty where it is not set apart
   std::vector<Rgb> entering; ///< the part of D + G that no surface emits; empty where there is none
+  TranslucentLinks translucent; ///< by ElementId
   std::uint64_t shadow_rays = 0;
 };
-
-/// D + G of D that has been found.
-FirstLight first_light(const LightScene& light, std::vector<Rgb> gathered,
-                       const std::vector<RowClosure>& closure, const DirectIrradiance& direct,
-                       FormFactorMethod method);
 
 /// What the elements' own rays have found, by ElementId.
 struct FoundByRays {
   std::vector<Rgb> gathered; ///< G, W/m^2
   const std::vector<RowClosure>& closure;
-  std::span<const std::uint64_t> covered;
+  std::span<const ContactMask> covered;
+  std::span<const float> exposed;
 };
+
+/// D + G of D that has been found.
+FirstLight first_light(const LightScene& light, FoundByRays rays, const DirectIrradiance& direct,
+                       FormFactorMethod method);
 
 /// D is found here.
 FirstLight first_light(const LightScene& light, FoundByRays rays, FormFactorMethod method,

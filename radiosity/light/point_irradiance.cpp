@@ -134,6 +134,21 @@ static Receiver point_of(const ElementMesh& mesh, const SurfaceModel& surfaces, 
           side.tangent, side.coat};
 }
 
+/// What comes through at a place of an element of a translucent surface.
+static Rgb told_from_behind(const PointGathering& gathering, std::uint32_t element,
+                            const glm::vec2& place, std::uint32_t seed, PointWorkspace& work) {
+  const ElementMesh& mesh = gathering.light.mesh;
+  const SideId behind = side_behind(mesh, mesh.side_of_element[element]);
+  if (behind == none<SideId>)
+    return Rgb(0.0);
+  const MeshSide& side = mesh.sides[index(behind)];
+  const Patch& patch = gathering.light.surfaces.patches[index(side.patch)];
+  const Receiver point{
+      point_at(patch, patch_uv_of(mesh, cell_of(mesh, ElementId{element}), Vec2(place))),
+      side.normal, side.plane_class, side.tangent, side.coat};
+  return mesh.transmittance[element] * light_at(gathering, point, seed, work).all().total;
+}
+
 ArrivingLight one_more_bounce(const PointGathering& gathering, const Receiver& receiver, int places,
                               std::uint32_t seed, PointWorkspace& work) {
   GatherWorkspace& rays = work.gather;
@@ -159,7 +174,9 @@ ArrivingLight one_more_bounce(const PointGathering& gathering, const Receiver& r
     const Receiver point =
         point_of(mesh, gathering.light.surfaces, ElementId{landing.element}, place);
     const Rgb gathered = light_at(gathering, point, hash(seed, 0xb0cf, k), work).all().total;
-    const Rgb told = mesh.reflectance[landing.element] * gathered;
+    const Rgb told =
+        mesh.reflectance[landing.element] * gathered +
+        told_from_behind(gathering, landing.element, place, hash(seed, 0xb0d0, k), work);
     const Rgb more = Rgb(landing.light) / kept * (told - gathering.reflected[landing.element]) *
                      (double(landed) / double(some));
     change.total += more;

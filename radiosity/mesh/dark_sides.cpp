@@ -124,9 +124,9 @@ DarkSides find_dark_sides(const Scene& scene, const SurfaceModel& surfaces, cons
   tbb::parallel_for(std::size_t{0}, surfaces.patches.size(), [&](std::size_t p) {
     const Patch& patch = surfaces.patches[p];
     const Material& material = material_of_patch(patch);
-    // Light may reach a curve over a facet that it does not reach.
-    if (!material.double_sided || is_emitter(material) || material.unlit ||
-        material.normal_texture || is_curved(scene, patch))
+    // Light may reach a curve over a facet that it does not reach, and comes through translucent surfaces.
+    if (!material.double_sided || is_translucent(material) || is_emitter(material) ||
+        material.unlit || material.normal_texture || is_curved(scene, patch))
       return;
     const Surface& surface = surfaces.surfaces[index(patch.surface)];
     for (std::size_t facing = 0; facing < 2; ++facing) {

@@ -6,7 +6,7 @@
 // spread over the side and its hemisphere, escapes the scene, to where there is no background,
 // and no emitter or punctual light in front of it can be seen from any probe point:
 // then neither reflected nor emitted light arrives. Single-sided fronts are not probed:
-// they are there to be lit. Emitting sides are never dark.
+// they are there to be lit. Emitting sides, and those of translucent surfaces, are never dark.
 #pragma once
 
 #include "scenes/rays/ray_scene.h"

@@ -61,6 +61,8 @@ struct MeshSide {
   bool textured = false; ///< its colours vary from point to point, or it has holes (surface_colour.h)
   Rgb reflectance{0.0};  ///< rho, diffuse, before textures
   Rgb emission{0.0};     ///< E = pi L, W/m^2, before textures
+  Rgb transmittance{
+      0.0}; ///< tau_d of a translucent surface, before textures: of light that its other side receives
 };
 
 /// A node of the forest: a leaf is an element, others have four children in a row.
@@ -118,6 +120,8 @@ struct ElementMesh {
   std::vector<ElementCorners> corners;      ///< by ElementId
   std::vector<double> area;                 ///< by ElementId, m^2
   std::vector<Rgb> reflectance, emission;   ///< rho and E by ElementId, means over what is not cut out
+  std::vector<Rgb>
+      transmittance; ///< tau_d by ElementId, likewise; empty where there is no translucent surface
   std::vector<float> solid;                 ///< the share of an element that is not cut out
   std::vector<Point3> vertices;             ///< by ElementVertexId
   std::vector<ElementId> element_of_vertex; ///< one of the elements that share it
@@ -143,6 +147,20 @@ inline const RegionElement* region_of(const ElementMesh& mesh, ElementId element
 }
 inline bool is_at_contact(const ElementMesh& mesh, std::size_t vertex) {
   return !mesh.at_contact.empty() && mesh.at_contact[vertex] != 0;
+}
+
+/// rho + tau_d: the share of light that elements scatter to either side.
+inline Rgb scattered_share(const ElementMesh& mesh, std::size_t element) {
+  return mesh.transmittance.empty() ? mesh.reflectance[element]
+                                    : mesh.reflectance[element] + mesh.transmittance[element];
+}
+
+/// The other side of its patch where it is a translucent surface; none where that is no side.
+inline SideId side_behind(const ElementMesh& mesh, SideId id) {
+  const MeshSide& side = mesh.sides[index(id)];
+  return side.transmittance == Rgb(0.0)
+             ? none<SideId>
+             : mesh.sides_of_patch[index(side.patch)][side.facing == Facing::front ? 1 : 0];
 }
 
 inline std::size_t element_count(const ElementMesh& mesh) { return mesh.area.size(); }

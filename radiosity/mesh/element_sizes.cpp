@@ -18,7 +18,8 @@ bool carries_radiosity(const Material& material) {
   // And where its texture of metalness is, it is no metal.
   if (material.metallic_roughness_texture && material.transmission < 1.0)
     return true;
-  return glm::any(glm::greaterThan(diffuse_reflectance(material), Rgb(0.0)));
+  return is_translucent(material) ||
+         glm::any(glm::greaterThan(diffuse_reflectance(material), Rgb(0.0)));
 }
 
 unsigned meshed_sides(const Scene& scene, const SurfaceModel& surfaces, PatchId patch,

@@ -110,7 +110,9 @@ EnclosedSides find_enclosed_sides(const Scene& scene, const SurfaceModel& surfac
   const std::vector<TriangleCorners> lamps = lamps_of(scene, above);
   tbb::parallel_for(std::size_t{0}, bodies.size(), [&](std::size_t b) {
     const ClosedBody& body = bodies[b];
-    if (!is_simple(body, above) || may_hold(body, lamps, max_compared / bodies.size()))
+    const auto passes_light = [&](TriangleId t) { return is_translucent(material_of(scene, t)); };
+    if (std::ranges::any_of(body.triangles, passes_light) || !is_simple(body, above) ||
+        may_hold(body, lamps, max_compared / bodies.size()))
       return;
     for (std::size_t k = 0; k < body.triangles.size(); ++k)
       enclosed[index(body.triangles[k])][body.looks_in[k] != 0 ? 0 : 1] = 1;

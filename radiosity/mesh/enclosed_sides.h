@@ -8,6 +8,8 @@
 //
 // A lamp is in a body where one of its triangles has a corner inside or crosses the shell.
 //
+// Light comes through translucent surfaces: bodies that have some are left as they are.
+//
 // Limits: bodies that cross themselves, as some of their triangles tell, are left as they are,
 // and so are those with so many lamps within their bounds that asking would take long:
 // no side is enclosed that is not known to be.

@@ -1,11 +1,12 @@
 #include "radiosity/mesh/make_mesh.h"
 
-#include "radiosity/mesh/mesh_elements.h"
 #include "radiosity/mesh/contact_segments.h"
 #include "radiosity/mesh/edge_divisions.h"
 #include "radiosity/mesh/element_sizes.h"
 #include "radiosity/mesh/mesh_cells.h"
+#include "radiosity/mesh/mesh_elements.h"
 #include "scenes/errors.h"
+#include "scenes/materials/lobes.h"
 #include "scenes/materials/texture_lookup.h"
 
 #include <fmt/format.h>
@@ -50,6 +51,8 @@ MeshSide make_side(const Scene& scene, const SurfaceModel& model, PatchId id, Fa
                   std::ranges::any_of(patch.triangles, is_colored);
   side.reflectance = diffuse_reflectance(material);
   side.emission = std::numbers::pi * material.emission;
+  if (is_translucent(material))
+    side.transmittance = diffuse_transmittance(material, untextured(material));
   return side;
 }
 

@@ -193,6 +193,16 @@ void place_vertices(const ElementMesh& mesh, const SurfaceModel& surfaces, const
 
 } // namespace
 
+/// tau_d by element, where any side is a translucent surface.
+static void set_transmittance(ElementMesh& mesh) {
+  mesh.transmittance.clear();
+  if (std::ranges::all_of(mesh.sides,
+                          [](const MeshSide& side) { return side.transmittance == Rgb(0.0); }))
+    return;
+  for (const MeshSide& side : mesh.sides)
+    mesh.transmittance.insert(mesh.transmittance.end(), side.element_count, side.transmittance);
+}
+
 VertexNumbers add_elements(ElementMesh& mesh, const SurfaceModel& surfaces,
                            const MeshBefore* before) {
   const std::size_t vertices_before = before ? before->mesh.vertices.size() : 0;
@@ -208,6 +218,7 @@ VertexNumbers add_elements(ElementMesh& mesh, const SurfaceModel& surfaces,
       add_leaves(to, side.first_cell + k);
     side.element_count = static_cast<std::uint32_t>(mesh.area.size()) - side.first_element;
   }
+  set_transmittance(mesh);
   mesh.lines = std::move(cuts.lines);
   if (!mesh.line_of_cell.empty()) {
     mesh.line_of_cell.resize(mesh.cells.size(), uncut);

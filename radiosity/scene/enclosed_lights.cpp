@@ -14,6 +14,11 @@ bool holds(const Bounds& bounds, const Point3& x) {
   return glm::all(glm::lessThan(bounds.low, x)) && glm::all(glm::lessThan(x, bounds.high));
 }
 
+bool passes_light(const Scene& scene, const ClosedBody& body) {
+  return std::ranges::any_of(body.triangles,
+                             [&](TriangleId t) { return is_translucent(material_of(scene, t)); });
+}
+
 bool is_room(const Scene& scene, const ClosedBody& body, const Bounds& bounds, double diagonal) {
   if (glm::distance(bounds.low, bounds.high) > room_share * diagonal)
     return true;
@@ -44,7 +49,8 @@ std::vector<EnclosedLight> enclosed_lights(const Scene& scene, const SurfaceMode
       const auto is_inside = [&](const Point3& x) {
         return holds(bounds, x) && winding_number(body.shell, x) > 0.5;
       };
-      return is_inside(light.position) && !is_room(scene, body, bounds, diagonal) &&
+      return is_inside(light.position) && !passes_light(scene, body) &&
+             !is_room(scene, body, bounds, diagonal) &&
              std::ranges::none_of(scene.cameras, is_inside, &Camera::position);
     });
     if (holder == bodies.end())

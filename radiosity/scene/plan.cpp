@@ -52,6 +52,7 @@ bool scatters_grey(const Material& material) {
   return is_grey(diffuse_reflectance(material)) && is_grey(mirror_reflectance(material)) &&
          is_grey(material.emission) && !is_textured(material) &&
          (!has_mirror_coat(material) || is_grey(material.specular_color)) &&
+         (!is_translucent(material) || is_grey(material.diffuse_transmission_color)) &&
          (!is_glass(material) ||
           (is_grey(material.base_color) && is_grey(material.specular_color) &&
            is_grey(material.attenuation_color)));
@@ -269,6 +270,13 @@ void describe_lobes(const std::vector<const Material*>& materials,
     stages.push_back("glass panes: passed straight and reflecting as mirrors do, by Fresnel and "
                      "their tint, in both passes: " +
                      quoted(names));
+  }
+  if (const auto names = names_where(materials, is_translucent); !names.empty()) {
+    stages.push_back(fmt::format(
+        "translucent surfaces: {} diffuse light to the other side, in both "
+        "passes: {}",
+        names.size() == 1 ? "1 material passes" : fmt::format("{} materials pass", names.size()),
+        quoted(names)));
   }
   if (const auto names = names_where(materials, is_solid_glass); !names.empty()) {
     stages.push_back("solid glass: refracted by Snell's law in both passes, lamps behind it found "

@@ -33,6 +33,7 @@ struct ColourSum {
     solid += 1.0;
     colour.reflectance += point.reflectance;
     colour.emission += point.emission;
+    colour.transmittance += point.transmittance;
   }
 };
 
@@ -103,6 +104,8 @@ void average_side(const Scene& scene, const SurfaceModel& surfaces, const Decode
     const double solid = std::max(sum.solid, 1.0);
     mesh.reflectance[e] = sum.colour.reflectance / solid;
     mesh.emission[e] = sum.colour.emission / solid;
+    if (!mesh.transmittance.empty())
+      mesh.transmittance[e] = sum.colour.transmittance / solid;
     mesh.solid[e] = static_cast<float>(sum.solid / sum.points);
   }
 }
@@ -114,6 +117,7 @@ SurfaceColour surface_colour(const Scene& scene, const DecodedTextures& textures
   const MaterialPoint point = material_at(scene, textures, triangle, barycentric, footprint);
   const Material& material = material_of(scene, triangle);
   return {diffuse_reflectance(material, point), std::numbers::pi * point.emission,
+          is_translucent(material) ? diffuse_transmittance(material, point) : Rgb(0.0),
           is_cut_out(material, point)};
 }
 

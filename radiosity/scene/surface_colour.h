@@ -19,6 +19,7 @@ namespace meninas {
 struct SurfaceColour {
   Rgb reflectance{0.0}; ///< rho
   Rgb emission{0.0};    ///< E, W/m^2
+  Rgb transmittance{0.0}; ///< tau_d of a translucent surface
   bool hole = false;    ///< nothing is there
 };
 

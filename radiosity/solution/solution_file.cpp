@@ -34,7 +34,8 @@ Point3 centre_of(const ElementMesh& mesh) {
   return mesh.vertices.empty() ? Point3(0.0) : 0.5 * (bounds.low + bounds.high);
 }
 
-/// B = E + rho H at the vertices, so exposed that the brightest of it is white.
+/// B = E + rho H, of translucent surfaces with what comes through, at the vertices, so exposed that
+/// the brightest of it is white.
 /// Values at the vertices, and after them at the points on outlines of regions.
 std::vector<glm::vec3> with_points(const ElementMesh& mesh, const ElementTriangles& triangles,
                                    std::vector<glm::vec3> values) {
@@ -47,16 +48,46 @@ std::vector<glm::vec3> with_points(const ElementMesh& mesh, const ElementTriangl
   return values;
 }
 
+/// tau H of the other side at a point of an element of a translucent surface, by its weights of the corners.
+Rgb passed_at(const ElementMesh& mesh, const VertexIrradiance& field, ElementId element,
+              const std::array<float, 4>& weights) {
+  const SideId side = mesh.side_of_element[index(element)], behind = side_behind(mesh, side);
+  if (behind == none<SideId>)
+    return Rgb(0.0);
+  const bool triangle = mesh.sides[index(side)].triangle;
+  const std::array coordinates{Vec2(0.0), Vec2(1.0, 0.0), triangle ? Vec2(0.0, 1.0) : Vec2(1.0),
+                               Vec2(0.0, 1.0)};
+  Vec2 st(0.0);
+  for (std::size_t c = 0; c < 4; ++c)
+    st += double{weights[c]} * coordinates[c];
+  return mesh.transmittance[index(element)] *
+         Rgb(irradiance_at(mesh, field, behind, patch_uv_of(mesh, cell_of(mesh, element), st)));
+}
+
+/// At a vertex.
+Rgb passed_at(const ElementMesh& mesh, const VertexIrradiance& field, ElementVertexId vertex) {
+  const ElementId of = mesh.element_of_vertex[index(vertex)];
+  std::array<float, 4> weights{};
+  weights[static_cast<std::size_t>(std::ranges::find(mesh.corners[index(of)], vertex) -
+                                   mesh.corners[index(of)].begin())] = 1.0F;
+  return passed_at(mesh, field, of, weights);
+}
+
 std::vector<glm::vec3> display_colours(const ElementMesh& mesh, const ElementTriangles& triangles,
                                        const VertexIrradiance& field) {
   Image radiosity;
   const std::vector<glm::vec3> irradiance = with_points(mesh, triangles, field.irradiance);
-  for (std::size_t v = 0; v < irradiance.size(); ++v) {
-    const ElementId of = v < mesh.vertices.size()
-                             ? mesh.element_of_vertex[v]
-                             : triangles.points[v - mesh.vertices.size()].element;
+  const auto add = [&](ElementId of, const glm::vec3& received, const Rgb& passed) {
     radiosity.pixels.emplace_back(mesh.emission[index(of)] +
-                                  mesh.reflectance[index(of)] * Rgb(irradiance[v]));
+                                  mesh.reflectance[index(of)] * Rgb(received) + passed);
+  };
+  const std::size_t vertices = mesh.vertices.size();
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    add(mesh.element_of_vertex[v], irradiance[v], passed_at(mesh, field, ElementVertexId{v}));
+  for (std::size_t p = 0; p < triangles.points.size(); ++p) {
+    const RegionPoint& point = triangles.points[p];
+    add(point.element, irradiance[vertices + p],
+        passed_at(mesh, field, point.element, point.weights));
   }
   radiosity.width = static_cast<int>(radiosity.pixels.size());
   radiosity.height = 1;

@@ -61,7 +61,7 @@ void survey_element(const LightScene& light, const HemisphereSamples& net, std::
   for (const ElementHit& landing : rays.landings) {
     const SideId side = light.mesh.side_of_element[landing.element];
     gathered += gathered_emission(light, landing);
-    returned += Rgb(landing.light) * light.mesh.reflectance[landing.element];
+    returned += Rgb(landing.light) * scattered_share(light.mesh, landing.element);
     work.parts.join(own, index(side));
   }
   survey.gathered[element] = gathered / kept_light(rays);
@@ -105,6 +105,9 @@ HemisphereSurvey survey_hemispheres(const LightScene& light, const FormFactorSet
       progress);
 
   DisjointSets parts(sides);
+  for (std::uint32_t s = 0; s < sides; ++s)
+    if (const SideId behind = side_behind(light.mesh, SideId{s}); behind != none<SideId>)
+      parts.join(s, index(behind));
   for (Workspace& work : workspaces) {
     survey.rays_traced += work.rays;
     for (std::uint32_t s = 0; s < sides; ++s)
@@ -116,7 +119,7 @@ HemisphereSurvey survey_hemispheres(const LightScene& light, const FormFactorSet
 }
 
 Returned returned_share(const LightScene& light, const FormFactorSettings& settings,
-                        const std::vector<Rgb>& worth) {
+                        const std::vector<Rgb>& worth, const std::vector<Rgb>& passed) {
   struct Counted {
     GatherWorkspace gather;
     std::uint64_t rays = 0;
@@ -132,7 +135,8 @@ Returned returned_share(const LightScene& light, const FormFactorSettings& setti
                      Rgb returned(0.0);
                      for (const ElementHit& landing : rays.landings) {
                        returned += Rgb(landing.light) * light.mesh.reflectance[landing.element] *
-                                   worth[landing.element];
+                                       worth[landing.element] +
+                                   Rgb(landing.light) * passed[landing.element];
                      }
                      result.share[e] = returned / kept_light(rays);
                      work.rays += rays.traced;

@@ -44,11 +44,21 @@ struct ShotEvents {
   const ShotWatch& watch;
 };
 
+/// S, rho and tau.
 template <typename Value>
-ShotSolution run(const ShotScene& scene, const std::vector<Value>& source,
-                 const std::vector<Value>& reflectance, const ShotBound& bound,
+struct ShotProblem {
+  const std::vector<Value>& source;
+  const std::vector<Value>& reflectance;
+  const PassedShots& translucent;
+};
+
+template <typename Value>
+ShotSolution run(const ShotScene& scene, const ShotProblem<Value>& problem, const ShotBound& bound,
                  const SolverSettings& settings, const ShotEvents& events) {
-  ShotState<Value> state = unshot_state(scene.blocks, source, reflectance, ShotNorm::power);
+  ShotState<Value> state =
+      unshot_state(scene.blocks, problem.source, problem.reflectance, ShotNorm::power);
+  if (!problem.translucent.from.empty())
+    state.translucent = &problem.translucent;
   auto convergence = stopping_rule(settings, value_of<Value>(bound.amplification),
                                    std::max<std::size_t>(1, scene.blocks.size()));
   if (bound.trapped)
@@ -92,16 +102,20 @@ Rgb ambient_irradiance(const std::vector<double>& area, const std::vector<RowClo
 ShotSolution solve_by_shots(const LightScene& light, const HemisphereSurvey& survey,
                             const ShotSource& from, const ShotSettings& settings,
                             const Progress& progress, const ShotWatch& watch) {
-  const auto& [source, reflectance] = from;
+  const auto& [source, scattering] = from;
+  const std::vector<Rgb>& reflectance = scattering.reflectance;
+  const PassedShots translucent{scattering.translucent, transposed(scattering.translucent)};
   const auto& [rays, solver] = settings;
   const ShotScene scene{light, survey, rays, make_shooting_blocks(light.mesh, survey.exposed)};
   const bool grey = grey_mirrors(light.scene) && std::ranges::all_of(source, is_grey_colour) &&
-                    std::ranges::all_of(reflectance, is_grey_colour);
-  const ShotBound bound = bound_of_shots(light, survey, rays, source, reflectance);
+                    std::ranges::all_of(reflectance, is_grey_colour) &&
+                    std::ranges::all_of(scattering.translucent.transmittance, is_grey_colour);
+  const ShotBound bound = bound_of_shots(light, survey, rays, source, scattering);
   if (grey)
-    return run<double>(scene, values_of<double>(source), values_of<double>(reflectance), bound,
-                       solver, {progress, watch});
-  return run<Rgb>(scene, source, reflectance, bound, solver, {progress, watch});
+    return run<double>(scene,
+                       {values_of<double>(source), values_of<double>(reflectance), translucent},
+                       bound, solver, {progress, watch});
+  return run<Rgb>(scene, {source, reflectance, translucent}, bound, solver, {progress, watch});
 }
 
 } // namespace meninas

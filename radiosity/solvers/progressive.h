@@ -35,7 +35,7 @@ struct ShotSolution {
 /// S and rho by ElementId.
 struct ShotSource {
   const std::vector<Rgb>& source;
-  const std::vector<Rgb>& reflectance;
+  Scattering scattering;
 };
 struct ShotSettings {
   const FormFactorSettings& rays;

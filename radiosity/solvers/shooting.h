@@ -3,7 +3,8 @@
 //
 // Every unknown j keeps the radiosity U_j that it has not shot yet, S_j to begin with. A shot
 // of U_j brings the irradiance T_ij U_j to every i, that is a column of T, and makes U_j zero:
-//   B_i += rho_i T_ij U_j,   U_i += rho_i T_ij U_j.
+//   B_i += rho_i T_ij U_j,   U_i += rho_i T_ij U_j,
+// and with tau for rho where i is behind what receives it (transport/translucency.h).
 // So B = S + rho T (B - U) at any time: the residual is rho T U, and no row of T is ever needed.
 // Unknowns may shoot together, as a shooter.
 // The solver knows no geometry: a source of columns carries out the shot.
@@ -15,8 +16,9 @@
 //            have some: then the brightest is next.
 #pragma once
 
-#include "radiosity/solvers/convergence.h"
+#include "radiosity/solvers/report.h"
 #include "radiosity/solvers/shooters.h"
+#include "radiosity/transport/translucency.h"
 
 #include <concepts>
 #include <functional>
@@ -24,6 +26,11 @@
 namespace meninas {
 
 enum class ShotNorm { maximum, power };
+
+/// tau by rows, and by columns (transport/translucency.h).
+struct PassedShots {
+  TranslucentLinks from, to;
+};
 
 template <typename Value>
 struct ShotState {
@@ -37,19 +44,34 @@ struct ShotState {
   Value power{0.0};           ///< the sum of m B
   Value largest{0.0};         ///< the largest B, kept in the maximum norm
   int shots = 0;
+  const PassedShots* translucent = nullptr; ///< where there are some
 
   /// ||B||
   const Value& size() const { return norm == ShotNorm::power ? power : largest; }
 
   Value radiosity(std::size_t unknown) const {
-    return source[unknown] + reflectance[unknown] * arrived[unknown];
+    Value light = source[unknown] + reflectance[unknown] * arrived[unknown];
+    if (translucent)
+      for (auto k = translucent->from.row_begin[unknown];
+           k < translucent->from.row_begin[unknown + 1]; ++k)
+        light += value_of<Value>(translucent->from.transmittance[k]) *
+                 arrived[translucent->from.columns[k]];
+    return light;
   }
   /// Irradiance has arrived at an unknown.
   void arrive(std::uint32_t unknown, const Value& irradiance) {
-    const Value reflected = reflectance[unknown] * irradiance;
     arrived[unknown] += irradiance;
-    unshot[unknown] += reflected;
-    count(unknown, reflected);
+    scatter(unknown, reflectance[unknown] * irradiance);
+    if (translucent)
+      for (auto k = translucent->to.row_begin[unknown]; k < translucent->to.row_begin[unknown + 1];
+           ++k)
+        scatter(translucent->to.columns[k],
+                value_of<Value>(translucent->to.transmittance[k]) * irradiance);
+  }
+  /// It is left to shoot.
+  void scatter(std::uint32_t unknown, const Value& light) {
+    unshot[unknown] += light;
+    count(unknown, light);
   }
   /// An unknown has so much more.
   void count(std::uint32_t unknown, const Value& more) {

@@ -64,16 +64,24 @@ Rgb bound(const Rgb& size, const Rgb& q) {
   return bound;
 }
 
+std::vector<double> receiving_areas(const ElementMesh& mesh, const HemisphereSurvey& survey) {
+  std::vector<double> areas = mesh.area;
+  for (std::size_t e = 0; e < areas.size(); ++e)
+    areas[e] *= double{survey.exposed[e]};
+  return areas;
+}
+
 } // namespace
 
 ShotBound bound_of_shots(const LightScene& light, const HemisphereSurvey& survey,
                          const FormFactorSettings& rays, const std::vector<Rgb>& source,
-                         const std::vector<Rgb>& reflectance) {
+                         const Scattering& scattering) {
   constexpr double bright = 0.9; // of kappa: below it the bound costs few shots
   constexpr double better = 0.8;
   constexpr int most_bounces = 8;
   const Parts parts = parts_of(light.mesh, survey, source);
-  const std::vector<Rgb> may = shooting(light.mesh, survey, parts, reflectance);
+  const std::vector<Rgb> may = shooting(
+      light.mesh, survey, parts, total_shares(scattering.reflectance, scattering.translucent));
   ShotBound result;
   result.trapped = has_lit_trap(parts);
   result.kept = largest_of(survey.returned, may);
@@ -85,7 +93,8 @@ ShotBound bound_of_shots(const LightScene& light, const HemisphereSurvey& survey
   for (int m = 2; m <= most_bounces; ++m) {
     for (std::size_t e = 0; e < q.size(); ++e)
       sum[e] += q[e];
-    Returned returned = returned_share(light, rays, q);
+    Returned returned = returned_share(
+        light, rays, q, passed_on(scattering.translucent, receiving_areas(light.mesh, survey), q));
     q = std::move(returned.share);
     result.rays_traced += returned.rays_traced;
     const Rgb before = result.amplification;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "radiosity/solvers/hemisphere_survey.h"
+#include "radiosity/solvers/solve.h"
 
 namespace meninas {
 
@@ -22,9 +23,9 @@ struct ShotBound {
   std::uint64_t rays_traced = 0;
 };
 
-/// Source S and reflectance are by ElementId.
+/// Source S and what scatters are by ElementId; translucent surfaces count with all that they scatter.
 ShotBound bound_of_shots(const LightScene& light, const HemisphereSurvey& survey,
                          const FormFactorSettings& rays, const std::vector<Rgb>& source,
-                         const std::vector<Rgb>& reflectance);
+                         const Scattering& scattering);
 
 } // namespace meninas

@@ -105,4 +105,27 @@ SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
   return solve_system<Rgb>({transport, source, reflectance}, settings, plan);
 }
 
+/// What has arrived by rows that are not mixed: H = T (B - U) of B = S + total H' so far.
+static ShotsSoFar unmixed(const Transport& transport, const std::vector<Rgb>& source,
+                          const std::vector<Rgb>& total, ShotsSoFar shots) {
+  for (std::size_t i = 0; i < source.size(); ++i)
+    shots.arrived[i] = source[i] + total[i] * shots.arrived[i] - shots.unshot[i];
+  shots.arrived = apply_transport(transport, shots.arrived);
+  return shots;
+}
+
+SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
+                   const Scattering& scattering, const SolverSettings& settings,
+                   const ShotPlan& plan) {
+  if (scattering.translucent.empty())
+    return solve(transport, source, scattering.reflectance, settings, plan);
+  const MixedRows mixed = mixed_rows(transport, scattering.reflectance, scattering.translucent);
+  ShotPlan shown = plan;
+  if (plan.watch.look)
+    shown.watch.look = [&](const ShotsSoFar& shots) {
+      plan.watch.look(unmixed(transport, source, mixed.total, shots));
+    };
+  return solve(mixed.transport, source, mixed.total, settings, shown);
+}
+
 } // namespace meninas

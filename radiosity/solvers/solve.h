@@ -22,6 +22,7 @@
 #pragma once
 
 #include "radiosity/solvers/solver_settings.h"
+#include "radiosity/transport/translucency.h"
 
 namespace meninas {
 
@@ -30,6 +31,17 @@ void check_size(SolverMethod method, std::size_t unknowns);
 
 SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
                    const std::vector<Rgb>& reflectance, const SolverSettings& settings = {},
+                   const ShotPlan& plan = {});
+
+/// What rows scatter of what they receive: they reflect it, and translucent surfaces pass it on.
+struct Scattering {
+  const std::vector<Rgb>& reflectance;
+  const TranslucentLinks& translucent;
+};
+
+/// With translucent surfaces: X = S + rho T X + tau (T X) behind (transport/translucency.h).
+SolverResult solve(const Transport& transport, const std::vector<Rgb>& source,
+                   const Scattering& scattering, const SolverSettings& settings = {},
                    const ShotPlan& plan = {});
 
 /// T x for every row, by band.

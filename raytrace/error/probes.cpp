@@ -39,7 +39,7 @@ static Image emission_picture(const IrradianceField& field,
   VisibleLight glow = visible_light(field, FieldContent::all);
   glow.part = ReflectedPart::none;
   for (SideShading& side : glow.shading)
-    side.albedo_over_pi = glm::vec3(0.0F);
+    side.albedo_over_pi = side.passed_over_pi = glm::vec3(0.0F);
   return first_picture(*field.scene, glow, camera, settings);
 }
 

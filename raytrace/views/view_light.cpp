@@ -18,6 +18,24 @@ double apart_at(const CameraRay& a, const CameraRay& b, double t) {
   return glm::length((b.origin - a.origin) + t * (b.direction - a.direction));
 }
 
+/// The end of a sight; of a translucent surface the same place on its other side, whose light comes through.
+void add_seen(const LightScene& light, const Sight& sight, float width,
+              std::vector<SeenPoint>& points) {
+  const auto add = [&](const FieldPoint& at) {
+    points.push_back({at.element, {at.place.s, at.place.t}, width});
+  };
+  add(sight.place);
+  const SideId behind = side_behind(light.mesh, SideId{sight.side});
+  if (behind == none<SideId>)
+    return;
+  const std::size_t front = 2 * std::size_t{index(sight.triangle)};
+  const std::size_t face = light.landing.faces[front].side == index(behind) ? front : front + 1;
+  const glm::vec2 b(sight.barycentric);
+  add(field_point(
+      light.landing.elements, index(behind),
+      landing_uv(light.landing.faces[face], light.surfaces, index(sight.triangle), b.x, b.y)));
+}
+
 /// The points at the corners of each pixel and, where they are less than a pixel apart, between these.
 std::vector<SeenPoint> seen_points(const LightScene& light, const Camera& camera,
                                    const RenderSettings& settings, double apart) {
@@ -39,9 +57,7 @@ std::vector<SeenPoint> seen_points(const LightScene& light, const Camera& camera
           std::max(apart_at(middle, ray(at + Vec2(inward.x / width, 0.0)), sight.distance),
                    apart_at(middle, ray(at + Vec2(0.0, inward.y / height)), sight.distance));
       if (w > 0.0)
-        rows[row].push_back({sight.place.element,
-                             {sight.place.place.s, sight.place.place.t},
-                             static_cast<float>(w)});
+        add_seen(light, sight, static_cast<float>(w), rows[row]);
     }
   });
   std::vector<SeenPoint> points;

@@ -51,6 +51,12 @@ constexpr Rule sheen[] = {
     {.name = "sheenRoughnessFactor", .kind = number},
     {.name = "sheenRoughnessTexture", .kind = object, .fields = texture_use},
 };
+constexpr Rule diffuse_transmission[] = {
+    {.name = "diffuseTransmissionFactor", .kind = number},
+    {.name = "diffuseTransmissionTexture", .kind = object, .fields = texture_use},
+    {.name = "diffuseTransmissionColorFactor", .kind = numbers, .length = 3},
+    {.name = "diffuseTransmissionColorTexture", .kind = object, .fields = texture_use},
+};
 constexpr Rule iridescence[] = {
     {.name = "iridescenceFactor", .kind = number},
     {.name = "iridescenceIor", .kind = number},
@@ -87,6 +93,7 @@ constexpr Rule material_extensions[] = {
     {.name = "KHR_materials_clearcoat", .kind = object, .fields = clear_coat},
     {.name = "KHR_materials_pbrSpecularGlossiness", .kind = object, .fields = specular_glossiness},
     {.name = "KHR_materials_anisotropy", .kind = object, .fields = anisotropy},
+    {.name = "KHR_materials_diffuse_transmission", .kind = object, .fields = diffuse_transmission},
     {.name = "KHR_materials_dispersion", .kind = object, .fields = dispersion},
     {.name = "KHR_materials_emissive_strength", .kind = object, .fields = emissive_strength},
     {.name = "KHR_materials_iridescence", .kind = object, .fields = iridescence},

@@ -100,6 +100,11 @@ std::set<std::uint64_t> texcoord_sets(const Json& material) {
     add({"extensions", "KHR_materials_sheen", "sheenColorTexture"});
     add({"extensions", "KHR_materials_sheen", "sheenRoughnessTexture"});
   }
+  const auto* sheet = find(material, {"extensions", "KHR_materials_diffuse_transmission"});
+  if (sheet && number_or(*sheet, "diffuseTransmissionFactor", 0.0) > 0.0) {
+    add({"extensions", "KHR_materials_diffuse_transmission", "diffuseTransmissionTexture"});
+    add({"extensions", "KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture"});
+  }
   // Of a pane it is a texture of nothing, and without absorption it says nothing.
   const auto* volume = find(material, {"extensions", "KHR_materials_volume"});
   if (volume && number_or(*volume, "thicknessFactor", 0.0) > 0.0 &&
@@ -244,9 +249,11 @@ void read_textures(const Document& document, Scene& scene, Findings& findings) {
       use.reset();
   };
   for (auto& material : scene.materials)
-    for (auto* use : {&material.base_color_texture, &material.metallic_roughness_texture,
-                      &material.emissive_texture, &material.transmission_texture,
-                      &material.thickness_texture, &material.normal_texture})
+    for (auto* use :
+         {&material.base_color_texture, &material.metallic_roughness_texture,
+          &material.emissive_texture, &material.transmission_texture, &material.thickness_texture,
+          &material.normal_texture, &material.diffuse_transmission_texture,
+          &material.diffuse_transmission_color_texture})
       settle(*use);
   // What is shown comes before what may be no more than a factor, as long as there is room.
   for (auto& material : scene.materials)

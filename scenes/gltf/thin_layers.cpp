@@ -1,5 +1,5 @@
-// What materials have over them or in them beyond metal and roughness: sheen, a thin film,
-// brushed metal, glass that splits colours.
+// What materials have over them or in them beyond metal and roughness: cloth that light comes
+// through, sheen, a thin film, brushed metal, glass that splits colours.
 #include "scenes/materials/thin_film.h"
 #include "scenes/gltf/stages.h"
 
@@ -23,6 +23,23 @@ static void read_sheen(const Document& document, const Json& extension, Material
   if (material.sheen_roughness > 0.0)
     material.sheen_roughness_texture =
         read_texture_use(document, extension, "sheenRoughnessTexture", material.name, findings);
+}
+
+/// KHR_materials_diffuse_transmission: a translucent surface (material.h).
+static void read_diffuse_transmission(const Document& document, const Json& extension,
+                                      Material& material, Findings& findings) {
+  const auto factor = number_or(extension, "diffuseTransmissionFactor", 0.0);
+  const auto color = vec3_or(extension, "diffuseTransmissionColorFactor", Rgb(1.0));
+  material.diffuse_transmission = std::clamp(factor, 0.0, 1.0);
+  material.diffuse_transmission_color = glm::clamp(color, 0.0, 1.0);
+  if (material.diffuse_transmission != factor || material.diffuse_transmission_color != color)
+    findings.about("diffuse transmission was clamped to [0, 1] in materials", material.name);
+  if (material.diffuse_transmission == 0.0)
+    return;
+  material.diffuse_transmission_texture =
+      read_texture_use(document, extension, "diffuseTransmissionTexture", material.name, findings);
+  material.diffuse_transmission_color_texture = read_texture_use(
+      document, extension, "diffuseTransmissionColorTexture", material.name, findings);
 }
 
 /// A film of the mean thickness that its texture may have.
@@ -84,6 +101,8 @@ void read_thin_layers(const Document& document, const Json& json, Material& mate
   const auto* extensions = find(json, "extensions");
   if (!extensions)
     return;
+  if (const auto* sheet = find(*extensions, "KHR_materials_diffuse_transmission"))
+    read_diffuse_transmission(document, *sheet, material, findings);
   if (const auto* sheen = find(*extensions, "KHR_materials_sheen"))
     read_sheen(document, *sheen, material, findings);
   if (const auto* iridescence = find(*extensions, "KHR_materials_iridescence"))
@@ -96,7 +115,20 @@ void read_thin_layers(const Document& document, const Json& json, Material& mate
                    material.name);
 }
 
+/// A translucent surface is there from both sides. What would pass into a solid is none.
+static void settle_diffuse_transmission(Material& material, Findings& findings) {
+  if (is_solid_glass(material) && material.diffuse_transmission > 0.0) {
+    findings.about("diffuse transmission into solid glass is left out in materials", material.name);
+    material.diffuse_transmission = 0.0;
+    material.diffuse_transmission_texture.reset();
+    material.diffuse_transmission_color_texture.reset();
+  }
+  if (is_translucent(material))
+    material.double_sided = true;
+}
+
 void settle_thin_layers(Material& material, Findings& findings) {
+  settle_diffuse_transmission(material, findings);
   if (material.sheen_color == Rgb(0.0) || !is_glass(material))
     return;
   findings.about("sheen of what light passes is left out in materials", material.name);

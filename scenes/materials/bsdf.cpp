@@ -45,11 +45,12 @@ double mean_met_again(const Bsdf& bsdf) {
 
 /// Chances to choose the lobes: what they reflect, about.
 struct LobeChances {
-  double diffuse = 0.0, reflection = 0.0, transmission = 0.0;
+  double diffuse = 0.0, reflection = 0.0, transmission = 0.0, passed = 0.0;
 };
 LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
   const double e = coat_albedo(bsdf, out.z);
   LobeChances chances{largest(bsdf.diffuse) * (1.0 - e), largest(bsdf.metal) + bsdf.coat * e};
+  chances.passed = largest(bsdf.passed) * (1.0 - e);
   if (bsdf.sheen != Rgb(0.0))
     chances.diffuse += largest(bsdf.sheen) * sheen_albedo(bsdf.sheen_roughness, out.z);
   if (bsdf.glass > 0.0) {
@@ -62,11 +63,12 @@ LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
     chances.diffuse += again * largest(spread_by_facets(bsdf, mean_met_again(bsdf)));
     chances.reflection -= again * largest(bsdf.metal);
   }
-  const double sum = chances.diffuse + chances.reflection + chances.transmission;
+  const double sum = chances.diffuse + chances.reflection + chances.transmission + chances.passed;
   if (sum > 0.0) {
     chances.diffuse /= sum;
     chances.reflection /= sum;
     chances.transmission /= sum;
+    chances.passed /= sum;
   }
   return chances;
 }
@@ -87,16 +89,16 @@ Rgb mean_of_coat(const Bsdf& bsdf) {
   return bsdf.coat * (mean.f0 * bsdf.coat_f0 + Rgb(mean.f90 * bsdf.coat_f90));
 }
 
-/// rho_d (1 - e(o)) (1 - e(i)) / (1 - e_avg), and likewise below fibres. With both the mean of the
-/// product is below that of either: never too much.
-Rgb diffuse_coupled(const Bsdf& bsdf, double cos_out, double cos_in) {
+/// rho (1 - e(o)) (1 - e(i)) / (1 - e_avg) of rho_d or tau_d, and likewise below fibres. With both
+/// the mean of the product is below that of either: never too much.
+Rgb coupled(const Bsdf& bsdf, const Rgb& rho, double cos_out, double cos_in) {
   if (bsdf.coat == 0.0 && bsdf.sheen == Rgb(0.0))
-    return bsdf.diffuse;
+    return rho;
   const double below = std::min(mean_below_coat(bsdf), mean_below_sheen(bsdf));
   if (below == 0.0)
     return Rgb(0.0);
   const double both = below_sheen(bsdf, cos_out) * below_sheen(bsdf, cos_in);
-  return bsdf.diffuse *
+  return rho *
          ((1.0 - coat_albedo(bsdf, cos_out)) * (1.0 - coat_albedo(bsdf, cos_in)) * both / below);
 }
 
@@ -142,7 +144,9 @@ Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
   const bool blended = is_blended(material);
   const double dielectric = 1.0 - point.metallic;
   bsdf.metal = point.base_color * (point.metallic * coverage(material, point));
-  bsdf.diffuse = point.base_color * (dielectric * (1.0 - point.transmission));
+  const double even = dielectric * (1.0 - point.transmission);
+  bsdf.diffuse = point.base_color * (even * (1.0 - point.diffuse_transmission));
+  bsdf.passed = point.diffuse_transmission_color * (even * point.diffuse_transmission);
   const bool solid = is_solid_glass(material);
   bsdf.roughness = solid && point.transmission > 0.0 ? 0.0 : point.roughness;
   bsdf.alpha = bsdf.roughness <= ideal_mirror_roughness ? 0.0 : bsdf.roughness * bsdf.roughness;
@@ -239,6 +243,10 @@ Rgb metal_all_in_lobe(const Bsdf& bsdf, double cosine) {
   return bsdf.metal + spread_by_facets(bsdf, mean_met_again(bsdf)) * (again / (1.0 - again));
 }
 
+Rgb even_transmittance(const Bsdf& bsdf, double cosine) {
+  return bsdf.passed * ((1.0 - coat_albedo(bsdf, cosine)) * below_sheen(bsdf, cosine));
+}
+
 /// Without fibres.
 static Rgb mean_below_fibres(const Bsdf& bsdf) {
   Rgb share = bsdf.diffuse;
@@ -286,11 +294,16 @@ Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point) {
   return bsdf.diffuse * mean_below_coat(bsdf);
 }
 
+Rgb diffuse_transmittance(const Material& material, const MaterialPoint& point) {
+  const Bsdf bsdf = make_bsdf(material, point);
+  return bsdf.passed * (mean_below_coat(bsdf) * mean_below_sheen(bsdf));
+}
+
 Bsdf clear_glass(const Material& material, const MaterialPoint& point) {
   Bsdf clear = make_bsdf(material, point);
   if (!is_mirror(material))
     clear.metal = Rgb(0.0);
-  clear.diffuse = clear.sheen = Rgb(0.0);
+  clear.diffuse = clear.passed = clear.sheen = Rgb(0.0);
   clear.coat = 0.0;
   clear.roughness = clear.alpha = 0.0;
   clear.pane.tint *= left_by_half(material, point);
@@ -299,7 +312,7 @@ Bsdf clear_glass(const Material& material, const MaterialPoint& point) {
 
 Bsdf mirror_coat(const Material& material) {
   Bsdf coat = make_bsdf(material, untextured(material));
-  coat.diffuse = coat.metal = coat.sheen = Rgb(0.0);
+  coat.diffuse = coat.passed = coat.metal = coat.sheen = Rgb(0.0);
   coat.glass = 0.0;
   coat.roughness = coat.alpha = 0.0;
   return coat;
@@ -316,31 +329,19 @@ GlassShares mean_shares(const Bsdf& clear) {
           clear.glass * mean.passed};
 }
 
-Direction to_local(const Direction& normal, const Direction& w) {
-  const TangentFrame frame = tangent_frame(normal);
-  return {glm::dot(frame.tangent, w), glm::dot(frame.bitangent, w), glm::dot(normal, w)};
-}
-
-Direction to_world(const Direction& normal, const Direction& w) {
-  const TangentFrame frame = tangent_frame(normal);
-  return glm::normalize(w.x * frame.tangent + w.y * frame.bitangent + w.z * normal);
-}
-
-Direction local_out(const Direction& normal, const Vec3& ray) {
-  const Direction out = to_local(normal, -ray);
-  return glm::normalize(Vec3(out.x, out.y, std::max(1e-9, out.z)));
-}
-
 Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
   if (out.z <= 0.0 || in.z == 0.0)
     return Rgb(0.0);
   if (in.z < 0.0) {
+    Rgb f(0.0);
+    if (bsdf.passed != Rgb(0.0))
+      f = coupled(bsdf, bsdf.passed, out.z, -in.z) * std::numbers::inv_pi;
     if (bsdf.alpha == 0.0 || bsdf.glass == 0.0 || is_open(bsdf))
-      return Rgb(0.0);
+      return f;
     const FacetLobe lobe = facet_lobe(bsdf.alpha, out, {in.x, in.y, -in.z});
-    return lobe.f * facet_transmittance(bsdf, lobe.cosine);
+    return f + lobe.f * facet_transmittance(bsdf, lobe.cosine);
   }
-  Rgb f = diffuse_coupled(bsdf, out.z, in.z) * std::numbers::inv_pi;
+  Rgb f = coupled(bsdf, bsdf.diffuse, out.z, in.z) * std::numbers::inv_pi;
   f += reflection_lobe(bsdf, out, in);
   if (has_facets_of_metal(bsdf))
     f += lobe_below_sheen(bsdf, out.z, in.z) * spread_metal(bsdf, out.z, in.z);
@@ -354,7 +355,8 @@ double sample_density(const Bsdf& bsdf, const Direction& out, const Direction& i
   const double facet_chance = in.z > 0.0     ? chances.reflection
                               : is_open(bsdf) ? 0.0
                                               : chances.transmission;
-  double density = in.z > 0.0 ? chances.diffuse * in.z * std::numbers::inv_pi : 0.0;
+  double density =
+      (in.z > 0.0 ? chances.diffuse : chances.passed) * std::abs(in.z) * std::numbers::inv_pi;
   if (bsdf.alpha > 0.0 && facet_chance > 0.0)
     density += facet_chance * facet_lobe(bsdf.alpha, out, {in.x, in.y, std::abs(in.z)}).density;
   return density;
@@ -363,13 +365,15 @@ double sample_density(const Bsdf& bsdf, const Direction& out, const Direction& i
 std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
                                  const std::array<double, 3>& u) {
   const LobeChances chances = lobe_chances(bsdf, out);
-  if (out.z <= 0.0 || chances.diffuse + chances.reflection + chances.transmission == 0.0)
+  const double even = chances.diffuse + chances.passed;
+  if (out.z <= 0.0 || even + chances.reflection + chances.transmission == 0.0)
     return std::nullopt;
-  if (u[0] < chances.diffuse) {
+  if (u[0] < even) {
     const glm::vec3 in = cosine_hemisphere(static_cast<float>(u[1]), static_cast<float>(u[2]));
-    return spread_sample(bsdf, out, glm::normalize(Vec3(in)));
+    return spread_sample(bsdf, out,
+                         glm::normalize(Vec3(in.x, in.y, u[0] < chances.diffuse ? in.z : -in.z)));
   }
-  const bool through = u[0] >= chances.diffuse + chances.reflection && chances.transmission > 0.0;
+  const bool through = u[0] >= even + chances.reflection && chances.transmission > 0.0;
   if (bsdf.alpha == 0.0 || (through && is_open(bsdf))) {
     if (through) {
       const auto behind = direction_behind(bsdf.pane, out);

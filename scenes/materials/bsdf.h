@@ -1,8 +1,9 @@
 // How a point of a surface scatters light:
 // the bidirectional functions behind the material model (scenes/material.h).
 //
-// Three lobes, all about the normal +z of a local frame:
+// Four lobes, all about the normal +z of a local frame:
 //   diffuse       f = rho_d (1 - e(o)) (1 - e(i)) / (pi (1 - e_avg))
+//   passed        the same with tau_d of translucent surfaces in place of rho_d, i below the surface
 //   reflection    f = S(o.h) D(h) G2(o, i) / (4 cos_o cos_i),  S = rho_s + coat Fresnel(o.h),  h the half vector
 //   transmission  the reflection lobe folded through the surface, with what glass passes in place of S: a thin pane does not bend light
 // The surface is a mixture by area: metal, dielectric below its coat, and glass,

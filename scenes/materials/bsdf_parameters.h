@@ -15,6 +15,8 @@ struct MaterialPoint {
   Rgb emission{0.0}; ///< radiance
   double transmission = 0.0;
   double thickness = 0.0; ///< metres
+  double diffuse_transmission = 0.0;
+  Rgb diffuse_transmission_color{1.0};
 };
 
 /// The factors alone, as where there is no texture.
@@ -22,6 +24,7 @@ MaterialPoint untextured(const Material& material);
 
 struct Bsdf {
   Rgb diffuse{0.0};  ///< rho_d
+  Rgb passed{0.0};   ///< tau_d, of translucent surfaces: passed evenly
   Rgb metal{0.0};    ///< rho_s
   double coat = 0.0; ///< share of the surface under the coat
   Rgb coat_f0{0.0};

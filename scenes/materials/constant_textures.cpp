@@ -92,6 +92,10 @@ void fold(Material& material, const Values& values) {
     material.sheen_color *= glm::clamp(Rgb(*values[10]), 0.0, 1.0);
   if (values[11])
     material.sheen_roughness *= channel(11, 3);
+  if (values[12])
+    material.diffuse_transmission *= channel(12, 3);
+  if (values[13])
+    material.diffuse_transmission_color *= glm::clamp(Rgb(*values[13]), 0.0, 1.0);
   for (std::size_t s = 0; s < slots.size(); ++s)
     if (values[s])
       (material.*slots[s].use).reset();

@@ -4,6 +4,9 @@
 #pragma once
 
 #include "scenes/materials/bsdf_parameters.h"
+#include "scenes/sampling.h"
+
+#include <algorithm>
 
 namespace meninas {
 
@@ -36,6 +39,9 @@ LobeShares lobe_shares(const Bsdf& bsdf, const Direction& out, const Direction& 
 /// the share that they reflect towards this cosine of light that comes evenly from everywhere.
 Rgb even_reflectance(const Bsdf& bsdf, double cosine);
 
+/// What a translucent surface shows towards this cosine of light that comes evenly to its other side.
+Rgb even_transmittance(const Bsdf& bsdf, double cosine);
+
 /// The rho_s with which the reflection lobe alone reflects, towards this cosine,
 /// what metal reflects in all: for surfaces without light to be spread.
 Rgb metal_all_in_lobe(const Bsdf& bsdf, double cosine);
@@ -46,6 +52,9 @@ Rgb mean_reflectance(const Bsdf& bsdf);
 
 /// diffuse_reflectance() (material.h) of a point.
 Rgb diffuse_reflectance(const Material& material, const MaterialPoint& point);
+
+/// tau_d of a point in pass one: what a translucent surface passes evenly of light from everywhere.
+Rgb diffuse_transmittance(const Material& material, const MaterialPoint& point);
 
 /// Glass as pass one takes it: it does not scatter what it reflects and passes, however rough.
 /// Other parts of the surface are left out, except ideal reflection by metal.
@@ -64,11 +73,21 @@ GlassShares mean_shares(const Bsdf& clear);
 
 // --- The frame of a surface, +z along its normal
 
-Direction to_local(const Direction& normal, const Direction& w);
-Direction to_world(const Direction& normal, const Direction& w);
+inline Direction to_local(const Direction& normal, const Direction& w) {
+  const TangentFrame frame = tangent_frame(normal);
+  return {glm::dot(frame.tangent, w), glm::dot(frame.bitangent, w), glm::dot(normal, w)};
+}
+
+inline Direction to_world(const Direction& normal, const Direction& w) {
+  const TangentFrame frame = tangent_frame(normal);
+  return glm::normalize(w.x * frame.tangent + w.y * frame.bitangent + w.z * normal);
+}
 
 /// Towards where a ray of this unit direction has come from;
 /// rounding must not take a grazing ray below the surface.
-Direction local_out(const Direction& normal, const Vec3& ray);
+inline Direction local_out(const Direction& normal, const Vec3& ray) {
+  const Direction out = to_local(normal, -ray);
+  return glm::normalize(Vec3(out.x, out.y, std::max(1e-9, out.z)));
+}
 
 } // namespace meninas

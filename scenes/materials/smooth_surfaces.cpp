@@ -13,7 +13,8 @@ namespace meninas {
 namespace {
 
 bool may_be_smooth(const Material& material) {
-  return !is_glass(material) && !is_emitter(material) && material.alpha_mode != AlphaMode::mask;
+  return !is_glass(material) && !is_translucent(material) && !is_emitter(material) &&
+         material.alpha_mode != AlphaMode::mask;
 }
 
 bool is_smooth_metal(const Material& material) {

@@ -15,7 +15,7 @@ struct TextureSlot {
 };
 
 inline constexpr std::size_t base_slot = 0;
-inline const std::array<TextureSlot, 12> texture_slots{{
+inline const std::array<TextureSlot, 14> texture_slots{{
     {&Material::base_color_texture, TextureContent::colour, {true, true, true, false}},
     {&Material::metallic_roughness_texture, TextureContent::numbers, {false, true, true, false}},
     {&Material::emissive_texture, TextureContent::colour, {true, true, true, false}},
@@ -28,6 +28,10 @@ inline const std::array<TextureSlot, 12> texture_slots{{
     {&Material::normal_texture, TextureContent::numbers, {true, true, true, false}},
     {&Material::sheen_color_texture, TextureContent::colour, {true, true, true, false}},
     {&Material::sheen_roughness_texture, TextureContent::numbers, {false, false, false, true}},
+    {&Material::diffuse_transmission_texture, TextureContent::numbers, {false, false, false, true}},
+    {&Material::diffuse_transmission_color_texture,
+     TextureContent::colour,
+     {true, true, true, false}},
 }};
 
 } // namespace meninas

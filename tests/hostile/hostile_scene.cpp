@@ -67,6 +67,10 @@ struct Maker {
       add_glass(material);
     if (happens(random, 0.1))
       material["extensions"]["KHR_materials_specular"] = {{"specularFactor", factor()}};
+    if (happens(random, 0.15))
+      material["extensions"]["KHR_materials_diffuse_transmission"] = {
+          {"diffuseTransmissionFactor", factor()},
+          {"diffuseTransmissionColorFactor", as_json(colour())}};
     if (happens(random, 0.1)) {
       material["alphaMode"] = happens(random, 0.5) ? "MASK" : "BLEND";
       material["alphaCutoff"] = factor();

@@ -25,7 +25,7 @@ static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
   };
   tbb::parallel_for(std::size_t{0}, element_count(mesh), [&](std::size_t e) {
     // The irradiance of a black facet is seen by nobody: a neon tube has thousands of them.
-    if (averaged[e] == 0 || mesh.reflectance[e] == Rgb(0.0))
+    if (averaged[e] == 0 || scattered_share(mesh, e) == Rgb(0.0))
       return;
     const MeshSide& side = mesh.sides[index(mesh.side_of_element[e])];
     const Receiver middle{centre_of(mesh, static_cast<ElementId>(e)), side.normal, side.plane_class,

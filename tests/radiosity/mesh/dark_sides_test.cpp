@@ -57,6 +57,15 @@ TEST(DarkSides, AreThoseThatAnEmitterIsBehind) {
   EXPECT_EQ(dark_sides(scene), the_back);
 }
 
+TEST(DarkSides, AreNoneOfATranslucentPlate) {
+  Scene scene = plate();
+  scene.materials[0].diffuse_transmission = 0.5;
+  PunctualLight bulb;
+  bulb.position = {0.5, 2.0, 0.5};
+  scene.lights = {bulb};
+  EXPECT_EQ(dark_sides(scene), neither) << "what is lit on one side is seen on the other";
+}
+
 TEST(DarkSides, AreTheOuterOnesOfARoomLitFromInside) {
   Scene scene;
   const Material wall = double_sided(diffuse(0.5));

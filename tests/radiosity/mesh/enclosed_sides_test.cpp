@@ -49,6 +49,13 @@ TEST(EnclosedSides, AreTheBacksOfABox) {
   EXPECT_EQ(enclosed_of(box_on_floor(), "floor"), none_of_them);
 }
 
+TEST(EnclosedSides, AreNoneOfALantern) {
+  Scene scene = box_on_floor();
+  for (Material& material : scene.materials)
+    material.diffuse_transmission = 0.5;
+  EXPECT_EQ(enclosed_of(scene, "box"), none_of_them) << "light comes through its walls";
+}
+
 TEST(EnclosedSides, AreTheFrontsWhereTheseLookInwards) {
   Scene scene = box_on_floor();
   for (Triangle& t : scene.triangles)

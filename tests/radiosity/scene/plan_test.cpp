@@ -2,6 +2,7 @@
 #include "tests/support/glass_rooms.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/skies.h"
+#include "tests/support/translucent.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,6 +84,20 @@ TEST(Plan, MaterialsThatAreOnNothingDoNotCount) {
 
 TEST(Plan, DoubleSidedEmittersEmitTwice) {
   EXPECT_EQ(plan_of(room_with(double_sided(diffuse(0.0, 1.0)))).emitters, 3U);
+}
+
+TEST(Plan, TranslucentSurfacesAreNamed) {
+  const TransportPlan one = plan_of(room_with(translucent(Rgb(0.5), 0.5, Rgb(0.5))));
+  EXPECT_EQ(one.bands, 1);
+  EXPECT_THAT(
+      one.stages,
+      Contains("translucent surfaces: 1 material passes diffuse light to the other side, in "
+               "both passes: 'first'"));
+  Scene scene = room_with(translucent(Rgb(0.5), 0.5, {0.5, 0.5, 0.4}));
+  scene.materials[2] = scene.materials[0];
+  const TransportPlan two = plan_of(scene);
+  EXPECT_EQ(two.bands, 3) << "what comes through has a colour";
+  EXPECT_THAT(two.stages, Contains(HasSubstr("2 materials pass diffuse light")));
 }
 
 TEST(Plan, LobesAreNamedAndWarnedAboutWhereTheyThrowShapes) {

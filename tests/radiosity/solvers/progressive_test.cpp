@@ -148,8 +148,8 @@ Watched watched(Scene scene, double element_size, int rays, const SolverSettings
     w.source.push_back(w.reflectance[e] * (direct.irradiance[e] + w.survey.gathered[e]));
   }
   w.solution =
-      solve_by_shots(*w.lit->light, w.survey, {w.source, w.reflectance}, {settings, solver}, {},
-                     {every, [&](const ShotsSoFar& state) { w.states.push_back(state); }});
+      solve_by_shots(*w.lit->light, w.survey, {w.source, {w.reflectance, {}}}, {settings, solver},
+                     {}, {every, [&](const ShotsSoFar& state) { w.states.push_back(state); }});
   return w;
 }
 
