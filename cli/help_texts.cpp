@@ -117,7 +117,7 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "the colours' range is printed; an EXR holds the numbers as well."},
       {"--view-transform",
        "`neutral` is Khronos' PBR Neutral: colours stay as they are up to 0.8 and pale softly above. "
-       "`agx` is the AgX of Blender and three.js. `srgb` clips. Each sample of a lamp's edge is shown so. EXRs stay linear."}};
+       "`agx` is the AgX of Blender and three.js. `srgb` clips. Parts of pixels at lamps' edges are shown so by the two passes. EXRs stay linear."}};
   return details;
 }
 

@@ -79,6 +79,8 @@ UtcTime parse_time(const std::string& option, const std::string& text) {
   time.hours += number(2, 0, 59) / 60.0;
   if (skip(':'))
     time.hours += number(2, 0, 60) / 3600.0;
+  if (time.hours > 24.0)
+    throw wrong();
   if (!skip('Z')) {
     const bool east = skip('+');
     if (!east)

@@ -39,15 +39,17 @@ static void show_edges(const IrradianceField& field, const Camera& camera,
   const PixelMask pixels = bright_edges(result.image, result.edges.exposure);
   if (std::ranges::find(pixels, 1) == pixels.end())
     return;
-  const VisibleLight all = visible_light(field, field_content(field, settings.diffuse));
-  const auto gathering = make_gathering(field, settings.diffuse);
+  constexpr int enough = 64;
+  RenderSettings straight = settings;
+  straight.mode = RenderMode::radiosity;
+  straight.diffuse.term = DiffuseTerm::interpolated;
+  const VisibleLight all = visible_light(field, FieldContent::all);
   result.edges.pixels = shown_at_edges(
-      settings,
+      result.image, pixels, std::min(settings.samples, enough),
       [&](const SampleShare& share, const StorePixel& store) {
-        add(result, trace_picture({*field.scene, all, gathering.get(), camera, settings}, share, {},
-                                  store));
+        add(result, trace_picture({*field.scene, all, nullptr, camera, straight}, share, {}, store));
       },
-      pixels, result.edges);
+      result.edges);
 }
 
 Rendering render(const IrradianceField& field, const Camera& camera,

@@ -61,7 +61,8 @@ Vec2 shift_of(const SpecularRay& ray, std::uint32_t seed_of_pixel) {
 
 /// The first lobe of a path looks for emitters by their points as well.
 bool samples_lamps(const RenderContext& context, const Bsdf& bsdf, const SpecularRay& ray) {
-  return bsdf.alpha > 0.0 && ray.lobes == 0 && !context.light.emitters.empty() &&
+  return bsdf.alpha > 0.0 && ray.lobes == 0 &&
+         context.light.emitters.size() > context.light.portals.size() &&
          (bsdf.coat > 0.0 || bsdf.glass > 0.0 || bsdf.metal != Rgb(0.0));
 }
 

@@ -181,7 +181,9 @@ void add(const SolidLight& part, double weight, SolidLight& sum) {
 } // namespace
 
 bool has_solid_light(const Lighting& light) {
-  return !light.scene.solids.empty() && !light.emitters.empty() && !light.from_source.empty();
+  // The sky in a window, behind a solid, is gathered.
+  return !light.scene.solids.empty() && !light.from_source.empty() &&
+         !std::ranges::all_of(light.emitters, &Emitter::shows_sky);
 }
 
 SolidLight solid_light(const LightScene& light, const PlanePoints& points, int rays,

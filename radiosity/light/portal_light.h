@@ -2,7 +2,8 @@
 //
 //   E shown = pi L(d),   d the direction in which the last leg of a ray leaves
 //
-// as a factor of the opening's own E = pi L_0: exactly 1 where the sky is even.
+// as a factor of the opening's own E = pi L_0: exactly 1 where the sky is even, 0 where the ray leaves by an
+// opening behind this one.
 #pragma once
 
 #include "mirror/emitters.h"

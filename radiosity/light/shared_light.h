@@ -15,7 +15,7 @@
 // What blocks rays is known to the means that come after,
 // as long as they share a workspace (occluder_cache.h).
 // They take the shadows of known blockers out of F exactly and send their rays past them:
-// once all are known V is 1, and a penumbra has no noise.
+// once all are known V is 1, and a penumbra has no noise, but that of an uneven sky in a window.
 // Means are true whatever is known, as it was learned from other rays.
 #pragma once
 

@@ -13,7 +13,7 @@ namespace meninas {
 
 namespace {
 
-constexpr std::size_t most_portals = 64;
+constexpr std::size_t most_portals = 64, most_candidates = 1024;
 constexpr int points = 16;          ///< of an opening that are asked
 constexpr double open_enough = 0.25; ///< share of rays outwards that escape
 constexpr double shut_enough = 0.25; ///< share of rays inwards that may escape
@@ -104,7 +104,7 @@ Outlook outlook_of(const Scene& scene, const SurfaceModel& surfaces, const RaySc
   return outlook;
 }
 
-/// Whether no point of it is on a surface but a pane's.
+/// Whether it is a pane, or no point of it is on a surface: the outline of a pane is no hole.
 bool is_open(const SurfaceModel& surfaces, const RayScene& rays, const SkyPortal& opening) {
   if (opening.plane_class != none<PlaneId>)
     return true;
@@ -112,8 +112,10 @@ bool is_open(const SurfaceModel& surfaces, const RayScene& rays, const SkyPortal
   const Outlooks from(opening, off);
   const Vec3 hair = off * opening.plane.normal;
   for (std::uint32_t k = 0; k < points; ++k) {
-    const Point3 y = from.point(k);
-    if (occluded(rays, {y + hair, y - hair, none<PlaneId>, none<PlaneId>}))
+    const Ray through{.origin = from.point(k) + hair,
+                      .direction = -opening.plane.normal,
+                      .max_distance = 2.0 * off};
+    if (closest_hit(rays, through))
       return false;
   }
   return true;
@@ -125,7 +127,7 @@ bool is_window(const SkyPortal& opening, const Outlook& inside, const Outlook& o
          opening.area <= small_enough * inside.lit;
 }
 
-/// Leaves out portals behind which all rays leave by another, as a hole behind its pane.
+/// Leaves out portals behind which all rays leave by another, as a hole in whose frame there is a pane.
 void keep_last(const SurfaceModel& surfaces, std::vector<SkyPortal>& portals) {
   for (std::uint32_t p = 0; p < portals.size();) {
     const Outlooks from(portals[p], hair_of(surfaces, portals[p]));
@@ -199,13 +201,13 @@ std::vector<SkyPortal> find_sky_portals(const Scene& scene, const SurfaceModel& 
   if (is_dark(scene.background))
     return portals;
   std::vector<SkyPortal> candidates = candidates_of(scene, surfaces);
-  if (candidates.size() > 4 * most_portals)
-    candidates.resize(4 * most_portals);
+  // Boards and leaves have outlines as well: what is open is told by a few rays each.
+  std::erase_if(candidates, [&](const SkyPortal& c) { return !is_open(surfaces, rays, c); });
+  if (candidates.size() > most_candidates)
+    candidates.resize(most_candidates);
   for (SkyPortal& opening : candidates) {
     if (portals.size() == most_portals)
       break;
-    if (!is_open(surfaces, rays, opening))
-      continue;
     const Outlook front = outlook_of(scene, surfaces, rays, opening, 1.0),
                   back = outlook_of(scene, surfaces, rays, opening, -1.0);
     if (is_window(opening, front, back))

@@ -27,22 +27,34 @@ PixelMask bright_edges(const Image& picture, double exposure) {
   return edges;
 }
 
-std::vector<ShownPixel> shown_at_edges(const RenderSettings& settings, const TraceSamples& trace,
-                                       const PixelMask& pixels, const ShownPixels& display) {
+std::vector<ShownPixel> shown_at_edges(const Image& picture, const PixelMask& pixels, int samples,
+                                       const TraceSamples& straight, const ShownPixels& display) {
   const double scale = std::exp2(display.exposure);
-  const auto width = static_cast<std::size_t>(settings.width);
-  std::vector<glm::dvec3> sums(pixels.size(), glm::dvec3(0.0));
-  // A draw of one sample a pixel shows what each of them is by itself.
-  for (int k = 0; k < settings.samples; ++k)
-    trace({{k, 1}, &pixels}, [&](int x, int y, const SeenRadiance& seen) {
-      const glm::dvec3 radiance(seen[0] + seen[1] + seen[2]);
-      sums[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] +=
-          displayed(display.transform, scale * radiance);
-    });
+  const auto width = static_cast<std::size_t>(picture.width);
+  const auto number = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+  };
+  std::vector<std::uint32_t> place(pixels.size(), 0);
   std::vector<ShownPixel> shown;
   for (std::size_t p = 0; p < pixels.size(); ++p)
-    if (pixels[p] != 0)
-      shown.push_back({p, glm::vec3(sums[p] / double(settings.samples))});
+    if (pixels[p] != 0) {
+      place[p] = static_cast<std::uint32_t>(shown.size());
+      shown.push_back({p, glm::vec3(0.0F)});
+    }
+
+  // What the pixel's mean has that its samples do not see straight.
+  std::vector<glm::vec3> besides(shown.size());
+  straight({{0, samples}, &pixels}, [&](int x, int y, const SeenRadiance& seen) {
+    besides[place[number(x, y)]] = picture.at(x, y) - (seen[0] + seen[1] + seen[2]);
+  });
+  // A draw of one sample a pixel shows what each of them is by itself.
+  for (int k = 0; k < samples; ++k)
+    straight({{k, 1}, &pixels}, [&](int x, int y, const SeenRadiance& seen) {
+      const std::uint32_t at = place[number(x, y)];
+      const glm::dvec3 radiance(seen[0] + seen[1] + seen[2] + besides[at]);
+      shown[at].shown += glm::vec3(displayed(display.transform, scale * radiance)) /
+                         static_cast<float>(samples);
+    });
   return shown;
 }
 

@@ -1,13 +1,16 @@
 // Edges of what is brighter than a display: what pixels show that are partly of it.
 //
-//   shown(p) = mean over samples k of T(2^e L_k)        and not        T(2^e mean L_k)
+//   shown(p) = mean over samples k of T(2^e (S_k + L - mean S))        and not        T(2^e L)
 //
-// with T the view transform (image/view_transform.h) and e the exposure. A pixel that is a sixteenth of a
+// with T the view transform (image/view_transform.h), e the exposure, L the pixel's mean and S_k what sample k
+// sees straight: emission, sky and the field's diffuse light, which have no noise. A pixel that is a sixteenth of a
 // lamp of a hundred times white is white by its mean: lamps would have edges like stairs. T of each sample is
-// what a film or an eye shows of each part of the pixel. Where nothing is near white T is linear,
-// or nearly so, and both are the same.
+// what a film or an eye shows of each part of the pixel. What mirrors and lobes show is in L alone: T of
+// each of their rays would take noise for parts of the pixel, and darken highlights. Where all samples see
+// the same straight, T(2^e L) is what is shown.
 //
-// Limits: bright things so narrow that no pixel's mean reaches white keep their mean.
+// Limits: edges of lamps in mirrors and gloss, and of bright things so narrow that no pixel's mean reaches white,
+// are those of their means; the noise of frosted glass before a lamp is taken for parts of it.
 #pragma once
 
 #include "image/display.h"
@@ -19,9 +22,9 @@ namespace meninas {
 /// and for that one.
 PixelMask bright_edges(const Image& picture, double exposure);
 
-/// What these pixels show by all samples of the settings, at the exposure and by the transform of
-/// `display`.
-std::vector<ShownPixel> shown_at_edges(const RenderSettings& settings, const TraceSamples& trace,
-                                       const PixelMask& pixels, const ShownPixels& display);
+/// What these pixels of a picture show at the exposure and by the transform of `display`. `straight` traces what is
+/// seen straight, by up to `samples` samples.
+std::vector<ShownPixel> shown_at_edges(const Image& picture, const PixelMask& pixels, int samples,
+                                       const TraceSamples& straight, const ShownPixels& display);
 
 } // namespace meninas

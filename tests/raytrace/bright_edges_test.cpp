@@ -62,6 +62,32 @@ TEST(BrightEdges, PixelsShowAsMuchWhiteAsTheyHave) {
   }
 }
 
+// A lamp above the eye in a rough metal: its highlight has noise, and no part of a pixel is another thing.
+TEST(BrightEdges, NoiseOfHighlightsIsNone) {
+  Scene scene;
+  Material rough = mirror(0.9);
+  rough.roughness = 0.35;
+  add_polygon(scene, "rug", {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}}, rough);
+  add_polygon(scene, "lamp", {{-0.3, 3, -1.3}, {0.3, 3, -1.3}, {0.3, 3, -0.7}, {-0.3, 3, -0.7}},
+              diffuse(0.0, 100.0));
+  PassOneSettings coarse;
+  coarse.form_factors.rays = coarse.interpolation.rays = 16;
+  RenderSettings settings;
+  settings.width = settings.height = 24;
+  settings.display = DisplayChoice{.exposure = 0.0, .transform = ViewTransform::neutral};
+  const Taken taken = lit_up(scene, coarse);
+  const Camera camera = look_at({0.0, 1.5, 1.5}, {0.0, 0.0, 0.0}, 0.7);
+  settings.display->exposure = 1.0 + automatic_exposure(picture(taken, camera, settings));
+  const Rendering shown = render(taken.solution.field, camera, settings);
+  ASSERT_FALSE(shown.edges.pixels.empty()) << "or else nothing is tested";
+  for (const ShownPixel& pixel : shown.edges.pixels) {
+    const glm::dvec3 by_mean =
+        displayed(ViewTransform::neutral, std::exp2(*settings.display->exposure) *
+                                              glm::dvec3(shown.image.pixels[pixel.pixel]));
+    EXPECT_NEAR(pixel.shown.g, by_mean.g, 1e-5) << pixel.pixel;
+  }
+}
+
 TEST(BrightEdges, AreBetweenWhiteAndLess) {
   Image picture(7, 1);
   picture.pixels = {glm::vec3(0.1F),  glm::vec3(0.2F), glm::vec3(0.95F), glm::vec3(2.0F),

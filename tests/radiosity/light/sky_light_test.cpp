@@ -325,6 +325,30 @@ TEST(SkyPortals, ARoundOpeningIsAFewPolygons) {
   EXPECT_NEAR(area, 0.5 * sides * 0.25 * std::sin(2.0 * pi / sides), 1e-12);
 }
 
+TEST(SkyPortals, BoardsOutsideHideNoWindow) {
+  Scene scene = room_with_window(diffuse(0.0));
+  for (int k = 0; k < 300; ++k) {
+    const double x = 10.0 + 3.0 * (k % 20), z = -30.0 + 3.0 * (k / 20);
+    add_polygon(scene, "board", {{x, 0, z}, {x, 0, z + 2}, {x, 2, z + 2}, {x, 2, z}},
+                double_sided(diffuse(0.5)));
+  }
+  scene.background = Rgb(1.0);
+  EXPECT_EQ(lit(scene, {.element_size = 3.0})->light->portals.size(), 1U);
+}
+
+TEST(SkyPortals, APaneByItselfIsOneEmitter) {
+  Scene scene = room_with_window(diffuse(0.0));
+  add_polygon(scene, "pane", {{4.02, 0.9, 1.4}, {4.02, 0.9, 3.0}, {4.02, 2.3, 3.0}, {4.02, 2.3, 1.4}},
+              double_sided(glass(Rgb(1.0))));
+  scene.background = Rgb(1.0);
+  const auto l = lit(scene, {.element_size = 3.0});
+  // The hole in front of it is another: some light passes beside the pane.
+  std::size_t in_its_plane = 0;
+  for (const SkyPortal& portal : l->light->portals)
+    in_its_plane += std::abs(portal.plane.normal.x * 4.02 - portal.plane.offset) < 1e-9 ? 1 : 0;
+  EXPECT_EQ(in_its_plane, 1U);
+}
+
 TEST(SkyPortals, TheMouthOfAPotIsNone) {
   // What it lights is lit by a large part of the sky, which rays find.
   EXPECT_TRUE(lit(drum(0.5, 0.5, 0.4, 12), {.element_size = 1.0})->light->portals.empty());
