@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -110,6 +111,21 @@ TEST_F(Outputs, ThePictureIsTheSameForAnyThreadCountAndRun) {
   render({"-o", "seeded.exr", "--seed", "1"});
   EXPECT_NE(read_image(folder_ / "one.exr").picture.pixels,
             read_image(folder_ / "seeded.exr").picture.pixels);
+}
+
+TEST_F(Outputs, PngsShowPartsOfPixelsAtTheLampsEdge) {
+  render({"-o", "edges.exr", "-o", "edges.png", "--float", "--samples", "16", "--exposure", "4",
+          "--view-transform", "srgb"});
+  const Image light = read_image(folder_ / "edges.exr").picture,
+              shown = read_image(folder_ / "edges.png").picture;
+  int in_part = 0;
+  for (std::size_t p = 0; p < light.pixels.size(); ++p) {
+    const float clipped = std::min(16.0F * light.pixels[p].g, 1.0F);
+    // Half a code value of 8 bits; no pixel shows more than its mean.
+    EXPECT_LT(shown.pixels[p].g, clipped + 0.005F);
+    in_part += shown.pixels[p].g < clipped - 0.05F ? 1 : 0;
+  }
+  EXPECT_GT(in_part, 0);
 }
 
 TEST_F(Outputs, ASolutionRendersTheSamePicture) {

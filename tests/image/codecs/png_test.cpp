@@ -89,6 +89,29 @@ TEST_F(Png, SixteenBitsTellTwoHundredTimesAsManyValues) {
   EXPECT_NE(bytes.find("sRGB"), std::string::npos);
 }
 
+TEST_F(Png, ShowsEdgesInPlaceOfTheirMeansIfTheyAreOfThisDisplay) {
+  Image picture(2, 1);
+  picture.pixels = {glm::vec3(0.25F), glm::vec3(50.0F)};
+  const ShownPixels edges{.exposure = 1.0,
+                          .transform = ViewTransform::srgb,
+                          .pixels = {{1, glm::vec3(0.5F, 0.25F, 1.0F)}}};
+  const auto shown = [&](double exposure, ViewTransform transform, int bits) {
+    write_png(folder / "a.png", picture,
+              {.exposure = exposure, .transform = transform, .edges = &edges, .bits = bits});
+    return read_image(folder / "a.png").picture;
+  };
+  for (const int bits : {8, 16}) {
+    const Image own = shown(1.0, ViewTransform::srgb, bits);
+    // Half a code value of 8 bits is at most 2.275 / 510 in linear light.
+    EXPECT_NEAR(own.at(0, 0).g, 0.5F, 0.005F);
+    EXPECT_NEAR(own.at(1, 0).r, 0.5F, 0.005F);
+    EXPECT_NEAR(own.at(1, 0).g, 0.25F, 0.005F);
+    EXPECT_EQ(own.at(1, 0).b, 1.0F);
+    EXPECT_EQ(shown(0.5, ViewTransform::srgb, bits).at(1, 0), glm::vec3(1.0F));
+    EXPECT_GT(shown(1.0, ViewTransform::neutral, bits).at(1, 0).g, 0.9F);
+  }
+}
+
 TEST_F(Png, PixelsKeepTheirPlaceAndChannel) {
   Image picture(3, 2);
   picture.at(2, 0) = {1.0F, 0.0F, 0.0F};
