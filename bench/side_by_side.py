@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 """Other people's models beside the project's own path tracer.
 
-    bench/side_by_side.py build/release/cli/meninas FILE... [-o FOLDER] [--size 192x144] [--seconds 20]
+    bench/side_by_side.py build/release/cli/meninas FILE... [-o FOLDER] [--size 192x144] [--quality normal] [--seconds 20]
 
-Every file is rendered twice at one exposure: by the two passes at `normal`, and by `--mode reference`, which shares the reader, the
-materials and the rays, and none of the light transport. Files without a light of their own get --background 1. A line of the table is
+Every file is rendered twice at one exposure: by the two passes, and by `--mode reference`, which shares the reader, the
+materials and the rays, and none of the light transport. Files without a light of their own stand under a clear sky with its sun. A line of the table is
 
     file | patches | processor seconds of the two passes, and of the path tracer | mean | blocks
 
 mean: what the two passes show over what the path tracer shows, both clipped at white. blocks: the mean absolute difference of blocks of
 8 x 8 pixels over the mean, in which the path tracer's noise is an eighth of that of a pixel. The folder keeps NAME.png, NAME.reference.png and NAME.both.png, the first
-beside the second: look at them, since a fault of the reader is in both. Nothing but Python's standard library is needed.
+beside the second: look at them, since a fault of the reader is in both. Python's standard library and oiiotool are needed.
 """
 import argparse
 import json
@@ -22,6 +22,7 @@ import subprocess
 import zlib
 
 BLOCK = 8
+SUN = "150,40"  # degrees: from north, and above the horizon
 
 
 def read_png(path):
@@ -82,6 +83,14 @@ def blocks(width, height, rows):
     return means
 
 
+def shown(picture, exposure, png):
+    """The EXR's means at this exposure, clipped at white: both sides by one display."""
+    scale = 2.0 ** exposure
+    subprocess.run(["oiiotool", str(picture), "--ch", "R,G,B", "--mulc", f"{scale}", "--clamp:min=0:max=1",
+                    "--colorconvert", "linear", "sRGB", "-d", "uint8", "-o", str(png)], check=True, capture_output=True)
+    picture.unlink()
+
+
 def call(*arguments, limit=900):
     """What a run says, and its processor seconds; None where it does not end."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -104,18 +113,18 @@ def line_of(program, file, given):
     patches = json.loads(plan.stdout).get("patches", "")
     common = [file, "--size", given.size, "--view-transform", "srgb"]
     dark = "nothing emits light" in plan.stdout
-    common += ["--background", "1"] if dark else []
+    common += ["--sky", "clear", "--sun", SUN] if dark else []
     ours, traced = given.folder / f"{name_of(file)}.png", given.folder / f"{name_of(file)}.reference.png"
-    # A background of 1 is shown as half of white: what clips cannot differ.
-    chosen = ["--exposure=-1"] if dark else []
-    done, seconds = call(program, "render", *common, *chosen, "--quality", "normal", "-o", ours)
+    done, seconds = call(program, "render", *common, "--quality", given.quality, "-o", ours, "-o", ours.with_suffix(".exr"))
     if done is None or done.returncode != 0:
         return f"| {patches} | {seconds:.1f} | | | {'longer than 900 s' if done is None else done.stderr.strip().splitlines()[-1]} |"
     exposure = re.search(r"exposure ([+-][\d.]+) EV", done.stdout + done.stderr).group(1)
     done, reference_seconds = call(program, "render", *common, "--mode", "reference", "--max-seconds", given.seconds,
-                                   "--max-error", "1e-9", f"--exposure={exposure}", "-o", traced)
+                                   "--max-error", "1e-9", "-o", traced.with_suffix(".exr"))
     if done is None or done.returncode != 0:
         return f"| {patches} | {seconds:.1f} | | | the path tracer: {'no end' if done is None else done.stderr.strip().splitlines()[-1]} |"
+    for png in (ours, traced):
+        shown(png.with_suffix(".exr"), float(exposure), png)
     width, height, left = read_png(ours)
     _, _, right = read_png(traced)
     write_png(given.folder / f"{name_of(file)}.both.png", 2 * width, [a + b for a, b in zip(left, right)])
@@ -131,6 +140,7 @@ def main():
     parser.add_argument("files", nargs="+", type=pathlib.Path)
     parser.add_argument("-o", dest="folder", type=pathlib.Path, default=pathlib.Path("side_by_side"))
     parser.add_argument("--size", default="192x144")
+    parser.add_argument("--quality", default="normal", help="of the two passes")
     parser.add_argument("--seconds", type=float, default=20.0)
     given = parser.parse_args()
     given.folder.mkdir(parents=True, exist_ok=True)

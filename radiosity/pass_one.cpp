@@ -38,23 +38,25 @@ void take_received(const ElementMesh& mesh, const TranslucentLinks& translucent,
 
 /// H at the vertices: D there, and the rest gathered from the elements, by nodes where these say so.
 InterpolatedField at_vertices(const LightScene& light, const PassOneSettings& settings,
-                              ReflectedLight& solved, const std::vector<Rgb>& irradiance) {
+                              ReflectedLight& solved, const std::vector<Rgb>& irradiance,
+                              const Progress& progress) {
   const ElementLight elements{std::move(solved.solver.radiosity), irradiance,
                               solved.first.from_source, solved.first.translucent};
   if (solved.receivers)
     return field_by_nodes(light, elements, *solved.receivers,
-                          {settings.form_factors, settings.direct, settings.interpolation});
+                          {settings.form_factors, settings.direct, settings.interpolation, progress});
   return interpolate(light, elements, settings.form_factors, settings.direct,
-                     settings.interpolation);
+                     settings.interpolation, progress);
 }
 
 /// From the light that elements reflect to the field, with the figures of both.
 RadiositySolution field_of(const std::shared_ptr<const LightScene>& light,
-                           const PassOneSettings& settings, ReflectedLight solved) {
+                           const PassOneSettings& settings, ReflectedLight solved,
+                           const Progress& progress) {
   Stopwatch watch;
   RadiositySolution solution;
   static_cast<ElementSolution&>(solution) = on_elements(light->mesh, solved);
-  InterpolatedField found = at_vertices(*light, settings, solved, solution.irradiance);
+  InterpolatedField found = at_vertices(*light, settings, solved, solution.irradiance, progress);
   take_received(light->mesh, solved.first.translucent, found.received, solution);
   solution.field = {std::move(found.field),
                     found.mesh ? light_scene_on(*light, std::move(*found.mesh)) : light};
@@ -105,7 +107,7 @@ RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
   if (shoots_rays(settings, element_count(light->mesh)))
     return shoot_pass_one(light, settings, progress, watch);
   if (settings.cut == MeshCut::hierarchical)
-    return field_of(light, settings, reflected_by_nodes(*light, settings, progress));
+    return field_of(light, settings, reflected_by_nodes(*light, settings, progress), progress);
 
   // F^w by rays, hemicubes or exactly; S = rho (D + G); X = S + rho T X; then H at every vertex.
   Stopwatch stopwatch;
@@ -119,13 +121,14 @@ RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
 RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const FormFactors& factors, const PassOneSettings& settings,
                                  const Progress& progress, const PassOneWatch& watch) {
-  return field_of(light, settings, reflected_by_rows(*light, factors, settings, progress, watch));
+  return field_of(light, settings, reflected_by_rows(*light, factors, settings, progress, watch),
+                  progress);
 }
 
 RadiositySolution shoot_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress,
                                  const PassOneWatch& watch) {
-  return field_of(light, settings, reflected_by_shots(*light, settings, progress, watch));
+  return field_of(light, settings, reflected_by_shots(*light, settings, progress, watch), progress);
 }
 
 } // namespace meninas

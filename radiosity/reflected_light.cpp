@@ -102,7 +102,7 @@ ReflectedLight reflected_by_nodes(const LightScene& light, const PassOneSettings
   std::optional<LitVertices> vertices;
   if (vertices_gather)
     vertices =
-        lit_vertices(light, {settings.form_factors, settings.direct, settings.interpolation});
+        lit_vertices(light, {settings.form_factors, settings.direct, settings.interpolation, progress});
   const double lighting = watch.lap();
   NodeSolution nodes = solve_by_nodes(
       light, {settings.form_factors, settings.direct, settings.hierarchical, settings.solver},

@@ -10,4 +10,16 @@ namespace meninas {
 /// may be empty. Never affects the result.
 using Progress = std::function<void(std::string_view stage, double fraction)>;
 
+/// A part of a stage, from one fraction of it to another.
+struct StagePart {
+  Progress progress = {};
+  std::string_view stage = {};
+  double from = 0.0, to = 1.0;
+};
+
+inline void report(const StagePart& part, double fraction) {
+  if (part.progress)
+    part.progress(part.stage, part.from + (part.to - part.from) * fraction);
+}
+
 } // namespace meninas

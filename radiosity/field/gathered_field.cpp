@@ -14,7 +14,10 @@ void gather_at_all_vertices(const LightScene& light, const ElementLight& element
                        const VertexGathering& how, VertexSamples found, PointWorkspaces& workspaces,
                        InterpolatedField& result) {
   const PointGathering gathering = gathering_from(light, elements.reflected, how);
-  const VertexSource source{elements.irradiance, gathering, workspaces};
+  const VertexSource source{.irradiance = elements.irradiance,
+                            .gathering = gathering,
+                            .workspaces = workspaces,
+                            .part = {how.progress, "interpolation"}};
   gather_at_vertices(source, 0, found);
   result.field = complete_field(source, found);
   refine_indirect(light, source, bend_scale(light.mesh, elements.reflected), how.interpolation.bend,
@@ -26,7 +29,7 @@ void gather_at_all_vertices(const LightScene& light, const ElementLight& element
 InterpolatedField gathered_field(const LightScene& light, const ElementLight& elements,
                                  const FormFactorSettings& form_factors,
                                  const DirectSettings& direct,
-                                 const InterpolationSettings& settings) {
+                                 const InterpolationSettings& settings, const Progress& progress) {
   PointWorkspaces workspaces;
   const VertexElements facets =
       elements.from_source.empty() ? VertexElements{} : facets_around(light);
@@ -35,7 +38,7 @@ InterpolatedField gathered_field(const LightScene& light, const ElementLight& el
     average_facets(light, elements, facets, form_factors, workspaces, found.field);
 
   InterpolatedField result;
-  gather_at_all_vertices(light, elements, {form_factors, direct, settings}, std::move(found), workspaces,
+  gather_at_all_vertices(light, elements, {form_factors, direct, settings, progress}, std::move(found), workspaces,
                     result);
   count_rays(workspaces, result);
   return result;

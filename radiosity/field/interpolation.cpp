@@ -75,10 +75,10 @@ static VertexIrradiance averaged_field(const ElementMesh& mesh, const ElementLig
 
 InterpolatedField interpolate(const LightScene& light, const ElementLight& elements,
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
-                              const InterpolationSettings& settings) {
+                              const InterpolationSettings& settings, const Progress& progress) {
   if (settings.method == Interpolation::average)
     return {.field = averaged_field(light.mesh, elements)};
-  return gathered_field(light, elements, form_factors, direct, settings);
+  return gathered_field(light, elements, form_factors, direct, settings, progress);
 }
 
 } // namespace meninas

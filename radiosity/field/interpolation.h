@@ -22,6 +22,7 @@ namespace meninas {
 
 InterpolatedField interpolate(const LightScene& light, const ElementLight& elements,
                               const FormFactorSettings& form_factors, const DirectSettings& direct,
-                              const InterpolationSettings& settings);
+                              const InterpolationSettings& settings,
+                              const Progress& progress = {});
 
 } // namespace meninas

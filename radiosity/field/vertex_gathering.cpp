@@ -14,6 +14,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace meninas {
 
@@ -156,13 +157,14 @@ void light_each(const VertexSource& source, const VertexStep& step, VertexSample
                       : found_here.cover == Cover::low ? VertexState::low
                                                        : VertexState::covered;
   };
-  tbb::parallel_for(std::size_t{0}, (vertices.size() + chunk_size - 1) / chunk_size,
-                    [&](std::size_t c) {
-                      PointWorkspace& work = source.workspaces.local();
-                      for (std::size_t k = c * chunk_size;
-                           k < std::min(vertices.size(), (c + 1) * chunk_size); ++k)
-                        light_vertex(vertices[k], work);
-                    });
+  const std::size_t chunks = (vertices.size() + chunk_size - 1) / chunk_size;
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    PointWorkspace& work = source.workspaces.local();
+    for (std::size_t k = c * chunk_size; k < std::min(vertices.size(), (c + 1) * chunk_size); ++k)
+      light_vertex(vertices[k], work);
+    report(source.part, double(++done) / double(chunks));
+  });
   // What is covered takes its light from beside it.
   std::vector<std::uint8_t> taken(mesh.vertices.size(), 0);
   for (const std::uint32_t v : vertices)

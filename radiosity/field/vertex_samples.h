@@ -8,6 +8,7 @@
 #include "radiosity/field/vertex_places.h"
 #include "radiosity/light/row_cache.h"
 #include "radiosity/light/point_irradiance.h"
+#include "scenes/progress.h"
 #include "scenes/sampling.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -53,6 +54,7 @@ struct VertexGathering {
   const FormFactorSettings& form_factors;
   const DirectSettings& direct;
   const InterpolationSettings& interpolation;
+  const Progress& progress;
 };
 
 /// Rays per vertex = times x max(min(N, 128), N / part).
@@ -67,6 +69,7 @@ struct VertexSource {
   PointWorkspaces& workspaces;
   RowCache* kept = nullptr; ///< of gather_at_lit()
   bool keeps_more = false;
+  StagePart part = {}; ///< of the run: reported by the vertices that are done
 };
 
 /// Of a vertex's samples. `level` tells apart vertices whose numbers are the same.

@@ -204,7 +204,11 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
   const PointGathering solved =
       gathering_from(light, elements.reflected, how, first_share, first_spared);
   RowCache kept;
-  const VertexSource few{elements.irradiance, solved, workspaces, &kept, true};
+  // The first gathering, the second, and what edges of shadows take besides.
+  const auto part = [&](double from, double to) {
+    return StagePart{how.progress, "refinement", from, to};
+  };
+  const VertexSource few{elements.irradiance, solved, workspaces, &kept, true, part(0.0, 0.4)};
   const std::vector<Rgb> reflected = reflected_by_field(few, receivers, elements, found);
   const int times = ray_multiplier(element_count(light.mesh), receivers.receivers.size());
   const PointGathering seen = gathering_from(light, reflected, how, {}, 0.0, first_share),
@@ -214,9 +218,11 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
       times > 1
           ? new PointGathering(gathering_from(light, reflected, how, {1, times}, 0.0, first_share))
           : nullptr);
-  const VertexSource source{elements.irradiance, seen, workspaces, &kept},
-      by_small{elements.irradiance, seen_by_small, workspaces, &kept},
-      by_large{elements.irradiance, seen_by_large ? *seen_by_large : seen, workspaces, &kept};
+  const VertexSource
+      source{elements.irradiance, seen, workspaces, &kept, false, part(0.8, 0.99)},
+      by_small{elements.irradiance, seen_by_small, workspaces, &kept, false, part(0.6, 0.8)},
+      by_large{elements.irradiance, seen_by_large ? *seen_by_large : seen, workspaces,
+               &kept,               false, part(0.4, 0.6)};
   share_out(gather_at_nodes({by_large, by_small}, receivers, receivers.bend, found), found);
   InterpolatedField result{.field = complete_field(source, found)};
   result.received = received_at_corners(elements, receivers, found, result.field.irradiance,

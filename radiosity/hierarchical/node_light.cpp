@@ -16,7 +16,11 @@ LitVertices lit_vertices(const LightScene& light, const VertexGathering& how) {
   PointWorkspaces workspaces;
   const std::vector<Rgb> none_yet(element_count(light.mesh), Rgb(0.0));
   const PointGathering gathering = gathering_from(light, none_yet, how);
-  light_vertices({none_yet, gathering, workspaces}, 0, lit.found);
+  light_vertices({.irradiance = none_yet,
+                  .gathering = gathering,
+                  .workspaces = workspaces,
+                  .part = {how.progress, "direct light"}},
+                 0, lit.found);
   for (const PointWorkspace& work : workspaces) {
     lit.rays += work.rays;
     lit.shadow_rays += work.direct.shadow_rays;
