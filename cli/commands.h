@@ -22,5 +22,6 @@ Command add_regress_command(Options& program);
 Command add_compare_command(Options& program);
 Command add_batch_command(Options& program);
 Command add_trade_command(Options& program);
+Command add_walk_command(Options& program);
 
 } // namespace meninas

@@ -42,6 +42,10 @@ const std::map<std::string_view, std::vector<Example>>& all_examples() {
         {"meninas regress cases.json --update", "makes the references anew"}}},
       {"trade",
        {{"meninas trade room.gltf -o traded --budget 120", "then open traded/index.html"}}},
+      {"walk",
+       {{"meninas walk room.gltf -o room.html", "then open room.html"},
+        {"meninas walk room.gltf --solution room.glb -o room.html",
+         "shows a solution that `meninas solve` has written"}}},
       {"formfactors",
        {{"meninas formfactors room.gltf --from floor --to ceiling", "in total and for each chain of mirrors"},
         {"meninas formfactors room.gltf --all", "prints the matrix of all nodes as CSV"}}}};
@@ -55,6 +59,7 @@ const std::map<std::string_view, std::vector<std::string_view>>& first_options()
        {"output", "quality", "error", "time", "size", "camera", "exposure", "diffuse", "mode",
         "background", "solution", "stats"}},
       {"solve", {"output", "quality", "elements", "background", "per-node", "stats"}},
+      {"walk", {"output", "quality", "solution", "exposure", "elements", "background"}},
       {"plan", {"json", "quality", "size", "camera", "background"}},
       {"compare", {"output", "quality", "reference", "max-seconds", "size", "camera", "exposure"}}};
   return options;

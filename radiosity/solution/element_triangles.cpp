@@ -55,6 +55,7 @@ std::array<float, 4> weights_at(const ElementMesh& mesh, ElementId element, cons
 /// The triangles of a region turn as its own light sees them.
 void add_region(const ElementMesh& mesh, ElementId element, const RegionElement& region,
                 ElementTriangles& to) {
+  to.elements.insert(to.elements.end(), region.triangles.size(), element);
   for (const auto& triangle : region.triangles)
     for (const Point3& x : triangle) {
       to.indices.push_back(static_cast<std::uint32_t>(mesh.vertices.size() + to.points.size()));
@@ -76,9 +77,11 @@ ElementTriangles element_triangles(const ElementMesh& mesh) {
     }
     const bool back = mesh.sides[index(mesh.side_of_element[e])].facing == Facing::back;
     const std::vector<std::uint32_t> outline = outline_of(mesh.corners[e], middles);
-    for (std::size_t k = 2; k < outline.size(); ++k)
+    for (std::size_t k = 2; k < outline.size(); ++k) {
       triangles.indices.insert(triangles.indices.end(),
                                {outline[0], outline[back ? k : k - 1], outline[back ? k - 1 : k]});
+      triangles.elements.push_back(static_cast<ElementId>(e));
+    }
   }
   return triangles;
 }

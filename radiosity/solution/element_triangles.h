@@ -18,6 +18,7 @@ struct ElementTriangles {
   /// Three indices each, counter-clockwise seen from the side's own light:
   /// of vertices, and from `mesh.vertices.size()` on of points.
   std::vector<std::uint32_t> indices;
+  std::vector<ElementId> elements; ///< by triangle: what it is a part of
   std::vector<RegionPoint> points;
 };
 ElementTriangles element_triangles(const ElementMesh& mesh);

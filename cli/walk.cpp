@@ -1,0 +1,54 @@
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "cli/pixel_options.h"
+#include "cli/values.h"
+#include "runs/walk/walk_run.h"
+
+namespace meninas {
+namespace {
+
+struct WalkOptions {
+  CommonOptions common;
+  WalkRequest request;
+};
+
+void run(const Options& command, WalkOptions& options) {
+  if (options.request.solution)
+    refuse_pass_one_options(command, "has no effect with --solution: pass one is not run");
+  check_pass_one_options(command, options.common.settings);
+  options.request.scene = options.common.scene;
+  options.request.settings = options.common.settings;
+  Console console(options.common.verbosity);
+  console.say_notes(options.common);
+  walk_run(options.request, console.events());
+}
+
+} // namespace
+
+Command add_walk_command(Options& program) {
+  Options& command =
+      program.add_command("walk", "Write one HTML file to walk through the solved room");
+  const auto options = std::make_shared<WalkOptions>();
+  add_scene(command, options->common);
+  command
+      .add("-o,--output", "FILE", "page, .html; any browser with WebGL 2 shows it, from disk",
+           [=](const std::string& text) { options->request.page = text; })
+      .required();
+  add_file(command, "--solution", options->request.solution,
+           "show a solution written by `meninas solve` instead of solving");
+  command.add("--exposure", "EV", "brighten the page by so many stops [automatic, by camera]",
+              [=](const std::string& text) {
+                options->request.exposure = parse_number("--exposure", text, Sign::any);
+              });
+  add_view_transform(command, "how the page shows what is brighter than a display",
+                     options->request.transform, "Page");
+  add_quality(command, options->common);
+  add_state_options(command, options->common);
+  add_light_options(command, options->common);
+  add_mesh_options(command, options->common);
+  add_pass_one_options(command, options->common);
+  add_run_options(command, options->common);
+  return {&command, [=, &command] { run(command, *options); }};
+}
+
+} // namespace meninas

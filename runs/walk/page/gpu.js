@@ -1,0 +1,148 @@
+// What WebGL 2 is asked for: programs, tables as vertex arrays, textures, and pictures to draw into.
+"use strict";
+
+/// Throws a sentence for the user where the browser cannot do it.
+function openGpu(canvas) {
+  const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false, stencil: false });
+  if (!gl) throw new Error("This page needs WebGL 2, which this browser does not offer or has turned off.");
+  if (!gl.getExtension("EXT_color_buffer_float") && !gl.getExtension("EXT_color_buffer_half_float"))
+    throw new Error("This page needs pictures of 16-bit floats, which this browser's WebGL 2 cannot draw into.");
+  gl.anisotropy = gl.getExtension("EXT_texture_filter_anisotropic");
+  return gl;
+}
+
+function makeProgram(gl, vertex, fragment) {
+  const program = gl.createProgram();
+  for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost())
+      throw new Error("A shader of this page was refused: " + gl.getShaderInfoLog(shader));
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS))
+    throw new Error("A shader of this page was refused: " + gl.getProgramInfoLog(program));
+  const at = {};
+  for (let k = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); k-- > 0;) {
+    const { name } = gl.getActiveUniform(program, k);
+    at[name] = gl.getUniformLocation(program, name);
+  }
+  return { program, at };
+}
+
+function makeBuffer(gl, target, values) {
+  const buffer = gl.createBuffer();
+  gl.bindBuffer(target, buffer);
+  gl.bufferData(target, values, gl.STATIC_DRAW);
+  return buffer;
+}
+
+/// The vertices of the room, and their triangles.
+function makeRoomArrays(gl, data, tables) {
+  const array = gl.createVertexArray();
+  gl.bindVertexArray(array);
+  const add = (place, values, count, type, normalized) => {
+    makeBuffer(gl, gl.ARRAY_BUFFER, values);
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, count, type, normalized, 0, 0);
+  };
+  add(0, tables.points, 3, gl.FLOAT, false);
+  add(1, Uint16Array.from(tables.irradiance), 3, gl.HALF_FLOAT, false);
+  add(2, Float32Array.from(tables.normal, x => x / 16384), 2, gl.FLOAT, false);
+  if (data.textures.length) add(3, Float32Array.from(tables.place, x => x / 65536), 4, gl.FLOAT, false);
+  if (tables.colour.some(x => x !== 65535)) add(4, Uint16Array.from(tables.colour), 4, gl.UNSIGNED_SHORT, true);
+  else gl.vertexAttrib4f(4, 1, 1, 1, 1);
+  makeBuffer(gl, gl.ARRAY_BUFFER, Uint16Array.from(tables.look));
+  gl.enableVertexAttribArray(5);
+  gl.vertexAttribIPointer(5, 1, gl.UNSIGNED_SHORT, 0, 0);
+  makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, Uint32Array.from(tables.triangles));
+  gl.bindVertexArray(null);
+  return array;
+}
+
+/// The looks of materials, six texels in a row to each.
+function makeLooks(gl, looks) {
+  const numbers = new Float32Array(24 * looks.length);
+  looks.forEach((look, k) => numbers.set([...look.albedo, look.alpha, ...look.rest, look.cutoff, ...look.emission,
+    look.kind, ...look.f0, look.f90, ...look.tint, look.ior, ...look.reflectance, look.roughness], 24 * k));
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, 6, looks.length, 0, gl.RGBA, gl.FLOAT, numbers);
+  setFilters(gl, gl.NEAREST, gl.NEAREST);
+  return texture;
+}
+
+function setFilters(gl, smaller, larger, target = gl.TEXTURE_2D) {
+  gl.texParameteri(target, gl.TEXTURE_MIN_FILTER, smaller);
+  gl.texParameteri(target, gl.TEXTURE_MAG_FILTER, larger);
+  gl.texParameteri(target, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+  gl.texParameteri(target, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+}
+
+/// An image of the scene, decoded from sRGB where it is looked up.
+function makeTexture(gl, image, { wrap, nearest }) {
+  const texture = gl.createTexture(), wraps = [gl.CLAMP_TO_EDGE, gl.REPEAT, gl.MIRRORED_REPEAT];
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.SRGB8_ALPHA8, gl.RGBA, gl.UNSIGNED_BYTE, image);
+  gl.generateMipmap(gl.TEXTURE_2D);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, nearest ? gl.NEAREST : gl.LINEAR);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, wraps[wrap[0]]);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, wraps[wrap[1]]);
+  if (gl.anisotropy) gl.texParameterf(gl.TEXTURE_2D, gl.anisotropy.TEXTURE_MAX_ANISOTROPY_EXT, 8);
+  return texture;
+}
+
+/// 256 sRGB colours in a row.
+function makeScale(gl, colours) {
+  const texels = new Uint8Array(4 * 256).fill(255);
+  for (let k = 0; k < 256; ++k) texels.set(colours.slice(3 * k, 3 * k + 3), 4 * k);
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.SRGB8_ALPHA8, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, texels);
+  setFilters(gl, gl.LINEAR, gl.LINEAR);
+  return texture;
+}
+
+async function makeSky(gl, sky) {
+  const texture = gl.createTexture(), bytes = await inflated(bytesOf(sky.texels));
+  const halves = new Uint16Array(bytes.buffer, 0, bytes.length / 2);
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 2);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB16F, sky.width, sky.height, 0, gl.RGB, gl.HALF_FLOAT, halves);
+  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 4);
+  setFilters(gl, gl.LINEAR, gl.LINEAR);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.REPEAT);
+  return texture;
+}
+
+/// A picture of linear light with depth and stencil, several samples to a pixel, and the texture that
+/// their means go to.
+function makeTarget(gl, width, height) {
+  const samples = Math.min(4, gl.getInternalformatParameter(gl.RENDERBUFFER, gl.RGBA16F, gl.SAMPLES)[0] || 0);
+  const target = { width, height, drawn: gl.createFramebuffer(), mean: gl.createFramebuffer(), texture: gl.createTexture(),
+    parts: [gl.createRenderbuffer(), gl.createRenderbuffer()] };
+  gl.bindTexture(gl.TEXTURE_2D, target.texture);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA16F, width, height);
+  setFilters(gl, gl.NEAREST, gl.NEAREST);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, target.mean);
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target.texture, 0);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, target.drawn);
+  [[gl.RGBA16F, gl.COLOR_ATTACHMENT0], [gl.DEPTH24_STENCIL8, gl.DEPTH_STENCIL_ATTACHMENT]].forEach(([format, place], k) => {
+    gl.bindRenderbuffer(gl.RENDERBUFFER, target.parts[k]);
+    gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, format, width, height);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, target.parts[k]);
+  });
+  if (gl.checkFramebufferStatus(gl.FRAMEBUFFER) !== gl.FRAMEBUFFER_COMPLETE && !gl.isContextLost())
+    throw new Error("This page needs a stencil beside 16-bit floats, which this browser's WebGL 2 does not give.");
+  return target;
+}
+
+function freeTarget(gl, target) {
+  gl.deleteFramebuffer(target.drawn);
+  gl.deleteFramebuffer(target.mean);
+  gl.deleteTexture(target.texture);
+  target.parts.forEach(part => gl.deleteRenderbuffer(part));
+}

@@ -1,0 +1,100 @@
+// The page: reads its data, draws when something has changed, and does what keys ask for.
+"use strict";
+
+/// More worlds than that make no frame slow on a plain graphics card; slow ones have fewer.
+const mostWorlds = 128, mostWorldsOfShot = 1024, slowFrame = 80;
+
+async function start() {
+  const data = JSON.parse(element("data").textContent), canvas = element("view"), gl = openGpu(canvas);
+  const tables = await readTables(data), room = readRoom(data, tables);
+  const images = await Promise.all(data.images.map(readImage));
+  const textures = data.textures.map(use => makeTexture(gl, images[use.image], use));
+  if (data.sky) textures.sky = await makeSky(gl, data.sky);
+  const paint = makePainter(gl, data, room, textures), rays = makeRays(room), motion = makeMotion(room, rays);
+  const asked = readAddress();
+  const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0, most: mostWorlds };
+  let waiting = false, last = 0, saved = 0;
+
+  function goToCamera(number) {
+    shows.camera = number;
+    motion.goTo(data.cameras[number]);
+    if (asked.exposure !== null) motion.state.exposure = asked.exposure;
+    moved();
+  }
+  function followAddress() {
+    const named = data.cameras.findIndex(camera => camera.name === asked.camera);
+    goToCamera(Math.max(0, named));
+    if (asked.at && asked.at.length === 5 && asked.at.every(Number.isFinite)) {
+      motion.leave();
+      [motion.state.eye, motion.state.yaw, motion.state.pitch] = [asked.at.slice(0, 3), asked.at[3], asked.at[4]];
+    }
+  }
+  function saveAddress() {
+    const { camera, eye, yaw, pitch } = motion.state;
+    const place = camera ? "camera=" + encodeURIComponent(camera.name) : "at=" + [...eye, yaw, pitch].map(x => x.toFixed(3)).join(",");
+    try { history.replaceState(null, "", "#" + place); } catch { /* a page that may not has no links */ }
+  }
+
+  function sizeOfCanvas() {
+    if (asked.size) return asked.size;
+    const ratio = Math.min(devicePixelRatio || 1, 2);
+    return [Math.max(1, Math.round(canvas.clientWidth * ratio)), Math.max(1, Math.round(canvas.clientHeight * ratio))];
+  }
+  function paintNow(block, most) {
+    const [width, height] = sizeOfCanvas(), before = performance.now();
+    if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
+    const figures = paint(motion.view(width / height), { ...shows, width, height, block, most, exposure: motion.state.exposure });
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
+    return { ...figures, milliseconds: performance.now() - before };
+  }
+  function frame(now) {
+    waiting = false;
+    const goesOn = step(Math.min(0.1, (now - last) / 1000 || 0.016));
+    last = now;
+    const figures = paintNow(1, shows.most);
+    // Slow frames have fewer worlds, those by the most mirrors first.
+    if (figures.milliseconds > slowFrame && figures.worlds > 2) shows.most = Math.max(2, Math.ceil(figures.worlds * 0.7));
+    else if (figures.milliseconds < 0.4 * slowFrame && figures.cut) shows.most = Math.min(mostWorlds, shows.most + 4);
+    panel.figures(figures);
+    panel.show({ ...shows, mode: motion.state.mode, exposure: motion.state.exposure });
+    if (goesOn) moved();
+    else { clearTimeout(saved); saved = setTimeout(saveAddress, 400); }
+  }
+  function moved() {
+    if (waiting || asked.shot) return;
+    waiting = true;
+    requestAnimationFrame(frame);
+  }
+  const keys = {
+    o: () => motion.setMode(motion.state.mode === "walk" ? "orbit" : "walk"),
+    m: () => { shows.mirrors = !shows.mirrors; }, f: () => { shows.falseColours = !shows.falseColours; },
+    e: () => { shows.lines = !shows.lines; }, c: () => goToCamera((shows.camera + 1) % data.cameras.length),
+    "+": () => { motion.state.exposure += 0.25; }, "=": () => { motion.state.exposure += 0.25; },
+    "-": () => { motion.state.exposure -= 0.25; }, "?": () => panel.help(), h: () => panel.help(), escape: () => panel.met(null)
+  };
+  const panel = makePanel(data, { camera: goToCamera, key: key => {
+    if (key >= "1" && key <= "9" && Number(key) <= data.cameras.length) goToCamera(Number(key) - 1);
+    else if (key in keys) keys[key]();
+    else return;
+    moved();
+  } });
+  const meet = (x, y) => {
+    const camera = motion.view(canvas.clientWidth / canvas.clientHeight);
+    const [i, j] = [2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight];
+    const direction = unit(plus(plus(camera.forward, camera.right, i * camera.half * camera.aspect), camera.up, j * camera.half));
+    panel.met(lightMet(room, rays, camera.eye, direction));
+  };
+  keys.enter = () => meet(canvas.clientWidth / 2, canvas.clientHeight / 2);
+  const step = listen(canvas, motion, room, moved, meet);
+  addEventListener("resize", moved);
+  addEventListener("hashchange", () => { Object.assign(asked, readAddress()); followAddress(); });
+  canvas.addEventListener("webglcontextlost", () => showProblem(new Error("The graphics card has dropped this page: load it again.")));
+
+  followAddress();
+  if (!asked.shot) return;
+  canvas.style.width = canvas.style.height = "auto";
+  const figures = paintNow(4, mostWorldsOfShot);
+  document.body.dataset.figures = JSON.stringify(figures);
+  document.body.dataset.shot = canvas.toDataURL("image/png");
+}
+start().catch(showProblem);

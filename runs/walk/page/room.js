@@ -1,0 +1,86 @@
+// The room as the page draws it: runs of triangles by section and textures, mirrors with theirs.
+"use strict";
+
+const sections = { single: 0, both: 1, pane: 2 };
+
+/// Runs that follow one another and are drawn alike are one.
+function joinedRuns(batches) {
+  const runs = [];
+  for (const [section, colour, emission, mirror, node, first, count] of batches) {
+    const last = runs[runs.length - 1];
+    if (last && section !== sections.pane && last.section === section && last.colour === colour
+      && last.emission === emission && last.first + last.count === first) last.count += count;
+    else runs.push({ section, colour, emission, first, count, mirror: section === sections.pane ? mirror : -1 });
+  }
+  return runs;
+}
+
+function middleOf(tables, run) {
+  let sum = [0, 0, 0];
+  for (let t = run.first; t < run.first + run.count; ++t)
+    for (let k = 0; k < 3; ++k) {
+      const v = tables.triangles[3 * t + k];
+      sum = plus(sum, [tables.points[3 * v], tables.points[3 * v + 1], tables.points[3 * v + 2]]);
+    }
+  return times(sum, 1 / (3 * run.count));
+}
+
+/// Mean radiance of the vertices, for what a curved mirror shows at the least.
+function meanRadiance(data, tables) {
+  const sum = [0, 0, 0], count = tables.look.length;
+  for (let v = 0; v < count; ++v)
+    for (let k = 0; k < 3; ++k) {
+      const look = data.looks[tables.look[v]];
+      sum[k] += halfToNumber(tables.irradiance[3 * v + k]) * data.light * (look.albedo[k] + look.rest[k]) / Math.PI;
+    }
+  return times(sum, 1 / Math.max(1, count));
+}
+
+function boundsOf(points) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  points.forEach((x, k) => { low[k % 3] = Math.min(low[k % 3], x); high[k % 3] = Math.max(high[k % 3], x); });
+  return { low, high };
+}
+
+function readRoom(data, tables) {
+  tables.points = Float32Array.from(tables.position, x => x * data.step);
+  const { low, high } = boundsOf(tables.points), runs = joinedRuns(data.batches);
+  const room = { data, tables, low, high, size: lengthOf(minus(high, low)), ambient: meanRadiance(data, tables) };
+  room.opaque = runs.filter(run => run.section !== sections.pane);
+  room.panes = runs.filter(run => run.section === sections.pane);
+  room.panes.forEach(run => { run.middle = middleOf(tables, run); });
+  room.backs = data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0);
+  room.mirrors = data.mirrors.map((mirror, number) => ({ ...mirror, number,
+    runs: joinedRuns(data.batches.filter(b => b[3] === number)),
+    // Whether it shows light of its own below what it mirrors.
+    shines: mirror.kind !== "mirror" || data.batches.some(b => b[3] === number && hasOwn(data, tables, b)) }))
+    .filter(mirror => mirror.runs.length);
+  return room;
+}
+
+function hasOwn(data, tables, batch) {
+  const look = data.looks[tables.look[tables.triangles[3 * batch[5]]]];
+  return [...look.rest, ...look.albedo, ...look.emission].some(x => x > 0);
+}
+
+/// The node and the look of a triangle.
+function partOf(room, triangle) {
+  const batch = room.data.batches.find(b => triangle >= b[5] && triangle < b[5] + b[6]);
+  return { node: batch[4] < 0 ? "" : room.data.nodes[batch[4]], mirror: batch[3],
+    look: room.data.looks[room.tables.look[room.tables.triangles[3 * triangle]]] };
+}
+
+/// The ends of the edges of elements: those of all triangles but the ones inside a fan.
+function elementEdges(triangles) {
+  const ends = [];
+  for (let k = 0; k < triangles.length; k += 3) {
+    const [a, b, c] = [triangles[k], triangles[k + 1], triangles[k + 2]];
+    const continues = k > 0 && triangles[k - 3] === a && (triangles[k - 1] === b || triangles[k - 2] === c);
+    const goesOn = k + 3 < triangles.length && triangles[k + 3] === a && (triangles[k + 4] === c || triangles[k + 5] === b);
+    const edges = [[a, b], [b, c], [c, a]];
+    const shared = [continues && triangles[k - 1] === b || goesOn && triangles[k + 5] === b, false,
+      continues && triangles[k - 2] === c || goesOn && triangles[k + 4] === c];
+    edges.forEach((edge, e) => { if (!shared[e]) ends.push(...edge); });
+  }
+  return Uint32Array.from(ends);
+}

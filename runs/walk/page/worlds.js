@@ -1,0 +1,75 @@
+// The mirror worlds that the eye sees: a tree, found anew for every frame by the test of pass one
+// (mirror/worlds.h), with the eye in place of the room.
+//
+// A world is the room as seen by way of a chain of mirrors. In the room's own space its eye is the
+// image of the eye, and what it shows is within the cone from that eye through its windows, which lie
+// in the plane of its mirror and so are the same before and behind it, and on the front of that mirror.
+// A mirror has a world there if a part of its window is in that cone and its front is towards the eye,
+// and if its light is worth it: the product of reflectances is at least the page's least throughput.
+"use strict";
+
+/// The picture's four corners, at distance one.
+function cornersOf(camera) {
+  const x = times(camera.right, camera.half * camera.aspect), y = times(camera.up, camera.half);
+  const at = plus(camera.eye, camera.forward);
+  return [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([i, j]) => plus(plus(at, x, i), y, j));
+}
+
+function windowsSeen(mirror, world) {
+  const seen = [];
+  for (const window of mirror.windows) {
+    let front = world.mirror ? clipped(window, world.mirror.normal, world.mirror.offset) : window;
+    const { forward, eye } = world.camera;
+    if (!world.mirror) front = clipped(front, forward, dot(forward, eye) + 0.5 * world.camera.near);
+    for (const cone of world.windows) {
+      const part = clippedToCone(front, eye, cone);
+      if (part.length) seen.push(part);
+    }
+  }
+  return seen;
+}
+
+/// The largest part of light that is reflected towards the eye, from anywhere on the windows.
+function reflectanceSeen(mirror, eye, windows) {
+  if (mirror.kind === "mirror") return mirror.reflectance;
+  let least = 1;
+  for (const x of windows.flat()) least = Math.min(least, Math.abs(dot(mirror.normal, unit(minus(x, eye)))));
+  return Math.max(mirror.reflectance, 0.04 + 0.96 * (1 - least) ** 5);
+}
+
+/// The smallest rectangle of the picture around the windows: left, bottom, right, top, 0 to 1.
+function rectangleOf(camera, windows) {
+  const rectangle = [1, 1, 0, 0];
+  for (const x of windows.flat())
+    projected(camera, x).forEach((at, k) => {
+      const share = clamped(0.5 + 0.5 * at, 0, 1);
+      rectangle[k] = Math.min(rectangle[k], share);
+      rectangle[k + 2] = Math.max(rectangle[k + 2], share);
+    });
+  return rectangle;
+}
+
+/// At most `most` worlds, first those with fewer mirrors. `followed` says of which mirrors.
+function visibleWorlds(room, camera, most, followed) {
+  const root = { camera, mirror: null, windows: [cornersOf(camera)], throughput: 1, depth: 0, panes: 0,
+    rectangle: [0, 0, 1, 1], children: [] };
+  const worlds = [root];
+  let cut = 0;
+  for (let next = 0; next < worlds.length; ++next) {
+    const world = worlds[next];
+    for (const mirror of room.mirrors) {
+      if (mirror === world.mirror || !followed(mirror, world)) continue;
+      if (dot(mirror.normal, world.camera.eye) - mirror.offset <= 1e-6 * room.size) continue;
+      const windows = windowsSeen(mirror, world);
+      if (!windows.length) continue;
+      const throughput = world.throughput * reflectanceSeen(mirror, world.camera.eye, windows);
+      if (throughput < room.data.leastThroughput || world.depth >= 254) continue;
+      if (worlds.length >= most || windows.length > 64) { ++cut; continue; }
+      const child = { camera: cameraBehind(world.camera, mirror), mirror, windows, throughput, depth: world.depth + 1,
+        panes: world.panes + (mirror.kind === "pane" ? 1 : 0), rectangle: rectangleOf(world.camera, windows), children: [] };
+      world.children.push(child);
+      worlds.push(child);
+    }
+  }
+  return { root, count: worlds.length, cut, depth: Math.max(...worlds.map(world => world.depth)) };
+}

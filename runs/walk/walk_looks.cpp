@@ -1,0 +1,101 @@
+#include "runs/walk/walk_looks.h"
+
+#include "scenes/materials/coverage.h"
+#include "scenes/materials/lobes.h"
+#include "scenes/materials/bsdf.h"
+
+namespace meninas {
+
+namespace {
+
+/// The mean of a texture of numbers; 1 where there is none.
+glm::dvec4 mean_of(const DecodedTextures& textures, const std::optional<TextureUse>& use) {
+  if (!use || index(use->texture) >= textures.numbers.size())
+    return glm::dvec4(1.0);
+  const TexturePixels* level = &textures.numbers[index(use->texture)];
+  if (!level->coarser.empty())
+    level = &level->coarser.back();
+  glm::dvec4 sum(0.0);
+  for (const glm::vec4& texel : level->texels)
+    sum += glm::dvec4(texel);
+  return level->texels.empty() ? glm::dvec4(1.0) : sum / double(level->texels.size());
+}
+
+/// The factors, those that textures vary with their means.
+MaterialPoint mean_point(const DecodedTextures& textures, const Material& material) {
+  MaterialPoint point = untextured(material);
+  const glm::dvec4 metal = mean_of(textures, material.metallic_roughness_texture);
+  point.metallic *= metal.b;
+  point.roughness *= metal.g;
+  point.transmission *= mean_of(textures, material.transmission_texture).r;
+  return point;
+}
+
+/// The share of light that it scatters evenly to the eye, where its lobes are shown by themselves.
+Rgb even_part(const Bsdf& bsdf, WalkKind kind) {
+  if (kind == WalkKind::coat)
+    return bsdf.diffuse;
+  constexpr double from_most_sides = 0.7; // a cosine
+  return even_reflectance(bsdf, from_most_sides);
+}
+
+WalkKind kind_of(const Material& material, WalkFace face) {
+  if (material.unlit)
+    return WalkKind::unlit;
+  if (is_blended(material))
+    return WalkKind::covering;
+  if (is_glass(material))
+    return WalkKind::pane;
+  if (face == WalkFace::facet)
+    return WalkKind::curved;
+  if (face == WalkFace::plain)
+    return WalkKind::plain;
+  return has_mirror_coat(material) ? WalkKind::coat : WalkKind::mirror;
+}
+
+Rgb rho_of(const Material& material, MaterialPoint point, WalkKind kind, const Rgb& colour) {
+  point.base_color = colour;
+  if (kind == WalkKind::plain || kind == WalkKind::covering)
+    return diffuse_reflectance(material, point);
+  return even_part(make_bsdf(material, point), kind);
+}
+
+} // namespace
+
+WalkLook walk_look(const Scene& scene, const DecodedTextures& textures, MaterialId id,
+                   WalkFace face) {
+  const Material& material = scene.materials[index(id)];
+  MaterialPoint point = mean_point(textures, material);
+  WalkLook look;
+  look.name = material.name;
+  look.kind = kind_of(material, face);
+  look.roughness = point.roughness;
+  look.emission = material.emission;
+  if (material.alpha_mode != AlphaMode::opaque)
+    look.alpha = material.alpha;
+  if (material.alpha_mode == AlphaMode::mask)
+    look.cutoff = material.alpha_cutoff;
+  if (look.kind == WalkKind::covering)
+    point.transmission = 0.0;
+  if (look.kind == WalkKind::unlit) {
+    look.albedo = point.base_color;
+    return look;
+  }
+  look.rest = rho_of(material, point, look.kind, Rgb(0.0));
+  look.albedo = rho_of(material, point, look.kind, point.base_color) - look.rest;
+  const Bsdf bsdf =
+      look.kind == WalkKind::coat ? mirror_coat(material) : make_bsdf(material, point);
+  look.reflectance = bsdf.metal;
+  if (look.kind == WalkKind::coat) {
+    look.f0 = bsdf.coat * bsdf.coat_f0;
+    look.f90 = bsdf.coat * bsdf.coat_f90;
+  } else if (look.kind == WalkKind::pane) {
+    look.f0 = bsdf.pane.f0;
+    look.f90 = bsdf.pane.f90;
+    look.ior = bsdf.pane.ior;
+    look.tint = bsdf.pane.tint;
+  }
+  return look;
+}
+
+} // namespace meninas

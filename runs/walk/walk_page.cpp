@@ -1,0 +1,303 @@
+#include "runs/walk/walk_page.h"
+
+#include "image/colour_map.h"
+#include "image/image_file.h"
+#include "runs/pages/walk_page.h"
+#include "runs/report/page.h"
+#include "runs/walk/packed_numbers.h"
+#include "scenes/errors.h"
+#include "scenes/sky/radiance_map.h"
+#include "scenes/version.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+
+namespace meninas {
+
+namespace {
+
+using nlohmann::json;
+
+json array_of(const Vec3& x) { return json::array({x.x, x.y, x.z}); }
+
+/// A unit vector on the octahedron (Meyer et al. 2010), each of two coordinates in 2^-14.
+std::array<std::uint32_t, 2> octahedral(const glm::vec3& n) {
+  const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+  if (!(sum > 0.0F))
+    return {0, 0};
+  glm::vec2 p(n.x / sum, n.y / sum);
+  if (n.z < 0.0F)
+    p = glm::vec2((1.0F - std::abs(p.y)) * (p.x >= 0.0F ? 1.0F : -1.0F),
+                  (1.0F - std::abs(p.x)) * (p.y >= 0.0F ? 1.0F : -1.0F));
+  return {in_steps(double{p.x}, 0x1p-14), in_steps(double{p.y}, 0x1p-14)};
+}
+
+/// What halves can hold: the brightest irradiance becomes this.
+constexpr float brightest_half = 16384.0F;
+
+float light_scale(const WalkRoom& room) {
+  float most = 0.0F;
+  for (const WalkVertex& v : room.vertices)
+    most = std::max(most, largest(v.irradiance));
+  return most > 0.0F ? most / brightest_half : 1.0F;
+}
+
+double position_step(const WalkRoom& room) {
+  float most = 0.0F;
+  for (const WalkVertex& v : room.vertices)
+    most = std::max(most, largest(glm::abs(v.position)));
+  return most > 0.0F ? double{most} * 0x1p-20 : 1.0;
+}
+
+/// Texture coordinates are kept in 2^-16 of the image.
+constexpr double texture_step = 0x1p-16;
+
+PackedNumbers packed_vertices(const WalkRoom& room) {
+  std::vector<std::uint32_t> position, irradiance, normal, place, colour, look;
+  const double step = position_step(room);
+  const float scale = light_scale(room);
+  for (const WalkVertex& v : room.vertices) {
+    for (int k = 0; k < 3; ++k) {
+      position.push_back(in_steps(double{v.position[k]}, step));
+      irradiance.push_back(half_bits(v.irradiance[k] / scale));
+    }
+    for (const std::uint32_t n : octahedral(v.normal))
+      normal.push_back(n);
+    for (const glm::vec2& uv : {v.colour_place, v.emission_place})
+      for (int k = 0; k < 2; ++k)
+        place.push_back(in_steps(double{uv[k]}, texture_step));
+    for (int k = 0; k < 4; ++k)
+      colour.push_back(in_steps(double{std::clamp(v.colour[k], 0.0F, 1.0F)}, 1.0 / 65535.0));
+    look.push_back(v.look);
+  }
+  PackedNumbers packed;
+  add_table(packed, "position", position, 3);
+  add_table(packed, "irradiance", irradiance, 3);
+  add_table(packed, "normal", normal, 2);
+  add_table(packed, "place", place, 4);
+  add_table(packed, "colour", colour, 4);
+  add_table(packed, "look", look, 1);
+  add_table(packed, "triangles", room.indices, 3);
+  return packed;
+}
+
+json tables_json(const PackedNumbers& packed) {
+  json tables = json::array();
+  for (const PackedTable& table : packed.tables)
+    tables.push_back({{"name", table.name},
+                      {"rows", table.rows},
+                      {"columns", table.columns},
+                      {"bytes", table.bytes_each}});
+  return tables;
+}
+
+json looks_json(const WalkRoom& room) {
+  json looks = json::array();
+  for (const WalkLook& look : room.looks)
+    looks.push_back({{"name", std::string(look.name)},
+                     {"albedo", array_of(look.albedo)},
+                     {"rest", array_of(look.rest)},
+                     {"emission", array_of(look.emission)},
+                     {"reflectance", array_of(look.reflectance)},
+                     {"f0", array_of(look.f0)},
+                     {"f90", look.f90},
+                     {"tint", array_of(look.tint)},
+                     {"ior", look.ior},
+                     {"alpha", look.alpha},
+                     {"cutoff", look.cutoff},
+                     {"roughness", look.roughness},
+                     {"kind", static_cast<int>(look.kind)}});
+  return looks;
+}
+
+/// Textures that the page shows, each image once, as the browser decodes it.
+class Pictures {
+public:
+  Pictures(const Scene& scene, std::vector<std::string>& warnings)
+      : scene_(scene), warnings_(warnings) {}
+
+  /// Its number on the page; -1 where it has none.
+  int number_of(TextureId id) {
+    if (id == none<TextureId>)
+      return -1;
+    const auto [place, is_new] = numbers_.emplace(id, -1);
+    if (is_new)
+      place->second = add(scene_.textures[index(id)]);
+    return place->second;
+  }
+  json images = json::array(), textures = json::array();
+
+private:
+  static std::string kind_of(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("\x89PNG"))
+      return "image/png";
+    if (text.starts_with("\xff\xd8\xff"))
+      return "image/jpeg";
+    if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP"))
+      return "image/webp";
+    return "";
+  }
+
+  int add(const Texture& texture) {
+    const std::string kind = kind_of(texture.encoded);
+    if (kind.empty()) {
+      warnings_.push_back(fmt::format("texture '{}' is of a kind that browsers may not read: the "
+                                      "page shows its factor alone",
+                                      texture.name));
+      return -1;
+    }
+    std::string address = "data:" + kind + ";base64," + base64(texture.encoded);
+    const auto [place, is_new] = known_.emplace(std::move(address), int(images.size()));
+    if (is_new)
+      images.push_back(place->first);
+    textures.push_back({{"image", place->second},
+                        {"wrap", {int(texture.wrap_u), int(texture.wrap_v)}},
+                        {"nearest", texture.magnified == TexelFilter::nearest}});
+    return int(textures.size()) - 1;
+  }
+
+  const Scene& scene_;
+  std::vector<std::string>& warnings_;
+  std::map<TextureId, int> numbers_;
+  std::map<std::string, int> known_;
+};
+
+json batches_json(const WalkRoom& room, Pictures& pictures) {
+  const auto number = [](auto id) { return id == none<decltype(id)> ? -1 : int(index(id)); };
+  json batches = json::array();
+  for (const WalkBatch& b : room.batches)
+    batches.push_back({int(b.section), pictures.number_of(b.colour), pictures.number_of(b.emission),
+                       number(b.mirror), number(b.node), b.first, b.count});
+  return batches;
+}
+
+json mirrors_json(const IrradianceField& field, const Point3& middle) {
+  json mirrors = json::array();
+  for (const Mirror& mirror : field.scene->mirrors.mirrors) {
+    json windows = json::array();
+    for (const ConvexPolygon& polygon : mirror.window) {
+      json points = json::array();
+      for (const Point3& x : polygon.span())
+        points.push_back(array_of(x - middle));
+      windows.push_back(std::move(points));
+    }
+    const bool pane = mirror.by_angle != none<MaterialId> && !mirror.is_coat;
+    mirrors.push_back(
+        {{"kind", mirror.is_coat ? "coat" : pane ? "pane" : "mirror"},
+         {"normal", array_of(mirror.plane.normal)},
+         {"offset", mirror.plane.offset - glm::dot(mirror.plane.normal, middle)},
+         {"reflectance", largest(mirror.reflectance)},
+         {"windows", std::move(windows)}});
+  }
+  return mirrors;
+}
+
+json cameras_json(const std::vector<WalkCamera>& cameras, const Point3& middle) {
+  json list = json::array();
+  for (const auto& [camera, exposure] : cameras)
+    list.push_back({{"name", camera.name},
+                    {"position", array_of(camera.position - middle)},
+                    {"forward", array_of(camera.forward)},
+                    {"up", array_of(camera.up)},
+                    {"orthographic", camera.projection == Projection::orthographic},
+                    {"half", camera.projection == Projection::orthographic
+                                 ? camera.half_height
+                                 : std::tan(0.5 * camera.vertical_fov)},
+                    {"aspect", camera.aspect},
+                    {"fit", int(camera.sensor_fit)},
+                    {"section", camera.section},
+                    {"exposure", exposure}});
+  return list;
+}
+
+/// The sky in at most 256 x 128 texels, as halves, row by row from the zenith.
+json sky_json(const Environment& background) {
+  if (!background.map)
+    return nullptr;
+  const RadianceMap& map = *background.map;
+  const int width = std::min(map.width, 256), height = std::min(map.height, 128);
+  std::vector<std::byte> bytes;
+  for (int j = 0; j < height; ++j)
+    for (int i = 0; i < width; ++i) {
+      const glm::vec3 radiance = radiance_from(
+          map, direction_at(map, (i + 0.5) / width, (j + 0.5) / height), Suns::shown);
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t bits = half_bits(radiance[k]);
+        bytes.push_back(static_cast<std::byte>(bits & 0xffU));
+        bytes.push_back(static_cast<std::byte>(bits >> 8U));
+      }
+    }
+  return {{"width", width},
+          {"height", height},
+          {"turned", {map.turned_cos, map.turned_sin}},
+          {"texels", base64(deflated(bytes))}};
+}
+
+double luminance(const glm::vec3& c) { return luminance_of(c); }
+
+/// Irradiance that all but two in a hundred vertices stay below: the top of the false colours.
+double top_irradiance(const WalkRoom& room) {
+  std::vector<double> values;
+  for (const WalkVertex& v : room.vertices)
+    if (v.irradiance != glm::vec3(0.0F))
+      values.push_back(luminance(v.irradiance));
+  if (values.empty())
+    return 1.0;
+  const auto place = values.begin() + std::ptrdiff_t(0.98 * double(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+json false_colours_json() {
+  json colours = json::array();
+  for (int k = 0; k < 256; ++k) {
+    const glm::vec3 c = magma(k / 255.0);
+    for (int band = 0; band < 3; ++band)
+      colours.push_back(std::lround(255.0F * c[band]));
+  }
+  return colours;
+}
+
+} // namespace
+
+std::string walk_page_html(const WalkPage& page, std::vector<std::string>& warnings) {
+  const Scene& scene = page.field.scene->scene;
+  const std::size_t triangles = page.room.indices.size() / 3;
+  if (triangles > most_walk_triangles)
+    throw InputError(scene.file, "",
+                     fmt::format("its solved mesh has {} triangles, and a page takes {} at the "
+                                 "most: try --quality draft or fewer --elements",
+                                 triangles, most_walk_triangles));
+  Pictures pictures(scene, warnings);
+  const PackedNumbers packed = packed_vertices(page.room);
+  json data{{"title", page.title},
+            {"program", fmt::format("Meninas {}", program_version())},
+            {"tables", tables_json(packed)},
+            {"packed", base64(deflated(packed.bytes))},
+            {"step", position_step(page.room)},
+            {"light", light_scale(page.room)},
+            {"looks", looks_json(page.room)},
+            {"batches", batches_json(page.room, pictures)},
+            {"mirrors", mirrors_json(page.field, page.room.middle)},
+            {"cameras", cameras_json(page.cameras, page.room.middle)},
+            {"background", array_of(scene.background.constant)},
+            {"sky", sky_json(scene.background)},
+            {"transform", std::string(name_of(page.transform))},
+            {"leastThroughput", page.min_throughput},
+            {"top", top_irradiance(page.room)},
+            {"falseColours", false_colours_json()}};
+  json nodes = json::array();
+  for (const Node& node : scene.nodes)
+    nodes.push_back(node.name);
+  data["nodes"] = std::move(nodes);
+  data["images"] = std::move(pictures.images);
+  data["textures"] = std::move(pictures.textures);
+  return fill_page(walk_page, data.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+} // namespace meninas

@@ -1,0 +1,319 @@
+#include "runs/walk/walk_room.h"
+
+#include "radiosity/solution/element_triangles.h"
+#include "scenes/materials/texture_lookup.h"
+#include "scenes/shading_normal.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+namespace meninas {
+
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+/// Triangles that are drawn alike, as corners in the list of vertices.
+struct Piece {
+  WalkBatch key;
+  std::vector<Corners> triangles;
+};
+
+auto order_of(const WalkBatch& b) {
+  return std::tuple(b.section, b.colour, b.emission, b.mirror, b.node);
+}
+
+/// One side of a patch.
+struct Face {
+  PatchId patch = none<PatchId>;
+  Facing facing = Facing::front;
+};
+
+class RoomBuilder {
+public:
+  explicit RoomBuilder(const IrradianceField& field)
+      : field_(field), light_(*field.scene), mesh_(field.mesh()) {
+    const Bounds bounds = bounds_of(light_.scene);
+    room_.middle = 0.5 * bounds.low + 0.5 * bounds.high;
+  }
+
+  WalkRoom build() {
+    add_lit_faces();
+    add_faces_without_field();
+    std::stable_sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
+      return order_of(a.key) < order_of(b.key);
+    });
+    for (const Piece& piece : pieces_)
+      append(piece);
+    return std::move(room_);
+  }
+
+private:
+  struct Place {
+    TriangleId triangle = none<TriangleId>;
+    Vec2 barycentric{0.0};
+  };
+  /// The bytes of what makes a corner of a side differ from others at its vertex.
+  using CornerKey = std::array<std::uint32_t, 13>;
+  struct HashOfKey {
+    std::size_t operator()(const CornerKey& key) const {
+      std::uint64_t hash = 0xcbf29ce484222325ULL;
+      for (const std::uint32_t word : key)
+        hash = (hash ^ word) * 0x100000001b3ULL;
+      return hash;
+    }
+  };
+
+  const Material& material_of_patch(const Patch& patch) const {
+    return light_.scene.materials[index(patch.material)];
+  }
+  MirrorId mirror_of(const Face& face) const {
+    const Patch& patch = light_.surfaces.patches[index(face.patch)];
+    return light_.mirrors.mirror_of_surface[index(patch.surface)][index_of(face.facing)];
+  }
+  static std::size_t index_of(Facing facing) { return facing == Facing::front ? 0 : 1; }
+
+  std::uint32_t look_of(const Face& face) {
+    const Patch& patch = light_.surfaces.patches[index(face.patch)];
+    const WalkFace kind = mirror_of(face) != none<MirrorId>             ? WalkFace::mirror
+                          : is_mirror(material_of_patch(patch)) ? WalkFace::facet
+                                                                        : WalkFace::plain;
+    const auto [place, is_new] =
+        looks_.emplace(std::pair(patch.material, kind), std::uint32_t(room_.looks.size()));
+    if (is_new)
+      room_.looks.push_back(walk_look(light_.scene, light_.textures, patch.material, kind));
+    return place->second;
+  }
+
+  std::uint32_t black_look() {
+    if (!black_) {
+      black_ = static_cast<std::uint32_t>(room_.looks.size());
+      room_.looks.emplace_back();
+    }
+    return *black_;
+  }
+
+  static TextureId texture_of(const std::optional<TextureUse>& use) {
+    return use ? use->texture : none<TextureId>;
+  }
+
+  WalkBatch key_of(const Face& face, std::uint32_t look) const {
+    const Patch& patch = light_.surfaces.patches[index(face.patch)];
+    const Material& material = material_of_patch(patch);
+    const WalkLook& shown = room_.looks[look];
+    WalkBatch key;
+    key.section = shown.kind == WalkKind::pane || shown.kind == WalkKind::covering
+                      ? WalkSection::pane
+                  : material.double_sided || shown.cutoff >= 0.0 ? WalkSection::both
+                                                                 : WalkSection::single;
+    key.colour = texture_of(material.base_color_texture);
+    key.emission = texture_of(material.emissive_texture);
+    key.mirror = mirror_of(face);
+    key.node = patch.node;
+    return key;
+  }
+
+  /// Of the triangles of a patch the one that holds the point, or comes nearest to that.
+  Place place_of(const Patch& patch, const Point3& x) const {
+    Place best{patch.triangles[0], Vec2(0.0)};
+    double most = -std::numeric_limits<double>::infinity();
+    for (const TriangleId triangle : patch.triangles) {
+      if (triangle == none<TriangleId>)
+        continue;
+      const auto p = corners(light_.scene, triangle);
+      const Vec3 e1 = p[1] - p[0], e2 = p[2] - p[0], normal = glm::cross(e1, e2);
+      const Vec2 b = Vec2(glm::dot(glm::cross(x - p[0], e2), normal),
+                          glm::dot(glm::cross(e1, x - p[0]), normal)) /
+                     glm::dot(normal, normal);
+      if (const double least = std::min({b.x, b.y, 1.0 - b.x - b.y}); least > most) {
+        most = least;
+        best = {triangle, b};
+      }
+    }
+    return best;
+  }
+
+  glm::vec2 on_texture(const std::optional<TextureUse>& use, const Triangle& triangle,
+                       const glm::vec3& weights) const {
+    if (!use)
+      return glm::vec2(0.0F);
+    glm::vec2 place(0.0F);
+    for (int k = 0; k < 3; ++k)
+      place += weights[k] * light_.scene.vertices[index(triangle.vertices[std::size_t(k)])]
+                                .texcoord[std::size_t(use->texcoord_set)];
+    return glm::vec2(transformed_texcoord(*use, Vec2(place)));
+  }
+
+  /// Colour, textures and normal of a face at a point of a triangle of the scene.
+  void dress(WalkVertex& vertex, const Face& face, const Place& at) const {
+    const Scene& scene = light_.scene;
+    const Triangle& triangle = scene.triangles[index(at.triangle)];
+    const glm::vec3 weights(1.0 - at.barycentric.x - at.barycentric.y, at.barycentric.x,
+                            at.barycentric.y);
+    const Material& material = scene.materials[index(triangle.material)];
+    vertex.colour_place = on_texture(material.base_color_texture, triangle, weights);
+    vertex.emission_place = on_texture(material.emissive_texture, triangle, weights);
+    glm::vec4 colour(0.0F);
+    for (int k = 0; k < 3; ++k)
+      colour += weights[k] * scene.vertices[index(triangle.vertices[std::size_t(k)])].color;
+    vertex.colour = colour;
+    const glm::vec3 normal(shading_normal(scene, at.triangle, at.barycentric));
+    vertex.normal = face.facing == Facing::front ? normal : -normal;
+  }
+
+  glm::vec3 from_middle(const Point3& x) const { return glm::vec3(x - room_.middle); }
+
+  /// The vertex with these values, once. `of` tells apart what is at different places.
+  std::uint32_t vertex_index(std::uint32_t of, const WalkVertex& vertex) {
+    CornerKey key{of, vertex.look};
+    const auto put = [&](std::size_t at, float x) { std::memcpy(&key[at], &x, sizeof x); };
+    put(2, vertex.colour_place.x);
+    put(3, vertex.colour_place.y);
+    put(4, vertex.emission_place.x);
+    put(5, vertex.emission_place.y);
+    for (std::size_t k = 0; k < 3; ++k)
+      key[6 + k] = static_cast<std::uint32_t>(
+          static_cast<std::int32_t>(std::lround(1e3F * vertex.normal[static_cast<int>(k)])));
+    for (std::size_t k = 0; k < 4; ++k)
+      put(9 + k, vertex.colour[static_cast<int>(k)]);
+    const auto [place, is_new] =
+        known_.emplace(key, static_cast<std::uint32_t>(room_.vertices.size()));
+    if (is_new)
+      room_.vertices.push_back(vertex);
+    return place->second;
+  }
+
+  /// H at a corner of an element, or a point of it, with what comes from behind.
+  glm::vec3 irradiance_of(const MeshSide& side, SideId id, const Point3& x,
+                          const glm::vec3& own) const {
+    const SideId behind = side_behind(mesh_, id);
+    if (behind == none<SideId>)
+      return own;
+    const Patch& patch = light_.surfaces.patches[index(side.patch)];
+    const glm::vec3 passed = irradiance_at(mesh_, field_, behind, uv_at(patch, x));
+    const glm::vec3 ratio(side.transmittance / glm::max(side.reflectance, Rgb(1e-6)));
+    return own + glm::min(ratio, glm::vec3(1e3F)) * passed;
+  }
+
+  void add_lit_faces() {
+    const ElementTriangles all = element_triangles(mesh_);
+    const std::size_t vertices = mesh_.vertices.size();
+    const auto piece_of_side = pieces_of_sides();
+    for (std::size_t t = 0; t < all.elements.size(); ++t) {
+      const SideId id = mesh_.side_of_element[index(all.elements[t])];
+      const MeshSide& side = mesh_.sides[index(id)];
+      const Face face{side.patch, side.facing};
+      Corners corners{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = all.indices[3 * t + k];
+        WalkVertex vertex;
+        vertex.look = look_of_side_[index(id)];
+        Point3 x;
+        if (v < vertices) {
+          x = mesh_.vertices[v];
+          vertex.irradiance = irradiance_of(side, id, x, field_.irradiance[v]);
+        } else {
+          const RegionPoint& point = all.points[v - vertices];
+          x = point.position;
+          glm::vec3 own(0.0F);
+          for (std::size_t c = 0; c < 4; ++c)
+            own += point.weights[c] *
+                   field_.irradiance[index(mesh_.corners[index(point.element)][c])];
+          vertex.irradiance = irradiance_of(side, id, x, own);
+        }
+        vertex.position = from_middle(x);
+        dress(vertex, face, place_of(light_.surfaces.patches[index(side.patch)], x));
+        corners[k] = vertex_index(v, vertex);
+      }
+      pieces_[piece_of_side[index(id)]].triangles.push_back(corners);
+    }
+    known_.clear();
+  }
+
+  std::vector<std::size_t> pieces_of_sides() {
+    std::vector<std::size_t> pieces;
+    for (const MeshSide& side : mesh_.sides) {
+      const Face face{side.patch, side.facing};
+      look_of_side_.push_back(look_of(face));
+      pieces.push_back(pieces_.size());
+      pieces_.push_back({key_of(face, look_of_side_.back()), {}});
+    }
+    return pieces;
+  }
+
+  void add_faces_without_field() {
+    for (std::size_t p = 0; p < light_.surfaces.patches.size(); ++p) {
+      const Patch& patch = light_.surfaces.patches[p];
+      const Material& material = material_of_patch(patch);
+      for (const Facing facing : {Facing::front, Facing::back}) {
+        if ((facing == Facing::back && !material.double_sided) ||
+            mesh_.sides_of_patch[p][index_of(facing)] != none<SideId>)
+          continue;
+        add_plain({static_cast<PatchId>(p), facing});
+      }
+    }
+  }
+
+  /// The triangles of the scene: a mirror, a pane, or black.
+  void add_plain(const Face& face) {
+    const Patch& patch = light_.surfaces.patches[index(face.patch)];
+    const Material& material = material_of_patch(patch);
+    const bool shows = is_mirror(material) || is_glass(material);
+    const std::uint32_t look = shows ? look_of(face) : black_look();
+    Piece piece{key_of(face, look), {}};
+    for (const TriangleId id : patch.triangles) {
+      if (id == none<TriangleId>)
+        continue;
+      const auto p = corners(light_.scene, id);
+      const auto& ids = light_.scene.triangles[index(id)].vertices;
+      Corners triangle{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        WalkVertex vertex;
+        vertex.look = look;
+        vertex.position = from_middle(p[k]);
+        dress(vertex, face, {id, Vec2(k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0)});
+        triangle[k] = vertex_index(index(ids[k]), vertex);
+      }
+      if (face.facing == Facing::back)
+        std::swap(triangle[1], triangle[2]);
+      piece.triangles.push_back(triangle);
+    }
+    pieces_.push_back(std::move(piece));
+  }
+
+  void append(const Piece& piece) {
+    if (piece.triangles.empty())
+      return;
+    const auto first = static_cast<std::uint32_t>(room_.indices.size() / 3);
+    const auto count = static_cast<std::uint32_t>(piece.triangles.size());
+    for (const Corners& triangle : piece.triangles)
+      room_.indices.insert(room_.indices.end(), triangle.begin(), triangle.end());
+    if (!room_.batches.empty() && order_of(room_.batches.back()) == order_of(piece.key)) {
+      room_.batches.back().count += count;
+      return;
+    }
+    room_.batches.push_back(piece.key);
+    room_.batches.back().first = first;
+    room_.batches.back().count = count;
+  }
+
+  const IrradianceField& field_;
+  const LightScene& light_;
+  const ElementMesh& mesh_;
+  WalkRoom room_;
+  std::vector<Piece> pieces_;
+  std::vector<std::uint32_t> look_of_side_;
+  std::map<std::pair<MaterialId, WalkFace>, std::uint32_t> looks_;
+  std::optional<std::uint32_t> black_;
+  std::unordered_map<CornerKey, std::uint32_t, HashOfKey> known_;
+};
+
+} // namespace
+
+WalkRoom walk_room(const IrradianceField& field) { return RoomBuilder(field).build(); }
+
+} // namespace meninas

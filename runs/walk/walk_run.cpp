@@ -1,0 +1,100 @@
+#include "runs/walk/walk_run.h"
+
+#include "image/display.h"
+#include "raytrace/pixels/section_plane.h"
+#include "runs/outputs.h"
+#include "runs/preparation.h"
+#include "runs/report/stats.h"
+#include "runs/resources.h"
+#include "runs/run_stages.h"
+#include "runs/steering/memory.h"
+#include "runs/view.h"
+#include "runs/walk/walk_page.h"
+#include "scenes/errors.h"
+#include "scenes/stopwatch.h"
+
+#include <fmt/format.h>
+
+namespace meninas {
+
+namespace {
+
+void check_files(const WalkRequest& request) {
+  OutputFiles outputs{.pictures = {}, .solution = {}, .texts = {request.page}};
+  std::vector<std::filesystem::path> inputs{request.scene};
+  if (request.solution)
+    inputs.push_back(*request.solution);
+  check_outputs(outputs, inputs);
+}
+
+/// What a PNG of the page's picture from there would be exposed with, by a small one.
+double exposure_from(const LitScene& lit, const Camera& camera, const WalkRequest& request) {
+  if (request.exposure)
+    return *request.exposure;
+  RenderSettings settings;
+  settings.width = settings.height = 96;
+  settings.samples = 4;
+  settings.diffuse.term = DiffuseTerm::interpolated;
+  return automatic_exposure(render(lit.field, camera, settings).image);
+}
+
+/// Those of the file that look straight ahead, else a view of all of it.
+std::vector<WalkCamera> cameras_of(const LitScene& lit, const WalkRequest& request) {
+  const Scene& scene = lit.prepared->scene;
+  std::vector<Camera> cameras = scene.cameras;
+  if (cameras.empty())
+    cameras.push_back(default_view(bounds_of(scene), request.settings));
+  std::vector<WalkCamera> shown;
+  for (const Camera& camera : cameras) {
+    const double aspect = natural_aspect(camera) > 0.0 ? natural_aspect(camera) : 1.0;
+    const Camera cutting = with_section(scene, camera, aspect);
+    shown.push_back({cutting, exposure_from(lit, cutting, request)});
+  }
+  return shown;
+}
+
+LitScene lit_scene(const WalkRequest& request, Scene scene, const RunEvents& events,
+                   RunFigures& figures) {
+  const PassOneSettings settings = two_pass_settings(request.settings).pass_one;
+  return request.solution
+             ? read_lit_scene(*request.solution, std::move(scene), settings, events, figures)
+             : solve_lit_scene(std::move(scene), settings, std::nullopt, events, figures);
+}
+
+} // namespace
+
+RunFigures walk_run(const WalkRequest& request, const RunEvents& events) {
+  check_files(request);
+  const ThreadLimit limit(request.settings.threads);
+  begin_stages(events, joined(pass_one_stages(request.settings), {{"writing", 5.0}}));
+  if (events.progress)
+    events.progress("scene", 0.0);
+  RunFigures figures;
+  figures.threads = limit.threads();
+  Stopwatch total, watch;
+
+  Scene scene = load_scene(request.scene, request.settings);
+  check_memory(scene, request.settings, std::nullopt);
+  figures.seconds.load = watch.lap();
+  const LitScene lit = lit_scene(request, std::move(scene), events, figures);
+
+  watch.lap();
+  const WalkRoom room = walk_room(lit.field);
+  std::vector<std::string> warnings;
+  const std::string html =
+      walk_page_html({lit.field, room, request.scene.filename().string(),
+                      cameras_of(lit, request), request.transform},
+                     warnings);
+  for (const std::string& warning : warnings)
+    warn(events, warning);
+  write_text_file(request.page, html);
+  figures.seconds.write = watch.lap();
+  figures.seconds.total = total.lap();
+  figures.peak_memory_bytes = peak_memory_bytes();
+  note(events, fmt::format("{}: {} triangles, {:.1f} MB in {:.1f} s", request.page.string(),
+                           room.indices.size() / 3, double(html.size()) * 1e-6,
+                           figures.seconds.total));
+  return figures;
+}
+
+} // namespace meninas
