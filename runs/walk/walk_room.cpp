@@ -199,37 +199,80 @@ private:
     return own + glm::min(ratio, glm::vec3(1e3F)) * passed;
   }
 
+  /// A point of a side, and its own H there. `of` tells it from those at other places.
+  std::uint32_t lit_vertex(SideId id, std::uint32_t of, const Point3& x, const glm::vec3& own) {
+    const MeshSide& side = mesh_.sides[index(id)];
+    WalkVertex vertex;
+    vertex.look = look_of_side_[index(id)];
+    vertex.position = from_middle(x);
+    vertex.irradiance = irradiance_of(side, id, x, own);
+    dress(vertex, {side.patch, side.facing},
+          place_of(light_.surfaces.patches[index(side.patch)], x));
+    return vertex_index(of, vertex);
+  }
+
+  /// The corner of an element's triangle: a vertex of the mesh, or a point of a region's outline.
+  std::uint32_t lit_corner(const ElementTriangles& all, SideId id, std::uint32_t v) {
+    if (v < mesh_.vertices.size())
+      return lit_vertex(id, v, mesh_.vertices[v], field_.irradiance[v]);
+    const RegionPoint& point = all.points[v - mesh_.vertices.size()];
+    glm::vec3 own(0.0F);
+    for (std::size_t c = 0; c < 4; ++c)
+      own += point.weights[c] * field_.irradiance[index(mesh_.corners[index(point.element)][c])];
+    return lit_vertex(id, v, point.position, own);
+  }
+
+  /// Whether the field, bilinear in a quad, is far from linear in two triangles: by its cross
+  /// difference, a quarter of which is their error in its middle.
+  bool is_bent(ElementId element) const {
+    const ElementCorners& c = mesh_.corners[index(element)];
+    if (c[3] == c[2] || region_of(mesh_, element) != nullptr)
+      return false;
+    const auto h = [&](std::size_t k) { return field_.irradiance[index(c[k])]; };
+    const glm::vec3 cross = glm::abs(h(0) - h(1) + h(2) - h(3));
+    constexpr float bound = 0.02F;
+    return largest(cross) > bound * largest(h(0) + h(1) + h(2) + h(3));
+  }
+
+  /// Four triangles or more about the middle in place of a fan from a corner.
+  void add_about_middle(const ElementTriangles& all, ElementId element,
+                        std::span<const Corners> fan, std::vector<Corners>& to) {
+    const ElementCorners& c = mesh_.corners[index(element)];
+    Point3 x(0.0);
+    glm::vec3 own(0.0F);
+    for (const ElementVertexId corner : c) {
+      x += 0.25 * mesh_.vertices[index(corner)];
+      own += 0.25F * field_.irradiance[index(corner)];
+    }
+    const SideId id = mesh_.side_of_element[index(element)];
+    const auto number = static_cast<std::uint32_t>(mesh_.vertices.size() + all.points.size());
+    const std::uint32_t middle = lit_vertex(id, number + index(element), x, own);
+    const Corners &first = fan.front(), &last = fan.back();
+    if (mesh_.sides[index(id)].facing == Facing::front)
+      to.insert(to.end(), {{middle, first[0], first[1]}, {middle, last[2], last[0]}});
+    else
+      to.insert(to.end(), {{middle, first[2], first[0]}, {middle, last[0], last[1]}});
+    for (const Corners& triangle : fan)
+      to.push_back({middle, triangle[1], triangle[2]});
+  }
+
   void add_lit_faces() {
     const ElementTriangles all = element_triangles(mesh_);
-    const std::size_t vertices = mesh_.vertices.size();
     const auto piece_of_side = pieces_of_sides();
-    for (std::size_t t = 0; t < all.elements.size(); ++t) {
-      const SideId id = mesh_.side_of_element[index(all.elements[t])];
-      const MeshSide& side = mesh_.sides[index(id)];
-      const Face face{side.patch, side.facing};
-      Corners corners{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t v = all.indices[3 * t + k];
-        WalkVertex vertex;
-        vertex.look = look_of_side_[index(id)];
-        Point3 x;
-        if (v < vertices) {
-          x = mesh_.vertices[v];
-          vertex.irradiance = irradiance_of(side, id, x, field_.irradiance[v]);
-        } else {
-          const RegionPoint& point = all.points[v - vertices];
-          x = point.position;
-          glm::vec3 own(0.0F);
-          for (std::size_t c = 0; c < 4; ++c)
-            own += point.weights[c] *
-                   field_.irradiance[index(mesh_.corners[index(point.element)][c])];
-          vertex.irradiance = irradiance_of(side, id, x, own);
-        }
-        vertex.position = from_middle(x);
-        dress(vertex, face, place_of(light_.surfaces.patches[index(side.patch)], x));
-        corners[k] = vertex_index(v, vertex);
-      }
-      pieces_[piece_of_side[index(id)]].triangles.push_back(corners);
+    std::vector<Corners> fan;
+    for (std::size_t t = 0; t < all.elements.size();) {
+      const ElementId element = all.elements[t];
+      const SideId id = mesh_.side_of_element[index(element)];
+      fan.clear();
+      for (; t < all.elements.size() && all.elements[t] == element; ++t)
+        fan.push_back({lit_corner(all, id, all.indices[3 * t]),
+                       lit_corner(all, id, all.indices[3 * t + 1]),
+                       lit_corner(all, id, all.indices[3 * t + 2])});
+      auto& triangles = pieces_[piece_of_side[index(id)]].triangles;
+      if (is_bent(element))
+        add_about_middle(all, element, fan, triangles);
+      else
+        triangles.insert(triangles.end(), fan.begin(), fan.end());
     }
     known_.clear();
   }

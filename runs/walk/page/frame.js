@@ -65,6 +65,7 @@ function makePainter(gl, data, room, textures) {
     gl.uniform3fv(sky.up, times(camera.up, camera.half));
     gl.uniform3fv(sky.forward, camera.forward);
     gl.uniform1f(sky.depth, 1);
+    gl.frontFace(gl.CCW);
     gl.depthFunc(gl.ALWAYS);
     gl.depthMask(true);
     gl.drawArrays(gl.TRIANGLES, 0, 3);

@@ -53,12 +53,26 @@ vec3 agx(vec3 c) {
   x = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
   return fromRec2020 * pow(max(outset * x, 0.0), vec3(2.2));
 }
+vec3 displayed(vec3 c) {
+  c = max(c, 0.0);
+  return clamp(transform == 1 ? neutral(c) : transform == 2 ? agx(c) : c, 0.0, 1.0);
+}
+/// A pixel that is partly of something brighter than the display shows the mean of what its parts
+/// show (raytrace/pixels/bright_edges.h): lamps would have edges like stairs.
 void main() {
-  vec3 sum = vec3(0.0);
+  vec3 sum = vec3(0.0), parts = vec3(0.0);
+  float low = 1e30, high = 0.0;
   ivec2 corner = ivec2(gl_FragCoord.xy) * block;
   for (int j = 0; j < block; ++j)
-    for (int i = 0; i < block; ++i) sum += texelFetch(picture, corner + ivec2(i, j), 0).rgb;
-  vec3 c = max(sum / float(block * block), 0.0);
-  c = clamp(transform == 1 ? neutral(c) : transform == 2 ? agx(c) : c, 0.0, 1.0);
+    for (int i = 0; i < block; ++i) {
+      vec3 part = texelFetch(picture, corner + ivec2(i, j), 0).rgb;
+      float brightest = max(part.r, max(part.g, part.b));
+      sum += part;
+      parts += displayed(part);
+      low = min(low, brightest);
+      high = max(high, brightest);
+    }
+  float share = 1.0 / float(block * block);
+  vec3 c = high >= 1.0 && low < 0.75 * high ? parts * share : displayed(sum * share);
   result = vec4(mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)), 1.0);
 }`;

@@ -49,6 +49,12 @@ function rectangleOf(camera, windows) {
   return rectangle;
 }
 
+/// The camera behind a mirror: it sees from the nearest corner of the windows to beyond the room.
+function behind(camera, mirror, windows, room) {
+  const image = cameraBehind(camera, mirror), depths = windows.flat().map(x => dot(image.forward, minus(x, image.eye)));
+  return { ...image, near: Math.max(camera.near, 0.9 * Math.min(...depths)), far: lengthOf(image.eye) + room.size };
+}
+
 /// At most `most` worlds, first those with fewer mirrors. `followed` says of which mirrors.
 function visibleWorlds(room, camera, most, followed) {
   const root = { camera, mirror: null, windows: [cornersOf(camera)], throughput: 1, depth: 0, panes: 0,
@@ -65,7 +71,7 @@ function visibleWorlds(room, camera, most, followed) {
       const throughput = world.throughput * reflectanceSeen(mirror, world.camera.eye, windows);
       if (throughput < room.data.leastThroughput || world.depth >= 254) continue;
       if (worlds.length >= most || windows.length > 64) { ++cut; continue; }
-      const child = { camera: cameraBehind(world.camera, mirror), mirror, windows, throughput, depth: world.depth + 1,
+      const child = { camera: behind(world.camera, mirror, windows, room), mirror, windows, throughput, depth: world.depth + 1,
         panes: world.panes + (mirror.kind === "pane" ? 1 : 0), rectangle: rectangleOf(world.camera, windows), children: [] };
       world.children.push(child);
       worlds.push(child);
