@@ -82,6 +82,7 @@ PackedNumbers packed_vertices(const WalkRoom& room) {
   add_table(packed, "colour", colour, 4);
   add_table(packed, "look", look, 1);
   add_table(packed, "triangles", room.indices, 3);
+  add_table(packed, "elementEnds", room.element_ends, 1);
   return packed;
 }
 

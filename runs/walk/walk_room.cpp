@@ -17,10 +17,12 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-/// Triangles that are drawn alike, as corners in the list of vertices.
+/// Triangles that are drawn alike, as corners in the list of vertices, in fours and more or less to
+/// an element.
 struct Piece {
   WalkBatch key;
   std::vector<Corners> triangles;
+  std::vector<std::uint32_t> ends; ///< of elements, in triangles
 };
 
 auto order_of(const WalkBatch& b) {
@@ -268,11 +270,13 @@ private:
         fan.push_back({lit_corner(all, id, all.indices[3 * t]),
                        lit_corner(all, id, all.indices[3 * t + 1]),
                        lit_corner(all, id, all.indices[3 * t + 2])});
-      auto& triangles = pieces_[piece_of_side[index(id)]].triangles;
+      Piece& piece = pieces_[piece_of_side[index(id)]];
+      auto& triangles = piece.triangles;
       if (is_bent(element))
         add_about_middle(all, element, fan, triangles);
       else
         triangles.insert(triangles.end(), fan.begin(), fan.end());
+      piece.ends.push_back(static_cast<std::uint32_t>(triangles.size()));
     }
     known_.clear();
   }
@@ -283,7 +287,7 @@ private:
       const Face face{side.patch, side.facing};
       look_of_side_.push_back(look_of(face));
       pieces.push_back(pieces_.size());
-      pieces_.push_back({key_of(face, look_of_side_.back()), {}});
+      pieces_.push_back({key_of(face, look_of_side_.back()), {}, {}});
     }
     return pieces;
   }
@@ -307,7 +311,7 @@ private:
     const Material& material = material_of_patch(patch);
     const bool shows = is_mirror(material) || is_glass(material);
     const std::uint32_t look = shows ? look_of(face) : black_look();
-    Piece piece{key_of(face, look), {}};
+    Piece piece{key_of(face, look), {}, {}};
     for (const TriangleId id : patch.triangles) {
       if (id == none<TriangleId>)
         continue;
@@ -325,6 +329,7 @@ private:
         std::swap(triangle[1], triangle[2]);
       piece.triangles.push_back(triangle);
     }
+    piece.ends.push_back(static_cast<std::uint32_t>(piece.triangles.size()));
     pieces_.push_back(std::move(piece));
   }
 
@@ -335,6 +340,8 @@ private:
     const auto count = static_cast<std::uint32_t>(piece.triangles.size());
     for (const Corners& triangle : piece.triangles)
       room_.indices.insert(room_.indices.end(), triangle.begin(), triangle.end());
+    for (const std::uint32_t end : piece.ends)
+      room_.element_ends.push_back(first + end);
     if (!room_.batches.empty() && order_of(room_.batches.back()) == order_of(piece.key)) {
       room_.batches.back().count += count;
       return;

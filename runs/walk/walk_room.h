@@ -48,6 +48,7 @@ struct WalkRoom {
   Point3 middle{0.0};
   std::vector<WalkVertex> vertices;
   std::vector<std::uint32_t> indices; ///< three to a triangle
+  std::vector<std::uint32_t> element_ends; ///< triangles of an element follow one another: where they end
   std::vector<WalkBatch> batches;
   std::vector<WalkLook> looks;
 };

@@ -90,15 +90,14 @@ function makePainter(gl, data, room, textures) {
   }
   function drawLines() {
     if (!lines) {
-      gl.bindVertexArray(null);
-      lines = elementEdges(room.tables.triangles);
-      lines.buffer = makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, lines);
-      gl.bindVertexArray(array);
-      lines.triangles = gl.getParameter(gl.ELEMENT_ARRAY_BUFFER_BINDING);
+      const ends = elementEdges(room.tables), triangles = gl.getParameter(gl.ELEMENT_ARRAY_BUFFER_BINDING);
+      lines = { count: ends.length, triangles, ends: makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, ends) };
     }
     gl.uniform1i(at.shows, shown.lines);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, lines.buffer);
-    gl.drawElements(gl.LINES, lines.length, gl.UNSIGNED_INT, 0);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, lines.ends);
+    blend(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    gl.drawElements(gl.LINES, lines.count, gl.UNSIGNED_INT, 0);
+    blend();
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, lines.triangles);
     ++draws;
   }

@@ -12,8 +12,8 @@ async function start() {
   if (data.sky) textures.sky = await makeSky(gl, data.sky);
   const paint = makePainter(gl, data, room, textures), rays = makeRays(room), motion = makeMotion(room, rays);
   const asked = readAddress();
-  const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0, most: mostWorlds };
-  let waiting = false, last = 0, saved = 0;
+  const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0, most: mostWorlds, coarse: false, slow: true };
+  let waiting = false, moving = true, last = 0, rest = 0;
 
   function goToCamera(number) {
     shows.camera = number;
@@ -35,13 +35,13 @@ async function start() {
     try { history.replaceState(null, "", "#" + place); } catch { /* a page that may not has no links */ }
   }
 
-  function sizeOfCanvas() {
+  function sizeOfCanvas(coarse) {
     if (asked.size) return asked.size;
-    const ratio = Math.min(devicePixelRatio || 1, 2);
+    const ratio = Math.min(devicePixelRatio || 1, 2) / (coarse ? 3 : 1);
     return [Math.max(1, Math.round(canvas.clientWidth * ratio)), Math.max(1, Math.round(canvas.clientHeight * ratio))];
   }
-  function paintNow(block, most) {
-    const [width, height] = sizeOfCanvas(), before = performance.now();
+  function paintNow(block, most, coarse = false) {
+    const [width, height] = sizeOfCanvas(coarse), before = performance.now();
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     const figures = paint(motion.view(width / height), { ...shows, width, height, block, most, exposure: motion.state.exposure });
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
@@ -51,20 +51,33 @@ async function start() {
     waiting = false;
     const goesOn = step(Math.min(0.1, (now - last) / 1000 || 0.016));
     last = now;
-    const figures = paintNow(1, shows.most);
-    // Slow frames have fewer worlds, those by the most mirrors first.
-    if (figures.milliseconds > slowFrame && figures.worlds > 2) shows.most = Math.max(2, Math.ceil(figures.worlds * 0.7));
-    else if (figures.milliseconds < 0.4 * slowFrame && figures.cut) shows.most = Math.min(mostWorlds, shows.most + 4);
+    const figures = moving ? paintNow(1, shows.most, shows.coarse) : paintNow(shows.slow ? 1 : 2, mostWorlds);
+    if (moving) keepPace(figures);
+    else shows.slow = figures.milliseconds > 4 * slowFrame;
     panel.figures(figures);
     panel.show({ ...shows, mode: motion.state.mode, exposure: motion.state.exposure });
+    clearTimeout(rest);
     if (goesOn) moved();
-    else { clearTimeout(saved); saved = setTimeout(saveAddress, 400); }
+    else if (moving) rest = setTimeout(() => { saveAddress(); askForFrame(false); }, 250);
   }
-  function moved() {
+  /// While someone moves, slow frames have fewer pixels, and then fewer worlds, those by the most
+  /// mirrors first. At rest all is drawn.
+  function keepPace({ milliseconds, worlds, cut }) {
+    if (milliseconds > slowFrame) {
+      if (shows.coarse && worlds > 2) shows.most = Math.max(2, Math.ceil(worlds * 0.7));
+      shows.coarse = true;
+    } else if (milliseconds < 0.3 * slowFrame) {
+      if (cut) shows.most = Math.min(mostWorlds, shows.most + 4);
+      else if (milliseconds < 0.1 * slowFrame) shows.coarse = false;
+    }
+  }
+  function askForFrame(isMoving) {
+    moving = moving && waiting ? true : isMoving;
     if (waiting || asked.shot) return;
     waiting = true;
     requestAnimationFrame(frame);
   }
+  function moved() { askForFrame(true); }
   const keys = {
     o: () => motion.setMode(motion.state.mode === "walk" ? "orbit" : "walk"),
     m: () => { shows.mirrors = !shows.mirrors; }, f: () => { shows.falseColours = !shows.falseColours; },

@@ -70,17 +70,19 @@ function partOf(room, triangle) {
     look: room.data.looks[room.tables.look[room.tables.triangles[3 * triangle]]] };
 }
 
-/// The ends of the edges of elements: those of all triangles but the ones inside a fan.
-function elementEdges(triangles) {
+/// The ends of the edges of elements: those that one triangle alone of an element has.
+function elementEdges({ triangles, elementEnds }) {
   const ends = [];
-  for (let k = 0; k < triangles.length; k += 3) {
-    const [a, b, c] = [triangles[k], triangles[k + 1], triangles[k + 2]];
-    const continues = k > 0 && triangles[k - 3] === a && (triangles[k - 1] === b || triangles[k - 2] === c);
-    const goesOn = k + 3 < triangles.length && triangles[k + 3] === a && (triangles[k + 4] === c || triangles[k + 5] === b);
-    const edges = [[a, b], [b, c], [c, a]];
-    const shared = [continues && triangles[k - 1] === b || goesOn && triangles[k + 5] === b, false,
-      continues && triangles[k - 2] === c || goesOn && triangles[k + 4] === c];
-    edges.forEach((edge, e) => { if (!shared[e]) ends.push(...edge); });
+  let first = 0;
+  for (const end of elementEnds) {
+    const edges = new Map();
+    for (let t = first; t < end; ++t)
+      for (let k = 0; k < 3; ++k) {
+        const a = triangles[3 * t + k], b = triangles[3 * t + (k + 1) % 3], key = a < b ? a + "," + b : b + "," + a;
+        if (!edges.delete(key)) edges.set(key, [a, b]);
+      }
+    for (const edge of edges.values()) ends.push(edge[0], edge[1]);
+    first = end;
   }
   return Uint32Array.from(ends);
 }

@@ -26,7 +26,7 @@ void main() {
   gl_Position = viewProjection * vec4(position, 1.0);
 }`;
 
-/// What a draw of the room writes.
+/// What a draw of the room writes. Alpha is 1 where surfaces are seen straight, 0 by way of mirrors.
 const shown = { own: 0, black: 1, weight: 2, besideMirror: 3, passed: 4, pane: 5, lines: 6 };
 const kinds = { plain: 0, unlit: 1, coat: 2, mirror: 3, pane: 4, covering: 5, curved: 6 };
 
@@ -78,7 +78,7 @@ vec3 seenByCurve(vec3 n, vec3 towards, float roughness) {
 
 void main() {
   if (dot(clip.xyz, place) <= clip.w) discard;
-  if (shows == ${shown.lines}) { result = vec4(0.05, 0.05, 0.05, 1.0); return; }
+  if (shows == ${shown.lines}) { result = vec4(0.0, 0.0, 0.0, 0.45); return; }
   vec4 first = NUMBERS(0), second = NUMBERS(1), third = NUMBERS(2);
   int kind = int(third.w);
   vec4 texel = hasColour ? texture(colourTexture, onTextures.xy) : vec4(1.0);
@@ -96,7 +96,7 @@ void main() {
     float h = dot(light, vec3(0.2126, 0.7152, 0.0722)) * lightScale / topIrradiance;
     vec3 code = texture(falseScale, vec2((255.0 * clamp(h, 0.0, 1.0) + 0.5) / 256.0, 0.5)).rgb;
     bool lit = shows == ${shown.own} && kind != ${kinds.mirror} && kind != ${kinds.curved};
-    result = vec4(lit ? code : vec3(shows == ${shown.weight} ? 1.0 : 0.0), 1.0);
+    result = vec4(lit ? code : vec3(shows == ${shown.weight} ? 1.0 : 0.0), 0.0);
     return;
   }
   vec3 radiance = third.rgb * (hasEmission ? texture(emissionTexture, onTextures.zw).rgb : vec3(1.0));
@@ -116,5 +116,6 @@ void main() {
   else result = vec4(radiance, 1.0);
   if (shows == ${shown.pane} && kind == ${kinds.pane})
     result.rgb += weight * texture(behindPane, gl_FragCoord.xy / pictureSize).rgb;
+  if (shows == ${shown.weight} || shows == ${shown.besideMirror} || shows == ${shown.pane}) result.a = 0.0;
   result = min(result, vec4(6e4));
 }`;

@@ -57,15 +57,17 @@ vec3 displayed(vec3 c) {
   c = max(c, 0.0);
   return clamp(transform == 1 ? neutral(c) : transform == 2 ? agx(c) : c, 0.0, 1.0);
 }
-/// A pixel that is partly of something brighter than the display shows the mean of what its parts
-/// show (raytrace/pixels/bright_edges.h): lamps would have edges like stairs.
+/// A pixel that is partly of something brighter than the display, seen straight, shows the mean of
+/// what its parts show (raytrace/pixels/bright_edges.h): lamps would have edges like stairs.
 void main() {
   vec3 sum = vec3(0.0), parts = vec3(0.0);
-  float low = 1e30, high = 0.0;
+  float low = 1e30, high = 0.0, straight = 0.0;
   ivec2 corner = ivec2(gl_FragCoord.xy) * block;
   for (int j = 0; j < block; ++j)
     for (int i = 0; i < block; ++i) {
-      vec3 part = texelFetch(picture, corner + ivec2(i, j), 0).rgb;
+      vec4 texel = texelFetch(picture, corner + ivec2(i, j), 0);
+      vec3 part = texel.rgb;
+      straight += texel.a;
       float brightest = max(part.r, max(part.g, part.b));
       sum += part;
       parts += displayed(part);
@@ -73,6 +75,6 @@ void main() {
       high = max(high, brightest);
     }
   float share = 1.0 / float(block * block);
-  vec3 c = high >= 1.0 && low < 0.75 * high ? parts * share : displayed(sum * share);
+  vec3 c = straight * share > 0.5 && high >= 1.0 && low < 0.75 * high ? parts * share : displayed(sum * share);
   result = vec4(mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)), 1.0);
 }`;
