@@ -44,6 +44,8 @@ WalkKind kind_of(const Material& material, WalkFace face) {
     return WalkKind::unlit;
   if (is_blended(material))
     return WalkKind::covering;
+  if (is_solid_glass(material))
+    return WalkKind::solid;
   if (is_glass(material))
     return WalkKind::pane;
   if (face == WalkFace::facet)
@@ -89,11 +91,13 @@ WalkLook walk_look(const Scene& scene, const DecodedTextures& textures, Material
   if (look.kind == WalkKind::coat) {
     look.f0 = bsdf.coat * bsdf.coat_f0;
     look.f90 = bsdf.coat * bsdf.coat_f90;
-  } else if (look.kind == WalkKind::pane) {
+  } else if (look.kind == WalkKind::pane || look.kind == WalkKind::solid) {
     look.f0 = bsdf.pane.f0;
     look.f90 = bsdf.pane.f90;
     look.ior = bsdf.pane.ior;
     look.tint = bsdf.pane.tint;
+    if (look.kind == WalkKind::solid)
+      look.reflectance = attenuation(material, 1.0);
   }
   return look;
 }

@@ -13,18 +13,20 @@
 //   pane       R(cos) of what its mirror shows, T(cos) of what is behind (scenes/materials/glass.h)
 //   covering   a rho H / pi, and 1 - a of what is behind: alphaMode BLEND
 //   curved     its reflectance times c of what the middle of its body sees: an approximation
+//   solid      R(cos) and T(cos) of one face of what the middle of its body sees along the mirrored
+//              and the refracted ray, as if that met no second face: an approximation
 #pragma once
 
 #include "scenes/materials/texture_lookup.h"
 
 namespace meninas {
 
-enum class WalkKind { plain, unlit, coat, mirror, pane, covering, curved };
+enum class WalkKind { plain, unlit, coat, mirror, pane, covering, curved, solid };
 
 struct WalkLook {
   Rgb albedo{0.0}, rest{0.0};
   Rgb emission{0.0}; ///< radiance, times the emissive texture
-  Rgb reflectance{0.0}; ///< of mirrors
+  Rgb reflectance{0.0}; ///< of mirrors; of solids what is left of light after a metre
   Rgb f0{0.0};          ///< of coats and panes
   double f90 = 0.0, ior = 1.5;
   Rgb tint{1.0};        ///< of panes

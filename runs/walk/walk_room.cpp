@@ -163,8 +163,11 @@ private:
     for (int k = 0; k < 3; ++k)
       colour += weights[k] * scene.vertices[index(triangle.vertices[std::size_t(k)])].color;
     vertex.colour = colour;
-    const glm::vec3 normal(shading_normal(scene, at.triangle, at.barycentric));
-    vertex.normal = face.facing == Facing::front ? normal : -normal;
+    if (const WalkKind kind = room_.looks[vertex.look].kind;
+        kind == WalkKind::curved || kind == WalkKind::solid) {
+      const glm::vec3 normal(shading_normal(scene, at.triangle, at.barycentric));
+      vertex.normal = face.facing == Facing::front ? normal : -normal;
+    }
   }
 
   glm::vec3 from_middle(const Point3& x) const { return glm::vec3(x - room_.middle); }

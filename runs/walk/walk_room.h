@@ -29,7 +29,7 @@ enum class WalkSection {
 struct WalkVertex {
   glm::vec3 position{0.0F}; ///< metres, from the middle of the scene
   glm::vec3 irradiance{0.0F};
-  glm::vec3 normal{0.0F};
+  glm::vec3 normal{0.0F}; ///< of curved mirrors and solids alone
   glm::vec2 colour_place{0.0F}, emission_place{0.0F}; ///< on the two textures
   glm::vec4 colour{1.0F};
   std::uint32_t look = 0;

@@ -38,12 +38,25 @@ double exposure_from(const LitScene& lit, const Camera& camera, const WalkReques
   return automatic_exposure(render(lit.field, camera, settings).image);
 }
 
-/// Those of the file that look straight ahead, else a view of all of it.
+/// For files without a camera: standing in the middle of the scene, along its longer side.
+Camera inside(const Bounds& bounds) {
+  const Vec3 size = bounds.high - bounds.low;
+  constexpr double eye_height = 1.6, most_of_height = 0.6;
+  Camera camera;
+  camera.name = "inside";
+  camera.position = 0.5 * bounds.low + 0.5 * bounds.high;
+  camera.position.y = bounds.low.y + std::min(eye_height, most_of_height * size.y);
+  camera.forward = size.x > size.z ? Direction(1.0, 0.0, 0.0) : Direction(0.0, 0.0, -1.0);
+  camera.right = glm::cross(camera.forward, camera.up);
+  return camera;
+}
+
+/// Those of the file, else a view of all of it and one from inside.
 std::vector<WalkCamera> cameras_of(const LitScene& lit, const WalkRequest& request) {
   const Scene& scene = lit.prepared->scene;
   std::vector<Camera> cameras = scene.cameras;
   if (cameras.empty())
-    cameras.push_back(default_view(bounds_of(scene), request.settings));
+    cameras = {default_view(bounds_of(scene), request.settings), inside(bounds_of(scene))};
   std::vector<WalkCamera> shown;
   for (const Camera& camera : cameras) {
     const double aspect = natural_aspect(camera) > 0.0 ? natural_aspect(camera) : 1.0;

@@ -9,6 +9,22 @@
 
 namespace meninas::test {
 
+std::vector<std::byte> from_base64(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::byte> bytes;
+  std::uint32_t group = 0;
+  int bits = 0;
+  for (const char c : text) {
+    const auto digit = digits.find(c);
+    if (digit == std::string::npos)
+      break;
+    group = group << 6U | static_cast<std::uint32_t>(digit);
+    if (bits += 6; bits >= 8)
+      bytes.push_back(static_cast<std::byte>(group >> (bits -= 8) & 0xffU));
+  }
+  return bytes;
+}
+
 nlohmann::json browse_page(const std::filesystem::path& folder, const std::string& page,
                            const std::string& use, int width) {
   std::string html = read_file(page);
@@ -35,6 +51,33 @@ nlohmann::json browse_page(const std::filesystem::path& folder, const std::strin
        {std::pair{"&quot;", "\""}, {"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}})
     text = std::regex_replace(text, std::regex(code), sign);
   return nlohmann::json::parse(text);
+}
+
+bool has_browser() { return std::filesystem::exists(MENINAS_BROWSER); }
+
+nlohmann::json browse_drawn_page(const std::filesystem::path& folder, const std::string& page,
+                                 const std::string& fragment, const std::string& use) {
+  std::string html = read_file(page);
+  html.insert(html.rfind("</body>"), "<script>(async () => {" + use +
+                                         "})().then(said => { document.body.dataset.report = "
+                                         "btoa(JSON.stringify(said)); });</script>");
+  std::ofstream(folder / "drawn.html") << html;
+  const Outcome outcome =
+      run_other_program(MENINAS_BROWSER, folder,
+                        {"--headless", "--no-sandbox", "--disable-dev-shm-usage",
+                         "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                         "--window-size=640,480", "--virtual-time-budget=60000", "--dump-dom",
+                         "--user-data-dir=" + (folder / "profile").string(),
+                         "file://" + (folder / "drawn.html").string() + "#" + fragment});
+  const std::string mark = "data-report=\"";
+  const auto first = outcome.out.find(mark);
+  if (first == std::string::npos)
+    return nullptr;
+  const auto begin = first + mark.size();
+  const std::vector<std::byte> said =
+      from_base64(outcome.out.substr(begin, outcome.out.find('"', begin) - begin));
+  return nlohmann::json::parse(reinterpret_cast<const char*>(said.data()),
+                               reinterpret_cast<const char*>(said.data() + said.size()));
 }
 
 } // namespace meninas::test

@@ -20,6 +20,7 @@ function makePainter(gl, data, room, textures) {
     for (const face of faces) gl.texImage2D(face, 0, gl.RGBA8, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     setFilters(gl, gl.NEAREST, gl.NEAREST, kind);
   }
+  const probeExposed = 2 ** data.cameras[0].exposure;
   let lines = null, options, draws, at = roomProgram.at;
 
   const bind = (unit, texture, kind = gl.TEXTURE_2D) => { gl.activeTexture(gl.TEXTURE0 + unit); gl.bindTexture(kind, texture); };
@@ -54,6 +55,13 @@ function makePainter(gl, data, room, textures) {
       gl.uniform1i(at.hasEmission, run.emission >= 0);
       bind(1, run.colour >= 0 ? textures[run.colour] : black);
       bind(2, run.emission >= 0 ? textures[run.emission] : black);
+      const probe = run.probe && run.probe.texture;
+      gl.uniform1i(at.hasProbe, probe ? 1 : 0);
+      if (probe) {
+        bind(5, probe, gl.TEXTURE_CUBE_MAP);
+        gl.uniform3fv(at.probePlace, run.probe.place);
+        gl.uniform1f(at.thickness, run.probe.thickness);
+      }
       draw(run.first, run.count);
     }
   }
@@ -85,7 +93,7 @@ function makePainter(gl, data, room, textures) {
       gl.cullFace(gl.BACK);
       gl.disable(gl.POLYGON_OFFSET_FILL);
     }
-    drawRuns(room.opaque, shown.own);
+    drawRuns(options.without ? room.opaque.filter(run => !options.without.has(run)) : room.opaque, shown.own);
     if (options.lines) drawLines();
   }
   function drawLines() {
@@ -147,7 +155,8 @@ function makePainter(gl, data, room, textures) {
   }
   function drawPanes(world, level, place) {
     const eye = world.camera.eye, distance = run => lengthOf(minus(run.middle, eye));
-    for (const run of [...room.panes].sort((a, b) => distance(b) - distance(a))) {
+    const faces = run => !run.plane || dot(run.plane.normal, eye) > run.plane.offset;
+    for (const run of room.panes.filter(faces).sort((a, b) => distance(b) - distance(a))) {
       const child = world.children.find(c => c.mirror.number === run.mirror);
       const mirrored = child ? drawAside(child, place) : black;
       useWorld(world);
@@ -212,7 +221,7 @@ function makePainter(gl, data, room, textures) {
     bind(4, scale);
     bind(5, blackCube, gl.TEXTURE_CUBE_MAP);
     gl.uniform1i(at.falseColours, options.falseColours);
-    gl.uniform1i(at.hasProbe, false);
+    gl.uniform1f(at.probeScale, exposed / probeExposed);
     gl.uniform1f(at.lightScale, data.light);
     gl.uniform1f(at.exposed, exposed);
     gl.uniform1f(at.topIrradiance, data.top);
@@ -241,6 +250,28 @@ function makePainter(gl, data, room, textures) {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
+  function begin(target) {
+    gl.viewport(0, 0, options.width, options.height);
+    for (const test of [gl.DEPTH_TEST, gl.STENCIL_TEST, gl.SCISSOR_TEST, gl.CULL_FACE]) gl.enable(test);
+    setConstants();
+    scissor([0, 0, 1, 1], target);
+    gl.clear(gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
+    stencil(0, gl.KEEP);
+  }
+  /// The room alone, for a probe.
+  function paintFace(camera, without) {
+    const place = 4;
+    options = { width: probeSize, height: probeSize, exposure: data.cameras[0].exposure, falseColours: false, lines: false, without };
+    const target = bindTarget(place);
+    begin(target);
+    drawSky(camera);
+    drawWorld({ camera, mirror: null, depth: 0, rectangle: [0, 0, 1, 1], children: [] }, 0, place);
+    scissor([0, 0, 1, 1], target);
+    takeMean(target);
+    return target.mean;
+  }
+  room.probes.forEach(probe => fillProbe(gl, room, probe, paintFace));
+
   /// `wanted`: width and height in pixels of the screen, block, exposure, lines, falseColours, mirrors,
   /// and how many worlds at most. Returns figures of the frame.
   return function paint(camera, wanted) {
@@ -249,13 +280,7 @@ function makePainter(gl, data, room, textures) {
     const follows = (mirror, world) => options.mirrors && (mirror.kind === "mirror" || !options.falseColours)
       && (mirror.kind !== "pane" || world.panes < 2);
     const worlds = visibleWorlds(room, camera, options.most, follows);
-    bindTarget(0);
-    gl.viewport(0, 0, options.width, options.height);
-    for (const test of [gl.DEPTH_TEST, gl.STENCIL_TEST, gl.SCISSOR_TEST, gl.CULL_FACE]) gl.enable(test);
-    setConstants();
-    scissor([0, 0, 1, 1], targets[0]);
-    gl.clear(gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
-    stencil(0, gl.KEEP);
+    begin(bindTarget(0));
     drawSky(camera);
     drawWorld(worlds.root, 0, 0);
     showOnScreen(options.block);

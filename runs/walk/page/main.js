@@ -12,7 +12,7 @@ async function start() {
   if (data.sky) textures.sky = await makeSky(gl, data.sky);
   const paint = makePainter(gl, data, room, textures), rays = makeRays(room), motion = makeMotion(room, rays);
   const asked = readAddress();
-  const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0, most: mostWorlds, coarse: false, slow: true };
+  const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0, most: 8, coarse: true, slow: true };
   let waiting = false, moving = true, last = 0, rest = 0;
 
   function goToCamera(number) {
@@ -51,9 +51,15 @@ async function start() {
     waiting = false;
     const goesOn = step(Math.min(0.1, (now - last) / 1000 || 0.016));
     last = now;
-    const figures = moving ? paintNow(1, shows.most, shows.coarse) : paintNow(shows.slow ? 1 : 2, mostWorlds);
+    const figures = moving ? paintNow(1, shows.most, shows.coarse)
+      : paintNow(shows.slow ? 1 : 2, Math.min(mostWorlds, 4 * shows.most));
     if (moving) keepPace(figures);
     else shows.slow = figures.milliseconds > 4 * slowFrame;
+    // At rest there is time for more worlds.
+    if (!moving && figures.cut && !shows.slow && shows.most < mostWorlds) {
+      shows.most *= 2;
+      setTimeout(() => askForFrame(false), 0);
+    }
     panel.figures(figures);
     panel.show({ ...shows, mode: motion.state.mode, exposure: motion.state.exposure });
     clearTimeout(rest);

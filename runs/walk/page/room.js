@@ -4,16 +4,20 @@
 const sections = { single: 0, both: 1, pane: 2 };
 
 /// Runs that follow one another and are drawn alike are one.
-function joinedRuns(batches) {
+/// Bodies that show what their middle sees are by themselves, with the number of their node.
+function joinedRuns(data, tables, batches) {
   const runs = [];
-  for (const [section, colour, emission, mirror, node, first, count] of batches) {
-    const last = runs[runs.length - 1];
+  for (const batch of batches) {
+    const [section, colour, emission, mirror, node, first, count] = batch, last = runs[runs.length - 1];
+    const body = lookOf(data, tables, batch).kind >= kinds.curved ? node : -1;
     if (last && section !== sections.pane && last.section === section && last.colour === colour
-      && last.emission === emission && last.first + last.count === first) last.count += count;
-    else runs.push({ section, colour, emission, first, count, mirror: section === sections.pane ? mirror : -1 });
+      && last.emission === emission && last.node === body && last.first + last.count === first) last.count += count;
+    else runs.push({ section, colour, emission, first, count, node: body, probe: null, mirror: section === sections.pane ? mirror : -1 });
   }
   return runs;
 }
+
+function lookOf(data, tables, batch) { return data.looks[tables.look[tables.triangles[3 * batch[5]]]]; }
 
 function middleOf(tables, run) {
   let sum = [0, 0, 0];
@@ -44,14 +48,15 @@ function boundsOf(points) {
 
 function readRoom(data, tables) {
   tables.points = Float32Array.from(tables.position, x => x * data.step);
-  const { low, high } = boundsOf(tables.points), runs = joinedRuns(data.batches);
+  const { low, high } = boundsOf(tables.points), runs = joinedRuns(data, tables, data.batches);
   const room = { data, tables, low, high, size: lengthOf(minus(high, low)), ambient: meanRadiance(data, tables) };
   room.opaque = runs.filter(run => run.section !== sections.pane);
   room.panes = runs.filter(run => run.section === sections.pane);
-  room.panes.forEach(run => { run.middle = middleOf(tables, run); });
+  room.panes.forEach(run => { run.middle = middleOf(tables, run); run.plane = data.mirrors[run.mirror]; });
+  room.probes = findProbes(room);
   room.backs = data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0);
   room.mirrors = data.mirrors.map((mirror, number) => ({ ...mirror, number,
-    runs: joinedRuns(data.batches.filter(b => b[3] === number)),
+    runs: joinedRuns(data, tables, data.batches.filter(b => b[3] === number)),
     // Whether it shows light of its own below what it mirrors.
     shines: mirror.kind !== "mirror" || data.batches.some(b => b[3] === number && hasOwn(data, tables, b)) }))
     .filter(mirror => mirror.runs.length);
@@ -59,7 +64,7 @@ function readRoom(data, tables) {
 }
 
 function hasOwn(data, tables, batch) {
-  const look = data.looks[tables.look[tables.triangles[3 * batch[5]]]];
+  const look = lookOf(data, tables, batch);
   return [...look.rest, ...look.albedo, ...look.emission].some(x => x > 0);
 }
 

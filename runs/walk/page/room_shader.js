@@ -28,7 +28,7 @@ void main() {
 
 /// What a draw of the room writes. Alpha is 1 where surfaces are seen straight, 0 by way of mirrors.
 const shown = { own: 0, black: 1, weight: 2, besideMirror: 3, passed: 4, pane: 5, lines: 6 };
-const kinds = { plain: 0, unlit: 1, coat: 2, mirror: 3, pane: 4, covering: 5, curved: 6 };
+const kinds = { plain: 0, unlit: 1, coat: 2, mirror: 3, pane: 4, covering: 5, curved: 6, solid: 7 };
 
 const roomFragment = `#version 300 es
 precision highp float;
@@ -40,7 +40,7 @@ uniform int shows;
 uniform bool falseColours, hasColour, hasEmission, hasProbe;
 uniform vec3 eye, ambient, lowest, highest, probePlace;
 uniform vec4 clip; // the room is where dot(clip.xyz, x) > clip.w
-uniform float lightScale, exposed, topIrradiance;
+uniform float lightScale, exposed, topIrradiance, probeScale, thickness;
 uniform vec2 pictureSize;
 uniform sampler2D looks, colourTexture, emissionTexture, behindPane, falseScale;
 uniform samplerCube probe;
@@ -68,12 +68,19 @@ vec3 coatReflectance(float c) {
   vec4 f = NUMBERS(3);
   return min(f.rgb + (f.w - f.rgb) * pow(1.0 - c, 5.0), 1.0);
 }
-/// What the middle of a body sees, from the walls of the box around the room.
-vec3 seenByCurve(vec3 n, vec3 towards, float roughness) {
-  vec3 r = reflect(towards, n);
+/// What the middle of a body sees along a direction, taken for what is seen from here: as far away as
+/// the walls of the box around the room.
+vec3 seenByBody(vec3 r, float roughness) {
   vec3 to = (mix(lowest, highest, step(0.0, r)) - place) / (r + 1e-9);
   vec3 met = place + r * max(0.0, min(to.x, min(to.y, to.z)));
-  return hasProbe ? textureLod(probe, met - probePlace, 6.0 * roughness).rgb : ambient * exposed;
+  return hasProbe ? textureLod(probe, met - probePlace, 6.0 * roughness).rgb * probeScale : ambient * exposed;
+}
+vec3 seenBySolid(vec3 n, vec3 towards) {
+  vec4 f = NUMBERS(3), tint = NUMBERS(4);
+  float c = min(1.0, abs(dot(n, towards))), straight = fresnel(tint.w, 1.0);
+  vec3 face = mix(f.rgb, vec3(f.w), clamp((fresnel(tint.w, c) - straight) / (1.0 - straight + 1e-6), 0.0, 1.0));
+  vec3 through = refract(towards, n, 1.0 / max(tint.w, 1.0));
+  return face * seenByBody(reflect(towards, n), 0.0) + (1.0 - face) * tint.rgb * pow(NUMBERS(5).rgb, vec3(thickness)) * seenByBody(through, 0.0);
 }
 
 void main() {
@@ -95,7 +102,7 @@ void main() {
   if (falseColours) {
     float h = dot(light, vec3(0.2126, 0.7152, 0.0722)) * lightScale / topIrradiance;
     vec3 code = texture(falseScale, vec2((255.0 * clamp(h, 0.0, 1.0) + 0.5) / 256.0, 0.5)).rgb;
-    bool lit = shows == ${shown.own} && kind != ${kinds.mirror} && kind != ${kinds.curved};
+    bool lit = shows == ${shown.own} && kind != ${kinds.mirror} && kind < ${kinds.curved};
     result = vec4(lit ? code : vec3(shows == ${shown.weight} ? 1.0 : 0.0), 0.0);
     return;
   }
@@ -109,7 +116,8 @@ void main() {
   else radiance += rho * field;
   radiance *= alpha * exposed;
   if (kind == ${kinds.curved})
-    radiance += weight * seenByCurve(normalize(normal), towards, NUMBERS(5).w);
+    radiance += weight * seenByBody(reflect(towards, normalize(normal)), NUMBERS(5).w);
+  if (kind == ${kinds.solid}) radiance += seenBySolid(normalize(normal), towards);
   if (shows == ${shown.own} && kind == ${kinds.coat}) radiance += weight * field * exposed;
   if (shows == ${shown.weight}) result = vec4(weight, 1.0);
   else if (shows == ${shown.passed}) result = vec4(passedPart, 1.0);

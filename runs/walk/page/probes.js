@@ -1,0 +1,52 @@
+// What curved mirrors and solids of glass show: the room as the middle of their body sees it, once, in
+// a cube of six pictures without that body and without mirrors. Right for a small ball, near enough
+// elsewhere; never a hole.
+"use strict";
+
+/// Bodies beyond so many show the mean light of the room.
+const mostProbes = 12, probeSize = 128;
+
+/// Right, up and forward of the faces of a cube map, +X, -X, +Y, -Y, +Z, -Z.
+const cubeFrames = [[[0, 0, -1], [0, -1, 0], [1, 0, 0]], [[0, 0, 1], [0, -1, 0], [-1, 0, 0]], [[1, 0, 0], [0, 0, 1], [0, 1, 0]],
+  [[1, 0, 0], [0, 0, -1], [0, -1, 0]], [[1, 0, 0], [0, -1, 0], [0, 0, 1]], [[-1, 0, 0], [0, -1, 0], [0, 0, -1]]];
+
+/// Gives every run of such a body its probe; largest bodies first.
+function findProbes(room) {
+  const bodies = new Map();
+  for (const run of room.opaque.filter(r => r.node >= 0)) {
+    const body = bodies.get(run.node) || { runs: [], count: 0 };
+    body.runs.push(run);
+    body.count += run.count;
+    bodies.set(run.node, body);
+  }
+  const probes = [...bodies.values()].sort((a, b) => b.count - a.count).slice(0, mostProbes);
+  for (const probe of probes) {
+    const points = probe.runs.flatMap(run => [...room.tables.triangles.subarray(3 * run.first, 3 * (run.first + run.count))]
+      .flatMap(v => [...room.tables.points.subarray(3 * v, 3 * v + 3)]));
+    const { low, high } = boundsOf(points);
+    probe.place = times(plus(low, high), 0.5);
+    probe.thickness = Math.min(...minus(high, low));
+    probe.runs.forEach(run => { run.probe = probe; });
+  }
+  return probes;
+}
+
+/// `paintFace` draws the room without some runs onto a square picture, and returns its framebuffer.
+function fillProbe(gl, room, probe, paintFace) {
+  probe.texture = gl.createTexture();
+  const part = gl.createFramebuffer();
+  gl.bindTexture(gl.TEXTURE_CUBE_MAP, probe.texture);
+  gl.texStorage2D(gl.TEXTURE_CUBE_MAP, 8, gl.RGBA16F, probeSize, probeSize);
+  setFilters(gl, gl.LINEAR_MIPMAP_LINEAR, gl.LINEAR, gl.TEXTURE_CUBE_MAP);
+  cubeFrames.forEach(([right, up, forward], face) => {
+    const camera = { eye: probe.place, right, up, forward, half: 1, aspect: 1, near: 1e-3 * room.size, far: 2 * room.size };
+    const drawn = paintFace(camera, new Set(probe.runs));
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, drawn);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, part);
+    gl.framebufferTexture2D(gl.DRAW_FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_CUBE_MAP_POSITIVE_X + face, probe.texture, 0);
+    gl.blitFramebuffer(0, 0, probeSize, probeSize, 0, 0, probeSize, probeSize, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+  });
+  gl.bindTexture(gl.TEXTURE_CUBE_MAP, probe.texture);
+  gl.generateMipmap(gl.TEXTURE_CUBE_MAP);
+  gl.deleteFramebuffer(part);
+}

@@ -1,0 +1,220 @@
+// `walk`: that its page shows what the program renders, that it works in a browser, and that nothing
+// but whole pages of the scene's own solutions are written.
+#include "image/image_file.h"
+#include "image/metrics/flip.h"
+#include "tests/cli/browser.h"
+#include "tests/cli/program.h"
+#include "tests/cli/tiny_room.h"
+#include "tests/support/source_dir.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace meninas::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* wait_for_picture =
+    "while (!document.body.dataset.shot && !document.body.dataset.problem)"
+    "  await new Promise(resolve => setTimeout(resolve, 50));"
+    "const { shot = '', figures = '{}', problem = '' } = document.body.dataset;"
+    "return { shot, figures: JSON.parse(figures), problem };";
+
+class Walk : public testing::Test {
+protected:
+  std::string gallery(const std::string& name) const {
+    return source_dir() + "/scenes/gallery/" + name;
+  }
+  Outcome run(std::vector<std::string> arguments) {
+    return run_program(folder_.path(), arguments);
+  }
+  void write_tiny_page() {
+    write_room(folder_ / "room.glb", tiny_room());
+    const Outcome outcome = run({"walk", "room.glb", "-o", "room.html", "--quality", "draft"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  json drawn(const std::string& page, const std::string& fragment, const std::string& use) {
+    return browse_drawn_page(folder_.path(), (folder_ / page).string(), fragment, use);
+  }
+  TemporaryFolder folder_;
+};
+
+struct TruthCase {
+  const char* scene;
+  const char* camera;
+  std::size_t least_worlds; ///< the room and its images
+};
+
+class WalkTruth : public Walk, public testing::WithParamInterface<TruthCase> {};
+
+// Both show the same field. What is left of FLIP is the field between vertices, linear in triangles
+// beside bilinear in quads, and the edges of lamps.
+TEST_P(WalkTruth, ThePageShowsWhatTheProgramRenders) {
+  if (!has_browser())
+    GTEST_SKIP() << "no Chromium here: pages are not drawn";
+  const auto& [scene, camera, least_worlds] = GetParam();
+  ASSERT_EQ(run({"solve", gallery(scene), "-o", "s.glb", "--quality", "draft"}).code, 0);
+  const Outcome page = run({"walk", gallery(scene), "--solution", "s.glb", "-o", "s.html"});
+  ASSERT_EQ(page.code, 0) << page.err;
+  const Outcome picture =
+      run({"render", gallery(scene), "--solution", "s.glb", "-o", "s.png", "--mode", "hybrid",
+           "--diffuse", "interpolated", "--samples", "64", "--size", "128x128", "--camera", camera,
+           "--exposure", "1"});
+  ASSERT_EQ(picture.code, 0) << picture.err;
+  const json said =
+      drawn("s.html", "camera=" + std::string(camera) + "&size=128x128&exposure=1&shot",
+            wait_for_picture);
+  ASSERT_FALSE(said.is_null());
+  if (said.at("problem").get<std::string>().find("WebGL 2") != std::string::npos)
+    GTEST_SKIP() << "this Chromium draws no WebGL 2: " << said.at("problem");
+  ASSERT_EQ(said.at("problem"), "");
+  const std::string address = said.at("shot");
+  const std::vector<std::byte> png = from_base64(address.substr(address.find(',') + 1));
+  std::ofstream(folder_ / "w.png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+
+  const Outcome difference = run({"diff", "w.png", "s.png", "--json", "--max-flip", "0.02"});
+  EXPECT_EQ(difference.code, 0) << difference.out << difference.err;
+  // One set of draws to a world, of each of the textures and panes, and five to a window.
+  const std::size_t worlds = said.at("figures").at("worlds");
+  EXPECT_GE(worlds, least_worlds);
+  EXPECT_LE(said.at("figures").at("draws").get<std::size_t>(), 15 * worlds);
+  EXPECT_EQ(said.at("figures").at("cut"), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Gallery, WalkTruth,
+                         testing::Values(TruthCase{"meninas.gltf", "main", 4},
+                                         TruthCase{"facing-mirrors.gltf", "main", 11},
+                                         TruthCase{"glass-screen.gltf", "main", 8},
+                                         TruthCase{"lattice.gltf", "main", 2},
+                                         TruthCase{"half-room.gltf", "main", 2}),
+                         [](const auto& info) {
+                           std::string name = info.param.scene;
+                           std::erase_if(name, [](char c) { return c == '-' || c == '.'; });
+                           return name;
+                         });
+
+TEST_F(Walk, ThePageIsOneFileThatNeedsNothingElse) {
+  write_tiny_page();
+  const std::string html = read_file(folder_ / "room.html");
+  for (const char* other : {"http://", "https://", " src=", "<link", "import ", "@import", "fetch("})
+    EXPECT_THAT(html, Not(HasSubstr(other)));
+  EXPECT_THAT(html, HasSubstr("</html>"));
+}
+
+TEST_F(Walk, TheLargestRoomOfTheGalleryIsSmall) {
+  const Outcome outcome = run({"walk", gallery("meninas.gltf"), "-o", "m.html"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_LE(std::filesystem::file_size(folder_ / "m.html"), 2'000'000U);
+}
+
+TEST_F(Walk, KeysCamerasAndClicksWork) {
+  if (!has_browser())
+    GTEST_SKIP() << "no Chromium here: pages are not used";
+  write_tiny_page();
+  const json said = drawn("room.html", "camera=camera", R"(
+    const text = id => document.getElementById(id).textContent, wait = ms => new Promise(r => setTimeout(r, ms));
+    for (let k = 0; k < 400 && !text('figures') && !document.body.dataset.problem; ++k) await wait(50);
+    const press = key => dispatchEvent(new KeyboardEvent('keydown', { key }));
+    const report = { problem: document.body.dataset.problem || '', first: text('figures'), cameras: document.getElementById('cameras').options.length,
+      exposure: text('exposure') };
+    press('m'); await wait(600);
+    report.without = text('figures');
+    press('+'); await wait(600);
+    report.brighter = text('exposure');
+    press('f'); await wait(600);
+    report.legend = !document.getElementById('legend').hidden;
+    press('Enter');
+    report.met = text('met');
+    press('Escape');
+    report.closed = document.getElementById('met').hidden;
+    press('?');
+    report.help = !document.getElementById('help').hidden;
+    press('w'); await wait(500); dispatchEvent(new KeyboardEvent('keyup', { key: 'w' })); await wait(1500);
+    report.link = location.hash;
+    report.outside = performance.getEntriesByType('resource').filter(entry => !/^(data|blob):/.test(entry.name)).length;
+    return report;)");
+  ASSERT_FALSE(said.is_null());
+  if (said.at("problem").get<std::string>().find("WebGL 2") != std::string::npos)
+    GTEST_SKIP() << "this Chromium draws no WebGL 2: " << said.at("problem");
+  ASSERT_EQ(said.at("problem"), "");
+  EXPECT_EQ(said.at("cameras"), 1);
+  EXPECT_THAT(said.at("first").get<std::string>(), testing::StartsWith("1 mirror worlds, 1 deep"));
+  EXPECT_THAT(said.at("without").get<std::string>(),
+              testing::StartsWith("0 mirror worlds, 0 deep"));
+  EXPECT_NE(said.at("exposure"), said.at("brighter"));
+  EXPECT_TRUE(said.at("legend"));
+  EXPECT_THAT(said.at("met").get<std::string>(), HasSubstr("irradiance H"));
+  EXPECT_TRUE(said.at("closed"));
+  EXPECT_TRUE(said.at("help"));
+  EXPECT_THAT(said.at("link").get<std::string>(), testing::StartsWith("#at="));
+  EXPECT_EQ(said.at("outside"), 0) << "nothing is fetched from anywhere";
+}
+
+TEST_F(Walk, WalkersStayInTheRoomAtEyeHeight) {
+  if (!has_browser())
+    GTEST_SKIP() << "no Chromium here: pages are not used";
+  ASSERT_EQ(run({"walk", gallery("no-mirror.gltf"), "-o", "n.html", "--quality", "draft"}).code, 0);
+  const json said = drawn("n.html", "", R"(
+    const data = JSON.parse(document.getElementById('data').textContent), tables = await readTables(data);
+    const room = readRoom(data, tables), motion = makeMotion(room, makeRays(room)), ends = [];
+    for (let turn = 0; turn < 12; ++turn) {
+      motion.goTo(data.cameras[0]);
+      motion.turn(turn * Math.PI / 6, 0);
+      for (let k = 0; k < 80; ++k) motion.go(0.2, 0);
+      ends.push(motion.state.eye);
+    }
+    return { low: room.low, high: room.high, ends };)");
+  ASSERT_FALSE(said.is_null());
+  for (const json& end : said.at("ends")) {
+    for (const std::size_t axis : {0U, 2U}) {
+      EXPECT_GT(end.at(axis), said.at("low").at(axis));
+      EXPECT_LT(end.at(axis), said.at("high").at(axis));
+    }
+    EXPECT_GE(end.at(1).get<double>() - said.at("low").at(1).get<double>(), 1.5);
+  }
+}
+
+TEST_F(Walk, ABrowserWithoutWebGl2IsTold) {
+  if (!has_browser())
+    GTEST_SKIP() << "no Chromium here: pages are not used";
+  write_tiny_page();
+  const json said = browse_page(folder_.path(), (folder_ / "room.html").string(),
+                                "HTMLCanvasElement.prototype.getContext = () => null;"
+                                "return { problem: document.body.dataset.problem || '' };");
+  EXPECT_THAT(said.at("problem").get<std::string>(), HasSubstr("WebGL 2"));
+}
+
+TEST_F(Walk, ASolutionOfAnotherSceneIsRefused) {
+  write_room(folder_ / "room.glb", tiny_room());
+  ASSERT_EQ(run({"solve", "room.glb", "-o", "s.glb", "--quality", "draft"}).code, 0);
+  const Outcome outcome =
+      run({"walk", gallery("furnace.gltf"), "--solution", "s.glb", "-o", "f.html"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("is not a solution of"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "f.html"));
+}
+
+TEST_F(Walk, OptionsOfPassOneHaveNoEffectOnASolution) {
+  write_room(folder_ / "room.glb", tiny_room());
+  const Outcome outcome = run(
+      {"walk", "room.glb", "--solution", "s.glb", "-o", "r.html", "--solver", "jacobi"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("has no effect with --solution"));
+}
+
+TEST_F(Walk, APageThatCannotBeWrittenIsSaidBeforeTheWork) {
+  write_room(folder_ / "room.glb", tiny_room());
+  const Outcome outcome = run({"walk", "room.glb", "-o", "nowhere/r.html"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+} // namespace
+} // namespace meninas::test
