@@ -60,7 +60,7 @@ nlohmann::json browse_drawn_page(const std::filesystem::path& folder, const std:
   std::string html = read_file(page);
   html.insert(html.rfind("</body>"), "<script>(async () => {" + use +
                                          "})().then(said => { document.body.dataset.report = "
-                                         "btoa(JSON.stringify(said)); });</script>");
+                                         "btoa(unescape(encodeURIComponent(JSON.stringify(said)))); });</script>");
   std::ofstream(folder / "drawn.html") << html;
   const Outcome outcome =
       run_other_program(MENINAS_BROWSER, folder,

@@ -23,6 +23,7 @@ function makePanel(data, actions) {
   element("help-button").addEventListener("click", () => actions.key("?"));
   addEventListener("keydown", event => {
     if (event.ctrlKey || event.metaKey || event.altKey || ["SELECT", "INPUT"].includes(event.target.tagName)) return;
+    if (event.key === "Enter" && event.target.tagName === "BUTTON") return; // presses it
     actions.key(event.key.toLowerCase());
   });
   const colours = data.falseColours, stops = [];

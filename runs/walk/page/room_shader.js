@@ -16,7 +16,7 @@ out vec4 onTextures, colour;
 flat out int look;
 void main() {
   place = position;
-  light = irradiance;
+  light = irradiance; // of all lamps; of solutions that know lamps apart, the sum of each times its dimmer
   vec3 n = vec3(octahedral, 1.0 - abs(octahedral.x) - abs(octahedral.y));
   if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
   normal = normalize(n);
