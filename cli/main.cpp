@@ -4,7 +4,7 @@
 // on standard error, and an exit code that says whose fault it is.
 #include "cli/commands.h"
 #include "cli/common_options.h"
-#include "cli/help.h"
+#include "cli/help/help.h"
 #include "cli/values.h"
 #include "runs/report/progress_line.h"
 #include "scenes/version.h"

@@ -1,5 +1,5 @@
 // What the help pages say beyond the options themselves.
-#include "cli/help.h"
+#include "cli/help/help.h"
 
 #include <algorithm>
 #include <array>
