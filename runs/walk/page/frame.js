@@ -21,7 +21,7 @@ function makePainter(gl, data, room, textures) {
     setFilters(gl, gl.NEAREST, gl.NEAREST, kind);
   }
   const probeExposed = 2 ** data.cameras[0].exposure;
-  let lines = null, options, draws, at = roomProgram.at;
+  let lines = null, options, draws, drawn, at = roomProgram.at;
 
   const bind = (unit, texture, kind = gl.TEXTURE_2D) => { gl.activeTexture(gl.TEXTURE0 + unit); gl.bindTexture(kind, texture); };
   const scissor = (rectangle, { width, height }) => {
@@ -37,12 +37,26 @@ function makePainter(gl, data, room, textures) {
 
   function useWorld(world) {
     const { camera, mirror } = world;
+    drawn = world;
     gl.useProgram(roomProgram.program);
     gl.bindVertexArray(array);
     gl.uniformMatrix4fv(at.viewProjection, false, viewProjection(camera));
     gl.uniform3fv(at.eye, camera.eye);
     gl.uniform4fv(at.clip, mirror ? [...mirror.normal, mirror.offset + 2e-6 * room.size] : [0, 0, 0, -1]);
     gl.frontFace(world.depth % 2 ? gl.CW : gl.CCW);
+  }
+  /// Parts of a run that the world can show, those in a row together: a draw costs more than a few
+  /// triangles between them.
+  function drawParts(run) {
+    const fewTriangles = 4096;
+    let first = 0, count = 0;
+    for (const part of run.parts) {
+      if (!mayShow(drawn, part)) continue;
+      if (count && part.first > first + count + fewTriangles) { draw(first, count); count = 0; }
+      if (!count) first = part.first;
+      count = part.first + part.count - first;
+    }
+    if (count) draw(first, count);
   }
   function draw(first, count) {
     gl.drawElements(gl.TRIANGLES, 3 * count, gl.UNSIGNED_INT, 12 * first);
@@ -62,7 +76,7 @@ function makePainter(gl, data, room, textures) {
         gl.uniform3fv(at.probePlace, run.probe.place);
         gl.uniform1f(at.thickness, run.probe.thickness);
       }
-      draw(run.first, run.count);
+      drawParts(run);
     }
   }
   function drawSky(camera) {
@@ -156,7 +170,7 @@ function makePainter(gl, data, room, textures) {
   function drawPanes(world, level, place) {
     const eye = world.camera.eye, distance = run => lengthOf(minus(run.middle, eye));
     const faces = run => !run.plane || dot(run.plane.normal, eye) > run.plane.offset;
-    for (const run of room.panes.filter(faces).sort((a, b) => distance(b) - distance(a))) {
+    for (const run of room.panes.filter(r => faces(r) && mayShow(world, r.parts[0])).sort((a, b) => distance(b) - distance(a))) {
       const child = world.children.find(c => c.mirror.number === run.mirror);
       const mirrored = child ? drawAside(child, place) : black;
       useWorld(world);
@@ -265,7 +279,7 @@ function makePainter(gl, data, room, textures) {
     const target = bindTarget(place);
     begin(target);
     drawSky(camera);
-    drawWorld({ camera, mirror: null, depth: 0, rectangle: [0, 0, 1, 1], children: [] }, 0, place);
+    drawWorld(rootWorld(camera), 0, place);
     scissor([0, 0, 1, 1], target);
     takeMean(target);
     return target.mean;

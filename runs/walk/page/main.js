@@ -10,9 +10,10 @@ async function start() {
   const images = await Promise.all(data.images.map(readImage));
   const textures = data.textures.map(use => makeTexture(gl, images[use.image], use));
   if (data.sky) textures.sky = await makeSky(gl, data.sky);
-  const paint = makePainter(gl, data, room, textures), rays = makeRays(room), motion = makeMotion(room, rays);
+  const paint = makePainter(gl, data, room, textures), rays = raysWhenAsked(room), motion = makeMotion(room, rays);
   const asked = readAddress();
-  const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0, most: 8, coarse: true, slow: true };
+  const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0,
+    most: Math.ceil(clamped(8e5 / tables.triangles.length, 1, 8)), coarse: true, slow: true };
   let waiting = false, moving = true, last = 0, rest = 0;
 
   function goToCamera(number) {

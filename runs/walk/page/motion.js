@@ -26,8 +26,7 @@ function makeMotion(room, rays) {
     state.eye = camera.position;
     state.exposure = camera.exposure;
     takeFrame(camera.forward);
-    const hit = rays(state.eye, camera.forward);
-    state.focus = plus(state.eye, camera.forward, hit ? hit.distance : 0.5 * room.size);
+    state.focus = plus(state.eye, camera.forward, 0.5 * room.size);
     if (!camera.orthographic) state.half = camera.half;
   }
   /// From now on the frame is upright.
@@ -103,10 +102,16 @@ function listen(canvas, motion, room, moved, clicked) {
   let travelled = 0, spread = 0;
   const moves = { w: [1, 0, 0], s: [-1, 0, 0], a: [0, -1, 0], d: [0, 1, 0], arrowup: [1, 0, 0], arrowdown: [-1, 0, 0],
     arrowleft: [0, 0, -1], arrowright: [0, 0, 1], pageup: [0, 0, 0, 1], pagedown: [0, 0, 0, -1] };
+  const move = (key, seconds) => {
+    const [ahead, aside, yaw = 0, pitch = 0] = moves[key];
+    if (ahead || aside) motion.go(ahead * speed * seconds, aside * speed * seconds);
+    if (yaw || pitch) motion.turn(1.4 * yaw * seconds, pitch * seconds);
+  };
   const isText = target => ["INPUT", "SELECT", "TEXTAREA"].includes(target.tagName);
   addEventListener("keydown", event => {
     const key = event.key.toLowerCase();
     if (!(key in moves) || event.ctrlKey || event.metaKey || event.altKey || isText(event.target)) return;
+    if (!pressed.has(key)) move(key, 0.03); // a tap between two frames counts, too
     pressed.add(key);
     event.preventDefault();
     moved();
@@ -148,11 +153,7 @@ function listen(canvas, motion, room, moved, clicked) {
   }, { passive: false });
   /// Returns whether keys are still down.
   return function step(seconds) {
-    for (const key of pressed) {
-      const [ahead, aside, yaw, pitch = 0] = moves[key];
-      if (ahead || aside) motion.go(ahead * speed * seconds, aside * speed * seconds);
-      if (yaw || pitch) motion.turn(1.4 * yaw * seconds, pitch * seconds);
-    }
+    for (const key of pressed) move(key, seconds);
     return pressed.size > 0;
   };
 }

@@ -64,6 +64,12 @@ function makeRays(room) {
   };
 }
 
+/// The same, its tree built when it is asked for the first ray.
+function raysWhenAsked(room) {
+  let rays = null;
+  return (...ray) => (rays = rays || makeRays(room))(...ray);
+}
+
 /// What a ray meets, by way of mirrors: the part of the room, its light there, and how many mirrors.
 function lightMet(room, rays, origin, direction) {
   for (let mirrors = 0; mirrors < 32; ++mirrors) {

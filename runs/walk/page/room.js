@@ -11,13 +11,28 @@ function joinedRuns(data, tables, batches) {
     const [section, colour, emission, mirror, node, first, count] = batch, last = runs[runs.length - 1];
     const body = lookOf(data, tables, batch).kind >= kinds.curved ? node : -1;
     if (last && section !== sections.pane && last.section === section && last.colour === colour
-      && last.emission === emission && last.node === body && last.first + last.count === first) last.count += count;
-    else runs.push({ section, colour, emission, first, count, node: body, probe: null, mirror: section === sections.pane ? mirror : -1 });
+      && last.emission === emission && last.node === body && last.first + last.count === first) {
+      last.count += count;
+      last.parts.push(batch.part);
+    } else runs.push({ section, colour, emission, first, count, node: body, probe: null, parts: [batch.part],
+      mirror: section === sections.pane ? mirror : -1 });
   }
   return runs;
 }
 
 function lookOf(data, tables, batch) { return data.looks[tables.look[tables.triangles[3 * batch[5]]]]; }
+
+/// The box around a batch, a little larger than it.
+function partOfBatch(tables, [, , , , , first, count], margin) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let k = 3 * first; k < 3 * (first + count); ++k)
+    for (let axis = 0; axis < 3; ++axis) {
+      const x = tables.points[3 * tables.triangles[k] + axis];
+      if (x - margin < low[axis]) low[axis] = x - margin;
+      if (x + margin > high[axis]) high[axis] = x + margin;
+    }
+  return { first, count, low, high };
+}
 
 function middleOf(tables, run) {
   let sum = [0, 0, 0];
@@ -48,7 +63,9 @@ function boundsOf(points) {
 
 function readRoom(data, tables) {
   tables.points = Float32Array.from(tables.position, x => x * data.step);
-  const { low, high } = boundsOf(tables.points), runs = joinedRuns(data, tables, data.batches);
+  const { low, high } = boundsOf(tables.points), margin = 1e-5 * lengthOf(minus(high, low));
+  data.batches.forEach(batch => { batch.part = partOfBatch(tables, batch, margin); });
+  const runs = joinedRuns(data, tables, data.batches);
   const room = { data, tables, low, high, size: lengthOf(minus(high, low)), ambient: meanRadiance(data, tables) };
   room.opaque = runs.filter(run => run.section !== sections.pane);
   room.panes = runs.filter(run => run.section === sections.pane);

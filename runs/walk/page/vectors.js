@@ -54,15 +54,24 @@ function clipped(polygon, n, d) {
   return kept.length < 3 ? [] : kept;
 }
 
-/// The part of a polygon inside the cone from the eye through a window.
-function clippedToCone(polygon, eye, window) {
-  const middle = times(window.reduce((sum, x) => plus(sum, x), [0, 0, 0]), 1 / window.length);
-  for (let k = 0; k < window.length && polygon.length; ++k) {
-    let n = cross(minus(window[k], eye), minus(window[(k + 1) % window.length], eye));
+/// The planes through the eye and the edges of a window, their normals inwards: its cone.
+function conePlanes(eye, window) {
+  const middle = times(window.reduce((sum, x) => plus(sum, x), [0, 0, 0]), 1 / window.length), planes = [];
+  for (let k = 0; k < window.length; ++k) {
+    const n = cross(minus(window[k], eye), minus(window[(k + 1) % window.length], eye));
     if (dot(n, n) === 0) continue;
-    n = unit(n);
-    polygon = clipped(polygon, dot(n, minus(middle, eye)) < 0 ? times(n, -1) : n,
-      dot(n, minus(middle, eye)) < 0 ? -dot(n, eye) : dot(n, eye));
+    const inwards = times(unit(n), dot(n, minus(middle, eye)) < 0 ? -1 : 1);
+    planes.push([inwards, dot(inwards, eye)]);
   }
+  return planes;
+}
+
+function clippedToCone(polygon, planes) {
+  for (const [n, d] of planes) polygon = polygon.length ? clipped(polygon, n, d) : polygon;
   return polygon;
+}
+
+/// Whether a box is all behind a plane.
+function isBehind({ low, high }, [n, d]) {
+  return n[0] * (n[0] > 0 ? high : low)[0] + n[1] * (n[1] > 0 ? high : low)[1] + n[2] * (n[2] > 0 ? high : low)[2] < d;
 }

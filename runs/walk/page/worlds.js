@@ -21,12 +21,18 @@ function windowsSeen(mirror, world) {
     let front = world.mirror ? clipped(window, world.mirror.normal, world.mirror.offset) : window;
     const { forward, eye } = world.camera;
     if (!world.mirror) front = clipped(front, forward, dot(forward, eye) + 0.5 * world.camera.near);
-    for (const cone of world.windows) {
-      const part = clippedToCone(front, eye, cone);
+    for (const cone of world.cones) {
+      const part = clippedToCone(front, cone);
       if (part.length) seen.push(part);
     }
   }
   return seen;
+}
+
+/// Whether a world can show something in a box.
+function mayShow(world, box) {
+  if (world.mirror && isBehind(box, [world.mirror.normal, world.mirror.offset])) return false;
+  return world.cones.some(cone => !cone.some(plane => isBehind(box, plane)));
 }
 
 /// The largest part of light that is reflected towards the eye, from anywhere on the windows.
@@ -55,11 +61,15 @@ function behind(camera, mirror, windows, room) {
   return { ...image, near: Math.max(camera.near, 0.9 * Math.min(...depths)), far: lengthOf(image.eye) + room.size };
 }
 
+/// The room itself.
+function rootWorld(camera) {
+  return { camera, mirror: null, cones: [conePlanes(camera.eye, cornersOf(camera))], throughput: 1, depth: 0, panes: 0,
+    rectangle: [0, 0, 1, 1], children: [] };
+}
+
 /// At most `most` worlds, first those with fewer mirrors. `followed` says of which mirrors.
 function visibleWorlds(room, camera, most, followed) {
-  const root = { camera, mirror: null, windows: [cornersOf(camera)], throughput: 1, depth: 0, panes: 0,
-    rectangle: [0, 0, 1, 1], children: [] };
-  const worlds = [root];
+  const root = rootWorld(camera), worlds = [root];
   let cut = 0;
   for (let next = 0; next < worlds.length; ++next) {
     const world = worlds[next];
@@ -71,8 +81,10 @@ function visibleWorlds(room, camera, most, followed) {
       const throughput = world.throughput * reflectanceSeen(mirror, world.camera.eye, windows);
       if (throughput < room.data.leastThroughput || world.depth >= 254) continue;
       if (worlds.length >= most || windows.length > 64) { ++cut; continue; }
-      const child = { camera: behind(world.camera, mirror, windows, room), mirror, windows, throughput, depth: world.depth + 1,
-        panes: world.panes + (mirror.kind === "pane" ? 1 : 0), rectangle: rectangleOf(world.camera, windows), children: [] };
+      const image = behind(world.camera, mirror, windows, room);
+      const child = { camera: image, mirror, cones: windows.map(w => conePlanes(image.eye, w)), throughput, depth: world.depth + 1,
+        panes: world.panes + (mirror.kind === "pane" ? 1 : 0), rectangle: rectangleOf(world.camera, windows),
+        children: [] };
       world.children.push(child);
       worlds.push(child);
     }
