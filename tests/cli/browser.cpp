@@ -58,6 +58,9 @@ bool has_browser() { return std::filesystem::exists(MENINAS_BROWSER); }
 nlohmann::json browse_drawn_page(const std::filesystem::path& folder, const std::string& page,
                                  const std::string& fragment, const std::string& use) {
   std::string html = read_file(page);
+  // Frames by the clock, which virtual time moves: those of the screen may wait for ever.
+  html.insert(html.find("<head>"), "<script>window.requestAnimationFrame = draw => "
+                                   "setTimeout(() => draw(performance.now()), 16);</script>");
   html.insert(html.rfind("</body>"), "<script>(async () => {" + use +
                                          "})().then(said => { document.body.dataset.report = "
                                          "btoa(unescape(encodeURIComponent(JSON.stringify(said)))); });</script>");

@@ -3,6 +3,8 @@
 #include "runs/walk/walk_room.h"
 
 #include "raytrace/two_pass.h"
+#include "runs/walk/walk_page.h"
+#include "scenes/errors.h"
 #include "tests/support/rooms.h"
 
 #include <gtest/gtest.h>
@@ -129,6 +131,17 @@ TEST(WalkRoom, TrianglesOfAnElementFollowOneAnother) {
     triangles += batch.count;
   }
   EXPECT_EQ(triangles, room.indices.size() / 3);
+}
+
+TEST(WalkRoom, OneThatIsTooLargeForAPageIsRefused) {
+  const LitRoom lit = lit_room(half_room_with_small_mirror());
+  WalkRoom room = walk_room(lit.field);
+  std::vector<std::string> warnings;
+  const WalkPage page{.field = lit.field, .room = room, .title = "room", .cameras = {WalkCamera{}}};
+  EXPECT_NE(walk_page_html(page, warnings).find("</html>"), std::string::npos);
+  EXPECT_TRUE(warnings.empty());
+  room.indices.resize(3 * (most_walk_triangles + 1), 0);
+  EXPECT_THROW(walk_page_html(page, warnings), InputError);
 }
 
 } // namespace
