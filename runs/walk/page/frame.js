@@ -153,7 +153,20 @@ function makePainter(gl, data, room, textures) {
     gl.depthFunc(gl.LEQUAL);
   }
 
-  /// Returns the texture with what the pane mirrors.
+  /// A surface that blurs what it mirrors.
+  function drawRough(world, child, level, place) {
+    const mirrored = drawAside(child, place);
+    useWorld(world);
+    scissor(world.rectangle, targets[place]);
+    stencil(level, gl.KEEP);
+    gl.depthFunc(gl.EQUAL);
+    bind(3, mirrored);
+    drawRuns(child.mirror.runs, shown.rough);
+    bind(3, black);
+    gl.depthFunc(gl.LEQUAL);
+  }
+
+  /// Returns the texture with what a pane, or a rough surface, mirrors.
   function drawAside(child, place) {
     const target = bindTarget(place + 1);
     scissor(child.rectangle, target);
@@ -197,7 +210,8 @@ function makePainter(gl, data, room, textures) {
     gl.depthMask(true);
     drawOpaque(world);
     for (const child of world.children)
-      if (child.mirror.kind !== "pane") drawMirror(world, child, level, place);
+      if (child.mirror.rough && !options.falseColours) drawRough(world, child, level, place);
+      else if (child.mirror.kind !== "pane") drawMirror(world, child, level, place);
     if (!options.falseColours) drawPanes(world, level, place);
   }
 
@@ -209,6 +223,8 @@ function makePainter(gl, data, room, textures) {
     }
     targets[place] = targets[place] || makeTarget(gl, width, height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, targets[place].drawn);
+    gl.useProgram(roomProgram.program);
+    gl.uniform1i(at.aside, place > 0 ? 1 : 0);
     return targets[place];
   }
   function takeMean({ drawn, mean, width, height }) {
@@ -292,7 +308,7 @@ function makePainter(gl, data, room, textures) {
     options = { ...wanted, width: wanted.width * wanted.block, height: wanted.height * wanted.block };
     draws = 0;
     const follows = (mirror, world) => options.mirrors && (mirror.kind === "mirror" || !options.falseColours)
-      && (mirror.kind !== "pane" || world.panes < 2);
+      && (!(mirror.kind === "pane" || mirror.rough) || world.asides < 2);
     const worlds = visibleWorlds(room, camera, options.most, follows);
     begin(bindTarget(0));
     drawSky(camera);

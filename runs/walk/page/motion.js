@@ -42,8 +42,8 @@ function makeMotion(room, rays) {
     }
     const { forward } = camera, right = cross(forward, camera.up), half = halfOf(camera, aspect);
     if (!camera.orthographic) return { ...shared, eye: camera.position, forward, right, up: camera.up, half };
-    const away = 200 * room.size;
-    return { aspect, eye: plus(camera.position, forward, -away), forward, right, up: camera.up, half: half / away,
+    const away = 400 * room.size, toMiddle = away - dot(forward, camera.position);
+    return { aspect, eye: plus(camera.position, forward, -away), forward, right, up: camera.up, half: half / toMiddle,
       near: away + Math.max(0, camera.section), far: away + far };
   }
 

@@ -72,12 +72,18 @@ function readRoom(data, tables) {
   room.panes.forEach(run => { run.middle = middleOf(tables, run); run.plane = data.mirrors[run.mirror]; });
   room.probes = findProbes(room);
   room.backs = data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0);
-  room.mirrors = data.mirrors.map((mirror, number) => ({ ...mirror, number,
+  room.mirrors = data.mirrors.map((mirror, number) => ({ ...mirror, number, rough: isRough(data, tables, mirror, number),
     runs: joinedRuns(data, tables, data.batches.filter(b => b[3] === number)),
     // Whether it shows light of its own below what it mirrors.
     shines: mirror.kind !== "mirror" || data.batches.some(b => b[3] === number && hasOwn(data, tables, b)) }))
     .filter(mirror => mirror.runs.length);
   return room;
+}
+
+/// Whether what it mirrors is blurred: it is drawn aside, as what panes mirror.
+function isRough(data, tables, mirror, number) {
+  const least = 0.03, batch = data.batches.find(b => b[3] === number);
+  return mirror.kind !== "pane" && batch !== undefined && lookOf(data, tables, batch).roughness > least;
 }
 
 function hasOwn(data, tables, batch) {

@@ -26,8 +26,9 @@ void main() {
   gl_Position = viewProjection * vec4(position, 1.0);
 }`;
 
-/// What a draw of the room writes. Alpha is 1 where surfaces are seen straight, 0 by way of mirrors.
-const shown = { own: 0, black: 1, weight: 2, besideMirror: 3, passed: 4, pane: 5, lines: 6 };
+/// What a draw of the room writes. Alpha is 1 where surfaces are seen straight, 0 by way of mirrors;
+/// of what is drawn aside it is the distance from the eye.
+const shown = { own: 0, black: 1, weight: 2, besideMirror: 3, passed: 4, pane: 5, lines: 6, rough: 7 };
 const kinds = { plain: 0, unlit: 1, coat: 2, mirror: 3, pane: 4, covering: 5, curved: 6, solid: 7 };
 
 const roomFragment = `#version 300 es
@@ -37,7 +38,8 @@ in vec3 place, light, normal;
 in vec4 onTextures, colour;
 flat in int look;
 uniform int shows;
-uniform bool falseColours, hasColour, hasEmission, hasProbe;
+uniform mat4 viewProjection;
+uniform bool aside, falseColours, hasColour, hasEmission, hasProbe;
 uniform vec3 eye, ambient, lowest, highest, probePlace;
 uniform vec4 clip; // the room is where dot(clip.xyz, x) > clip.w
 uniform float lightScale, exposed, topIrradiance, probeScale, thickness;
@@ -63,6 +65,33 @@ void glassShares(float c, out vec3 reflectedPart, out vec3 passedPart) {
   vec3 face = mix(f.rgb, vec3(f.w), rise), loop = face * tint.rgb;
   passedPart = (1.0 - face) * (1.0 - face) * tint.rgb / max(1.0 - loop * loop, 1e-6);
   reflectedPart = face + loop * passedPart;
+}
+/// What a rough surface mirrors, times R(o.h): facets by GGX (Walter et al. 2007), each of which shows
+/// the picture aside where its ray would end, as far away as what the mirror shows straight.
+vec3 blurred(vec3 n, vec3 towards, float roughness, bool coat, vec3 metal) {
+  const int count = 24;
+  float alpha = roughness * roughness;
+  float ends = max(0.0, texture(behindPane, gl_FragCoord.xy / pictureSize).a - distance(place, eye));
+  float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  vec3 t = normalize(cross(abs(n.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), n)), b = cross(n, t), sum = vec3(0.0);
+  float weights = 0.0;
+  for (int k = 0; k < count; ++k) {
+    float u = (float(k) + 0.5) / float(count), phi = turn + 2.39996323 * float(k);
+    float slope = alpha * sqrt(u / (1.0 - u));
+    vec3 h = normalize(n + slope * (cos(phi) * t + sin(phi) * b));
+    float c = max(0.0, -dot(towards, h));
+    vec3 r = towards + 2.0 * c * h;
+    float up = dot(r, n);
+    if (up <= 0.0) continue;
+    vec3 met = place + ends * r;
+    vec4 seen = viewProjection * vec4(met - 2.0 * dot(n, met - place) * n, 1.0);
+    vec2 on = clamp(0.5 + 0.5 * seen.xy / max(seen.w, 1e-6), 0.002, 0.998);
+    vec4 f = NUMBERS(3);
+    vec3 reflectance = coat ? min(f.rgb + (f.w - f.rgb) * pow(1.0 - c, 5.0), 1.0) : metal;
+    sum += c * reflectance * texture(behindPane, on).rgb;
+    weights += c;
+  }
+  return sum / max(weights, 1e-6);
 }
 vec3 coatReflectance(float c) {
   vec4 f = NUMBERS(3);
@@ -118,12 +147,16 @@ void main() {
   if (kind == ${kinds.curved})
     radiance += weight * seenByBody(reflect(towards, normalize(normal)), NUMBERS(5).w);
   if (kind == ${kinds.solid}) radiance += seenBySolid(normalize(normal), towards);
+  if (shows == ${shown.rough})
+    radiance += blurred(dot(face, towards) > 0.0 ? -face : face, towards, NUMBERS(5).w, kind == ${kinds.coat}, weight);
   if (shows == ${shown.own} && kind == ${kinds.coat}) radiance += weight * field * exposed;
   if (shows == ${shown.weight}) result = vec4(weight, 1.0);
   else if (shows == ${shown.passed}) result = vec4(passedPart, 1.0);
   else result = vec4(radiance, 1.0);
   if (shows == ${shown.pane} && kind == ${kinds.pane})
     result.rgb += weight * texture(behindPane, gl_FragCoord.xy / pictureSize).rgb;
-  if (shows == ${shown.weight} || shows == ${shown.besideMirror} || shows == ${shown.pane}) result.a = 0.0;
+  if (aside) result.a = distance(place, eye);
+  if (shows == ${shown.weight} || shows == ${shown.besideMirror} || shows == ${shown.pane} || shows == ${shown.rough} && !aside)
+    result.a = 0.0;
   result = min(result, vec4(6e4));
 }`;

@@ -8,6 +8,7 @@ function bytesOf(base64) {
 }
 
 async function inflated(bytes) {
+  if (typeof DecompressionStream === "undefined") throw new Error("This page needs a newer browser: this one cannot unpack its data.");
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }

@@ -63,7 +63,7 @@ function behind(camera, mirror, windows, room) {
 
 /// The room itself.
 function rootWorld(camera) {
-  return { camera, mirror: null, cones: [conePlanes(camera.eye, cornersOf(camera))], throughput: 1, depth: 0, panes: 0,
+  return { camera, mirror: null, cones: [conePlanes(camera.eye, cornersOf(camera))], throughput: 1, depth: 0, asides: 0,
     rectangle: [0, 0, 1, 1], children: [] };
 }
 
@@ -82,9 +82,11 @@ function visibleWorlds(room, camera, most, followed) {
       if (throughput < room.data.leastThroughput || world.depth >= 254) continue;
       if (worlds.length >= most || windows.length > 64) { ++cut; continue; }
       const image = behind(world.camera, mirror, windows, room);
-      const child = { camera: image, mirror, cones: windows.map(w => conePlanes(image.eye, w)), throughput, depth: world.depth + 1,
-        panes: world.panes + (mirror.kind === "pane" ? 1 : 0), rectangle: rectangleOf(world.camera, windows),
-        children: [] };
+      // What is blurred takes from beyond the window, too.
+      const seen = mirror.rough ? [cornersOf(image)] : windows;
+      const child = { camera: image, mirror, cones: seen.map(w => conePlanes(image.eye, w)), throughput, depth: world.depth + 1,
+        asides: world.asides + (mirror.kind === "pane" || mirror.rough ? 1 : 0),
+        rectangle: mirror.rough ? [0, 0, 1, 1] : rectangleOf(world.camera, windows), children: [] };
       world.children.push(child);
       worlds.push(child);
     }
