@@ -89,10 +89,14 @@ TEST_P(WalkTruth, ThePageShowsWhatTheProgramRenders) {
 
 INSTANTIATE_TEST_SUITE_P(Gallery, WalkTruth,
                          testing::Values(TruthCase{"meninas.gltf", "main", "1", 4},
-                                         TruthCase{"facing-mirrors.gltf", "main", "0", 11},
-                                         TruthCase{"glass-screen.gltf", "main", "0", 8},
+                                         TruthCase{"facing-mirrors.gltf", "main", "1", 11},
+                                         TruthCase{"glass-screen.gltf", "main", "1", 8},
                                          TruthCase{"lattice.gltf", "main", "-2", 2},
-                                         TruthCase{"half-room.gltf", "main", "0", 2}),
+                                         TruthCase{"half-room.gltf", "main", "1", 2},
+                                         TruthCase{"periscope.gltf", "eyepiece", "1", 3},
+                                         TruthCase{"sunbeam.gltf", "main", "-1", 3},
+                                         TruthCase{"cornell-mirror.gltf", "main", "1", 2},
+                                         TruthCase{"blender-room.glb", "Camera", "1", 2}),
                          [](const auto& instance) {
                            std::string name = instance.param.scene;
                            std::erase_if(name, [](char c) { return c == '-' || c == '.'; });
