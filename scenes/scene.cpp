@@ -68,6 +68,12 @@ void add_material(ContentHash& hash, const Material& material) {
     add_texture_use(hash, material.diffuse_transmission_texture);
     add_texture_use(hash, material.diffuse_transmission_color_texture);
   }
+  if (material.anisotropy > 0.0) {
+    hash.add(std::uint64_t{5}); // no other's
+    hash.add(material.anisotropy);
+    hash.add(Vec3(material.anisotropy_direction, 0.0));
+    add_texture_use(hash, material.anisotropy_texture);
+  }
   if (material.clear_coat > 0.0) {
     hash.add(material.clear_coat);
     hash.add(material.clear_coat_roughness);

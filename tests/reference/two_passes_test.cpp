@@ -209,5 +209,26 @@ TEST(TwoPasses, AgreeWithPathsOnGlossUnderALamp) {
   }
 }
 
+TEST(TwoPasses, AgreeWithPathsOnBrushedMetal) {
+  Scene scene = glazed_room();
+  scene.materials.pop_back();
+  scene.triangles.resize(scene.triangles.size() - 2);
+  for (std::size_t k = 0; k < 6; ++k)
+    scene.materials[k].base_color = Rgb(k == 2 ? 0.8 : 0.0);
+  for (Vertex& v : scene.vertices)
+    v.texcoord[0] = {v.position.x, v.position.z};
+  Material& metal = scene.materials[2];
+  metal.metallic = 1.0;
+  metal.roughness = 0.25;
+  metal.anisotropy = 0.5;
+  for (const Vec2& direction : {Vec2(1.0, 0.0), Vec2(-0.28, 0.96)}) {
+    SCOPED_TRACE(direction.x);
+    metal.anisotropy_direction = direction;
+    expect_agreement(scene, {{"at the lamp's image", {0.8, 0.9, 0.2}, {0.8, 0.0, 0.6}},
+                             {"along from it", {1.8, 0.9, 0.6}, {1.2, 0.0, 0.9}},
+                             {"across from it", {0.8, 0.9, 0.2}, {0.8, 0.0, 1.2}}});
+  }
+}
+
 } // namespace
 } // namespace meninas::test
