@@ -1,6 +1,5 @@
 #include "scenes/materials/bsdf.h"
 
-#include "scenes/materials/coverage.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/materials/microfacets.h"
 #include "scenes/materials/refraction.h"

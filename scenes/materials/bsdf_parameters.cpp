@@ -1,7 +1,5 @@
 #include "scenes/materials/bsdf_parameters.h"
 
-#include "scenes/materials/coverage.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -39,7 +37,8 @@ Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
   Bsdf bsdf;
   const bool blended = is_blended(material);
   const double dielectric = 1.0 - point.metallic;
-  bsdf.metal = point.base_color * (point.metallic * coverage(material, point));
+  const double covered = blended ? 1.0 - point.transmission : 1.0;
+  bsdf.metal = point.base_color * (point.metallic * covered);
   const double even = dielectric * (1.0 - point.transmission);
   bsdf.diffuse = point.base_color * (even * (1.0 - point.diffuse_transmission));
   bsdf.passed = point.diffuse_transmission_color * (even * point.diffuse_transmission);

@@ -52,7 +52,8 @@ Vec2 turned_by_texel(Vec2 direction, const glm::dvec4& texel) {
   const double length = glm::length(own);
   if (!(length > least))
     return direction;
-  return Vec2(direction.x * own.x - direction.y * own.y, direction.y * own.x + direction.x * own.y) /
+  return Vec2(direction.x * own.x - direction.y * own.y,
+              direction.y * own.x + direction.x * own.y) /
          length;
 }
 

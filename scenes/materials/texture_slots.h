@@ -39,7 +39,8 @@ inline const std::array<TextureSlot, 15> texture_slots{{
 inline constexpr std::size_t anisotropy_slot = 14;
 
 /// By slot, the value that stands for its texture.
-using SlotValues = std::array<std::optional<glm::dvec4>, std::tuple_size_v<decltype(texture_slots)>>;
+using SlotValues =
+    std::array<std::optional<glm::dvec4>, std::tuple_size_v<decltype(texture_slots)>>;
 
 /// Puts them into the factors; their textures are gone.
 void fold(Material& material, const SlotValues& values);

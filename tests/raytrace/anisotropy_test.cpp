@@ -100,10 +100,8 @@ Scene plate(const Material& material) {
 constexpr Point3 eye{0.5, 1.0, 1.5}, bulb{-0.1, 1.2, -1.4};
 
 Scene lit(Scene scene, Point3 position = bulb) {
-  scene.lights = {{.name = "bulb",
-                   .kind = PunctualKind::point,
-                   .intensity = Rgb(3.0),
-                   .position = position}};
+  scene.lights = {
+      {.name = "bulb", .kind = PunctualKind::point, .intensity = Rgb(3.0), .position = position}};
   return scene;
 }
 

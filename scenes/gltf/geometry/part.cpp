@@ -77,8 +77,7 @@ bool settle_tangents(Part& part) {
   texcoords.reserve(part.texcoords.size());
   for (const auto& sets : part.texcoords)
     texcoords.push_back(transformed_texcoord(*part.tangent_map, Vec2(sets[set])));
-  auto made =
-      mikktspace_tangents({part.positions, part.normals.values, texcoords, part.triangles});
+  auto made = mikktspace_tangents({part.positions, part.normals.values, texcoords, part.triangles});
   bool level = false;
   for (std::size_t t = 0; part.anisotropic && t < made.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)

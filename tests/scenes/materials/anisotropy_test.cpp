@@ -56,8 +56,8 @@ void over_facets(const Facets& facets, Visit visit) {
 }
 
 TEST(AnisotropicFacets, FillTheProjectedHemisphere) {
-  for (const Facets& facets :
-       {Facets{0.3, 0.05, {0.6, 0.8}}, Facets{1.0, 0.01, {1.0, 0.0}}, Facets{0.2, 0.9, {0.8, -0.6}}}) {
+  for (const Facets& facets : {Facets{0.3, 0.05, {0.6, 0.8}}, Facets{1.0, 0.01, {1.0, 0.0}},
+                               Facets{0.2, 0.9, {0.8, -0.6}}}) {
     double area = 0.0;
     over_facets(facets, [&](const Direction& h, double solid_angle) {
       area += facet_density(facets, h) * h.z * solid_angle;
@@ -154,8 +154,8 @@ double albedo_by_sampling(const Facets& facets, const Direction& out) {
 
 TEST(AnisotropicFacets, TheTableOfAlbedosIsGoodToWhatItSays) {
   // Off its steps: three thousandths, two hundredths within 3 degrees of the horizon.
-  for (const auto& [roughness, strength] :
-       {std::pair(0.123, 0.31), std::pair(0.0, 0.55), std::pair(0.37, 0.77), std::pair(0.05, 1.0)}) {
+  for (const auto& [roughness, strength] : {std::pair(0.123, 0.31), std::pair(0.0, 0.55),
+                                            std::pair(0.37, 0.77), std::pair(0.05, 1.0)}) {
     const Facets facets = facets_of(brushed(roughness, strength));
     for (const double degrees : {1.0, 33.0, 61.0, 80.0, 88.0})
       for (const double azimuth : {0.03, 0.5, 1.1, 1.4, 1.57}) {
@@ -212,7 +212,7 @@ TEST(Anisotropy, AWhiteMetalLosesNothing) {
     for (const double degrees : {0.0, 45.0, 80.0, 86.0})
       for (const double azimuth : {0.0, 0.7, 0.5 * pi}) {
         const Bsdf bsdf = bsdf_of(brushed(roughness, strength));
-        constexpr std::uint32_t points = 1 << 14;
+        constexpr std::uint32_t points = 1 << 13;
         double sum = 0.0;
         for (std::uint32_t k = 0; k < points; ++k) {
           const auto u = sobol4(k, 7);
@@ -220,8 +220,8 @@ TEST(Anisotropy, AWhiteMetalLosesNothing) {
             sum += drawn->weight.g / points;
         }
         // The table of albedos, and as many samples, are good to that.
-        EXPECT_NEAR(sum, 1.0, 4e-3) << roughness << ' ' << strength << ' ' << degrees << ' '
-                                    << azimuth;
+        EXPECT_NEAR(sum, 1.0, 3e-3)
+            << roughness << ' ' << strength << ' ' << degrees << ' ' << azimuth;
       }
 }
 
@@ -231,15 +231,15 @@ TEST(Anisotropy, PassOneScattersAllThatAWhiteMetalReflects) {
 }
 
 TEST(Anisotropy, PassOneTakesNoMetalForAMirrorThatIsRoughAlongADirection) {
-  const auto throws_as_mirror = [](const Material& material) {
+  const auto is_smooth = [](const Material& material) {
     Scene scene;
     add_polygon(scene, "plate", {{0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}}, material);
     mark_smooth_surfaces(scene);
     return scene.materials[0].specular_in_pass_one;
   };
-  EXPECT_TRUE(throws_as_mirror(brushed(0.1, 0.0)));
-  EXPECT_TRUE(throws_as_mirror(brushed(0.1, 0.2))); // alpha_t = 0.05
-  EXPECT_FALSE(throws_as_mirror(brushed(0.1, 0.4)));
+  EXPECT_TRUE(is_smooth(brushed(0.1, 0.0)));
+  EXPECT_TRUE(is_smooth(brushed(0.1, 0.2))); // alpha_t = 0.05
+  EXPECT_FALSE(is_smooth(brushed(0.1, 0.4)));
 }
 
 TEST(Anisotropy, LacquerIsRound) {
@@ -274,8 +274,7 @@ Scene textured(glm::vec4 left, glm::vec4 right, DecodedTextures& textures) {
   add_polygon(scene, "square", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, material);
   for (Vertex& v : scene.vertices)
     v.texcoord[0] = {v.position.x, v.position.y};
-  scene.textures = {
-      {.name = "brush", .encoded = {}, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp}};
+  scene.textures = {{.name = "brush", .encoded = {}, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp}};
   textures = decode_textures(scene, [&](const Texture&, TextureContent) {
     return TexturePixels{2, 1, {left, right}};
   });
