@@ -46,9 +46,9 @@ SchlickAlbedo schlick_albedo(double roughness, double cosine);
 /// Its mean over the hemisphere, weighted by the cosine: 2 integral of e(c) c dc.
 SchlickAlbedo mean_schlick_albedo(double roughness);
 
-/// The same of facets of two widths, which depends on the azimuth of w: the widest lobe across them
-/// reflects 0.91 of a grazing ray along the axis and 0.53 of one across it. From a table by both
-/// widths, the cosine and the azimuth, good to 3e-3, and to 0.02 within 3 degrees of the horizon.
+/// The same of facets of two widths, which depends on the azimuth of w: at alpha_t = 1, alpha_b =
+/// 0.0025 and 3 degrees above the horizon it is 0.91 along the axis and 0.53 across it. From a table
+/// by both widths, the cosine and the azimuth, good to 3e-3, there to 0.02.
 SchlickAlbedo schlick_albedo(const Facets& facets, const Direction& w);
 SchlickAlbedo mean_schlick_albedo(const Facets& facets);
 
