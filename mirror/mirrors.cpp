@@ -80,7 +80,8 @@ std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& mod
     const MaterialId by_angle = is_coat              ? first_with_coat_of(scene, material)
                                 : is_glass(material) ? surface.material
                                                      : none<MaterialId>;
-    const bool has_width = material.roughness > ideal_mirror_roughness || material.normal_texture;
+    const bool has_width =
+        widest_roughness(material) > ideal_mirror_roughness || material.normal_texture;
     const bool curved = std::ranges::any_of(surface.patches, [&](PatchId patch) {
       return is_curved(scene, model.patches[index(patch)]);
     });

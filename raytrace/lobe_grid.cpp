@@ -36,13 +36,14 @@ Cell weighed(const Bsdf& bsdf, const Direction& in, double cosine, double visibl
 }
 
 std::optional<Cell> cell_at(const Bsdf& bsdf, const Direction& out, double u, double v) {
-  const Direction h = visible_facet(bsdf.alpha, out, u, v);
+  const Facets facets = facets_of(bsdf);
+  const Direction h = visible_facet(facets, out, u, v);
   const double cosine = glm::dot(out, h);
   const Direction in = 2.0 * cosine * h - out;
   if (in.z <= 0.0)
     return std::nullopt;
-  const double lambda = smith_lambda(bsdf.alpha, out);
-  const double visible = (1.0 + lambda) / (1.0 + lambda + smith_lambda(bsdf.alpha, in));
+  const double lambda = smith_lambda(facets, out);
+  const double visible = (1.0 + lambda) / (1.0 + lambda + smith_lambda(facets, in));
   return weighed(bsdf, in, cosine, visible);
 }
 
@@ -69,19 +70,20 @@ void add_cell(const Bsdf& bsdf, const Direction& out, const Cell& cell, double m
 
 } // namespace
 
-int lobe_divisions(const Bsdf& bsdf, double cosine, double directions) {
+int lobe_divisions(const Bsdf& bsdf, const Direction& out, double directions) {
   constexpr double most = 64.0;
   if (bsdf.alpha == 0.0)
     return 1;
   const double energy =
-      std::max(largest(bsdf.metal) + bsdf.coat * coat_albedo(bsdf, cosine), bsdf.glass);
+      std::max(largest(bsdf.metal) + bsdf.coat * coat_albedo(bsdf, out), bsdf.glass);
   const double cells = directions * bsdf.roughness * energy;
   return static_cast<int>(std::clamp(std::ceil(std::sqrt(cells)), 1.0, most));
 }
 
 double lobe_density(const Bsdf& bsdf, const Direction& out, const Direction& in) {
-  const double lambda = smith_lambda(bsdf.alpha, out);
-  return 0.25 * facet_density(bsdf.alpha, glm::normalize(out + in)) / (out.z * (1.0 + lambda));
+  const Facets facets = facets_of(bsdf);
+  const double lambda = smith_lambda(facets, out);
+  return 0.25 * facet_density(facets, glm::normalize(out + in)) / (out.z * (1.0 + lambda));
 }
 
 void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift,
@@ -108,9 +110,9 @@ void lobe_grid(const Bsdf& bsdf, const Direction& out, int divisions, Vec2 shift
     metal_sum = 1.0;
     coat_sum = largest(cells.front().coat);
   }
-  const SchlickAlbedo albedo = schlick_albedo(bsdf.roughness, out.z);
+  const SchlickAlbedo albedo = lobe_albedo(bsdf, out);
   const double metal_norm = norm(albedo.f0 + albedo.f90, metal_sum);
-  const double coat_norm = norm(bsdf.coat * coat_albedo(bsdf, out.z), coat_sum);
+  const double coat_norm = norm(bsdf.coat * coat_albedo(bsdf, out), coat_sum);
   for (const Cell& cell : cells)
     add_cell(bsdf, out, cell, metal_norm, coat_norm, rays);
 }

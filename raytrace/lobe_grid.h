@@ -18,6 +18,8 @@
 // A pane has the same lobe once more,
 // folded through the surface, with what it passes in place of S.
 //
+// Facets of two widths have the same map, stretched along their axis: cells follow the lobe.
+//
 // A lobe of no width (roughness at most `ideal_mirror_roughness`) is one direction, the mirror's.
 #pragma once
 
@@ -39,7 +41,7 @@ double lobe_density(const Bsdf& bsdf, const Direction& out, const Direction& in)
 
 /// n for about `directions` in the widest and brightest lobe.
 /// Smoother ones are narrower, faint ones matter less.
-int lobe_divisions(const Bsdf& bsdf, double cosine, double directions);
+int lobe_divisions(const Bsdf& bsdf, const Direction& out, double directions);
 
 /// The directions of light that leaves towards `out`, which is above the surface;
 /// `shift` in [0, 1)^2. Clears and fills `rays`.

@@ -5,6 +5,7 @@
 #include "raytrace/lane_surface.h"
 #include "raytrace/lamp_weights.h"
 #include "raytrace/specular_rays.h"
+#include "scenes/materials/normal_map.h"
 #include "scenes/materials/refraction.h"
 #include "scenes/shading_normal.h"
 
@@ -205,6 +206,9 @@ glm::vec3 scattered_radiance(const LandedLane& lane, TileWorkspace& work) {
   const Direction along = glm::normalize(at.direction);
   const Direction normal = normal_towards(lane, -along);
   const Direction out = local_out(normal, along);
+  if (!has_round_facets(bsdf))
+    bsdf.axis = facet_axis(context.light.scene, TriangleId{hits.triangle[k]},
+                           {hits.b1[k], hits.b2[k]}, bsdf.axis, normal);
   if (is_open(bsdf)) {
     queue_straight(lane, bsdf, out.z, at, ray, work);
     bsdf.glass = 0.0;
@@ -215,10 +219,10 @@ glm::vec3 scattered_radiance(const LandedLane& lane, TileWorkspace& work) {
   // smooth metals and coats that are mirrors reflect: they are ideal from there on.
   const bool goes_on_ideally = smooth || bsdf.glass > 0.0;
   if (smooth && !has_field)
-    bsdf.metal = metal_all_in_lobe(bsdf, out.z);
+    bsdf.metal = metal_all_in_lobe(bsdf, out);
   if (spent && goes_on_ideally)
     bsdf.roughness = bsdf.alpha = 0.0;
-  const int n = ray.lobes == 0 ? lobe_divisions(bsdf, out.z, context.settings.glossy_samples) : 1;
+  const int n = ray.lobes == 0 ? lobe_divisions(bsdf, out, context.settings.glossy_samples) : 1;
   const Scatterer scatterer{bsdf, normal, out, n, media_at(context, hits, k, ray.medium)};
   if (goes_on_ideally || !(spent || radiosity))
     queue_lobe(lane, scatterer, at, ray, work);
@@ -242,10 +246,10 @@ glm::vec3 scattered_radiance(const LandedLane& lane, TileWorkspace& work) {
   glm::vec3 radiance = share_of_rays(context, state, face, hits, k) * shading_at(lane).emitted;
   if (part != ReflectedPart::none &&
       !material_of(context.light.scene, TriangleId{hits.triangle[k]}).unlit)
-    radiance += glm::vec3(even_reflectance(bsdf, out.z) / std::numbers::pi) *
+    radiance += glm::vec3(even_reflectance(bsdf, out) / std::numbers::pi) *
                 irradiance_of_lane(context, state, face, hits, k, work);
   if (part != ReflectedPart::none && bsdf.passed != Rgb(0.0))
-    radiance += glm::vec3(even_transmittance(bsdf, out.z) / std::numbers::pi) *
+    radiance += glm::vec3(even_transmittance(bsdf, out) / std::numbers::pi) *
                 irradiance_behind(lane, work);
   return radiance;
 }

@@ -25,7 +25,7 @@ static DecodedTextures decoded_or_white(const Scene& scene, std::vector<std::str
       return decoded(texture, content);
     } catch (const InputError& problem) {
       warnings.push_back(fmt::format("{}: the factor is used alone", problem.what()));
-      return TexturePixels{1, 1, {glm::vec4(1.0F)}};
+      return TexturePixels{1, 1, {glm::vec4(1.0F)}, true};
     }
   });
 }

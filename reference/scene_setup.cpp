@@ -26,7 +26,7 @@ TexturePixels decode(const Texture& texture, TextureContent content,
     return {bitmap.width, bitmap.height, std::move(bitmap.pixels)};
   } catch (const InputError& problem) {
     warnings.push_back(std::string(problem.what()) + ": the factor is used alone");
-    return {1, 1, {glm::vec4(1.0F)}};
+    return {1, 1, {glm::vec4(1.0F)}, true};
   }
 }
 

@@ -38,9 +38,9 @@ SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 
   return at;
 }
 
-void bend(const TracedScene& traced, Vec2 barycentric, const Direction& out, SurfacePoint& at) {
-  if (!is_bent(traced.scene, at.triangle))
-    return;
+/// The normal of a curve, or of a map, and light's origin over it.
+static void curve(const TracedScene& traced, Vec2 barycentric, const Direction& out,
+                  SurfacePoint& at) {
   const Direction n = mapped_normal(traced.scene, traced.textures, at.triangle, barycentric);
   at.normal = visible_normal(at.front ? n : -n, at.face, out);
   // Light passes a pane or a translucent surface at itself.
@@ -50,6 +50,13 @@ void bend(const TracedScene& traced, Vec2 barycentric, const Direction& out, Sur
   at.origin = curved_origin(traced.scene, traced.surfaces, traced.rays, at.triangle, barycentric,
                             at.front);
   at.leaving = none<PlaneId>;
+}
+
+void bend(const TracedScene& traced, Vec2 barycentric, const Direction& out, SurfacePoint& at) {
+  if (is_bent(traced.scene, at.triangle))
+    curve(traced, barycentric, out, at);
+  if (!has_round_facets(at.bsdf))
+    at.bsdf.axis = facet_axis(traced.scene, at.triangle, barycentric, at.bsdf.axis, at.normal);
 }
 
 } // namespace meninas::reference

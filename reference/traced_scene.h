@@ -52,7 +52,7 @@ SurfacePoint surface_point(const TracedScene& traced, TriangleId triangle, Vec2 
                            bool front);
 
 /// Makes a point of a curved triangle one of the curve (scenes/shading_normal.h),
-/// seen from the direction `out` above the face.
+/// seen from the direction `out` above the face; facets that are not round get their axis there.
 void bend(const TracedScene& traced, Vec2 barycentric, const Direction& out, SurfacePoint& at);
 
 } // namespace meninas::reference

@@ -1,5 +1,7 @@
 #include "scenes/material.h"
 
+#include <cmath>
+
 namespace meninas {
 
 /// Texels say where it is metal and how smooth: no mirror of one reflectance.
@@ -8,8 +10,16 @@ static bool has_texels_of_metal(const Material& material) {
   return material.metallic_roughness_texture && !is_glass(material);
 }
 
+double widest_roughness(const Material& material) {
+  if (material.anisotropy == 0.0)
+    return material.roughness;
+  const double along = material.anisotropy * material.anisotropy;
+  return std::sqrt(std::lerp(material.roughness * material.roughness, 1.0, along));
+}
+
 bool is_mirror(const Material& material) {
-  const bool is_smooth = material.roughness <= ideal_mirror_roughness && !has_texels_of_metal(material);
+  const bool is_smooth =
+      widest_roughness(material) <= ideal_mirror_roughness && !has_texels_of_metal(material);
   return material.metallic > 0.0 && !is_blended(material) &&
          (is_smooth || material.specular_in_pass_one) &&
          glm::any(glm::greaterThan(material.base_color, Rgb(0.0)));
@@ -25,7 +35,7 @@ bool is_emitter(const Material& material) {
 
 bool is_glossy(const Material& material) {
   return material.metallic > 0.0 &&
-         (material.roughness > ideal_mirror_roughness || has_texels_of_metal(material));
+         (widest_roughness(material) > ideal_mirror_roughness || has_texels_of_metal(material));
 }
 
 bool is_blended(const Material& material) {

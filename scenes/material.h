@@ -10,6 +10,13 @@
 // pass one spreads those of metals and coats evenly, takes smooth metals, and the coats
 // of large flat surfaces, for ideal mirrors (smooth_surfaces.h) and glass for clear (lobes.h).
 //
+// An anisotropic surface (KHR_materials_anisotropy, strength s), brushed metal say, has facets as wide
+// as its roughness says across a direction in the surface, and wider along it (materials/microfacets.h):
+//
+//   alpha_b = roughness^2,   alpha_t = alpha_b + (1 - alpha_b) s^2
+//
+// Whether it is a mirror or smooth goes by the wider, whether its coat shows by the narrower.
+//
 // Glass (transmission > 0) is there from both sides: the loader makes it double-sided.
 // Without thickness a sheet of it is a whole pane, with both of its faces;
 // with one it is the surface of a solid (KHR_materials_volume).
@@ -83,6 +90,9 @@ struct Material {
   std::optional<TextureUse> thickness_texture;    ///< green
   std::optional<TextureUse> normal_texture;       ///< materials/normal_map.h
   double normal_scale = 1.0;                      ///< of its red and green
+  double anisotropy = 0.0; ///< s, in [0, 1]; at the most, where there is a texture
+  Vec2 anisotropy_direction{1.0, 0.0}; ///< unit, along the tangent and the bitangent (normal_map.h)
+  std::optional<TextureUse> anisotropy_texture; ///< red, green: one to be turned by it; blue: of s
   std::optional<TextureUse> diffuse_transmission_texture; ///< alpha
   std::optional<TextureUse> diffuse_transmission_color_texture;
 
@@ -107,6 +117,9 @@ Rgb diffuse_reflectance(const Material& material);
 
 /// The reflectance of what is a mirror in pass one; zero for everything that is not one.
 Rgb mirror_reflectance(const Material& material);
+
+/// sqrt(alpha_t): the roughness itself where facets are round.
+double widest_roughness(const Material& material);
 
 /// In pass one: an ideal mirror, or a metal that throws light as one.
 bool is_mirror(const Material& material);

@@ -21,6 +21,15 @@ void add_texture_use(ContentHash& hash, const std::optional<TextureUse>& use) {
   hash.add(use->scale);
 }
 
+void add_anisotropy(ContentHash& hash, const Material& material) {
+  if (material.anisotropy == 0.0)
+    return;
+  hash.add(std::uint64_t{5}); // no other flag of what is left out where there is none
+  hash.add(material.anisotropy);
+  hash.add(Vec3(material.anisotropy_direction, 0.0));
+  add_texture_use(hash, material.anisotropy_texture);
+}
+
 void add_material(ContentHash& hash, const Material& material) {
   hash.add(material.base_color);
   hash.add(material.alpha);
@@ -68,6 +77,7 @@ void add_material(ContentHash& hash, const Material& material) {
     add_texture_use(hash, material.diffuse_transmission_texture);
     add_texture_use(hash, material.diffuse_transmission_color_texture);
   }
+  add_anisotropy(hash, material);
   if (material.clear_coat > 0.0) {
     hash.add(material.clear_coat);
     hash.add(material.clear_coat_roughness);

@@ -88,8 +88,8 @@ struct Scene {
   double position_error = 0.0;
   std::vector<float> position_errors; ///< the same by vertex; what has none has that of all
 
-  /// T and the sign of B (materials/normal_map.h), by vertex of what normal maps are on; what has
-  /// none, or zero, has those of its triangle.
+  /// T and the sign of B (materials/normal_map.h), by vertex of what is anisotropic or has a normal
+  /// map; what has none, or zero, has those of its triangle.
   std::vector<glm::vec4> tangents;
 };
 

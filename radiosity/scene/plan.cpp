@@ -23,13 +23,13 @@ bool is_grey(const Rgb& colour) { return colour.r == colour.g && colour.g == col
 
 /// So smooth that what the metal throws has a shape, though pass one spreads it.
 bool throws_shapes(const Material& material) {
-  return is_glossy(material) && material.roughness <= smooth_metal_roughness &&
+  return is_glossy(material) && widest_roughness(material) <= smooth_metal_roughness &&
          !material.specular_in_pass_one;
 }
 
 /// The factor is rough, but texels may be smooth.
 bool may_throw_shapes(const Material& material) {
-  return is_glossy(material) && material.roughness > smooth_metal_roughness &&
+  return is_glossy(material) && widest_roughness(material) > smooth_metal_roughness &&
          material.metallic_roughness_texture;
 }
 
@@ -213,14 +213,14 @@ void warn_of_materials(const std::vector<const Material*>& materials, TransportP
         quoted(names));
   }
   const auto is_frosted = [](const Material& m) {
-    return is_pane(m) && !is_blended(m) && m.roughness > ideal_mirror_roughness;
+    return is_pane(m) && !is_blended(m) && widest_roughness(m) > ideal_mirror_roughness;
   };
   if (const auto names = names_where(materials, is_frosted); !names.empty()) {
     plan.warnings.push_back("frosted glass throws light on surfaces as clear glass does: " +
                             quoted(names));
   }
   const auto is_rough_solid = [](const Material& m) {
-    return is_solid_glass(m) && m.roughness > ideal_mirror_roughness;
+    return is_solid_glass(m) && widest_roughness(m) > ideal_mirror_roughness;
   };
   if (const auto names = names_where(materials, is_rough_solid); !names.empty()) {
     plan.warnings.push_back("solid glass is polished, however rough it is said to be: " +

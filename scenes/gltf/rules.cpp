@@ -63,7 +63,11 @@ constexpr Rule iridescence[] = {
     {.name = "iridescenceThicknessMinimum", .kind = number},
     {.name = "iridescenceThicknessMaximum", .kind = number},
 };
-constexpr Rule anisotropy[] = {{.name = "anisotropyStrength", .kind = number}};
+constexpr Rule anisotropy[] = {
+    {.name = "anisotropyStrength", .kind = number},
+    {.name = "anisotropyRotation", .kind = number},
+    {.name = "anisotropyTexture", .kind = object, .fields = texture_use},
+};
 constexpr Rule dispersion[] = {{.name = "dispersion", .kind = number}};
 constexpr Rule emissive_strength[] = {{.name = "emissiveStrength", .kind = number}};
 constexpr Rule ior[] = {{.name = "ior", .kind = number}};

@@ -100,6 +100,9 @@ std::set<std::uint64_t> texcoord_sets(const Json& material) {
     add({"extensions", "KHR_materials_sheen", "sheenColorTexture"});
     add({"extensions", "KHR_materials_sheen", "sheenRoughnessTexture"});
   }
+  const auto* brushed = find(material, {"extensions", "KHR_materials_anisotropy"});
+  if (brushed && number_or(*brushed, "anisotropyStrength", 0.0) > 0.0)
+    add({"extensions", "KHR_materials_anisotropy", "anisotropyTexture"});
   const auto* sheet = find(material, {"extensions", "KHR_materials_diffuse_transmission"});
   if (sheet && number_or(*sheet, "diffuseTransmissionFactor", 0.0) > 0.0) {
     add({"extensions", "KHR_materials_diffuse_transmission", "diffuseTransmissionTexture"});
@@ -253,7 +256,7 @@ void read_textures(const Document& document, Scene& scene, Findings& findings) {
          {&material.base_color_texture, &material.metallic_roughness_texture,
           &material.emissive_texture, &material.transmission_texture, &material.thickness_texture,
           &material.normal_texture, &material.diffuse_transmission_texture,
-          &material.diffuse_transmission_color_texture})
+          &material.diffuse_transmission_color_texture, &material.anisotropy_texture})
       settle(*use);
   // What is shown comes before what may be no more than a factor, as long as there is room.
   for (auto& material : scene.materials)

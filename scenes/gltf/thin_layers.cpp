@@ -82,18 +82,19 @@ static void read_iridescence(const Json& extension, Material& material, Findings
   material.specular_color = glm::mix(f0, of_film, share) / (ratio * ratio);
 }
 
-/// KHR_materials_anisotropy: facets of alpha across the direction and of alpha_t = alpha +
-/// (1 - alpha) strength^2 along it. The round lobe of sqrt(alpha alpha_t) is as bright in its middle,
-/// where D = 1 / (pi alpha alpha_t).
-static void read_anisotropy(const Json& extension, Material& material, Findings& findings) {
-  const auto strength = std::clamp(number_or(extension, "anisotropyStrength", 0.0), 0.0, 1.0);
-  if (strength == 0.0)
+/// KHR_materials_anisotropy (material.h).
+static void read_anisotropy(const Document& document, const Json& extension, Material& material,
+                            Findings& findings) {
+  const auto strength = number_or(extension, "anisotropyStrength", 0.0);
+  material.anisotropy = std::clamp(strength, 0.0, 1.0);
+  if (material.anisotropy != strength)
+    findings.about("strengths of anisotropy were clamped to [0, 1] in materials", material.name);
+  if (material.anisotropy == 0.0)
     return;
-  findings.about("anisotropic highlights are round, as bright in their middle, in materials",
-                 material.name);
-  const auto alpha = material.roughness * material.roughness;
-  const auto along = std::lerp(alpha, 1.0, strength * strength);
-  material.roughness = std::sqrt(std::sqrt(alpha * along));
+  const auto rotation = number_or(extension, "anisotropyRotation", 0.0);
+  material.anisotropy_direction = {std::cos(rotation), std::sin(rotation)};
+  material.anisotropy_texture =
+      read_texture_use(document, extension, "anisotropyTexture", material.name, findings);
 }
 
 void read_thin_layers(const Document& document, const Json& json, Material& material,
@@ -108,7 +109,7 @@ void read_thin_layers(const Document& document, const Json& json, Material& mate
   if (const auto* iridescence = find(*extensions, "KHR_materials_iridescence"))
     read_iridescence(*iridescence, material, findings);
   if (const auto* anisotropy = find(*extensions, "KHR_materials_anisotropy"))
-    read_anisotropy(*anisotropy, material, findings);
+    read_anisotropy(document, *anisotropy, material, findings);
   const auto* dispersion = find(*extensions, "KHR_materials_dispersion");
   if (dispersion && number_or(*dispersion, "dispersion", 0.0) > 0.0 && is_glass(material))
     findings.about("dispersion is left out, all colours are refracted by the ior, in materials",

@@ -1,6 +1,5 @@
 #include "scenes/materials/bsdf.h"
 
-#include "scenes/materials/coverage.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/materials/microfacets.h"
 #include "scenes/materials/refraction.h"
@@ -25,8 +24,8 @@ Rgb coat_fresnel(const Bsdf& bsdf, double cosine) {
 }
 
 /// 1 - E of the facets: the share of light from a direction that meets them more than once.
-double met_again(const Bsdf& bsdf, double cosine) {
-  const SchlickAlbedo e = schlick_albedo(bsdf.roughness, cosine);
+double met_again(const Bsdf& bsdf, const Direction& w) {
+  const SchlickAlbedo e = lobe_albedo(bsdf, w);
   return std::max(0.0, 1.0 - e.f0 - e.f90);
 }
 
@@ -38,8 +37,13 @@ Rgb spread_by_facets(const Bsdf& bsdf, double mean_again) {
   return bsdf.metal * bsdf.metal * (1.0 - mean_again) / (1.0 - bsdf.metal * mean_again);
 }
 
+SchlickAlbedo mean_lobe_albedo(const Bsdf& bsdf) {
+  return has_round_facets(bsdf) ? mean_schlick_albedo(bsdf.roughness)
+                                : mean_schlick_albedo(facets_of(bsdf));
+}
+
 double mean_met_again(const Bsdf& bsdf) {
-  const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
+  const SchlickAlbedo mean = mean_lobe_albedo(bsdf);
   return std::max(0.0, 1.0 - mean.f0 - mean.f90);
 }
 
@@ -48,7 +52,7 @@ struct LobeChances {
   double diffuse = 0.0, reflection = 0.0, transmission = 0.0, passed = 0.0;
 };
 LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
-  const double e = coat_albedo(bsdf, out.z);
+  const double e = coat_albedo(bsdf, out);
   LobeChances chances{largest(bsdf.diffuse) * (1.0 - e), largest(bsdf.metal) + bsdf.coat * e};
   chances.passed = largest(bsdf.passed) * (1.0 - e);
   if (bsdf.sheen != Rgb(0.0))
@@ -59,7 +63,7 @@ LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
     chances.transmission = bsdf.glass * largest(glass.passed);
   }
   if (has_facets_of_metal(bsdf)) {
-    const double again = met_again(bsdf, out.z);
+    const double again = met_again(bsdf, out);
     chances.diffuse += again * largest(spread_by_facets(bsdf, mean_met_again(bsdf)));
     chances.reflection -= again * largest(bsdf.metal);
   }
@@ -77,7 +81,7 @@ LobeChances lobe_chances(const Bsdf& bsdf, const Direction& out) {
 double mean_below_coat(const Bsdf& bsdf) {
   if (bsdf.coat == 0.0)
     return 1.0;
-  const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
+  const SchlickAlbedo mean = mean_lobe_albedo(bsdf);
   return std::max(0.0, 1.0 - mean.f0 * largest(bsdf.coat_f0) - mean.f90 * bsdf.coat_f90);
 }
 
@@ -85,40 +89,41 @@ double mean_below_coat(const Bsdf& bsdf) {
 Rgb mean_of_coat(const Bsdf& bsdf) {
   if (bsdf.coat == 0.0)
     return Rgb(0.0);
-  const SchlickAlbedo mean = mean_schlick_albedo(bsdf.roughness);
+  const SchlickAlbedo mean = mean_lobe_albedo(bsdf);
   return bsdf.coat * (mean.f0 * bsdf.coat_f0 + Rgb(mean.f90 * bsdf.coat_f90));
 }
 
 /// rho (1 - e(o)) (1 - e(i)) / (1 - e_avg) of rho_d or tau_d, and likewise below fibres. With both
 /// the mean of the product is below that of either: never too much.
-Rgb coupled(const Bsdf& bsdf, const Rgb& rho, double cos_out, double cos_in) {
+Rgb coupled(const Bsdf& bsdf, const Rgb& rho, const Direction& out, const Direction& in) {
   if (bsdf.coat == 0.0 && bsdf.sheen == Rgb(0.0))
     return rho;
   const double below = std::min(mean_below_coat(bsdf), mean_below_sheen(bsdf));
   if (below == 0.0)
     return Rgb(0.0);
-  const double both = below_sheen(bsdf, cos_out) * below_sheen(bsdf, cos_in);
+  const double both = below_sheen(bsdf, out.z) * below_sheen(bsdf, in.z);
   return rho *
-         ((1.0 - coat_albedo(bsdf, cos_out)) * (1.0 - coat_albedo(bsdf, cos_in)) * both / below);
+         ((1.0 - coat_albedo(bsdf, out)) * (1.0 - coat_albedo(bsdf, in)) * both / below);
 }
 
 /// (1 - E(o)) (1 - E(i)) / (pi (1 - E_avg)) of what facets of metal spread.
-Rgb spread_metal(const Bsdf& bsdf, double cos_out, double cos_in) {
+Rgb spread_metal(const Bsdf& bsdf, const Direction& out, const Direction& in) {
   const double mean_again = mean_met_again(bsdf);
   if (mean_again < 1e-6)
     return Rgb(0.0);
   return spread_by_facets(bsdf, mean_again) *
-         (met_again(bsdf, cos_out) * met_again(bsdf, cos_in) / (std::numbers::pi * mean_again));
+         (met_again(bsdf, out) * met_again(bsdf, in) / (std::numbers::pi * mean_again));
 }
 
 /// D G2 / (4 cos_o cos_i) and the density of sampling visible facets and reflecting at them.
 struct FacetLobe {
   double f = 0.0, density = 0.0, cosine = 0.0; ///< cosine: o.h
 };
-FacetLobe facet_lobe(double alpha, const Direction& out, const Direction& in) {
+FacetLobe facet_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in) {
   const Direction h = glm::normalize(out + in);
-  const double d = facet_density(alpha, h);
-  const double lambda_out = smith_lambda(alpha, out), lambda_in = smith_lambda(alpha, in);
+  const Facets facets = facets_of(bsdf);
+  const double d = facet_density(facets, h);
+  const double lambda_out = smith_lambda(facets, out), lambda_in = smith_lambda(facets, in);
   const double quarter = 0.25 / out.z;
   return {d * quarter / (in.z * (1.0 + lambda_out + lambda_in)), d * quarter / (1.0 + lambda_out),
           glm::dot(out, h)};
@@ -139,42 +144,15 @@ static Rgb left_by_half(const Material& material, const MaterialPoint& point) {
   return is_solid_glass(material) ? attenuation(material, 0.5 * point.thickness) : Rgb(1.0);
 }
 
-Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
-  Bsdf bsdf;
-  const bool blended = is_blended(material);
-  const double dielectric = 1.0 - point.metallic;
-  bsdf.metal = point.base_color * (point.metallic * coverage(material, point));
-  const double even = dielectric * (1.0 - point.transmission);
-  bsdf.diffuse = point.base_color * (even * (1.0 - point.diffuse_transmission));
-  bsdf.passed = point.diffuse_transmission_color * (even * point.diffuse_transmission);
-  const bool solid = is_solid_glass(material);
-  bsdf.roughness = solid && point.transmission > 0.0 ? 0.0 : point.roughness;
-  bsdf.alpha = bsdf.roughness <= ideal_mirror_roughness ? 0.0 : bsdf.roughness * bsdf.roughness;
-  // KHR_materials_ior and KHR_materials_specular; ior 0 stands for F0 = 1.
-  const double ratio = (material.ior - 1.0) / (material.ior + 1.0);
-  const Rgb f0 = glm::min(ratio * ratio * material.specular_color, Rgb(1.0)) * material.specular;
-  if (bsdf.roughness <= visible_coat_roughness) {
-    bsdf.coat_f0 = f0;
-    bsdf.coat_f90 = material.specular;
-    bsdf.coat = material.specular > 0.0 ? dielectric * (1.0 - point.transmission) : 0.0;
-  }
-  if (point.transmission == 0.0) {
-    bsdf.sheen = material.sheen_color;
-    bsdf.sheen_roughness = material.sheen_roughness;
-  }
-  bsdf.glass = blended ? point.transmission : dielectric * point.transmission;
-  if (blended)
-    bsdf.pane.faces = GlassFaces::none;
-  else if (bsdf.glass > 0.0)
-    bsdf.pane = {material.ior, f0, material.specular, point.base_color,
-                 solid ? GlassFaces::one : GlassFaces::both};
-  return bsdf;
+SchlickAlbedo lobe_albedo(const Bsdf& bsdf, const Direction& w) {
+  return has_round_facets(bsdf) ? schlick_albedo(bsdf.roughness, w.z)
+                                : schlick_albedo(facets_of(bsdf), w);
 }
 
-double coat_albedo(const Bsdf& bsdf, double cosine) {
+double coat_albedo(const Bsdf& bsdf, const Direction& w) {
   if (bsdf.coat == 0.0)
     return 0.0;
-  const SchlickAlbedo e = schlick_albedo(bsdf.roughness, cosine);
+  const SchlickAlbedo e = lobe_albedo(bsdf, w);
   return std::min(1.0, e.f0 * largest(bsdf.coat_f0) + e.f90 * bsdf.coat_f90);
 }
 
@@ -203,7 +181,7 @@ Rgb facet_transmittance(const Bsdf& bsdf, double cosine) {
 Rgb reflection_lobe(const Bsdf& bsdf, const Direction& out, const Direction& in) {
   if (bsdf.alpha == 0.0 || (bsdf.coat == 0.0 && bsdf.glass == 0.0 && bsdf.metal == Rgb(0.0)))
     return Rgb(0.0);
-  const FacetLobe lobe = facet_lobe(bsdf.alpha, out, in);
+  const FacetLobe lobe = facet_lobe(bsdf, out, in);
   return lobe.f * lobe_below_sheen(bsdf, out.z, in.z) * facet_reflectance(bsdf, lobe.cosine);
 }
 
@@ -226,25 +204,25 @@ LobeShares lobe_shares(const Bsdf& bsdf, const Direction& out, const Direction& 
   return shares;
 }
 
-Rgb even_reflectance(const Bsdf& bsdf, double cosine) {
-  Rgb share = bsdf.diffuse * (1.0 - coat_albedo(bsdf, cosine));
+Rgb even_reflectance(const Bsdf& bsdf, const Direction& out) {
+  Rgb share = bsdf.diffuse * (1.0 - coat_albedo(bsdf, out));
   if (has_facets_of_metal(bsdf))
-    share += spread_by_facets(bsdf, mean_met_again(bsdf)) * met_again(bsdf, cosine);
+    share += spread_by_facets(bsdf, mean_met_again(bsdf)) * met_again(bsdf, out);
   if (bsdf.sheen == Rgb(0.0))
     return share;
-  return below_sheen(bsdf, cosine) * share +
-         bsdf.sheen * sheen_albedo(bsdf.sheen_roughness, cosine);
+  return below_sheen(bsdf, out.z) * share +
+         bsdf.sheen * sheen_albedo(bsdf.sheen_roughness, out.z);
 }
 
-Rgb metal_all_in_lobe(const Bsdf& bsdf, double cosine) {
+Rgb metal_all_in_lobe(const Bsdf& bsdf, const Direction& out) {
   if (!has_facets_of_metal(bsdf))
     return bsdf.metal;
-  const double again = met_again(bsdf, cosine);
+  const double again = met_again(bsdf, out);
   return bsdf.metal + spread_by_facets(bsdf, mean_met_again(bsdf)) * (again / (1.0 - again));
 }
 
-Rgb even_transmittance(const Bsdf& bsdf, double cosine) {
-  return bsdf.passed * ((1.0 - coat_albedo(bsdf, cosine)) * below_sheen(bsdf, cosine));
+Rgb even_transmittance(const Bsdf& bsdf, const Direction& out) {
+  return bsdf.passed * ((1.0 - coat_albedo(bsdf, out)) * below_sheen(bsdf, out.z));
 }
 
 /// Without fibres.
@@ -320,7 +298,7 @@ Bsdf mirror_coat(const Material& material) {
 
 Rgb coat_transmittance(const Bsdf& coat, double cosine) {
   const double below = mean_below_coat(coat);
-  return Rgb(below > 0.0 ? (1.0 - coat_albedo(coat, cosine)) / below : 0.0);
+  return Rgb(below > 0.0 ? (1.0 - coat_albedo(coat, {0.0, 0.0, cosine})) / below : 0.0);
 }
 
 GlassShares mean_shares(const Bsdf& clear) {
@@ -333,18 +311,19 @@ Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in) {
   if (out.z <= 0.0 || in.z == 0.0)
     return Rgb(0.0);
   if (in.z < 0.0) {
+    const Direction above{in.x, in.y, -in.z};
     Rgb f(0.0);
     if (bsdf.passed != Rgb(0.0))
-      f = coupled(bsdf, bsdf.passed, out.z, -in.z) * std::numbers::inv_pi;
+      f = coupled(bsdf, bsdf.passed, out, above) * std::numbers::inv_pi;
     if (bsdf.alpha == 0.0 || bsdf.glass == 0.0 || is_open(bsdf))
       return f;
-    const FacetLobe lobe = facet_lobe(bsdf.alpha, out, {in.x, in.y, -in.z});
+    const FacetLobe lobe = facet_lobe(bsdf, out, above);
     return f + lobe.f * facet_transmittance(bsdf, lobe.cosine);
   }
-  Rgb f = coupled(bsdf, bsdf.diffuse, out.z, in.z) * std::numbers::inv_pi;
+  Rgb f = coupled(bsdf, bsdf.diffuse, out, in) * std::numbers::inv_pi;
   f += reflection_lobe(bsdf, out, in);
   if (has_facets_of_metal(bsdf))
-    f += lobe_below_sheen(bsdf, out.z, in.z) * spread_metal(bsdf, out.z, in.z);
+    f += lobe_below_sheen(bsdf, out.z, in.z) * spread_metal(bsdf, out, in);
   return f + sheen_lobe(bsdf, out.z, in.z);
 }
 
@@ -358,7 +337,7 @@ double sample_density(const Bsdf& bsdf, const Direction& out, const Direction& i
   double density =
       (in.z > 0.0 ? chances.diffuse : chances.passed) * std::abs(in.z) * std::numbers::inv_pi;
   if (bsdf.alpha > 0.0 && facet_chance > 0.0)
-    density += facet_chance * facet_lobe(bsdf.alpha, out, {in.x, in.y, std::abs(in.z)}).density;
+    density += facet_chance * facet_lobe(bsdf, out, {in.x, in.y, std::abs(in.z)}).density;
   return density;
 }
 
@@ -387,7 +366,7 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const Direction& out,
                       0.0,
                       Lobe::ideal_reflection};
   }
-  const Direction h = visible_facet(bsdf.alpha, out, u[1], u[2]);
+  const Direction h = visible_facet(facets_of(bsdf), out, u[1], u[2]);
   const Direction in = 2.0 * glm::dot(out, h) * h - out;
   if (in.z <= 0.0)
     return std::nullopt;

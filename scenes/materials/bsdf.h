@@ -9,7 +9,8 @@
 // The surface is a mixture by area: metal, dielectric below its coat, and glass,
 // metallic to (1 - metallic) (1 - transmission) to (1 - metallic) transmission.
 // D is GGX of width alpha = roughness^2, G2 Smith's height-correlated masking and shadowing (Walter
-// et al. 2007, Heitz 2014). What facets of metal send to each other, which single scattering loses,
+// et al. 2007, Heitz 2014); of two widths, by the axis of the local frame, where the material is
+// anisotropic (microfacets.h). What facets of metal send to each other, which single scattering loses,
 // comes out spread (Kulla and Conty 2017): a white metal reflects all light, however rough.
 // At roughness `ideal_mirror_roughness` and below reflection and transmission are ideal:
 // one direction each, of weight S and T, which only sampling can find.
@@ -31,8 +32,6 @@
 #include <optional>
 
 namespace meninas {
-
-Bsdf make_bsdf(const Material& material, const MaterialPoint& point);
 
 /// f(o, i), ideal lobes left out; `out` is above the surface, `in` anywhere.
 Rgb evaluate(const Bsdf& bsdf, const Direction& out, const Direction& in);
@@ -66,6 +65,6 @@ Rgb straight_transmission(const Bsdf& bsdf, double cosine);
 Rgb ideal_reflection(const Bsdf& bsdf, double cosine);
 
 /// What the coat reflects of light from a direction, e(w) above: the largest channel.
-double coat_albedo(const Bsdf& bsdf, double cosine);
+double coat_albedo(const Bsdf& bsdf, const Direction& w);
 
 } // namespace meninas

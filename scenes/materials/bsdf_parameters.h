@@ -17,6 +17,8 @@ struct MaterialPoint {
   double thickness = 0.0; ///< metres
   double diffuse_transmission = 0.0;
   Rgb diffuse_transmission_color{1.0};
+  double anisotropy = 0.0;
+  Vec2 anisotropy_direction{1.0, 0.0}; ///< unit, along the tangent and the bitangent
 };
 
 /// The factors alone, as where there is no texture.
@@ -29,13 +31,19 @@ struct Bsdf {
   double coat = 0.0; ///< share of the surface under the coat
   Rgb coat_f0{0.0};
   double coat_f90 = 0.0;
-  double roughness = 1.0;
-  double alpha = 1.0; ///< 0 stands for ideal reflection and transmission
+  double roughness = 1.0; ///< of facets that are not round, (alpha_t alpha_b)^(1/4)
+  double alpha = 1.0;     ///< alpha_b; 0 stands for ideal reflection and transmission
+  double stretch = 1.0;   ///< alpha_t / alpha_b; 1: facets are round
+  Vec2 axis{1.0, 0.0};    ///< of alpha_t: by tangent and bitangent, at a point in its local frame
   Rgb sheen{0.0};     ///< colour of the fibres above it all (sheen.h)
   double sheen_roughness = 0.0;
   double glass = 0.0; ///< share of the surface that is glass
   Glass pane;         ///< what it is there
 };
+
+Bsdf make_bsdf(const Material& material, const MaterialPoint& point);
+
+inline bool has_round_facets(const Bsdf& bsdf) { return bsdf.stretch == 1.0; }
 
 /// Whether what it passes goes straight through openings, however rough the rest is.
 inline bool is_open(const Bsdf& bsdf) {

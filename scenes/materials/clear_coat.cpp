@@ -14,6 +14,8 @@ std::string settle_clear_coat(Material& material) {
   if (!is_paint || material.roughness <= roughness)
     return "clear coats of metals, glass and what is as smooth itself are left out in materials";
   material.roughness = roughness;
+  material.anisotropy = 0.0;
+  material.anisotropy_texture.reset();
   material.ior = 1.5;
   material.specular = coat;
   material.specular_color = Rgb(1.0);

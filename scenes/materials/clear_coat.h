@@ -2,7 +2,7 @@
 //
 // A dielectric has a coat of its own (material.h), and lacquer has the same index of refraction,
 // 1.5. Over matt paint the lacquer's reflection is the one that is seen: it takes the place of the
-// paint's own, factor by factor. Metals under lacquer have two reflections; they keep their own.
+// paint's own, factor by factor, and is round. Metals under lacquer have two reflections; they keep their own.
 #pragma once
 
 #include "scenes/material.h"

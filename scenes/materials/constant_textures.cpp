@@ -56,48 +56,10 @@ glm::dvec4 value_of(const TexelRange& range) {
   return value;
 }
 
-/// By slot, the value that stands for its texture.
-using Values = std::array<std::optional<glm::dvec4>, std::tuple_size_v<decltype(texture_slots)>>;
+using Values = SlotValues;
 
 bool any(const Values& values) {
   return std::ranges::any_of(values, [](const auto& value) { return value.has_value(); });
-}
-
-void fold(Material& material, const Values& values) {
-  const auto channel = [&](std::size_t slot, int c) {
-    return std::clamp((*values[slot])[c], 0.0, 1.0);
-  };
-  if (values[0])
-    material.base_color *= glm::clamp(Rgb(*values[0]), 0.0, 1.0);
-  if (values[1]) {
-    material.roughness *= channel(1, 1);
-    material.metallic *= channel(1, 2);
-  }
-  if (values[2])
-    material.emission *= glm::max(Rgb(*values[2]), 0.0);
-  if (values[3])
-    material.transmission *= channel(3, 0);
-  if (values[4])
-    material.thickness *= channel(4, 1);
-  if (values[5])
-    material.specular *= channel(5, 3);
-  if (values[6])
-    material.specular_color *= glm::clamp(Rgb(*values[6]), 0.0, 1.0);
-  if (values[7])
-    material.clear_coat *= channel(7, 0);
-  if (values[8])
-    material.clear_coat_roughness *= channel(8, 1);
-  if (values[10])
-    material.sheen_color *= glm::clamp(Rgb(*values[10]), 0.0, 1.0);
-  if (values[11])
-    material.sheen_roughness *= channel(11, 3);
-  if (values[12])
-    material.diffuse_transmission *= channel(12, 3);
-  if (values[13])
-    material.diffuse_transmission_color *= glm::clamp(Rgb(*values[13]), 0.0, 1.0);
-  for (std::size_t s = 0; s < slots.size(); ++s)
-    if (values[s])
-      (material.*slots[s].use).reset();
 }
 
 /// Whether there is something to settle that is gone afterwards.
@@ -217,6 +179,10 @@ private:
       const auto& use = material.*slots[s].use;
       if (!use || (s == base_slot && material.alpha_mode != AlphaMode::opaque))
         continue;
+      if (s == anisotropy_slot && textures_.numbers[index(use->texture)].stands_in) {
+        values[s] = {1.0, 0.5, 1.0, 1.0}; // white would be a direction
+        continue;
+      }
       if (const auto found = range(*use, slots[s].content, triangles, constant(slots[s])))
         values[s] = value_of(*found);
     }
@@ -290,7 +256,8 @@ private:
   /// A metal all over, of one colour, whose roughness varies little about a smooth mean.
   bool is_nearly_smooth(const Material& material, const Triangles& triangles) {
     const auto& use = material.metallic_roughness_texture;
-    if (!use || material.base_color_texture || material.metallic == 0.0)
+    if (!use || material.base_color_texture || material.metallic == 0.0 ||
+        material.anisotropy > 0.0)
       return false;
     const auto found =
         range(*use, TextureContent::numbers, triangles,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "scenes/materials/bsdf_parameters.h"
+#include "scenes/materials/microfacets.h"
 #include "scenes/sampling.h"
 
 #include <algorithm>
@@ -17,6 +18,13 @@ bool has_lobes(const Material& material);
 /// A dielectric whose coat shows, by its factors or, where there is one,
 /// at some texel of its textures of roughness and metalness or of transmission.
 bool has_visible_coat(const Material& material);
+
+inline Facets facets_of(const Bsdf& bsdf) {
+  return {bsdf.alpha * bsdf.stretch, bsdf.alpha, bsdf.axis};
+}
+
+/// The directional albedo of its reflection lobe, of the coat's Fresnel term (microfacets.h).
+SchlickAlbedo lobe_albedo(const Bsdf& bsdf, const Direction& w);
 
 /// S of a facet that is met at this cosine.
 Rgb facet_reflectance(const Bsdf& bsdf, double cosine);
@@ -36,15 +44,15 @@ struct LobeShares {
 LobeShares lobe_shares(const Bsdf& bsdf, const Direction& out, const Direction& in);
 
 /// The lobes without a direction of their own, diffuse and what facets of metal spread:
-/// the share that they reflect towards this cosine of light that comes evenly from everywhere.
-Rgb even_reflectance(const Bsdf& bsdf, double cosine);
+/// the share that they reflect towards `out` of light that comes evenly from everywhere.
+Rgb even_reflectance(const Bsdf& bsdf, const Direction& out);
 
-/// What a translucent surface shows towards this cosine of light that comes evenly to its other side.
-Rgb even_transmittance(const Bsdf& bsdf, double cosine);
+/// What a translucent surface shows towards `out` of light that comes evenly to its other side.
+Rgb even_transmittance(const Bsdf& bsdf, const Direction& out);
 
-/// The rho_s with which the reflection lobe alone reflects, towards this cosine,
+/// The rho_s with which the reflection lobe alone reflects, towards `out`,
 /// what metal reflects in all: for surfaces without light to be spread.
-Rgb metal_all_in_lobe(const Bsdf& bsdf, double cosine);
+Rgb metal_all_in_lobe(const Bsdf& bsdf, const Direction& out);
 
 /// The share of light from everywhere that is reflected to anywhere,
 /// by all lobes together but those of glass.

@@ -1,5 +1,6 @@
 #include "scenes/materials/normal_map.h"
 
+#include "scenes/materials/lobes.h"
 #include "scenes/shading_normal.h"
 
 #include <array>
@@ -39,13 +40,25 @@ Tangent across(const Tangent& tangent, const Direction& normal) {
   return length > along ? Tangent(flat / length, tangent.w) : Tangent(0.0);
 }
 
+/// Whose coordinates T and B follow.
+TextureUse frame_of(const Material& material) {
+  if (material.normal_texture)
+    return *material.normal_texture;
+  TextureUse use;
+  if (material.anisotropy_texture)
+    use.texcoord_set = material.anisotropy_texture->texcoord_set;
+  return use;
+}
+
 /// The axes of the map at a point.
 struct MapFrame {
   Vec3 along{0.0}, up{0.0}, out{0.0};
 };
 
-MapFrame map_frame(const Scene& scene, TriangleId triangle, Vec2 barycentric,
-                   const TextureUse& use) {
+MapFrame map_frame(const Scene& scene, TriangleId triangle, Vec2 barycentric) {
+  const Material& material = material_of(scene, triangle);
+  const TextureUse use = frame_of(material);
+  const bool is_anisotropic = material.anisotropy > 0.0;
   const std::array<double, 3> weights{1.0 - barycentric.x - barycentric.y, barycentric.x,
                                       barycentric.y};
   const auto normals = corner_normals(scene, triangle);
@@ -61,6 +74,8 @@ MapFrame map_frame(const Scene& scene, TriangleId triangle, Vec2 barycentric,
         own = own_tangent(scene, triangle, use);
       tangent = across(*own, normals[k]);
     }
+    if (tangent == Tangent(0.0) && is_anisotropic)
+      tangent = Tangent(level_tangent(normals[k]), 1.0);
     frame.along += weights[k] * Vec3(tangent);
     frame.up += weights[k] * tangent.w * glm::cross(normals[k], Vec3(tangent));
     frame.out += weights[k] * normals[k];
@@ -80,7 +95,7 @@ Direction mapped_normal(const Scene& scene, const DecodedTextures& textures, Tri
   const glm::dvec4 texel =
       texel_at(scene, textures.numbers, *use, triangle, barycentric, footprint);
   const Vec2 slope = material.normal_scale * (2.0 * Vec2(texel) - 1.0);
-  const MapFrame frame = map_frame(scene, triangle, barycentric, *use);
+  const MapFrame frame = map_frame(scene, triangle, barycentric);
   const Vec3 turned =
       slope.x * frame.along + slope.y * frame.up + (2.0 * texel.b - 1.0) * frame.out;
   const double length = glm::length(turned);
@@ -91,6 +106,19 @@ Direction mapped_normal(const Scene& scene, const DecodedTextures& textures, Tri
   const Direction n = turned / length;
   const double height = glm::dot(n, face);
   return height >= lowest ? n : glm::normalize(n + (lowest - height) * face);
+}
+
+Direction level_tangent(const Direction& normal) {
+  const Tangent level = across(Tangent(normal.z, 0.0, -normal.x, 1.0), normal);
+  return Vec3(level != Tangent(0.0) ? level : across(Tangent(1.0, 0.0, 0.0, 1.0), normal));
+}
+
+Vec2 facet_axis(const Scene& scene, TriangleId triangle, Vec2 barycentric, Vec2 direction,
+                const Direction& normal) {
+  const MapFrame frame = map_frame(scene, triangle, barycentric);
+  const Direction axis = to_local(normal, direction.x * frame.along + direction.y * frame.up);
+  const double length = std::hypot(axis.x, axis.y);
+  return length > 1e-9 ? Vec2(axis.x, axis.y) / length : Vec2(1.0, 0.0);
 }
 
 } // namespace meninas

@@ -18,7 +18,7 @@ bool may_be_smooth(const Material& material) {
 }
 
 bool is_smooth_metal(const Material& material) {
-  return is_glossy(material) && material.roughness <= smooth_metal_roughness &&
+  return is_glossy(material) && widest_roughness(material) <= smooth_metal_roughness &&
          !is_textured(material) && may_be_smooth(material);
 }
 
@@ -27,6 +27,7 @@ bool is_smooth_coat(const Material& material) {
   constexpr double min_reflectance = 0.01; // of light from everywhere, of a tenth of glass
   return material.metallic == 0.0 && !material.metallic_roughness_texture &&
          material.sheen_color == Rgb(0.0) && has_visible_coat(material) && may_be_smooth(material) &&
+         widest_roughness(material) <= visible_coat_roughness &&
          largest(mean_shares(mirror_coat(material)).reflected) >= min_reflectance;
 }
 

@@ -17,7 +17,7 @@
 
 namespace meninas {
 
-/// Beyond this roughness metals throw light evenly;
+/// Beyond this roughness, along the direction in which facets are widest, metals throw light evenly;
 /// coats show, and throw light, up to visible_coat_roughness (material.h).
 inline constexpr double smooth_metal_roughness = 0.3;
 /// The largest number of planes that the faces of such a material may lie in.

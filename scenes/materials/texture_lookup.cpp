@@ -154,7 +154,8 @@ glm::dvec4 texel_at(const Scene& scene, const std::vector<TexturePixels>& list,
 bool is_textured(const Material& material) {
   return material.base_color_texture || material.metallic_roughness_texture ||
          material.emissive_texture || material.transmission_texture || material.thickness_texture ||
-         material.diffuse_transmission_texture || material.diffuse_transmission_color_texture;
+         material.diffuse_transmission_texture ||
+         material.diffuse_transmission_color_texture || material.anisotropy_texture;
 }
 
 bool has_vertex_colors(const Scene& scene, TriangleId triangle) {
@@ -194,6 +195,11 @@ MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, T
     point.diffuse_transmission *= std::clamp(value(*use, textures.numbers).a, 0.0, 1.0);
   if (const auto& use = material.diffuse_transmission_color_texture)
     point.diffuse_transmission_color *= glm::clamp(Rgb(value(*use, textures.colours)), 0.0, 1.0);
+  if (const auto& use = material.anisotropy_texture) {
+    const glm::dvec4 texel = value(*use, textures.numbers);
+    point.anisotropy *= std::clamp(texel.b, 0.0, 1.0);
+    point.anisotropy_direction = turned_by_texel(point.anisotropy_direction, texel);
+  }
   if (const auto& use = material.emissive_texture)
     point.emission *= glm::max(Rgb(value(*use, textures.colours)), Rgb(0.0));
   if (is_blended(material)) {

@@ -14,6 +14,7 @@ enum class TextureContent { colour, numbers };
 struct TexturePixels {
   int width = 0, height = 0;
   std::vector<glm::vec4> texels;
+  bool stands_in = false; ///< white, for what could not be decoded
   std::vector<TexturePixels> coarser = {}; ///< the pyramid's further levels (texture_pyramid.h)
 };
 

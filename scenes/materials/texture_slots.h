@@ -1,10 +1,12 @@
-// The places for textures in a material: as what each is decoded, and which channels count.
+// The places for textures in a material: as what each is decoded, which channels count, and what a
+// texture that says the same everywhere makes of the factors.
 #pragma once
 
 #include "scenes/material.h"
 #include "scenes/materials/texture_pixels.h"
 
 #include <array>
+#include <tuple>
 
 namespace meninas {
 
@@ -15,7 +17,7 @@ struct TextureSlot {
 };
 
 inline constexpr std::size_t base_slot = 0;
-inline const std::array<TextureSlot, 14> texture_slots{{
+inline const std::array<TextureSlot, 15> texture_slots{{
     {&Material::base_color_texture, TextureContent::colour, {true, true, true, false}},
     {&Material::metallic_roughness_texture, TextureContent::numbers, {false, true, true, false}},
     {&Material::emissive_texture, TextureContent::colour, {true, true, true, false}},
@@ -32,6 +34,19 @@ inline const std::array<TextureSlot, 14> texture_slots{{
     {&Material::diffuse_transmission_color_texture,
      TextureContent::colour,
      {true, true, true, false}},
+    {&Material::anisotropy_texture, TextureContent::numbers, {true, true, true, false}},
 }};
+inline constexpr std::size_t anisotropy_slot = 14;
+
+/// By slot, the value that stands for its texture.
+using SlotValues =
+    std::array<std::optional<glm::dvec4>, std::tuple_size_v<decltype(texture_slots)>>;
+
+/// Puts them into the factors; their textures are gone.
+void fold(Material& material, const SlotValues& values);
+
+/// A direction by tangent and bitangent, turned by that of a texel's red and green from (1, 0), which
+/// is none where they are grey (KHR_materials_anisotropy).
+Vec2 turned_by_texel(Vec2 direction, const glm::dvec4& texel);
 
 } // namespace meninas

@@ -99,13 +99,14 @@ public:
   /// Whether what vertices carry, as far as it is used, is affine over the surface.
   bool carries_affine(const PlaneMesh& mesh) {
     const Material& material = scene_.materials[index(surface_.material)];
-    const bool textures = is_textured(material) || material.normal_texture ||
-                          material.alpha_mode == AlphaMode::mask;
+    const bool framed = material.normal_texture || material.anisotropy > 0.0;
+    const bool textures =
+        is_textured(material) || framed || material.alpha_mode == AlphaMode::mask;
     const bool colours =
         std::ranges::any_of(triangles_, [&](TriangleId t) { return has_vertex_colors(scene_, t); });
     const auto largest = std::ranges::max_element(
         mesh.triangles, {}, [&](const PlaneTriangle& t) { return area_of(mesh, t); });
-    const bool tangents = material.normal_texture && !scene_.tangents.empty();
+    const bool tangents = framed && !scene_.tangents.empty();
     const std::array used{textures, textures, colours, tangents};
     std::array<Vec2, 3> places;
     for (std::size_t k = 0; k < 3; ++k)

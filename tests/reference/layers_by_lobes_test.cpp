@@ -110,7 +110,7 @@ TEST(LayersByLobes, UnderEvenLightGlossShowsWhatItsFacetsDoNotSpread) {
   add_room(scene, Point3(0.0), Point3(2.0), walls);
   const double cosine = std::sqrt(0.5);
   const Camera camera = look_at({0.5, 0.6, 1.0}, {1.1, 0.0, 1.0}, 1e-4);
-  const double even = even_reflectance(make_bsdf(walls[2], untextured(walls[2])), cosine).g;
+  const double even = even_reflectance(make_bsdf(walls[2], untextured(walls[2])), {cosine, 0.0, cosine}).g;
   ASSERT_GT(even, 0.02);
   auto layers = traced_layers(scene, camera, 8, 4096);
   const std::map<std::string, double> exact{{"diffuse.direct", even},

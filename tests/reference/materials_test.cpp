@@ -179,6 +179,21 @@ TEST(ReferenceMaterials, RoughWhiteMetalInAFurnaceIsInvisible) {
   }
 }
 
+TEST(ReferenceMaterials, BrushedWhiteMetalInAFurnaceIsInvisible) {
+  for (const auto& [roughness, strength] : {std::pair(0.1, 0.6), std::pair(0.3, 1.0)}) {
+    Scene scene = furnace(0.5, {});
+    Material metal = mirror(1.0);
+    metal.roughness = roughness;
+    metal.anisotropy = strength;
+    metal.anisotropy_direction = {0.6, 0.8};
+    add_box(scene, "metal", {0.3, 0.3, 0.3}, {0.7, 0.7, 0.7}, metal);
+    const MeanRadiance seen = radiance_seen(scene, {0.5, 0.6, 0.95}, {0.45, 0.5, 0.7}, 1024);
+    // The tables of lobes of two widths are good to 3e-3.
+    for (int band = 0; band < 3; ++band)
+      EXPECT_NEAR(seen.mean[band], 2.0 / pi, 4.0 * seen.error[band] + 3e-3 * 2.0 / pi) << roughness;
+  }
+}
+
 TEST(ReferenceMaterials, PolishedWhiteInAFurnaceIsInvisible) {
   Scene scene = furnace(0.5, {});
   Material polished = diffuse(1.0);

@@ -152,8 +152,9 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& 
   part.positions = decode_positions(at, *accessor);
   part.step = step_of_values(at.document, *accessor);
   part.normals = decode_normals(at, findings);
-  part.normal_map = normal_map_of(at);
-  if (part.normal_map)
+  part.tangent_map = tangent_map_of(at);
+  part.anisotropic = is_anisotropic(at);
+  if (part.tangent_map)
     part.tangents = decode_tangents(at);
   if (const auto* targets = find(at.json, "targets"); targets && !targets->empty()) {
     if (!at.document.settings.state.at)
@@ -163,9 +164,9 @@ static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& 
     apply_morph_targets(morph, "NORMAL", part.normals.values);
     apply_morph_targets(morph, "TANGENT", part.tangents.directions);
   }
-  if (part.normal_map)
+  if (part.tangent_map)
     part.tangents = usable_tangents(at, std::move(part.tangents), part.normals.values,
-                                    *part.normal_map, findings);
+                                    *part.tangent_map, findings);
   part.texcoords = decode_texcoords(at, part.positions.size(), findings);
   check_texcoords(at, findings);
   part.colors = decode_colors(at, findings);
@@ -296,9 +297,13 @@ static void add_part(const PrimitivePlace& at, const Part& part, const glm::dmat
 }
 
 /// Tangents that the file does not give, and room for the vertices that they make.
-static void complete(const PrimitivePlace& at, Part& part, double copies, Geometry& into) {
+static void complete(const PrimitivePlace& at, Part& part, double copies, Geometry& into,
+                     Findings& findings) {
   const auto given = static_cast<double>(part.positions.size());
-  settle_tangents(part);
+  if (settle_tangents(part))
+    findings.about("anisotropic surfaces without texture coordinates are brushed level, around the y "
+                   "axis of their meshes, in nodes",
+                   at.in.node);
   const auto [bytes, vertices] =
       size_of_vertices(copies, static_cast<double>(part.positions.size()) - given);
   into.size.bytes += bytes;
@@ -314,13 +319,13 @@ static void place_part(const PrimitivePlace& at, Part part, const PlacedNode& no
                    part.normals.values, part.tangents)) {
       if (!at.document.settings.state.at)
         findings.about("skins stand still, as the joints are in the file, in nodes", at.in.node);
-      complete(at, part, 1.0, into);
+      complete(at, part, 1.0, into, findings);
       return add_part(at, part, glm::dmat4(1.0), into.node, into, findings);
     }
     findings.about("skins without joints in the scene are left out in nodes", at.in.node);
   }
   const auto copies = instance_matrices(at.document, node);
-  complete(at, part, static_cast<double>(copies.size()), into);
+  complete(at, part, static_cast<double>(copies.size()), into, findings);
   if (copies.empty())
     findings.about("instanced nodes without an instance are left out", at.in.node);
   for (const auto& world : copies)

@@ -1,8 +1,10 @@
 #include "scenes/gltf/geometry/part.h"
 
 #include "scenes/gltf/geometry/mikktspace.h"
+#include "scenes/materials/normal_map.h"
 #include "scenes/materials/texture_lookup.h"
 
+#include <cmath>
 #include <limits>
 
 namespace meninas::gltf {
@@ -56,16 +58,33 @@ private:
 
 } // namespace
 
-void settle_tangents(Part& part) {
-  if (!part.normal_map || !part.tangents.directions.empty())
-    return;
+/// Of a corner's normal, or that of its face; zero where that is none.
+static glm::vec4 level_tangent_at(const Part& part, const Corners& corners, std::size_t k) {
+  const auto& p = part.positions;
+  Vec3 normal = part.normals.values.empty() ? Vec3(0.0) : part.normals.values[corners[k]];
+  if (!(glm::length(normal) > 0.0))
+    normal = glm::cross(p[corners[1]] - p[corners[0]], p[corners[2]] - p[corners[0]]);
+  const double length = glm::length(normal);
+  return length > 0.0 && std::isfinite(length) ? glm::vec4(level_tangent(normal / length), 1.0F)
+                                               : glm::vec4(0.0F);
+}
+
+bool settle_tangents(Part& part) {
+  if (!part.tangent_map || !part.tangents.directions.empty())
+    return false;
   std::vector<Vec2> texcoords;
-  const auto set = static_cast<std::size_t>(part.normal_map->texcoord_set);
+  const auto set = static_cast<std::size_t>(part.tangent_map->texcoord_set);
   texcoords.reserve(part.texcoords.size());
   for (const auto& sets : part.texcoords)
-    texcoords.push_back(transformed_texcoord(*part.normal_map, Vec2(sets[set])));
-  const auto made =
-      mikktspace_tangents({part.positions, part.normals.values, texcoords, part.triangles});
+    texcoords.push_back(transformed_texcoord(*part.tangent_map, Vec2(sets[set])));
+  auto made = mikktspace_tangents({part.positions, part.normals.values, texcoords, part.triangles});
+  bool level = false;
+  for (std::size_t t = 0; part.anisotropic && t < made.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (made[t][k] == glm::vec4(0.0F)) {
+        made[t][k] = level_tangent_at(part, part.triangles[t], k);
+        level = true;
+      }
   Division division(part);
   for (std::size_t t = 0; t < made.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
@@ -75,6 +94,7 @@ void settle_tangents(Part& part) {
     part.tangents.directions.emplace_back(tangent);
     part.tangents.signs.push_back(double{tangent.w});
   }
+  return level;
 }
 
 } // namespace meninas::gltf

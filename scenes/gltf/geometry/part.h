@@ -18,15 +18,17 @@ struct Part {
   std::vector<std::array<glm::vec2, 2>> texcoords;
   std::vector<glm::vec4> colors; ///< empty without COLOR_0
   Normals normals;
-  std::optional<TextureUse> normal_map;
-  Tangents tangents; ///< empty without a normal map
+  std::optional<TextureUse> tangent_map;
+  bool anisotropic = false;
+  Tangents tangents; ///< empty without a map for them
   std::vector<Corners> triangles;
   MaterialId material = none<MaterialId>;
   double step = 0.0; ///< of positions that the file rounds; 0: others
 };
 
-/// Gives a part with a normal map the tangents of MikkTSpace (mikktspace.h) if it has none.
-/// A vertex whose corners have several becomes so many.
-void settle_tangents(Part& part);
+/// Gives a part with a map for tangents those of MikkTSpace (mikktspace.h) if it has none.
+/// A vertex whose corners have several becomes so many. Where texture coordinates tell none and
+/// facets are anisotropic, tangents are level (materials/normal_map.h): whether there are any such.
+bool settle_tangents(Part& part);
 
 } // namespace meninas::gltf

@@ -41,15 +41,42 @@ std::optional<std::size_t> position_accessor(const PrimitivePlace& at) {
   return index_at(at.json["attributes"], "POSITION");
 }
 
-std::optional<TextureUse> normal_map_of(const PrimitivePlace& at) {
+/// Of what reflects at all.
+static const Json* lit_material(const PrimitivePlace& at) {
   const auto material = index_at(at.json, "material");
   if (!material)
-    return std::nullopt;
+    return nullptr;
   const Json& json = element(at.document.root, "materials", *material);
-  if (find(json, {"extensions", "KHR_materials_unlit"}))
+  return find(json, {"extensions", "KHR_materials_unlit"}) ? nullptr : &json;
+}
+
+static const Json* anisotropy_of(const Json& material) {
+  const auto* extension = find(material, {"extensions", "KHR_materials_anisotropy"});
+  return extension && number_or(*extension, "anisotropyStrength", 0.0) > 0.0 ? extension : nullptr;
+}
+
+bool is_anisotropic(const PrimitivePlace& at) {
+  const Json* material = lit_material(at);
+  return material && anisotropy_of(*material);
+}
+
+std::optional<TextureUse> tangent_map_of(const PrimitivePlace& at) {
+  const Json* material = lit_material(at);
+  if (!material)
     return std::nullopt;
   Findings said_with_the_material;
-  return read_texture_use(at.document, json, "normalTexture", "", said_with_the_material);
+  const auto read = [&](const Json& owner, std::string_view key) {
+    return read_texture_use(at.document, owner, key, "", said_with_the_material);
+  };
+  if (auto map = read(*material, "normalTexture"))
+    return map;
+  const Json* anisotropy = anisotropy_of(*material);
+  if (!anisotropy)
+    return std::nullopt;
+  TextureUse plain;
+  if (const auto directions = read(*anisotropy, "anisotropyTexture"))
+    plain.texcoord_set = directions->texcoord_set;
+  return plain;
 }
 
 std::size_t triangles_in(Mode mode, std::uint64_t corners) {
@@ -72,7 +99,7 @@ struct TangentNeeds {
   double per_vertex = 0.0, per_triangle = 0.0;
 };
 TangentNeeds tangent_needs(const PrimitivePlace& at) {
-  if (!normal_map_of(at))
+  if (!tangent_map_of(at))
     return {};
   const bool are_made = !at.json["attributes"].contains("TANGENT");
   return {sizeof(glm::vec4) + 4.0 * sizeof(double), are_made ? 256.0 : 0.0};

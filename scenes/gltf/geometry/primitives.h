@@ -44,8 +44,13 @@ Mode mode_of(const PrimitivePlace& at);
 /// None for a primitive that nothing can be seen of: glTF 2.0, 3.7.2.1 lets positions be absent.
 std::optional<std::size_t> position_accessor(const PrimitivePlace& at);
 
-/// The normal map of its material, if it is read.
-std::optional<TextureUse> normal_map_of(const PrimitivePlace& at);
+/// Whether its facets may have two widths (KHR_materials_anisotropy).
+bool is_anisotropic(const PrimitivePlace& at);
+
+/// The texture whose coordinates its tangents follow (materials/normal_map.h): the normal map of its
+/// material, if it is read, or that of anisotropy, as it were without its transform. None where
+/// nothing asks for tangents.
+std::optional<TextureUse> tangent_map_of(const PrimitivePlace& at);
 
 std::size_t triangles_in(Mode mode, std::uint64_t corners);
 

@@ -1,4 +1,5 @@
-// TANGENT of a primitive, for its normal map (materials/normal_map.h), and how matrices move it.
+// TANGENT of a primitive, for its normal map or its anisotropy (materials/normal_map.h), and how
+// matrices move it.
 //
 //   T' = A T / |A T|,   w' = w sign(det A)       A the linear part of the matrix
 //

@@ -337,5 +337,38 @@ TEST(GltfTangents, GivenAsTheyWouldBeMadeChangeNothing) {
   }
 }
 
+/// The square, of brushed metal, with its normals.
+GltfFile brushed_square() {
+  auto file = square();
+  file.json["materials"][0]["extensions"]["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.5}};
+  attributes(file)["NORMAL"] =
+      file.add_accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+  return file;
+}
+
+TEST(GltfTangents, OfAnisotropyAreThoseOfTheFile) {
+  EXPECT_EQ(load(with_tangent(brushed_square(), 0, 1, 0, 1)).tangents,
+            std::vector<glm::vec4>(4, glm::vec4(0, 1, 0, 1)));
+}
+
+TEST(GltfTangents, OfAnisotropyAreMadeFromTextureCoordinates) {
+  auto file = brushed_square();
+  // u grows upwards.
+  attributes(file)["TEXCOORD_0"] = file.add_accessor<float>({0, 0, 0, 1, 1, 1, 1, 0}, "VEC2");
+  const Scene scene = load(file);
+  EXPECT_EQ(scene.tangents, std::vector<glm::vec4>(4, glm::vec4(0, 1, 0, 1)));
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfTangents, OfAnisotropyWithoutCoordinatesAreLevelInTheMesh) {
+  auto file = brushed_square();
+  const Scene upright = load(file);
+  EXPECT_EQ(upright.tangents, std::vector<glm::vec4>(4, glm::vec4(1, 0, 0, 1)));
+  EXPECT_TRUE(warns(upright, {"without texture coordinates are brushed level", "'Quad'"}));
+  // What turns the mesh turns them.
+  file.json["nodes"][0]["rotation"] = {0.0, 0.0, std::sqrt(0.5), std::sqrt(0.5)}; // about z
+  EXPECT_LT(glm::distance(Vec3(load(file).tangents.at(0)), Vec3(0, 1, 0)), floats);
+}
+
 } // namespace
 } // namespace meninas::test

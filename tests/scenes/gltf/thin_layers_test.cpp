@@ -75,17 +75,38 @@ TEST(GltfThinLayers, IridescenceThatVariesIsLeftOutOrAMean) {
   EXPECT_TRUE(warns(limited, {"iridescence that a texture limits", "'shell'"}));
 }
 
-TEST(GltfThinLayers, AnisotropicLobesAreRoundAndAsBright) {
+TEST(GltfThinLayers, ReadAnisotropy) {
+  const Json model{{"metallicFactor", 1.0}, {"roughnessFactor", 0.4}};
   const Scene scene = with_extension(
-      "KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.0}},
-      {{"metallicFactor", 1.0}, {"roughnessFactor", 0.4}});
-  const double alpha = 0.16, along = alpha + (1.0 - alpha) * 0.25;
-  EXPECT_NEAR(std::pow(scene.materials.at(0).roughness, 4), alpha * along, 1e-12);
-  EXPECT_TRUE(warns(scene, {"anisotropic highlights are round", "'cloth'"}));
-  const Scene none = with_extension("KHR_materials_anisotropy", Json::object(),
-                                    {{"metallicFactor", 1.0}, {"roughnessFactor", 0.4}});
-  EXPECT_EQ(none.materials.at(0).roughness, 0.4);
+      "KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.0}}, model);
+  const Material& material = scene.materials.at(0);
+  EXPECT_EQ(material.roughness, 0.4);
+  EXPECT_EQ(material.anisotropy, 0.5);
+  EXPECT_EQ(material.anisotropy_direction, Vec2(std::cos(1.0), std::sin(1.0)));
+  EXPECT_TRUE(scene.ignored.empty());
+  const Scene none = with_extension("KHR_materials_anisotropy", {{"anisotropyRotation", 1.0}}, model);
+  EXPECT_EQ(none.materials.at(0).anisotropy, 0.0);
   EXPECT_TRUE(none.warnings.empty());
+  EXPECT_TRUE(none.tangents.empty());
+  EXPECT_NE(content_hash(scene), content_hash(none));
+  const Scene strong = with_extension("KHR_materials_anisotropy", {{"anisotropyStrength", 1.5}}, model);
+  EXPECT_EQ(strong.materials.at(0).anisotropy, 1.0);
+  EXPECT_TRUE(warns(strong, {"strengths of anisotropy were clamped", "'cloth'"}));
+}
+
+TEST(GltfThinLayers, ReadTheTextureOfAnisotropy) {
+  auto file = square();
+  const auto image = file.add_view(Bytes(8, 1));
+  file.json["images"] = Json::array({{{"bufferView", image}, {"mimeType", "image/png"}}});
+  file.json["textures"] = Json::array({{{"source", 0}}});
+  file.json["materials"][0]["extensions"]["KHR_materials_anisotropy"] = {
+      {"anisotropyStrength", 0.5}, {"anisotropyTexture", {{"index", 0}, {"texCoord", 1}}}};
+  const Scene scene = load(file);
+  ASSERT_TRUE(scene.materials.at(0).anisotropy_texture);
+  EXPECT_EQ(scene.materials.at(0).anisotropy_texture->texcoord_set, 1);
+  EXPECT_TRUE(warns(scene, {"texture coordinates that their materials ask for are missing"}));
+  file.json["materials"][0]["extensions"]["KHR_materials_anisotropy"]["anisotropyStrength"] = 0.0;
+  EXPECT_FALSE(load(file).materials.at(0).anisotropy_texture) << "nothing to be told";
 }
 
 TEST(GltfThinLayers, DispersionIsNamedWhereThereIsGlass) {

@@ -35,6 +35,13 @@ Material metal(double roughness) {
   return material;
 }
 
+/// Wider along an oblique axis than across it.
+Material brushed(Material material, double strength) {
+  material.anisotropy = strength;
+  material.anisotropy_direction = {0.6, 0.8};
+  return material;
+}
+
 Material pane(double roughness) {
   Material material = plastic(roughness);
   material.transmission = 0.7;
@@ -201,7 +208,10 @@ INSTANTIATE_TEST_SUITE_P(
                     NamedMaterial{"frosted", pane(0.5)}, NamedMaterial{"satin pane", pane(0.2)},
                     NamedMaterial{"velvet", with_sheen(plastic(1.0), 0.3)},
                     NamedMaterial{"waxed cloth", with_sheen(plastic(0.15), 0.6)},
-                    NamedMaterial{"lame", with_sheen(metal(0.4), 1.0)}),
+                    NamedMaterial{"lame", with_sheen(metal(0.4), 1.0)},
+                    NamedMaterial{"brushed along an axis", brushed(metal(0.4), 0.6)},
+                    NamedMaterial{"brushed coat", brushed(plastic(0.2), 0.4)},
+                    NamedMaterial{"brushed pane", brushed(pane(0.4), 0.7)}),
     [](const auto& given) {
       std::string name = given.param.name;
       std::ranges::replace(name, ' ', '_');

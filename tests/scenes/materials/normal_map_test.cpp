@@ -1,5 +1,6 @@
 #include "scenes/materials/normal_map.h"
 
+#include "scenes/materials/lobes.h"
 #include "scenes/shading_normal.h"
 #include "tests/support/globes.h"
 
@@ -137,6 +138,54 @@ TEST(NormalMap, StandsOnTheCurve) {
     const Direction flat = mapped_normal(globe, map_of(Vec3(0, 0, 1)), TriangleId{t}, Vec2(0.3));
     EXPECT_LT(glm::distance(flat, shading_normal(globe, TriangleId{t}, Vec2(0.3))), floats);
   }
+}
+
+// --- The axis of anisotropic facets
+
+Material brushed() {
+  Material material;
+  material.anisotropy = 0.5;
+  return material;
+}
+
+/// In the world, on the square.
+Vec3 axis_on(const Scene& scene, Vec2 direction, const Direction& normal = {0, 0, 1}) {
+  const Vec2 axis = facet_axis(scene, TriangleId{0}, Vec2(0.3, 0.3), direction, normal);
+  return to_world(normal, {axis.x, axis.y, 0.0});
+}
+
+TEST(FacetAxis, LiesInTheFrameOfTheImage) {
+  const Vec2 d(0.6, 0.8);
+  EXPECT_LT(glm::distance(axis_on(square(brushed()), d), Vec3(0.6, 0.8, 0.0)), floats);
+  // Turned by 90 degrees the image's right is the square's up, and its up the square's left.
+  Scene turned = square(brushed());
+  for (Vertex& v : turned.vertices)
+    v.texcoord[0] = {v.position.y, v.position.x};
+  EXPECT_LT(glm::distance(axis_on(turned, d), Vec3(-0.8, 0.6, 0.0)), floats);
+  // From behind it is the same line.
+  EXPECT_LT(glm::distance(axis_on(square(brushed()), d, {0, 0, -1}), Vec3(0.6, 0.8, 0.0)), floats);
+}
+
+TEST(FacetAxis, FollowsTangentsThatAreGiven) {
+  Scene scene = square(brushed());
+  scene.tangents.assign(4, glm::vec4(0, 1, 0, -1));
+  EXPECT_LT(glm::distance(axis_on(scene, {1.0, 0.0}), Vec3(0, 1, 0)), floats);
+  EXPECT_LT(glm::distance(axis_on(scene, {0.0, 1.0}), Vec3(1, 0, 0)), floats);
+}
+
+TEST(FacetAxis, IsLaidFlatOnTheNormal) {
+  const Direction leaning = glm::normalize(Vec3(0.6, 0.0, 0.8));
+  const Vec3 axis = axis_on(square(brushed()), {1.0, 0.0}, leaning);
+  EXPECT_LT(glm::distance(axis, Vec3(0.8, 0.0, -0.6)), floats);
+}
+
+TEST(FacetAxis, IsLevelWithoutTextureCoordinates) {
+  Scene wall = square(brushed());
+  for (Vertex& v : wall.vertices)
+    v.texcoord[0] = glm::vec2(0.0F);
+  EXPECT_LT(glm::distance(axis_on(wall, {1.0, 0.0}), Vec3(1, 0, 0)), floats);
+  EXPECT_EQ(level_tangent({0, 1, 0}), Vec3(1, 0, 0));
+  EXPECT_EQ(level_tangent({1, 0, 0}), Vec3(0, 0, -1));
 }
 
 } // namespace

@@ -41,8 +41,8 @@ TEST(Translucency, ReflectAndPassTheirSharesEvenly) {
       const Direction behind(-at_cosine(z));
       EXPECT_NEAR(evaluate(bsdf, at_cosine(0.6), behind)[band], tau / std::numbers::pi, 1e-12);
     }
-    EXPECT_NEAR(even_reflectance(bsdf, 0.3)[band], rho, 1e-12);
-    EXPECT_NEAR(even_transmittance(bsdf, 0.3)[band], tau, 1e-12);
+    EXPECT_NEAR(even_reflectance(bsdf, at_cosine(0.3))[band], rho, 1e-12);
+    EXPECT_NEAR(even_transmittance(bsdf, at_cosine(0.3))[band], tau, 1e-12);
   }
 }
 
@@ -99,7 +99,7 @@ TEST(Translucency, MeansAreThoseOfTheAngles) {
   Rgb mean(0.0);
   for (int k = 0; k < steps; ++k) {
     const double cosine = (k + 0.5) / steps;
-    mean += 2.0 * cosine * even_transmittance(bsdf, cosine) / double(steps);
+    mean += 2.0 * cosine * even_transmittance(bsdf, at_cosine(cosine)) / double(steps);
   }
   // The table of albedos and that of their means are apart by 1e-3.
   EXPECT_NEAR(diffuse_transmittance(coated, untextured(coated)).g, mean.g, 1e-3);
