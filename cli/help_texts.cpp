@@ -24,7 +24,9 @@ const std::map<std::string_view, std::vector<Example>>& all_examples() {
       {"solve",
        {{"meninas solve room.gltf -o room.glb", "solves once; `meninas render --solution room.glb` renders any view"},
         {"meninas solve room.gltf -o room.glb --per-node nodes.json",
-         "also writes area, radiosity and irradiance of each glTF node"}}},
+         "also writes area, radiosity and irradiance of each glTF node"},
+        {"meninas solve room.gltf -o room.glb --grid desk",
+         "also reports minimum, mean and uniformity of the illuminance on a node"}}},
       {"plan",
        {{"meninas plan room.gltf", "says what is in the file, what is odd about it, and how long a picture takes"}}},
       {"compare",
@@ -88,6 +90,13 @@ const std::map<std::string_view, std::string_view>& all_details() {
       {"--form-factors",
        "`rays` start all over an element. `hemicube` is the classic method, at the element's centre "
        "([how it errs](hemicube.md)). `analytic` is exact, for a few hundred elements."},
+      {"--grid",
+       "points are p = 0.2 * 5^log10(d) metres apart, d the longer side, or the shorter one where it is "
+       "half as long or less. Minimum, mean, maximum and uniformity (minimum / mean) are printed. Of a "
+       "double-sided face the sides that have light are reported ([illuminance](lux.md))."},
+      {"--ies",
+       "LIGHT is the node's name. The file's candela, in the light's colour, take the place of its "
+       "intensity; the luminaire aims along the node's -Z ([luminaires](lux.md#luminaires))."},
       {"--layers",
        "`light` splits the picture into nine layers that add up to it to the last bit: `emission`, "
        "`diffuse.direct` (light that came straight to the surface) and `diffuse.mirrored` (light that "
@@ -103,18 +112,30 @@ const std::map<std::string_view, std::string_view>& all_details() {
       {"--light-scale",
        "0.001464 (1/683) brings lights that were exported in candela and lux to W/sr and W/m². What "
        "glows stays as it is."},
+      {"--luminous-efficacy",
+       "what is photometric is K times what is radiometric: illuminance in lux is K times irradiance, by "
+       "the weights 0.2126, 0.7152 and 0.0722 of red, green and blue. IES files are divided by it."},
       {"--link-error",
        "the solve begins with few large nodes and divides those whose light is not linear to X. With "
        "far more `--elements` than X needs, more `--rays` help instead."},
+      {"--points",
+       "x, y, z in metres; without normals planes face up. Each point gets its illuminance and "
+       "irradiance: all of it, the direct part and the part that came by way of mirrors "
+       "([illuminance](lux.md))."},
       {"--snapshots", "see [progressive pictures](progressive.md)."},
       {"--solver",
        "all of them end at the error that `--tolerance` allows. `progressive` shoots light, brightest "
        "first, from a uniform mesh unless `--mesh` says otherwise. `hierarchical` is an older name of "
        "`--mesh hierarchical`."},
       {"--stats", "[all figures](stats.md)."},
+      {"--units",
+       "`photometric`: emission and the lights of KHR_lights_punctual are divided by "
+       "--luminous-efficacy. Pictures stay in W/m²/sr; lux and cd/m² are printed by `solve --points`, "
+       "`--grid` and `--per-node` and by `render --view`, whatever the file is in."},
       {"--variant", "`meninas plan` lists the names that `KHR_materials_variants` gives."},
       {"--view",
-       "the colours' range is printed; an EXR holds the numbers as well."},
+       "the colours' range is printed; an EXR holds the numbers as well. `illuminance` is that of pass one, "
+       "in lux, `luminance` that of the picture, in cd/m²: with a scale, and a line for each tenth of it."},
       {"--view-transform",
        "`neutral` is Khronos' PBR Neutral: colours stay as they are up to 0.8 and pale softly above. "
        "`agx` is the AgX of Blender and three.js. `srgb` clips. Parts of pixels at lamps' edges are shown so by the two passes. EXRs stay linear."}};

@@ -95,10 +95,12 @@ void check_view(const Options& command, const RunSettings& settings) {
   if (!settings.view) {
     return;
   }
+  const char* const reason = "has no effect with --view";
   refuse(command,
-         {"--layers", "--diffuse", "--samples", "--filter", "--pixel-error", "--glossy-samples",
-          "--exposure", "--view-transform", "--snapshots", "--error-map", "--error", "--time"},
-         "has no effect with --view");
+         {"--layers", "--exposure", "--view-transform", "--snapshots", "--error-map", "--error", "--time"},
+         reason);
+  if (settings.view != DebugView::luminance)
+    refuse(command, {"--diffuse", "--samples", "--filter", "--pixel-error", "--glossy-samples"}, reason);
   if (settings.view == DebugView::mirror_depth && settings.mode == PictureMode::radiosity) {
     throw UsageError("--view", "mirror-depth has no effect with --mode radiosity: its mirrors are "
                                "black");
