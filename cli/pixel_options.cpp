@@ -92,6 +92,9 @@ void check_layers(const RunSettings& settings, const std::vector<std::filesystem
 
 /// A view is no picture of light.
 void check_view(const Options& command, const RunSettings& settings) {
+  if (settings.view_top && settings.view != DebugView::illuminance &&
+      settings.view != DebugView::luminance)
+    throw UsageError("--view-top", "has no effect without --view illuminance or luminance");
   if (!settings.view) {
     return;
   }
@@ -152,6 +155,10 @@ void add_pixel_options(Options& command, RunSettings& settings, const std::strin
       "paint this in false colours instead of light",
       [&](const std::string& text) {
         settings.view = parse_choice("--view", text, choices_of(debug_views));
+      });
+  add("--view-top", "X", "the brightest colour of --view illuminance|luminance, lx or cd/m^2 [for the picture]",
+      [&](const std::string& text) {
+        settings.view_top = parse_number("--view-top", text, Sign::positive);
       });
   add("--filter", join_names(pixel_filters),
       fmt::format("pixel filter [{}]", name_of(RenderSettings{}.filter)),

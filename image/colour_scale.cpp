@@ -45,9 +45,10 @@ double lower_end(const ColourScale& scale) {
   return scale.scale == ErrorScale::magnitude ? 0.0 : -scale.top;
 }
 
-/// Whether a line between two values lies between these pixels; edges of things are none.
+/// Whether a line between two values lies between these pixels. Where values differ by more than a
+/// quarter of a step they are of different things, and lines would be no farther apart than they are wide.
 bool crosses(float a, float b, double step) {
-  return std::floor(a / step) != std::floor(b / step) && std::abs(double{a} - b) < step;
+  return std::floor(a / step) != std::floor(b / step) && std::abs(double{a} - b) < 0.25 * step;
 }
 
 } // namespace
@@ -97,7 +98,7 @@ void draw_scale(Image& picture, int top, const ColourScale& scale, int largest_d
   for (int k = 0; k <= ticks; ++k) {
     const int x = left + (right - left - 1) * k / ticks;
     fill(picture, x, y, x + layout.dot, y + layout.tick(), ink);
-    const std::string number = fmt::format("{:.3g}", from + length * k / ticks);
+    const std::string number = fmt::format("{:.5g}", from + length * k / ticks);
     const int width = text_width(number, layout.dot);
     const int start = std::clamp(x - width / 2, 1, std::max(1, picture.width - width - 1));
     draw_text(picture, start, y + layout.tick() + layout.dot, number, layout.dot, ink);

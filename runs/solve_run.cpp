@@ -94,8 +94,8 @@ static void report_points(const SolveRequest& request, std::vector<PointSet> set
   for (PointSet& set : sets) {
     auto light = irradiance_at_points(*solution.field.scene, reflected, set.points,
                                       point_query_settings(settings));
-    measured.push_back({std::move(set), std::move(light),
-                        request.settings.gltf.state.luminous_efficacy});
+    measured.push_back(without_points_inside(
+        {std::move(set), std::move(light), request.settings.gltf.state.luminous_efficacy}));
   }
   measured = without_dark_sides(std::move(measured));
   write_points(points_file(request), measured);

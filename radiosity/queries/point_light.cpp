@@ -40,7 +40,10 @@ std::vector<PointIrradiance> irradiance_at_points(const LightScene& light,
     const PointLight arrived = light_at(gathering, receiver, seed, spaces.local());
     const ArrivingLight all = arrived.all();
     const Rgb direct = arrived.from_source.total + arrived.emission.total + arrived.sky.total;
-    result[k] = {all.total, direct, all.mirrored};
+    const GatheredRays& met = spaces.local().gather.result;
+    const bool inside =
+        all.total == Rgb(0.0) && met.landed == 0.0 && met.escaped == 0.0 && met.cut == 0.0;
+    result[k] = {all.total, direct, all.mirrored, inside};
   });
   return result;
 }

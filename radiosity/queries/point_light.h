@@ -36,6 +36,7 @@ struct PointQuerySettings {
 /// W/m^2
 struct PointIrradiance {
   Rgb total{0.0}, direct{0.0}, by_mirrors{0.0};
+  bool inside = false; ///< of something: no light is there, and all its rays end on backs and dark sides
 };
 
 /// In the order of the points. `reflected` is B by ElementId, emission left out. A point within the

@@ -55,6 +55,7 @@ Json set_json(const MeasuredSet& measured) {
     json["width"] = grid->width;
     json["points_along"] = grid->along;
     json["points_across"] = grid->across;
+    json["points_inside"] = measured.inside;
   }
   json["minimum"] = summary.minimum;
   json["mean"] = summary.mean;
@@ -78,6 +79,21 @@ std::vector<double> illuminances(const MeasuredSet& measured) {
   for (const PointIrradiance& light : measured.light)
     lux.push_back(luminous(measured.luminous_efficacy, light.total));
   return lux;
+}
+
+MeasuredSet without_points_inside(MeasuredSet measured) {
+  if (!measured.set.grid)
+    return measured;
+  MeasuredSet kept{{measured.set.name, {}, measured.set.grid}, {}, measured.luminous_efficacy};
+  for (std::size_t k = 0; k < measured.light.size(); ++k) {
+    if (measured.light[k].inside)
+      continue;
+    kept.set.points.push_back(measured.set.points[k]);
+    kept.light.push_back(measured.light[k]);
+  }
+  kept.inside = measured.light.size() - kept.light.size();
+  // All of a dark room is no inside of anything.
+  return kept.light.empty() ? measured : kept;
 }
 
 std::vector<MeasuredSet> without_dark_sides(std::vector<MeasuredSet> sets) {
@@ -137,6 +153,9 @@ std::string summary_line(const MeasuredSet& measured) {
                       summary.minimum, summary.mean, summary.maximum);
   if (grid)
     line += fmt::format(", uniformity {:.2f}", summary.uniformity);
+  if (measured.inside > 0)
+    line += fmt::format(" ({} point{} inside of things left out)", measured.inside,
+                        measured.inside == 1 ? "" : "s");
   return line;
 }
 

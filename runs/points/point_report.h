@@ -13,10 +13,14 @@ struct MeasuredSet {
   PointSet set;
   std::vector<PointIrradiance> light; ///< by point
   double luminous_efficacy = 683.0;   ///< K, lm/W
+  std::size_t inside = 0;             ///< points of a grid that were left out
 };
 
 /// In lux.
 std::vector<double> illuminances(const MeasuredSet& measured);
+
+/// A grid without points that lie inside of things, as of a floor on which a cupboard stands.
+MeasuredSet without_points_inside(MeasuredSet measured);
 
 /// Grids on backs that nothing lights are left out, as are fronts beside backs that are lit.
 std::vector<MeasuredSet> without_dark_sides(std::vector<MeasuredSet> sets);

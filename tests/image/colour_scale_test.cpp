@@ -46,9 +46,9 @@ TEST(ColourScale, EdgesOfThingsAreNoLines) {
   Channel values(8, 2);
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 8; ++x)
-      values.at(x, y) = x < 4 ? 11.0F : 29.0F; // over a tenth of 50 apart
+      values.at(x, y) = x < 4 ? 14.0F : 16.0F; // over a quarter of a tenth of 50 apart
   const Image picture = false_colours(values, all_known(values), {.title = "", .top = 50.0});
-  EXPECT_EQ(picture.at(3, 0), scale_colour(0.22, ErrorScale::magnitude));
+  EXPECT_EQ(picture.at(3, 0), scale_colour(0.28, ErrorScale::magnitude));
   Channel known = all_known(values);
   known.at(0, 0) = 0.0F;
   EXPECT_EQ(false_colours(values, known, {.title = "", .top = 50.0}).at(0, 0), glm::vec3(0.0F));

@@ -80,6 +80,21 @@ TEST(PointSets, SidesWithoutLightAreLeftOut) {
   EXPECT_EQ(kept({measured("points", Rgb(0.0))}), (Names{"points"}));
 }
 
+TEST(PointSets, GridsLeaveOutWhatLiesInsideOfThings) {
+  MeasuredSet set = measured("floor", Rgb(1.0));
+  set.set.points.push_back({{4, 5, 6}, {0, 1, 0}});
+  set.light.push_back({Rgb(0.0), Rgb(0.0), Rgb(0.0), true});
+  EXPECT_EQ(without_points_inside(set).light.size(), 2U) << "points that were asked for are all there";
+  set.set.grid = MeasuringGrid{.node = "floor"};
+  const MeasuredSet kept = without_points_inside(set);
+  EXPECT_EQ(kept.light.size(), 1U);
+  EXPECT_EQ(kept.set.points.size(), 1U);
+  EXPECT_EQ(kept.inside, 1U);
+  EXPECT_THAT(summary_line(kept), HasSubstr("(1 point inside of things left out)"));
+  set.light.front() = set.light.back();
+  EXPECT_EQ(without_points_inside(set).light.size(), 2U);
+}
+
 TEST(PointSets, NamesOfTables) {
   EXPECT_THROW(check_points_file("a.txt"), OutputError);
   EXPECT_NO_THROW(check_points_file("a.csv"));

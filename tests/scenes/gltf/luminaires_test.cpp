@@ -25,7 +25,7 @@ GltfFile lit_square(const Json& use, const std::string& ies = profile) {
   file.json["extensionsUsed"] = {"EXT_lights_ies"};
   Json node{{"name", "spot"}, {"translation", {0.0, 0.0, 2.0}}};
   node["extensions"]["EXT_lights_ies"] = use;
-  file.json["scenes"][0]["nodes"].push_back(file.add_node(node));
+  file.add_node(node);
   return file;
 }
 
@@ -65,8 +65,7 @@ TEST(GltfLuminaires, AlsoFromBufferViewsAndFiles) {
   const auto view = file.add_view(Bytes(profile.begin(), profile.end()));
   file.json["extensions"]["EXT_lights_ies"]["lights"][0] = {{"bufferView", view}, {"mimeType", "application/x-ies-lm-63"}};
   EXPECT_EQ(load(file).lights.at(0).distribution->candela, by_uri.lights.at(0).distribution->candela);
-  EXPECT_EQ(content_hash(load(lit_square({{"light", 0}}))), content_hash(by_uri));
-  EXPECT_NE(content_hash(load(lit_square({{"light", 0}}, profile + " "))), 0U);
+  EXPECT_EQ(content_hash(load(file)), content_hash(by_uri));
 
   const TemporaryFolder folder;
   folder.write("lamp.ies", profile);
@@ -99,7 +98,7 @@ TEST(GltfLuminaires, TakeThePlaceOfALight) {
   for (const int light : {0, 1}) {
     Json node{{"name", light == 0 ? "desk lamp" : "sun"}, {"translation", {0.0, 0.0, 2.0}}};
     node["extensions"]["KHR_lights_punctual"]["light"] = light;
-    file.json["scenes"][0]["nodes"].push_back(file.add_node(node));
+    file.add_node(node);
   }
   const TemporaryFolder folder;
   const std::string ies = folder.write("lamp.ies", profile).string();
@@ -125,7 +124,7 @@ TEST(GltfUnits, PhotometricNumbersAreDividedByTheEfficacy) {
   Json node{{"name", "bulb"}};
   node["translation"] = {0.0, 0.0, 1.0};
   node["extensions"]["KHR_lights_punctual"]["light"] = 0;
-  file.json["scenes"][0]["nodes"].push_back(file.add_node(node));
+  file.add_node(node);
   const SceneState photometric{.units = LightUnits::photometric, .luminous_efficacy = 500.0};
   const Scene scene = load(file, {.state = photometric});
   EXPECT_NEAR(scene.materials.at(0).emission.r, 0.002, 1e-15);

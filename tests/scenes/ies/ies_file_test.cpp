@@ -108,7 +108,7 @@ TEST(IesFile, BrokenFilesAreReadOrRefused) {
   int read = 0, refused = 0;
   for (int k = 0; k < 20'000; ++k) {
     std::string text = whole;
-    for (std::size_t edits = 1 + below(3); edits > 0; --edits) {
+    for (std::size_t edits = 1 + below(3); edits > 0 && !text.empty(); --edits) {
       const std::size_t at = below(text.size());
       switch (below(4)) {
       case 0: text[at] = signs[below(signs.size())]; break;
