@@ -56,13 +56,41 @@ const std::map<std::string_view, std::vector<std::string_view>>& first_options()
       {"render",
        {"output", "quality", "error", "time", "size", "camera", "exposure", "diffuse", "mode",
         "background", "solution", "stats"}},
-      {"solve", {"output", "quality", "elements", "background", "per-node", "stats"}},
+      {"solve",
+       {"output", "quality", "elements", "background", "per-node", "points", "grid", "units", "stats"}},
       {"plan", {"json", "quality", "size", "camera", "background"}},
       {"compare", {"output", "quality", "reference", "max-seconds", "size", "camera", "exposure"}}};
   return options;
 }
 
-const std::map<std::string_view, std::string_view>& all_details() {
+/// Of options about lamps, units and numbers at points.
+const std::map<std::string_view, std::string_view>& light_details() {
+  static const std::map<std::string_view, std::string_view> details{
+      {"--grid",
+       "points are p = 0.2 * 5^log10(d) metres apart, d the longer side, or the shorter one where it is "
+       "half as long or less. Minimum, mean, maximum and uniformity (minimum / mean) are printed. Of a "
+       "double-sided face the sides that have light are reported ([illuminance](lux.md))."},
+      {"--ies",
+       "LIGHT is the node's name. The file's candela, in the light's colour, take the place of its "
+       "intensity; the luminaire aims along the node's -Z ([luminaires](lux.md#luminaires))."},
+      {"--light-scale",
+       "0.001464 (1/683) brings lights that were exported in candela and lux to W/sr and W/m². What "
+       "glows stays as it is."},
+      {"--luminous-efficacy",
+       "what is photometric is K times what is radiometric: illuminance in lux is K times irradiance, by "
+       "the weights 0.2126, 0.7152 and 0.0722 of red, green and blue. IES files are divided by it."},
+      {"--points",
+       "x, y, z in metres; without normals planes face up. Each point gets its illuminance and "
+       "irradiance: all of it, the direct part and the part that came by way of mirrors "
+       "([illuminance](lux.md))."},
+      {"--units",
+       "`photometric`: emission and the lights of KHR_lights_punctual are divided by "
+       "--luminous-efficacy. Pictures stay in W/m²/sr; lux and cd/m² are printed by `solve --points`, "
+       "`--grid` and `--per-node` and by `render --view`, whatever the file is in."}};
+  return details;
+}
+
+const std::map<std::string_view, std::string_view>& other_details() {
   static const std::map<std::string_view, std::string_view> details{
       {"--at",
        "translations, rotations, scales and morph weights of all animations, by the keys around that "
@@ -90,13 +118,6 @@ const std::map<std::string_view, std::string_view>& all_details() {
       {"--form-factors",
        "`rays` start all over an element. `hemicube` is the classic method, at the element's centre "
        "([how it errs](hemicube.md)). `analytic` is exact, for a few hundred elements."},
-      {"--grid",
-       "points are p = 0.2 * 5^log10(d) metres apart, d the longer side, or the shorter one where it is "
-       "half as long or less. Minimum, mean, maximum and uniformity (minimum / mean) are printed. Of a "
-       "double-sided face the sides that have light are reported ([illuminance](lux.md))."},
-      {"--ies",
-       "LIGHT is the node's name. The file's candela, in the light's colour, take the place of its "
-       "intensity; the luminaire aims along the node's -Z ([luminaires](lux.md#luminaires))."},
       {"--layers",
        "`light` splits the picture into nine layers that add up to it to the last bit: `emission`, "
        "`diffuse.direct` (light that came straight to the surface) and `diffuse.mirrored` (light that "
@@ -109,29 +130,15 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "Salzman and Aupperle 1991) and is the fastest for a given accuracy in most scenes. `uniform` has "
        "a row of form factors for every element, which `--factors`, `--form-factors hemicube|analytic`, "
        "`--solver progressive` and `--interpolation average` choose by themselves."},
-      {"--light-scale",
-       "0.001464 (1/683) brings lights that were exported in candela and lux to W/sr and W/m². What "
-       "glows stays as it is."},
-      {"--luminous-efficacy",
-       "what is photometric is K times what is radiometric: illuminance in lux is K times irradiance, by "
-       "the weights 0.2126, 0.7152 and 0.0722 of red, green and blue. IES files are divided by it."},
       {"--link-error",
        "the solve begins with few large nodes and divides those whose light is not linear to X. With "
        "far more `--elements` than X needs, more `--rays` help instead."},
-      {"--points",
-       "x, y, z in metres; without normals planes face up. Each point gets its illuminance and "
-       "irradiance: all of it, the direct part and the part that came by way of mirrors "
-       "([illuminance](lux.md))."},
       {"--snapshots", "see [progressive pictures](progressive.md)."},
       {"--solver",
        "all of them end at the error that `--tolerance` allows. `progressive` shoots light, brightest "
        "first, from a uniform mesh unless `--mesh` says otherwise. `hierarchical` is an older name of "
        "`--mesh hierarchical`."},
       {"--stats", "[all figures](stats.md)."},
-      {"--units",
-       "`photometric`: emission and the lights of KHR_lights_punctual are divided by "
-       "--luminous-efficacy. Pictures stay in W/m²/sr; lux and cd/m² are printed by `solve --points`, "
-       "`--grid` and `--per-node` and by `render --view`, whatever the file is in."},
       {"--variant", "`meninas plan` lists the names that `KHR_materials_variants` gives."},
       {"--view",
        "the colours' range is printed; an EXR holds the numbers as well. `illuminance` is that of pass one, "
@@ -158,8 +165,11 @@ bool matters_most(std::string_view command, const OptionInfo& option) {
 }
 
 std::string_view details_of(std::string_view option) {
-  const auto found = all_details().find(option);
-  return found == all_details().end() ? std::string_view{} : found->second;
+  for (const auto* details : {&light_details(), &other_details()}) {
+    if (const auto found = details->find(option); found != details->end())
+      return found->second;
+  }
+  return {};
 }
 
 } // namespace meninas
