@@ -3,6 +3,7 @@
 #include "scenes/gltf/stages.h"
 #include "scenes/ies/ies_file.h"
 #include "scenes/names.h"
+#include "scenes/photometry.h"
 
 #include <fmt/format.h>
 
@@ -96,7 +97,10 @@ void put_luminaires(const Document& document, std::span<const Rgb> colours, Scen
     light.distribution = profile_of(read_whole_file(file, document.settings.memory_limit), file, "");
     light.kind = PunctualKind::point;
     light.intensity = intensity_of(document.settings.state, colours[k]);
-    findings.about("IES files say how bright lights are, not the file's intensity and cone", name);
+    const double lumens = document.settings.state.light_scale * luminous(1.0, colours[k]) *
+                          luminous_flux(*light.distribution);
+    findings.about("IES files say how bright lights are, not the file's intensity and cone",
+                   fmt::format("{}, {:.4g} lm", name, lumens));
   }
 }
 
