@@ -76,7 +76,7 @@ TEST(GltfLuminaires, AlsoFromBufferViewsAndFiles) {
 
 TEST(GltfLuminaires, AnotherDistributionIsAnotherScene) {
   std::string other = profile;
-  other.replace(other.rfind("3 0"), 1, "4");
+  other[other.rfind("3 0")] = '4';
   EXPECT_NE(content_hash(load(lit_square({{"light", 0}}))), content_hash(load(lit_square({{"light", 0}}, other))));
 }
 
