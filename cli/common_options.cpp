@@ -15,6 +15,8 @@ constexpr const char* pass_one_group = "Accuracy of pass one";
 
 const Choices<Quality> qualities{
     {"draft", Quality::draft}, {"normal", Quality::normal}, {"fine", Quality::fine}};
+const Choices<LightUnits> units{{"radiometric", LightUnits::radiometric},
+                                {"photometric", LightUnits::photometric}};
 const Choices<FormFactorMethod> form_factor_methods{{"rays", FormFactorMethod::rays},
                                                     {"hemicube", FormFactorMethod::hemicube},
                                                     {"analytic", FormFactorMethod::analytic}};
@@ -238,13 +240,32 @@ void add_pass_one_options(Options& command, CommonOptions& options) {
 }
 
 void add_light_options(Options& command, CommonOptions& options) {
+  SceneState& state = options.settings.gltf.state;
   add_sky_options(command, options.settings);
   command.add("--light-scale", "X",
-              "multiply the intensity of point, spot and directional lights [1]",
+              "multiply the intensity of point, spot and directional lights, and of luminaires [1]",
               [&](const std::string& text) {
-                options.settings.gltf.state.light_scale =
-                    parse_number("--light-scale", text, Sign::positive);
+                state.light_scale = parse_number("--light-scale", text, Sign::positive);
               });
+  add_choice(command, "--units", units, state.units,
+             "what the file's light is in: W/m^2/sr, W/sr and W/m^2, or cd/m^2, cd and lx",
+             [&](LightUnits chosen) { state.units = chosen; });
+  command.add("--luminous-efficacy", "K",
+              fmt::format("lm/W between photometric and radiometric numbers [{}]",
+                          state.luminous_efficacy),
+              [&](const std::string& text) {
+                state.luminous_efficacy =
+                    parse_number("--luminous-efficacy", text, Sign::positive);
+              });
+  command.add_repeatable("--ies", "LIGHT=FILE",
+                         "put the luminaire of an IES file in place of a point or spot light; may be "
+                         "given several times",
+                         [&](const std::string& text) {
+                           const auto split = text.find('=');
+                           if (split == 0 || split == std::string::npos || split + 1 == text.size())
+                             throw UsageError("--ies", "takes LIGHT=FILE, not '" + text + "'");
+                           state.luminaires[text.substr(0, split)] = text.substr(split + 1);
+                         });
 }
 
 void add_run_options(Options& command, CommonOptions& options) {

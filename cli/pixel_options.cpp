@@ -92,13 +92,18 @@ void check_layers(const RunSettings& settings, const std::vector<std::filesystem
 
 /// A view is no picture of light.
 void check_view(const Options& command, const RunSettings& settings) {
+  if (settings.view_top && settings.view != DebugView::illuminance &&
+      settings.view != DebugView::luminance)
+    throw UsageError("--view-top", "has no effect without --view illuminance or luminance");
   if (!settings.view) {
     return;
   }
+  const char* const reason = "has no effect with --view";
   refuse(command,
-         {"--layers", "--diffuse", "--samples", "--filter", "--pixel-error", "--glossy-samples",
-          "--exposure", "--view-transform", "--snapshots", "--error-map", "--error", "--time"},
-         "has no effect with --view");
+         {"--layers", "--exposure", "--view-transform", "--snapshots", "--error-map", "--error", "--time"},
+         reason);
+  if (settings.view != DebugView::luminance)
+    refuse(command, {"--diffuse", "--samples", "--filter", "--pixel-error", "--glossy-samples"}, reason);
   if (settings.view == DebugView::mirror_depth && settings.mode == PictureMode::radiosity) {
     throw UsageError("--view", "mirror-depth has no effect with --mode radiosity: its mirrors are "
                                "black");
@@ -150,6 +155,10 @@ void add_pixel_options(Options& command, RunSettings& settings, const std::strin
       "paint this in false colours instead of light",
       [&](const std::string& text) {
         settings.view = parse_choice("--view", text, choices_of(debug_views));
+      });
+  add("--view-top", "X", "the brightest colour of --view illuminance|luminance, lx or cd/m^2 [for the picture]",
+      [&](const std::string& text) {
+        settings.view_top = parse_number("--view-top", text, Sign::positive);
       });
   add("--filter", join_names(pixel_filters),
       fmt::format("pixel filter [{}]", name_of(RenderSettings{}.filter)),

@@ -28,7 +28,7 @@ struct RenderOptions {
 void add_outputs(Options& command, RenderOptions& options) {
   RenderRequest& request = options.request;
   command.add_repeatable("-o,--output", "FILE",
-                         "picture, .exr (linear) or .png; may be given several times [SCENE.png]",
+                         "picture, .exr or .hdr (linear) or .png; may be given several times [SCENE.png]",
                          [&](const std::string& text) { request.pictures.emplace_back(text); });
   add_file(command, "--solution", request.solution,
            "render a solution written by `meninas solve` instead of solving");
@@ -153,11 +153,10 @@ void check_diffuse(const RunSettings& settings) {
   }
 }
 
-bool has_exr(const RenderOptions& options) {
-  const auto is_exr = [](const std::filesystem::path& file) {
-    return picture_format(file) == PictureFormat::exr;
-  };
-  return std::ranges::any_of(options.request.pictures, is_exr);
+bool has_format(const RenderOptions& options, PictureFormat format) {
+  return std::ranges::any_of(options.request.pictures, [&](const std::filesystem::path& file) {
+    return picture_format(file) == format;
+  });
 }
 
 void check_error_map(const RenderOptions& options) {
@@ -168,7 +167,7 @@ void check_error_map(const RenderOptions& options) {
     throw UsageError("--error-map", "has no effect with --mode reference, which has the layer "
                                     "'variance'");
   }
-  if (!has_exr(options)) {
+  if (!has_format(options, PictureFormat::exr)) {
     throw UsageError("--error-map", "needs an EXR to write it to");
   }
 }
@@ -233,6 +232,8 @@ RenderRequest& completed_request(const Options& command, RenderOptions& options)
   check_error_map(options);
   check_goal(command, options);
   check_pixel_options(command, options.common.settings, options.request.pictures);
+  if (options.common.settings.view && has_format(options, PictureFormat::hdr))
+    throw UsageError("--view", "has no light for a .hdr: an .exr holds its numbers");
   check_diffuse(options.common.settings);
   check_pass_one_options(command, options.common.settings);
   take_snapshots(options);

@@ -1,6 +1,9 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/pixel_options.h"
+#include "cli/values.h"
 #include "runs/solve_run.h"
+#include "scenes/errors.h"
 
 namespace meninas {
 namespace {
@@ -10,8 +13,47 @@ struct SolveOptions {
   SolveRequest request;
 };
 
+constexpr const char* points_group = "Numbers at points";
+
+void add_point_options(Options& command, PointRequest& request) {
+  const auto add_length = [&](const char* option, const char* description, double& length) {
+    command
+        .add(option, "METRES", description,
+             [&length, option](const std::string& text) {
+               length = parse_number(option, text, Sign::any);
+               if (length < 0.0)
+                 throw UsageError(option, "cannot be negative");
+             })
+        .group(points_group);
+  };
+  add_file(command, "--points", request.points,
+           "report the light at the points of a .csv: x,y,z and the normal nx,ny,nz")
+      .group(points_group);
+  command
+      .add_repeatable("--grid", "NODE",
+                      "report the light on a grid over each face of a node, spaced as EN 12464-1 "
+                      "says; may be given several times",
+                      [&](const std::string& text) { request.grids.push_back(text); })
+      .group(points_group);
+  add_length("--grid-margin", "--grid: leave out a margin along the face's outline [0]",
+             request.grid.margin);
+  add_length("--grid-height", "--grid: put the points so high above the face [0]",
+             request.grid.height);
+  add_file(command, "--points-out", request.out,
+           "table of --points and --grid, .csv or .json [SOLUTION.points.csv]")
+      .group(points_group);
+}
+
+void check_point_options(const Options& command, const PointRequest& request) {
+  if (request.grids.empty())
+    refuse(command, {"--grid-margin", "--grid-height"}, "has no effect without --grid");
+  if (!request.asks())
+    refuse(command, {"--points-out"}, "has no effect without --points or --grid");
+}
+
 void run(const Options& command, SolveOptions& options) {
   check_pass_one_options(command, options.common.settings);
+  check_point_options(command, options.request.points);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
   Console console(options.common.verbosity);
@@ -30,12 +72,13 @@ Command add_solve_command(Options& program) {
            [=](const std::string& text) { options->request.solution = text; })
       .required();
   add_file(command, "--per-node", options->request.per_node,
-           "write area, emission, radiosity and irradiance of each glTF node as JSON");
+           "write area, emission, radiosity, irradiance and illuminance of each glTF node as JSON");
   add_file(command, "--stats", options->request.stats, "write the figures of the run as JSON");
   add_file(command, "--factors", options->request.factors, "write the form factors for later runs");
   add_file(command, "--reuse", options->request.reuse,
            "use the form factors of an earlier run; only emission and diffuse reflectances may "
            "have changed");
+  add_point_options(command, options->request.points);
   add_quality(command, options->common);
   add_state_options(command, options->common);
   add_light_options(command, options->common);

@@ -35,11 +35,13 @@ PictureFormat picture_format(const fs::path& file) {
     return PictureFormat::exr;
   if (extension == ".png")
     return PictureFormat::png;
+  if (extension == ".hdr")
+    return PictureFormat::hdr;
   throw OutputError(
       file.string(), "",
       extension.empty()
-          ? "a picture's name must end in .exr or .png"
-          : fmt::format("cannot write pictures as '{}', only .exr and .png", extension));
+          ? "a picture's name must end in .exr, .png or .hdr"
+          : fmt::format("cannot write pictures as '{}', only .exr, .png and .hdr", extension));
 }
 
 static void expect_picture(const Image& picture) {
@@ -99,6 +101,25 @@ void write_exr(const fs::path& file, const Image& picture, std::span<const Layer
 
   write_whole_file(file, encoded_as(file.string(),
                                     [&] { return encode_exr(picture, layers, type, attributes); }));
+}
+
+static std::vector<std::byte> encode_hdr(const Image& picture) {
+  const decoder::Table& table = decoder::module_table();
+  decoder::Encoded encoded =
+      table.encode_hdr(&picture.pixels.front().r, picture.width, picture.height);
+  if (encoded.owner == nullptr)
+    throw std::runtime_error(encoded.error);
+  const auto* bytes = reinterpret_cast<const std::byte*>(encoded.bytes);
+  std::vector<std::byte> copy(bytes, bytes + encoded.size);
+  table.release_encoded(&encoded);
+  return copy;
+}
+
+void write_hdr(const fs::path& file, const Image& picture) {
+  expect_picture(picture);
+  if (picture_format(file) != PictureFormat::hdr)
+    throw OutputError(file.string(), "", "a Radiance picture's name must end in .hdr");
+  write_whole_file(file, encoded_as(file.string(), [&] { return encode_hdr(picture); }));
 }
 
 std::vector<std::byte> encode_png(const Image& picture, const DisplaySettings& settings) {

@@ -1,5 +1,5 @@
 // Pictures in and out of files. They are written by the libraries of their formats,
-// OpenEXR and libpng, and read, from many formats, by OpenImageIO,
+// OpenEXR and libpng, and read, from many formats, by OpenImageIO, which also writes Radiance pictures,
 // in one shared module that is opened with the first picture that is read,
 // because linking OpenImageIO costs more at every start than a draft picture takes.
 //
@@ -29,7 +29,7 @@ namespace meninas {
 void preload_picture_reader();
 
 /// What an output name asks for, by its extension (in any case). Throws OutputError for any other.
-enum class PictureFormat { exr, png };
+enum class PictureFormat { exr, png, hdr };
 PictureFormat picture_format(const std::filesystem::path& file);
 
 /// Linear EXR of one part:
@@ -40,6 +40,10 @@ PictureFormat picture_format(const std::filesystem::path& file);
 void write_exr(const std::filesystem::path& file, const Image& picture,
                std::span<const Layer> layers = {}, PixelType type = PixelType::half,
                const Attributes& attributes = {});
+
+/// Linear Radiance picture of 8 bits a channel and a common exponent (Ward 1991): values are within 1 % of
+/// the brightest channel of theirs. No value may be NaN; negative ones become 0.
+void write_hdr(const std::filesystem::path& file, const Image& picture);
 
 /// How a PNG shows linear light: times 2^exposure, and then as the transform has it.
 struct DisplaySettings {

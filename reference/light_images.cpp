@@ -37,6 +37,8 @@ bool is_within(const Bounds& bounds, const Point3& x) {
 PunctualLight reflected_in(const Plane& plane, PunctualLight light) {
   light.position = reference::reflected_in(plane, light.position);
   light.direction -= 2.0 * glm::dot(light.direction, plane.normal) * plane.normal;
+  for (int axis = 0; axis < 3; ++axis)
+    light.frame[axis] -= 2.0 * glm::dot(light.frame[axis], plane.normal) * plane.normal;
   return light;
 }
 

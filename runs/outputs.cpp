@@ -109,6 +109,10 @@ void write_pictures(const std::vector<fs::path>& files, const WrittenPicture& pi
       write_exr(file, picture.image, picture.layers, type, attributes);
       continue;
     }
+    if (picture_format(file) == PictureFormat::hdr) {
+      write_hdr(file, picture.image);
+      continue;
+    }
     if (!exposure) {
       exposure = automatic_exposure(picture.image);
       note(events, fmt::format("exposure {:+.2f} EV (automatic)", *exposure));

@@ -13,7 +13,7 @@
 namespace meninas {
 
 struct OutputFiles {
-  std::vector<std::filesystem::path> pictures;   ///< .exr or .png
+  std::vector<std::filesystem::path> pictures;   ///< .exr, .png or .hdr
   std::optional<std::filesystem::path> solution; ///< .glb
   std::vector<std::filesystem::path> texts;
 };

@@ -14,6 +14,9 @@
 namespace meninas {
 
 Scene under_background(Scene scene, const RunSettings& settings) {
+  if (settings.environment.sky && settings.gltf.state.luminous_efficacy != lux_per_watt)
+    throw UsageError("--luminous-efficacy",
+                     fmt::format("does not go with --sky, whose light is that of {:g} lm/W", lux_per_watt));
   surround(scene, settings.background, settings.environment);
   return scene;
 }

@@ -109,7 +109,7 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
                                                            settings.pass_one, events, figures)
                                           : solve_lit_scene(std::move(scene), settings.pass_one,
                                                             std::nullopt, events, figures);
-    return render_view(lit, camera, size, request.settings, events, figures);
+    return render_view(lit, camera, size, settings_for(lit.field, request.settings), events, figures);
   }
   if (!request.solution) {
     const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);

@@ -37,6 +37,7 @@ struct RunSettings : TwoPassChoice {
   PictureMode mode = PictureMode::hybrid;
   std::optional<Projection> projection; ///< in place of the camera's
   std::optional<DebugView> view;     ///< painted instead of light
+  std::optional<double> view_top;    ///< the brightest colour of a view in lx or cd/m^2
   std::optional<double> max_error;   ///< of a reference
   std::optional<double> max_seconds; ///< of a reference
   std::optional<Rgb> background;     ///< radiance beyond the scene, from everywhere

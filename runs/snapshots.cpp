@@ -22,7 +22,10 @@ public:
     render_.layers = WithLayers::no; // of an average nothing is known but the sum
     render_.diffuse.term = DiffuseTerm::interpolated; // light on its way is as soft as it is
     for (const fs::path& file : like) {
-      extensions_.insert(picture_format(file) == PictureFormat::exr ? ".exr" : ".png");
+      const PictureFormat format = picture_format(file);
+      extensions_.insert(format == PictureFormat::exr   ? ".exr"
+                         : format == PictureFormat::hdr ? ".hdr"
+                                                        : ".png");
     }
   }
 

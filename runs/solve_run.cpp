@@ -3,6 +3,8 @@
 #include "radiosity/transport/factor_file.h"
 #include "radiosity/solution/solution_file.h"
 #include "radiosity/solvers/solve.h"
+#include "raytrace/diffuse_term.h"
+#include "runs/points/point_report.h"
 #include "runs/steering/memory.h"
 #include "runs/outputs.h"
 #include "runs/preparation.h"
@@ -15,6 +17,12 @@
 
 namespace meninas {
 
+/// Beside the solution, unless it is said where.
+static std::filesystem::path points_file(const SolveRequest& request) {
+  return request.points.out.value_or(
+      std::filesystem::path(request.solution).replace_extension(".points.csv"));
+}
+
 static void check_files(const SolveRequest& request) {
   OutputFiles outputs{.pictures = {}, .solution = request.solution, .texts = {}};
   for (const auto& text : {request.per_node, request.stats, request.factors}) {
@@ -23,8 +31,14 @@ static void check_files(const SolveRequest& request) {
     }
   }
   std::vector<std::filesystem::path> inputs{request.scene};
-  if (request.reuse) {
-    inputs.push_back(*request.reuse);
+  for (const auto& input : {request.reuse, request.points.points}) {
+    if (input) {
+      inputs.push_back(*input);
+    }
+  }
+  if (request.points.asks()) {
+    check_points_file(points_file(request));
+    outputs.texts.push_back(points_file(request));
   }
   check_outputs(outputs, inputs);
 }
@@ -63,8 +77,37 @@ static RunSettings with_rows_to_keep(const SolveRequest& request) {
   return settings;
 }
 
+/// Light at the points themselves, by eight times the rays of a vertex.
+static PointQuerySettings point_query_settings(const PassOneSettings& settings) {
+  PointQuerySettings query;
+  query.rays = 8 * settings.form_factors.rays;
+  query.form_factors = settings.form_factors;
+  query.direct.seed = settings.direct.seed;
+  return query;
+}
+
+static void report_points(const SolveRequest& request, std::vector<PointSet> sets,
+                          const RadiositySolution& solution, const PassOneSettings& settings,
+                          const RunEvents& events) {
+  const std::vector<Rgb> reflected = reflected_by_elements(solution.field);
+  std::vector<MeasuredSet> measured;
+  for (PointSet& set : sets) {
+    auto light = irradiance_at_points(*solution.field.scene, reflected, set.points,
+                                      point_query_settings(settings));
+    measured.push_back(without_points_inside(
+        {std::move(set), std::move(light), request.settings.gltf.state.luminous_efficacy}));
+  }
+  measured = without_dark_sides(std::move(measured));
+  write_points(points_file(request), measured);
+  for (const MeasuredSet& one : measured)
+    note(events, summary_line(one));
+}
+
 RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   check_files(request);
+  std::vector<QueryPoint> points;
+  if (request.points.points)
+    points = read_points(*request.points.points);
   const ThreadLimit limit(request.settings.threads);
   const RunSettings chosen = with_rows_to_keep(request);
   begin_stages(events, joined(pass_one_stages(chosen), {{"writing", 5.0}}));
@@ -81,6 +124,7 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   figures.seconds.load = watch.lap();
   const std::uint64_t scene_hash = content_hash(scene);
   const auto prepared = prepare_run(std::move(scene), settings, events, figures);
+  auto sets = point_sets(std::move(points), request.points, prepared->scene, prepared->surfaces);
   const RadiositySolution solution = solve_or_relight(request, prepared->light, settings, events);
   add_solution(figures, solution);
   warn_of_solution(figures.solver, figures.closure, events);
@@ -89,8 +133,11 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   write_solution(request.solution, scene_hash, prepared->mesh, solution, settings.mesh);
   if (request.per_node) {
     const auto nodes = light_by_node(prepared->scene, prepared->mesh, solution);
-    write_text_file(*request.per_node, per_node_json(nodes));
+    write_text_file(*request.per_node,
+                    per_node_json(nodes, request.settings.gltf.state.luminous_efficacy));
   }
+  if (request.points.asks())
+    report_points(request, std::move(sets), solution, settings, events);
   figures.seconds.write = watch.lap();
   figures.seconds.total = total.lap();
   figures.peak_memory_bytes = peak_memory_bytes();

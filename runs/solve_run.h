@@ -1,6 +1,7 @@
-// `solve`: pass one alone, kept as a solution file, as figures per node, or both.
+// `solve`: pass one alone, kept as a solution file, as figures per node and at points.
 #pragma once
 
+#include "runs/points/point_sets.h"
 #include "runs/run_events.h"
 #include "runs/run_settings.h"
 #include "runs/report/stats.h"
@@ -17,6 +18,7 @@ struct SolveRequest {
   std::optional<std::filesystem::path> stats;
   std::optional<std::filesystem::path> factors; ///< written: the form factors, for later runs
   std::optional<std::filesystem::path> reuse;   ///< read: form factors of an earlier run
+  PointRequest points;
   RunSettings settings;
 };
 

@@ -1,10 +1,12 @@
 #include "runs/view.h"
 
+#include "image/colour_scale.h"
 #include "radiosity/solution/solution_file.h"
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
 #include "runs/steering/setting_options.h"
 #include "scenes/content_hash.h"
+#include "scenes/photometry.h"
 #include "scenes/sky/radiance_map.h"
 #include "scenes/stopwatch.h"
 
@@ -82,9 +84,65 @@ ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettin
   return picture;
 }
 
+/// What a view shows, by pixel.
+struct ValuesSeen {
+  std::string name, unit;
+  Channel values, known;
+};
+
+/// Numbers for the eye: colours with a scale, and the numbers as a layer.
+static Rendering in_false_colours(const ValuesSeen& seen, std::optional<double> wanted_top,
+                                  const RunEvents& events) {
+  const auto& [name, unit, values, known] = seen;
+  const double top = wanted_top.value_or(readable_top(values));
+  note(events, fmt::format("view {}: from 0 (black) to {:g} {} (pale yellow), a line for each {:g}",
+                           name, top, unit, top / 10.0));
+  Rendering rendering;
+  rendering.image = false_colours(values, known, {.title = fmt::format("{} {}", name, unit), .top = top});
+  Image numbers(values.width, values.height);
+  std::ranges::transform(values.values, numbers.pixels.begin(),
+                         [](float value) { return glm::vec3(value); });
+  rendering.layers.push_back({name, std::move(numbers)});
+  return rendering;
+}
+
+static Rendering painted_illuminance(const LitScene& lit, const Camera& camera,
+                                     const RenderSettings& used, const RunSettings& settings,
+                                     const RunEvents& events) {
+  PaintedView view = paint_view(DebugView::illuminance, lit.field, {}, camera, used);
+  const double efficacy = settings.gltf.state.luminous_efficacy;
+  for (float& value : view.values.values)
+    value = static_cast<float>(efficacy * value);
+  return in_false_colours({"illuminance", "lx", std::move(view.values), std::move(view.known)},
+                          settings.view_top, events);
+}
+
+/// Of the picture, lamps and mirrors too.
+static Rendering painted_luminance(const LitScene& lit, const Camera& camera,
+                                   const RenderSettings& used, const RunSettings& settings,
+                                   const RunEvents& events) {
+  Rendering picture = render(lit.field, camera, used, events.progress);
+  Channel values(used.width, used.height), known(used.width, used.height);
+  const double efficacy = settings.gltf.state.luminous_efficacy;
+  std::ranges::transform(picture.image.pixels, values.values.begin(), [&](const glm::vec3& pixel) {
+    return static_cast<float>(luminous(efficacy, Rgb(pixel)));
+  });
+  std::ranges::fill(known.values, 1.0F);
+  Rendering rendering = in_false_colours(
+      {"luminance", "cd/m2", std::move(values), std::move(known)}, settings.view_top, events);
+  picture.image = std::move(rendering.image);
+  picture.layers = std::move(rendering.layers);
+  picture.edges = {};
+  return picture;
+}
+
 /// The colours, and the values they stand for as a layer.
 static Rendering painted(const LitScene& lit, const Camera& camera, const RenderSettings& used,
                          const RunSettings& settings, const RunEvents& events) {
+  if (settings.view == DebugView::illuminance)
+    return painted_illuminance(lit, camera, used, settings, events);
+  if (settings.view == DebugView::luminance)
+    return painted_luminance(lit, camera, used, settings, events);
   const bool closure = settings.view == DebugView::closure;
   // Rows belong to the elements that were solved, not to those of a refined field.
   const IrradianceField on_elements{{}, lit.prepared->light};

@@ -1,5 +1,7 @@
 #include "scenes/punctual_light.h"
 
+#include "scenes/ies/intensity_distribution.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +21,10 @@ PunctualSample punctual_sample(const PunctualLight& light, const Point3& x, doub
   const double distance2 = glm::dot(from_light, from_light);
   if (distance2 == 0.0)
     return {light.position, Rgb(0.0)};
+  if (light.distribution) {
+    const Direction d = glm::transpose(light.frame) * (from_light / std::sqrt(distance2));
+    return {light.position, light.intensity * (intensity_at(*light.distribution, d) / distance2)};
+  }
   const double cosine = glm::dot(from_light, light.direction) / std::sqrt(distance2);
   const double falloff = light.kind == PunctualKind::spot ? spot_falloff(light, cosine) : 1.0;
   return {light.position, light.intensity * (falloff / distance2)};

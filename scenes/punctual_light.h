@@ -1,6 +1,7 @@
-// Light of KHR_lights_punctual at a point.
+// Light of KHR_lights_punctual and EXT_lights_ies at a point.
 //
 //   point, spot   E = I f(theta) / d^2 at normal incidence, I in W/sr, f the fall from the inner to the outer cone of a spot
+//   luminaire     E = I g(d) / d^2, g measured (ies/intensity_distribution.h)
 //   directional   E = I in W/m^2, from infinitely far
 #pragma once
 

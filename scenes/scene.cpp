@@ -2,6 +2,7 @@
 
 #include "scenes/content_hash.h"
 #include "scenes/errors.h"
+#include "scenes/ies/intensity_distribution.h"
 #include "scenes/names.h"
 
 namespace meninas {
@@ -98,6 +99,15 @@ void add_light(ContentHash& hash, const PunctualLight& light) {
   hash.add(light.direction);
   hash.add(light.inner_cone);
   hash.add(light.outer_cone);
+  if (!light.distribution)
+    return;
+  for (int axis = 0; axis < 3; ++axis)
+    hash.add(light.frame[axis]);
+  hash.add(static_cast<std::uint64_t>(light.distribution->photometry));
+  for (const auto* values :
+       {&light.distribution->vertical, &light.distribution->horizontal, &light.distribution->candela})
+    for (const double value : *values)
+      hash.add(value);
 }
 
 void add_texture(ContentHash& hash, const Texture& texture) {

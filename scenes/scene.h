@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -54,7 +55,9 @@ struct Texture {
 
 enum class PunctualKind { point, spot, directional };
 
-/// KHR_lights_punctual.
+struct IntensityDistribution;
+
+/// KHR_lights_punctual and EXT_lights_ies.
 /// Intensity is W/sr for point and spot, irradiance W/m^2 for directional lights.
 struct PunctualLight {
   std::string name;
@@ -64,6 +67,9 @@ struct PunctualLight {
   Direction direction{0.0, 0.0, -1.0};
   double inner_cone = 0.0; ///< radians
   double outer_cone = 0.785398163397448;
+  /// Of a point light: I(d) = intensity g(d) (ies/intensity_distribution.h); null: the same everywhere.
+  std::shared_ptr<const IntensityDistribution> distribution = nullptr;
+  glm::dmat3 frame{1.0}; ///< columns: the axes, of unit length, that the distribution is told in
 };
 
 struct Scene {

@@ -24,7 +24,9 @@ const std::map<std::string_view, std::vector<Example>>& all_examples() {
       {"solve",
        {{"meninas solve room.gltf -o room.glb", "solves once; `meninas render --solution room.glb` renders any view"},
         {"meninas solve room.gltf -o room.glb --per-node nodes.json",
-         "also writes area, radiosity and irradiance of each glTF node"}}},
+         "also writes area, radiosity and irradiance of each glTF node"},
+        {"meninas solve room.gltf -o room.glb --grid desk",
+         "also reports minimum, mean and uniformity of the illuminance on a node"}}},
       {"plan",
        {{"meninas plan room.gltf", "says what is in the file, what is odd about it, and how long a picture takes"}}},
       {"compare",
@@ -58,14 +60,42 @@ const std::map<std::string_view, std::vector<std::string_view>>& first_options()
       {"render",
        {"output", "quality", "error", "time", "size", "camera", "exposure", "diffuse", "mode",
         "background", "solution", "stats"}},
-      {"solve", {"output", "quality", "elements", "background", "per-node", "stats"}},
+      {"solve",
+       {"output", "quality", "elements", "background", "per-node", "points", "grid", "units", "stats"}},
       {"walk", {"output", "quality", "solution", "exposure", "elements", "background"}},
       {"plan", {"json", "quality", "size", "camera", "background"}},
       {"compare", {"output", "quality", "reference", "max-seconds", "size", "camera", "exposure"}}};
   return options;
 }
 
-const std::map<std::string_view, std::string_view>& all_details() {
+/// Of options about lamps, units and numbers at points.
+const std::map<std::string_view, std::string_view>& light_details() {
+  static const std::map<std::string_view, std::string_view> details{
+      {"--grid",
+       "points are p = 0.2 * 5^log10(d) metres apart, d the longer side, or the shorter one where it is "
+       "half as long or less. Minimum, mean, maximum and uniformity (minimum / mean) are printed. Of a "
+       "double-sided face the sides that have light are reported ([illuminance](lux.md))."},
+      {"--ies",
+       "LIGHT is the node's name. The file's candela, in the light's colour, take the place of its "
+       "intensity; the luminaire aims along the node's -Z ([luminaires](lux.md#luminaires))."},
+      {"--light-scale",
+       "0.001464 (1/683) brings lights that were exported in candela and lux to W/sr and W/m². What "
+       "glows stays as it is."},
+      {"--luminous-efficacy",
+       "what is photometric is K times what is radiometric: illuminance in lux is K times irradiance, by "
+       "the weights 0.2126, 0.7152 and 0.0722 of red, green and blue. IES files are divided by it."},
+      {"--points",
+       "x, y, z in metres; without normals planes face up. Each point gets its illuminance and "
+       "irradiance: all of it, the direct part and the part that came by way of mirrors "
+       "([illuminance](lux.md))."},
+      {"--units",
+       "`photometric`: emission and the lights of KHR_lights_punctual are divided by "
+       "--luminous-efficacy. Pictures stay in W/m²/sr; lux and cd/m² are printed by `solve --points`, "
+       "`--grid` and `--per-node` and by `render --view`, whatever the file is in."}};
+  return details;
+}
+
+const std::map<std::string_view, std::string_view>& other_details() {
   static const std::map<std::string_view, std::string_view> details{
       {"--at",
        "translations, rotations, scales and morph weights of all animations, by the keys around that "
@@ -105,9 +135,6 @@ const std::map<std::string_view, std::string_view>& all_details() {
        "Salzman and Aupperle 1991) and is the fastest for a given accuracy in most scenes. `uniform` has "
        "a row of form factors for every element, which `--factors`, `--form-factors hemicube|analytic`, "
        "`--solver progressive` and `--interpolation average` choose by themselves."},
-      {"--light-scale",
-       "0.001464 (1/683) brings lights that were exported in candela and lux to W/sr and W/m². What "
-       "glows stays as it is."},
       {"--link-error",
        "the solve begins with few large nodes and divides those whose light is not linear to X. With "
        "far more `--elements` than X needs, more `--rays` help instead."},
@@ -119,7 +146,8 @@ const std::map<std::string_view, std::string_view>& all_details() {
       {"--stats", "[all figures](stats.md)."},
       {"--variant", "`meninas plan` lists the names that `KHR_materials_variants` gives."},
       {"--view",
-       "the colours' range is printed; an EXR holds the numbers as well."},
+       "the colours' range is printed; an EXR holds the numbers as well. `illuminance` is that of pass one, "
+       "in lux, `luminance` that of the picture, in cd/m²: with a scale, and a line for each tenth of it."},
       {"--view-transform",
        "`neutral` is Khronos' PBR Neutral: colours stay as they are up to 0.8 and pale softly above. "
        "`agx` is the AgX of Blender and three.js. `srgb` clips. Parts of pixels at lamps' edges are shown so by the two passes. EXRs stay linear."}};
@@ -142,8 +170,11 @@ bool matters_most(std::string_view command, const OptionInfo& option) {
 }
 
 std::string_view details_of(std::string_view option) {
-  const auto found = all_details().find(option);
-  return found == all_details().end() ? std::string_view{} : found->second;
+  for (const auto* details : {&light_details(), &other_details()}) {
+    if (const auto found = details->find(option); found != details->end())
+      return found->second;
+  }
+  return {};
 }
 
 } // namespace meninas

@@ -59,16 +59,17 @@ std::string one_line(std::string text) {
   return line;
 }
 
-void set_error(Decoded& result, const std::string& reason) {
+template <typename Result>
+void set_error(Result& result, const std::string& reason) {
   const auto length = std::min(reason.size(), sizeof result.error - 1);
   std::memcpy(result.error, reason.data(), length);
   result.error[length] = '\0';
 }
 
 /// Runs `work` and turns any exception into the text that may cross the seam.
-template <typename Work>
-Decoded guarded(Work work) {
-  Decoded result{};
+template <typename Result, typename Work>
+Result guarded(Work work) {
+  Result result{};
   try {
     work(result);
   } catch (const std::bad_alloc&) {
@@ -302,14 +303,37 @@ void use_threads(int count) {
 }
 
 Decoded decode(const void* bytes, std::size_t size, Limits limits) {
-  return guarded([&](Decoded& result) {
+  return guarded<Decoded>([&](Decoded& result) {
     decode_into(result, {static_cast<const char*>(bytes), size}, limits);
   });
 }
 
 void release_decoded(Decoded* decoded) { delete static_cast<DecodedStorage*>(decoded->owner); }
 
-constexpr Table table{seam_version, use_threads, decode, release_decoded};
+void encode_hdr_into(Encoded& result, const float* pixels, int width, int height) {
+  auto output = OIIO::ImageOutput::create("hdr");
+  if (!output || !output->supports("ioproxy"))
+    fail(OIIO::geterror(), "cannot encode hdr");
+  auto bytes = std::make_unique<std::vector<unsigned char>>();
+  OIIO::Filesystem::IOVecOutput writer(*bytes);
+  output->set_ioproxy(&writer);
+  const OIIO::ImageSpec spec(width, height, 3, OIIO::TypeFloat);
+  if (!output->open(file_name, spec) || !output->write_image(OIIO::TypeFloat, pixels) || !output->close())
+    fail(output->geterror(), "cannot be encoded");
+  result.bytes = bytes->data();
+  result.size = bytes->size();
+  result.owner = bytes.release();
+}
+
+Encoded encode_hdr(const float* pixels, int width, int height) {
+  return guarded<Encoded>([&](Encoded& result) { encode_hdr_into(result, pixels, width, height); });
+}
+
+void release_encoded(Encoded* encoded) {
+  delete static_cast<std::vector<unsigned char>*>(encoded->owner);
+}
+
+constexpr Table table{seam_version, use_threads, decode, release_decoded, encode_hdr, release_encoded};
 
 } // namespace
 } // namespace meninas::decoder

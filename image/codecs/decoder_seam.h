@@ -4,9 +4,10 @@
 // which takes longer than a draft picture.
 // So one source file uses it, compiled into a module of its own,
 // and the module is opened with the first picture that is read:
-// a texture, a picture to compare with. What is written goes by the small libraries of its formats.
+// a texture, a picture to compare with. EXR and PNG are written by the small libraries of their formats,
+// the rare Radiance picture by this module.
 //
-// The module only translates encoded bytes in memory to pixels.
+// The module only translates encoded bytes in memory to pixels, and back.
 // It opens no file and knows no error class, so what crosses the seam is plain data;
 // an exception is caught on its own side and crosses as one line of text.
 // Whatever the module hands out stays its own and is given back through the matching `release`.
@@ -18,7 +19,7 @@
 namespace meninas::decoder {
 
 /// Raised with every change of this file: a module from another build is refused, not misread.
-inline constexpr int seam_version = 4;
+inline constexpr int seam_version = 5;
 
 struct TextPair {
   const char* key;
@@ -58,11 +59,22 @@ struct Limits {
   std::size_t values; ///< largest width * height * channels, of all parts together
 };
 
+/// Either bytes, or no owner and the reason why not.
+struct Encoded {
+  void* owner;
+  const unsigned char* bytes;
+  std::size_t size;
+  char error[512];
+};
+
 struct Table {
   int seam_version;
   void (*use_threads)(int count); ///< as many may be at work, the caller's among them
   Decoded (*decode)(const void* bytes, std::size_t size, Limits limits);
   void (*release_decoded)(Decoded*);
+  /// Radiance RGBE of a linear picture, red, green and blue interleaved, rows from the top.
+  Encoded (*encode_hdr)(const float* pixels, int width, int height);
+  void (*release_encoded)(Encoded*);
 };
 
 /// The one symbol the module exports: `const Table* meninas_decoder()`.

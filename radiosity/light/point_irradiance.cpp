@@ -53,6 +53,7 @@ PointLight landed_light(const PointGathering& gathering, const GatheredRays& gat
   PointLight light;
   light.from_rays = {sum.total / kept, sum.mirrored / kept};
   light.emission = {emission.total / kept, emission.mirrored / kept};
+  light.sky = {(straight + by_mirrors) / kept, by_mirrors / kept};
   light.hits = hits;
   return light;
 }

@@ -57,6 +57,7 @@ struct PointWorkspace {
 struct PointLight {
   ArrivingLight from_rays, from_source, from_clusters;
   ArrivingLight emission;  ///< of what rays bring, that of emitters
+  ArrivingLight sky;       ///< and that from where nothing is met
   std::uint32_t hits = 0;  ///< rays that met it
 
   ArrivingLight all() const { return from_rays + from_source + from_clusters; }

@@ -2,7 +2,7 @@
 
 #include "image/colour_map.h"
 #include "image/display.h"
-#include "image/metrics/heat_map.h"
+#include "image/colour_scale.h"
 #include "raytrace/views/sight.h"
 #include "scenes/sampling.h"
 
@@ -19,6 +19,10 @@ std::string_view name_of(DebugView view) {
     return "elements";
   case DebugView::irradiance:
     return "irradiance";
+  case DebugView::illuminance:
+    return "illuminance";
+  case DebugView::luminance:
+    return "luminance";
   case DebugView::closure:
     return "closure";
   case DebugView::mirror_depth:
@@ -69,9 +73,10 @@ PaintedView paint_view(DebugView view, const IrradianceField& field,
   const LightScene& light = *field.scene;
   expects(view != DebugView::closure || rows.size() == element_count(light.mesh),
           "every element has a row");
+  expects(view != DebugView::luminance, "luminance is that of a picture");
   PaintedView painted{Image(settings.width, settings.height),
+                      Channel(settings.width, settings.height),
                       Channel(settings.width, settings.height)};
-  Channel known(settings.width, settings.height);
   const double aspect = double(settings.width) / settings.height;
   const int mirrors = settings.mode == RenderMode::hybrid ? settings.max_bounces : 0;
   tbb::parallel_for(0, settings.height, [&](int y) {
@@ -80,13 +85,13 @@ PaintedView paint_view(DebugView view, const IrradianceField& field,
       const Sight sight = look(light, camera, aspect, middle, mirrors);
       const auto value = value_of(view, field, rows, sight);
       painted.values.at(x, y) = value.value_or(0.0F);
-      known.at(x, y) = value ? 1.0F : 0.0F;
+      painted.known.at(x, y) = value ? 1.0F : 0.0F;
     }
   });
   painted.top = view == DebugView::elements ? static_cast<double>(element_count(light.mesh))
                                             : readable_top(painted.values);
   for (std::size_t p = 0; p < painted.values.values.size(); ++p) {
-    if (known.values[p] == 0.0F)
+    if (painted.known.values[p] == 0.0F)
       continue;
     const float value = painted.values.values[p];
     painted.colours.pixels[p] = view == DebugView::elements

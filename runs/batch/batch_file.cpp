@@ -176,6 +176,8 @@ JobMode mode_of(const std::string& name, const Place& job, const std::optional<P
       picture = (job.file.parent_path() / *picture).string();
       mode.environment = hash_of_file(*picture);
     }
+    for (auto& [light, file] : mode.request.settings.gltf.state.luminaires)
+      file = (job.file.parent_path() / file).string();
   } catch (const UserError& error) {
     blame(job, defaults, mode.settings, error.what());
   }

@@ -75,7 +75,7 @@ std::optional<std::string> template_problem(const std::string& name_template) {
   try {
     picture_format(path);
   } catch (const OutputError&) {
-    return "has to end in .exr or .png";
+    return "has to end in .exr, .png or .hdr";
   }
   return std::nullopt;
 }

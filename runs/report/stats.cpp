@@ -3,6 +3,7 @@
 #include "image/whole_file.h"
 #include "runs/steering/expected_cost.h"
 #include "runs/steering/setting_options.h"
+#include "scenes/photometry.h"
 
 #include <nlohmann/json.hpp>
 
@@ -237,14 +238,15 @@ std::string stats_json(const RunFigures& figures) {
   return text_of(json);
 }
 
-std::string per_node_json(const std::vector<NodeLight>& nodes) {
+std::string per_node_json(const std::vector<NodeLight>& nodes, double luminous_efficacy) {
   Json list = Json::array();
   for (const NodeLight& node : nodes) {
     list.push_back({{"name", node.name},
                     {"area", node.area},
                     {"emitted", as_json(node.emitted)},
                     {"radiosity", as_json(node.radiosity)},
-                    {"irradiance", as_json(node.irradiance)}});
+                    {"irradiance", as_json(node.irradiance)},
+                    {"illuminance", luminous(luminous_efficacy, node.irradiance)}});
   }
   return text_of(Json{{"nodes", std::move(list)}});
 }

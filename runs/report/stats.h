@@ -93,7 +93,8 @@ void add_reference(RunFigures& figures, const reference::ReferencePicture& pictu
 const char* stop_name(reference::StoppedBy limit);
 
 std::string stats_json(const RunFigures& figures);
-std::string per_node_json(const std::vector<NodeLight>& nodes);
+/// W/m^2, and lux by so many lm/W.
+std::string per_node_json(const std::vector<NodeLight>& nodes, double luminous_efficacy);
 std::string plan_json(const TransportPlan& plan, const std::vector<std::string>& variants,
                       std::size_t patches, std::size_t elements, const ExpectedCost& expected, std::span<const Oddity> odd);
 

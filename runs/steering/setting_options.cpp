@@ -98,6 +98,23 @@ static void add_sky(const EnvironmentChoice& sky, std::vector<std::string>& opti
   add_given("--sky-illuminance", sky.illuminance);
 }
 
+/// What numbers of the file's light stand for.
+static void add_units(const SceneState& state, std::vector<std::string>& options) {
+  const SceneState standard;
+  const auto add = [&](const char* option, std::string value) {
+    options.emplace_back(option);
+    options.push_back(std::move(value));
+  };
+  if (state.light_scale != standard.light_scale)
+    add("--light-scale", fmt::format("{}", state.light_scale));
+  if (state.units == LightUnits::photometric)
+    add("--units", "photometric");
+  if (state.luminous_efficacy != standard.luminous_efficacy)
+    add("--luminous-efficacy", fmt::format("{}", state.luminous_efficacy));
+  for (const auto& [light, file] : state.luminaires)
+    add("--ies", fmt::format("{}={}", light, file));
+}
+
 std::vector<std::string> options_of(const RunSettings& settings) {
   const RunSettings standard;
   std::vector<std::string> options;
@@ -115,8 +132,7 @@ std::vector<std::string> options_of(const RunSettings& settings) {
     add("--quality", name_of(settings.quality));
   add_given("--variant", settings.gltf.state.variant);
   add_given("--at", settings.gltf.state.at);
-  if (settings.gltf.state.light_scale != standard.gltf.state.light_scale)
-    add("--light-scale", fmt::format("{}", settings.gltf.state.light_scale));
+  add_units(settings.gltf.state, options);
   if (settings.projection)
     add("--projection", name_of(*settings.projection));
   if (settings.background)

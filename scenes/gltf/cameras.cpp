@@ -244,7 +244,7 @@ static PunctualLight read_light(const Document& document, std::size_t index,
     throw InputError(document.file, where, fmt::format("type '{}' does not exist", one_line(type)));
 
   light.intensity = vec3_or(json, "color", Rgb(1.0)) * number_or(json, "intensity", 1.0) *
-                    document.settings.state.light_scale;
+                    (document.settings.state.light_scale / light_unit(document));
   if (glm::any(glm::lessThan(light.intensity, Rgb(0.0)))) {
     findings.about("lights of negative intensity are dark", name);
     light.intensity = glm::max(light.intensity, Rgb(0.0));
@@ -258,32 +258,63 @@ static PunctualLight read_light(const Document& document, std::size_t index,
   return light;
 }
 
+/// Without a node's place.
+struct NodeLight {
+  PunctualLight light;
+  std::string name;
+  Rgb colour{1.0}; ///< without its intensity
+};
+
+/// A profile says more than the light that stands beside it for those who read none.
+static std::optional<NodeLight> light_of(const Document& document, std::size_t node,
+                                         Findings& findings) {
+  const Json& json = element(document.root, "nodes", node);
+  const auto* profile = find(json, {"extensions", "EXT_lights_ies"});
+  const auto* punctual = find(json, {"extensions", "KHR_lights_punctual"});
+  if (profile) {
+    const auto name = first_name(document, node, "iesLights", *index_at(*profile, "light"), "light");
+    if (punctual)
+      findings.about("lights that have an IES profile besides are those of the profile", name);
+    return NodeLight{read_luminaire(document, *profile, name, findings), name,
+                     glm::clamp(vec3_or(*profile, "color", Rgb(1.0)), 0.0, 1.0)};
+  }
+  if (!punctual)
+    return std::nullopt;
+  const auto index = *index_at(*punctual, "light");
+  const auto name = first_name(document, node, "lights", index, "light");
+  return NodeLight{
+      read_light(document, index, name, findings), name,
+      glm::max(vec3_or(element(document.root, "lights", index), "color", Rgb(1.0)), Rgb(0.0))};
+}
+
 void read_lights(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
                  Findings& findings) {
   std::vector<std::string> names;
+  std::vector<Rgb> colours;
   for (const auto& node : nodes) {
-    const auto* use =
-        find(element(document.root, "nodes", node.index), {"extensions", "KHR_lights_punctual"});
-    if (!use)
+    auto read = light_of(document, node.index, findings);
+    if (!read)
       continue;
-    const auto index = *index_at(*use, "light");
-    const auto name = first_name(document, node.index, "lights", index, "light");
-    auto light = read_light(document, index, name, findings);
+    auto& [light, name, colour] = *read;
     light.position = Vec3(node.world[3]);
     const auto direction = unit(-Vec3(node.world[2]));
-    if (!direction && light.kind != PunctualKind::point) {
+    const auto frame = unit_frame(node.world);
+    if ((!direction && light.kind != PunctualKind::point) || (!frame && light.distribution)) {
       findings.about("lights scaled to nothing are left out", name);
       continue;
     }
     light.direction = direction.value_or(light.direction);
-    scene.lights.push_back(light);
+    light.frame = frame.value_or(light.frame);
+    scene.lights.push_back(std::move(light));
     names.push_back(name);
+    colours.push_back(colour);
   }
   const auto unique = unique_names(names);
+  for (std::size_t k = 0; k < unique.size(); ++k)
+    scene.lights[k].name = unique[k];
+  put_luminaires(document, colours, scene, findings);
   const auto reach = reach_of(scene);
-  for (std::size_t k = 0; k < unique.size(); ++k) {
-    auto& light = scene.lights[k];
-    light.name = unique[k];
+  for (auto& light : scene.lights) {
     if (light.kind == PunctualKind::directional)
       continue;
     const auto nearer = bring_near(reach, light.position);

@@ -96,6 +96,8 @@ Vec3 vec3_or(const Json& object, std::string_view key, const Vec3& otherwise) {
 static const Json* array_of(const Json& root, std::string_view array) {
   if (array == "lights")
     return find(root, {"extensions", "KHR_lights_punctual", array});
+  if (array == "iesLights")
+    return find(root, {"extensions", "EXT_lights_ies", "lights"});
   if (array == "imageBasedLights")
     return find(root, {"extensions", "EXT_lights_image_based", "lights"});
   if (array == "variants")

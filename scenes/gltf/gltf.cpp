@@ -20,6 +20,7 @@ namespace meninas {
 using namespace gltf;
 
 static constexpr std::string_view extensions_read[] = {
+    "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",

@@ -58,7 +58,7 @@ void read_image_based_light(const Document& document, Scene& scene, Findings& fi
     std::ranges::transform(resource.bytes, read->faces[k].begin(),
                            [](unsigned char c) { return std::byte{c}; });
   }
-  read->intensity = number_or(light, "intensity", 1.0);
+  read->intensity = number_or(light, "intensity", 1.0) / light_unit(document);
   if (!(read->intensity >= 0.0))
     return leave_out("its intensity is negative");
   if (const auto rotation = numbers_at(light, "rotation"); rotation.size() == 4)

@@ -68,7 +68,7 @@ static void read_emission(const Document& document, std::size_t index, const Jso
   const auto factor = vec3_or(json, "emissiveFactor", Rgb(0.0));
   if (strength < 0.0 || glm::any(glm::lessThan(factor, Rgb(0.0))))
     findings.about("materials with negative emission are dark there", material.name);
-  material.emission = glm::max(factor, Rgb(0.0)) * std::max(strength, 0.0);
+  material.emission = glm::max(factor, Rgb(0.0)) * (std::max(strength, 0.0) / light_unit(document));
   if (!glm::all(glm::lessThanEqual(material.emission, Rgb(brightest_emission))))
     throw InputError(document.file, place(document.root, "materials", index),
                      fmt::format("its emission is over {:g} W/m^2/sr", brightest_emission));

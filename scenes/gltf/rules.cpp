@@ -224,11 +224,17 @@ constexpr Rule skin[] = {
 
 constexpr Rule node_light[] = {
     {.name = "light", .kind = index, .presence = required, .target = "lights"}};
+constexpr Rule node_luminaire[] = {
+    {.name = "light", .kind = index, .presence = required, .target = "iesLights"},
+    {.name = "multiplier", .kind = number},
+    {.name = "color", .kind = numbers, .length = 3},
+};
 constexpr Rule instancing[] = {
     {.name = "attributes", .kind = attributes, .presence = required, .target = "accessors"}};
 constexpr Rule visibility[] = {{.name = "visible", .kind = boolean}};
 constexpr Rule levels_of_detail[] = {{.name = "ids", .kind = indices, .target = "nodes"}};
 constexpr Rule node_extensions[] = {
+    {.name = "EXT_lights_ies", .kind = object, .fields = node_luminaire},
     {.name = "KHR_lights_punctual", .kind = object, .fields = node_light},
     {.name = "EXT_mesh_gpu_instancing", .kind = object, .fields = instancing},
     {.name = "KHR_node_visibility", .kind = object, .fields = visibility},
@@ -296,7 +302,15 @@ constexpr Rule image_based_light[] = {
 };
 constexpr Rule image_based_lights[] = {
     {.name = "lights", .kind = objects, .presence = required, .fields = image_based_light}};
+constexpr Rule ies_light[] = {
+    name_rule,
+    {.name = "uri", .kind = text},
+    {.name = "bufferView", .kind = index, .target = "bufferViews"},
+};
+constexpr Rule ies_lights[] = {
+    {.name = "lights", .kind = objects, .presence = required, .fields = ies_light}};
 constexpr Rule root_extensions[] = {
+    {.name = "EXT_lights_ies", .kind = object, .fields = ies_lights},
     {.name = "EXT_lights_image_based", .kind = object, .fields = image_based_lights},
     {.name = "KHR_lights_punctual", .kind = object, .fields = lights},
     {.name = "KHR_materials_variants", .kind = object, .fields = variants},

@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -12,11 +13,17 @@ namespace meninas {
 /// a stranger's file must not make the program read the user's others.
 enum class ExternalFiles { inside_folder, anywhere };
 
-/// In which of its states a file is shown.
+/// What the numbers of a file stand for: W/m^2/sr, W/sr and W/m^2, or cd/m^2, candela and lux.
+enum class LightUnits { radiometric, photometric };
+
+/// In which of its states a file is shown, and how its numbers are taken.
 struct SceneState {
   std::optional<std::string> variant = std::nullopt; ///< of materials: KHR_materials_variants
   std::optional<double> at = std::nullopt; ///< seconds into its animations; the rest pose otherwise
   double light_scale = 1.0; ///< times the intensities of its KHR_lights_punctual
+  LightUnits units = LightUnits::radiometric; ///< of emission and KHR_lights_punctual
+  double luminous_efficacy = 683.0;           ///< lm/W: divides what is photometric
+  std::map<std::string, std::string> luminaires = {}; ///< IES files by the node whose light they replace
   auto operator<=>(const SceneState&) const = default;
 };
 

@@ -69,4 +69,22 @@ void read_cameras(const Document& document, std::span<const PlacedNode> nodes, S
 void read_lights(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
                  Findings& findings);
 
+/// What photometric numbers of the file are divided by: K lm/W, or 1 where they are radiometric.
+inline double light_unit(const Document& document) {
+  const SceneState& state = document.settings.state;
+  return state.units == LightUnits::photometric ? state.luminous_efficacy : 1.0;
+}
+
+/// The axes of a node in the world, of unit length and at right angles; none of one scaled to nothing.
+std::optional<glm::dmat3> unit_frame(const glm::dmat4& world);
+
+/// The light of a node's EXT_lights_ies, without place. Throws InputError that names the line.
+PunctualLight read_luminaire(const Document& document, const Json& use, const std::string& name,
+                             Findings& findings);
+
+/// IES files in place of the lights that have them, in the lights' colours. Throws UsageError where
+/// there is no light of that name, InputError that names the line.
+void put_luminaires(const Document& document, std::span<const Rgb> colours, Scene& scene,
+                    Findings& findings);
+
 } // namespace meninas::gltf

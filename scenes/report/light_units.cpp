@@ -16,11 +16,11 @@ static double solid_angle(const PunctualLight& light) {
   return 2.0 * std::numbers::pi * (1.0 - cosine);
 }
 
-/// Watts, of point and spot lights.
+/// Watts, of point and spot lights. Measured luminaires have the unit of their files.
 static double power_of_lights(const Scene& scene) {
   double power = 0.0;
   for (const PunctualLight& light : scene.lights)
-    if (light.kind != PunctualKind::directional)
+    if (light.kind != PunctualKind::directional && !light.distribution)
       power += solid_angle(light) * largest_of(light.intensity);
   return power;
 }

@@ -96,7 +96,7 @@ TEST_F(Errors, OutputsAreCheckedBeforeTheWork) {
          {"render", "room.glb", "-o", "out.exr", "-o", "missing/out.png"});
   expect(4, "missing/s.json: cannot write: no such folder 'missing'",
          {"render", "room.glb", "-o", "out.exr", "--stats", "missing/s.json"});
-  expect(4, "out.jpg: cannot write pictures as '.jpg', only .exr and .png",
+  expect(4, "out.jpg: cannot write pictures as '.jpg', only .exr, .png and .hdr",
          {"render", "room.glb", "-o", "out.jpg"});
   expect(4, "out.gltf: cannot write: a solution is a .glb file",
          {"solve", "room.glb", "-o", "out.gltf"});

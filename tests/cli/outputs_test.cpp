@@ -311,7 +311,7 @@ TEST_F(Outputs, PerNodeFiguresNameEveryNode) {
   std::vector<std::string> names;
   for (const json& node : nodes["nodes"]) {
     EXPECT_EQ(keys_of(node),
-              (std::set<std::string>{"name", "area", "emitted", "radiosity", "irradiance"}));
+              (std::set<std::string>{"name", "area", "emitted", "radiosity", "irradiance", "illuminance"}));
     names.push_back(node["name"]);
     if (node["name"] == "lamp") {
       // E = pi L with L = 1; the lamp's area is 0.04 m^2; floats in the file leave seven digits.

@@ -182,9 +182,9 @@ TEST_F(WholeFile, UnknownExtension) {
     return error_line<OutputError>([&] { check_writable_image(folder / name); });
   };
   EXPECT_EQ(line("a.gif"),
-            (folder / "a.gif").string() + ": cannot write pictures as '.gif', only .exr and .png");
-  EXPECT_THAT(line("a"), EndsWith("a picture's name must end in .exr or .png"));
-  EXPECT_THAT(line(".exr"), EndsWith("a picture's name must end in .exr or .png"));
+            (folder / "a.gif").string() + ": cannot write pictures as '.gif', only .exr, .png and .hdr");
+  EXPECT_THAT(line("a"), EndsWith("a picture's name must end in .exr, .png or .hdr"));
+  EXPECT_THAT(line(".exr"), EndsWith("a picture's name must end in .exr, .png or .hdr"));
   EXPECT_THAT(error_line<OutputError>([&] { write_exr(folder / "a.png", Image(1, 1)); }),
               EndsWith("an EXR's name must end in .exr"));
   EXPECT_THAT(error_line<OutputError>([&] { write_png(folder / "a.exr", Image(1, 1), 0.0); }),

@@ -2,6 +2,7 @@
 // and thinned out without bias where they are too many.
 #include "image/image_file.h"
 #include "reference/light_images.h"
+#include "scenes/ies/intensity_distribution.h"
 #include "tests/reference/tracing.h"
 
 #include <gtest/gtest.h>
@@ -88,6 +89,22 @@ TEST(LightImages, AreSeenInWhatTexelsMakeAMirror) {
   const PunctualLight seen = bulb({-1, 2, -2}, Rgb(4.0));
   const Point3 x(-1, 0, 2);
   expect_radiance(radiance_seen(scene, {0, 1, 3}, x, 64), 0.8 * irradiance(seen, x) * (rho / pi));
+}
+
+// A luminaire that shines up alone, 3 W/sr along its axis and linear to none at a right angle to it:
+// the floor has the light of its image, which shines down.
+TEST(LightImages, TheDistributionOfALuminaireIsReflected) {
+  Scene scene;
+  add_polygon(scene, "floor", {{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}}, diffuse(rho));
+  add_polygon(scene, "mirror", {{-9, 3, -9}, {9, 3, -9}, {9, 3, 9}, {-9, 3, 9}}, mirror(0.8));
+  PunctualLight up = bulb({1, 2, 0}, Rgb(1.0));
+  up.distribution = std::make_shared<const IntensityDistribution>(IntensityDistribution{
+      .vertical = {0.0, 90.0}, .horizontal = {0.0}, .candela = {3.0, 0.0}});
+  up.frame = glm::dmat3(Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0, -1, 0)); // its -Z is +Y
+  scene.lights = {up};
+  const double off_axis = std::atan2(1.0, 4.0) / (pi / 2.0);
+  const Rgb expected = 0.8 * irradiance(bulb({1, 4, 0}, Rgb(3.0 * (1.0 - off_axis))), Point3(0.0));
+  expect_radiance(radiance_seen(scene, {2, 1, 1}, Point3(0.0), 64), expected * (rho / pi));
 }
 
 /// A corner of two perfect mirrors, with a bulb and a spot in it.

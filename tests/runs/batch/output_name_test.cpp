@@ -32,8 +32,8 @@ TEST(OutputName, MistakesAreNamed) {
   for (const char* outside : {"/tmp/{scene}.exr", "../{scene}.exr", "a/../../x.exr"}) {
     EXPECT_EQ(template_problem(outside), "leaves the output folder") << outside;
   }
-  EXPECT_EQ(template_problem("{scene}.jpg"), "has to end in .exr or .png");
-  EXPECT_EQ(template_problem("{scene}"), "has to end in .exr or .png");
+  EXPECT_EQ(template_problem("{scene}.jpg"), "has to end in .exr, .png or .hdr");
+  EXPECT_EQ(template_problem("{scene}"), "has to end in .exr, .png or .hdr");
 }
 
 } // namespace

@@ -41,8 +41,13 @@ GltfFile everything() {
                    {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}}}}});
   file.json["extensions"]["KHR_lights_punctual"]["lights"] =
       Json::array({{{"type", "spot"}, {"intensity", 2}, {"spot", {{"outerConeAngle", 0.5}}}}});
-  file.json["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_ior"};
-  file.add_node({{"camera", 0}, {"rotation", {0, 0, 0, 1}}});
+  const std::string ies = "IESNA91\nTILT=NONE\n1 9 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n9 0\n";
+  file.json["extensions"]["EXT_lights_ies"]["lights"] =
+      Json::array({{{"uri", data_uri(Bytes(ies.begin(), ies.end()))}}});
+  file.json["extensionsUsed"] = {"EXT_lights_ies", "KHR_lights_punctual", "KHR_materials_ior"};
+  file.add_node({{"camera", 0},
+                 {"rotation", {0, 0, 0, 1}},
+                 {"extensions", {{"EXT_lights_ies", {{"light", 0}, {"multiplier", 2}, {"color", {1, 1, 0}}}}}}});
   file.add_node({{"camera", 1}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}});
   file.add_node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}},
                  {"children", {0, 1, 2}},
