@@ -4,6 +4,8 @@
 #include "scenes/materials/lobes.h"
 #include "scenes/materials/bsdf.h"
 
+#include <cmath>
+
 namespace meninas {
 
 namespace {
@@ -35,7 +37,8 @@ MaterialPoint mean_point(const DecodedTextures& textures, const Material& materi
 Rgb even_part(const Bsdf& bsdf, WalkKind kind) {
   if (kind == WalkKind::coat)
     return bsdf.diffuse;
-  constexpr double from_most_sides = 0.7; // a cosine
+  constexpr double cosine = 0.7; // from most sides
+  const Direction from_most_sides{std::sqrt(1.0 - cosine * cosine), 0.0, cosine};
   return even_reflectance(bsdf, from_most_sides);
 }
 

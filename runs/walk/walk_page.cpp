@@ -290,6 +290,7 @@ std::string walk_page_html(const WalkPage& page, std::vector<std::string>& warni
             {"sky", sky_json(scene.background)},
             {"transform", std::string(name_of(page.transform))},
             {"leastThroughput", page.min_throughput},
+            {"luminousEfficacy", page.luminous_efficacy},
             {"top", top_irradiance(page.room)},
             {"falseColours", false_colours_json()}};
   json nodes = json::array();

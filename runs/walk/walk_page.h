@@ -23,6 +23,7 @@ struct WalkPage {
   std::vector<WalkCamera> cameras;
   ViewTransform transform = ViewTransform::neutral;
   double min_throughput = 1.0 / 1024.0;
+  double luminous_efficacy = 683.0; ///< lm/W
 };
 
 /// Pages with more triangles are refused: a browser would not draw them.

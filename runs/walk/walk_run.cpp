@@ -95,8 +95,12 @@ RunFigures walk_run(const WalkRequest& request, const RunEvents& events) {
   const WalkRoom room = walk_room(lit.field);
   std::vector<std::string> warnings;
   const std::string html =
-      walk_page_html({lit.field, room, request.scene.filename().string(),
-                      cameras_of(lit, request), request.transform},
+      walk_page_html({.field = lit.field,
+                      .room = room,
+                      .title = request.scene.filename().string(),
+                      .cameras = cameras_of(lit, request),
+                      .transform = request.transform,
+                      .luminous_efficacy = request.settings.gltf.state.luminous_efficacy},
                      warnings);
   for (const std::string& warning : warnings)
     warn(events, warning);

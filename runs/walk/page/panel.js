@@ -12,6 +12,7 @@ const luminance = c => 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
 
 function makePanel(data, actions) {
   document.title = data.title + " - Meninas";
+  const efficacy = data.luminousEfficacy;
   element("title").textContent = data.title;
   const cameras = element("cameras");
   data.cameras.forEach((camera, k) => cameras.append(new Option(`${camera.name}${k < 9 ? ` (${k + 1})` : ""}`, k)));
@@ -53,7 +54,7 @@ function makePanel(data, actions) {
       const rows = [["surface", light.node || "-"], ["material", light.look.name || "-"],
         ["seen", light.mirrors ? `by way of ${light.mirrors} mirror${light.mirrors > 1 ? "s" : ""}` : "directly"],
         ["irradiance H", `${figure(luminance(light.irradiance))} W/m² (${light.irradiance.map(figure).join(", ")})`],
-        ["illuminance", `${figure(683 * luminance(light.irradiance))} lx, at 683 lm/W`],
+        ["illuminance", `${figure(efficacy * luminance(light.irradiance))} lx, at ${efficacy} lm/W`],
         ["radiosity B", `${figure(luminance(radiosity))} W/m² (${radiosity.map(figure).join(", ")})`],
         ["reflectance", rho.map(figure).join(", ") + (light.textured ? ", times its texture" : "")]];
       element("met").replaceChildren(...rows.flatMap(([name, value]) => {
