@@ -38,7 +38,7 @@ VertexSamples lit_vertices(const LitScene& l) {
   const InterpolationSettings interpolation;
   const std::vector<Rgb> dark(element_count(l.mesh), Rgb(0.0)), bright(dark.size(), Rgb(1.0));
   const PointGathering gathering =
-      gathering_from(*l.light, dark, {form_factors, direct, interpolation});
+      gathering_from(*l.light, dark, {form_factors, direct, interpolation, {}});
   PointWorkspaces workspaces;
   VertexSamples found = make_samples(l.mesh);
   light_vertices({bright, gathering, workspaces}, 0, found);

@@ -29,7 +29,7 @@ Scene plates_with_one_between() {
 }
 
 LitVertices lit_vertices(const LitScene& l, std::uint32_t seed = 0) {
-  return lit_vertices(*l.light, {{.seed = seed}, {.seed = seed}, {}});
+  return lit_vertices(*l.light, {{.seed = seed}, {.seed = seed}, {}, {}});
 }
 
 /// The light on elements by their corners; nothing is covered.
