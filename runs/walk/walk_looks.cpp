@@ -80,8 +80,11 @@ WalkLook walk_look(const Scene& scene, const DecodedTextures& textures, Material
     look.alpha = material.alpha;
   if (material.alpha_mode == AlphaMode::mask)
     look.cutoff = material.alpha_cutoff;
-  if (look.kind == WalkKind::covering)
+  if (look.kind == WalkKind::covering) {
     point.transmission = 0.0;
+    // The factor's share is in the material's; the page takes all of alpha.
+    look.emission = material.alpha > 0.0 ? material.emission / material.alpha : Rgb(0.0);
+  }
   if (look.kind == WalkKind::unlit) {
     look.albedo = point.base_color;
     return look;
@@ -100,7 +103,7 @@ WalkLook walk_look(const Scene& scene, const DecodedTextures& textures, Material
     look.ior = bsdf.pane.ior;
     look.tint = bsdf.pane.tint;
     if (look.kind == WalkKind::solid)
-      look.reflectance = attenuation(material, 1.0);
+      look.reflectance = glm::log(glm::max(attenuation(material, 1.0), Rgb(1e-300)));
   }
   return look;
 }

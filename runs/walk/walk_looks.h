@@ -26,7 +26,7 @@ enum class WalkKind { plain, unlit, coat, mirror, pane, covering, curved, solid 
 struct WalkLook {
   Rgb albedo{0.0}, rest{0.0};
   Rgb emission{0.0}; ///< radiance, times the emissive texture
-  Rgb reflectance{0.0}; ///< of mirrors; of solids what is left of light after a metre
+  Rgb reflectance{0.0}; ///< of mirrors; of solids ln of what is left of light after a metre
   Rgb f0{0.0};          ///< of coats and panes
   double f90 = 0.0, ior = 1.5;
   Rgb tint{1.0};        ///< of panes

@@ -26,7 +26,7 @@ struct Piece {
 };
 
 auto order_of(const WalkBatch& b) {
-  return std::tuple(b.section, b.colour, b.emission, b.mirror, b.node);
+  return std::tuple(b.section, b.colour, b.emission, b.mirror, b.node, b.shows_round);
 }
 
 /// One side of a patch.
@@ -116,6 +116,7 @@ private:
     key.emission = texture_of(material.emissive_texture);
     key.mirror = mirror_of(face);
     key.node = patch.node;
+    key.shows_round = shown.kind >= WalkKind::curved;
     return key;
   }
 

@@ -41,6 +41,7 @@ struct WalkBatch {
   TextureId colour = none<TextureId>, emission = none<TextureId>;
   MirrorId mirror = none<MirrorId>;
   NodeId node = none<NodeId>;
+  bool shows_round = false; ///< what the middle of its body sees: curved mirrors, solids
   std::uint32_t first = 0, count = 0; ///< triangles
 };
 

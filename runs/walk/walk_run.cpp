@@ -25,6 +25,9 @@ void check_files(const WalkRequest& request) {
   if (request.solution)
     inputs.push_back(*request.solution);
   check_outputs(outputs, inputs);
+  const std::string extension = request.page.extension().string();
+  if (extension != ".html" && extension != ".htm")
+    throw OutputError(request.page.string(), "", "cannot write: a page is an .html file");
 }
 
 /// What a PNG of the page's picture from there would be exposed with, by a small one.

@@ -2,7 +2,7 @@
 "use strict";
 
 /// More worlds than that make no frame slow on a plain graphics card; slow ones have fewer.
-const mostWorlds = 128, mostWorldsOfShot = 1024, slowFrame = 80;
+const mostWorlds = 128, mostWorldsOfShot = 1024, slowFrame = 80, mostPixels = 1 << 24;
 
 async function start() {
   const data = JSON.parse(element("data").textContent), canvas = element("view"), gl = openGpu(canvas);
@@ -11,7 +11,7 @@ async function start() {
   const textures = data.textures.map(use => makeTexture(gl, images[use.image], use));
   if (data.sky) textures.sky = await makeSky(gl, data.sky);
   const paint = makePainter(gl, data, room, textures), rays = raysWhenAsked(room), motion = makeMotion(room, rays);
-  const asked = readAddress();
+  const asked = readAddress(), mostWide = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE);
   const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0,
     most: Math.ceil(clamped(8e5 / tables.triangles.length, 1, 8)), coarse: true, slow: true };
   let waiting = false, moving = true, last = 0, rest = 0;
@@ -32,8 +32,9 @@ async function start() {
   }
   function saveAddress() {
     const { camera, eye, yaw, pitch } = motion.state;
-    const place = camera ? "camera=" + encodeURIComponent(camera.name) : "at=" + [...eye, yaw, pitch].map(x => x.toFixed(3)).join(",");
-    try { history.replaceState(null, "", "#" + place); } catch { /* a page that may not has no links */ }
+    const place = camera ? "camera=" + encodeURIComponent(camera.name) : "at=" + [...eye, yaw, pitch].map(x => Number(x.toPrecision(6))).join(",");
+    const switches = (shows.mirrors ? "" : "&mirrors=off") + (shows.falseColours ? "&irradiance" : "") + (shows.lines ? "&elements" : "");
+    try { history.replaceState(null, "", `#${place}&exposure=${motion.state.exposure.toFixed(2)}${switches}`); } catch { /* a page that may not has no links */ }
   }
 
   function sizeOfCanvas(coarse) {
@@ -43,6 +44,7 @@ async function start() {
   }
   function paintNow(block, most, coarse = false) {
     const [width, height] = sizeOfCanvas(coarse), before = performance.now();
+    while (block > 1 && (Math.max(width, height) * block > mostWide || width * height * block * block > mostPixels)) block /= 2;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     const figures = paint(motion.view(width / height), { ...shows, width, height, block, most, exposure: motion.state.exposure });
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
@@ -68,7 +70,7 @@ async function start() {
     else if (moving) rest = setTimeout(() => { saveAddress(); askForFrame(false); }, 250);
   }
   /// While someone moves, slow frames have fewer pixels, and then fewer worlds, those by the most
-  /// mirrors first. At rest all is drawn.
+  /// mirrors first. At rest there are more of both.
   function keepPace({ milliseconds, worlds, cut }) {
     if (milliseconds > slowFrame) {
       if (shows.coarse && worlds > 2) shows.most = Math.max(2, Math.ceil(worlds * 0.7));
@@ -82,7 +84,7 @@ async function start() {
     moving = moving && waiting ? true : isMoving;
     if (waiting || asked.shot) return;
     waiting = true;
-    requestAnimationFrame(frame);
+    requestAnimationFrame(now => { try { frame(now); } catch (problem) { showProblem(problem); } });
   }
   function moved() { askForFrame(true); }
   const keys = {
@@ -102,12 +104,18 @@ async function start() {
     const camera = motion.view(canvas.clientWidth / canvas.clientHeight);
     const [i, j] = [2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight];
     const direction = unit(plus(plus(camera.forward, camera.right, i * camera.half * camera.aspect), camera.up, j * camera.half));
-    panel.met(lightMet(room, rays, camera.eye, direction));
+    // What the section plane cuts away is not met.
+    const past = camera.near / Math.max(1e-6, dot(direction, camera.forward));
+    panel.met(lightMet(room, rays, plus(camera.eye, direction, past), direction));
   };
   keys.enter = () => meet(canvas.clientWidth / 2, canvas.clientHeight / 2);
   const step = listen(canvas, motion, room, moved, meet);
   addEventListener("resize", moved);
-  addEventListener("hashchange", () => { Object.assign(asked, readAddress()); followAddress(); });
+  addEventListener("hashchange", () => {
+    Object.assign(asked, readAddress());
+    Object.assign(shows, { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines });
+    followAddress();
+  });
   canvas.addEventListener("webglcontextlost", () => showProblem(new Error("The graphics card has dropped this page: load it again.")));
 
   followAddress();

@@ -55,7 +55,7 @@ function makePanel(data, actions) {
         ["seen", light.mirrors ? `by way of ${light.mirrors} mirror${light.mirrors > 1 ? "s" : ""}` : "directly"],
         ["irradiance H", `${figure(luminance(light.irradiance))} W/m² (${light.irradiance.map(figure).join(", ")})`],
         ["illuminance", `${figure(efficacy * luminance(light.irradiance))} lx, at ${efficacy} lm/W`],
-        ["radiosity B", `${figure(luminance(radiosity))} W/m² (${radiosity.map(figure).join(", ")})`],
+        [light.textured ? "radiosity B, at most" : "radiosity B", `${figure(luminance(radiosity))} W/m² (${radiosity.map(figure).join(", ")})`],
         ["reflectance", rho.map(figure).join(", ") + (light.textured ? ", times its texture" : "")]];
       element("met").replaceChildren(...rows.flatMap(([name, value]) => {
         const [dt, dd] = [document.createElement("dt"), document.createElement("dd")];

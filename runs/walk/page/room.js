@@ -95,7 +95,7 @@ function hasOwn(data, tables, batch) {
 function partOf(room, triangle) {
   const batch = room.data.batches.find(b => triangle >= b[5] && triangle < b[5] + b[6]);
   return { node: batch[4] < 0 ? "" : room.data.nodes[batch[4]], mirror: batch[3],
-    look: room.data.looks[room.tables.look[room.tables.triangles[3 * triangle]]] };
+    textured: batch[1] >= 0, look: room.data.looks[room.tables.look[room.tables.triangles[3 * triangle]]] };
 }
 
 /// The ends of the edges of elements: those that one triangle alone of an element has.

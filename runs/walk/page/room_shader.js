@@ -79,7 +79,7 @@ vec3 blurred(vec3 n, vec3 towards, float roughness, bool coat, vec3 metal) {
     float u = (float(k) + 0.5) / float(count), phi = turn + 2.39996323 * float(k);
     float slope = alpha * sqrt(u / (1.0 - u));
     vec3 h = normalize(n + slope * (cos(phi) * t + sin(phi) * b));
-    float c = max(0.0, -dot(towards, h));
+    float c = clamp(-dot(towards, h), 0.0, 1.0);
     vec3 r = towards + 2.0 * c * h;
     float up = dot(r, n);
     if (up <= 0.0) continue;
@@ -109,7 +109,7 @@ vec3 seenBySolid(vec3 n, vec3 towards) {
   float c = min(1.0, abs(dot(n, towards))), straight = fresnel(tint.w, 1.0);
   vec3 face = mix(f.rgb, vec3(f.w), clamp((fresnel(tint.w, c) - straight) / (1.0 - straight + 1e-6), 0.0, 1.0));
   vec3 through = refract(towards, n, 1.0 / max(tint.w, 1.0));
-  return face * seenByBody(reflect(towards, n), 0.0) + (1.0 - face) * tint.rgb * pow(NUMBERS(5).rgb, vec3(thickness)) * seenByBody(through, 0.0);
+  return face * seenByBody(reflect(towards, n), 0.0) + (1.0 - face) * tint.rgb * exp(NUMBERS(5).rgb * thickness) * seenByBody(through, 0.0);
 }
 
 void main() {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace meninas {
 namespace {
 
@@ -66,7 +68,12 @@ TEST(WalkLooks, PanesSolidsAndCoverageAreToldApart) {
   pane.attenuation_distance = 2.0;
   const WalkLook solid = look_of(pane);
   EXPECT_EQ(solid.kind, WalkKind::solid);
-  EXPECT_NEAR(solid.reflectance.r, 0.5, 1e-12) << "a metre is half of the distance";
+  EXPECT_NEAR(solid.reflectance.r, std::log(0.5), 1e-12) << "a metre is half of the distance";
+  Material glow;
+  glow.alpha_mode = AlphaMode::blend;
+  glow.alpha = 0.25;
+  glow.emission = Rgb(0.25); // as read: the share is in it
+  EXPECT_EQ(look_of(glow).emission, Rgb(1.0)) << "of which the page shows alpha";
   Material leaf;
   leaf.alpha_mode = AlphaMode::mask;
   leaf.alpha_cutoff = 0.3;
