@@ -21,6 +21,15 @@ Scene under_background(Scene scene, const RunSettings& settings) {
   return scene;
 }
 
+std::vector<std::filesystem::path> files_beside_scene(const RunSettings& settings) {
+  std::vector<std::filesystem::path> files;
+  if (settings.environment.file)
+    files.emplace_back(*settings.environment.file);
+  for (const auto& [light, file] : settings.gltf.state.luminaires)
+    files.emplace_back(file);
+  return files;
+}
+
 Scene load_scene(const std::filesystem::path& file, const RunSettings& settings) {
   Scene scene = load_gltf(file, settings.gltf);
   if (!scene.textures.empty()) {

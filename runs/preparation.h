@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 namespace meninas {
 
@@ -16,6 +17,9 @@ Scene under_background(Scene scene, const RunSettings& settings);
 
 /// The same, of a file.
 Scene load_scene(const std::filesystem::path& file, const RunSettings& settings);
+
+/// The files that are read besides: of the sky and of luminaires.
+std::vector<std::filesystem::path> files_beside_scene(const RunSettings& settings);
 
 /// Says the plan's warnings and fills in the figures of these stages.
 std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace meninas {
 namespace {
@@ -24,6 +25,7 @@ void check_files(const RenderRequest& request) {
   if (request.solution) {
     inputs.push_back(*request.solution);
   }
+  std::ranges::move(files_beside_scene(request.settings), std::back_inserter(inputs));
   check_outputs(outputs, inputs);
   if (request.snapshots) {
     prepare_snapshots(*request.snapshots);

@@ -15,6 +15,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace meninas {
 
 /// Beside the solution, unless it is said where.
@@ -40,6 +43,7 @@ static void check_files(const SolveRequest& request) {
     check_points_file(points_file(request));
     outputs.texts.push_back(points_file(request));
   }
+  std::ranges::move(files_beside_scene(request.settings), std::back_inserter(inputs));
   check_outputs(outputs, inputs);
 }
 

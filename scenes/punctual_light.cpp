@@ -21,12 +21,12 @@ PunctualSample punctual_sample(const PunctualLight& light, const Point3& x, doub
   const double distance2 = glm::dot(from_light, from_light);
   if (distance2 == 0.0)
     return {light.position, Rgb(0.0)};
-  if (light.distribution) {
-    const Direction d = glm::transpose(light.frame) * (from_light / std::sqrt(distance2));
-    return {light.position, light.intensity * (intensity_at(*light.distribution, d) / distance2)};
-  }
   const double cosine = glm::dot(from_light, light.direction) / std::sqrt(distance2);
-  const double falloff = light.kind == PunctualKind::spot ? spot_falloff(light, cosine) : 1.0;
+  double falloff = light.kind == PunctualKind::spot ? spot_falloff(light, cosine) : 1.0;
+  // A luminaire on a face is a spot of half of all directions (repair/touching.h).
+  if (light.distribution)
+    falloff *= intensity_at(*light.distribution,
+                            glm::transpose(light.frame) * (from_light / std::sqrt(distance2)));
   return {light.position, light.intensity * (falloff / distance2)};
 }
 

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace meninas {
 
 namespace {
 
 constexpr std::size_t most_faces = 64, most_points = 1'000'000;
+constexpr double most_tests = 2e9; ///< of points against patches: some ten seconds
 
 /// A rectangle in the plane of a face: corner + [0, a] u + [0, b] v.
 struct Rectangle {
@@ -92,17 +94,18 @@ std::pair<std::size_t, std::size_t> counts(double length, double width) {
   return narrow ? std::pair{along_other, along_d} : std::pair{along_d, along_other};
 }
 
-MeasuringGrid grid_on(const Patches& patches, const Direction& normal, const std::string& node,
-                      const GridSettings& settings) {
+/// None where the margins leave nothing, or no point is over the face.
+std::optional<MeasuringGrid> grid_on(const Patches& patches, const Direction& normal,
+                                     const std::string& node, const GridSettings& settings) {
   const Rectangle all = smallest_around(patches, normal);
   MeasuringGrid grid{.node = node,
                      .length = all.a - 2.0 * settings.margin,
                      .width = all.b - 2.0 * settings.margin};
   if (!(grid.width > 0.0))
-    throw UsageError("--grid-margin", fmt::format("leaves nothing of node '{}', which is {:.3g} x {:.3g} m",
-                                                  node, all.a, all.b));
+    return std::nullopt;
   std::tie(grid.along, grid.across) = counts(grid.length, grid.width);
-  if (double(grid.along) * double(grid.across) > double(most_points))
+  const double count = double(grid.along) * double(grid.across);
+  if (count > double(most_points) || count * double(patches.size()) > most_tests)
     throw UsageError("--grid", fmt::format("node '{}' would have {} x {} points", node, grid.along,
                                            grid.across));
   for (std::size_t j = 0; j < grid.across; ++j)
@@ -113,7 +116,7 @@ MeasuringGrid grid_on(const Patches& patches, const Direction& normal, const std
       if (std::ranges::any_of(patches, [&](const Patch* p) { return is_over(*p, x, normal); }))
         grid.points.push_back({x + settings.height * normal, normal});
     }
-  return grid;
+  return grid.points.empty() ? std::nullopt : std::optional(std::move(grid));
 }
 
 } // namespace
@@ -140,19 +143,27 @@ std::vector<MeasuringGrid> measuring_grids(const Scene& scene, const SurfaceMode
   for (const auto& [surface, patches] : faces) {
     ++number;
     const Surface& face = surfaces.surfaces[index(surface)];
-    const bool two_sides = scene.materials[index(face.material)].double_sided;
-    for (const bool back : {false, true}) {
-      if (back && !two_sides)
-        continue;
-      MeasuringGrid grid = grid_on(patches, face.plane.normal, node, settings);
-      for (QueryPoint& point : grid.points)
-        if (back)
-          point = {point.position - 2.0 * settings.height * face.plane.normal, -point.normal};
-      grid.face = faces.size() > 1 ? number : 0;
-      grid.back = back;
-      grids.push_back(std::move(grid));
-    }
+    std::optional<MeasuringGrid> front = grid_on(patches, face.plane.normal, node, settings);
+    if (!front)
+      continue;
+    front->face = faces.size() > 1 ? number : 0;
+    grids.push_back(std::move(*front));
+    if (!scene.materials[index(face.material)].double_sided)
+      continue;
+    MeasuringGrid back = grids.back();
+    for (QueryPoint& point : back.points)
+      point = {point.position - 2.0 * settings.height * face.plane.normal, -point.normal};
+    back.back = true;
+    grids.push_back(std::move(back));
   }
+  if (grids.empty())
+    throw UsageError("--grid", fmt::format("node '{}' has no room for a point{}", node,
+                                           settings.margin > 0.0 ? " within --grid-margin" : ""));
+  std::size_t points = 0;
+  for (const MeasuringGrid& grid : grids)
+    points += grid.points.size();
+  if (points > most_points)
+    throw UsageError("--grid", fmt::format("node '{}' would have {} points", node, points));
   return grids;
 }
 

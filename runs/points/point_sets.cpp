@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -15,20 +16,29 @@ namespace {
 
 constexpr std::size_t most_points = 1'000'000;
 
-bool separates(char c) { return c == ',' || c == ';' || c == ' ' || c == '\t' || c == '\r'; }
+constexpr std::string_view blanks = " \t\r";
 
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos)
+    return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// Between semicolons where there are any, else between commas, else between blanks: where
+/// semicolons separate, a comma may be a decimal one, and is refused as no number.
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
-  for (std::size_t k = 0; k < line.size();) {
-    if (separates(line[k])) {
-      ++k;
-      continue;
-    }
-    std::size_t end = k;
-    while (end < line.size() && !separates(line[end]))
-      ++end;
-    fields.push_back(line.substr(k, end - k));
-    k = end;
+  line = trimmed(line);
+  const std::string_view separators = line.find(';') != std::string_view::npos   ? ";"
+                                      : line.find(',') != std::string_view::npos ? ","
+                                                                                 : blanks;
+  while (!line.empty()) {
+    const auto end = std::min(line.find_first_of(separators), line.size());
+    fields.push_back(trimmed(line.substr(0, end)));
+    line.remove_prefix(std::min(end + 1, line.size()));
+    if (separators == blanks)
+      line = trimmed(line);
   }
   return fields;
 }
@@ -72,13 +82,18 @@ QueryPoint point_in(const std::vector<std::string_view>& fields, const std::stri
 std::vector<QueryPoint> parse_points(std::string_view text, const std::string& file) {
   std::vector<QueryPoint> points;
   bool may_be_header = true;
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark))
+    text.remove_prefix(byte_order_mark.size());
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(text.size(), line.size() + 1));
     const auto fields = fields_of(line);
     if (fields.empty() || fields.front().starts_with('#'))
       continue;
-    const bool header = may_be_header && !number_in(fields.front());
+    const bool header = may_be_header && std::ranges::none_of(fields, [](std::string_view field) {
+                          return number_in(field).has_value();
+                        });
     may_be_header = false;
     if (header)
       continue;

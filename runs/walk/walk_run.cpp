@@ -15,6 +15,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace meninas {
 
 namespace {
@@ -24,6 +27,7 @@ void check_files(const WalkRequest& request) {
   std::vector<std::filesystem::path> inputs{request.scene};
   if (request.solution)
     inputs.push_back(*request.solution);
+  std::ranges::move(files_beside_scene(request.settings), std::back_inserter(inputs));
   check_outputs(outputs, inputs);
   const std::string extension = request.page.extension().string();
   if (extension != ".html" && extension != ".htm")

@@ -50,6 +50,14 @@ static Rgb intensity_of(const SceneState& state, const Rgb& colour) {
   return colour * (state.light_scale / state.luminous_efficacy);
 }
 
+/// As bright as other lights may be, and no brighter (cameras.cpp).
+static void check_brightness(const PunctualLight& light, const std::string& file,
+                             const std::string& where) {
+  const double most = std::ranges::max(light.distribution->candela);
+  if (!glm::all(glm::lessThan(light.intensity * most, Rgb(1e30))))
+    throw InputError(file, where, "its candela are too many");
+}
+
 std::optional<glm::dmat3> unit_frame(const glm::dmat4& world) {
   const auto unit = [](const Vec3& v) -> std::optional<Vec3> {
     const double length = glm::length(v);
@@ -78,6 +86,7 @@ PunctualLight read_luminaire(const Document& document, const Json& use, const st
     throw InputError(document.file, name, "its multiplier is too large");
   light.intensity = intensity_of(document.settings.state, std::max(multiplier, 0.0) *
                                                               glm::clamp(colour, 0.0, 1.0));
+  check_brightness(light, document.file, name);
   return light;
 }
 
@@ -97,6 +106,7 @@ void put_luminaires(const Document& document, std::span<const Rgb> colours, Scen
     light.distribution = profile_of(read_whole_file(file, document.settings.memory_limit), file, "");
     light.kind = PunctualKind::point;
     light.intensity = intensity_of(document.settings.state, colours[k]);
+    check_brightness(light, file, "");
     const double lumens = document.settings.state.light_scale * luminous(1.0, colours[k]) *
                           luminous_flux(*light.distribution);
     findings.about("IES files say how bright lights are, not the file's intensity and cone",

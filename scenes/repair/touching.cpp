@@ -210,7 +210,7 @@ bool is_plain(const Material& material) { return !is_glass(material) && !is_emit
 double side_of(const PunctualLight& light, const Plane& face, bool double_sided, double rounding) {
   constexpr double along = 0.05; // sine of an axis that says nothing of sides
   const double axis = glm::dot(light.direction, face.normal);
-  if (light.kind == PunctualKind::spot && std::abs(axis) > along)
+  if ((light.kind == PunctualKind::spot || light.distribution) && std::abs(axis) > along)
     return axis;
   const double height = signed_distance(face, light.position);
   return double_sided && std::abs(height) > rounding ? height : 1.0;
