@@ -72,6 +72,7 @@ TEST(WalkLooks, PanesSolidsAndCoverageAreToldApart) {
   Material glow;
   glow.alpha_mode = AlphaMode::blend;
   glow.alpha = 0.25;
+  glow.transmission = 0.75;
   glow.emission = Rgb(0.25); // as read: the share is in it
   EXPECT_EQ(look_of(glow).emission, Rgb(1.0)) << "of which the page shows alpha";
   Material leaf;
