@@ -90,6 +90,40 @@ TEST(MeasuringGrid, BadQuestions) {
   EXPECT_THROW(measuring_grids(scene, surfaces, "desk", {.margin = 1.0}), UsageError);
 }
 
+Scene as_one_node(Scene scene, const std::string& name) {
+  scene.nodes[0].name = name;
+  for (Triangle& triangle : scene.triangles) {
+    triangle.node = NodeId{0};
+    triangle.material = MaterialId{0};
+  }
+  return scene;
+}
+
+TEST(MeasuringGrid, FacesNarrowerThanTheMarginHaveNone) {
+  Scene scene;
+  add_box(scene, "desk", {0.0, 0.7, 0.0}, {1.6, 0.725, 0.8}, diffuse(0.5));
+  const Scene desk = as_one_node(std::move(scene), "desk");
+  EXPECT_EQ(measuring_grids(desk, find_surfaces(desk), "desk", {.margin = 0.1}).size(), 2U);
+  EXPECT_THROW(measuring_grids(desk, find_surfaces(desk), "desk", {.margin = 0.5}), UsageError);
+}
+
+// A frame of a metre is 0.05 m wide, and its points, 0.2 m apart from 0.1 on, are all in the hole.
+TEST(MeasuringGrid, NoPointIsNoGrid) {
+  constexpr std::array cuts{0.0, 0.05, 0.95, 1.0};
+  Scene scene;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (i != 1 || k != 1)
+        add_polygon(scene, "frame",
+                    {{cuts[i], 0, cuts[k]},
+                     {cuts[i], 0, cuts[k + 1]},
+                     {cuts[i + 1], 0, cuts[k + 1]},
+                     {cuts[i + 1], 0, cuts[k]}},
+                    diffuse(0.5));
+  const Scene frame = as_one_node(std::move(scene), "frame");
+  EXPECT_THROW(measuring_grids(frame, find_surfaces(frame), "frame", {}), UsageError);
+}
+
 TEST(MeasuringGrid, Summary) {
   const std::vector<double> values{4.0, 1.0, 7.0};
   const GridSummary summary = summary_of(values);

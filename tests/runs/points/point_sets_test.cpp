@@ -43,6 +43,16 @@ TEST(PointSets, BadLinesAreNamed) {
   EXPECT_EQ(problem_of(""), "p.csv: has no points");
 }
 
+TEST(PointSets, AreNeverReadAsOthers) {
+  EXPECT_EQ(problem_of("0,5;1,2;0,8\n"), "p.csv: has no points") << "a header: no number in it";
+  EXPECT_EQ(problem_of("x;y;z\n0,5;1,2;0,8\n"), "p.csv: line 2: value 1 is no number, or a huge one");
+  EXPECT_EQ(problem_of("1,2,3\n1,,2,3\n"), "p.csv: line 2: 4 values, not 3 (x, y, z) or 6 (and nx, ny, nz)");
+  EXPECT_EQ(problem_of("nan,0,0\n"), "p.csv: line 1: value 1 is no number, or a huge one");
+  const auto marked = parse_points("\xEF\xBB\xBF" "1,0.75,1\n2,0.75,1", "p.csv");
+  ASSERT_EQ(marked.size(), 2U) << "a byte order mark is no header";
+  EXPECT_EQ(marked[0].position, Point3(1, 0.75, 1));
+}
+
 MeasuredSet measured(const std::string& name, Rgb total) {
   MeasuredSet set{{name, {{{1, 2, 3}, {0, 1, 0}}}, std::nullopt}, {{total, 0.5 * total, 0.25 * total}}, 100.0};
   return set;

@@ -1,4 +1,5 @@
 // Which of two things in one plane comes first.
+#include "scenes/ies/intensity_distribution.h"
 #include "scenes/repair/glass_plates.h"
 #include "scenes/punctual_light.h"
 #include "scenes/rays/ray_scene.h"
@@ -7,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <numbers>
 
 namespace meninas::test {
@@ -143,6 +145,20 @@ TEST(Touching, ASpotShinesToItsSideOfAFaceOfTwo) {
   scene.lights[0].direction = {0.0, 0.0, -1.0};
   settle_lights(scene);
   EXPECT_LT(scene.lights[0].position.z, -1e-5);
+}
+
+TEST(Touching, ALuminaireShinesToTheSideThatItAimsAtAlone) {
+  Scene scene = wall_with(double_sided(diffuse(0.5)), 0.0);
+  PunctualLight light = light_at(0.0, PunctualKind::point);
+  light.direction = {0.0, 0.0, -1.0};
+  light.distribution = std::make_shared<const IntensityDistribution>(
+      IntensityDistribution{Photometry::type_c, {0.0, 180.0}, {0.0}, {100.0, 100.0}});
+  scene.lights.push_back(light);
+  settle_lights(scene);
+  EXPECT_LT(scene.lights[0].position.z, -1e-5) << "as a spot does";
+  EXPECT_GT(punctual_sample(scene.lights[0], {0.5, 0.4, -2.0}, 10.0).irradiance.r, 0.0);
+  EXPECT_EQ(punctual_sample(scene.lights[0], {0.2, 0.1, 0.0}, 10.0).irradiance.r, 0.0)
+      << "not at its foot, where its candela backwards would be any number of lux";
 }
 
 TEST(Touching, LightsOffAllFacesStay) {
