@@ -186,7 +186,7 @@ TEST_F(Lux, WhatDoesNotGoTogether) {
   says(2, with(solve, {"--grid-margin", "1"}), "--grid-margin: has no effect without --grid");
   says(2, with(solve, {"--points-out", "p.csv"}), "--points-out: has no effect without --points or --grid");
   says(2, with(solve, {"--grid", "flor"}), "no node 'flor', did you mean 'floor'?");
-  says(2, with(solve, {"--grid", "floor", "--grid-margin", "0.6"}), "--grid-margin: leaves nothing of node 'floor'");
+  says(2, with(solve, {"--grid", "floor", "--grid-margin", "0.6"}), "--grid: node 'floor' has no room for a point within --grid-margin");
   says(2, with(solve, {"--grid", "floor", "--grid-height", "-1"}), "--grid-height: cannot be negative");
   says(3, with(solve, {"--points", "missing.csv"}), "missing.csv: no such file");
   says(4, with(solve, {"--grid", "floor", "--points-out", "p.txt"}), "p.txt: cannot write points");
