@@ -17,12 +17,6 @@ glm::vec3 linear(const glm::vec3& encoded) {
   return {srgb_decode(encoded.r), srgb_decode(encoded.g), srgb_decode(encoded.b)};
 }
 
-void fill(Image& picture, int x0, int y0, int x1, int y1, const glm::vec3& colour) {
-  for (int y = std::max(y0, 0); y < std::min(y1, picture.height); ++y)
-    for (int x = std::max(x0, 0); x < std::min(x1, picture.width); ++x)
-      picture.at(x, y) = colour;
-}
-
 /// Lengths of the legend, in pixels.
 struct Layout {
   int dot;    ///< pixels per dot of a letter
@@ -41,10 +35,6 @@ Layout layout_of(int width, std::string_view title, int largest_dot) {
   return {.dot = dot, .margin = margin, .bar = 12 * dot};
 }
 
-double lower_end(const ColourScale& scale) {
-  return scale.scale == ErrorScale::magnitude ? 0.0 : -scale.top;
-}
-
 /// Whether a line between two values lies between these pixels. Where values differ by more than a
 /// quarter of a step they are of different things, and lines would be no farther apart than they are wide.
 bool crosses(float a, float b, double step) {
@@ -52,6 +42,18 @@ bool crosses(float a, float b, double step) {
 }
 
 } // namespace
+
+double scale_start(const ColourScale& scale) {
+  return scale.scale == ErrorScale::magnitude ? 0.0 : -scale.top;
+}
+
+glm::vec3 scale_background() { return linear(glm::vec3(0.2F)); }
+
+void fill(Image& picture, int x0, int y0, int x1, int y1, const glm::vec3& colour) {
+  for (int y = std::max(y0, 0); y < std::min(y1, picture.height); ++y)
+    for (int x = std::max(x0, 0); x < std::min(x1, picture.width); ++x)
+      picture.at(x, y) = colour;
+}
 
 double readable_top(const Channel& values) {
   std::vector<float> sorted = values.values;
@@ -83,7 +85,7 @@ int scale_height(int width, const ColourScale& scale, int largest_dot) {
 
 void draw_scale(Image& picture, int top, const ColourScale& scale, int largest_dot) {
   const Layout layout = layout_of(picture.width, scale.title, largest_dot);
-  fill(picture, 0, top, picture.width, top + layout.height(), linear(glm::vec3(0.2F)));
+  fill(picture, 0, top, picture.width, top + layout.height(), scale_background());
   const glm::vec3 ink(1.0F);
   const int left = layout.margin, right = picture.width - layout.margin;
   int y = top + layout.gap();
@@ -93,7 +95,7 @@ void draw_scale(Image& picture, int top, const ColourScale& scale, int largest_d
     fill(picture, x, y, x + 1, y + layout.bar,
          scale_colour(static_cast<double>(x - left) / (right - left - 1), scale.scale));
   y += layout.bar;
-  const double from = lower_end(scale), length = scale.top - from;
+  const double from = scale_start(scale), length = scale.top - from;
   const int ticks = scale_ticks(scale.scale);
   for (int k = 0; k <= ticks; ++k) {
     const int x = left + (right - left - 1) * k / ticks;

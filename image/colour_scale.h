@@ -27,6 +27,15 @@ double readable_top(const Channel& values);
 /// Linear; `place` is 0 at the scale's low end and 1 at its top.
 glm::vec3 scale_colour(double place, ErrorScale scale);
 
+/// The value at its low end.
+double scale_start(const ColourScale& scale);
+
+/// What is under scales and beside maps: a dark grey, linear.
+glm::vec3 scale_background();
+
+/// The pixels from (x0, y0) to before (x1, y1) that are in the picture.
+void fill(Image& picture, int x0, int y0, int x1, int y1, const glm::vec3& colour);
+
 /// How many steps the numbers below the bar are apart.
 int scale_ticks(ErrorScale scale);
 

@@ -1,5 +1,6 @@
 #include "reference/sky_table.h"
 
+#include "scenes/photometry.h"
 #include "scenes/sky/radiance_map.h"
 
 #include <algorithm>

@@ -9,8 +9,11 @@
 
 namespace meninas {
 
+/// The luminance of a colour, Rec.709: also its weight where one number has to stand for it.
+inline double luminance_of(const Rgb& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
+
 inline double luminous(double efficacy, const Rgb& radiometric) {
-  return efficacy * glm::dot(radiometric, Rgb(0.2126, 0.7152, 0.0722));
+  return efficacy * luminance_of(radiometric);
 }
 
 } // namespace meninas

@@ -13,20 +13,6 @@ namespace {
 
 constexpr int wanted_width = 512; ///< of the picture, before pixels get larger than one
 
-glm::vec3 linear(const glm::vec3& encoded) {
-  return {srgb_decode(encoded.r), srgb_decode(encoded.g), srgb_decode(encoded.b)};
-}
-
-void fill(Image& picture, int x0, int y0, int x1, int y1, const glm::vec3& colour) {
-  for (int y = std::max(y0, 0); y < std::min(y1, picture.height); ++y)
-    for (int x = std::max(x0, 0); x < std::min(x1, picture.width); ++x)
-      picture.at(x, y) = colour;
-}
-
-double lower_end(const HeatMapSettings& settings) {
-  return settings.scale == ErrorScale::magnitude ? 0.0 : -settings.top;
-}
-
 } // namespace
 
 Channel signed_difference(const Image& picture, const Image& reference) {
@@ -54,10 +40,10 @@ Image heat_map(const Channel& errors, const HeatMapSettings& settings) {
   const int width = std::max(magnified * errors.width, wanted_width);
   const int largest_dot = width / 256;
   Image picture(width, map_height + scale_height(width, settings, largest_dot));
-  fill(picture, 0, 0, width, picture.height, linear(glm::vec3(0.2F)));
+  fill(picture, 0, 0, width, picture.height, scale_background());
 
   const int left = (width - magnified * errors.width) / 2;
-  const double from = lower_end(settings), length = settings.top - from;
+  const double from = scale_start(settings), length = settings.top - from;
   for (int y = 0; y < errors.height; ++y)
     for (int x = 0; x < errors.width; ++x)
       fill(picture, left + x * magnified, y * magnified, left + (x + 1) * magnified,

@@ -6,6 +6,7 @@
 #include "runs/report/page.h"
 #include "runs/walk/packed_numbers.h"
 #include "scenes/errors.h"
+#include "scenes/photometry.h"
 #include "scenes/sky/radiance_map.h"
 #include "scenes/version.h"
 

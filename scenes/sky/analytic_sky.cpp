@@ -1,5 +1,6 @@
 #include "scenes/sky/analytic_sky.h"
 
+#include "scenes/photometry.h"
 #include "scenes/sky/preetham.h"
 #include "scenes/sky/sun_light.h"
 

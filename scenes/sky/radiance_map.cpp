@@ -1,6 +1,7 @@
 #include "scenes/sky/radiance_map.h"
 
 #include "scenes/content_hash.h"
+#include "scenes/photometry.h"
 
 #include <fmt/format.h>
 

@@ -67,11 +67,6 @@ Rgb mean_radiance(const RadianceMap& map);
 /// never 0. Of a few hundred directions: it is for choices and scales.
 double mean_beyond(const RadianceMap& map, const Direction& axis);
 
-/// The weight of a colour where one number has to stand for it: the luminance, Rec.709.
-inline double luminance_of(const glm::vec3& c) {
-  return 0.2126 * double{c.r} + 0.7152 * double{c.g} + 0.0722 * double{c.b};
-}
-
 /// What a picture's texels were before they became a map's.
 struct TexelFaults {
   std::int64_t not_numbers = 0, negative = 0, infinite = 0;

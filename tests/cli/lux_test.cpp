@@ -193,6 +193,8 @@ TEST_F(Lux, WhatDoesNotGoTogether) {
   write("bad.csv", "1,2,3\n1,2\n");
   says(3, with(solve, {"--points", "bad.csv"}), "bad.csv: line 2: 2 values");
   says(2, with(solve, {"--points", "bad.csv", "--points-out", "bad.csv"}), "is an input");
+  says(2, with(solve, {"--ies", "bulb=lamp.ies", "--stats", "lamp.ies"}), "is an input");
+  says(2, {"render", "room.glb", "--environment", "sky.hdr", "-o", "sky.hdr"}, "is an input");
   says(2, with(solve, {"--ies", "bulb"}), "--ies: takes LIGHT=FILE");
   says(2, with(solve, {"--ies", "bulb=x.ies"}), "no light 'bulb'");
   says(2, with(solve, {"--luminous-efficacy", "100", "--sky", "overcast"}), "--luminous-efficacy: does not go with --sky");

@@ -145,6 +145,9 @@ TEST_F(Walk, KeysCamerasAndClicksWork) {
     dispatchEvent(new KeyboardEvent('keyup', { key: 'ArrowLeft' }));
     await until(() => location.hash.startsWith('#at'));
     report.link = location.hash;
+    location.hash = '#camera=camera';
+    await until(() => document.getElementById('legend').hidden);
+    report.followed = document.getElementById('legend').hidden;
     report.outside = performance.getEntriesByType('resource').filter(entry => !/^(data|blob):/.test(entry.name)).length;
     return report;)");
   ASSERT_FALSE(said.is_null());
@@ -160,7 +163,11 @@ TEST_F(Walk, KeysCamerasAndClicksWork) {
   EXPECT_THAT(said.at("met").get<std::string>(), HasSubstr("irradiance H"));
   EXPECT_TRUE(said.at("closed"));
   EXPECT_TRUE(said.at("help"));
-  EXPECT_THAT(said.at("link").get<std::string>(), testing::StartsWith("#at="));
+  const std::string link = said.at("link");
+  EXPECT_THAT(link, testing::StartsWith("#at="));
+  for (const char* state : {"&exposure=", "&mirrors=off", "&irradiance"})
+    EXPECT_THAT(link, HasSubstr(state)) << "a colleague sees the same";
+  EXPECT_TRUE(said.at("followed")) << "a link without false colours shows none";
   EXPECT_EQ(said.at("outside"), 0) << "nothing is fetched from anywhere";
 }
 
@@ -201,6 +208,24 @@ TEST_F(Walk, ABrowserWithoutWebGl2IsTold) {
   EXPECT_THAT(said.at("problem").get<std::string>(), HasSubstr("WebGL 2"));
 }
 
+TEST_F(Walk, WhatFailsWhileDrawingIsTold) {
+  if (!has_browser())
+    GTEST_SKIP() << "no Chromium here: pages are not used";
+  write_tiny_page();
+  std::string html = read_file(folder_ / "room.html");
+  html.insert(html.find("<head>"), "<script>WebGL2RenderingContext.prototype.checkFramebufferStatus = "
+                                   "() => 0;</script>");
+  std::ofstream(folder_ / "broken.html") << html;
+  const json said = drawn("broken.html", "", R"(
+    for (let k = 0; k < 300 && !document.body.dataset.problem; ++k) await new Promise(r => setTimeout(r, 50));
+    return { problem: document.body.dataset.problem || '' };)");
+  ASSERT_FALSE(said.is_null());
+  const std::string problem = said.at("problem");
+  if (problem.find("draw") != std::string::npos || problem.find("needs WebGL 2") != std::string::npos)
+    GTEST_SKIP() << "this Chromium draws no WebGL 2: " << problem;
+  EXPECT_THAT(problem, HasSubstr("needs a stencil beside 16-bit floats"));
+}
+
 TEST_F(Walk, ASolutionOfAnotherSceneIsRefused) {
   write_room(folder_ / "room.glb", tiny_room());
   ASSERT_EQ(run({"solve", "room.glb", "-o", "s.glb", "--quality", "draft"}).code, 0);
@@ -221,6 +246,9 @@ TEST_F(Walk, OptionsOfPassOneHaveNoEffectOnASolution) {
 
 TEST_F(Walk, APageThatCannotBeWrittenIsSaidBeforeTheWork) {
   write_room(folder_ / "room.glb", tiny_room());
+  const Outcome named = run({"walk", "room.glb", "-o", "room.bin"});
+  EXPECT_EQ(named.code, 4);
+  EXPECT_EQ(named.err, "meninas: room.bin: cannot write: a page is an .html file\n");
   const Outcome outcome = run({"walk", "room.glb", "-o", "nowhere/r.html"});
   EXPECT_EQ(outcome.code, 4);
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;

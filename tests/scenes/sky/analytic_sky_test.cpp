@@ -1,5 +1,6 @@
 // Skies by formula: horizontal irradiances against closed forms, published zenith values, the sun.
 #include "scenes/sky/analytic_sky.h"
+#include "scenes/photometry.h"
 #include "scenes/sky/preetham.h"
 #include "scenes/sky/sun_light.h"
 #include "scenes/sky/sun_position.h"
