@@ -33,7 +33,8 @@ Rgb reflectance_of(const Material& material) {
 MaterialId first_with_coat_of(const Scene& scene, const Material& material) {
   const auto alike = std::ranges::find_if(scene.materials, [&](const Material& other) {
     return has_mirror_coat(other) && other.ior == material.ior &&
-           other.specular == material.specular && other.specular_color == material.specular_color;
+           other.specular == material.specular && other.specular_color == material.specular_color &&
+           film_of(other) == film_of(material);
   });
   return static_cast<MaterialId>(alike - scene.materials.begin());
 }

@@ -19,13 +19,15 @@ Direction mirrored(const Direction& out) { return {-out.x, -out.y, out.z}; }
 struct Cell {
   Direction in;
   double visible;
-  Rgb coat;           ///< likewise of it
+  Rgb metal;          ///< its reflectance at the facet
+  Rgb coat;           ///< g times the reflectance of the coat
   Rgb glass, through; ///< and what glass reflects and passes
 };
 
 Cell weighed(const Bsdf& bsdf, const Direction& in, double cosine, double visible) {
-  Cell cell{in, visible, visible * (facet_reflectance(bsdf, cosine) - bsdf.metal), Rgb(0.0),
-            Rgb(0.0)};
+  const Rgb metal = metal_reflectance(bsdf, cosine);
+  Cell cell{in,       visible, metal, visible * (facet_reflectance(bsdf, cosine) - metal),
+            Rgb(0.0), Rgb(0.0)};
   if (bsdf.glass > 0.0) {
     const GlassShares shares = glass_shares(bsdf.pane, cosine);
     cell.glass = visible * bsdf.glass * shares.reflected;
@@ -59,7 +61,7 @@ void add_ideal(const Bsdf& bsdf, const Direction& out, std::vector<LobeRay>& ray
 
 void add_cell(const Bsdf& bsdf, const Direction& out, const Cell& cell, double metal_norm,
               double coat_norm, std::vector<LobeRay>& rays) {
-  const Rgb weight = bsdf.metal * (cell.visible * metal_norm) + cell.coat * coat_norm;
+  const Rgb weight = cell.metal * (cell.visible * metal_norm) + cell.coat * coat_norm;
   if (!(bsdf.glass > 0.0)) {
     rays.push_back({cell.in, lobe_below_sheen(bsdf, out.z, cell.in.z) * weight});
     return;

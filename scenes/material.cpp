@@ -22,7 +22,7 @@ bool is_mirror(const Material& material) {
       widest_roughness(material) <= ideal_mirror_roughness && !has_texels_of_metal(material);
   return material.metallic > 0.0 && !is_blended(material) &&
          (is_smooth || material.specular_in_pass_one) &&
-         glm::any(glm::greaterThan(material.base_color, Rgb(0.0)));
+         (glm::any(glm::greaterThan(material.base_color, Rgb(0.0))) || material.iridescence > 0.0);
 }
 
 bool has_mirror_coat(const Material& material) {
@@ -56,8 +56,21 @@ bool is_solid_glass(const Material& material) {
   return is_glass(material) && material.thickness > 0.0 && !is_blended(material);
 }
 
+ThinFilm film_of(const Material& material) {
+  const double thickness = material.film_thickness_texture
+                               ? 0.5 * (material.film_min_thickness + material.film_thickness)
+                               : material.film_thickness;
+  return {material.film_ior, thickness, material.iridescence};
+}
+
 Rgb mirror_reflectance(const Material& material) {
-  return is_mirror(material) ? material.base_color * material.metallic : Rgb(0.0);
+  if (!is_mirror(material))
+    return Rgb(0.0);
+  if (material.iridescence == 0.0)
+    return material.base_color * material.metallic;
+  const ThinFilm film = film_of(material);
+  const Rgb mean = mean_of_film(film, material.base_color).reflectance;
+  return below_film(film, material.base_color, mean) * material.metallic;
 }
 
 } // namespace meninas

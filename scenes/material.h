@@ -28,10 +28,14 @@
 //
 //   rho_d = base_color (1 - t) (1 - metallic),   tau_d = t diffuse_transmission_color (1 - metallic)
 //
+// A thin film (iridescence > 0, KHR_materials_iridescence) reflects in place of metal, coat and glass
+// what interference leaves (materials/thin_film.h).
+//
 // Alpha of alphaMode BLEND is coverage (materials/coverage.h): such a surface is a pane that passes
 // 1 - alpha straight.
 #pragma once
 
+#include "scenes/materials/thin_film.h"
 #include "scenes/types.h"
 
 #include <limits>
@@ -76,6 +80,9 @@ struct Material {
   double sheen_roughness = 0.0; ///< in [0, 1]
   double diffuse_transmission = 0.0;   ///< t, in [0, 1]: above 0 it is a translucent surface
   Rgb diffuse_transmission_color{1.0}; ///< in [0, 1]
+  double iridescence = 0.0; ///< KHR_materials_iridescence (materials/thin_film.h): the film's share
+  double film_ior = 1.3;    ///< in [1, 5]
+  double film_min_thickness = 100.0, film_thickness = 400.0; ///< nm, at black and white of its texture
   double transmission = 0.0;
   double thickness =
       0.0; ///< KHR_materials_volume, metres: above 0 what is behind the surface is full of the glass
@@ -95,6 +102,8 @@ struct Material {
   std::optional<TextureUse> anisotropy_texture; ///< red, green: one to be turned by it; blue: of s
   std::optional<TextureUse> diffuse_transmission_texture; ///< alpha
   std::optional<TextureUse> diffuse_transmission_color_texture;
+  std::optional<TextureUse> iridescence_texture;    ///< red
+  std::optional<TextureUse> film_thickness_texture; ///< green
 
   // What is decided before anything is decided by the material, and gone by then:
   // of these textures the constant ones become factors, the others are left out
@@ -115,8 +124,13 @@ struct Material {
 /// all that it reflects but the ideal reflection of metals (lobes.h).
 Rgb diffuse_reflectance(const Material& material);
 
-/// The reflectance of what is a mirror in pass one; zero for everything that is not one.
+/// The reflectance of what is a mirror in pass one, of thin films the mean; zero for everything that
+/// is not one.
 Rgb mirror_reflectance(const Material& material);
+
+/// The film's share of it all over, or at the most where a texture limits it; its thickness where there
+/// is no texture, or the mean of that texture's bounds.
+ThinFilm film_of(const Material& material);
 
 /// sqrt(alpha_t): the roughness itself where facets are round.
 double widest_roughness(const Material& material);

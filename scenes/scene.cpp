@@ -31,6 +31,18 @@ void add_anisotropy(ContentHash& hash, const Material& material) {
   add_texture_use(hash, material.anisotropy_texture);
 }
 
+void add_film(ContentHash& hash, const Material& material) {
+  if (material.iridescence == 0.0)
+    return;
+  hash.add(std::uint64_t{6}); // no other's
+  hash.add(material.iridescence);
+  hash.add(material.film_ior);
+  hash.add(material.film_min_thickness);
+  hash.add(material.film_thickness);
+  add_texture_use(hash, material.iridescence_texture);
+  add_texture_use(hash, material.film_thickness_texture);
+}
+
 void add_material(ContentHash& hash, const Material& material) {
   hash.add(material.base_color);
   hash.add(material.alpha);
@@ -79,6 +91,7 @@ void add_material(ContentHash& hash, const Material& material) {
     add_texture_use(hash, material.diffuse_transmission_color_texture);
   }
   add_anisotropy(hash, material);
+  add_film(hash, material);
   if (material.clear_coat > 0.0) {
     hash.add(material.clear_coat);
     hash.add(material.clear_coat_roughness);

@@ -66,6 +66,8 @@ bool grey_mirrors(const Scene& scene) {
   const bool colored = std::ranges::any_of(
       scene.vertices, [&](const Vertex& vertex) { return !is_grey(Rgb(vertex.color)); });
   return std::ranges::all_of(scene.materials, [&](const Material& material) {
+    if (material.iridescence > 0.0 && (has_mirror_coat(material) || is_glass(material)))
+      return false;
     if (has_mirror_coat(material))
       return is_grey(material.specular_color);
     if (!is_glass(material))

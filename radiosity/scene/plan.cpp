@@ -51,6 +51,7 @@ bool is_pane(const Material& material) { return is_glass(material) && !is_solid_
 bool scatters_grey(const Material& material) {
   return is_grey(diffuse_reflectance(material)) && is_grey(mirror_reflectance(material)) &&
          is_grey(material.emission) && !is_textured(material) &&
+         material.iridescence == 0.0 &&
          (!has_mirror_coat(material) || is_grey(material.specular_color)) &&
          (!is_translucent(material) || is_grey(material.diffuse_transmission_color)) &&
          (!is_glass(material) ||

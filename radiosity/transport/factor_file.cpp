@@ -63,11 +63,17 @@ std::uint64_t hash_of_geometry(const Scene& scene) {
 }
 
 /// What light meets in glass and on coats is part of the transport.
+void add_film(Hash& hash, const ThinFilm& film) {
+  if (film.share > 0.0)
+    hash.add(Rgb(film.share, film.ior, film.thickness));
+}
 void add_coat(Hash& hash, const Bsdf& coat) {
+  add_film(hash, coat.film);
   hash.add(coat.coat_f0);
   hash.add(Rgb(coat.coat, coat.coat_f90, 0.0));
 }
 void add_glass(Hash& hash, const Bsdf& glass) {
+  add_film(hash, glass.pane.film);
   hash.add(glass.metal);
   hash.add(Rgb(glass.glass, glass.pane.ior, glass.pane.f90));
   hash.add(glass.pane.f0);
@@ -109,7 +115,8 @@ std::uint64_t hash_of_mirrors(const Scene& scene, const WorldTree& worlds) {
   for (const Material& material : scene.materials)
     if (is_glass(material))
       for (const auto* use : {&material.base_color_texture, &material.metallic_roughness_texture,
-                              &material.transmission_texture, &material.thickness_texture})
+                              &material.transmission_texture, &material.thickness_texture,
+                              &material.iridescence_texture, &material.film_thickness_texture})
         add_texture(hash, scene, *use);
   for (const MirrorWorld& world : worlds.worlds) {
     hash.add(std::uint64_t{index(world.parent)});

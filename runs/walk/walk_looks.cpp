@@ -95,10 +95,15 @@ WalkLook walk_look(const Scene& scene, const DecodedTextures& textures, Material
       look.kind == WalkKind::coat ? mirror_coat(material) : make_bsdf(material, point);
   look.reflectance = bsdf.metal;
   if (look.kind == WalkKind::coat) {
-    look.f0 = bsdf.coat * bsdf.coat_f0;
+    look.f0 = bsdf.coat * below_film(bsdf.film, bsdf.coat_f0,
+                                     schlick_f0_of_mean(bsdf.film_on_coat.reflectance));
     look.f90 = bsdf.coat * bsdf.coat_f90;
   } else if (look.kind == WalkKind::pane || look.kind == WalkKind::solid) {
-    look.f0 = bsdf.pane.f0;
+    const ThinFilm& film = bsdf.pane.film;
+    look.f0 = film.share == 0.0
+                  ? bsdf.pane.f0
+                  : below_film(film, bsdf.pane.f0,
+                               schlick_f0_of_mean(mean_of_film(film, bsdf.pane.f0).reflectance));
     look.f90 = bsdf.pane.f90;
     look.ior = bsdf.pane.ior;
     look.tint = bsdf.pane.tint;

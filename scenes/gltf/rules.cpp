@@ -62,6 +62,8 @@ constexpr Rule iridescence[] = {
     {.name = "iridescenceIor", .kind = number},
     {.name = "iridescenceThicknessMinimum", .kind = number},
     {.name = "iridescenceThicknessMaximum", .kind = number},
+    {.name = "iridescenceTexture", .kind = object, .fields = texture_use},
+    {.name = "iridescenceThicknessTexture", .kind = object, .fields = texture_use},
 };
 constexpr Rule anisotropy[] = {
     {.name = "anisotropyStrength", .kind = number},

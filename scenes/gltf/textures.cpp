@@ -103,6 +103,11 @@ std::set<std::uint64_t> texcoord_sets(const Json& material) {
   const auto* brushed = find(material, {"extensions", "KHR_materials_anisotropy"});
   if (brushed && number_or(*brushed, "anisotropyStrength", 0.0) > 0.0)
     add({"extensions", "KHR_materials_anisotropy", "anisotropyTexture"});
+  const auto* film = find(material, {"extensions", "KHR_materials_iridescence"});
+  if (film && number_or(*film, "iridescenceFactor", 0.0) > 0.0) {
+    add({"extensions", "KHR_materials_iridescence", "iridescenceTexture"});
+    add({"extensions", "KHR_materials_iridescence", "iridescenceThicknessTexture"});
+  }
   const auto* sheet = find(material, {"extensions", "KHR_materials_diffuse_transmission"});
   if (sheet && number_or(*sheet, "diffuseTransmissionFactor", 0.0) > 0.0) {
     add({"extensions", "KHR_materials_diffuse_transmission", "diffuseTransmissionTexture"});

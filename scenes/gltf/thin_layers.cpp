@@ -1,6 +1,5 @@
 // What materials have over them or in them beyond metal and roughness: cloth that light comes
 // through, sheen, a thin film, brushed metal, glass that splits colours.
-#include "scenes/materials/thin_film.h"
 #include "scenes/gltf/stages.h"
 
 #include <algorithm>
@@ -42,44 +41,36 @@ static void read_diffuse_transmission(const Document& document, const Json& exte
       document, extension, "diffuseTransmissionColorTexture", material.name, findings);
 }
 
-/// A film of the mean thickness that its texture may have.
-static ThinFilm film_of(const Json& extension) {
-  const auto least = std::max(0.0, number_or(extension, "iridescenceThicknessMinimum", 100.0));
-  const auto most = std::max(0.0, number_or(extension, "iridescenceThicknessMaximum", 400.0));
-  ThinFilm film;
-  film.ior = std::clamp(number_or(extension, "iridescenceIor", 1.3), 1.0, 5.0);
-  film.thickness = extension.contains("iridescenceThicknessTexture") ? 0.5 * (least + most) : most;
-  return film;
-}
+/// Nanometres, beyond which no interference is left to be seen.
+static constexpr double thickest_film = 1e5;
 
-/// KHR_materials_iridescence: the mean colour of the film (thin_film.h) in place of the colour of
-/// metal and of F0.
-static void read_iridescence(const Json& extension, Material& material, Findings& findings) {
-  const auto share = std::clamp(number_or(extension, "iridescenceFactor", 0.0), 0.0, 1.0);
-  if (share == 0.0)
+/// KHR_materials_iridescence (thin_film.h). What has no reflection to show it with has no film.
+static void read_iridescence(const Document& document, const Json& extension, Material& material,
+                             Findings& findings) {
+  const auto factor = number_or(extension, "iridescenceFactor", 0.0);
+  const auto ior = number_or(extension, "iridescenceIor", 1.3);
+  const auto least = number_or(extension, "iridescenceThicknessMinimum", 100.0);
+  const auto most = number_or(extension, "iridescenceThicknessMaximum", 400.0);
+  material.iridescence = std::clamp(factor, 0.0, 1.0);
+  material.film_ior = std::clamp(ior, 1.0, 5.0);
+  material.film_min_thickness = std::clamp(least, 0.0, thickest_film);
+  material.film_thickness = std::clamp(most, 0.0, thickest_film);
+  if (material.iridescence == 0.0)
     return;
-  const bool mixed = material.metallic > 0.0 &&
-                     (material.metallic < 1.0 || material.metallic_roughness_texture);
-  if (extension.contains("iridescenceTexture") || mixed) {
-    findings.about("iridescence that a texture limits, or of what is metal in part, is left out in "
-                   "materials",
-                   material.name);
+  if (material.iridescence != factor || material.film_ior != ior ||
+      material.film_min_thickness != least || material.film_thickness != most)
+    findings.about("factors of iridescence out of range were clamped in materials", material.name);
+  const bool is_matt = material.metallic == 0.0 && material.transmission == 0.0 &&
+                       (material.roughness > visible_coat_roughness || material.specular == 0.0);
+  if (is_matt && !material.metallic_roughness_texture) {
+    findings.about("iridescence of what is matt is left out in materials", material.name);
+    material.iridescence = 0.0;
     return;
   }
-  findings.about("iridescence has the film's mean colour, whatever the angle, in materials",
-                 material.name);
-  const ThinFilm film = film_of(extension);
-  if (material.metallic > 0.0) {
-    material.base_color =
-        glm::mix(material.base_color, mean_film_reflectance(film, material.base_color), share);
-    return;
-  }
-  const double ratio = (material.ior - 1.0) / (material.ior + 1.0);
-  if (ratio == 0.0)
-    return; // reflects nothing by its factors
-  const Rgb f0 = glm::min(ratio * ratio * material.specular_color, Rgb(1.0));
-  const Rgb of_film = schlick_f0_of_mean(mean_film_reflectance(film, f0));
-  material.specular_color = glm::mix(f0, of_film, share) / (ratio * ratio);
+  material.iridescence_texture =
+      read_texture_use(document, extension, "iridescenceTexture", material.name, findings);
+  material.film_thickness_texture =
+      read_texture_use(document, extension, "iridescenceThicknessTexture", material.name, findings);
 }
 
 /// KHR_materials_anisotropy (material.h).
@@ -107,7 +98,7 @@ void read_thin_layers(const Document& document, const Json& json, Material& mate
   if (const auto* sheen = find(*extensions, "KHR_materials_sheen"))
     read_sheen(document, *sheen, material, findings);
   if (const auto* iridescence = find(*extensions, "KHR_materials_iridescence"))
-    read_iridescence(*iridescence, material, findings);
+    read_iridescence(document, *iridescence, material, findings);
   if (const auto* anisotropy = find(*extensions, "KHR_materials_anisotropy"))
     read_anisotropy(document, *anisotropy, material, findings);
   const auto* dispersion = find(*extensions, "KHR_materials_dispersion");

@@ -20,7 +20,9 @@ Rgb coat_fresnel(const Bsdf& bsdf, double cosine) {
   if (bsdf.coat == 0.0)
     return Rgb(0.0);
   const double x = 1.0 - std::clamp(cosine, 0.0, 1.0);
-  return glm::mix(bsdf.coat_f0, Rgb(bsdf.coat_f90), x * x * x * x * x);
+  const Rgb base = glm::mix(bsdf.coat_f0, Rgb(bsdf.coat_f90), x * x * x * x * x);
+  return bsdf.film.share == 0.0 ? base
+                                : below_film(bsdf.film, base, film_over_coat(bsdf, cosine));
 }
 
 /// 1 - E of the facets: the share of light from a direction that meets them more than once.
@@ -82,7 +84,9 @@ double mean_below_coat(const Bsdf& bsdf) {
   if (bsdf.coat == 0.0)
     return 1.0;
   const SchlickAlbedo mean = mean_lobe_albedo(bsdf);
-  return std::max(0.0, 1.0 - mean.f0 * largest(bsdf.coat_f0) - mean.f90 * bsdf.coat_f90);
+  const double base = mean.f0 * largest(bsdf.coat_f0) + mean.f90 * bsdf.coat_f90;
+  return std::max(0.0, 1.0 - std::lerp(base, (mean.f0 + mean.f90) * bsdf.film_on_coat.largest,
+                                       bsdf.film.share));
 }
 
 /// What the coat reflects of even light.
@@ -90,7 +94,8 @@ Rgb mean_of_coat(const Bsdf& bsdf) {
   if (bsdf.coat == 0.0)
     return Rgb(0.0);
   const SchlickAlbedo mean = mean_lobe_albedo(bsdf);
-  return bsdf.coat * (mean.f0 * bsdf.coat_f0 + Rgb(mean.f90 * bsdf.coat_f90));
+  const Rgb base = mean.f0 * bsdf.coat_f0 + Rgb(mean.f90 * bsdf.coat_f90);
+  return bsdf.coat * below_film(bsdf.film, base, (mean.f0 + mean.f90) * bsdf.film_on_coat.reflectance);
 }
 
 /// rho (1 - e(o)) (1 - e(i)) / (1 - e_avg) of rho_d or tau_d, and likewise below fibres. With both
@@ -153,7 +158,12 @@ double coat_albedo(const Bsdf& bsdf, const Direction& w) {
   if (bsdf.coat == 0.0)
     return 0.0;
   const SchlickAlbedo e = lobe_albedo(bsdf, w);
-  return std::min(1.0, e.f0 * largest(bsdf.coat_f0) + e.f90 * bsdf.coat_f90);
+  const double base = e.f0 * largest(bsdf.coat_f0) + e.f90 * bsdf.coat_f90;
+  if (bsdf.film.share == 0.0)
+    return std::min(1.0, base);
+  // The facets of lobes that have a coat are steep nowhere: their cosine is nearly that of w.
+  const double of_film = (e.f0 + e.f90) * largest(film_over_coat(bsdf, w.z));
+  return std::min(1.0, std::lerp(base, of_film, bsdf.film.share));
 }
 
 Rgb straight_transmission(const Bsdf& bsdf, double cosine) {
@@ -168,7 +178,7 @@ Rgb ideal_reflection(const Bsdf& bsdf, double cosine) {
 }
 
 Rgb facet_reflectance(const Bsdf& bsdf, double cosine) {
-  Rgb reflected = bsdf.metal + bsdf.coat * coat_fresnel(bsdf, cosine);
+  Rgb reflected = metal_reflectance(bsdf, cosine) + bsdf.coat * coat_fresnel(bsdf, cosine);
   if (bsdf.glass > 0.0)
     reflected += bsdf.glass * glass_shares(bsdf.pane, cosine).reflected;
   return reflected;
@@ -244,7 +254,8 @@ Rgb mean_reflectance(const Bsdf& bsdf) {
 }
 
 bool has_lobes(const Material& material) {
-  const bool is_painted_mirror = is_mirror(material) && material.base_color_texture;
+  const bool is_painted_mirror =
+      is_mirror(material) && (material.base_color_texture || material.iridescence > 0.0);
   return is_glass(material) || is_glossy(material) || has_visible_coat(material) ||
          is_painted_mirror || material.sheen_color != Rgb(0.0);
 }

@@ -17,7 +17,8 @@ MaterialPoint untextured(const Material& material) {
           material.diffuse_transmission,
           material.diffuse_transmission_color,
           material.anisotropy,
-          material.anisotropy_direction};
+          material.anisotropy_direction,
+          film_of(material)};
 }
 
 /// What is smooth across the axis counts as `ideal_mirror_roughness` there.
@@ -31,6 +32,35 @@ static void stretch_facets(const MaterialPoint& point, Bsdf& bsdf) {
   bsdf.stretch = along / bsdf.alpha;
   bsdf.roughness = std::sqrt(bsdf.alpha * std::sqrt(bsdf.stretch));
   bsdf.axis = point.anisotropy_direction;
+}
+
+static void lay_film(const MaterialPoint& point, double metal, Bsdf& bsdf) {
+  bsdf.film = point.film;
+  if (metal > 0.0) {
+    bsdf.metal_below = point.base_color;
+    bsdf.metal_with_film = below_film(point.film, point.base_color,
+                                      mean_of_film(point.film, point.base_color).reflectance);
+    bsdf.metal = metal * bsdf.metal_with_film;
+  }
+  if (bsdf.coat > 0.0) {
+    const FilmMean mean = mean_of_film(point.film, bsdf.coat_f0 / bsdf.coat_f90);
+    bsdf.film_on_coat = {bsdf.coat_f90 * mean.reflectance, bsdf.coat_f90 * mean.largest};
+  }
+}
+
+Rgb metal_reflectance(const Bsdf& bsdf, double cosine) {
+  if (bsdf.film.share == 0.0 || bsdf.metal == Rgb(0.0))
+    return bsdf.metal;
+  // Whoever has changed the mean has changed it at every angle alike.
+  const Rgb at = below_film(bsdf.film, bsdf.metal_below,
+                            film_reflectance(bsdf.film, bsdf.metal_below, cosine));
+  return bsdf.metal * at / glm::max(bsdf.metal_with_film, Rgb(1e-12));
+}
+
+Rgb film_over_coat(const Bsdf& bsdf, double cosine) {
+  if (bsdf.coat_f90 == 0.0)
+    return Rgb(0.0);
+  return bsdf.coat_f90 * film_reflectance(bsdf.film, bsdf.coat_f0 / bsdf.coat_f90, cosine);
 }
 
 Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
@@ -53,6 +83,8 @@ Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
     bsdf.coat_f90 = material.specular;
     bsdf.coat = material.specular > 0.0 ? dielectric * (1.0 - point.transmission) : 0.0;
   }
+  if (point.film.share > 0.0)
+    lay_film(point, point.metallic * covered, bsdf);
   if (point.anisotropy > 0.0 && !(solid && point.transmission > 0.0))
     stretch_facets(point, bsdf);
   if (point.transmission == 0.0) {
@@ -64,7 +96,7 @@ Bsdf make_bsdf(const Material& material, const MaterialPoint& point) {
     bsdf.pane.faces = GlassFaces::none;
   else if (bsdf.glass > 0.0)
     bsdf.pane = {material.ior, f0, material.specular, point.base_color,
-                 solid ? GlassFaces::one : GlassFaces::both};
+                 solid ? GlassFaces::one : GlassFaces::both, point.film};
   return bsdf;
 }
 

@@ -16,6 +16,9 @@ std::string settle_clear_coat(Material& material) {
   material.roughness = roughness;
   material.anisotropy = 0.0;
   material.anisotropy_texture.reset();
+  material.iridescence = 0.0;
+  material.iridescence_texture.reset();
+  material.film_thickness_texture.reset();
   material.ior = 1.5;
   material.specular = coat;
   material.specular_color = Rgb(1.0);

@@ -7,13 +7,31 @@ namespace meninas {
 
 namespace {
 
-/// F, for light from outside.
-Rgb face_reflectance(const Glass& glass, double cosine) {
+/// F of the base alone.
+Rgb base_reflectance(const Glass& glass, double cosine) {
   const double normal = fresnel(glass.ior, 1.0);
   if (normal >= 1.0)
     return glass.f0;
   const double rise = std::clamp((fresnel(glass.ior, cosine) - normal) / (1.0 - normal), 0.0, 1.0);
   return glm::mix(glass.f0, Rgb(glass.f90), rise);
+}
+
+/// The cosine in the air: what leaves a solid (ior below 1) is bent away from its normal.
+double cosine_in_air(const Glass& glass, double cosine) {
+  if (glass.ior >= 1.0 || glass.ior == 0.0)
+    return cosine;
+  const double sine2 = (1.0 - cosine * cosine) / (glass.ior * glass.ior);
+  return std::sqrt(std::max(0.0, 1.0 - sine2));
+}
+
+/// F, of light from either side.
+Rgb face_reflectance(const Glass& glass, double cosine) {
+  const Rgb base = base_reflectance(glass, cosine);
+  if (glass.film.share == 0.0 || glass.f90 == 0.0)
+    return base;
+  return below_film(glass.film, base,
+                    glass.f90 * film_reflectance(glass.film, glass.f0 / glass.f90,
+                                                 cosine_in_air(glass, cosine)));
 }
 
 } // namespace

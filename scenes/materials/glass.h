@@ -13,7 +13,8 @@
 //   both faces   T = (1 - F)^2 t / (1 - F^2 t^2),   R = F + F t T
 //   one face     T = (1 - F) t,                     R = F
 //
-// So R + T = 1 where t = 1: clear glass absorbs nothing.
+// So R + T = 1 where t = 1: clear glass absorbs nothing. Below a thin film F is in part that of the
+// film (thin_film.h) times F90, at the cosine of the angle in the air.
 // A pane is thin: light leaves it where it enters.
 #pragma once
 
@@ -33,6 +34,7 @@ struct Glass {
   double f90 = 1.0;
   Rgb tint{1.0}; ///< t
   GlassFaces faces = GlassFaces::both;
+  ThinFilm film; ///< of whole panes one on either face
 };
 
 struct GlassShares {

@@ -12,7 +12,7 @@
 namespace meninas {
 
 /// Whether light leaves it otherwise than evenly or by a mirror of constant reflectance:
-/// by a lobe, be it a mirror's whose reflectance is a picture, or through it.
+/// by a lobe, be it a mirror's whose reflectance is a picture or that of a film, or through it.
 bool has_lobes(const Material& material);
 
 /// A dielectric whose coat shows, by its factors or, where there is one,

@@ -155,7 +155,8 @@ bool is_textured(const Material& material) {
   return material.base_color_texture || material.metallic_roughness_texture ||
          material.emissive_texture || material.transmission_texture || material.thickness_texture ||
          material.diffuse_transmission_texture ||
-         material.diffuse_transmission_color_texture || material.anisotropy_texture;
+         material.diffuse_transmission_color_texture || material.anisotropy_texture ||
+         material.iridescence_texture || material.film_thickness_texture;
 }
 
 bool has_vertex_colors(const Scene& scene, TriangleId triangle) {
@@ -200,6 +201,11 @@ MaterialPoint material_at(const Scene& scene, const DecodedTextures& textures, T
     point.anisotropy *= std::clamp(texel.b, 0.0, 1.0);
     point.anisotropy_direction = turned_by_texel(point.anisotropy_direction, texel);
   }
+  if (const auto& use = material.iridescence_texture)
+    point.film.share *= std::clamp(value(*use, textures.numbers).r, 0.0, 1.0);
+  if (const auto& use = material.film_thickness_texture)
+    point.film.thickness = std::lerp(material.film_min_thickness, material.film_thickness,
+                                     std::clamp(value(*use, textures.numbers).g, 0.0, 1.0));
   if (const auto& use = material.emissive_texture)
     point.emission *= glm::max(Rgb(value(*use, textures.colours)), Rgb(0.0));
   if (is_blended(material)) {

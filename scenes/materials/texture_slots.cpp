@@ -1,6 +1,7 @@
 #include "scenes/materials/texture_slots.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace meninas {
 
@@ -41,6 +42,11 @@ void fold(Material& material, const SlotValues& values) {
     material.anisotropy_direction =
         turned_by_texel(material.anisotropy_direction, *values[anisotropy_slot]);
   }
+  if (values[15])
+    material.iridescence *= channel(15, 0);
+  if (values[16])
+    material.film_thickness =
+        std::lerp(material.film_min_thickness, material.film_thickness, channel(16, 1));
   for (std::size_t s = 0; s < texture_slots.size(); ++s)
     if (values[s])
       (material.*texture_slots[s].use).reset();

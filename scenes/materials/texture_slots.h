@@ -17,7 +17,7 @@ struct TextureSlot {
 };
 
 inline constexpr std::size_t base_slot = 0;
-inline const std::array<TextureSlot, 15> texture_slots{{
+inline const std::array<TextureSlot, 17> texture_slots{{
     {&Material::base_color_texture, TextureContent::colour, {true, true, true, false}},
     {&Material::metallic_roughness_texture, TextureContent::numbers, {false, true, true, false}},
     {&Material::emissive_texture, TextureContent::colour, {true, true, true, false}},
@@ -35,6 +35,8 @@ inline const std::array<TextureSlot, 15> texture_slots{{
      TextureContent::colour,
      {true, true, true, false}},
     {&Material::anisotropy_texture, TextureContent::numbers, {true, true, true, false}},
+    {&Material::iridescence_texture, TextureContent::numbers, {true, false, false, false}},
+    {&Material::film_thickness_texture, TextureContent::numbers, {false, true, false, false}},
 }};
 inline constexpr std::size_t anisotropy_slot = 14;
 

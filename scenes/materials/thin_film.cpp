@@ -1,6 +1,7 @@
 #include "scenes/materials/thin_film.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -44,7 +45,8 @@ Rgb sensitivity(double path, const Vec3& shift) {
 
 } // namespace
 
-Rgb film_reflectance(const ThinFilm& film, const Rgb& base_f0, double cosine) {
+Rgb film_reflectance(const ThinFilm& film, const Rgb& base_f0, double at_cosine) {
+  const double cosine = std::clamp(at_cosine, 0.0, 1.0);
   // A film of no thickness is none: its index of refraction fades to that of air.
   const double grown = std::clamp(film.thickness / 0.03, 0.0, 1.0);
   const double ior = std::lerp(1.0, film.ior, grown * grown * (3.0 - 2.0 * grown));
@@ -71,14 +73,22 @@ Rgb film_reflectance(const ThinFilm& film, const Rgb& base_f0, double cosine) {
   return glm::clamp(reflected, 0.0, 1.0);
 }
 
-Rgb mean_film_reflectance(const ThinFilm& film, const Rgb& base_f0) {
-  constexpr int steps = 64; // midpoints; the colours turn a few times at the most
-  Rgb sum(0.0);
-  for (int k = 0; k < steps; ++k) {
-    const double c = (k + 0.5) / steps;
-    sum += 2.0 * c / steps * film_reflectance(film, base_f0, c);
-  }
-  return sum;
+FilmMean mean_of_film(const ThinFilm& film, const Rgb& base_f0) {
+  // Gauss and Legendre's points of x = c^2, of which the weight is even.
+  constexpr std::array<double, 6> places{0.1252334085114689, 0.3678314989981802,
+                                         0.5873179542866175, 0.7699026741943047,
+                                         0.9041172563704749, 0.9815606342467192};
+  constexpr std::array<double, 6> weights{0.2491470458134028, 0.2334925365383548,
+                                          0.2031674267230659, 0.1600783285433462,
+                                          0.1069393259953184, 0.0471753363865118};
+  FilmMean mean;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    for (const double x : {0.5 - 0.5 * places[k], 0.5 + 0.5 * places[k]}) {
+      const Rgb at = film_reflectance(film, base_f0, std::sqrt(x));
+      mean.reflectance += 0.5 * weights[k] * at;
+      mean.largest += 0.5 * weights[k] * largest(at);
+    }
+  return mean;
 }
 
 Rgb schlick_f0_of_mean(const Rgb& mean) {
