@@ -209,6 +209,28 @@ TEST(TwoPasses, AgreeWithPathsOnGlossUnderALamp) {
   }
 }
 
+// A film over metal that is smooth, or nearly, and over paint: seen steeply and along the floor.
+TEST(TwoPasses, AgreeWithPathsOnThinFilms) {
+  Scene scene = glazed_room();
+  scene.materials.pop_back();
+  scene.triangles.resize(scene.triangles.size() - 2);
+  for (const auto& [metallic, roughness] :
+       {std::pair(1.0, 0.0), std::pair(1.0, 0.2), std::pair(0.0, 0.1)}) {
+    SCOPED_TRACE(testing::Message() << metallic << ' ' << roughness);
+    Material& floor = scene.materials[2];
+    floor.metallic = metallic;
+    floor.roughness = roughness;
+    floor.iridescence = 0.9;
+    floor.film_thickness = 380.0;
+    // What is all around has the film's mean in pass one: the walls are dark.
+    for (std::size_t k = 0; k < 6; ++k)
+      if (k != 2)
+        scene.materials[k].base_color = Rgb(0.05);
+    expect_agreement(scene, {{"at the lamp's image", {0.8, 0.9, 0.2}, {0.8, 0.0, 0.6}},
+                             {"along the floor", {1.9, 0.15, 1.0}, {1.2, 0.0, 0.9}}});
+  }
+}
+
 TEST(TwoPasses, AgreeWithPathsOnBrushedMetal) {
   Scene scene = glazed_room();
   scene.materials.pop_back();

@@ -1,5 +1,5 @@
 // Sheen, iridescence, anisotropy, dispersion: what is read of them, and what the user is told.
-#include "scenes/materials/thin_film.h"
+#include "scenes/errors.h"
 #include "tests/scenes/gltf/gltf_file.h"
 
 #include <gmock/gmock.h>
@@ -39,40 +39,59 @@ TEST(GltfThinLayers, SheenIsOfWhatIsOpaque) {
   EXPECT_TRUE(warns(scene, {"sheen of what light passes is left out", "'cloth'"}));
 }
 
-TEST(GltfThinLayers, IridescenceIsTheFilmsMeanColour) {
+TEST(GltfThinLayers, ReadIridescence) {
   const Json film{{"iridescenceFactor", 0.5}, {"iridescenceIor", 1.4},
                   {"iridescenceThicknessMaximum", 300.0}};
   const Scene metal = with_extension("KHR_materials_iridescence", film,
                                      {{"baseColorFactor", {0.5, 0.6, 0.7, 1.0}},
                                       {"metallicFactor", 1.0}, {"roughnessFactor", 0.2}});
-  const Rgb base(0.5, 0.6, 0.7);
-  EXPECT_EQ(metal.materials.at(0).base_color,
-            0.5 * base + 0.5 * mean_film_reflectance({1.4, 300.0}, base));
-  EXPECT_TRUE(warns(metal, {"film's mean colour", "'cloth'"}));
-
-  const Scene paint = with_extension("KHR_materials_iridescence", film);
-  const Material& material = paint.materials.at(0);
-  EXPECT_EQ(material.base_color, Rgb(1.0)) << "what is below keeps its colour";
-  const Rgb f0 = 0.04 * material.specular_color;
-  const Rgb of_film = schlick_f0_of_mean(mean_film_reflectance({1.4, 300.0}, Rgb(0.04)));
-  for (int band = 0; band < 3; ++band)
-    EXPECT_NEAR(f0[band], 0.5 * 0.04 + 0.5 * of_film[band], 1e-12);
+  const Material& material = metal.materials.at(0);
+  EXPECT_EQ(material.base_color, Rgb(0.5, 0.6, 0.7)) << "what is below keeps its colour";
+  EXPECT_EQ(film_of(material), (ThinFilm{1.4, 300.0, 0.5}));
+  EXPECT_TRUE(metal.warnings.empty());
+  EXPECT_TRUE(metal.ignored.empty());
+  const Scene none = with_extension("KHR_materials_iridescence", Json::object(),
+                                    {{"baseColorFactor", {0.5, 0.6, 0.7, 1.0}},
+                                     {"metallicFactor", 1.0}, {"roughnessFactor", 0.2}});
+  EXPECT_EQ(none.materials.at(0).iridescence, 0.0);
+  EXPECT_NE(content_hash(metal), content_hash(none));
 }
 
-TEST(GltfThinLayers, IridescenceThatVariesIsLeftOutOrAMean) {
+TEST(GltfThinLayers, IridescenceOutOfRangeIsClampedAndOfWhatIsMattLeftOut) {
+  const Json model{{"metallicFactor", 1.0}};
+  const Scene wild = with_extension("KHR_materials_iridescence",
+                                    {{"iridescenceFactor", 2.0}, {"iridescenceIor", 0.2},
+                                     {"iridescenceThicknessMaximum", -5.0}},
+                                    model);
+  EXPECT_EQ(film_of(wild.materials.at(0)), (ThinFilm{1.0, 0.0, 1.0}));
+  EXPECT_TRUE(warns(wild, {"factors of iridescence out of range were clamped", "'cloth'"}));
+  const Scene matt = with_extension("KHR_materials_iridescence", {{"iridescenceFactor", 1.0}},
+                                    {{"metallicFactor", 0.0}, {"roughnessFactor", 0.9}});
+  EXPECT_EQ(matt.materials.at(0).iridescence, 0.0);
+  EXPECT_TRUE(warns(matt, {"iridescence of what is matt is left out", "'cloth'"}));
+}
+
+TEST(GltfThinLayers, ReadTheTexturesOfIridescence) {
   auto file = square();
+  const auto image = file.add_view(Bytes(8, 1));
+  file.json["images"] = Json::array({{{"bufferView", image}, {"mimeType", "image/png"}}});
+  file.json["textures"] = Json::array({{{"source", 0}}});
   file.json["materials"][0] = {
       {"name", "shell"},
       {"pbrMetallicRoughness", {{"metallicFactor", 1.0}}},
       {"extensions",
        {{"KHR_materials_iridescence",
-         {{"iridescenceFactor", 1.0}, {"iridescenceThicknessTexture", {{"index", 0}}}}}}}};
-  EXPECT_EQ(load(file).materials.at(0).base_color, mean_film_reflectance({1.3, 250.0}, Rgb(1.0)));
-  file.json["materials"][0]["extensions"]["KHR_materials_iridescence"]["iridescenceTexture"] = {
-      {"index", 0}};
-  const Scene limited = load(file);
-  EXPECT_EQ(limited.materials.at(0).base_color, Rgb(1.0));
-  EXPECT_TRUE(warns(limited, {"iridescence that a texture limits", "'shell'"}));
+         {{"iridescenceFactor", 1.0},
+          {"iridescenceTexture", {{"index", 0}}},
+          {"iridescenceThicknessTexture", {{"index", 0}, {"texCoord", 1}}}}}}}};
+  const Scene scene = load(file);
+  ASSERT_TRUE(scene.materials.at(0).iridescence_texture);
+  ASSERT_TRUE(scene.materials.at(0).film_thickness_texture);
+  EXPECT_EQ(scene.materials.at(0).film_thickness_texture->texcoord_set, 1);
+  EXPECT_EQ(film_of(scene.materials.at(0)).thickness, 250.0) << "the mean of the bounds";
+  EXPECT_TRUE(warns(scene, {"texture coordinates that their materials ask for are missing"}));
+  file.json["materials"][0]["extensions"]["KHR_materials_iridescence"]["iridescenceTexture"] = 3;
+  EXPECT_THROW(load(file), InputError);
 }
 
 TEST(GltfThinLayers, ReadAnisotropy) {

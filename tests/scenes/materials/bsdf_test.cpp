@@ -64,6 +64,13 @@ Material with_sheen(Material material, double roughness) {
   return material;
 }
 
+Material with_film(Material material, double share = 1.0) {
+  material.iridescence = share;
+  material.film_ior = 1.35;
+  material.film_thickness = 420.0;
+  return material;
+}
+
 Bsdf bsdf_of(const Material& material) { return make_bsdf(material, untextured(material)); }
 
 struct NamedMaterial {
@@ -211,7 +218,12 @@ INSTANTIATE_TEST_SUITE_P(
                     NamedMaterial{"lame", with_sheen(metal(0.4), 1.0)},
                     NamedMaterial{"brushed along an axis", brushed(metal(0.4), 0.6)},
                     NamedMaterial{"brushed coat", brushed(plastic(0.2), 0.4)},
-                    NamedMaterial{"brushed pane", brushed(pane(0.4), 0.7)}),
+                    NamedMaterial{"brushed pane", brushed(pane(0.4), 0.7)},
+                    NamedMaterial{"film on a mirror", with_film(metal(0.0))},
+                    NamedMaterial{"film on rough metal", with_film(metal(0.4), 0.6)},
+                    NamedMaterial{"film on paint", with_film(plastic(0.1))},
+                    NamedMaterial{"film on a mixture", with_film(mixture(), 0.5)},
+                    NamedMaterial{"film on a pane", with_film(pane(0.4))}),
     [](const auto& given) {
       std::string name = given.param.name;
       std::ranges::replace(name, ' ', '_');
@@ -223,6 +235,17 @@ TEST(Bsdf, WhiteUnderACoatLosesNothing) {
     for (const double degrees : {0.0, 45.0, 80.0, 88.0})
       // Single scattering loses light in the coat alone, which is little of little.
       EXPECT_NEAR(sampled_albedo(bsdf_of(plastic(roughness)), at_angle(degrees)).g, 1.0, 3e-3)
+          << roughness << ' ' << degrees;
+}
+
+// What the film reflects is coloured: its strongest channel and what gets below it add up to 1.
+TEST(Bsdf, WhiteUnderAFilmLosesNothingOfItsStrongestChannel) {
+  for (const double roughness : {0.0, 0.1, 0.2})
+    for (const double degrees : {0.0, 45.0, 80.0})
+      // The tables are good to 3e-3; the means of films to 4e-3 of what they reflect.
+      EXPECT_NEAR(
+          largest(sampled_albedo(bsdf_of(with_film(plastic(roughness))), at_angle(degrees))), 1.0,
+          5e-3)
           << roughness << ' ' << degrees;
 }
 
