@@ -19,7 +19,7 @@ struct MaterialPoint {
   Rgb diffuse_transmission_color{1.0};
   double anisotropy = 0.0;
   Vec2 anisotropy_direction{1.0, 0.0}; ///< unit, along the tangent and the bitangent
-  ThinFilm film;
+  ThinFilm film{};
 };
 
 /// The factors alone, as where there is no texture.
@@ -32,10 +32,10 @@ struct Bsdf {
   double coat = 0.0; ///< share of the surface under the coat
   Rgb coat_f0{0.0};
   double coat_f90 = 0.0;
-  ThinFilm film;           ///< over metal and coat, by a share
+  ThinFilm film{};           ///< over metal and coat, by a share
   Rgb metal_below{0.0};    ///< the colour of metal below it
   Rgb metal_with_film{1.0}; ///< the mean of what that reflects with the film
-  FilmMean film_on_coat;    ///< of the film alone, over coat_f0, times coat_f90
+  FilmMean film_on_coat{};   ///< of the film alone, over coat_f0, times coat_f90
   double roughness = 1.0; ///< of facets that are not round, (alpha_t alpha_b)^(1/4)
   double alpha = 1.0;     ///< alpha_b; 0 stands for ideal reflection and transmission
   double stretch = 1.0;   ///< alpha_t / alpha_b; 1: facets are round

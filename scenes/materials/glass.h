@@ -34,7 +34,7 @@ struct Glass {
   double f90 = 1.0;
   Rgb tint{1.0}; ///< t
   GlassFaces faces = GlassFaces::both;
-  ThinFilm film; ///< of whole panes one on either face
+  ThinFilm film{}; ///< of whole panes one on either face
 };
 
 struct GlassShares {
