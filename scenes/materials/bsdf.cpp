@@ -161,8 +161,9 @@ double coat_albedo(const Bsdf& bsdf, const Direction& w) {
   const double base = e.f0 * largest(bsdf.coat_f0) + e.f90 * bsdf.coat_f90;
   if (bsdf.film.share == 0.0)
     return std::min(1.0, base);
-  // The facets of lobes that have a coat are steep nowhere: their cosine is nearly that of w.
-  const double of_film = (e.f0 + e.f90) * largest(film_over_coat(bsdf, w.z));
+  // At the cosine at which (1 - c)^5 is what it is in the mean over the lobe.
+  const double all = e.f0 + e.f90, cosine = 1.0 - std::pow(e.f90 / all, 0.2);
+  const double of_film = all * largest(film_over_coat(bsdf, cosine));
   return std::min(1.0, std::lerp(base, of_film, bsdf.film.share));
 }
 

@@ -83,7 +83,8 @@ TEST(ThinFilms, HaveTheThicknessOfTheirTexture) {
   const double cosine = std::cos(0.5);
   for (const auto& [x, thickness] : {std::pair(-1.0, 200.0), std::pair(1.0, 500.0)})
     expect_near(seen(scene, 0.5 * 180.0 / std::numbers::pi, x),
-                film_reflectance({1.5, thickness}, Rgb(0.8, 0.7, 0.5), cosine), 1e-5);
+                film_reflectance({1.5, thickness}, Rgb(0.8, 0.7, 0.5), cosine),
+              2e-4); // texture coordinates are floats: beside a centre other texels have 1e-4 of a share
 }
 
 } // namespace
