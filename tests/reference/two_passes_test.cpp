@@ -230,7 +230,7 @@ TEST(TwoPasses, AgreeWithPathsOnThinFilms) {
         scene.materials[k].base_color = Rgb(0.0);
         scene.materials[k].emission = Rgb(0.2 + 0.1 * double(k));
       }
-    expect_agreement(scene, {{"steeply", {0.8, 0.9, 0.2}, {0.8, 0.0, 0.4}},
+    expect_agreement(scene, {{"steeply, far from the lamp", {1.7, 1.1, 1.8}, {1.6, 0.0, 1.6}},
                              {"along the floor", {1.9, 0.15, 1.0}, {1.2, 0.0, 0.9}}});
   }
 }
