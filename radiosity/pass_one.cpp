@@ -1,4 +1,4 @@
-#include "radiosity/pass_one.h"
+#include "radiosity/pass_one_for_view.h"
 
 #include "radiosity/field/interpolation.h"
 #include "radiosity/hierarchical/node_field.h"
@@ -37,14 +37,16 @@ void take_received(const ElementMesh& mesh, const TranslucentLinks& translucent,
 }
 
 /// H at the vertices: D there, and the rest gathered from the elements, by nodes where these say so.
+/// What is not seen is then less exact; `seen` empty: all is.
 InterpolatedField at_vertices(const LightScene& light, const PassOneSettings& settings,
                               ReflectedLight& solved, const std::vector<Rgb>& irradiance,
-                              const Progress& progress) {
+                              const SeenElements& seen, const Progress& progress) {
   const ElementLight elements{std::move(solved.solver.radiosity), irradiance,
                               solved.first.from_source, solved.first.translucent};
   if (solved.receivers)
     return field_by_nodes(light, elements, *solved.receivers,
-                          {settings.form_factors, settings.direct, settings.interpolation, progress});
+                          {settings.form_factors, settings.direct, settings.interpolation, progress,
+                           seen});
   return interpolate(light, elements, settings.form_factors, settings.direct,
                      settings.interpolation, progress);
 }
@@ -52,11 +54,11 @@ InterpolatedField at_vertices(const LightScene& light, const PassOneSettings& se
 /// From the light that elements reflect to the field, with the figures of both.
 RadiositySolution field_of(const std::shared_ptr<const LightScene>& light,
                            const PassOneSettings& settings, ReflectedLight solved,
-                           const Progress& progress) {
+                           const Progress& progress, const SeenElements& seen = {}) {
   Stopwatch watch;
   RadiositySolution solution;
   static_cast<ElementSolution&>(solution) = on_elements(light->mesh, solved);
-  InterpolatedField found = at_vertices(*light, settings, solved, solution.irradiance, progress);
+  InterpolatedField found = at_vertices(*light, settings, solved, solution.irradiance, seen, progress);
   take_received(light->mesh, solved.first.translucent, found.received, solution);
   solution.field = {std::move(found.field),
                     found.mesh ? light_scene_on(*light, std::move(*found.mesh)) : light};
@@ -100,6 +102,12 @@ RadiositySolution darkness(const std::shared_ptr<const LightScene>& light,
 RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress,
                                  const PassOneWatch& watch) {
+  return solve_for_view(light, settings, {}, progress, watch);
+}
+
+RadiositySolution solve_for_view(const std::shared_ptr<const LightScene>& light,
+                                 const PassOneSettings& settings, const SeenElements& seen,
+                                 const Progress& progress, const PassOneWatch& watch) {
   if (settings.cut == MeshCut::uniform)
     check_size(settings.solver.method, element_count(light->mesh));
   if (nothing_emits(*light))
@@ -107,7 +115,8 @@ RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
   if (shoots_rays(settings, element_count(light->mesh)))
     return shoot_pass_one(light, settings, progress, watch);
   if (settings.cut == MeshCut::hierarchical)
-    return field_of(light, settings, reflected_by_nodes(*light, settings, progress), progress);
+    return field_of(light, settings, reflected_by_nodes(*light, settings, progress), progress,
+                    seen);
 
   // F^w by rays, hemicubes or exactly; S = rho (D + G); X = S + rho T X; then H at every vertex.
   Stopwatch stopwatch;

@@ -4,6 +4,7 @@
 #include "radiosity/mesh/make_mesh.h"
 #include "radiosity/scene/surface_colour.h"
 #include "raytrace/scene_textures.h"
+#include "raytrace/views/seen_elements.h"
 #include "scenes/rays/mixed_scales.h"
 #include "scenes/repair/retriangulation.h"
 #include "scenes/materials/smooth_surfaces.h"
@@ -56,8 +57,10 @@ TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera,
                        const TwoPassSettings& settings, const Progress& progress,
                        const PassOneWatch& watch) {
   // Pass one:
-  // diffuse radiosity, with the light that arrives directly and through every mirror world.
-  auto solution = solve_pass_one(prepared.light, settings.pass_one, progress, watch);
+  // diffuse radiosity, with the light that arrives directly and through every mirror world,
+  // as exact as the settings ask where the view shows it.
+  const SeenElements seen = seen_elements(*prepared.light, camera, settings.render);
+  auto solution = solve_for_view(prepared.light, settings.pass_one, seen, progress, watch);
 
   // Pass two: specular light, followed from the eye until it lands on the diffuse field.
   auto rendering = render(solution.field, camera, settings.render, progress);

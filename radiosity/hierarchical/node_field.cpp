@@ -48,10 +48,30 @@ struct NodeInterpolation {
   std::vector<MidpointStencil> crosses;
 };
 
+/// What is seen, by ElementId; empty: everything.
+using Seen = std::span<const std::uint8_t>;
+
+bool is_seen(const NodeTree& tree, TreeNodeId node, Seen seen) {
+  return seen.empty() || std::ranges::any_of(elements_below(tree, node), [&](ElementId e) {
+           return seen[index(e)] != 0;
+         });
+}
+
+/// Those nodes of which nothing is seen, taken from these.
+std::vector<TreeNodeId> take_unseen(const NodeTree& tree, Seen seen,
+                                    std::vector<TreeNodeId>& nodes) {
+  const auto unseen = std::ranges::stable_partition(
+      nodes, [&](TreeNodeId id) { return is_seen(tree, id, seen); });
+  std::vector<TreeNodeId> taken(unseen.begin(), unseen.end());
+  nodes.erase(unseen.begin(), unseen.end());
+  return taken;
+}
+
 /// The rest at the corners and in the middle of nodes as small as it asks for, with a bound of X.
 /// Middles alone do not see light that bends one way along a node and the other way across:
 /// what edges between nodes tell of that divides once more.
 NodeInterpolation gather_at_nodes(const NodeSource& source, const HierarchicalSolution& receivers,
+                                  std::vector<TreeNodeId> nodes, Seen seen,
                                   double x, VertexSamples& found) {
   const ElementMesh& mesh = found.mesh;
   const NodeTree& tree = receivers.tree;
@@ -63,13 +83,15 @@ NodeInterpolation gather_at_nodes(const NodeSource& source, const HierarchicalSo
     valid = with_values(found);
     return {valid, found.field.irradiance, found.field.indirect};
   };
-  const auto gather_below = [&](std::vector<TreeNodeId> nodes) {
-    while (!nodes.empty()) {
-      gather_at_wanted(source, wanted_vertices(mesh, tree, nodes), bound.scale.area, found);
-      nodes = parts_of_bent(mesh, tree, nodes, gathered(), bound, straight);
+  const auto gather_below = [&](std::vector<TreeNodeId> below) {
+    while (!below.empty()) {
+      gather_at_wanted(source, wanted_vertices(mesh, tree, below), bound.scale.area, found);
+      below = parts_of_bent(mesh, tree, below, gathered(), bound, straight);
+      // Their corners have been gathered by the nodes that they are parts of.
+      std::ranges::copy(take_unseen(tree, seen, below), std::back_inserter(straight));
     }
   };
-  gather_below(receivers.receivers);
+  gather_below(std::move(nodes));
   gather_below(parts_at_bent_edges(mesh, tree, gathered(), bound, straight));
   return {vertex_shares(mesh, tree, straight), crosses_of(mesh, tree, straight)};
 }
@@ -177,13 +199,22 @@ void add_from_behind(const ElementLight& elements, std::vector<Rgb> received,
   }
 }
 
-/// The radiosity of the elements by the field that they make themselves, found with few rays:
+/// What the first gathering finds.
+struct FirstField {
+  std::vector<Rgb> reflected; ///< B, the radiosity of the elements by the field that they make themselves
+  VertexIrradiance field;
+  std::vector<VertexState> states;
+};
+
 /// `found` has it in between.
-std::vector<Rgb> reflected_by_field(const VertexSource& few, const HierarchicalSolution& receivers,
-                                    const ElementLight& elements, VertexSamples& found) {
+FirstField first_field(const VertexSource& few, const HierarchicalSolution& receivers,
+                       const ElementLight& elements, VertexSamples& found) {
   VertexIrradiance lit = found.field;
   std::vector<VertexState> states = found.states;
-  share_out(gather_at_nodes({few, few}, receivers, few_rays * receivers.bend, found), found);
+  share_out(
+      gather_at_nodes({few, few}, receivers, receivers.receivers, {}, few_rays * receivers.bend,
+                      found),
+      found);
   const std::vector<Rgb> received =
       received_at_corners(elements, receivers, found, filled(found, found.field.irradiance),
                           filled(found, found.field.indirect));
@@ -192,9 +223,37 @@ std::vector<Rgb> reflected_by_field(const VertexSource& few, const HierarchicalS
     if (elements.irradiance[e] != Rgb(0.0))
       reflected[e] = found.mesh.reflectance[e] * received[e];
   add_from_behind(elements, received, reflected);
-  found.field = std::move(lit);
-  found.states = std::move(states);
-  return reflected;
+  std::swap(found.field, lit);
+  std::swap(found.states, states);
+  return {std::move(reflected), std::move(lit), std::move(states)};
+}
+
+/// By ElementVertexId, 1: no receiver that shows something seen has it.
+std::vector<std::uint8_t> left_out_of(std::span<const TreeNodeId> nodes, const NodeTree& tree,
+                                      const ElementMesh& mesh) {
+  std::vector<std::uint8_t> left_out(mesh.vertices.size(), 1);
+  for (const TreeNodeId id : nodes)
+    for (const ElementId e : elements_below(tree, id))
+      for (const ElementVertexId v : mesh.corners[index(e)])
+        left_out[index(v)] = 0;
+  return left_out;
+}
+
+/// Vertices that nothing seen has keep what the first gathering found.
+void keep_first(const FirstField& first, std::span<const std::uint8_t> left_out,
+                VertexSamples& found) {
+  const auto keep = [&](std::vector<glm::vec3>& values, const std::vector<glm::vec3>& from) {
+    for (std::size_t v = 0; v < left_out.size(); ++v)
+      if (left_out[v] != 0)
+        values[v] = from[v];
+  };
+  keep(found.field.irradiance, first.field.irradiance);
+  keep(found.field.mirrored, first.field.mirrored);
+  keep(found.field.indirect, first.field.indirect);
+  keep(found.field.indirect_mirrored, first.field.indirect_mirrored);
+  for (std::size_t v = 0; v < left_out.size(); ++v)
+    if (left_out[v] != 0)
+      found.states[v] = first.states[v];
 }
 
 /// `found` has direct light, and the values of vertices that take means of facets.
@@ -209,7 +268,8 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
     return StagePart{how.progress, "refinement", from, to};
   };
   const VertexSource few{elements.irradiance, solved, workspaces, &kept, true, part(0.0, 0.4)};
-  const std::vector<Rgb> reflected = reflected_by_field(few, receivers, elements, found);
+  const FirstField first = first_field(few, receivers, elements, found);
+  const std::vector<Rgb>& reflected = first.reflected;
   const int times = ray_multiplier(element_count(light.mesh), receivers.receivers.size());
   const PointGathering seen = gathering_from(light, reflected, how, {}, 0.0, first_share),
                        seen_by_small = gathering_from(light, reflected, how, {few_rays, times},
@@ -223,7 +283,13 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
       by_small{elements.irradiance, seen_by_small, workspaces, &kept, false, part(0.6, 0.8)},
       by_large{elements.irradiance, seen_by_large ? *seen_by_large : seen, workspaces,
                &kept,               false, part(0.4, 0.6)};
-  share_out(gather_at_nodes({by_large, by_small}, receivers, receivers.bend, found), found);
+  std::vector<TreeNodeId> nodes = receivers.receivers;
+  take_unseen(receivers.tree, how.seen, nodes);
+  const auto left_out = left_out_of(nodes, receivers.tree, found.mesh);
+  share_out(gather_at_nodes({by_large, by_small}, receivers, std::move(nodes), how.seen,
+                            receivers.bend, found),
+            found);
+  keep_first(first, left_out, found);
   InterpolatedField result{.field = complete_field(source, found)};
   result.received = received_at_corners(elements, receivers, found, result.field.irradiance,
                                         result.field.indirect);

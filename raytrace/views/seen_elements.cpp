@@ -1,0 +1,165 @@
+#include "raytrace/views/seen_elements.h"
+
+#include "radiosity/field/vertex_places.h"
+#include "radiosity/scene/light_scene.h"
+#include "raytrace/lobe_grid.h"
+#include "scenes/materials/normal_map.h"
+#include "scenes/materials/refraction.h"
+#include "scenes/sampling.h"
+#include "scenes/shading_normal.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace meninas {
+
+namespace {
+
+constexpr double min_throughput = 0.05;
+constexpr double most_paths = 1 << 17;
+constexpr std::size_t max_branches = 64; ///< of one path
+
+/// A leg that is still to be followed.
+struct Leg {
+  Ray ray;
+  Rgb throughput{1.0};
+  int bounces = 0;
+  Backs backs = Backs::absorb;
+};
+
+/// Marks; several threads may set the same.
+class Marks {
+public:
+  explicit Marks(std::size_t count) : marks_(count) {}
+  void set(std::uint32_t element) { marks_[element].store(1, std::memory_order_relaxed); }
+  bool at(std::size_t element) const {
+    return marks_[element].load(std::memory_order_relaxed) != 0;
+  }
+
+private:
+  std::vector<std::atomic<std::uint8_t>> marks_;
+};
+
+/// Where a leg has met something.
+struct Met {
+  const LightScene& light;
+  const Hit& hit;
+  const FaceRecord& face;
+  Direction along; ///< of the leg
+};
+
+void mark_side(const Met& met, std::uint32_t side, const FaceRecord& face, Marks& seen) {
+  const glm::vec2 b(met.hit.barycentric);
+  const glm::vec2 uv = landing_uv(face, met.light.surfaces, index(met.hit.triangle), b.x, b.y);
+  seen.set(field_point(met.light.landing.elements, side, uv).element);
+}
+
+/// The element, and that of the other side of what is translucent.
+void mark(const Met& met, Marks& seen) {
+  if (met.face.side == FaceRecord::nothing)
+    return;
+  mark_side(met, met.face.side, met.face, seen);
+  const SideId behind = side_behind(met.light.mesh, SideId{met.face.side});
+  if (behind == none<SideId>)
+    return;
+  const std::size_t front = 2 * std::size_t{index(met.hit.triangle)};
+  const auto& faces = met.light.landing.faces;
+  mark_side(met, index(behind), faces[front].side == index(behind) ? faces[front] : faces[front + 1],
+            seen);
+}
+
+Direction normal_of(const Met& met) {
+  if (!met.face.curved)
+    return met.face.normal;
+  const Direction n = mapped_normal(met.light.scene, met.light.textures, met.hit.triangle,
+                                    met.hit.barycentric);
+  return visible_normal(met.hit.front ? n : -n, met.face.normal, -met.along);
+}
+
+/// What its lobes reflect and pass towards where the leg came from, one direction each.
+void continue_by_lobes(const Met& met, const Leg& leg, Vec2 u, std::vector<Leg>& legs) {
+  const Material& material = material_of(met.light.scene, met.hit.triangle);
+  if (!met.hit.front && !material.double_sided)
+    return;
+  const Bsdf front = make_bsdf(material, material_at(met.light.scene, met.light.textures,
+                                                     met.hit.triangle, met.hit.barycentric));
+  Bsdf bsdf = met.hit.front ? front : from_behind(front);
+  const Direction normal = normal_of(met), out = local_out(normal, met.along);
+  const auto go_on = [&](const Direction& towards, const Rgb& weight) {
+    const Rgb throughput = leg.throughput * weight;
+    if (largest(throughput) < min_throughput || legs.size() >= max_branches)
+      return;
+    const Point3 position = leg.ray.origin + met.hit.distance * leg.ray.direction;
+    legs.push_back({{position, towards, static_cast<PlaneId>(met.face.plane_class)},
+                    throughput, leg.bounces + 1});
+  };
+  if (is_open(bsdf)) {
+    go_on(met.along, straight_transmission(bsdf, out.z));
+    bsdf.glass = 0.0;
+  }
+  if (!has_round_facets(bsdf))
+    bsdf.axis = facet_axis(met.light.scene, met.hit.triangle, met.hit.barycentric, bsdf.axis, normal);
+  std::vector<LobeRay> rays;
+  lobe_sample(bsdf, out, u, rays);
+  for (const LobeRay& ray : rays)
+    go_on(to_world(normal, ray.in), ray.weight);
+}
+
+/// The path through one point of the picture, in all its branches.
+void follow(const LightScene& light, const CameraRay& start, int max_bounces, std::uint32_t number,
+            Marks& seen) {
+  std::vector<Leg> legs{{{start.origin, start.direction}, Rgb(1.0), 0, Backs::transparent}};
+  for (std::uint32_t k = 0; !legs.empty(); ++k) {
+    const Leg leg = legs.back();
+    legs.pop_back();
+    const auto hit = closest_hit(light.rays, leg.ray, leg.backs);
+    if (!hit)
+      continue;
+    const std::size_t face = 2 * std::size_t{index(hit->triangle)} + (hit->front ? 0 : 1);
+    const Met met{light, *hit, light.landing.faces[face], leg.ray.direction};
+    mark(met, seen);
+    const auto u = sobol4(number, hash(k, 0x5ee2));
+    if (leg.bounces < max_bounces)
+      continue_by_lobes(met, leg, {u[0], u[1]}, legs);
+  }
+}
+
+} // namespace
+
+SeenElements seen_elements(const LightScene& light, const Camera& camera,
+                           const RenderSettings& settings) {
+  const double pixels = double(settings.width) * settings.height;
+  const double apart = std::max(1.0, std::sqrt(pixels / most_paths));
+  const auto columns = static_cast<std::uint32_t>(std::ceil(settings.width / apart)) + 1;
+  const auto rows = static_cast<std::uint32_t>(std::ceil(settings.height / apart)) + 1;
+  Marks marks(element_count(light.mesh));
+  tbb::parallel_for(std::uint32_t{0}, rows, [&](std::uint32_t row) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const std::uint32_t number = row * columns + column;
+      const auto lens = sobol4(number, 0x1e45);
+      const double radius = std::sqrt(double{lens[0]}), turn = 2.0 * std::numbers::pi * lens[1];
+      const CameraRay start =
+          camera_ray(camera, double(settings.width) / settings.height,
+                     std::min(column * apart / settings.width, 1.0),
+                     std::min(row * apart / settings.height, 1.0),
+                     radius * Vec2(std::cos(turn), std::sin(turn)));
+      follow(light, start, settings.max_bounces, number, marks);
+    }
+  });
+
+  // What lies beside it fills the rest of the pixels.
+  SeenElements seen(element_count(light.mesh), 0);
+  const VertexElements around = elements_around(light.mesh);
+  for (std::size_t v = 0; v < light.mesh.vertices.size(); ++v) {
+    const auto elements = meninas::around(around, static_cast<std::uint32_t>(v));
+    if (std::ranges::any_of(elements, [&](ElementId e) { return marks.at(index(e)); }))
+      for (const ElementId e : elements)
+        seen[index(e)] = 1;
+  }
+  return seen;
+}
+
+} // namespace meninas
