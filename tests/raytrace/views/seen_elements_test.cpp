@@ -1,0 +1,133 @@
+// Which elements a view shows, and what pass one makes of it.
+#include "raytrace/views/seen_elements.h"
+#include "raytrace/views/sight.h"
+#include "tests/raytrace/pictures.h"
+#include "tests/support/metals.h"
+#include "tests/support/rooms.h"
+#include "tests/support/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace meninas::test {
+namespace {
+
+PassOneSettings room_settings() {
+  PassOneSettings settings;
+  settings.mesh.element_size = 0.1;
+  settings.form_factors.rays = settings.interpolation.rays = 256;
+  settings.cut = MeshCut::hierarchical;
+  return settings;
+}
+
+RenderSettings small_picture() {
+  RenderSettings settings;
+  settings.width = 40;
+  settings.height = 30;
+  settings.samples = 4;
+  return settings;
+}
+
+/// Names of the nodes of which an element is seen.
+std::set<std::string> seen_nodes(const Scene& scene, const Camera& camera) {
+  const auto prepared = prepare_scene(scene, room_settings());
+  const LightScene& light = *prepared->light;
+  const SeenElements seen = seen_elements(light, camera, small_picture());
+  std::set<std::string> names;
+  for (const MeshSide& side : light.mesh.sides) {
+    const Patch& patch = light.surfaces.patches[index(side.patch)];
+    const TriangleId triangle = patch.triangles[0];
+    for (std::uint32_t k = 0; k < side.element_count; ++k)
+      if (seen[side.first_element + k] != 0)
+        names.insert(light.scene.nodes[index(light.scene.triangles[index(triangle)].node)].name);
+  }
+  return names;
+}
+
+/// A room 2 m wide whose walls are named x0 to z1, with a lamp.
+Scene room(const Material& floor, const Material& x0) {
+  Scene scene;
+  const Material wall = diffuse(0.6);
+  add_room(scene, Point3(0.0), Point3(2.0), {x0, wall, floor, wall, wall, wall});
+  add_polygon(scene, "lamp", {{0.8, 1.9, 0.8}, {1.2, 1.9, 0.8}, {1.2, 1.9, 1.2}, {0.8, 1.9, 1.2}},
+              diffuse(0.0, 5.0));
+  return scene;
+}
+
+/// A narrow look at the middle of the wall x = 0 and, from x = 1.2, at that of the floor.
+const Camera at_wall = look_at({1.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, 0.2);
+const Camera at_floor = look_at({1.0, 1.0, 0.4}, {1.0, 0.0, 1.0}, 0.1);
+
+TEST(SeenElements, AreThoseThatTheEyeMeets) {
+  EXPECT_EQ(seen_nodes(room(diffuse(0.5), diffuse(0.5)), at_wall), std::set<std::string>{"x0"});
+}
+
+TEST(SeenElements, AreThoseInAMirrorAsWell) {
+  EXPECT_EQ(seen_nodes(room(diffuse(0.5), mirror(0.9)), at_wall), std::set<std::string>{"x1"});
+}
+
+TEST(SeenElements, AreThoseBehindGlassAndInItsReflection) {
+  Scene scene = room(diffuse(0.5), diffuse(0.5));
+  Material pane = diffuse(1.0);
+  pane.roughness = 0.0;
+  pane.transmission = 1.0;
+  pane.double_sided = true;
+  add_polygon(scene, "pane", {{0.5, 0.1, 1.9}, {0.5, 0.1, 0.1}, {0.5, 1.9, 0.1}, {0.5, 1.9, 1.9}},
+              pane);
+  EXPECT_EQ(seen_nodes(scene, at_wall), (std::set<std::string>{"x0", "x1"}));
+}
+
+// By a lobe a ceiling above a floor of satin metal; by a matt floor nothing else.
+TEST(SeenElements, AreThoseThatLobesShow) {
+  const auto seen = seen_nodes(room(metal(Rgb(0.8), 0.4), diffuse(0.5)), at_floor);
+  EXPECT_TRUE(seen.contains("y1") && seen.contains("z1"));
+  EXPECT_EQ(seen_nodes(room(diffuse(0.5), diffuse(0.5)), at_floor), std::set<std::string>{"y0"});
+}
+
+// The field of the view is that of the whole solution where it is seen, and of the first gathering elsewhere.
+TEST(SolutionForAView, IsTheWholeOneWhereItIsSeen) {
+  const PassOneSettings settings = room_settings();
+  const auto prepared = prepare_scene(room(diffuse(0.5), mirror(0.9)), settings);
+  const LightScene& light = *prepared->light;
+  const Camera camera = look_at({1.6, 1.0, 1.0}, {0.0, 0.6, 0.8}, 0.5);
+  const SeenElements seen = seen_elements(light, camera, small_picture());
+  const RadiositySolution all = solve_pass_one(prepared->light, settings),
+                          view = solve_for_view(prepared->light, settings, seen);
+  const auto share = double(std::ranges::count(seen, 1)) / double(seen.size());
+  ASSERT_LT(share, 0.6);
+  EXPECT_LT(view.form_factor_rays, all.form_factor_rays);
+
+  // Both show one picture: vertices that are gathered have the same bits.
+  const Image whole = render(all.field, camera, small_picture()).image,
+              part = render(view.field, camera, small_picture()).image;
+  double squares = 0.0, light_of_all = 0.0;
+  for (std::size_t p = 0; p < whole.pixels.size(); ++p) {
+    squares += std::pow(double{part.pixels[p].g} - double{whole.pixels[p].g}, 2);
+    light_of_all += double{whole.pixels[p].g};
+  }
+  const double n = double(whole.pixels.size());
+  EXPECT_LT(std::sqrt(squares / n), 2e-3 * light_of_all / n); // beside the border of what is seen
+  // Elsewhere light is off by what the first gathering allows, four times the bound.
+  Rgb sum_view(0.0), sum_all(0.0);
+  for (std::size_t e = 0; e < seen.size(); ++e) {
+    sum_view += light.mesh.area[e] * view.irradiance[e];
+    sum_all += light.mesh.area[e] * all.irradiance[e];
+  }
+  EXPECT_NEAR(sum_view.g, sum_all.g, 0.01 * sum_all.g);
+}
+
+TEST(SolutionForAView, ThatShowsEverythingIsTheWholeOneToTheBit) {
+  const PassOneSettings settings = room_settings();
+  const auto prepared = prepare_scene(room(diffuse(0.5), mirror(0.9)), settings);
+  const SeenElements everything(element_count(prepared->light->mesh), 1);
+  const RadiositySolution all = solve_pass_one(prepared->light, settings),
+                          view = solve_for_view(prepared->light, settings, everything);
+  EXPECT_EQ(all.field.irradiance, view.field.irradiance);
+  EXPECT_EQ(all.field.indirect, view.field.indirect);
+}
+
+} // namespace
+} // namespace meninas::test
