@@ -68,13 +68,17 @@ void add_face(Candidate& candidate, const SurfaceModel& model, SurfaceId id, int
 std::vector<Candidate> mirror_planes(const Scene& scene, const SurfaceModel& model) {
   std::vector<Candidate> candidates;
   std::map<MirrorKey, std::size_t> known;
+  std::vector<std::optional<Rgb>> reflectances(scene.materials.size());
   for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
     const Surface& surface = model.surfaces[s];
     const Material& material = scene.materials[index(surface.material)];
     const bool is_pane = is_glass(material) && !is_solid_glass(material);
     if (!is_mirror(material) && !is_pane && !has_mirror_coat(material))
       continue;
-    const Rgb reflectance = reflectance_of(material);
+    std::optional<Rgb>& of_material = reflectances[index(surface.material)];
+    if (!of_material)
+      of_material = reflectance_of(material);
+    const Rgb reflectance = *of_material;
     if (reflectance == Rgb(0.0))
       continue;
     const bool is_coat = has_mirror_coat(material);

@@ -37,7 +37,7 @@ void take_received(const ElementMesh& mesh, const TranslucentLinks& translucent,
 }
 
 /// H at the vertices: D there, and the rest gathered from the elements, by nodes where these say so.
-/// What is not seen is then less exact; `seen` empty: all is.
+/// Elements that are not seen may be less exact (pass_one_for_view.h); `seen` empty: all are.
 InterpolatedField at_vertices(const LightScene& light, const PassOneSettings& settings,
                               ReflectedLight& solved, const std::vector<Rgb>& irradiance,
                               const SeenElements& seen, const Progress& progress) {

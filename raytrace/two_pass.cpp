@@ -53,14 +53,23 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
   return prepared;
 }
 
+RadiositySolution solve_for_picture(const PreparedScene& prepared, const Camera& camera,
+                                    const TwoPassSettings& settings, const Progress& progress,
+                                    const PassOneWatch& watch) {
+  // Light that is gathered at hits comes from everywhere.
+  const bool by_view = settings.pass_one.cut == MeshCut::hierarchical &&
+                       settings.render.diffuse.term != DiffuseTerm::gather;
+  const SeenElements seen =
+      by_view ? seen_elements(*prepared.light, camera, settings.render) : SeenElements{};
+  return solve_for_view(prepared.light, settings.pass_one, seen, progress, watch);
+}
+
 TwoPassResult two_pass(const PreparedScene& prepared, const Camera& camera,
                        const TwoPassSettings& settings, const Progress& progress,
                        const PassOneWatch& watch) {
   // Pass one:
-  // diffuse radiosity, with the light that arrives directly and through every mirror world,
-  // as exact as the settings ask where the view shows it.
-  const SeenElements seen = seen_elements(*prepared.light, camera, settings.render);
-  auto solution = solve_for_view(prepared.light, settings.pass_one, seen, progress, watch);
+  // diffuse radiosity, with the light that arrives directly and through every mirror world.
+  auto solution = solve_for_picture(prepared, camera, settings, progress, watch);
 
   // Pass two: specular light, followed from the eye until it lands on the diffuse field.
   auto rendering = render(solution.field, camera, settings.render, progress);

@@ -57,6 +57,8 @@ bool is_solid_glass(const Material& material) {
 }
 
 ThinFilm film_of(const Material& material) {
+  if (material.iridescence == 0.0)
+    return {};
   const double thickness = material.film_thickness_texture
                                ? 0.5 * (material.film_min_thickness + material.film_thickness)
                                : material.film_thickness;

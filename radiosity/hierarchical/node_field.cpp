@@ -48,7 +48,7 @@ struct NodeInterpolation {
   std::vector<MidpointStencil> crosses;
 };
 
-/// What is seen, by ElementId; empty: everything.
+/// Whether an element is seen, by ElementId; empty: every one is.
 using Seen = std::span<const std::uint8_t>;
 
 bool is_seen(const NodeTree& tree, TreeNodeId node, Seen seen) {
@@ -57,7 +57,7 @@ bool is_seen(const NodeTree& tree, TreeNodeId node, Seen seen) {
          });
 }
 
-/// Those nodes of which nothing is seen, taken from these.
+/// Takes the nodes of which nothing is seen from these.
 std::vector<TreeNodeId> take_unseen(const NodeTree& tree, Seen seen,
                                     std::vector<TreeNodeId>& nodes) {
   const auto unseen = std::ranges::stable_partition(
@@ -87,8 +87,10 @@ NodeInterpolation gather_at_nodes(const NodeSource& source, const HierarchicalSo
     while (!below.empty()) {
       gather_at_wanted(source, wanted_vertices(mesh, tree, below), bound.scale.area, found);
       below = parts_of_bent(mesh, tree, below, gathered(), bound, straight);
-      // Their corners have been gathered by the nodes that they are parts of.
-      std::ranges::copy(take_unseen(tree, seen, below), std::back_inserter(straight));
+      // Parts that are not seen have their corners, and are not asked how light bends in them.
+      const std::vector<TreeNodeId> unseen = take_unseen(tree, seen, below);
+      gather_at_wanted(source, wanted_vertices(mesh, tree, unseen), bound.scale.area, found);
+      std::ranges::copy(unseen, std::back_inserter(straight));
     }
   };
   gather_below(std::move(nodes));
@@ -199,7 +201,7 @@ void add_from_behind(const ElementLight& elements, std::vector<Rgb> received,
   }
 }
 
-/// What the first gathering finds.
+/// The outcome of the first gathering.
 struct FirstField {
   std::vector<Rgb> reflected; ///< B, the radiosity of the elements by the field that they make themselves
   VertexIrradiance field;
@@ -239,7 +241,7 @@ std::vector<std::uint8_t> left_out_of(std::span<const TreeNodeId> nodes, const N
   return left_out;
 }
 
-/// Vertices that nothing seen has keep what the first gathering found.
+/// Vertices that no receiver with something seen has keep what the first gathering found.
 void keep_first(const FirstField& first, std::span<const std::uint8_t> left_out,
                 VertexSamples& found) {
   const auto keep = [&](std::vector<glm::vec3>& values, const std::vector<glm::vec3>& from) {
@@ -271,7 +273,7 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
   const FirstField first = first_field(few, receivers, elements, found);
   const std::vector<Rgb>& reflected = first.reflected;
   const int times = ray_multiplier(element_count(light.mesh), receivers.receivers.size());
-  const PointGathering seen = gathering_from(light, reflected, how, {}, 0.0, first_share),
+  const PointGathering by_all = gathering_from(light, reflected, how, {}, 0.0, first_share),
                        seen_by_small = gathering_from(light, reflected, how, {few_rays, times},
                                                       small_spared, first_share);
   const std::unique_ptr<const PointGathering> seen_by_large(
@@ -279,9 +281,9 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
           ? new PointGathering(gathering_from(light, reflected, how, {1, times}, 0.0, first_share))
           : nullptr);
   const VertexSource
-      source{elements.irradiance, seen, workspaces, &kept, false, part(0.8, 0.99)},
+      source{elements.irradiance, by_all, workspaces, &kept, false, part(0.8, 0.99)},
       by_small{elements.irradiance, seen_by_small, workspaces, &kept, false, part(0.6, 0.8)},
-      by_large{elements.irradiance, seen_by_large ? *seen_by_large : seen, workspaces,
+      by_large{elements.irradiance, seen_by_large ? *seen_by_large : by_all, workspaces,
                &kept,               false, part(0.4, 0.6)};
   std::vector<TreeNodeId> nodes = receivers.receivers;
   take_unseen(receivers.tree, how.seen, nodes);

@@ -116,8 +116,11 @@ std::uint64_t hash_of_mirrors(const Scene& scene, const WorldTree& worlds) {
     if (is_glass(material))
       for (const auto* use : {&material.base_color_texture, &material.metallic_roughness_texture,
                               &material.transmission_texture, &material.thickness_texture,
-                              &material.iridescence_texture, &material.film_thickness_texture})
+                              &material.iridescence_texture, &material.film_thickness_texture}) {
+        if (use == &material.film_thickness_texture && *use)
+          hash.add(Rgb(material.film_min_thickness, material.film_thickness, 0.0));
         add_texture(hash, scene, *use);
+      }
   for (const MirrorWorld& world : worlds.worlds) {
     hash.add(std::uint64_t{index(world.parent)});
     hash.add(std::uint64_t{index(world.mirror)});

@@ -13,20 +13,22 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 namespace meninas {
 
 namespace {
 
-constexpr double min_throughput = 0.05;
-constexpr double most_paths = 1 << 17;
-constexpr std::size_t max_branches = 64; ///< of one path
+constexpr double min_throughput = 0.02;
+constexpr double most_paths = 1 << 19;
+constexpr int max_legs = 32; ///< in a row
 
-/// A leg that is still to be followed.
+/// A leg of a path that is still to be followed.
 struct Leg {
   Ray ray;
   Rgb throughput{1.0};
-  int bounces = 0;
+  int bounces = 0; ///< reflections
+  int legs = 0;    ///< before it
   Backs backs = Backs::absorb;
 };
 
@@ -79,8 +81,9 @@ Direction normal_of(const Met& met) {
   return visible_normal(met.hit.front ? n : -n, met.face.normal, -met.along);
 }
 
-/// What its lobes reflect and pass towards where the leg came from, one direction each.
-void continue_by_lobes(const Met& met, const Leg& leg, Vec2 u, std::vector<Leg>& legs) {
+/// The lobes of the surface, one direction each, by which it sends light to where the leg came from.
+void continue_by_lobes(const Met& met, const Leg& leg, int max_bounces, Vec2 u,
+                       std::vector<Leg>& legs) {
   const Material& material = material_of(met.light.scene, met.hit.triangle);
   if (!met.hit.front && !material.double_sided)
     return;
@@ -88,16 +91,22 @@ void continue_by_lobes(const Met& met, const Leg& leg, Vec2 u, std::vector<Leg>&
                                                      met.hit.triangle, met.hit.barycentric));
   Bsdf bsdf = met.hit.front ? front : from_behind(front);
   const Direction normal = normal_of(met), out = local_out(normal, met.along);
-  const auto go_on = [&](const Direction& towards, const Rgb& weight) {
+  // Through glass nothing is reflected: backs that the eye looks through stay so, and it is no bounce.
+  const auto go_on = [&](const Direction& towards, const Rgb& weight, bool through) {
     const Rgb throughput = leg.throughput * weight;
-    if (largest(throughput) < min_throughput || legs.size() >= max_branches)
+    const int bounces = leg.bounces + (through ? 0 : 1);
+    if (largest(throughput) < min_throughput || bounces > max_bounces || leg.legs >= max_legs)
       return;
     const Point3 position = leg.ray.origin + met.hit.distance * leg.ray.direction;
+    const bool straight = through && glm::dot(towards, met.along) > 1.0 - 1e-9;
     legs.push_back({{position, towards, static_cast<PlaneId>(met.face.plane_class)},
-                    throughput, leg.bounces + 1});
+                    throughput,
+                    bounces,
+                    leg.legs + 1,
+                    straight ? leg.backs : Backs::absorb});
   };
   if (is_open(bsdf)) {
-    go_on(met.along, straight_transmission(bsdf, out.z));
+    go_on(met.along, straight_transmission(bsdf, out.z), true);
     bsdf.glass = 0.0;
   }
   if (!has_round_facets(bsdf))
@@ -105,13 +114,13 @@ void continue_by_lobes(const Met& met, const Leg& leg, Vec2 u, std::vector<Leg>&
   std::vector<LobeRay> rays;
   lobe_sample(bsdf, out, u, rays);
   for (const LobeRay& ray : rays)
-    go_on(to_world(normal, ray.in), ray.weight);
+    go_on(to_world(normal, ray.in), ray.weight, ray.through);
 }
 
 /// The path through one point of the picture, in all its branches.
 void follow(const LightScene& light, const CameraRay& start, int max_bounces, std::uint32_t number,
             Marks& seen) {
-  std::vector<Leg> legs{{{start.origin, start.direction}, Rgb(1.0), 0, Backs::transparent}};
+  std::vector<Leg> legs{{{start.origin, start.direction}, Rgb(1.0), 0, 0, Backs::transparent}};
   for (std::uint32_t k = 0; !legs.empty(); ++k) {
     const Leg leg = legs.back();
     legs.pop_back();
@@ -122,8 +131,7 @@ void follow(const LightScene& light, const CameraRay& start, int max_bounces, st
     const Met met{light, *hit, light.landing.faces[face], leg.ray.direction};
     mark(met, seen);
     const auto u = sobol4(number, hash(k, 0x5ee2));
-    if (leg.bounces < max_bounces)
-      continue_by_lobes(met, leg, {u[0], u[1]}, legs);
+    continue_by_lobes(met, leg, max_bounces, {u[0], u[1]}, legs);
   }
 }
 
@@ -133,24 +141,24 @@ SeenElements seen_elements(const LightScene& light, const Camera& camera,
                            const RenderSettings& settings) {
   const double pixels = double(settings.width) * settings.height;
   const double apart = std::max(1.0, std::sqrt(pixels / most_paths));
-  const auto columns = static_cast<std::uint32_t>(std::ceil(settings.width / apart)) + 1;
-  const auto rows = static_cast<std::uint32_t>(std::ceil(settings.height / apart)) + 1;
+  const auto columns = static_cast<std::uint32_t>(std::ceil(settings.width / apart));
+  const auto rows = static_cast<std::uint32_t>(std::ceil(settings.height / apart));
   Marks marks(element_count(light.mesh));
   tbb::parallel_for(std::uint32_t{0}, rows, [&](std::uint32_t row) {
     for (std::uint32_t column = 0; column < columns; ++column) {
       const std::uint32_t number = row * columns + column;
-      const auto lens = sobol4(number, 0x1e45);
-      const double radius = std::sqrt(double{lens[0]}), turn = 2.0 * std::numbers::pi * lens[1];
+      const auto u = sobol4(number, 0x1e45);
+      const double radius = std::sqrt(double{u[0]}), turn = 2.0 * std::numbers::pi * u[1];
       const CameraRay start =
           camera_ray(camera, double(settings.width) / settings.height,
-                     std::min(column * apart / settings.width, 1.0),
-                     std::min(row * apart / settings.height, 1.0),
+                     std::min((column + double{u[2]}) * apart / settings.width, 1.0),
+                     std::min((row + double{u[3]}) * apart / settings.height, 1.0),
                      radius * Vec2(std::cos(turn), std::sin(turn)));
       follow(light, start, settings.max_bounces, number, marks);
     }
   });
 
-  // What lies beside it fills the rest of the pixels.
+  // Elements beside those that are met fill the rest of the pixels.
   SeenElements seen(element_count(light.mesh), 0);
   const VertexElements around = elements_around(light.mesh);
   for (std::size_t v = 0; v < light.mesh.vertices.size(); ++v) {

@@ -12,7 +12,7 @@
 
 namespace meninas {
 
-/// Of the scene's mesh. Limits: at most 2^17 paths; light that a lobe shows in single directions between them,
+/// Of the scene's mesh. Limits: at most 2^19 paths; light that a lobe shows in single directions between them,
 /// or by less than `min_throughput`, comes from elements that count as not seen.
 SeenElements seen_elements(const LightScene& light, const Camera& camera,
                            const RenderSettings& settings);

@@ -134,7 +134,12 @@ void light_scene(Steering& steering, const Parameters& knobs, const TwoPassSetti
   steering.lit_with.reset();
   RunFigures figures;
   Scene scene = steering.request.scene;
-  steering.lit = solve_lit_scene(std::move(scene), settings.pass_one, {}, events, figures);
+  auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
+  RadiositySolution solution =
+      solve_for_picture(*prepared, steering.request.camera, settings, events.progress);
+  add_solution(figures, solution);
+  warn_of_solution(figures.solver, figures.closure, events);
+  steering.lit = LitScene{std::move(prepared), std::move(solution.field)};
   steering.lit_with = knobs;
   steering.figures = figures;
 }

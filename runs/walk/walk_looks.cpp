@@ -33,6 +33,14 @@ MaterialPoint mean_point(const DecodedTextures& textures, const Material& materi
   return point;
 }
 
+/// Schlick's F0 of a pane, below a film that which has its mean.
+Rgb f0_of_pane(const Glass& pane) {
+  if (pane.film.share == 0.0 || pane.f90 == 0.0)
+    return pane.f0;
+  const Rgb mean = pane.f90 * mean_of_film(pane.film, pane.f0 / pane.f90).reflectance;
+  return below_film(pane.film, pane.f0, schlick_f0_of_mean(mean, pane.f90));
+}
+
 /// The share of light that it scatters evenly to the eye, where its lobes are shown by themselves.
 Rgb even_part(const Bsdf& bsdf, WalkKind kind) {
   if (kind == WalkKind::coat)
@@ -96,14 +104,10 @@ WalkLook walk_look(const Scene& scene, const DecodedTextures& textures, Material
   look.reflectance = bsdf.metal;
   if (look.kind == WalkKind::coat) {
     look.f0 = bsdf.coat * below_film(bsdf.film, bsdf.coat_f0,
-                                     schlick_f0_of_mean(bsdf.film_on_coat.reflectance));
+                                     schlick_f0_of_mean(bsdf.film_on_coat.reflectance, bsdf.coat_f90));
     look.f90 = bsdf.coat * bsdf.coat_f90;
   } else if (look.kind == WalkKind::pane || look.kind == WalkKind::solid) {
-    const ThinFilm& film = bsdf.pane.film;
-    look.f0 = film.share == 0.0
-                  ? bsdf.pane.f0
-                  : below_film(film, bsdf.pane.f0,
-                               schlick_f0_of_mean(mean_of_film(film, bsdf.pane.f0).reflectance));
+    look.f0 = f0_of_pane(bsdf.pane);
     look.f90 = bsdf.pane.f90;
     look.ior = bsdf.pane.ior;
     look.tint = bsdf.pane.tint;

@@ -261,7 +261,8 @@ void read_textures(const Document& document, Scene& scene, Findings& findings) {
          {&material.base_color_texture, &material.metallic_roughness_texture,
           &material.emissive_texture, &material.transmission_texture, &material.thickness_texture,
           &material.normal_texture, &material.diffuse_transmission_texture,
-          &material.diffuse_transmission_color_texture, &material.anisotropy_texture})
+          &material.diffuse_transmission_color_texture, &material.anisotropy_texture,
+          &material.iridescence_texture, &material.film_thickness_texture})
       settle(*use);
   // What is shown comes before what may be no more than a factor, as long as there is room.
   for (auto& material : scene.materials)

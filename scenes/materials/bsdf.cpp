@@ -161,9 +161,10 @@ double coat_albedo(const Bsdf& bsdf, const Direction& w) {
   const double base = e.f0 * largest(bsdf.coat_f0) + e.f90 * bsdf.coat_f90;
   if (bsdf.film.share == 0.0)
     return std::min(1.0, base);
-  // At the cosine at which (1 - c)^5 is what it is in the mean over the lobe: of a grazing look its
-  // facets face the eye more than the surface does. Of a steep one the table knows less than w.z.
-  const double all = e.f0 + e.f90, cosine = std::max(w.z, 1.0 - std::pow(e.f90 / all, 0.2));
+  // The film is met at the cosine at which (1 - c)^5 has its mean over the lobe: at a grazing look the
+  // facets face the eye more than the surface does. The table does not tell them apart at a steep one.
+  const double all = e.f0 + e.f90, grazing = std::max(0.0, e.f90 / all);
+  const double cosine = std::clamp(std::max(w.z, 1.0 - std::pow(grazing, 0.2)), 0.0, 1.0);
   const double of_film = all * largest(film_over_coat(bsdf, cosine));
   return std::min(1.0, std::lerp(base, of_film, bsdf.film.share));
 }

@@ -91,8 +91,8 @@ FilmMean mean_of_film(const ThinFilm& film, const Rgb& base_f0) {
   return mean;
 }
 
-Rgb schlick_f0_of_mean(const Rgb& mean) {
-  return glm::clamp((21.0 * mean - 1.0) / 20.0, 0.0, 1.0);
+Rgb schlick_f0_of_mean(const Rgb& mean, double f90) {
+  return glm::clamp((21.0 * mean - f90) / 20.0, 0.0, 1.0);
 }
 
 } // namespace meninas

@@ -10,7 +10,8 @@
 //
 // A share s of a surface that lies below it reflects (1 - s) R_base(c) + s R(c) at a facet that is
 // met at cosine c: R_base is the colour of metal, or Schlick's or Fresnel's reflectance of what is
-// none. Pass two has it by the angle, what pass one spreads evenly or mirrors has the mean.
+// none. Pass two has it by the angle. In pass one coats that are mirrors and glass have it by the angle
+// as well; metals that are mirrors, and all that is spread evenly, have the mean.
 #pragma once
 
 #include "scenes/types.h"
@@ -40,7 +41,7 @@ inline Rgb below_film(const ThinFilm& film, const Rgb& of_base, const Rgb& of_fi
   return glm::mix(of_base, of_film, film.share);
 }
 
-/// The F0 with which Schlick's F0 + (1 - F0)(1 - c)^5 has that mean, which is (20 F0 + 1) / 21.
-Rgb schlick_f0_of_mean(const Rgb& mean);
+/// The F0 with which Schlick's F0 + (F90 - F0)(1 - c)^5 has that mean, which is (20 F0 + F90) / 21.
+Rgb schlick_f0_of_mean(const Rgb& mean, double f90 = 1.0);
 
 } // namespace meninas

@@ -80,6 +80,23 @@ TEST(SeenElements, AreThoseBehindGlassAndInItsReflection) {
   EXPECT_EQ(seen_nodes(scene, at_wall), (std::set<std::string>{"x0", "x1"}));
 }
 
+// The eye looks through the backs of walls, before a pane and behind it, whatever is left of bounces.
+TEST(SeenElements, AreThoseBehindAPaneAndTheBackOfAWall) {
+  Scene scene = room(diffuse(0.5), diffuse(0.5));
+  Material pane = diffuse(1.0);
+  pane.roughness = 0.0;
+  pane.transmission = 1.0;
+  pane.double_sided = true;
+  add_polygon(scene, "pane", {{2.5, 0.1, 1.9}, {2.5, 0.1, 0.1}, {2.5, 1.9, 0.1}, {2.5, 1.9, 1.9}},
+              pane);
+  const auto prepared = prepare_scene(scene, room_settings());
+  RenderSettings settings = small_picture();
+  settings.max_bounces = 0;
+  const SeenElements seen =
+      seen_elements(*prepared->light, look_at({4.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, 0.1), settings);
+  EXPECT_GT(std::ranges::count(seen, 1), 0) << "the wall x = 0, through that at x = 2";
+}
+
 // By a lobe a ceiling above a floor of satin metal; by a matt floor nothing else.
 TEST(SeenElements, AreThoseThatLobesShow) {
   const auto seen = seen_nodes(room(metal(Rgb(0.8), 0.4), diffuse(0.5)), at_floor);
@@ -117,6 +134,27 @@ TEST(SolutionForAView, IsTheWholeOneWhereItIsSeen) {
     sum_all += light.mesh.area[e] * all.irradiance[e];
   }
   EXPECT_NEAR(sum_view.g, sum_all.g, 0.01 * sum_all.g);
+}
+
+// Nodes that are seen in part have values at all of their vertices, seen or not.
+TEST(SolutionForAView, LeavesNoVertexWithoutLight) {
+  const PassOneSettings settings = room_settings();
+  const auto prepared = prepare_scene(room(diffuse(0.5), mirror(0.9)), settings);
+  SeenElements one(element_count(prepared->light->mesh), 0);
+  const RadiositySolution all = solve_pass_one(prepared->light, settings);
+  for (std::size_t e = 0; e < one.size(); e += one.size() / 7) {
+    std::ranges::fill(one, 0);
+    one[e] = 1;
+    const RadiositySolution view = solve_for_view(prepared->light, settings, one);
+    double worst = 0.0, mean = 0.0;
+    for (std::size_t v = 0; v < all.field.indirect.size() && v < view.field.indirect.size(); ++v) {
+      worst = std::max(worst, std::abs(double{view.field.indirect[v].g} -
+                                       double{all.field.indirect[v].g}));
+      mean += double{all.field.indirect[v].g} / double(all.field.indirect.size());
+    }
+    // Of 256 rays four standard deviations, where light varies by about its mean.
+    EXPECT_LT(worst, 4.0 / std::sqrt(256.0) * 2.0 * mean) << e;
+  }
 }
 
 TEST(SolutionForAView, ThatShowsEverythingIsTheWholeOneToTheBit) {

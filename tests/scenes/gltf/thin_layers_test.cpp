@@ -75,20 +75,23 @@ TEST(GltfThinLayers, ReadTheTexturesOfIridescence) {
   auto file = square();
   const auto image = file.add_view(Bytes(8, 1));
   file.json["images"] = Json::array({{{"bufferView", image}, {"mimeType", "image/png"}}});
-  file.json["textures"] = Json::array({{{"source", 0}}});
+  // A texture that nothing uses comes first: the scene's numbers are not the file's.
+  file.json["textures"] = Json::array({{{"source", 0}}, {{"source", 0}, {"name", "film"}}});
   file.json["materials"][0] = {
       {"name", "shell"},
       {"pbrMetallicRoughness", {{"metallicFactor", 1.0}}},
       {"extensions",
        {{"KHR_materials_iridescence",
          {{"iridescenceFactor", 1.0},
-          {"iridescenceTexture", {{"index", 0}}},
-          {"iridescenceThicknessTexture", {{"index", 0}, {"texCoord", 1}}}}}}}};
+          {"iridescenceTexture", {{"index", 1}}},
+          {"iridescenceThicknessTexture", {{"index", 1}, {"texCoord", 1}}}}}}}};
   const Scene scene = load(file);
   ASSERT_TRUE(scene.materials.at(0).iridescence_texture);
   ASSERT_TRUE(scene.materials.at(0).film_thickness_texture);
   EXPECT_EQ(scene.materials.at(0).film_thickness_texture->texcoord_set, 1);
   EXPECT_EQ(film_of(scene.materials.at(0)).thickness, 250.0) << "the mean of the bounds";
+  ASSERT_EQ(scene.textures.size(), 1U);
+  EXPECT_EQ(scene.materials.at(0).iridescence_texture->texture, TextureId{0});
   EXPECT_TRUE(warns(scene, {"texture coordinates that their materials ask for are missing"}));
   file.json["materials"][0]["extensions"]["KHR_materials_iridescence"]["iridescenceTexture"] = 3;
   EXPECT_THROW(load(file), InputError);
