@@ -4,21 +4,25 @@
 include(CMakePackageConfigHelpers)
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/meninas)
-set(MENINAS_ZSH_COMPLETIONS ${CMAKE_INSTALL_DATADIR}/zsh/site-functions CACHE STRING "Where zsh looks for completions")
+option(MENINAS_DEBIAN_PACKAGES "Lay down what Debian packages contain, where Debian has it" OFF)
+set(zsh_folder site-functions)
+if(MENINAS_DEBIAN_PACKAGES)
+  set(zsh_folder vendor-completions)
+endif()
 
 install(TARGETS meninas_cli RUNTIME COMPONENT program)
 set(manuals ${CMAKE_BINARY_DIR}/manuals)
 install(DIRECTORY ${manuals}/man/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
 install(FILES ${manuals}/bash/meninas DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
-install(FILES ${manuals}/zsh/_meninas DESTINATION ${MENINAS_ZSH_COMPLETIONS} COMPONENT program)
+install(FILES ${manuals}/zsh/_meninas DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${zsh_folder} COMPONENT program)
 install(FILES ${manuals}/fish/meninas.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
 install(FILES docs/regress.schema.json ${CMAKE_BINARY_DIR}/batch.schema.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/meninas COMPONENT program)
 
 # In the places they have here, so that their links lead somewhere.
-install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-if(NOT MENINAS_DEBIAN_PACKAGES) # its place is /usr/share/common-licenses there
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+if(NOT MENINAS_DEBIAN_PACKAGES) # cmake/Package.cmake has Debian's names for them
+  install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 endif()
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
   PATTERN "*.sh" EXCLUDE PATTERN "notes" EXCLUDE)
