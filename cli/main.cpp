@@ -4,7 +4,9 @@
 // on standard error, and an exit code that says whose fault it is.
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/help/completion.h"
 #include "cli/help/help.h"
+#include "cli/help/manual.h"
 #include "cli/values.h"
 #include "runs/report/progress_line.h"
 #include "scenes/version.h"
@@ -16,8 +18,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <string_view>
 #include <new>
+#include <optional>
+#include <string_view>
 
 namespace meninas {
 namespace {
@@ -148,6 +151,23 @@ void run_chosen(const Options& program, const std::vector<Command>& commands,
   std::ranges::find(commands, chosen, &Command::options)->run();
 }
 
+/// What is made of all options at once, and stands in no help: `meninas help --markdown` is docs/options.md,
+/// `--man [COMMAND]` a manual page, `--completion SHELL` a script. The first argument comes last here.
+std::optional<std::string> made_page(const Options& program,
+                                     const std::vector<std::string>& arguments) {
+  if (arguments.size() < 2 || arguments.size() > 3 || arguments.back() != "help")
+    return std::nullopt;
+  const std::string& page = arguments.end()[-2];
+  const std::string about = arguments.size() == 3 ? arguments.front() : "";
+  if (page == "--markdown" && about.empty())
+    return options_page(program);
+  if (page == "--man")
+    return manual_page(program, about);
+  if (page == "--completion")
+    return completion_script(program, about);
+  return std::nullopt;
+}
+
 /// Parses, then runs; help and version are answered on standard output.
 void guarded_main(int argc, char** argv) {
   Options program("Meninas renders rooms with mirrors without noise", "meninas");
@@ -158,9 +178,8 @@ void guarded_main(int argc, char** argv) {
   });
   const std::vector<Command> commands = add_commands(program);
   std::vector<std::string> arguments = arguments_of(argc, argv);
-  // For docs/options.md, in no help: last argument first.
-  if (arguments == std::vector<std::string>{"--markdown", "help"}) {
-    tell(stdout, options_page(program));
+  if (const auto page = made_page(program, arguments)) {
+    tell(stdout, *page);
     return;
   }
   take_words(arguments);

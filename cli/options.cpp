@@ -21,7 +21,8 @@ OptionInfo info_of(const CLI::Option& option) {
           takes_value(option),
           option.get_type_name(),
           option.get_description(),
-          option.get_group()};
+          option.get_group(),
+          option.get_expected_max() > 1};
 }
 
 } // namespace

@@ -26,6 +26,7 @@ struct OptionInfo {
   TakesValue takes_value = TakesValue::no;
   std::string value; ///< what stands for the value: N, FILE, ...
   std::string description, group;
+  bool is_repeatable = false; ///< may be given several times
 };
 
 /// An option of a command that is being declared.

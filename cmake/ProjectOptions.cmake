@@ -64,7 +64,7 @@ function(meninas_library folder)
   target_link_libraries(meninas_${folder} PRIVATE $<BUILD_INTERFACE:meninas_options>)
   target_precompile_headers(meninas_${folder} PRIVATE ${MENINAS_COMMON_HEADERS})
   set_target_properties(meninas_${folder} PROPERTIES EXPORT_NAME ${folder})
-  install(TARGETS meninas_${folder} EXPORT meninas-targets)
+  install(TARGETS meninas_${folder} EXPORT meninas-targets ARCHIVE COMPONENT library)
 endfunction()
 
 # meninas_tests(scenes a_test.cpp): the tests of one folder, one executable, found by CTest one by one.

@@ -18,32 +18,57 @@ package_names() {
   done <"$root/cmake/packages.txt"
 }
 
-# install_packages build test: installs what is missing of these groups.
+# missing_packages build test: those of these groups that are not installed.
+missing_packages() {
+  local names known name
+  mapfile -t names < <(package_names "$@")
+  known=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${names[@]}" 2>/dev/null || true)
+  for name in "${names[@]}"; do
+    if [[ $'\n'"$known"$'\n' != *$'\n'"installed $name"$'\n'* ]]; then printf '%s\n' "$name"; fi
+  done
+}
+
+# Asks before packages are installed where somebody can answer, and says what it costs.
+may_install() {
+  local answer costs download='' disk=''
+  if [[ ${CI:-} == true || ! -t 2 ]] || ! { : </dev/tty; } 2>/dev/null; then return 0; fi
+  costs=$(LC_ALL=C apt-get --assume-no install --no-install-recommends "$@" </dev/null 2>/dev/null || true)
+  download=$(sed -n 's/^Need to get \([^/]*\).* of archives.*/\1/p' <<<"$costs")
+  disk=$(sed -n 's/^After this operation, \(.*\) of additional disk space.*/\1/p' <<<"$costs")
+  note "$# packages are missing: $*"
+  note "they and what they need are ${download:-some 270 MB} to download and ${disk:-about 1.1 GB} of disk, a few minutes" \
+    "to install; building takes some seven minutes more"
+  printf 'meninas: install them? [Y/n] ' >&2
+  read -r answer </dev/tty || answer=n
+  [[ ${answer:-y} == [Yy]* ]]
+}
+
+# install_packages build test: installs what is missing of these groups, and is quiet unless that fails.
 # MENINAS_SKIP_PACKAGES=1 is for systems that have the same libraries under other names.
 install_packages() {
-  local names known name missing=() as_root=()
+  local names missing as_root=() log
   [[ -z ${MENINAS_SKIP_PACKAGES:-} ]] || return 0
   mapfile -t names < <(package_names "$@")
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     fail "packages: not a Debian or Ubuntu system: install the equivalents of ${names[*]}," \
       "then set MENINAS_SKIP_PACKAGES=1"
   fi
-  known=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${names[@]}" 2>/dev/null || true)
-  for name in "${names[@]}"; do
-    if [[ $'\n'"$known"$'\n' != *$'\n'"installed $name"$'\n'* ]]; then missing+=("$name"); fi
-  done
+  mapfile -t missing < <(missing_packages "$@")
   ((${#missing[@]})) || return 0
   if [[ $(id -u) != 0 ]]; then
     command -v sudo >/dev/null ||
       fail "packages: no sudo: run this as root first: apt-get install ${missing[*]}"
     as_root=(sudo)
   fi
+  may_install "${missing[@]}" || fail "packages: not installed: ${missing[*]}"
   note "installing ${missing[*]}"
   # A broken source of other software need not matter, so only the installation decides.
-  "${as_root[@]}" apt-get -qq update </dev/null >&2 || note "apt-get update failed, trying on"
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=600 \
-    install --no-install-recommends "${missing[@]}" -y </dev/null >&2 ||
+  log=$("${as_root[@]}" apt-get -qq update </dev/null 2>&1) || note "apt-get update failed, trying on: ${log##*$'\n'}"
+  if ! log=$("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=600 \
+    install --no-install-recommends "${missing[@]}" -y </dev/null 2>&1); then
+    printf '%s\n' "$log" >&2
     fail "packages: apt-get could not install ${missing[*]}"
+  fi
 }
 
 # configure PRESET [-DNAME=VALUE ...]: prints CMake's output only when it fails.

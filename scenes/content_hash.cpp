@@ -2,7 +2,9 @@
 
 #include "scenes/errors.h"
 
+#define XXH_INLINE_ALL
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <bit>
 #include <fstream>
@@ -11,11 +13,7 @@
 namespace meninas {
 
 void ContentHash::add(std::uint64_t word) {
-  // Multiplying spreads low bits upwards, the shifts bring high bits down again.
-  state_ = (state_ ^ word) * 0xbf58476d1ce4e5b9ULL;
-  state_ ^= state_ >> 29;
-  state_ *= 0x94d049bb133111ebULL;
-  state_ ^= state_ >> 32;
+  state_ = XXH3_64bits_withSeed(&word, sizeof(word), state_);
 }
 
 void ContentHash::add(double x) {
@@ -36,17 +34,14 @@ void ContentHash::add(const Vec3& x) {
 
 void ContentHash::add(std::span<const std::byte> bytes) {
   add(std::uint64_t{bytes.size()});
-  std::uint64_t packed = 0;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    packed = packed << 8 | std::to_integer<std::uint64_t>(bytes[i]);
-    if (i % 8 == 7 || i + 1 == bytes.size()) {
-      add(packed);
-      packed = 0;
-    }
-  }
+  state_ = XXH3_64bits_withSeed(bytes.data(), bytes.size(), state_);
 }
 
 void ContentHash::add(std::string_view text) { add(std::as_bytes(std::span(text))); }
+
+std::uint64_t hash_of_bytes(std::span<const std::byte> bytes) {
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
 
 std::uint64_t hash_of_file(const std::filesystem::path& file) {
   std::error_code error;

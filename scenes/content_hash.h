@@ -1,6 +1,6 @@
 // A hash of values, for telling whether things are what they were: not for keeping secrets.
 //
-// 64-bit words are mixed one after another (the constants of splitmix64);
+// XXH3 of 64 bits (Collet 2019), of each value seeded by the hash of those before;
 // their order counts, and so does the division of bytes into texts.
 #pragma once
 
@@ -26,8 +26,11 @@ public:
   std::uint64_t value() const { return state_; }
 
 private:
-  std::uint64_t state_ = 0x9e3779b97f4a7c15ULL;
+  std::uint64_t state_ = 0;
 };
+
+/// XXH3 of the bytes: any changed byte changes it, but for one chance in 2^64.
+std::uint64_t hash_of_bytes(std::span<const std::byte> bytes);
 
 /// Of a file's bytes. Throws InputError where there is none.
 std::uint64_t hash_of_file(const std::filesystem::path& file);

@@ -1,5 +1,7 @@
 #include "cli/help/help.h"
 
+#include "cli/help/option_text.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/ioctl.h>
@@ -7,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <functional>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -17,10 +18,6 @@ namespace {
 
 constexpr int text_column = 26; ///< where descriptions begin
 constexpr int narrowest = 40, widest = 100;
-constexpr const char* exit_codes =
-    "Exit codes: 1 a comparison beyond its limits, 2 wrong usage, 3 bad input, 4 "
-    "failed write or exhausted resource.";
-
 /// The text in lines of at most `width` columns. The first follows what stands at `column` already.
 std::string wrapped(const std::string& text, int column, int indent, int width) {
   std::istringstream words(text);
@@ -54,40 +51,6 @@ std::string entry(const std::string& name, const std::string& meaning, int width
   return line + wrapped(meaning, indent, indent, width);
 }
 
-bool is_placed(const OptionInfo& option) { return !option.place.empty(); }
-
-bool is_help(const OptionInfo& option) { return std::ranges::count(option.long_names, "help") > 0; }
-
-/// "-o, --output FILE"
-std::string written(const OptionInfo& option) {
-  if (is_placed(option))
-    return option.place;
-  std::vector<std::string> names;
-  for (const std::string& name : option.short_names)
-    names.push_back('-' + name);
-  for (const std::string& name : option.long_names)
-    names.push_back("--" + name);
-  std::string text = fmt::format("{}", fmt::join(names, ", "));
-  return option.takes_value == TakesValue::no ? text : text + ' ' + option.value;
-}
-
-/// Options by group, in the order in which they were added: the scene first, help last.
-using OptionGroups = std::vector<std::pair<std::string, std::vector<OptionInfo>>>;
-
-OptionGroups groups_of(const Options& command) {
-  OptionGroups groups;
-  std::vector<OptionInfo> options = command.list();
-  std::ranges::stable_partition(options, is_placed);
-  std::ranges::stable_partition(options, std::not_fn(is_help));
-  for (const OptionInfo& option : options) {
-    auto group = std::ranges::find(groups, option.group, &OptionGroups::value_type::first);
-    if (group == groups.end())
-      group = groups.insert(groups.end(), {option.group, {}});
-    group->second.push_back(option);
-  }
-  return groups;
-}
-
 std::string examples(std::string_view command, int width) {
   std::string text;
   for (const Example& example : examples_of(command)) {
@@ -95,21 +58,6 @@ std::string examples(std::string_view command, int width) {
     text += "      " + wrapped(std::string(example.does), 6, 6, width);
   }
   return text.empty() ? text : "\nExamples:\n" + text;
-}
-
-std::string usage(const Options& command, const std::string& name) {
-  std::string text = name;
-  if (!command.commands().empty())
-    text += " COMMAND";
-  for (const OptionInfo& option : command.list())
-    if (is_placed(option))
-      text += ' ' + option.place;
-  return text + " [options]";
-}
-
-std::string trimmed(std::string text) {
-  const auto first = text.find_first_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') + 1 - first);
 }
 
 } // namespace
@@ -150,7 +98,7 @@ std::string help_page(const Options& program, HelpExtent extent, int width) {
   }
   if (!complete)
     text += '\n' + wrapped(fmt::format("{} --help-all lists all options.", name), 0, 0, width);
-  return text + '\n' + wrapped(exit_codes, 0, 0, width);
+  return text + '\n' + wrapped(exit_codes_sentence(), 0, 0, width);
 }
 
 namespace {
@@ -160,15 +108,6 @@ std::string table_cell(std::string text) {
   for (std::size_t at = 0; (at = text.find_first_of("|<", at)) != std::string::npos; at += 2)
     text.insert(at, 1, '\\');
   return text;
-}
-
-/// A description apart from the default that it ends with, in brackets.
-std::pair<std::string, std::string> default_apart(const std::string& description) {
-  const auto bracket = description.rfind('[');
-  if (bracket == std::string::npos || !description.ends_with(']'))
-    return {description, ""};
-  return {trimmed(description.substr(0, bracket)),
-          description.substr(bracket + 1, description.size() - bracket - 2)};
 }
 
 std::string table_row(const OptionInfo& option) {
@@ -270,7 +209,7 @@ std::string options_page(const Options& program) {
     }
     text += notes(options, told);
   }
-  return text + "\n" + exit_codes + "\n";
+  return text + "\n" + exit_codes_sentence() + "\n";
 }
 
 } // namespace meninas

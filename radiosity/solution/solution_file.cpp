@@ -5,6 +5,7 @@
 #include "radiosity/solution/element_triangles.h"
 #include "radiosity/mesh/subdivision.h"
 #include "radiosity/solution/solution_format.h"
+#include "scenes/content_hash.h"
 #include "scenes/glb_file.h"
 #include "scenes/version.h"
 
@@ -188,7 +189,7 @@ json extras_json(std::uint64_t scene_hash, const ElementMesh& mesh, const MeshSe
                  std::span<const std::byte> binary) {
   return {{"version", program_version()},
           {"scene_hash", hex(scene_hash)},
-          {"data_hash", hex(data_hash(binary))},
+          {"data_hash", hex(hash_of_bytes(binary))},
           {"mesh",
            {{"element_size", settings.element_size},
             {"target_elements", settings.target_elements},

@@ -25,15 +25,6 @@ inline constexpr FieldPart field_parts[] = {
     {"_IRRADIANCE_INDIRECT", &VertexIrradiance::indirect},
     {"_IRRADIANCE_INDIRECT_MIRRORED", &VertexIrradiance::indirect_mirrored}};
 
-/// FNV-1a: any changed byte changes it.
-inline std::uint64_t data_hash(std::span<const std::byte> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const std::byte byte : bytes) {
-    hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3ULL;
-  }
-  return hash;
-}
-
 inline std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 } // namespace meninas

@@ -1,6 +1,7 @@
 #include "radiosity/mesh/subdivision.h"
 #include "radiosity/solution/solution_file.h"
 #include "radiosity/solution/solution_format.h"
+#include "scenes/content_hash.h"
 #include "scenes/errors.h"
 #include "scenes/glb_file.h"
 #include "scenes/version.h"
@@ -156,7 +157,7 @@ StoredSolution read_checked(const std::filesystem::path& file, const GlbContent&
   if (extras.at("scene_hash") != hex(content_hash(scene))) {
     refuse(file, fmt::format("is not a solution of {}: solve again", scene.file));
   }
-  if (extras.at("data_hash") != hex(data_hash(data_of(file, glb)))) {
+  if (extras.at("data_hash") != hex(hash_of_bytes(data_of(file, glb)))) {
     refuse(file, "damaged: its data do not have the hash it announces");
   }
   StoredSolution stored;

@@ -1,6 +1,7 @@
 #include "radiosity/transport/factor_file.h"
 
 #include "image/whole_file.h"
+#include "scenes/content_hash.h"
 #include "scenes/errors.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/version.h"
@@ -22,31 +23,8 @@ static_assert(std::endian::native == std::endian::little, "factor files are litt
 
 constexpr std::uint64_t magic = 0x3130'4146'4e45'4dULL; // "MENFA01"
 
-/// FNV-1a over words of eight bytes: any changed word changes it.
-class Hash {
-public:
-  void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3ULL; }
-  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
-  void add(const Vec3& v) {
-    add(v.x);
-    add(v.y);
-    add(v.z);
-  }
-  void add(std::span<const std::byte> bytes) {
-    for (; !bytes.empty(); bytes = bytes.subspan(std::min<std::size_t>(8, bytes.size()))) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes.data(), std::min<std::size_t>(8, bytes.size()));
-      add(word);
-    }
-  }
-  std::uint64_t value() const { return value_; }
-
-private:
-  std::uint64_t value_ = 0xcbf29ce484222325ULL;
-};
-
 std::uint64_t hash_of_geometry(const Scene& scene) {
-  Hash hash;
+  ContentHash hash;
   for (const Vertex& vertex : scene.vertices) {
     hash.add(vertex.position);
   }
@@ -63,16 +41,16 @@ std::uint64_t hash_of_geometry(const Scene& scene) {
 }
 
 /// What light meets in glass and on coats is part of the transport.
-void add_film(Hash& hash, const ThinFilm& film) {
+void add_film(ContentHash& hash, const ThinFilm& film) {
   if (film.share > 0.0)
     hash.add(Rgb(film.share, film.ior, film.thickness));
 }
-void add_coat(Hash& hash, const Bsdf& coat) {
+void add_coat(ContentHash& hash, const Bsdf& coat) {
   add_film(hash, coat.film);
   hash.add(coat.coat_f0);
   hash.add(Rgb(coat.coat, coat.coat_f90, 0.0));
 }
-void add_glass(Hash& hash, const Bsdf& glass) {
+void add_glass(ContentHash& hash, const Bsdf& glass) {
   add_film(hash, glass.pane.film);
   hash.add(glass.metal);
   hash.add(Rgb(glass.glass, glass.pane.ior, glass.pane.f90));
@@ -82,7 +60,7 @@ void add_glass(Hash& hash, const Bsdf& glass) {
 }
 
 /// Of glass: which image, and how it lies.
-void add_texture(Hash& hash, const Scene& scene, const std::optional<TextureUse>& use) {
+void add_texture(ContentHash& hash, const Scene& scene, const std::optional<TextureUse>& use) {
   if (!use)
     return;
   const Texture& texture = scene.textures[index(use->texture)];
@@ -96,7 +74,7 @@ void add_texture(Hash& hash, const Scene& scene, const std::optional<TextureUse>
 }
 
 std::uint64_t hash_of_mirrors(const Scene& scene, const WorldTree& worlds) {
-  Hash hash;
+  ContentHash hash;
   for (const Triangle& triangle : scene.triangles) {
     const Material& material = scene.materials[index(triangle.material)];
     hash.add(mirror_reflectance(material));
@@ -129,7 +107,7 @@ std::uint64_t hash_of_mirrors(const Scene& scene, const WorldTree& worlds) {
 }
 
 std::uint64_t hash_of_mesh(const ElementMesh& mesh) {
-  Hash hash;
+  ContentHash hash;
   for (const MeshSide& side : mesh.sides) {
     hash.add(std::uint64_t{index(side.patch)});
     hash.add(std::uint64_t{static_cast<std::uint8_t>(side.facing)});
@@ -149,7 +127,7 @@ std::uint64_t hash_of_sampling(const FormFactorSettings& settings) {
   // All of them, by name: a new setting does not compile before it has a place here.
   const auto& [method, rays, hemicube_resolution, min_throughput, max_bounces, accuracy, seed,
                relightable] = settings;
-  Hash hash;
+  ContentHash hash;
   hash.add(static_cast<std::uint64_t>(method));
   hash.add(static_cast<std::uint64_t>(rays));
   hash.add(static_cast<std::uint64_t>(hemicube_resolution));
@@ -295,9 +273,7 @@ void write_factors(const std::filesystem::path& file, const FormFactors& factors
   append(bytes, factors.closure);
   append(bytes, factors.covered);
   append(bytes, factors.exposed);
-  Hash hash;
-  hash.add(bytes);
-  append(bytes, hash.value());
+  append(bytes, hash_of_bytes(bytes));
   write_whole_file(file, bytes);
 }
 
@@ -322,9 +298,7 @@ FormFactors read_factors(const std::filesystem::path& file, const FactorKey& key
   std::uint64_t announced = 0;
   const auto hashed = std::span(bytes).first(bytes.size() - sizeof(announced));
   std::memcpy(&announced, hashed.data() + hashed.size(), sizeof(announced));
-  Hash hash;
-  hash.add(hashed);
-  if (hash.value() != announced) {
+  if (hash_of_bytes(hashed) != announced) {
     refuse(file, "damaged: its data do not have the hash it announces");
   }
   FactorKey found;

@@ -1,6 +1,7 @@
 #include "runs/walk/walk_room.h"
 
 #include "radiosity/solution/element_triangles.h"
+#include "scenes/content_hash.h"
 #include "scenes/materials/texture_lookup.h"
 #include "scenes/shading_normal.h"
 
@@ -63,10 +64,7 @@ private:
   using CornerKey = std::array<std::uint32_t, 13>;
   struct HashOfKey {
     std::size_t operator()(const CornerKey& key) const {
-      std::uint64_t hash = 0xcbf29ce484222325ULL;
-      for (const std::uint32_t word : key)
-        hash = (hash ^ word) * 0x100000001b3ULL;
-      return hash;
+      return hash_of_bytes(std::as_bytes(std::span(key)));
     }
   };
 

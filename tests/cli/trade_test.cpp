@@ -74,6 +74,8 @@ TEST_F(Trade, WritesFiguresATableAndAPageThatAgree) {
 }
 
 TEST_F(Trade, ItsPageIsUsedByKeyboardAndInANarrowWindow) {
+  if (!has_browser())
+    GTEST_SKIP() << "no Chromium here: the page is not used";
   ASSERT_EQ(trade({"--size", "24x16", "--budget", "0.5", "--quiet"}).code, 0);
   const json report = browse_page(folder_.path(), (folder_ / "out/index.html").string(), R"(
     const dots = [...document.querySelectorAll('circle[data-id]')], last = dots.at(-1);

@@ -22,7 +22,7 @@ mkdir "$scratch/consumer"
 cat >"$scratch/consumer/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.25)
 project(consumer LANGUAGES CXX)
-find_package(meninas 0.1 REQUIRED)
+find_package(meninas 0.2 REQUIRED)
 add_executable(consumer consumer.cpp)
 target_link_libraries(consumer PRIVATE meninas::runs)
 END

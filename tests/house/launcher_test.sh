@@ -114,6 +114,7 @@ printf 'libglm-dev\nlibfmt-dev\n' >"$MISSING"
 stale
 run "$project/meninas" x
 expect 'missing packages do not disturb the output' test "$out" = x
+expect 'what apt-get says is kept to itself' test "$(grep -c 'apt-get talks' "$scratch/err")" = 0
 expect 'root installs without sudo' grep -q '^ apt-get .*install.* libglm-dev libfmt-dev' "$MISSING.log"
 expect 'only what is missing' test "$(grep -c libembree-dev "$MISSING.log")" = 0
 expect 'after an update' grep -q 'update' "$MISSING.log"
@@ -133,9 +134,39 @@ stale
 run "$project/meninas" x
 expect 'the program does not need what its tests need' test ! -s "$MISSING.log"
 
+# On a terminal it asks. `script` gives the program one, and types the answer.
+on_a_terminal() { # on_a_terminal ANSWER: fills $out with all that is shown
+  printf 'libtbb-dev\n' >"$MISSING"
+  : >"$MISSING.log"
+  stale
+  code=0
+  out=$(printf '%s\n' "$1" | script -qec "'$project/meninas' x" /dev/null 2>&1) || code=$?
+}
+unset CI
+on_a_terminal n
+expect 'on a terminal it asks before it installs' grep -q 'install them?' <<<"$out"
+expect 'it says how much and how long' grep -q 'GB of disk.*minutes' <<<"$out"
+expect 'who says no gets nothing installed' test "$code:$(grep -c ' -y' "$MISSING.log")" = 4:0
+on_a_terminal y
+expect 'who says yes does' grep -q 'install.* libtbb-dev -y' "$MISSING.log"
+CI=true on_a_terminal n
+expect 'continuous integration is not asked' grep -q 'install.* libtbb-dev -y' "$MISSING.log"
+: >"$MISSING"
+
+# A failure shows what apt-get said.
+cp "$tools/apt-get" "$scratch/kept"
+printf '#!/bin/sh\necho "no such package" >&2\nexit 100\n' >"$tools/apt-get"
+printf 'libtbb-dev\n' >"$MISSING"
+stale
+run "$project/meninas" x
+expect 'a failed installation shows what was said' grep -q 'no such package' "$scratch/err"
+expect 'and ends' test "$code:$out" = 4:
+mv "$scratch/kept" "$tools/apt-get"
+: >"$MISSING"
+
 # Elsewhere: a path with the usual tools but without Debian's.
 mkdir "$scratch/foreign"
-for tool in bash readlink dirname find mkdir flock cat rm mv ninja cmake; do
+for tool in bash readlink dirname find mkdir flock cat rm mv sed ninja cmake; do
   ln -s "$(command -v "$tool")" "$scratch/foreign/$tool"
 done
 stale

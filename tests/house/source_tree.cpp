@@ -54,6 +54,7 @@ constexpr std::array wrapped_libraries = {
     WrappedLibrary{"OpenEXR", "OpenEXR/", "image"},
     WrappedLibrary{"libpng", "png.h", "image"},
     WrappedLibrary{"CLI11", "CLI/", "cli"},
+    WrappedLibrary{"xxHash", "xxhash.h", "scenes"},
 };
 
 /// What things were called before they had the field's names.

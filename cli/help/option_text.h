@@ -1,0 +1,48 @@
+// How commands and options are written, wherever they are written about: on a terminal, in docs/options.md, in
+// manual pages and in the completions of shells.
+#pragma once
+
+#include "cli/options.h"
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace meninas {
+
+struct ExitCodeMeaning {
+  int code;
+  const char* meaning;
+};
+
+inline constexpr std::array exit_code_meanings{
+    ExitCodeMeaning{1, "a comparison beyond its limits"}, ExitCodeMeaning{2, "wrong usage"},
+    ExitCodeMeaning{3, "bad input"}, ExitCodeMeaning{4, "failed write or exhausted resource"}};
+
+/// "Exit codes: 1 a comparison beyond its limits, 2 ..."
+std::string exit_codes_sentence();
+
+/// Whether it is an argument that is known by its place.
+bool is_placed(const OptionInfo& option);
+
+/// "-o" and "--output", short ones first.
+std::vector<std::string> names_with_dashes(const OptionInfo& option);
+
+/// "-o, --output FILE"
+std::string written(const OptionInfo& option);
+
+/// Options by group, in the order in which they were added: the scene first, help last.
+using OptionGroups = std::vector<std::pair<std::string, std::vector<OptionInfo>>>;
+OptionGroups groups_of(const Options& command);
+
+/// "meninas render SCENE [options]", with `name` for the first words.
+std::string usage(const Options& command, const std::string& name);
+
+/// A description apart from the default that it ends with, in brackets.
+std::pair<std::string, std::string> default_apart(const std::string& description);
+
+/// The program itself without a name, else its command; throws UsageError, with the nearest name, where there is none.
+const Options& command_named(const Options& program, const std::string& name);
+
+} // namespace meninas
