@@ -22,6 +22,7 @@ Stage furnace();
 Stage globillum_1();
 Stage globillum_2();
 Stage globillum_3();
+Stage solar_row();
 Stage meninas_room();
 
 std::vector<Stage> all_stages();
