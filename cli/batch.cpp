@@ -50,6 +50,8 @@ std::string schema_with_settings() {
         names.remove_prefix(bar == std::string_view::npos ? names.size() : bar + 1);
       }
       property["enum"].push_back(nullptr);
+    } else if (setting.repeatable) {
+      property["anyOf"] = {{{"type", {"string", "null"}}}, {{"$ref", "#/$defs/texts"}}};
     } else {
       property["type"] = {"string", "number", "null"};
     }

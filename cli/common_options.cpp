@@ -247,7 +247,7 @@ void add_light_options(Options& command, CommonOptions& options) {
               [&](const std::string& text) {
                 state.light_scale = parse_number("--light-scale", text, Sign::positive);
               });
-  add_choice(command, "--units", units, state.units,
+  add_choice(command, "--units", units, LightUnits::radiometric,
              "what the file's light is in: W/m^2/sr, W/sr and W/m^2, or cd/m^2, cd and lx",
              [&](LightUnits chosen) { state.units = chosen; });
   command.add("--luminous-efficacy", "K",

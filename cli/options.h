@@ -24,6 +24,7 @@ struct OptionInfo {
   std::string place; ///< the name of an argument that is known by its place, else empty
   std::vector<std::string> short_names, long_names;
   TakesValue takes_value = TakesValue::no;
+  bool repeatable = false; ///< may be given several times
   std::string value; ///< what stands for the value: N, FILE, ...
   std::string description, group;
   bool is_repeatable = false; ///< may be given several times

@@ -337,7 +337,8 @@ std::vector<SettingHelp> render_settings_help() {
   std::vector<SettingHelp> help;
   for (const OptionInfo& option : settings_of(command)) {
     const bool flag = option.takes_value == TakesValue::no;
-    help.push_back({option.long_names.front(), option.description, flag ? "" : option.value});
+    help.push_back({option.long_names.front(), option.description, flag ? "" : option.value,
+                    option.repeatable});
   }
   return help;
 }

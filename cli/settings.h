@@ -17,6 +17,7 @@ RenderRequest parse_render_settings(const std::filesystem::path& scene,
 struct SettingHelp {
   std::string name, description;
   std::string takes; ///< what its value looks like, or names joined by '|'; empty for a flag
+  bool repeatable = false;
 };
 std::vector<SettingHelp> render_settings_help();
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of README.md, docs/limits.md and docs/lux.md anew: docs/pictures.sh [PROGRAM]
+# Makes the pictures of README.md, docs/limits.md, docs/lux.md, docs/known_answers.md and docs/solar.md anew: docs/pictures.sh [PROGRAM]
 # From a checkout; PROGRAM is ./meninas unless another one is named. It takes some minutes.
 set -euo pipefail
 
@@ -21,4 +21,6 @@ picture glass-solids glass-solids --size 480x360
 picture lattice lattice --size 480x360 --background 0.8,0.9,1
 picture sunbeam sunbeam --size 480x360 --background 0.4,0.6,1
 picture roughness-sweep roughness-sweep --size 512x256
+picture globillum globillum-2 --size 480x300
+picture solar-row solar-row --size 480x300 --background 30
 picture illuminance cornell-mirror --size 512x512 --view illuminance

@@ -89,6 +89,7 @@ const std::map<std::string_view, std::string_view>& light_details() {
        "irradiance: all of it, the direct part and the part that came by way of mirrors "
        "([illuminance](lux.md))."},
       {"--units",
+       "without it the file's own word counts, `asset.extras.light_units` ([units](lux.md#from-watts-to-lumens)). "
        "`photometric`: emission and the lights of KHR_lights_punctual are divided by "
        "--luminous-efficacy. Pictures stay in W/m²/sr; lux and cd/m² are printed by `solve --points`, "
        "`--grid` and `--per-node` and by `render --view`, whatever the file is in."}};

@@ -92,8 +92,11 @@ std::vector<Setting> settings_at(const Place& place) {
       if (value == true) {
         settings.push_back({name, std::nullopt});
       }
+    } else if (value.is_array()) {
+      for (std::size_t k = 0; k < value.size(); ++k)
+        settings.push_back({name, text_at(place.at(name).at(k))});
     } else {
-      place.at(name).fail("is neither a text, a number nor true or false");
+      place.at(name).fail("is neither a text, a list of texts, a number nor true or false");
     }
   }
   return settings;

@@ -42,7 +42,8 @@ void check_object(const Place& place, const std::vector<std::string>& required,
 std::string text_at(const Place& place); ///< not empty
 double number_at(const Place& place);    ///< finite
 
-/// An object of options: texts and numbers are values, true is a flag;
+/// An object of options: texts and numbers are values, lists the values of an option that may be given several
+/// times, true is a flag;
 /// false and null are options not given.
 std::vector<Setting> settings_at(const Place& place);
 

@@ -107,8 +107,8 @@ static void add_units(const SceneState& state, std::vector<std::string>& options
   };
   if (state.light_scale != standard.light_scale)
     add("--light-scale", fmt::format("{}", state.light_scale));
-  if (state.units == LightUnits::photometric)
-    add("--units", "photometric");
+  if (state.units)
+    add("--units", *state.units == LightUnits::photometric ? "photometric" : "radiometric");
   if (state.luminous_efficacy != standard.luminous_efficacy)
     add("--luminous-efficacy", fmt::format("{}", state.luminous_efficacy));
   for (const auto& [light, file] : state.luminaires)

@@ -290,7 +290,7 @@ static std::optional<NodeLight> light_of(const Document& document, std::size_t n
 void read_lights(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
                  Findings& findings) {
   std::vector<std::string> names;
-  std::vector<Rgb> colours;
+  std::vector<LightPlace> places;
   for (const auto& node : nodes) {
     auto read = light_of(document, node.index, findings);
     if (!read)
@@ -307,12 +307,12 @@ void read_lights(const Document& document, std::span<const PlacedNode> nodes, Sc
     light.frame = frame.value_or(light.frame);
     scene.lights.push_back(std::move(light));
     names.push_back(name);
-    colours.push_back(colour);
+    places.push_back({colour, frame.has_value()});
   }
   const auto unique = unique_names(names);
   for (std::size_t k = 0; k < unique.size(); ++k)
     scene.lights[k].name = unique[k];
-  put_luminaires(document, colours, scene, findings);
+  put_luminaires(document, places, scene, findings);
   const auto reach = reach_of(scene);
   for (auto& light : scene.lights) {
     if (light.kind == PunctualKind::directional)

@@ -167,6 +167,7 @@ Scene read_gltf(std::vector<unsigned char> bytes, const std::filesystem::path& f
   scene.file = document.file;
   Findings findings;
   check_extensions(document, scene, findings);
+  document.settings.state.units = light_units_of(document, findings);
   put_in_state(document, scene, findings);
 
   const auto nodes = place_nodes(document, findings);

@@ -13,6 +13,26 @@ namespace meninas::gltf {
 
 using Profile = std::shared_ptr<const IntensityDistribution>;
 
+LightUnits light_units_of(const Document& document, Findings& findings) {
+  if (document.settings.state.units)
+    return *document.settings.state.units;
+  const Json* asset = find(document.root, "asset");
+  const Json* extras = asset ? find(*asset, "extras") : nullptr;
+  const Json* said = extras && extras->is_object() ? find(*extras, "light_units") : nullptr;
+  if (!said)
+    return LightUnits::radiometric;
+  const std::string units = said->is_string() ? said->get<std::string>() : said->dump();
+  if (units == "photometric") {
+    findings.say("light is in cd/m^2, cd and lx, as asset.extras.light_units says");
+    return LightUnits::photometric;
+  }
+  if (units != "radiometric")
+    findings.say(fmt::format("asset.extras.light_units is neither 'radiometric' nor 'photometric' but '{}': "
+                             "light counts as radiometric",
+                             one_line(units.substr(0, 100))));
+  return LightUnits::radiometric;
+}
+
 /// `where` is the profile's place in the file, if it has no file of its own.
 static Profile profile_of(const Resource& resource, const std::string& file,
                           const std::string& where) {
@@ -90,7 +110,7 @@ PunctualLight read_luminaire(const Document& document, const Json& use, const st
   return light;
 }
 
-void put_luminaires(const Document& document, std::span<const Rgb> colours, Scene& scene,
+void put_luminaires(const Document& document, std::span<const LightPlace> places, Scene& scene,
                     Findings& findings) {
   std::vector<std::string> names;
   for (const PunctualLight& light : scene.lights)
@@ -103,11 +123,13 @@ void put_luminaires(const Document& document, std::span<const Rgb> colours, Scen
     PunctualLight& light = scene.lights[k];
     if (light.kind == PunctualKind::directional)
       throw UsageError("--ies", fmt::format("light '{}' is directional: it has no place", name));
+    if (!places[k].aims)
+      throw UsageError("--ies", fmt::format("the node of light '{}' is scaled to nothing: it aims nowhere", name));
     light.distribution = profile_of(read_whole_file(file, document.settings.memory_limit), file, "");
     light.kind = PunctualKind::point;
-    light.intensity = intensity_of(document.settings.state, colours[k]);
+    light.intensity = intensity_of(document.settings.state, places[k].colour);
     check_brightness(light, file, "");
-    const double lumens = document.settings.state.light_scale * luminous(1.0, colours[k]) *
+    const double lumens = document.settings.state.light_scale * luminous(1.0, places[k].colour) *
                           luminous_flux(*light.distribution);
     findings.about("IES files say how bright lights are, not the file's intensity and cone",
                    fmt::format("{}, {:.4g} lm", name, lumens));

@@ -21,7 +21,8 @@ struct SceneState {
   std::optional<std::string> variant = std::nullopt; ///< of materials: KHR_materials_variants
   std::optional<double> at = std::nullopt; ///< seconds into its animations; the rest pose otherwise
   double light_scale = 1.0; ///< times the intensities of its KHR_lights_punctual
-  LightUnits units = LightUnits::radiometric; ///< of emission and KHR_lights_punctual
+  /// Of emission and KHR_lights_punctual; as the file says (asset.extras.light_units) or radiometric otherwise.
+  std::optional<LightUnits> units = std::nullopt;
   double luminous_efficacy = 683.0;           ///< lm/W: divides what is photometric
   std::map<std::string, std::string> luminaires = {}; ///< IES files by the node whose light they replace
   auto operator<=>(const SceneState&) const = default;

@@ -69,6 +69,9 @@ void read_cameras(const Document& document, std::span<const PlacedNode> nodes, S
 void read_lights(const Document& document, std::span<const PlacedNode> nodes, Scene& scene,
                  Findings& findings);
 
+/// The settings' units; else what the file's asset.extras.light_units says, which is told; else radiometric.
+LightUnits light_units_of(const Document& document, Findings& findings);
+
 /// What photometric numbers of the file are divided by: K lm/W, or 1 where they are radiometric.
 inline double light_unit(const Document& document) {
   const SceneState& state = document.settings.state;
@@ -84,7 +87,11 @@ PunctualLight read_luminaire(const Document& document, const Json& use, const st
 
 /// IES files in place of the lights that have them, in the lights' colours. Throws UsageError where
 /// there is no light of that name, InputError that names the line.
-void put_luminaires(const Document& document, std::span<const Rgb> colours, Scene& scene,
+struct LightPlace {
+  Rgb colour{1.0};    ///< without its intensity
+  bool aims = true;   ///< its node is not scaled to nothing
+};
+void put_luminaires(const Document& document, std::span<const LightPlace> places, Scene& scene,
                     Findings& findings);
 
 } // namespace meninas::gltf

@@ -33,6 +33,13 @@ protected:
   TemporaryFolder folder_;
 };
 
+TEST_F(ErrorEstimate, IsNoneWhereSquaresOverflow) {
+  const Outcome outcome = render({"-o", "out.exr", "--background", "1e30"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("no error is estimated"));
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("nan")));
+}
+
 TEST_F(ErrorEstimate, IsInTheFiguresAndTheLine) {
   const Outcome outcome = render({"-o", "out.exr", "--stats", "out.json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;

@@ -147,6 +147,25 @@ TEST(Illuminance, TheMirrorReflectsTheDistribution) {
   EXPECT_NEAR(lux(light.total), expected, 1e-6 * expected) << "at 90 degrees it is dark";
 }
 
+// A lamp that brings a hundredth of the light, and that a board hides half of, is not decided by one ray.
+TEST(PointLight, ADimLampInPartBesideABrightOne) {
+  const double width[2] = {0.4, 0.2};
+  double dim[2];
+  for (const bool whole : {true, false}) {
+    Scene scene = nothing();
+    add_small_lamp(scene);
+    const double x = 1.0 + width[whole ? 0 : 1];
+    add_polygon(scene, "dim", {{1, 0, -0.2}, {x, 0, -0.2}, {x, 0, 0.2}, {1, 0, 0.2}}, diffuse(0.0, 0.03));
+    if (whole) // from the point at (0, -1, 0) the line to x = 1.2 passes by (0.6, -0.5)
+      add_polygon(scene, "board", {{0.6, -0.5, -1}, {3, -0.5, -1}, {3, -0.5, 1}, {0.6, -0.5, 1}},
+                  double_sided(diffuse(0.0)));
+    dim[whole ? 0 : 1] = lux(light_at_point(scene, below).total) - 100.0 / pi;
+  }
+  ASSERT_LT(dim[1], 0.02 * 100.0 / pi);
+  // Some twenty rays of 2048 times its share: their net is off by one of them.
+  EXPECT_NEAR(dim[0], dim[1], 0.1 * dim[1]);
+}
+
 // In a furnace B = E / (1 - rho) wherever one looks, so H = B at any point and for any plane in it.
 TEST(PointLight, InTheMiddleOfAFurnace) {
   const double radiosity = 1.0 / (1.0 - 0.5);

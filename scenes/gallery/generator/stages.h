@@ -19,6 +19,10 @@ Stage half_room();
 Stage doubled_room();
 Stage no_mirror();
 Stage furnace();
+Stage globillum_1();
+Stage globillum_2();
+Stage globillum_3();
+Stage solar_row();
 Stage meninas_room();
 
 std::vector<Stage> all_stages();

@@ -54,7 +54,8 @@ TEST(JsonSchema, WhatItMayNotBeIsNamedByItsPlace) {
   EXPECT_EQ(of_job(R"("modes": ["hybird"])"),
             "/jobs/0/modes/0: no value 'hybird', did you mean 'hybrid'?");
   EXPECT_EQ(of_job(R"("settings": {"size": [4, 4]})"),
-            "/jobs/0/settings/size: is not a text or a number or a boolean or null");
+            "/jobs/0/settings/size/0: is not a text");
+  EXPECT_EQ(of_job(R"("settings": {"ies": ["spot=a.ies", "bulb=b.ies"]})"), "");
 }
 
 TEST(JsonSchema, OfAlternativesTheOneThatIsMeantComplains) {

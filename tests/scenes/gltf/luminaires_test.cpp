@@ -112,6 +112,10 @@ TEST(GltfLuminaires, TakeThePlaceOfALight) {
   EXPECT_TRUE(warns(scene, {"IES files say how bright lights are", "'desk lamp, "}));
   EXPECT_THAT(error_of(file, settings("desk lmap", ies)), HasSubstr("--ies: no light 'desk lmap', did you mean 'desk lamp'?"));
   EXPECT_THAT(error_of(file, settings("sun", ies)), HasSubstr("light 'sun' is directional"));
+  auto flat = file;
+  flat.json["extensions"]["KHR_lights_punctual"]["lights"][0] = {{"type", "point"}};
+  flat.json["nodes"][flat.json["nodes"].size() - 2]["scale"] = {0.0, 0.0, 0.0};
+  EXPECT_THAT(error_of(flat, settings("desk lamp", ies)), HasSubstr("--ies: the node of light 'desk lamp' is scaled to nothing"));
   const std::string bad = folder.write("bad.ies", "IESNA91\nTILT=NONE\n").string();
   EXPECT_THAT(error_of(file, settings("desk lamp", bad)), HasSubstr("bad.ies: line 3: the file ends before"));
 }
@@ -135,6 +139,28 @@ TEST(GltfUnits, PhotometricNumbersAreDividedByTheEfficacy) {
   EXPECT_EQ(radiometric.materials.at(0).emission.r, 1.0);
   EXPECT_EQ(radiometric.lights.at(1).intensity.g, 250.0);
   EXPECT_NEAR(irradiance_at(radiometric, {0.0, 0.0, 0.0}).g, 683.0 / 500.0 / 4.0, 1e-12);
+}
+
+TEST(GltfUnits, AsTheFileSaysUnlessTheUserDoes) {
+  auto file = square();
+  file.json["materials"][0]["emissiveFactor"] = {1.0, 1.0, 1.0};
+  const auto emission = [&](const SceneState& state) { return load(file, {.state = state}).materials.at(0).emission.g; };
+  file.json["asset"]["extras"]["light_units"] = "photometric";
+  EXPECT_DOUBLE_EQ(emission({}), 1.0 / 683.0);
+  EXPECT_TRUE(warns(load(file), {"light is in cd/m^2, cd and lx, as asset.extras.light_units says"}));
+  EXPECT_EQ(emission({.units = LightUnits::radiometric}), 1.0);
+  EXPECT_TRUE(load(file, {.state = {.units = LightUnits::radiometric}}).warnings.empty());
+  file.json["asset"]["extras"]["light_units"] = "radiometric";
+  EXPECT_EQ(emission({}), 1.0);
+  EXPECT_TRUE(load(file).warnings.empty());
+  EXPECT_DOUBLE_EQ(emission({.units = LightUnits::photometric}), 1.0 / 683.0);
+  for (const Json& odd : {Json("lumens"), Json(3), Json::object()}) {
+    file.json["asset"]["extras"]["light_units"] = odd;
+    EXPECT_EQ(emission({}), 1.0);
+    EXPECT_TRUE(warns(load(file), {"asset.extras.light_units is neither"}));
+  }
+  file.json["asset"]["extras"] = "photometric";
+  EXPECT_EQ(emission({}), 1.0);
 }
 
 } // namespace
