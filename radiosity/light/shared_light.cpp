@@ -17,6 +17,7 @@ namespace {
 /// Of the points so far.
 struct PointSum {
   ArrivingLight punctual;
+  ArrivedByLamp punctual_by_lamp = {};
   int points = 0, punctual_points = 0;
 };
 
@@ -295,6 +296,25 @@ ArrivingLight mean_of(const SharedLightWorkspace& work, const PointSum& sum) {
   return mean;
 }
 
+/// The same by lamp, with what solids let through.
+void tell_lamps_apart(const Lighting& light, const PointSum& sum,
+                      const SolidLight& solids, SharedLightWorkspace& work) {
+  ArrivedByLamp& by_lamp = work.point.by_lamp;
+  by_lamp.clear();
+  if (light.lamps == nullptr)
+    return;
+  by_lamp = sum.punctual_by_lamp;
+  const double points = sum.points, lit = std::max(sum.punctual_points, 1);
+  for (Rgb& part : by_lamp)
+    part /= lit;
+  for (const ImageSum& image : work.images)
+    if (image.all > 0.0)
+      add_of_emitter(*light.lamps, image.emitter,
+                     image.left / image.all * image.form_factor / points * image.source, by_lamp);
+  for (std::size_t l = 0; l < solids.by_lamp.size(); ++l)
+    by_lamp[l] += solids.by_lamp[l];
+}
+
 /// The variance of what a ray finds of an image: V (1 - V), and of an uneven sky that of what it shows.
 double variance_of(const Lighting& light, const ImageSum& image) {
   if (!(image.all > 0.0))
@@ -330,22 +350,24 @@ void add_punctual(const Lighting& light, const Receiver& receiver, PointSum& sum
     return;
   ++sum.punctual_points;
   punctual_arrivals(light, receiver, work.point, work.arrivals);
-  for (const PunctualArrival& arrival : work.arrivals)
+  for (const PunctualArrival& arrival : work.arrivals) {
+    if (light.lamps)
+      sum.punctual_by_lamp[light.lamps->of_punctual[arrival.light]] += arrival.irradiance;
     sum.punctual =
         sum.punctual + ArrivingLight{arrival.irradiance,
                                      arrival.world != real_world ? arrival.irradiance : Rgb(0.0),
                                      arrival.irradiance};
+  }
 }
 
 /// The mean over the points that have been collected, all in the receiver's plane.
-ArrivingLight light_by_solids(const Lighting& light, const Receiver& last, int rays,
+SolidLight light_by_solids(const Lighting& light, const Receiver& last, int rays,
                               std::uint32_t seed, DirectWorkspace& work) {
   if (!has_solid_light(light))
     return {};
-  const SolidLight found = solid_light(
+  return solid_light(
       light.scene, {work.solids.points, last.normal, last.plane_class, last.tangent, last.coat}, rays,
       seed, work.shadow_rays, work.solids);
-  return {found.total, found.mirrored, Rgb(0.0)};
 }
 
 } // namespace
@@ -356,7 +378,7 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
   work.images.clear();
   work.image_of.clear();
   work.point.choice.area = 0;
-  PointSum sum;
+  PointSum sum{.punctual_by_lamp = ArrivedByLamp(light.lamps ? light.lamps->count : 0, Rgb(0.0))};
   auto& solid_points = work.point.solids.points;
   solid_points.clear();
   Rgb before(0.0);
@@ -382,9 +404,10 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
     if (has_settled || dark || sum.points >= settings.most_points) {
       work.has_learned = learn(work.images);
       work.shadow_error = penumbra_error(light, work, sum);
-      const ArrivingLight by_solids =
+      const SolidLight by_solids =
           light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);
-      return mean + by_solids;
+      tell_lamps_apart(light, sum, by_solids, work);
+      return mean + ArrivingLight{by_solids.total, by_solids.mirrored, Rgb(0.0)};
     }
     before = mean.total;
     for (ImageSum& image : work.images)

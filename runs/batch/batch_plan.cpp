@@ -171,6 +171,9 @@ std::string solution_key(const SceneFacts& facts, const JobMode& mode) {
   hash.add(program_version());
   hash.add(facts.hash);
   hash.add(mode.environment);
+  // One solution by lamp serves all states of lamps.
+  if (std::ranges::any_of(mode.settings, [](const Setting& one) { return one.name == "lamp"; }))
+    hash.add("by lamp");
   add_settings(hash, std::move(settings));
   return hex_digits(hash.value());
 }
