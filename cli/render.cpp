@@ -81,6 +81,18 @@ void add_lamps(const std::string& text, std::vector<LampFactor>& lamps) {
   }
 }
 
+void add_lamp_option(Options& command, std::vector<LampFactor>& lamps) {
+  command
+      .add_repeatable("--lamp", "NAME=FACTOR|R,G,B",
+                      "make a lamp so many times as bright, or of another colour; with --solution "
+                      "by `solve --by-lamp` without solving; `all` is every lamp, the last word "
+                      "counts; may be given several times [1]",
+                      [&lamps](const std::string& text) {
+                        add_lamps(text, lamps);
+                      })
+      .group(picture_group);
+}
+
 void add_depth_options(Options& command, PictureSettings& picture) {
   command
       .add("--depth", "8|16", "bits of a PNG's channel [8]",
@@ -116,15 +128,7 @@ void add_picture_options(Options& command, RenderOptions& options) {
   add("--size", "WxH",
       fmt::format("size in pixels [{}x{}, or as wide as the camera asks]", standard.width, standard.height),
       [&](const std::string& text) { request.size = parse_size("--size", text); });
-  command
-      .add_repeatable("--lamp", "NAME=FACTOR|R,G,B",
-                      "make a lamp so many times as bright, or of another colour; with --solution "
-                      "by `solve --by-lamp` without solving; `all` is every lamp, the last word "
-                      "counts; may be given several times [1]",
-                      [&](const std::string& text) {
-                        add_lamps(text, options.common.settings.lamp_factors);
-                      })
-      .group(picture_group);
+  add_lamp_option(command, options.common.settings.lamp_factors);
   add("--samples", "N",
       fmt::format("camera rays per pixel, a power of two; with --mode reference an upper limit "
                   "[draft {}, normal {}, fine {}; no limit]",

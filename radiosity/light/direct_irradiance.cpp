@@ -111,6 +111,7 @@ void order_by_light(const Lighting& light, const Receiver& receiver, DirectWorks
   work.form_factors.clear();
   work.brought.clear();
   work.order.clear();
+  work.by_lamp.assign(light.lamps ? light.lamps->count : 0, Rgb(0.0));
   for (std::uint32_t k = 0; k < work.lights.size(); ++k) {
     const VirtualLight& image = work.lights[k];
     work.form_factors.push_back(
@@ -170,8 +171,6 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
                                 const DirectSettings& settings, std::uint32_t seed,
                                 DirectWorkspace& work) {
   order_by_light(light, receiver, work);
-  const auto begin = [&] { work.by_lamp.assign(light.lamps ? light.lamps->count : 0, Rgb(0.0)); };
-  begin();
 
   // An image is worth shadow rays by its share of what has arrived so far:
   // a bright one that is hidden takes none from the others.
@@ -212,7 +211,7 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
   // Beside an edge the other images may have edges too, which few samples have missed.
   if (settings.penumbra_samples == PenumbraSamples::together && sum.in_part) {
     sum = {.in_part = true};
-    begin();
+    std::ranges::fill(work.by_lamp, Rgb(0.0));
     for (SampledImage& sampled : work.sampled) {
       sample_visibility(light, {work.lights[sampled.light], receiver, seed},
                         sampled.penumbra_samples, work, sampled.share);

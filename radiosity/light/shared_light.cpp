@@ -106,10 +106,8 @@ void add_rays(const Lighting& light, const Receiver& receiver, const WorthyImage
   ImageSum& total = work.images[at.image];
   const auto parts = parts_of(at, image, work);
   // One that stands for others of its lamp has them to share its rays with.
-  const auto rays =
-      image.stands_for_others()
-          ? 1U
-          : std::max(1U, static_cast<std::uint32_t>(std::lround(total.from_a_point * worth)));
+  const auto wanted = static_cast<std::uint32_t>(std::lround(total.from_a_point * worth));
+  const auto rays = image.stands_for_others() ? 1U : std::max(1U, wanted);
   const Emitter& emitter = light.emitters[image.emitter];
   const Vec3 last = area_vector(parts.back().span());
   const double area = area_of(parts.first(parts.size() - 1)) + glm::length(last);
@@ -158,8 +156,7 @@ void find_lights(const Lighting& light, const NumberedPoint& point, std::uint32_
   }
   // Where images are chosen, the steps through them begin elsewhere at every point,
   // evenly by the golden section.
-  constexpr std::uint32_t golden_section = 0x9e3779b9;
-  const double offset = 0x1p-32 * (hash(seed, 0xc401ce) + point.number * golden_section);
+  const double offset = 0x1p-32 * (hash(seed, 0xc401ce) + point.number * 0x9e3779b9U);
   LightChoice choice{most, offset, static_cast<std::size_t>(settings.rays)};
   if (point.element != none<ElementId>) {
     choice.area = index(point.element) + std::uint64_t{1};
@@ -185,7 +182,6 @@ void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t 
           image_at(light, receiver, image, sum_of(work, light, image, settings), work));
   }
   const double most = settings.brightest_most ? max_brought(work) : 0.0;
-
   for (std::size_t i = 0; i < work.at_point.size(); ++i) {
     const ImageAtPoint& at = work.at_point[i];
     if (at.form_factor <= 0.0)
@@ -281,38 +277,24 @@ void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightW
   work.waiting.clear();
 }
 
-/// The mean so far.
-ArrivingLight mean_of(const SharedLightWorkspace& work, const PointSum& sum) {
+/// The mean so far, by lamp in the workspace.
+ArrivingLight mean_of(const Lighting& light, SharedLightWorkspace& work, const PointSum& sum) {
   const double points = sum.points, lit = std::max(sum.punctual_points, 1);
-  ArrivingLight mean{sum.punctual.total / lit, sum.punctual.mirrored / lit,
-                     sum.punctual.punctual / lit};
+  const ArrivingLight& p = sum.punctual;
+  ArrivingLight mean{p.total / lit, p.mirrored / lit, p.punctual / lit};
+  work.point.by_lamp = sum.punctual_by_lamp;
+  for (Rgb& part : work.point.by_lamp)
+    part /= lit;
   for (const ImageSum& image : work.images) {
     const Rgb visible = image.all > 0.0 ? image.left / image.all : Rgb(0.0);
     const Rgb arrived = visible * image.form_factor / points * image.source;
     mean.total += arrived;
+    if (light.lamps)
+      add_of_emitter(*light.lamps, image.emitter, arrived, work.point.by_lamp);
     if (image.world != real_world)
       mean.mirrored += arrived;
   }
   return mean;
-}
-
-/// The same by lamp, with what solids let through.
-void tell_lamps_apart(const Lighting& light, const PointSum& sum,
-                      const SolidLight& solids, SharedLightWorkspace& work) {
-  ArrivedByLamp& by_lamp = work.point.by_lamp;
-  by_lamp.clear();
-  if (light.lamps == nullptr)
-    return;
-  by_lamp = sum.punctual_by_lamp;
-  const double points = sum.points, lit = std::max(sum.punctual_points, 1);
-  for (Rgb& part : by_lamp)
-    part /= lit;
-  for (const ImageSum& image : work.images)
-    if (image.all > 0.0)
-      add_of_emitter(*light.lamps, image.emitter,
-                     image.left / image.all * image.form_factor / points * image.source, by_lamp);
-  for (std::size_t l = 0; l < solids.by_lamp.size(); ++l)
-    by_lamp[l] += solids.by_lamp[l];
 }
 
 /// The variance of what a ray finds of an image: V (1 - V), and of an uneven sky that of what it shows.
@@ -353,10 +335,8 @@ void add_punctual(const Lighting& light, const Receiver& receiver, PointSum& sum
   for (const PunctualArrival& arrival : work.arrivals) {
     if (light.lamps)
       sum.punctual_by_lamp[light.lamps->of_punctual[arrival.light]] += arrival.irradiance;
-    sum.punctual =
-        sum.punctual + ArrivingLight{arrival.irradiance,
-                                     arrival.world != real_world ? arrival.irradiance : Rgb(0.0),
-                                     arrival.irradiance};
+    const Rgb mirrored = arrival.world != real_world ? arrival.irradiance : Rgb(0.0);
+    sum.punctual = sum.punctual + ArrivingLight{arrival.irradiance, mirrored, arrival.irradiance};
   }
 }
 
@@ -365,9 +345,9 @@ SolidLight light_by_solids(const Lighting& light, const Receiver& last, int rays
                               std::uint32_t seed, DirectWorkspace& work) {
   if (!has_solid_light(light))
     return {};
-  return solid_light(
-      light.scene, {work.solids.points, last.normal, last.plane_class, last.tangent, last.coat}, rays,
-      seed, work.shadow_rays, work.solids);
+  return solid_light(light.scene,
+                     {work.solids.points, last.normal, last.plane_class, last.tangent, last.coat}, rays,
+                     seed, work.shadow_rays, work.solids);
 }
 
 } // namespace
@@ -391,11 +371,10 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
       add_punctual(light, next.receiver, sum, work);
     if (++sum.points < wanted)
       continue;
-
     // Between the first half of the points and all
     // of them the mean has moved by about its own error.
     trace_waiting(light, next.receiver, work);
-    const ArrivingLight mean = mean_of(work, sum);
+    const ArrivingLight mean = mean_of(light, work, sum);
     const double brightest = largest(mean.total);
     const bool has_settled = sum.points > settings.points &&
                          largest(glm::abs(mean.total - before)) <= settings.unsure * brightest &&
@@ -404,16 +383,16 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
     if (has_settled || dark || sum.points >= settings.most_points) {
       work.has_learned = learn(work.images);
       work.shadow_error = penumbra_error(light, work, sum);
-      const SolidLight by_solids =
-          light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);
-      tell_lamps_apart(light, sum, by_solids, work);
+      const SolidLight by_solids = light_by_solids(
+          light, next.receiver, settings.solid_rays, seed, work.point);
+      for (std::size_t l = 0; l < by_solids.by_lamp.size(); ++l)
+        work.point.by_lamp[l] += by_solids.by_lamp[l];
       return mean + ArrivingLight{by_solids.total, by_solids.mirrored, Rgb(0.0)};
     }
     before = mean.total;
+    const auto of_penumbra = static_cast<std::uint32_t>(settings.penumbra_rays);
     for (ImageSum& image : work.images)
-      image.from_a_point = shows_differences(light, image)
-                               ? static_cast<std::uint32_t>(settings.penumbra_rays)
-                               : 1;
+      image.from_a_point = shows_differences(light, image) ? of_penumbra : 1;
     wanted = std::min(2 * sum.points, settings.most_points);
   }
 }

@@ -28,7 +28,8 @@ Scene load_planned(const BatchPicture& picture) {
 }
 
 LampsApart lamps_wanted(const BatchPicture& picture) {
-  return picture.request.settings.lamp_factors.empty() ? LampsApart::no : LampsApart::yes;
+  const RunSettings& settings = picture.request.settings;
+  return settings.lamp_factors.empty() && !settings.lamp_layers ? LampsApart::no : LampsApart::yes;
 }
 
 /// The cached solution, if there is one that can be used.
@@ -67,6 +68,8 @@ ViewPicture view_of(const BatchPicture& picture, const LitScene* light, const Ru
     return render_reference_view(std::move(scene), camera, picture.size, settings, events, figures);
   }
   const Camera camera = cut_open(light->prepared->scene, picture.camera, picture.size, events);
+  if (settings.lamp_layers)
+    return render_lamp_layers(*light, camera, picture.size, settings, events, figures);
   ViewPicture view =
       lamps_wanted(picture) == LampsApart::no
           ? render_view(*light, camera, picture.size, settings, events, figures)
