@@ -16,10 +16,10 @@ namespace {
 
 /// The lamp of that name, a new one where there is none.
 std::uint32_t lamp_named(const std::string& name, LampGroups& lamps) {
-  const auto found = std::ranges::find(lamps.names, name);
-  if (found == lamps.names.end())
+  const auto lamp = static_cast<std::uint32_t>(std::ranges::find(lamps.names, name) - lamps.names.begin());
+  if (lamp == lamps.size())
     lamps.names.push_back(name);
-  return static_cast<std::uint32_t>(found - lamps.names.begin());
+  return lamp;
 }
 
 /// That of what surrounds the scene: of its own, whatever lamps are called.

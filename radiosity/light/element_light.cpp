@@ -182,6 +182,8 @@ DirectIrradiance direct_irradiance(const Lighting& light, std::span<const std::u
   const std::size_t size = element_count(light.scene.mesh);
   DirectIrradiance result;
   result.irradiance.assign(size, Rgb(0.0));
+  if (light.lamps)
+    result.by_lamp = no_light(size, light.lamps->count);
   if (light.emitters.empty() && light.punctual.empty())
     return result;
   result.punctual.resize(light.punctual.empty() ? 0 : size);

@@ -71,9 +71,10 @@ PointLight landed_light(const PointGathering& gathering, const GatheredRays& gat
 /// What each cluster, and each node of their tree, sends on of each lamp.
 LampShares shares_of_clusters(const LightScene& light, const SecondaryEmitters& clusters,
                               const ClusterTree& tree, const SharesByLamp& reflected) {
-  LampShares lamps{.count = light.lamps.count};
+  LampShares lamps;
   if (reflected.rows() == 0)
-    return {};
+    return lamps;
+  lamps.count = light.lamps.count;
   const auto power_of = [&](std::uint32_t cluster) {
     Eigen::RowVectorXd power = Eigen::RowVectorXd::Zero(reflected.cols());
     for (const std::uint32_t e : clusters.elements[cluster])

@@ -11,7 +11,6 @@
 #include <numeric>
 
 namespace meninas {
-
 namespace {
 
 /// Of the points so far.
@@ -358,7 +357,8 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
   work.images.clear();
   work.image_of.clear();
   work.point.choice.area = 0;
-  PointSum sum{.punctual_by_lamp = ArrivedByLamp(light.lamps ? light.lamps->count : 0, Rgb(0.0))};
+  PointSum sum;
+  sum.punctual_by_lamp.assign(light.lamps ? light.lamps->count : 0, Rgb(0.0));
   auto& solid_points = work.point.solids.points;
   solid_points.clear();
   Rgb before(0.0);

@@ -141,8 +141,9 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    reflecting_by_angle(scene),
                    std::ranges::any_of(scene.materials, is_glass),
                    cut_out_mirrors(surfaces, rays, mirrors),
-                   find_solid_bodies(scene, frame)};
-  light.finely_tessellated = is_finely_tessellated(mesh);
+                   find_solid_bodies(scene, frame),
+                   is_finely_tessellated(mesh),
+                   {}};
   light.from_source.assign(mesh.sides.size(), 0);
 
   double area = 0.0, emitting_area = 0.0;
@@ -170,7 +171,9 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
 
 void tell_lamps_apart(LightScene& light, std::shared_ptr<const LampGroups> groups) {
   LampShares& lamps = light.lamps;
-  lamps = {.count = groups->size(), .sky = groups->sky == no_lamp ? 0 : groups->sky};
+  lamps = {};
+  lamps.count = groups->size();
+  lamps.sky = groups->sky == no_lamp ? 0 : groups->sky;
   for (const MeshSide& side : light.mesh.sides)
     lamps.of_side.push_back(emits(side) ? lamp_of(*groups, side.node, side.material) : no_lamp);
   for (const SideId side : light.side_of_emitter)
