@@ -113,7 +113,7 @@ TEST_P(Lamps, AloneAreTheSceneWithoutTheOthers) {
 
 INSTANTIATE_TEST_SUITE_P(OfBothCuts, Lamps,
                          testing::Values(MeshCut::uniform, MeshCut::hierarchical),
-                         [](const auto& info) { return name_of(info.param); });
+                         [](const auto& one) { return name_of(one.param); });
 
 RenderSettings small_picture() {
   RenderSettings settings;
