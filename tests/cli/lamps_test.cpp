@@ -48,7 +48,7 @@ protected:
     return run(options);
   }
 
-  Image picture(const std::string& name) { return read_image(folder_ / name).image; }
+  Image picture(const std::string& name) { return read_image(folder_ / name).picture; }
 
   TemporaryFolder folder_;
 };
