@@ -31,17 +31,22 @@ std::string join_names(const std::array<Value, n>& values) {
 /// The parts that light has, which `--layers` alone asks for.
 constexpr const char* light_layers = "light";
 
+/// The light of each lamp, which makes up the picture.
+constexpr const char* lamp_layers = "lamps";
+
 /// A list of layers, without doubles, in the order they are written.
 void parse_layers(const std::string& text, RunSettings& settings) {
   const Choices<Feature> known = choices_of(all_features);
   std::vector<std::string> names = names_of(known);
-  names.insert(names.begin(), light_layers);
+  names.insert(names.begin(), {light_layers, lamp_layers});
   std::istringstream list(text);
   std::set<Feature> asked;
   settings.layers = WithLayers::no;
   for (std::string name; std::getline(list, name, ',');) {
     if (name == light_layers) {
       settings.layers = WithLayers::yes;
+    } else if (name == lamp_layers) {
+      settings.lamp_layers = true;
     } else if (std::ranges::find(names, name) != names.end()) {
       asked.insert(parse_choice("--layers", name, known));
     } else {
@@ -59,7 +64,7 @@ void add_layers(Options& command, RunSettings& settings, const std::string& grou
   command
       .add("--layers", "[LIST]",
            fmt::format("layers of an EXR besides the picture, joined by commas: light (nine layers "
-                       "that add up to the picture), {} [none; light without LIST]",
+                       "that add up to the picture), lamps (one of each, likewise), {} [none; light without LIST]",
                        fmt::join(names_of(choices_of(all_features)), ", ")),
            [&](const std::string& text) {
              parse_layers(text == preset_value ? light_layers : text, settings);
@@ -70,8 +75,12 @@ void add_layers(Options& command, RunSettings& settings, const std::string& grou
 
 void check_layers(const RunSettings& settings, const std::vector<std::filesystem::path>& pictures) {
   const bool light = settings.layers == WithLayers::yes;
-  if (!light && settings.features.empty()) {
+  if (!light && settings.features.empty() && !settings.lamp_layers) {
     return;
+  }
+  if (settings.lamp_layers && (light || !settings.features.empty() ||
+                               settings.mode == PictureMode::reference || settings.view)) {
+    throw UsageError("--layers", "lamps stands alone, without --mode reference and --view");
   }
   if (!settings.features.empty() && settings.mode == PictureMode::reference) {
     throw UsageError("--layers", "has but those of light with --mode reference");

@@ -64,6 +64,35 @@ void add_outputs(Options& command, RenderOptions& options) {
       .group(study_group);
 }
 
+/// NAME=FACTOR or NAME=R,G,B; names may hold an equals sign.
+LampFactor parse_lamp(const std::string& text) {
+  const std::size_t at = text.rfind('=');
+  if (at == std::string::npos || at == 0)
+    throw UsageError("--lamp", fmt::format("'{}' is not NAME=FACTOR or NAME=R,G,B", text));
+  return {text.substr(0, at), parse_colour("--lamp", text.substr(at + 1))};
+}
+
+/// Several are joined by semicolons, as in the settings of a batch.
+void add_lamps(const std::string& text, std::vector<LampFactor>& lamps) {
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    lamps.push_back(parse_lamp(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+}
+
+void add_lamp_option(Options& command, std::vector<LampFactor>& lamps) {
+  command
+      .add_repeatable("--lamp", "NAME=FACTOR|R,G,B",
+                      "make a lamp so many times as bright, or of another colour; with --solution "
+                      "by `solve --by-lamp` without solving; `all` is every lamp, the last word "
+                      "counts; may be given several times [1]",
+                      [&lamps](const std::string& text) {
+                        add_lamps(text, lamps);
+                      })
+      .group(picture_group);
+}
+
 void add_depth_options(Options& command, PictureSettings& picture) {
   command
       .add("--depth", "8|16", "bits of a PNG's channel [8]",
@@ -99,6 +128,7 @@ void add_picture_options(Options& command, RenderOptions& options) {
   add("--size", "WxH",
       fmt::format("size in pixels [{}x{}, or as wide as the camera asks]", standard.width, standard.height),
       [&](const std::string& text) { request.size = parse_size("--size", text); });
+  add_lamp_option(command, options.common.settings.lamp_factors);
   add("--samples", "N",
       fmt::format("camera rays per pixel, a power of two; with --mode reference an upper limit "
                   "[draft {}, normal {}, fine {}; no limit]",
@@ -235,13 +265,17 @@ RenderRequest& completed_request(const Options& command, RenderOptions& options)
   if (options.common.settings.view && has_format(options, PictureFormat::hdr))
     throw UsageError("--view", "has no light for a .hdr: an .exr holds its numbers");
   check_diffuse(options.common.settings);
+  if (options.request.solution && !options.common.settings.lamp_factors.empty())
+    if (options.common.settings.layers == WithLayers::yes)
+      throw UsageError("--layers", "what mirrors bring is not known of lamps: `light` does not go "
+                                   "with --solution and --lamp");
   check_pass_one_options(command, options.common.settings);
   take_snapshots(options);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
   const RunSettings& settings = options.common.settings;
   options.request.settings.display = display_of(options.request.pictures, options.request.picture);
-  if (settings.layers == WithLayers::yes || !settings.features.empty() || settings.view) {
+  if (settings.layers == WithLayers::yes || settings.lamp_layers || !settings.features.empty() || settings.view) {
     // In halves parts would not add up, and indices would be rounded.
     options.request.picture.exr_type = PixelType::float32;
   }

@@ -13,6 +13,9 @@ struct SolveOptions {
   SolveRequest request;
 };
 
+const Choices<LampGrouping> lamp_groupings{{"node", LampGrouping::node},
+                                           {"material", LampGrouping::material}};
+
 constexpr const char* points_group = "Numbers at points";
 
 void add_point_options(Options& command, PointRequest& request) {
@@ -78,6 +81,15 @@ Command add_solve_command(Options& program) {
   add_file(command, "--reuse", options->request.reuse,
            "use the form factors of an earlier run; only emission and diffuse reflectances may "
            "have changed");
+  command
+      .add("--by-lamp", "[node|material]",
+           "find the light of each lamp apart, so that `render --lamp` changes it without solving "
+           "[by node]",
+           [options](const std::string& text) {
+             options->common.settings.lamps =
+                 parse_choice("--by-lamp", text == preset_value ? "node" : text, lamp_groupings);
+           })
+      .value_if_given(preset_value);
   add_point_options(command, options->request.points);
   add_quality(command, options->common);
   add_state_options(command, options->common);

@@ -42,7 +42,8 @@ void punctual_images(const WorldTree& tree, std::span<const PunctualLight> light
   images.clear();
   for (const SeenWorld& at : seen.worlds) {
     const MirrorWorld& world = tree.worlds[index(at.world)];
-    for (const PunctualLight& light : lights) {
+    for (std::uint32_t number = 0; number < lights.size(); ++number) {
+      const PunctualLight& light = lights[number];
       // What shines on the observer's image in the real
       // room shines on the observer from the light's image.
       const PunctualSample real =
@@ -53,7 +54,7 @@ void punctual_images(const WorldTree& tree, std::span<const PunctualLight> light
       if (!(cosine > 0.0) || real.irradiance == Rgb(0.0) ||
           !is_seen(world, seen, at, observer.position, position))
         continue;
-      images.push_back({at.world, position, cosine * real.irradiance});
+      images.push_back({at.world, position, cosine * real.irradiance, number});
     }
   }
 }

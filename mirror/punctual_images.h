@@ -16,6 +16,7 @@ struct PunctualImage {
   WorldId world = real_world;
   Point3 position;     ///< in unfolded space
   Rgb irradiance{0.0}; ///< at the observer's plane, blockers and mirrors' reflectances aside
+  std::uint32_t light = 0;  ///< its number among the lights
 };
 
 /// Clears and fills `images`: those that shine on the observer's side,

@@ -3,6 +3,7 @@
 #include "radiosity/field/interpolation.h"
 #include "radiosity/hierarchical/node_field.h"
 #include "radiosity/reflected_light.h"
+#include "radiosity/relight.h"
 #include "radiosity/solvers/solve.h"
 #include "scenes/stopwatch.h"
 
@@ -42,7 +43,9 @@ InterpolatedField at_vertices(const LightScene& light, const PassOneSettings& se
                               ReflectedLight& solved, const std::vector<Rgb>& irradiance,
                               const SeenElements& seen, const Progress& progress) {
   const ElementLight elements{std::move(solved.solver.radiosity), irradiance,
-                              solved.first.from_source, solved.first.translucent};
+                              solved.first.from_source, solved.first.translucent,
+                              std::move(solved.by_lamp), std::move(solved.irradiance_by_lamp),
+                              std::move(solved.first.from_source_by_lamp)};
   if (solved.receivers)
     return field_by_nodes(light, elements, *solved.receivers,
                           {settings.form_factors, settings.direct, settings.interpolation, progress,
@@ -59,6 +62,7 @@ RadiositySolution field_of(const std::shared_ptr<const LightScene>& light,
   RadiositySolution solution;
   static_cast<ElementSolution&>(solution) = on_elements(light->mesh, solved);
   InterpolatedField found = at_vertices(*light, settings, solved, solution.irradiance, seen, progress);
+  add_up_by_vertex(found.field);
   take_received(light->mesh, solved.first.translucent, found.received, solution);
   solution.field = {std::move(found.field),
                     found.mesh ? light_scene_on(*light, std::move(*found.mesh)) : light};
@@ -92,6 +96,7 @@ RadiositySolution darkness(const std::shared_ptr<const LightScene>& light,
   solution.solver.method = settings.solver.method;
   solution.solver.bands = 1;
   solution.solver.converged = true;
+  solution.field.by_lamp.assign(light->lamps.count, {at_vertices, at_vertices});
   if (settings.cut == MeshCut::hierarchical)
     solution.links.emplace();
   return solution;

@@ -94,6 +94,7 @@ PassOneSettings pass_one_settings(const PassOneChoice& choice) {
   settings.solver.method = choice.solver;
   settings.solver.tolerance = choice.tolerance.value_or(settings.solver.tolerance);
   settings.solver.max_shots = choice.steps;
+  settings.lamps = choice.lamps;
   settings.hierarchical.link_error = choice.link_error.value_or(quality.link_error);
   settings.interpolation = interpolation_settings(choice, settings);
   // Means of elements show nowhere but where they are interpolated; else they light other elements,

@@ -8,6 +8,7 @@
 #include "radiosity/scene/plan.h"
 #include "radiosity/solvers/solver_settings.h"
 #include "radiosity/transport/form_factors.h"
+#include "scenes/lamps.h"
 
 #include <array>
 #include <optional>
@@ -30,6 +31,7 @@ struct PassOneSettings {
   SolverSettings solver;
   HierarchicalSettings hierarchical;
   InterpolationSettings interpolation;
+  std::optional<LampGrouping> lamps = {}; ///< light is told apart by lamps, so grouped
 };
 
 /// Whether these settings shoot rays instead of assembling a transport.
@@ -68,6 +70,7 @@ struct PassOneChoice {
   std::optional<double> link_error; ///< of a hierarchical mesh
   std::optional<int> mirror_depth;  ///< no path meets more mirrors
   std::optional<Interpolation> interpolation;
+  std::optional<LampGrouping> lamps; ///< light is found by lamp
   std::uint32_t seed = 0;
 };
 

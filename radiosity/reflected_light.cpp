@@ -4,6 +4,7 @@
 #include "radiosity/hierarchical/node_solution.h"
 #include "radiosity/solvers/progressive.h"
 #include "radiosity/solvers/shooting_blocks.h"
+#include "radiosity/solvers/solve_together.h"
 #include "radiosity/transport/gathered_emission.h"
 #include "scenes/stopwatch.h"
 
@@ -56,7 +57,8 @@ ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& fac
 
   // Split by who owns the path: direct light, gathered emission, and reflected light by the transport.
   solved.first = first_light(
-      light, {gathered_emission(light, factors), factors.closure, factors.covered, factors.exposed},
+      light, {gathered_emission(light, factors), factors.closure, factors.covered, factors.exposed,
+       gathered_by_lamp(light, factors)},
       settings.form_factors.method, settings.direct, progress);
   solved.form_factor_seconds = stopwatch.lap();
 
@@ -68,6 +70,13 @@ ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& fac
       solve(factors.transport, solved.first.source,
             {solved.first.reflectance, solved.first.translucent}, settings.solver, plan);
   solved.arrived = apply_transport(factors.transport, solved.solver.radiosity);
+  if (light.lamps) {
+    const Scattering scattering{solved.first.reflectance, solved.first.translucent};
+    solved.by_lamp = solve_together(
+        factors.transport, scattered(scattering, solved.first.by_lamp), scattering, settings.solver);
+    solved.irradiance_by_lamp =
+        solved.first.by_lamp + transport_product(factors.transport, solved.by_lamp);
+  }
   solved.solve_seconds = stopwatch.lap() - watched.seconds;
   return solved;
 }
@@ -111,6 +120,8 @@ ReflectedLight reflected_by_nodes(const LightScene& light, const PassOneSettings
   solved.first = std::move(nodes.first);
   solved.solver = std::move(nodes.solver);
   solved.arrived = std::move(nodes.arrived);
+  solved.by_lamp = std::move(nodes.reflected_by_lamp);
+  solved.irradiance_by_lamp = std::move(nodes.irradiance_by_lamp);
   solved.closure = std::move(nodes.closure);
   solved.exposed = std::move(nodes.exposed);
   solved.links = nodes.figures;

@@ -24,6 +24,7 @@ struct ReflectedLight {
   FirstLight first;         ///< D + G
   SolverResult solver;      ///< its radiosity is X
   std::vector<Rgb> arrived; ///< T X
+  LightByLamp by_lamp, irradiance_by_lamp; ///< X and H of each lamp; empty where light is not told apart
   std::vector<RowClosure> closure; ///< of the elements' own rays
   std::vector<float> exposed;      ///< the share of the area that is there and on which nothing stands
   std::optional<HierarchicalSolution> receivers; ///< of nodes, where vertices gather by them

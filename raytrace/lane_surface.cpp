@@ -87,6 +87,8 @@ SideShading shading_at(const LandedLane& lane) {
       surface_colour(light.scene, light.textures, triangle, barycentric, footprint_of(lane));
   if (emits)
     shading.emitted = colour.emission / std::numbers::pi;
+  if (emits && !light.emission_factors.empty())
+    shading.emitted *= glm::vec3(light.emission_factors[face.side]);
   if (part != ReflectedPart::none)
     shading.albedo_over_pi = colour.reflectance / std::numbers::pi;
   if (part != ReflectedPart::none)

@@ -46,9 +46,13 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
       make_element_mesh(prepared->scene, prepared->surfaces, settings.mesh, dark), prepared->scene,
       prepared->surfaces, prepared->plan.worlds, settings.mesh.max_elements);
   average_textures(prepared->scene, prepared->surfaces, prepared->textures, prepared->mesh);
-  prepared->light = std::make_shared<const LightScene>(make_light_scene(
+  auto light = std::make_shared<LightScene>(make_light_scene(
       prepared->scene, prepared->surfaces, *prepared->rays,
       {prepared->plan.mirrors, prepared->plan.worlds}, prepared->mesh, prepared->textures));
+  if (settings.lamps)
+    tell_lamps_apart(*light, std::make_shared<const LampGroups>(
+                                 find_lamps(prepared->scene, *settings.lamps)));
+  prepared->light = std::move(light);
   prepared->seconds.mesh = watch.lap();
   return prepared;
 }

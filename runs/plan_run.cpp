@@ -98,6 +98,8 @@ std::string plan_text(const PreparedScene& prepared, const TransportPlan& plan,
   text += fact("emitters", fmt::format("{} {}", plan.emitters,
                                     plan.emitters == 1 ? "face glows" : "faces glow"));
   text += fact("punctual lights", std::to_string(plan.punctual_lights));
+  if (const auto lamps = find_lamps(prepared.scene, LampGrouping::node).names; !lamps.empty())
+    text += fact("lamps", fmt::format("'{}': --lamp NAME=FACTOR dims one", fmt::join(lamps, "', '")));
   if (const std::size_t openings = prepared.light->portals.size(); openings > 0)
     text += fact("openings", fmt::format("{} to the sky", openings));
   text += fact("materials", fmt::format("{} glossy, {} transmissive, {} textured", plan.glossy,

@@ -38,6 +38,18 @@ Scene load_scene(const std::filesystem::path& file, const RunSettings& settings)
   return under_background(std::move(scene), settings);
 }
 
+Scene load_relit_scene(const std::filesystem::path& file, const RunSettings& settings) {
+  return under_lamps(load_scene(file, settings), settings);
+}
+
+Scene under_lamps(Scene scene, const RunSettings& settings) {
+  if (settings.lamp_factors.empty())
+    return scene;
+  const LampGroups lamps = find_lamps(scene, settings.lamps.value_or(LampGrouping::node));
+  const std::vector<Rgb> factors = factors_of_lamps(lamps.names, settings.lamp_factors);
+  return relit(std::move(scene), lamps, factors);
+}
+
 std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,
                                            const RunEvents& events, RunFigures& figures) {
   auto prepared = prepare_scene(std::move(scene), settings);

@@ -18,6 +18,12 @@ Scene under_background(Scene scene, const RunSettings& settings);
 /// The same, of a file.
 Scene load_scene(const std::filesystem::path& file, const RunSettings& settings);
 
+/// The scene with lamps as bright as the settings say.
+Scene under_lamps(Scene scene, const RunSettings& settings);
+
+/// The same, of a file.
+Scene load_relit_scene(const std::filesystem::path& file, const RunSettings& settings);
+
 /// The files that are read besides: of the sky and of luminaires.
 std::vector<std::filesystem::path> files_beside_scene(const RunSettings& settings);
 

@@ -101,14 +101,33 @@ void warn_of_darkness(const Image& image, const Camera& camera, const RunEvents&
   }
 }
 
+/// The stored solution, with lamps as bright as is asked for.
+LitScene read_shown_scene(const RenderRequest& request, Scene scene, const PassOneSettings& settings,
+                          const RunEvents& events, RunFigures& figures) {
+  const auto& given = request.settings.lamp_factors;
+  const bool apart = !given.empty() || request.settings.lamp_layers;
+  const LitScene lit = read_lit_scene(*request.solution, std::move(scene), settings, events, figures,
+                                apart ? LampsApart::yes : LampsApart::no);
+  return given.empty() || request.settings.lamp_layers ? lit : under_lamps(lit, request.settings);
+}
+
 ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Camera& camera,
                             PictureSize size, const RunEvents& events, RunFigures& figures) {
   TwoPassSettings settings = two_pass_settings(request.settings);
   settings.render.width = size.width;
   settings.render.height = size.height;
+  if (request.settings.lamp_layers) {
+    settings.pass_one.lamps = LampGrouping::node;
+    const LitScene lit = request.solution ? read_shown_scene(request, std::move(scene),
+                                                             settings.pass_one, events, figures)
+                                          : solve_lit_scene(std::move(scene), settings.pass_one,
+                                                            std::nullopt, events, figures);
+    return render_lamp_layers(lit, camera, size, settings_for(lit.field, request.settings), events,
+                              figures);
+  }
   if (request.settings.view) {
-    const LitScene lit = request.solution ? read_lit_scene(*request.solution, std::move(scene),
-                                                           settings.pass_one, events, figures)
+    const LitScene lit = request.solution ? read_shown_scene(request, std::move(scene),
+                                                             settings.pass_one, events, figures)
                                           : solve_lit_scene(std::move(scene), settings.pass_one,
                                                             std::nullopt, events, figures);
     return render_view(lit, camera, size, settings_for(lit.field, request.settings), events, figures);
@@ -120,7 +139,7 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
     return picture_of(prepared->scene, camera, request.settings, std::move(rendering));
   }
   const LitScene lit =
-      read_lit_scene(*request.solution, std::move(scene), settings.pass_one, events, figures);
+      read_shown_scene(request, std::move(scene), settings.pass_one, events, figures);
   const RunSettings known = settings_for(lit.field, request.settings);
   settings.render.diffuse = two_pass_settings(known).render.diffuse;
   check_field(*request.solution, lit.field, settings.render);
@@ -163,7 +182,9 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   Stopwatch total;
   Stopwatch watch;
 
-  Scene scene = load_scene(request.scene, request.settings);
+  const bool lamps_later = request.solution || request.settings.lamp_layers;
+  Scene scene = lamps_later ? load_scene(request.scene, request.settings)
+                            : load_relit_scene(request.scene, request.settings);
   const bool is_lit = has_light(scene);
   const Camera chosen = choose_camera(scene, request.camera, request.settings, events);
   const PictureSize size = choose_size(request.size, chosen);

@@ -42,6 +42,8 @@ struct RunSettings : TwoPassChoice {
   std::optional<double> max_seconds; ///< of a reference
   std::optional<Rgb> background;     ///< radiance beyond the scene, from everywhere
   EnvironmentChoice environment;     ///< or by direction
+  std::vector<LampFactor> lamp_factors; ///< how bright lamps are, beside what the file says
+  bool lamp_layers = false;             ///< a layer for the light of each lamp, which add up to the picture
   std::optional<std::uint64_t>
       memory_limit; ///< bytes of the whole run; all the machine has otherwise
   int threads = 0;  ///< 0: all the machine has

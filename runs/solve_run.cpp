@@ -81,6 +81,16 @@ static RunSettings with_rows_to_keep(const SolveRequest& request) {
   return settings;
 }
 
+/// What the light of lamps needs of the methods.
+static void check_lamps(const PassOneSettings& settings) {
+  if (!settings.lamps)
+    return;
+  if (settings.solver.method == SolverMethod::progressive)
+    throw UsageError("--by-lamp", "does not go with --solver progressive, which keeps no transport");
+  if (settings.interpolation.method == Interpolation::average)
+    throw UsageError("--by-lamp", "needs --interpolation gather");
+}
+
 /// Light at the points themselves, by eight times the rays of a vertex.
 static PointQuerySettings point_query_settings(const PassOneSettings& settings) {
   PointQuerySettings query;
@@ -90,16 +100,32 @@ static PointQuerySettings point_query_settings(const PassOneSettings& settings) 
   return query;
 }
 
+/// What elements reflect, of each lamp too where they are known apart.
+static SentLight sent_light(const IrradianceField& field) {
+  LightByLamp by_lamp = no_light(element_count(field.mesh()), field.by_lamp.size());
+  for (std::size_t l = 0; l < field.by_lamp.size(); ++l) {
+    IrradianceField alone{{}, field.scene};
+    alone.irradiance = field.by_lamp[l].direct;
+    for (std::size_t v = 0; v < alone.irradiance.size(); ++v)
+      alone.irradiance[v] += field.by_lamp[l].indirect[v];
+    set_light_of_lamp(by_lamp, l, reflected_by_elements(alone));
+  }
+  return field.by_lamp.empty() ? SentLight(reflected_by_elements(field))
+                               : SentLight(reflected_by_elements(field), by_lamp);
+}
+
 static void report_points(const SolveRequest& request, std::vector<PointSet> sets,
                           const RadiositySolution& solution, const PassOneSettings& settings,
                           const RunEvents& events) {
-  const std::vector<Rgb> reflected = reflected_by_elements(solution.field);
+  const SentLight reflected = sent_light(solution.field);
+  const auto& lamps = solution.field.scene->lamp_groups;
   std::vector<MeasuredSet> measured;
   for (PointSet& set : sets) {
     auto light = irradiance_at_points(*solution.field.scene, reflected, set.points,
                                       point_query_settings(settings));
     measured.push_back(without_points_inside(
-        {std::move(set), std::move(light), request.settings.gltf.state.luminous_efficacy}));
+        {std::move(set), std::move(light), request.settings.gltf.state.luminous_efficacy, 0,
+         lamps ? lamps->names : std::vector<std::string>{}}));
   }
   measured = without_dark_sides(std::move(measured));
   write_points(points_file(request), measured);
@@ -118,6 +144,7 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   if (events.progress)
     events.progress("scene", 0.0);
   const PassOneSettings settings = two_pass_settings(chosen).pass_one;
+  check_lamps(settings);
   RunFigures figures;
   figures.threads = limit.threads();
   Stopwatch total;

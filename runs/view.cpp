@@ -1,11 +1,13 @@
 #include "runs/view.h"
 
 #include "image/colour_scale.h"
+#include "radiosity/relight.h"
 #include "radiosity/solution/solution_file.h"
 #include "runs/preparation.h"
 #include "runs/reference_run.h"
 #include "runs/steering/setting_options.h"
 #include "scenes/content_hash.h"
+#include "scenes/errors.h"
 #include "scenes/photometry.h"
 #include "scenes/sky/radiance_map.h"
 #include "scenes/stopwatch.h"
@@ -51,10 +53,19 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
 }
 
 LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings settings,
-                        const RunEvents& events, RunFigures& figures) {
+                        const RunEvents& events, RunFigures& figures, LampsApart lamps) {
   Stopwatch watch;
   StoredSolution stored = read_solution(file, scene);
   settings.mesh = stored.mesh;
+  if (lamps == LampsApart::no)
+    stored.field.by_lamp.clear();
+  else if (stored.lamps.empty())
+    throw InputError(file.string(), "",
+                     "does not know its lamps apart: solve again with --by-lamp");
+  else if (stored.lamps != find_lamps(scene, stored.grouping).names)
+    throw InputError(file.string(), "", "has other lamps than its scene: solve again");
+  else
+    settings.lamps = stored.grouping;
   figures.seconds.load += watch.lap();
   LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures),
                .field = {}};
@@ -67,6 +78,11 @@ LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings setti
   figures.vertices = lit.field.mesh().vertices.size();
   warn_of_solution(figures.solver, figures.closure, events);
   return lit;
+}
+
+LitScene under_lamps(const LitScene& lit, const RunSettings& settings) {
+  const auto& names = lit.field.scene->lamp_groups->names;
+  return {lit.prepared, relit(lit.field, factors_of_lamps(names, settings.lamp_factors))};
 }
 
 ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettings& settings,
@@ -179,6 +195,36 @@ ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize s
   add_rendering(figures, rendering);
   figures.seconds.render = watch.lap();
   return picture_of(lit.prepared->scene, camera, settings, std::move(rendering));
+}
+
+ViewPicture render_lamp_layers(const LitScene& lit, const Camera& camera, PictureSize size,
+                               const RunSettings& settings, const RunEvents& events,
+                               RunFigures& figures) {
+  if (std::ranges::any_of(lit.prepared->scene.materials, &Material::unlit))
+    throw InputError(lit.prepared->scene.file, "", "has unlit surfaces, which are of no lamp: their "
+                                                   "light is in no layer of --layers lamps");
+  const auto& names = lit.field.scene->lamp_groups->names;
+  const std::vector<Rgb> factors = factors_of_lamps(names, settings.lamp_factors);
+  std::optional<ViewPicture> sum;
+  for (std::size_t l = 0; l < names.size(); ++l) {
+    std::vector<Rgb> own(factors.size(), Rgb(0.0));
+    own[l] = factors[l];
+    const LitScene alone{lit.prepared, relit(lit.field, own)};
+    ViewPicture picture = render_view(alone, camera, size, settings, events, figures);
+    Layer layer{"lamp." + names[l], picture.image};
+    if (!sum) {
+      sum = std::move(picture);
+    } else {
+      for (std::size_t k = 0; k < sum->image.pixels.size(); ++k)
+        sum->image.pixels[k] += layer.image.pixels[k];
+    }
+    sum->layers.push_back(std::move(layer));
+    sum->finer.reset();
+  }
+  if (!sum)
+    throw InputError(lit.prepared->scene.file, "", "has no lamps for --layers lamps");
+  sum->edges = {};
+  return *std::move(sum);
 }
 
 ViewPicture render_reference_view(Scene scene, const Camera& camera, PictureSize size,

@@ -17,7 +17,7 @@ namespace meninas {
 
 /// A scene with its diffuse light, as far as pass one finds it.
 struct LitScene {
-  std::unique_ptr<PreparedScene> prepared;
+  std::shared_ptr<const PreparedScene> prepared;
   IrradianceField field;
 };
 
@@ -27,10 +27,18 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
                          const std::optional<std::filesystem::path>& kept, const RunEvents& events,
                          RunFigures& figures);
 
+/// Whether the light of lamps is wanted as well.
+enum class LampsApart { no, yes };
+
 /// Pass one of an earlier run, whose figures are repeated.
-/// Throws InputError when the file is damaged or belongs to another scene or version.
+/// Throws InputError when the file is damaged or belongs to another scene or version, or has no
+/// lamps apart where they are wanted.
 LitScene read_lit_scene(const std::filesystem::path& solution, Scene scene,
-                        PassOneSettings settings, const RunEvents& events, RunFigures& figures);
+                        PassOneSettings settings, const RunEvents& events, RunFigures& figures,
+                        LampsApart lamps = LampsApart::no);
+
+/// The same with lamps as bright as the settings say. Precondition: lamps are known apart.
+LitScene under_lamps(const LitScene& lit, const RunSettings& settings);
 
 /// A picture and what it is:
 /// the same bits belong to the same attributes, whether pass one was run or read.
@@ -51,6 +59,12 @@ ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettin
 /// but by the view `closure`; layers need a field that knows its mirrored part.
 ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize size,
                         const RunSettings& settings, const RunEvents& events, RunFigures& figures);
+
+/// A layer `lamp.NAME` of the light of each lamp, as bright as the settings say, and their sum in
+/// floats, in this order, for picture. Precondition: lamps are known apart.
+ViewPicture render_lamp_layers(const LitScene& lit, const Camera& camera, PictureSize size,
+                               const RunSettings& settings, const RunEvents& events,
+                               RunFigures& figures);
 
 /// By the path tracer; the layer `variance` comes last.
 ViewPicture render_reference_view(Scene scene, const Camera& camera, PictureSize size,

@@ -35,6 +35,7 @@ struct Triangle {
 /// A glTF node that carries a mesh; its name is how a user asks for it. Unnamed nodes are `node12`.
 struct Node {
   std::string name;
+  std::string lamp = {}; ///< its `extras.lamp`: the lamp that it is part of (lamps.h)
 };
 
 /// What an image is beyond its edge:
@@ -70,6 +71,7 @@ struct PunctualLight {
   /// Of a point light: I(d) = intensity g(d) (ies/intensity_distribution.h); null: the same everywhere.
   std::shared_ptr<const IntensityDistribution> distribution = nullptr;
   glm::dmat3 frame{1.0}; ///< columns: the axes, of unit length, that the distribution is told in
+  std::string lamp = {}; ///< as of Node
 };
 
 struct Scene {

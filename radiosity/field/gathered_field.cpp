@@ -13,7 +13,7 @@ namespace {
 void gather_at_all_vertices(const LightScene& light, const ElementLight& elements,
                        const VertexGathering& how, VertexSamples found, PointWorkspaces& workspaces,
                        InterpolatedField& result) {
-  const PointGathering gathering = gathering_from(light, elements.reflected, how);
+  const PointGathering gathering = gathering_from(light, {elements.reflected, elements.by_lamp}, how);
   const VertexSource source{.irradiance = elements.irradiance,
                             .gathering = gathering,
                             .workspaces = workspaces,

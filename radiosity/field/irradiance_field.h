@@ -18,6 +18,12 @@
 
 namespace meninas {
 
+/// What one lamp sends (scene/lamp_shares.h), by ElementVertexId, W/m^2.
+struct VertexLightOfLamp {
+  std::vector<glm::vec3> direct;   ///< computed from the source
+  std::vector<glm::vec3> indirect; ///< the rest
+};
+
 /// By ElementVertexId of one mesh, W/m^2.
 struct VertexIrradiance {
   std::vector<glm::vec3> irradiance;
@@ -28,6 +34,9 @@ struct VertexIrradiance {
   /// that themselves; empty where that is not known: from `average` with form factors `analytic`.
   std::vector<glm::vec3> indirect;
   std::vector<glm::vec3> indirect_mirrored; ///< likewise of `mirrored`
+
+  /// By lamp, parts of `irradiance` and `indirect` that add up to them; empty: not told apart.
+  std::vector<VertexLightOfLamp> by_lamp = {};
 };
 
 /// Cells between whose corners a field is interpolated, where these are finer than the elements of its mesh.
@@ -63,6 +72,8 @@ struct ElementLight {
   std::vector<Rgb> irradiance;  ///< H
   std::vector<Rgb> from_source; ///< the part of H found from the source; empty: not known
   TranslucentLinks translucent = {}; ///< what comes through from one to another
+  LightByLamp by_lamp = {}, irradiance_by_lamp = {},
+      from_source_by_lamp = {}; ///< of these, in proportion; empty where light is not told apart
 };
 
 /// The field at a point of a side.

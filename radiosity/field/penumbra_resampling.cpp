@@ -40,9 +40,11 @@ void resample_near_penumbrae(const VertexSource& source, std::uint32_t level, Ve
       return;
     tbb::parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t k) {
       const std::uint32_t v = vertices[k];
-      const ArrivingLight light =
-          light_beside_penumbra(source.gathering, found.receivers[v], vertex_seed(source, v, level),
-                                source.workspaces.local());
+      PointWorkspace& work = source.workspaces.local();
+      const ArrivingLight light = light_beside_penumbra(
+          source.gathering, found.receivers[v], vertex_seed(source, v, level), work);
+      for (std::size_t l = 0; l < field.by_lamp.size(); ++l)
+        field.by_lamp[l].direct[v] = glm::vec3(work.direct_by_lamp[l]);
       field.irradiance[v] = field.indirect[v] + glm::vec3(light.total);
       field.mirrored[v] = field.indirect_mirrored[v] + glm::vec3(light.mirrored);
       found.seen[v] = light.in_part ? Visibility::in_part : Visibility::confirmed;

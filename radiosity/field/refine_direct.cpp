@@ -58,6 +58,7 @@ struct CoarseLight {
   glm::vec3 irradiance, mirrored, indirect, indirect_mirrored;
   bool beside_covered; ///< in an element with a covered corner
   double solved_size;  ///< of the element that was solved there, m
+  ElementPoint place;
 };
 CoarseLight light_in(const VertexSamples& coarse, const SurfaceModel& surfaces,
                      const ElementMesh& mesh, std::size_t v) {
@@ -76,7 +77,19 @@ CoarseLight light_in(const VertexSamples& coarse, const SurfaceModel& surfaces,
           value(coarse.field.indirect),
           value(coarse.field.indirect_mirrored),
           beside_covered,
-          times * size_of(coarse.mesh, at.element)};
+          times * size_of(coarse.mesh, at.element),
+          at};
+}
+
+/// The same by lamp: the rest as there, and direct light where the vertex has none of its own.
+void take_lamps(const VertexSamples& coarse, const ElementPoint& at, bool covered, std::size_t v,
+                VertexIrradiance& field) {
+  for (std::size_t l = 0; l < field.by_lamp.size(); ++l) {
+    const auto& [direct, indirect] = coarse.field.by_lamp[l];
+    if (covered)
+      field.by_lamp[l].direct[v] = value_in(coarse.mesh, direct, at);
+    field.by_lamp[l].indirect[v] = value_in(coarse.mesh, indirect, at);
+  }
 }
 
 /// Direct light at fresh vertices, and what else is there as the coarser mesh has it.
@@ -92,6 +105,8 @@ void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::
       found.seen[v] = Visibility::alike;
       field.irradiance[v] = field.mirrored[v] = field.indirect[v] = field.indirect_mirrored[v] =
           glm::vec3(0.0F);
+      for (auto& [direct, indirect] : field.by_lamp)
+        direct[v] = indirect[v] = glm::vec3(0.0F);
     }
   light_vertices(source, level, found);
   for (const std::uint32_t v : fresh) {
@@ -112,6 +127,11 @@ void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::
     }
     field.indirect[v] = before.indirect;
     field.indirect_mirrored[v] = before.indirect_mirrored;
+    take_lamps(coarse, before.place, found.states[v] == VertexState::covered, v, field);
+  }
+  for (auto& [direct, indirect] : field.by_lamp) {
+    settle_hanging(found.mesh, direct);
+    settle_hanging(found.mesh, indirect);
   }
   for (auto* values :
        {&field.irradiance, &field.mirrored, &field.indirect, &field.indirect_mirrored})

@@ -11,6 +11,7 @@ VertexSamples divided(const LightScene& light, const VertexSamples& before,
                       std::span<const std::uint8_t> marked) {
   VertexSamples after = make_samples(divide_elements(before.mesh, light.surfaces, marked));
   receive_on_curves(light, after);
+  make_room_for_lamps(light, after);
   const std::vector<CellId> now = same_cells(before.mesh, after.mesh);
   for (std::size_t e = 0; e < element_count(before.mesh); ++e) {
     const ElementCorners corners =
@@ -26,6 +27,10 @@ VertexSamples divided(const LightScene& light, const VertexSamples& before,
       after.field.mirrored[to] = before.field.mirrored[from];
       after.field.indirect[to] = before.field.indirect[from];
       after.field.indirect_mirrored[to] = before.field.indirect_mirrored[from];
+      for (std::size_t l = 0; l < after.field.by_lamp.size(); ++l) {
+        after.field.by_lamp[l].direct[to] = before.field.by_lamp[l].direct[from];
+        after.field.by_lamp[l].indirect[to] = before.field.by_lamp[l].indirect[from];
+      }
     }
   }
   return after;

@@ -27,6 +27,16 @@ void for_each_array(VertexIrradiance& field, const Change& change) {
     change(*values);
 }
 
+/// Adds direct light to that of the lamps at a vertex, and sets the rest.
+void take_by_lamp(const PointWorkspace& work, std::size_t v, VertexIrradiance& field) {
+  for (std::size_t l = 0; l < field.by_lamp.size(); ++l) {
+    if (!work.direct_by_lamp.empty())
+      field.by_lamp[l].direct[v] += glm::vec3(work.direct_by_lamp[l]);
+    field.by_lamp[l].indirect[v] =
+        work.indirect_by_lamp.empty() ? glm::vec3(0.0F) : glm::vec3(work.indirect_by_lamp[l]);
+  }
+}
+
 } // namespace
 
 VertexSamples make_samples(ElementMesh mesh) {
@@ -41,16 +51,22 @@ VertexSamples make_samples(ElementMesh mesh) {
   return found;
 }
 
+void make_room_for_lamps(const LightScene& light, VertexSamples& found) {
+  const std::vector<glm::vec3> dark(found.mesh.vertices.size(), glm::vec3(0.0F));
+  found.field.by_lamp.assign(light.lamps.count, {dark, dark});
+}
+
 VertexSamples make_samples(const LightScene& light, const VertexElements& facets) {
   VertexSamples found = make_samples(light.mesh);
   receive_on_curves(light, found);
+  make_room_for_lamps(light, found);
   for (std::size_t v = 0; v < found.states.size(); ++v)
     if (is_averaged(facets, v))
       found.states[v] = VertexState::averaged;
   return found;
 }
 
-PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
+PointGathering gathering_from(const LightScene& light, SentLight reflected,
                               const VertexGathering& how, RayShare share, double spared,
                               std::optional<RayShare> before) {
   const auto rays_of = [asked = how.interpolation.rays](RayShare of) {
@@ -141,6 +157,8 @@ void light_each(const VertexSource& source, const VertexStep& step, VertexSample
   GatheredEmission emission(mesh.vertices.size());
   const auto light_vertex = [&](std::uint32_t v, PointWorkspace& work) {
     const double size = size_of(mesh, mesh.element_of_vertex[v]);
+    work.direct_by_lamp.clear();
+    work.indirect_by_lamp.clear();
     const VertexValue found_here = value(v, size, vertex_seed(source, v, step.level), work);
     found.field.irradiance[v] += glm::vec3(found_here.irradiance.total);
     found.field.mirrored[v] += glm::vec3(found_here.irradiance.mirrored);
@@ -149,6 +167,7 @@ void light_each(const VertexSource& source, const VertexStep& step, VertexSample
     emission.total[v] = glm::vec3(found_here.emission.total);
     emission.mirrored[v] = glm::vec3(found_here.emission.mirrored);
     emission.hits[v] = found_here.hits;
+    take_by_lamp(work, v, found.field);
     if (!found.punctual.empty())
       found.punctual[v] += glm::vec3(found_here.irradiance.punctual);
     if (found_here.irradiance.in_part)
@@ -344,6 +363,13 @@ std::vector<std::uint8_t> with_values(const VertexSamples& found) {
 VertexIrradiance complete_field(const VertexSource& source, const VertexSamples& found) {
   VertexIrradiance field = found.field;
   std::vector<std::uint8_t> valid = with_values(found);
+  // What one lamp's light is at vertices without light of their own neighbours tell as well.
+  for (auto& [direct, indirect] : field.by_lamp)
+    for (auto* values : {&direct, &indirect}) {
+      settle_hanging(found.mesh, *values);
+      fill_vertices(found.mesh, valid, *values);
+      settle_hanging(found.mesh, *values);
+    }
   join_on_curves(source.gathering.light, found, valid, field);
   for_each_array(field, [&](auto& values) { settle_hanging(found.mesh, values); });
   light_contacts(source, found, valid, field);

@@ -17,11 +17,13 @@ namespace meninas {
 /// bright clusters that add so little to the noise of these are left to them (secondary_emitters.h).
 /// Where clusters lie in many planes their light takes longer than 128 rays.
 /// `before`: rays of as many as that share may have been traced before (row_cache.h).
-PointGathering gathering_from(const LightScene& light, std::vector<Rgb> reflected,
+PointGathering gathering_from(const LightScene& light, SentLight reflected,
                               const VertexGathering& how, RayShare share = {}, double spared = 0.0,
                               std::optional<RayShare> before = {});
 
 VertexSamples make_samples(ElementMesh mesh);
+/// Every lamp is dark at every vertex, where light is told apart.
+void make_room_for_lamps(const LightScene& light, VertexSamples& found);
 /// Of the scene's mesh. Vertices of these facets (smoothing_groups.h) are `averaged`, their values to come.
 VertexSamples make_samples(const LightScene& light, const VertexElements& facets);
 

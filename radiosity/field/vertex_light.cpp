@@ -140,7 +140,10 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
   indirect.in_part = false; // of bright clusters
   if (kept != nullptr && !are_there)
     kept->rays = work.gather.result;
-  if (is_enclosed(work.gather.result, irradiance) && !is_lit(gathering, receiver, seed, work))
+  const bool dark =
+      is_enclosed(work.gather.result, irradiance) && !is_lit(gathering, receiver, seed, work);
+  work.direct_by_lamp.clear(); // it has been taken already
+  if (dark)
     return {indirect, indirect, Cover::shut, arrived.emission, arrived.hits};
   const bool low = kept != nullptr && kept->is_under_something
                        ? *kept->is_under_something
@@ -152,14 +155,20 @@ VertexValue indirect_value_at(const PointGathering& gathering, const std::vector
 
 ArrivingLight light_from_source(const PointGathering& gathering, const Receiver& receiver,
                                 std::uint32_t seed, PointWorkspace& work) {
-  return direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);
+  const ArrivingLight light =
+      direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);
+  work.direct_by_lamp = work.direct.by_lamp;
+  return light;
 }
 
 ArrivingLight light_beside_penumbra(const PointGathering& gathering, const Receiver& receiver,
                                     std::uint32_t seed, PointWorkspace& work) {
   DirectSettings settings = gathering.direct;
   settings.penumbra_samples = PenumbraSamples::everywhere;
-  return direct_irradiance(gathering.light, receiver, settings, hash(seed, 1), work.direct);
+  const ArrivingLight light =
+      direct_irradiance(gathering.light, receiver, settings, hash(seed, 1), work.direct);
+  work.direct_by_lamp = work.direct.by_lamp;
+  return light;
 }
 
 } // namespace meninas

@@ -22,6 +22,9 @@ NodeCut gathered_by(const LightScene& light, const NodeTree& tree, std::vector<T
   FormFactors factors = assemble_rows(light, nodes.size(), receiver, settings, progress);
   NodeCut part;
   part.emission = gathered_emission(light, factors);
+  const LightByLamp by_lamp = gathered_by_lamp(light, factors);
+  for (Eigen::Index row = 0; row < by_lamp.rows(); ++row)
+    part.emission_by_lamp.emplace_back(by_lamp.row(row).begin(), by_lamp.row(row).end());
   part.receivers = std::move(nodes);
   part.rows = std::move(factors.transport);
   part.closure = std::move(factors.closure);
@@ -43,6 +46,8 @@ void append(const NodeCut& from, std::size_t receiver, NodeCut& to) {
   to.receivers.push_back(from.receivers[receiver]);
   to.closure.push_back(from.closure[receiver]);
   to.emission.push_back(from.emission[receiver]);
+  if (!from.emission_by_lamp.empty())
+    to.emission_by_lamp.push_back(from.emission_by_lamp[receiver]);
   to.covered.push_back(from.covered[receiver]);
   to.exposed.push_back(from.exposed[receiver]);
 }

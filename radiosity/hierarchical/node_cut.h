@@ -22,6 +22,7 @@ struct NodeCut {
   Transport rows;                                 ///< by receiver; columns are elements
   std::vector<RowClosure> closure;                ///< by receiver
   std::vector<Rgb> emission;                      ///< by receiver: gathered_emission.h, W/m^2
+  std::vector<std::vector<double>> emission_by_lamp; ///< likewise, a row of LightByLamp each; empty where light is not told apart
   std::vector<ContactMask> covered;              ///< by receiver, of itself
   std::vector<float> exposed;                     ///< by receiver: the share of it on which nothing stands
   std::uint64_t rays_traced = 0;                  ///< for all nodes that have ever been receivers

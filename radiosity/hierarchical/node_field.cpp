@@ -115,6 +115,13 @@ void take_shares(const InterpolationWeights& shares, std::size_t v, VertexSample
     found.states[v] = VertexState::covered;
     return;
   }
+  for (auto& [direct, rest] : field.by_lamp) {
+    glm::vec3 of_lamp(0.0F);
+    for (std::size_t c = 0; c < 4; ++c)
+      if (const std::uint32_t from = index(shares.from[v][c]); has_value(found.states[from]))
+        of_lamp += shares.weight[v][c] * rest[from];
+    rest[v] = of_lamp / weights;
+  }
   field.indirect[v] = total / weights;
   field.indirect_mirrored[v] = mirrored / weights;
   field.irradiance[v] += field.indirect[v];
@@ -201,9 +208,34 @@ void add_from_behind(const ElementLight& elements, std::vector<Rgb> received,
   }
 }
 
+/// What lamps have in the light that elements send on, as their corners tell.
+LightByLamp reflected_by_lamp(const ElementLight& elements, const HierarchicalSolution& receivers,
+                              const VertexSamples& found, const std::vector<Rgb>& reflected) {
+  LightByLamp by_lamp = elements.by_lamp;
+  for (std::size_t l = 0; l < found.field.by_lamp.size(); ++l) {
+    const auto& [direct, rest] = found.field.by_lamp[l];
+    std::vector<glm::vec3> all = direct;
+    for (std::size_t v = 0; v < all.size(); ++v)
+      all[v] += rest[v];
+    const ElementLight of_lamp{.reflected = {},
+                               .irradiance = {},
+                               .from_source = light_of_lamp(elements.from_source_by_lamp, l)};
+    const std::vector<Rgb> received = received_at_corners(
+        of_lamp, receivers, found, filled(found, std::move(all)), filled(found, rest));
+    set_light_of_lamp(by_lamp, l,
+                      scattered(found.mesh.reflectance, elements.translucent, received));
+  }
+  // Of what corners know nothing the elements' own light tells.
+  for (Eigen::Index e = 0; e < by_lamp.rows(); ++e)
+    if (by_lamp.row(e).isZero(0.0))
+      by_lamp.row(e) = elements.by_lamp.row(e);
+  add_up_to(reflected, by_lamp);
+  return by_lamp;
+}
+
 /// The outcome of the first gathering.
 struct FirstField {
-  std::vector<Rgb> reflected; ///< B, the radiosity of the elements by the field that they make themselves
+  SentLight sent; ///< B, the radiosity of the elements by the field that they make themselves
   VertexIrradiance field;
   std::vector<VertexState> states;
 };
@@ -225,9 +257,10 @@ FirstField first_field(const VertexSource& few, const HierarchicalSolution& rece
     if (elements.irradiance[e] != Rgb(0.0))
       reflected[e] = found.mesh.reflectance[e] * received[e];
   add_from_behind(elements, received, reflected);
+  LightByLamp by_lamp = reflected_by_lamp(elements, receivers, found, reflected);
   std::swap(found.field, lit);
   std::swap(found.states, states);
-  return {std::move(reflected), std::move(lit), std::move(states)};
+  return {{std::move(reflected), std::move(by_lamp)}, std::move(lit), std::move(states)};
 }
 
 /// By ElementVertexId, 1: no receiver that shows something seen has it.
@@ -253,6 +286,10 @@ void keep_first(const FirstField& first, std::span<const std::uint8_t> left_out,
   keep(found.field.mirrored, first.field.mirrored);
   keep(found.field.indirect, first.field.indirect);
   keep(found.field.indirect_mirrored, first.field.indirect_mirrored);
+  for (std::size_t l = 0; l < found.field.by_lamp.size(); ++l) {
+    keep(found.field.by_lamp[l].direct, first.field.by_lamp[l].direct);
+    keep(found.field.by_lamp[l].indirect, first.field.by_lamp[l].indirect);
+  }
   for (std::size_t v = 0; v < left_out.size(); ++v)
     if (left_out[v] != 0)
       found.states[v] = first.states[v];
@@ -263,7 +300,7 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
                                       const HierarchicalSolution& receivers, const VertexGathering& how,
                                       VertexSamples found, PointWorkspaces& workspaces) {
   const PointGathering solved =
-      gathering_from(light, elements.reflected, how, first_share, first_spared);
+      gathering_from(light, {elements.reflected, elements.by_lamp}, how, first_share, first_spared);
   RowCache kept;
   // The first gathering, the second, and what edges of shadows take besides.
   const auto part = [&](double from, double to) {
@@ -271,7 +308,7 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
   };
   const VertexSource few{elements.irradiance, solved, workspaces, &kept, true, part(0.0, 0.4)};
   const FirstField first = first_field(few, receivers, elements, found);
-  const std::vector<Rgb>& reflected = first.reflected;
+  const SentLight& reflected = first.sent;
   const int times = ray_multiplier(element_count(light.mesh), receivers.receivers.size());
   const PointGathering by_all = gathering_from(light, reflected, how, {}, 0.0, first_share),
                        seen_by_small = gathering_from(light, reflected, how, {few_rays, times},

@@ -119,12 +119,21 @@ DirectIrradiance light_by_corners(const LightScene& light, const NodeTree& tree,
   if (light.emitters.empty() && light.punctual.empty()) {
     result.irradiance.assign(size, Rgb(0.0));
     result.shared.assign(size, 0);
+    if (light.lamps)
+      result.by_lamp = no_light(size, light.lamps.count);
     return result;
   }
   const VertexEdges edges = edges_of(light.mesh);
   result.irradiance = at_corners(light.mesh, edges, vertices.field.irradiance);
   if (!light.punctual.empty())
     result.punctual = at_corners(light.mesh, edges, vertices.punctual);
+  if (light.lamps) {
+    result.by_lamp = no_light(size, light.lamps.count);
+    for (std::size_t l = 0; l < light.lamps.count; ++l)
+      set_light_of_lamp(result.by_lamp, l,
+                        at_corners(light.mesh, edges, vertices.field.by_lamp[l].direct));
+    add_up_to(result.irradiance, result.by_lamp);
+  }
   result.shared.assign(size, 1);
   recompute_direct(light, by_themselves(light, covered, vertices), covered, settings, progress, result);
   recompute_direct(light, brightest(light.mesh, tree, result), covered, settings, progress, result);
@@ -135,7 +144,7 @@ void recompute_direct(const LightScene& light, std::span<const ElementId> elemen
                  std::span<const ContactMask> covered, const DirectSettings& settings,
                  const Progress& progress, DirectIrradiance& direct) {
   const MeansOfAreas means = means_of_areas(
-      elements.size(),
+      elements.size(), light.lamps.count,
       [&](std::size_t k, SharedLightWorkspace& work) {
         return direct_irradiance(light, elements[k], covered[index(elements[k])], settings, work);
       },
@@ -147,6 +156,11 @@ void recompute_direct(const LightScene& light, std::span<const ElementId> elemen
       direct.shared[e] = 0;
     if (!direct.punctual.empty())
       direct.punctual[e] = means.light[k].punctual;
+  }
+  if (light.lamps) {
+    for (std::size_t k = 0; k < elements.size(); ++k)
+      direct.by_lamp.row(index(elements[k])) = means.by_lamp.row(static_cast<Eigen::Index>(k));
+    add_up_to(direct.irradiance, direct.by_lamp);
   }
   direct.shadow_rays += means.shadow_rays;
 }

@@ -1,6 +1,7 @@
 #include "radiosity/hierarchical/node_solution.h"
 
 #include "radiosity/light/gather_noise.h"
+#include "radiosity/solvers/solve_together.h"
 #include "radiosity/transport/linear_system.h"
 #include "scenes/stopwatch.h"
 
@@ -184,9 +185,17 @@ void light_up(const NodeProblem& problem, LitCut& lit) {
                                           problem.direct, problem.progress);
   }
   const std::vector<RowClosure> closure = by_element(lit.cut, lit.cut.closure);
-  lit.first =
-      first_light(light, {by_element(lit.cut, lit.cut.emission), closure, lit.covered, lit.exposed},
-                  lit.direct, FormFactorMethod::rays);
+  LightByLamp gathered;
+  if (light.lamps) {
+    gathered = no_light(lit.areas.size(), light.lamps.count);
+    for (std::size_t e = 0; e < lit.areas.size(); ++e)
+      std::ranges::copy(lit.cut.emission_by_lamp[lit.cut.receiver_of_element[e]],
+                        gathered.row(static_cast<Eigen::Index>(e)).begin());
+  }
+  lit.first = first_light(light,
+                          {by_element(lit.cut, lit.cut.emission), closure, lit.covered, lit.exposed,
+                           std::move(gathered)},
+                          lit.direct, FormFactorMethod::rays);
 }
 
 /// The mean of the squares over the square of the mean.
@@ -226,6 +235,28 @@ LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_
       more.rays > of_rows.rays)
     find(more, lit);
   return lit;
+}
+
+/// Each lamp's light by the same rows: H_l of receivers, and of elements X_l = S_l + rho H_l.
+void tell_lamps_apart(const LitCut& lit, const NodeTree& tree, const Transport& links,
+                      const SolverSettings& settings, NodeSolution& result) {
+  const NodeCut& cut = lit.cut;
+  const FirstLight& first = lit.first;
+  const Scattering of_elements{first.reflectance, first.translucent};
+  const LightByLamp source = scattered(of_elements, first.by_lamp);
+  const LightByLamp from_first = transport_product(cut.rows, source);
+  const std::vector<Rgb> reflectance = means_below(tree, cut, lit.areas, first.reflectance);
+  const TranslucentLinks translucent =
+      translucent_links_of_receivers(cut, first.translucent, lit.areas);
+  const Scattering of_receivers{reflectance, translucent};
+  const LightByLamp sent =
+      solve_together(links, scattered(of_receivers, from_first), of_receivers, settings);
+  const LightByLamp received = from_first + transport_product(links, sent);
+  LightByLamp arrived(source.rows(), source.cols());
+  for (Eigen::Index e = 0; e < arrived.rows(); ++e)
+    arrived.row(e) = received.row(cut.receiver_of_element[static_cast<std::size_t>(e)]);
+  result.reflected_by_lamp = source + scattered(of_elements, arrived);
+  result.irradiance_by_lamp = first.by_lamp + arrived;
 }
 
 std::uint64_t bytes_of(const Transport& transport) {
@@ -274,6 +305,8 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
 
   // B = S + rho H, what receivers have pushed down to their elements.
   const NodeCut& cut = lit.cut;
+  if (light.lamps)
+    tell_lamps_apart(lit, tree, received.links, settings.solver, result);
   result.first = std::move(lit.first);
   result.arrived = by_element(cut, received.irradiance);
   result.solver = std::move(received.solver);

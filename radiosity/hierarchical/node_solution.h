@@ -58,6 +58,7 @@ struct NodeSolution {
   SolverResult solver;      ///< its radiosity is the reflected part, by ElementId
   std::vector<Rgb> arrived; ///< H of its receiver by ElementId, W/m^2
   FirstLight first;
+  LightByLamp reflected_by_lamp, irradiance_by_lamp; ///< of `solver` and H, by ElementId; empty where light is not told apart
   std::vector<RowClosure> closure; ///< by ElementId: its receiver's
   std::vector<float> exposed;      ///< by ElementId
   HierarchicalSolution receivers;         ///< with the bound for what vertices interpolate

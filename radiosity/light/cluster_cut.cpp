@@ -173,6 +173,8 @@ ArrivingLight cluster_irradiance(const ClusterLight& clusters, const Receiver& r
     const LightcutNode& part = work.stand_ins[k];
     const Rgb arrived = part.light * visible_share(work.sent[k], work.arrived[k]);
     sum.total += arrived;
+    if (light.lamps)
+      add_shares(light.lamps->of_node, part.node, arrived, direct.by_lamp);
     if (part.world != real_world)
       sum.mirrored += arrived;
   }

@@ -111,6 +111,7 @@ void order_by_light(const Lighting& light, const Receiver& receiver, DirectWorks
   work.form_factors.clear();
   work.brought.clear();
   work.order.clear();
+  work.by_lamp.assign(light.lamps ? light.lamps->count : 0, Rgb(0.0));
   for (std::uint32_t k = 0; k < work.lights.size(); ++k) {
     const VirtualLight& image = work.lights[k];
     work.form_factors.push_back(
@@ -181,6 +182,8 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
                         light.worlds.worlds[index(image.world)].throughput *
                         light.emitters[image.emitter].radiosity;
     sum.total += arrived;
+    if (light.lamps)
+      add_of_emitter(*light.lamps, image.emitter, arrived, work.by_lamp);
     if (image.world != real_world)
       sum.mirrored += arrived;
   };
@@ -208,6 +211,7 @@ ArrivingLight images_irradiance(const Lighting& light, const Receiver& receiver,
   // Beside an edge the other images may have edges too, which few samples have missed.
   if (settings.penumbra_samples == PenumbraSamples::together && sum.in_part) {
     sum = {.in_part = true};
+    std::ranges::fill(work.by_lamp, Rgb(0.0));
     for (SampledImage& sampled : work.sampled) {
       sample_visibility(light, {work.lights[sampled.light], receiver, seed},
                         sampled.penumbra_samples, work, sampled.share);
@@ -275,6 +279,8 @@ ArrivingLight direct_irradiance(const Lighting& light, const Receiver& receiver,
                      receiver.coat},
                     settings.solid_rays, seed, work.shadow_rays, work.solids);
     sum = sum + ArrivingLight{refracted.total, refracted.mirrored, Rgb(0.0), false};
+    for (std::size_t l = 0; l < work.by_lamp.size(); ++l)
+      work.by_lamp[l] += refracted.by_lamp[l];
   }
   if (light.punctual.empty())
     return sum;
@@ -283,6 +289,8 @@ ArrivingLight direct_irradiance(const Lighting& light, const Receiver& receiver,
   for (const PunctualArrival& arrival : arrivals) {
     sum.total += arrival.irradiance;
     sum.punctual += arrival.irradiance;
+    if (light.lamps)
+      work.by_lamp[light.lamps->of_punctual[arrival.light]] += arrival.irradiance;
     if (arrival.world != real_world)
       sum.mirrored += arrival.irradiance;
   }

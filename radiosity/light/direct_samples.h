@@ -70,6 +70,7 @@ struct DirectWorkspace {
   std::vector<PunctualImage> images;
   std::array<FoldedSegment, 16> folded; ///< sixteen segments at a time
   SolidWorkspace solids;
+  ArrivedByLamp by_lamp; ///< what was asked for last, by lamp; empty where that is not told apart
   std::uint64_t shadow_rays = 0; ///< those that look for lamps behind solids as well
 };
 

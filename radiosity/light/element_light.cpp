@@ -138,26 +138,37 @@ MeanLight direct_irradiance(const Lighting& light, ElementId element, ContactMas
   if (parts.empty())
     return {shared.total, shared.punctual};
   Rgb power(0.0);
-  for (const SpotPart& part : parts)
-    power += power_on(r, part, work.point);
+  ArrivedByLamp by_lamp = work.point.by_lamp; // of spots: as much as they bring to all points
+  for (const SpotPart& part : parts) {
+    const Rgb by_spot = power_on(r, part, work.point);
+    power += by_spot;
+    if (light.lamps)
+      by_lamp[light.lamps->of_punctual[part.light]] += by_spot / exposed_area(r);
+  }
   const Rgb punctual = power / exposed_area(r) + mean_of_others(r, parts, work.point);
+  work.point.by_lamp = std::move(by_lamp);
   return {glm::max(shared.total - shared.punctual, Rgb(0.0)) + punctual, punctual};
 }
 
 MeansOfAreas
-means_of_areas(std::size_t count,
+means_of_areas(std::size_t count, std::size_t lamps,
                const std::function<MeanLight(std::size_t, SharedLightWorkspace&)>& mean,
                const Progress& progress) {
   constexpr std::size_t chunk_size = 64;
   const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
   MeansOfAreas means;
   means.light.resize(count);
+  if (lamps > 0)
+    means.by_lamp = no_light(count, lamps);
   tbb::enumerable_thread_specific<SharedLightWorkspace> workspaces;
   std::atomic<std::size_t> done{0};
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
     SharedLightWorkspace& work = workspaces.local();
-    for (std::size_t k = c * chunk_size; k < std::min(count, (c + 1) * chunk_size); ++k)
+    for (std::size_t k = c * chunk_size; k < std::min(count, (c + 1) * chunk_size); ++k) {
+      work.point.by_lamp.clear();
       means.light[k] = mean(k, work);
+      set_row(means.by_lamp, k, work.point.by_lamp);
+    }
     if (progress)
       progress("direct light", static_cast<double>(++done) / static_cast<double>(chunks));
   });
@@ -171,11 +182,13 @@ DirectIrradiance direct_irradiance(const Lighting& light, std::span<const std::u
   const std::size_t size = element_count(light.scene.mesh);
   DirectIrradiance result;
   result.irradiance.assign(size, Rgb(0.0));
+  if (light.lamps)
+    result.by_lamp = no_light(size, light.lamps->count);
   if (light.emitters.empty() && light.punctual.empty())
     return result;
   result.punctual.resize(light.punctual.empty() ? 0 : size);
-  const MeansOfAreas means = means_of_areas(
-      size,
+  MeansOfAreas means = means_of_areas(
+      size, light.lamps ? light.lamps->count : 0,
       [&](std::size_t i, SharedLightWorkspace& work) {
         return direct_irradiance(light, static_cast<ElementId>(i), covered.empty() ? 0 : covered[i],
                                  settings, work);
@@ -186,6 +199,8 @@ DirectIrradiance direct_irradiance(const Lighting& light, std::span<const std::u
     if (!result.punctual.empty())
       result.punctual[i] = means.light[i].punctual;
   }
+  result.by_lamp = std::move(means.by_lamp);
+  add_up_to(result.irradiance, result.by_lamp);
   result.shadow_rays = means.shadow_rays;
   return result;
 }

@@ -25,10 +25,11 @@ MeanLight direct_irradiance(const Lighting& light, ElementId element, ContactMas
 /// `mean(k, workspace)` of so many areas, by all threads, and the shadow rays they took.
 struct MeansOfAreas {
   std::vector<MeanLight> light;
+  LightByLamp by_lamp = {}; ///< in proportion to what lamps send there
   std::uint64_t shadow_rays = 0;
 };
 MeansOfAreas
-means_of_areas(std::size_t count,
+means_of_areas(std::size_t count, std::size_t lamps,
                const std::function<MeanLight(std::size_t, SharedLightWorkspace&)>& mean,
                const Progress& progress);
 
@@ -38,6 +39,7 @@ struct DirectIrradiance {
       punctual; ///< the part of it that punctual lights sent; empty where there are none
   std::vector<std::uint8_t>
       shared; ///< 1 where it is that of the corners (hierarchical/node_light.h); empty: nowhere
+  LightByLamp by_lamp = {}; ///< of the irradiance; empty where it is not told apart
   std::uint64_t shadow_rays = 0;
 };
 

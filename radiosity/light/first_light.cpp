@@ -42,8 +42,25 @@ DirectIrradiance found_light(const LightScene& light, std::span<const std::uint6
   if (light.punctual.empty())
     return {};
   const LightTree no_emitters;
-  return direct_irradiance({light, light.worlds, {}, no_emitters, light.punctual}, covered, settings,
-                           progress);
+  Lighting punctual{light, light.worlds, {}, no_emitters, light.punctual};
+  punctual.lamps = light.lamps ? &light.lamps : nullptr;
+  return direct_irradiance(punctual, covered, settings, progress);
+}
+
+/// D + G by lamp; the sky is a lamp.
+LightByLamp first_by_lamp(const LightScene& light, LightByLamp gathered,
+                          const std::vector<Rgb>& sky, const DirectIrradiance& direct) {
+  if (!light.lamps)
+    return {};
+  if (direct.by_lamp.rows() > 0)
+    gathered += direct.by_lamp;
+  if (!sky.empty()) {
+    std::vector<Rgb> all = light_of_lamp(gathered, light.lamps.sky);
+    for (std::size_t e = 0; e < all.size(); ++e)
+      all[e] += sky[e];
+    set_light_of_lamp(gathered, light.lamps.sky, all);
+  }
+  return gathered;
 }
 
 } // namespace
@@ -52,6 +69,9 @@ FirstLight first_light(const LightScene& light, FoundByRays rays, const DirectIr
                        FormFactorMethod method) {
   FirstLight first;
   SkyIrradiance sky = sky_irradiance(light, rays.closure);
+  first.by_lamp =
+      first_by_lamp(light, std::move(rays.gathered_by_lamp), sky.gathered, direct);
+  first.from_source_by_lamp = direct.by_lamp;
   first.entering = std::move(sky.gathered);
   first.irradiance = std::move(rays.gathered);
   add(first.irradiance, first.entering);

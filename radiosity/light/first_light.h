@@ -18,6 +18,7 @@ struct FirstLight {
   std::vector<Rgb> from_source;                     ///< D; empty where it is not set apart
   std::vector<Rgb> entering; ///< the part of D + G that no surface emits; empty where there is none
   TranslucentLinks translucent; ///< by ElementId
+  LightByLamp by_lamp = {}, from_source_by_lamp = {}; ///< D + G and D; empty where light is not told apart
   std::uint64_t shadow_rays = 0;
 };
 
@@ -27,6 +28,7 @@ struct FoundByRays {
   const std::vector<RowClosure>& closure;
   std::span<const ContactMask> covered;
   std::span<const float> exposed;
+  LightByLamp gathered_by_lamp = {};
 };
 
 /// D + G of D that has been found.

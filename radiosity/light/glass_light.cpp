@@ -139,7 +139,7 @@ SolidLight mean_of(const BodyRays& rays, std::uint32_t count, std::uint32_t seed
   follow_into(light, rays.body, work.packets, seed, settings, work.gather);
   traced += work.gather.result.traced;
 
-  SolidLight sum;
+  SolidLight sum{.by_lamp = ArrivedByLamp(light.lamps.count, Rgb(0.0))};
   work.shown.assign(cells, 0.0F);
   const double share = rays.area / (std::numbers::pi * count);
   const auto& landings = work.gather.result.landings;
@@ -149,6 +149,8 @@ SolidLight mean_of(const BodyRays& rays, std::uint32_t count, std::uint32_t seed
       continue;
     const Rgb arrived = share * Rgb(landing.light) * light.mesh.emission[landing.element];
     sum.total += arrived;
+    if (light.lamps)
+      sum.by_lamp[light.lamps.of_side[index(light.mesh.side_of_element[landing.element])]] += arrived;
     if (landing.world == off_solids)
       sum.mirrored += arrived;
     work.shown[work.cell_of_ray[work.gather.numbers[k]]] += static_cast<float>(largest(arrived));
@@ -176,6 +178,8 @@ void aim(SolidWorkspace& work) {
 void add(const SolidLight& part, double weight, SolidLight& sum) {
   sum.total += weight * part.total;
   sum.mirrored += weight * part.mirrored;
+  for (std::size_t l = 0; l < part.by_lamp.size(); ++l)
+    sum.by_lamp[l] += weight * part.by_lamp[l];
 }
 
 } // namespace
@@ -191,7 +195,7 @@ SolidLight solid_light(const LightScene& light, const PlanePoints& points, int r
   constexpr double whole = 4.0;        // of the square around the disc
   constexpr double share_first = 0.1;  // in the mean
   constexpr std::uint32_t few = cells; // of which none is spared to aim the others by
-  SolidLight sum;
+  SolidLight sum{.by_lamp = ArrivedByLamp(light.lamps.count, Rgb(0.0))};
   for (std::uint32_t body = 0; body < light.solids.bodies.size(); ++body) {
     BodyRays to_body{light, points, body, 0.0, hash(seed, body, 0x50118)};
     to_body.area = to_body.part_at(0).area();

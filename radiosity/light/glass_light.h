@@ -44,6 +44,7 @@ struct SolidWorkspace {
 
 struct SolidLight {
   Rgb total{0.0}, mirrored{0.0}; ///< irradiance, and the part that was reflected on its way
+  ArrivedByLamp by_lamp = {};    ///< likewise; empty where light is not told apart
 };
 
 /// Points of one side of a plane, in metres.

@@ -40,7 +40,7 @@ void punctual_arrivals(const Lighting& light, const Receiver& receiver, DirectWo
           {glm::normalize(image.position - receiver.position),
            light.worlds.worlds[index(world)].throughput * image.irradiance *
                left_between(light.scene, end_of(receiver), {}, work.folded[k], Solids::sheets),
-           world});
+           world, image.light});
     }
     first += count;
   }

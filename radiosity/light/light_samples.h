@@ -17,6 +17,7 @@ struct PunctualArrival {
   Direction towards; ///< the light
   Rgb irradiance{0.0};
   WorldId world = real_world; ///< by which it comes
+  std::uint32_t light = 0;    ///< its number among the punctual lights
 };
 
 /// What punctual lights and their images send. Clears and fills `arrivals`.

@@ -21,7 +21,8 @@ DirectSettings cluster_settings(DirectSettings direct, int shadow_rays) {
 
 /// What landed rays bring: light reflected by elements,
 /// where no cluster owns it, and emission, where no closed form owns that.
-PointLight landed_light(const PointGathering& gathering, const GatheredRays& gathered) {
+PointLight landed_light(const PointGathering& gathering, const GatheredRays& gathered,
+                        ArrivedByLamp& by_lamp) {
   const std::size_t cluster_worlds = gathering.clusters.worlds.worlds.size();
   ArrivingLight sum, emission;
   std::uint32_t hits = 0;
@@ -32,6 +33,11 @@ PointLight landed_light(const PointGathering& gathering, const GatheredRays& gat
     Rgb arrived = emitted;
     if (!owned)
       arrived += Rgb(landing.light) * gathering.reflected[landing.element];
+    if (!owned && !by_lamp.empty())
+      add_shares(gathering.reflected_by_lamp, landing.element, Rgb(landing.light), by_lamp);
+    if (emitted != Rgb(0.0) && !by_lamp.empty())
+      by_lamp[gathering.light.lamps.of_side[index(gathering.light.mesh.side_of_element[landing.element])]] +=
+          emitted;
     const bool by_mirrors = landing.world != real_world && landing.world != through_solids;
     sum.total += arrived;
     if (by_mirrors)
@@ -55,28 +61,76 @@ PointLight landed_light(const PointGathering& gathering, const GatheredRays& gat
   light.emission = {emission.total / kept, emission.mirrored / kept};
   light.sky = {(straight + by_mirrors) / kept, by_mirrors / kept};
   light.hits = hits;
+  if (!by_lamp.empty())
+    by_lamp[gathering.light.lamps.sky] += straight + by_mirrors;
+  for (Rgb& part : by_lamp)
+    part /= kept;
   return light;
+}
+
+/// What each cluster, and each node of their tree, sends on of each lamp.
+LampShares shares_of_clusters(const LightScene& light, const SecondaryEmitters& clusters,
+                              const ClusterTree& tree, const SharesByLamp& reflected) {
+  LampShares lamps;
+  if (reflected.rows() == 0)
+    return lamps;
+  lamps.count = light.lamps.count;
+  const auto power_of = [&](std::uint32_t cluster) {
+    Eigen::RowVectorXd power = Eigen::RowVectorXd::Zero(reflected.cols());
+    for (const std::uint32_t e : clusters.elements[cluster])
+      power += light.mesh.area[e] * double{light.mesh.solid[e]} * reflected.row(e).cast<double>();
+    return power;
+  };
+  const auto set_shares = [](const Eigen::RowVectorXd& power, SharesByLamp& shares, std::size_t row) {
+    const Eigen::Index lamp_count = power.size() / 3;
+    for (Eigen::Index band = 0; band < 3; ++band) {
+      double sum = 0.0;
+      for (Eigen::Index l = 0; l < lamp_count; ++l)
+        sum += power(3 * l + band);
+      for (Eigen::Index l = 0; l < lamp_count; ++l)
+        shares(static_cast<Eigen::Index>(row), 3 * l + band) =
+            sum > 0.0 ? static_cast<float>(power(3 * l + band) / sum) : 0.0F;
+    }
+  };
+  lamps.of_cluster.resize(std::ssize(clusters.emitters), reflected.cols());
+  lamps.of_node.resize(std::ssize(tree.nodes), reflected.cols());
+  std::vector<Eigen::RowVectorXd> powers;
+  for (std::uint32_t c = 0; c < clusters.emitters.size(); ++c) {
+    powers.push_back(power_of(c));
+    set_shares(powers.back(), lamps.of_cluster, c);
+  }
+  for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+    Eigen::RowVectorXd power = Eigen::RowVectorXd::Zero(reflected.cols());
+    for (std::uint32_t k = 0; k < tree.nodes[n].count; ++k)
+      power += powers[tree.order[tree.nodes[n].first + k]];
+    set_shares(power, lamps.of_node, n);
+  }
+  return lamps;
 }
 
 } // namespace
 
-PointGathering::PointGathering(const LightScene& scene, std::vector<Rgb> radiosity,
+PointGathering::PointGathering(const LightScene& scene, SentLight sent,
                                const FormFactorSettings& factors,
                                const DirectSettings& direct_light,
                                const PointGatheringSettings& settings)
-    : light(scene), reflected(std::move(radiosity)), form_factors(factors), direct(direct_light),
+    : light(scene), reflected(std::move(sent.all)), reflected_by_lamp(std::move(sent.by_lamp)),
+      form_factors(factors), direct(direct_light),
       secondary(cluster_settings(direct_light, settings.cluster_shadow_rays)),
       cut{settings.cluster_theta, std::max(8 * settings.cluster_shadow_rays, settings.rays / 8)},
       clusters(find_secondary_emitters(scene, reflected, {.spared = settings.clusters_spared})),
       cluster_tree(make_cluster_tree(clusters.emitters)),
       cluster_emitters(make_emitter_tree(clusters.emitters)),
+      lamps(shares_of_clusters(scene, clusters, cluster_tree, reflected_by_lamp)),
       clustered(scene, clusters.worlds, clusters.emitters, cluster_emitters),
       net(make_direction_net(settings.rays)),
       others(settings.rays_before > 0 && settings.rays_before < settings.rays
                  ? make_direction_net(settings.rays, settings.rays_before)
                  : HemisphereSamples{}),
       cube(factors.method == FormFactorMethod::hemicube ? make_hemicube(factors.hemicube_resolution)
-                                                        : Hemicube{}) {}
+                                                        : Hemicube{}) {
+  clustered.lamps = lamps ? &lamps : nullptr;
+}
 
 ReceiverArea area_of(const Receiver& point) {
   ReceiverArea area;
@@ -110,10 +164,15 @@ PointLight indirect_light_at(const PointGathering& gathering, const Receiver& re
                              std::uint32_t seed, PointWorkspace& work, const GatheredRays* before) {
   gather_rays_at(gathering, receiver, seed, before, work);
 
-  PointLight light = landed_light(gathering, work.gather.result);
+  work.indirect_by_lamp.assign(gathering.reflected_by_lamp.rows() > 0 ? gathering.light.lamps.count : 0,
+                               Rgb(0.0));
+  PointLight light = landed_light(gathering, work.gather.result, work.indirect_by_lamp);
   light.from_clusters = cluster_irradiance(
       {gathering.clustered, gathering.cluster_tree, gathering.secondary, gathering.cut}, receiver,
       hash(seed, 2), work.clusters, work.direct);
+  if (gathering.lamps)
+    for (std::size_t l = 0; l < work.indirect_by_lamp.size(); ++l)
+      work.indirect_by_lamp[l] += work.direct.by_lamp[l];
   return light;
 }
 
@@ -122,6 +181,7 @@ PointLight light_at(const PointGathering& gathering, const Receiver& receiver, s
   PointLight light = indirect_light_at(gathering, receiver, seed, work);
   light.from_source =
       direct_irradiance(gathering.light, receiver, gathering.direct, hash(seed, 1), work.direct);
+  work.direct_by_lamp = work.direct.by_lamp;
   return light;
 }
 

@@ -23,10 +23,18 @@ struct PointGatheringSettings {
   double cluster_theta = ClusterCut{}.theta; ///< which are (cluster_cut.h); 0: none
 };
 
+/// B by ElementId, emission left out, W/m^2; by lamp too where light is told apart.
+struct SentLight {
+  SentLight(std::vector<Rgb> sent, const LightByLamp& of_lamps = {})
+      : all(std::move(sent)), by_lamp(of_lamps.cast<float>()) {}
+  std::vector<Rgb> all;
+  SharesByLamp by_lamp;
+};
+
 /// What light is gathered from, the same for all points.
 struct PointGathering {
   /// `reflected` is B by ElementId, emission left out. Samples follow the methods of pass one.
-  PointGathering(const LightScene& light, std::vector<Rgb> reflected,
+  PointGathering(const LightScene& light, SentLight sent,
                  const FormFactorSettings& form_factors, const DirectSettings& direct,
                  const PointGatheringSettings& settings);
   PointGathering(const PointGathering&) = delete;
@@ -34,12 +42,14 @@ struct PointGathering {
 
   const LightScene& light;
   std::vector<Rgb> reflected;
+  SharesByLamp reflected_by_lamp; ///< empty where light is not told apart
   FormFactorSettings form_factors;
   DirectSettings direct, secondary;
   ClusterCut cut;
   SecondaryEmitters clusters;
   ClusterTree cluster_tree; ///< over their emitters
   LightTree cluster_emitters; ///< over the same, for sampling
+  LampShares lamps; ///< of the clusters
   Lighting clustered; ///< the scene lit by the bright clusters
   HemisphereSamples net;
   HemisphereSamples others; ///< of the net, without those before; empty where there are none
@@ -51,6 +61,7 @@ struct PointWorkspace {
   GatherWorkspace gather;
   DirectWorkspace direct;
   ClusterWorkspace clusters;
+  ArrivedByLamp direct_by_lamp, indirect_by_lamp; ///< of the point last asked for; empty: not asked for, or not told apart
   std::uint64_t rays = 0;
 };
 

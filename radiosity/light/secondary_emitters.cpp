@@ -233,8 +233,11 @@ SecondaryEmitters find_secondary_emitters(const LightScene& light, const std::ve
   if (context.found.size() > most || settings.spared > 0.0)
     keep_noisiest(mesh, sent, settings, most, context.found);
   clusters.owned = owned_by(mesh, context.found);
-  for (const auto& candidate : context.found)
+  for (const auto& candidate : context.found) {
     clusters.emitters.push_back(make_emitter(light, candidate));
+    auto& elements = clusters.elements.emplace_back();
+    for_each_element(mesh, candidate.block, [&](std::uint32_t e) { elements.push_back(e); });
+  }
   return clusters;
 }
 

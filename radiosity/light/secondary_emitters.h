@@ -27,6 +27,7 @@ struct ClusterSettings {
 
 struct SecondaryEmitters {
   std::vector<Emitter> emitters;
+  std::vector<std::vector<std::uint32_t>> elements; ///< of each, indices of ElementId
   std::vector<std::uint8_t> owned; ///< by ElementId: its reflected light is a cluster's
   WorldTree worlds; ///< the first worlds of the tree, in which clusters are looked at
 };

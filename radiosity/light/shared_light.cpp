@@ -11,12 +11,12 @@
 #include <numeric>
 
 namespace meninas {
-
 namespace {
 
 /// Of the points so far.
 struct PointSum {
   ArrivingLight punctual;
+  ArrivedByLamp punctual_by_lamp = {};
   int points = 0, punctual_points = 0;
 };
 
@@ -105,10 +105,8 @@ void add_rays(const Lighting& light, const Receiver& receiver, const WorthyImage
   ImageSum& total = work.images[at.image];
   const auto parts = parts_of(at, image, work);
   // One that stands for others of its lamp has them to share its rays with.
-  const auto rays =
-      image.stands_for_others()
-          ? 1U
-          : std::max(1U, static_cast<std::uint32_t>(std::lround(total.from_a_point * worth)));
+  const auto wanted = static_cast<std::uint32_t>(std::lround(total.from_a_point * worth));
+  const auto rays = image.stands_for_others() ? 1U : std::max(1U, wanted);
   const Emitter& emitter = light.emitters[image.emitter];
   const Vec3 last = area_vector(parts.back().span());
   const double area = area_of(parts.first(parts.size() - 1)) + glm::length(last);
@@ -157,8 +155,7 @@ void find_lights(const Lighting& light, const NumberedPoint& point, std::uint32_
   }
   // Where images are chosen, the steps through them begin elsewhere at every point,
   // evenly by the golden section.
-  constexpr std::uint32_t golden_section = 0x9e3779b9;
-  const double offset = 0x1p-32 * (hash(seed, 0xc401ce) + point.number * golden_section);
+  const double offset = 0x1p-32 * (hash(seed, 0xc401ce) + point.number * 0x9e3779b9U);
   LightChoice choice{most, offset, static_cast<std::size_t>(settings.rays)};
   if (point.element != none<ElementId>) {
     choice.area = index(point.element) + std::uint64_t{1};
@@ -184,7 +181,6 @@ void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t 
           image_at(light, receiver, image, sum_of(work, light, image, settings), work));
   }
   const double most = settings.brightest_most ? max_brought(work) : 0.0;
-
   for (std::size_t i = 0; i < work.at_point.size(); ++i) {
     const ImageAtPoint& at = work.at_point[i];
     if (at.form_factor <= 0.0)
@@ -280,15 +276,20 @@ void trace_waiting(const Lighting& light, const Receiver& receiver, SharedLightW
   work.waiting.clear();
 }
 
-/// The mean so far.
-ArrivingLight mean_of(const SharedLightWorkspace& work, const PointSum& sum) {
+/// The mean so far, by lamp in the workspace.
+ArrivingLight mean_of(const Lighting& light, SharedLightWorkspace& work, const PointSum& sum) {
   const double points = sum.points, lit = std::max(sum.punctual_points, 1);
-  ArrivingLight mean{sum.punctual.total / lit, sum.punctual.mirrored / lit,
-                     sum.punctual.punctual / lit};
+  const ArrivingLight& p = sum.punctual;
+  ArrivingLight mean{p.total / lit, p.mirrored / lit, p.punctual / lit};
+  work.point.by_lamp = sum.punctual_by_lamp;
+  for (Rgb& part : work.point.by_lamp)
+    part /= lit;
   for (const ImageSum& image : work.images) {
     const Rgb visible = image.all > 0.0 ? image.left / image.all : Rgb(0.0);
     const Rgb arrived = visible * image.form_factor / points * image.source;
     mean.total += arrived;
+    if (light.lamps)
+      add_of_emitter(*light.lamps, image.emitter, arrived, work.point.by_lamp);
     if (image.world != real_world)
       mean.mirrored += arrived;
   }
@@ -330,22 +331,22 @@ void add_punctual(const Lighting& light, const Receiver& receiver, PointSum& sum
     return;
   ++sum.punctual_points;
   punctual_arrivals(light, receiver, work.point, work.arrivals);
-  for (const PunctualArrival& arrival : work.arrivals)
-    sum.punctual =
-        sum.punctual + ArrivingLight{arrival.irradiance,
-                                     arrival.world != real_world ? arrival.irradiance : Rgb(0.0),
-                                     arrival.irradiance};
+  for (const PunctualArrival& arrival : work.arrivals) {
+    if (light.lamps)
+      sum.punctual_by_lamp[light.lamps->of_punctual[arrival.light]] += arrival.irradiance;
+    const Rgb mirrored = arrival.world != real_world ? arrival.irradiance : Rgb(0.0);
+    sum.punctual = sum.punctual + ArrivingLight{arrival.irradiance, mirrored, arrival.irradiance};
+  }
 }
 
 /// The mean over the points that have been collected, all in the receiver's plane.
-ArrivingLight light_by_solids(const Lighting& light, const Receiver& last, int rays,
+SolidLight light_by_solids(const Lighting& light, const Receiver& last, int rays,
                               std::uint32_t seed, DirectWorkspace& work) {
   if (!has_solid_light(light))
     return {};
-  const SolidLight found = solid_light(
-      light.scene, {work.solids.points, last.normal, last.plane_class, last.tangent, last.coat}, rays,
-      seed, work.shadow_rays, work.solids);
-  return {found.total, found.mirrored, Rgb(0.0)};
+  return solid_light(light.scene,
+                     {work.solids.points, last.normal, last.plane_class, last.tangent, last.coat}, rays,
+                     seed, work.shadow_rays, work.solids);
 }
 
 } // namespace
@@ -357,6 +358,7 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
   work.image_of.clear();
   work.point.choice.area = 0;
   PointSum sum;
+  sum.punctual_by_lamp.assign(light.lamps ? light.lamps->count : 0, Rgb(0.0));
   auto& solid_points = work.point.solids.points;
   solid_points.clear();
   Rgb before(0.0);
@@ -369,11 +371,10 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
       add_punctual(light, next.receiver, sum, work);
     if (++sum.points < wanted)
       continue;
-
     // Between the first half of the points and all
     // of them the mean has moved by about its own error.
     trace_waiting(light, next.receiver, work);
-    const ArrivingLight mean = mean_of(work, sum);
+    const ArrivingLight mean = mean_of(light, work, sum);
     const double brightest = largest(mean.total);
     const bool has_settled = sum.points > settings.points &&
                          largest(glm::abs(mean.total - before)) <= settings.unsure * brightest &&
@@ -382,15 +383,16 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
     if (has_settled || dark || sum.points >= settings.most_points) {
       work.has_learned = learn(work.images);
       work.shadow_error = penumbra_error(light, work, sum);
-      const ArrivingLight by_solids =
-          light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);
-      return mean + by_solids;
+      const SolidLight by_solids = light_by_solids(
+          light, next.receiver, settings.solid_rays, seed, work.point);
+      for (std::size_t l = 0; l < by_solids.by_lamp.size(); ++l)
+        work.point.by_lamp[l] += by_solids.by_lamp[l];
+      return mean + ArrivingLight{by_solids.total, by_solids.mirrored, Rgb(0.0)};
     }
     before = mean.total;
+    const auto of_penumbra = static_cast<std::uint32_t>(settings.penumbra_rays);
     for (ImageSum& image : work.images)
-      image.from_a_point = shows_differences(light, image)
-                               ? static_cast<std::uint32_t>(settings.penumbra_rays)
-                               : 1;
+      image.from_a_point = shows_differences(light, image) ? of_penumbra : 1;
     wanted = std::min(2 * sum.points, settings.most_points);
   }
 }

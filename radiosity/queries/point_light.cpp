@@ -25,7 +25,7 @@ static PlaneId plane_under(const LightScene& light, const QueryPoint& point) {
 }
 
 std::vector<PointIrradiance> irradiance_at_points(const LightScene& light,
-                                                  std::vector<Rgb> reflected,
+                                                  SentLight reflected,
                                                   std::span<const QueryPoint> points,
                                                   const PointQuerySettings& settings) {
   FormFactorSettings rays = settings.form_factors;
@@ -43,7 +43,10 @@ std::vector<PointIrradiance> irradiance_at_points(const LightScene& light,
     const GatheredRays& met = spaces.local().gather.result;
     const bool inside =
         all.total == Rgb(0.0) && met.landed == 0.0 && met.escaped == 0.0 && met.cut == 0.0;
-    result[k] = {all.total, direct, all.mirrored, inside};
+    std::vector<Rgb> by_lamp = spaces.local().direct_by_lamp;
+    for (std::size_t l = 0; l < spaces.local().indirect_by_lamp.size(); ++l)
+      by_lamp[l] += spaces.local().indirect_by_lamp[l];
+    result[k] = {all.total, direct, all.mirrored, std::move(by_lamp), inside};
   });
   return result;
 }

@@ -38,13 +38,14 @@ struct PointQuerySettings {
 /// W/m^2
 struct PointIrradiance {
   Rgb total{0.0}, direct{0.0}, by_mirrors{0.0};
+  std::vector<Rgb> by_lamp = {}; ///< parts of the total; empty where light is not told apart
   bool inside = false; ///< of something: no light is there, and all its rays end on backs and dark sides
 };
 
 /// In the order of the points. `reflected` is B by ElementId, emission left out. A point within the
 /// tolerance of a surface that faces as it does, or the other way, lies on it.
 std::vector<PointIrradiance> irradiance_at_points(const LightScene& light,
-                                                  std::vector<Rgb> reflected,
+                                                  SentLight reflected,
                                                   std::span<const QueryPoint> points,
                                                   const PointQuerySettings& settings);
 

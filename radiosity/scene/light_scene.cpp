@@ -141,8 +141,9 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
                    reflecting_by_angle(scene),
                    std::ranges::any_of(scene.materials, is_glass),
                    cut_out_mirrors(surfaces, rays, mirrors),
-                   find_solid_bodies(scene, frame)};
-  light.finely_tessellated = is_finely_tessellated(mesh);
+                   find_solid_bodies(scene, frame),
+                   is_finely_tessellated(mesh),
+                   {}};
   light.from_source.assign(mesh.sides.size(), 0);
 
   double area = 0.0, emitting_area = 0.0;
@@ -160,10 +161,26 @@ LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, co
       continue;
     light.from_source[s] = 1;
     add_emitters(surfaces, mesh, mesh.sides[s], light.emitters);
+    light.side_of_emitter.resize(light.emitters.size(), static_cast<SideId>(s));
   }
   add_portals(light);
+  light.side_of_emitter.resize(light.emitters.size(), none<SideId>);
   light.emitter_tree = make_emitter_tree(light.emitters);
   return light;
+}
+
+void tell_lamps_apart(LightScene& light, std::shared_ptr<const LampGroups> groups) {
+  LampShares& lamps = light.lamps;
+  lamps = {};
+  lamps.count = groups->size();
+  lamps.sky = groups->sky == no_lamp ? 0 : groups->sky;
+  for (const MeshSide& side : light.mesh.sides)
+    lamps.of_side.push_back(emits(side) ? lamp_of(*groups, side.node, side.material) : no_lamp);
+  for (const SideId side : light.side_of_emitter)
+    lamps.of_emitter.push_back(side == none<SideId> ? lamps.sky : lamps.of_side[index(side)]);
+  lamps.of_punctual = groups->of_light;
+  lamps.of_punctual.resize(light.punctual.size(), groups->sun);
+  light.lamp_groups = std::move(groups);
 }
 
 std::shared_ptr<const LightScene> light_scene_on(const LightScene& light, ElementMesh mesh) {
@@ -173,7 +190,10 @@ std::shared_ptr<const LightScene> light_scene_on(const LightScene& light, Elemen
     OnMesh(const LightScene& from, ElementMesh own)
         : mesh(std::move(own)),
           light(make_light_scene(from.scene, from.surfaces, from.rays, {from.mirrors, from.worlds},
-                                 mesh, from.textures)) {}
+                                 mesh, from.textures)) {
+      if (from.lamp_groups)
+        tell_lamps_apart(light, from.lamp_groups);
+    }
   };
   average_textures(light.scene, light.surfaces, light.textures, mesh);
   const auto both = std::make_shared<const OnMesh>(light, std::move(mesh));

@@ -11,8 +11,10 @@
 #include "mirror/virtual_lights.h"
 #include "radiosity/mesh/element_mesh.h"
 #include "radiosity/mesh/element_lookup.h"
+#include "radiosity/scene/lamp_shares.h"
 #include "radiosity/scene/sky_portals.h"
 #include "scenes/surfaces/solid_bodies.h"
+#include "scenes/lamps.h"
 #include "scenes/materials/lobes.h"
 #include "scenes/rays/ray_scene.h"
 #include "scenes/materials/texture_lookup.h"
@@ -46,6 +48,10 @@ struct LightScene {
   std::vector<std::uint8_t> cut_out_mirrors; ///< by MirrorId (mirror_holes.h); empty where there is none
   SolidBodies solids;
   bool finely_tessellated = false; ///< its small surfaces share samples (small_elements.h)
+  std::vector<SideId> side_of_emitter; ///< none of portals
+  std::shared_ptr<const LampGroups> lamp_groups = nullptr; ///< null: light is not told apart by lamps
+  LampShares lamps = {}; ///< of its own emitters
+  std::vector<Rgb> emission_factors = {}; ///< by SideId: what textures make of emission counts so many times (relight.h); empty: once
 };
 
 /// Whether mirrors and glass treat all channels alike: transport needs but one band.
@@ -59,6 +65,9 @@ struct MirrorsAndWorlds {
 LightScene make_light_scene(const Scene& scene, const SurfaceModel& surfaces, const RayScene& rays,
                             const MirrorsAndWorlds& reflected, const ElementMesh& mesh,
                             const DecodedTextures& textures = no_textures());
+
+/// From here on light is told apart by these lamps.
+void tell_lamps_apart(LightScene& light, std::shared_ptr<const LampGroups> groups);
 
 /// The same scene on another mesh, which is kept with it; it refers to what `light` refers to.
 std::shared_ptr<const LightScene> light_scene_on(const LightScene& light, ElementMesh mesh);

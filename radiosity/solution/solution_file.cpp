@@ -3,6 +3,7 @@
 #include "image/display.h"
 #include "image/whole_file.h"
 #include "radiosity/solution/element_triangles.h"
+#include "radiosity/solution/lamp_codes.h"
 #include "radiosity/mesh/subdivision.h"
 #include "radiosity/solution/solution_format.h"
 #include "scenes/content_hash.h"
@@ -131,6 +132,19 @@ std::size_t add_bytes(Geometry& geometry, const std::vector<std::uint8_t>& items
   return geometry.views.size() - 1;
 }
 
+/// The light of every lamp.
+json lamps_json(Geometry& geometry, const IrradianceField& field) {
+  const LampGroups& lamps = *field.scene->lamp_groups;
+  json list = json::array();
+  for (std::size_t l = 0; l < field.by_lamp.size(); ++l) {
+    const LampCodes codes = encoded(field.by_lamp[l]);
+    list.push_back(
+        {{"name", lamps.names[l]}, {"top", codes.top}, {"view", add_bytes(geometry, codes.bytes)}});
+  }
+  return {{"grouping", lamps.grouping == LampGrouping::node ? "node" : "material"},
+          {"list", std::move(list)}};
+}
+
 json bounds_json(const std::vector<glm::vec3>& points) {
   glm::vec3 low(std::numeric_limits<float>::max());
   glm::vec3 high(std::numeric_limits<float>::lowest());
@@ -187,7 +201,8 @@ json figures_json(const RadiositySolution& solution) {
 
 json extras_json(std::uint64_t scene_hash, const ElementMesh& mesh, const MeshSettings& settings,
                  std::span<const std::byte> binary) {
-  return {{"version", program_version()},
+  return {{"format", solution_format},
+          {"version", program_version()},
           {"scene_hash", hex(scene_hash)},
           {"data_hash", hex(hash_of_bytes(binary))},
           {"mesh",
@@ -249,6 +264,9 @@ void write_solution(const std::filesystem::path& file, std::uint64_t scene_hash,
   json own_mesh = json::object();
   if (divided) {
     own_mesh["division"] = add_bytes(geometry, division_of(mesh));
+  }
+  if (!solution.field.by_lamp.empty()) {
+    own_mesh["lamps"] = lamps_json(geometry, solution.field);
   }
   json extras = extras_json(scene_hash, mesh, settings, geometry.binary);
   extras.update(own_mesh);

@@ -9,6 +9,8 @@
 // and linear. `extras` of the asset holds {"meninas": {version, scene_hash, data_hash,
 // mesh settings, counts, figures of the solve}}, and where the field has a mesh of its own,
 // `division`, the number of the view of bytes that say which cells of the forest are divided.
+// A solution by lamp keeps the light of each (lamp_codes.h): `lamps` has the grouping and for each
+// lamp {name, top, view}.
 #pragma once
 
 #include "radiosity/pass_one.h"
@@ -28,6 +30,8 @@ struct StoredSolution {
   std::size_t elements = 0;
   std::vector<std::uint8_t> division; ///< of the mesh made with these settings; empty: none
   VertexIrradiance field;
+  LampGrouping grouping = LampGrouping::node; ///< of its lamps
+  std::vector<std::string> lamps;             ///< their names; empty: light is not told apart
   SolverResult solver; ///< without its radiosity
   std::optional<LinkFigures> links; ///< of a hierarchical mesh
   EnergyBalance energy;

@@ -11,6 +11,9 @@
 
 namespace meninas {
 
+/// Raised when what files hold changes: 2 has the light of lamps apart.
+inline constexpr int solution_format = 2;
+
 inline constexpr std::size_t vec3_size = sizeof(glm::vec3);
 static_assert(vec3_size == 12);
 

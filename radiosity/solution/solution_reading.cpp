@@ -1,4 +1,6 @@
 #include "radiosity/mesh/subdivision.h"
+#include "radiosity/relight.h"
+#include "radiosity/solution/lamp_codes.h"
 #include "radiosity/solution/solution_file.h"
 #include "radiosity/solution/solution_format.h"
 #include "scenes/content_hash.h"
@@ -108,22 +110,45 @@ std::vector<glm::vec3> read_irradiance(const std::filesystem::path& file, const 
   return irradiance;
 }
 
+/// The bytes of a view.
+std::span<const std::uint8_t> bytes_of(const std::filesystem::path& file, const GlbContent& glb,
+                                       const json& number, const char* what) {
+  const json& view = glb.root.at("bufferViews").at(number.get<std::size_t>());
+  const std::size_t offset = view.at("byteOffset"), size = view.at("byteLength");
+  if (offset > glb.binary.size() || size > glb.binary.size() - offset) {
+    refuse(file, fmt::format("damaged: it does not hold the {} it announces", what));
+  }
+  return std::span(glb.binary).subspan(offset, size);
+}
+
 /// The forest of the field's mesh, where it has one of its own.
 std::vector<std::uint8_t> read_division(const std::filesystem::path& file, const GlbContent& glb,
                                         const json& extras) {
   if (!extras.contains("division")) {
     return {};
   }
-  const json& view = glb.root.at("bufferViews").at(extras.at("division").get<std::size_t>());
-  const std::size_t offset = view.at("byteOffset"), size = view.at("byteLength");
-  if (offset > glb.binary.size() || size > glb.binary.size() - offset) {
-    refuse(file, "damaged: it does not hold the mesh it announces");
+  const std::span<const std::uint8_t> bytes = bytes_of(file, glb, extras.at("division"), "mesh");
+  return {bytes.begin(), bytes.end()};
+}
+
+/// The light of its lamps, of so many vertices, where it is told apart.
+void read_lamps(const std::filesystem::path& file, const GlbContent& glb, const json& extras,
+                std::size_t vertices, StoredSolution& stored) {
+  if (!extras.contains("lamps")) {
+    return;
   }
-  std::vector<std::uint8_t> division(size);
-  if (size > 0) {
-    std::memcpy(division.data(), glb.binary.data() + offset, size);
+  const json& lamps = extras.at("lamps");
+  stored.grouping =
+      lamps.at("grouping") == "material" ? LampGrouping::material : LampGrouping::node;
+  for (const json& lamp : lamps.at("list")) {
+    const auto bytes = bytes_of(file, glb, lamp.at("view"), "light of lamps");
+    if (bytes.size() != vertices * vec3_size) {
+      refuse(file, "damaged: it does not hold the light of lamps it announces");
+    }
+    stored.lamps.push_back(lamp.at("name"));
+    stored.field.by_lamp.push_back(decoded(lamp.at("top"), bytes));
   }
-  return division;
+  add_up_by_vertex(stored.field);
 }
 
 /// The bytes the hash was made of: the binary chunk without its padding.
@@ -149,6 +174,11 @@ MeshSettings read_mesh_settings(const std::filesystem::path& file, const json& m
 StoredSolution read_checked(const std::filesystem::path& file, const GlbContent& glb,
                             const Scene& scene) {
   const json& extras = glb.root.at("asset").at("extras").at("meninas");
+  const int format = extras.value("format", 1);
+  if (format != solution_format) {
+    refuse(file, fmt::format("has format {} of solution files, this program reads {}: solve again",
+                             format, solution_format));
+  }
   if (extras.at("version") != program_version()) {
     refuse(file,
            fmt::format("was written by version {}, this is {}: solve again",
@@ -172,6 +202,7 @@ StoredSolution read_checked(const std::filesystem::path& file, const GlbContent&
           read_irradiance(file, glb, attributes.at(part.attribute), vertices);
     }
   }
+  read_lamps(file, glb, extras, vertices, stored);
   read_figures(file, extras.at("figures"), stored);
   return stored;
 }

@@ -6,11 +6,14 @@
 
 namespace meninas {
 
-std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& factors) {
+std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& factors,
+                                   std::uint32_t lamp) {
   const ElementMesh& mesh = light.mesh;
   std::vector<Rgb> whole(mesh.area.size(), Rgb(0.0)), deep = whole;
   for (std::size_t e = 0; e < mesh.area.size(); ++e) {
     const SideId side = mesh.side_of_element[e];
+    if (lamp != no_lamp && light.lamps.of_side[index(side)] != lamp)
+      continue;
     (light.from_source[index(side)] != 0 ? deep : whole)[e] = mesh.emission[e];
   }
 
@@ -24,6 +27,15 @@ std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& f
   };
   add(factors.transport, whole);
   add(factors.beyond, deep);
+  return gathered;
+}
+
+LightByLamp gathered_by_lamp(const LightScene& light, const FormFactors& factors) {
+  if (!light.lamps)
+    return {};
+  LightByLamp gathered = no_light(factors.transport.size, light.lamps.count);
+  for (std::uint32_t l = 0; l < light.lamps.count; ++l)
+    set_light_of_lamp(gathered, l, gathered_emission(light, factors, l));
   return gathered;
 }
 

@@ -160,7 +160,7 @@ bool is_of_pass_two(const Setting& setting) {
   constexpr std::array names{"mode",      "diffuse",     "camera",      "size",          "samples",
                              "max-error", "max-seconds", "exposure",    "layers",        "float",
                              "view",      "view-transform", "filter",      "pixel-error", "glossy-samples",
-                             "at",        "variant",        "projection",  "depth"};
+                             "at",        "variant",        "projection",  "depth",         "lamp"};
   return std::ranges::find(names, setting.name) != names.end();
 }
 
@@ -171,6 +171,11 @@ std::string solution_key(const SceneFacts& facts, const JobMode& mode) {
   hash.add(program_version());
   hash.add(facts.hash);
   hash.add(mode.environment);
+  // One solution by lamp serves all states of lamps.
+  if (std::ranges::any_of(mode.settings, [](const Setting& one) {
+        return one.name == "lamp" || (one.name == "layers" && one.value == "lamps");
+      }))
+    hash.add("by lamp");
   add_settings(hash, std::move(settings));
   return hex_digits(hash.value());
 }

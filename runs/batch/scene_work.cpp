@@ -22,7 +22,14 @@ Scene load_planned(const BatchPicture& picture) {
     throw InputError(picture.scene.string(), "",
                      "has changed since the batch began: run it again with --resume");
   }
-  return under_background(std::move(scene), picture.request.settings);
+  scene = under_background(std::move(scene), picture.request.settings);
+  const RunSettings& settings = picture.request.settings;
+  return settings.mode == PictureMode::reference ? under_lamps(std::move(scene), settings) : scene;
+}
+
+LampsApart lamps_wanted(const BatchPicture& picture) {
+  const RunSettings& settings = picture.request.settings;
+  return settings.lamp_factors.empty() && !settings.lamp_layers ? LampsApart::no : LampsApart::yes;
 }
 
 /// The cached solution, if there is one that can be used.
@@ -35,7 +42,8 @@ std::optional<SceneLight> read_light(const fs::path& file, const BatchPicture& p
   try {
     SceneLight light;
     const PassOneSettings settings = two_pass_settings(picture.request.settings).pass_one;
-    light.lit = read_lit_scene(file, load_planned(picture), settings, events, light.figures);
+    light.lit = read_lit_scene(file, load_planned(picture), settings, events, light.figures,
+                               lamps_wanted(picture));
     return light;
   } catch (const InputError& problem) {
     if (!std::string(problem.what()).starts_with(file.string())) {
@@ -60,7 +68,12 @@ ViewPicture view_of(const BatchPicture& picture, const LitScene* light, const Ru
     return render_reference_view(std::move(scene), camera, picture.size, settings, events, figures);
   }
   const Camera camera = cut_open(light->prepared->scene, picture.camera, picture.size, events);
-  ViewPicture view = render_view(*light, camera, picture.size, settings, events, figures);
+  if (settings.lamp_layers)
+    return render_lamp_layers(*light, camera, picture.size, settings, events, figures);
+  ViewPicture view =
+      lamps_wanted(picture) == LampsApart::no
+          ? render_view(*light, camera, picture.size, settings, events, figures)
+          : render_view(under_lamps(*light, settings), camera, picture.size, settings, events, figures);
   view.finer.reset();
   return view;
 }
@@ -108,9 +121,10 @@ std::optional<SceneLight> find_light(const BatchFolder& folder, const BatchPictu
   }
   SceneLight light;
   light.solved = true;
-  light.lit =
-      solve_lit_scene(load_planned(picture), two_pass_settings(picture.request.settings).pass_one,
-                      file, events, light.figures);
+  PassOneSettings settings = two_pass_settings(picture.request.settings).pass_one;
+  if (lamps_wanted(picture) == LampsApart::yes)
+    settings.lamps = LampGrouping::node;
+  light.lit = solve_lit_scene(load_planned(picture), settings, file, events, light.figures);
   return light;
 }
 

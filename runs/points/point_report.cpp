@@ -32,7 +32,7 @@ Json point_json(const MeasuredSet& measured, std::size_t k) {
   const double efficacy = measured.luminous_efficacy;
   const QueryPoint& point = measured.set.points[k];
   const PointIrradiance& light = measured.light[k];
-  return {{"position", xyz(point.position)},
+  Json json{{"position", xyz(point.position)},
           {"normal", xyz(point.normal)},
           {"illuminance", luminous(efficacy, light.total)},
           {"illuminance_direct", luminous(efficacy, light.direct)},
@@ -40,6 +40,9 @@ Json point_json(const MeasuredSet& measured, std::size_t k) {
           {"irradiance", rgb(light.total)},
           {"irradiance_direct", rgb(light.direct)},
           {"irradiance_by_mirrors", rgb(light.by_mirrors)}};
+  for (std::size_t l = 0; l < measured.lamps.size(); ++l)
+    json["illuminance_by_lamp"][measured.lamps[l]] = luminous(efficacy, light.by_lamp[l]);
+  return json;
 }
 
 Json set_json(const MeasuredSet& measured) {
@@ -84,7 +87,8 @@ std::vector<double> illuminances(const MeasuredSet& measured) {
 MeasuredSet without_points_inside(MeasuredSet measured) {
   if (!measured.set.grid)
     return measured;
-  MeasuredSet kept{{measured.set.name, {}, measured.set.grid}, {}, measured.luminous_efficacy};
+  MeasuredSet kept{{measured.set.name, {}, measured.set.grid}, {}, measured.luminous_efficacy, 0,
+                   measured.lamps};
   for (std::size_t k = 0; k < measured.light.size(); ++k) {
     if (measured.light[k].inside)
       continue;
@@ -115,6 +119,9 @@ std::string points_csv(std::span<const MeasuredSet> sets) {
   for (const char* part : {"irradiance", "irradiance_direct", "irradiance_by_mirrors"})
     for (const char channel : {'r', 'g', 'b'})
       text += fmt::format(",{}_{}_W_m2", part, channel);
+  if (!sets.empty())
+    for (const std::string& lamp : sets.front().lamps)
+      text += ',' + csv_field(fmt::format("illuminance_by_{}_lx", lamp));
   text += '\n';
   for (const MeasuredSet& measured : sets)
     for (std::size_t k = 0; k < measured.light.size(); ++k) {
@@ -126,6 +133,8 @@ std::string points_csv(std::span<const MeasuredSet> sets) {
         text += fmt::format(",{:.7g}", luminous(measured.luminous_efficacy, part));
       for (const Rgb& part : {light.total, light.direct, light.by_mirrors})
         text += fmt::format(",{:.7g},{:.7g},{:.7g}", part.r, part.g, part.b);
+      for (std::size_t l = 0; l < measured.lamps.size(); ++l)
+        text += fmt::format(",{:.7g}", luminous(measured.luminous_efficacy, light.by_lamp[l]));
       text += '\n';
     }
   return text;

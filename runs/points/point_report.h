@@ -2,7 +2,7 @@
 //
 // Columns: the set's name; x, y, z, m; the normal; illuminance in lux, all of it, the direct part and
 // the part that came by way of mirrors (radiosity/queries/point_light.h); the same as irradiance,
-// red, green and blue, W/m^2. Lux are K times luminance (photometry.h).
+// red, green and blue, W/m^2; where lamps are known apart, the illuminance by each of them. Lux are K times luminance (photometry.h).
 #pragma once
 
 #include "runs/points/point_sets.h"
@@ -14,6 +14,7 @@ struct MeasuredSet {
   std::vector<PointIrradiance> light; ///< by point
   double luminous_efficacy = 683.0;   ///< K, lm/W
   std::size_t inside = 0;             ///< points of a grid that were left out
+  std::vector<std::string> lamps = {}; ///< whose light is known apart, by their number
 };
 
 /// In lux.

@@ -305,6 +305,7 @@ void read_lights(const Document& document, std::span<const PlacedNode> nodes, Sc
     }
     light.direction = direction.value_or(light.direction);
     light.frame = frame.value_or(light.frame);
+    light.lamp = lamp_of_node(document, node.index);
     scene.lights.push_back(std::move(light));
     names.push_back(name);
     places.push_back({colour, frame.has_value()});

@@ -206,6 +206,14 @@ std::vector<PlacedNode> place_nodes(const Document& document, Findings& findings
   return placed;
 }
 
+std::string lamp_of_node(const Document& document, std::size_t node) {
+  const auto* extras = find(element(document.root, "nodes", node), "extras");
+  if (!extras || !extras->is_object())
+    return {};
+  const auto* lamp = find(*extras, "lamp");
+  return lamp && lamp->is_string() ? lamp->get<std::string>() : std::string{};
+}
+
 std::vector<std::string> unique_names(const std::vector<std::string>& names) {
   // A name that the file gives is kept by the first who has it, before any suffix is made up.
   std::set<std::string> taken(names.begin(), names.end());

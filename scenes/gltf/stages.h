@@ -17,6 +17,9 @@ struct PlacedNode {
 /// The nodes of the chosen scene, parents before children, in the order of the file.
 std::vector<PlacedNode> place_nodes(const Document& document, Findings& findings);
 
+/// The lamp that a node says it is part of, `extras.lamp`; empty where it says none.
+std::string lamp_of_node(const Document& document, std::size_t node);
+
 /// Makes names unique: the first keeps its name, others get the first free suffix .1, .2, ...
 std::vector<std::string> unique_names(const std::vector<std::string>& names);
 

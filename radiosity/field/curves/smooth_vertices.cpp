@@ -38,6 +38,20 @@ static std::array<std::vector<Rgb>, 2> mirrored_parts(const LightScene& light,
   return mirrored;
 }
 
+/// The same means of what one lamp sends.
+static void average_lamp(const ElementMesh& mesh, const ElementLight& elements,
+                         const VertexElements& facets, std::size_t lamp, VertexLightOfLamp& light) {
+  const std::vector<Rgb> direct = light_of_lamp(elements.from_source_by_lamp, lamp);
+  std::vector<Rgb> rest = light_of_lamp(elements.irradiance_by_lamp, lamp);
+  for (std::size_t e = 0; e < rest.size(); ++e)
+    rest[e] -= direct[e];
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (const auto own = around(facets, v); !own.empty()) {
+      light.direct[v] = facet_mean(mesh, own, elements.irradiance, direct);
+      light.indirect[v] = facet_mean(mesh, own, elements.irradiance, rest);
+    }
+}
+
 void average_facets(const LightScene& light, const ElementLight& elements,
                            const VertexElements& facets, const FormFactorSettings& form_factors,
                            PointWorkspaces& workspaces, VertexIrradiance& field) {
@@ -52,6 +66,8 @@ void average_facets(const LightScene& light, const ElementLight& elements,
                                    {.rays = few_rays, .cluster_shadow_rays = 1});
     mirrored = mirrored_parts(light, averaged_facets(mesh, facets), parts, gathering, workspaces);
   }
+  for (std::size_t l = 0; l < field.by_lamp.size(); ++l)
+    average_lamp(mesh, elements, facets, l, field.by_lamp[l]);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const auto own = around(facets, v);
     if (own.empty())

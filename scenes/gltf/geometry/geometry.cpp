@@ -336,7 +336,7 @@ std::vector<float> read_geometry(const Document& document, std::span<const Place
                                  Scene& scene, Findings& findings) {
   Geometry geometry{scene, {}, none<NodeId>, geometry_size(document, nodes)};
   Skins skins(document, nodes);
-  std::vector<std::string> names;
+  std::vector<std::string> names, lamps;
   for (const auto& node : nodes) {
     const auto mesh = index_at(element(document.root, "nodes", node.index), "mesh");
     if (!mesh)
@@ -344,13 +344,15 @@ std::vector<float> read_geometry(const Document& document, std::span<const Place
     geometry.node = static_cast<NodeId>(names.size());
     const auto place = mesh_place(document, node.index, *mesh);
     names.push_back(place.node);
+    lamps.push_back(lamp_of_node(document, node.index));
     each_primitive(place, [&](const PrimitivePlace& at) {
       if (auto part = decode_primitive(at, findings))
         place_part(at, std::move(*part), node, skins, geometry, findings);
     });
   }
-  for (auto& name : unique_names(names))
-    scene.nodes.push_back({std::move(name)});
+  auto unique = unique_names(names);
+  for (std::size_t n = 0; n < unique.size(); ++n)
+    scene.nodes.push_back({std::move(unique[n]), std::move(lamps[n])});
   return std::move(geometry.half_steps);
 }
 

@@ -1,0 +1,165 @@
+#include "radiosity/solvers/solve_together.h"
+
+#include "radiosity/solvers/error_bound.h"
+
+#include <tbb/parallel_for.h>
+
+#include <limits>
+
+namespace meninas {
+
+namespace {
+
+using Columns = Eigen::Array<double, 1, Eigen::Dynamic>;
+
+/// Of every channel of every lamp.
+Columns by_column(const Rgb& channels, Eigen::Index columns) {
+  Columns values(columns);
+  for (Eigen::Index c = 0; c < columns; ++c)
+    values(c) = channels[static_cast<int>(c % 3)];
+  return values;
+}
+
+/// The system of all lamps.
+struct SystemOfLamps {
+  const Transport& transport;
+  LightByLamp reflectance; ///< of one lamp
+  LightByLamp source;
+};
+
+/// rho T x
+LightByLamp reflected(const SystemOfLamps& system, const LightByLamp& x) {
+  LightByLamp light = transport_product(system.transport, x);
+  for (Eigen::Index row = 0; row < light.rows(); ++row)
+    for (Eigen::Index c = 0; c < light.cols(); ++c)
+      light(row, c) *= system.reflectance(row, c % 3);
+  return light;
+}
+
+Columns norms(const LightByLamp& x) {
+  return x.rows() > 0 ? Columns(x.cwiseAbs().colwise().maxCoeff().array())
+                      : Columns(Columns::Zero(x.cols()));
+}
+
+Columns products(const LightByLamp& a, const LightByLamp& b) {
+  return a.cwiseProduct(b).colwise().sum().array();
+}
+
+/// a / b, 0 where that is no number.
+Columns quotients(const Columns& a, const Columns& b) {
+  return (b.abs() >= std::numeric_limits<double>::min()).select(a / b, 0.0);
+}
+
+void add(LightByLamp& a, const Columns& factor, const LightByLamp& b) {
+  a += (b.array().rowwise() * factor).matrix();
+}
+
+/// Which columns are further from their solution than asked, 1, and which not, 0.
+struct Goal {
+  Columns amplification;
+  double tolerance;
+
+  Columns missed(const LightByLamp& residual, const LightByLamp& x) const {
+    const Columns left = norms(residual), size = norms(x);
+    // Without a bound what is left is measured by itself; rounding is as far as it goes.
+    const Columns weight = amplification.isFinite().select(amplification, 1.0);
+    constexpr double rounding = 1e-14;
+    return (left * weight > tolerance * size && left > rounding * size).cast<double>();
+  }
+};
+
+/// One run of BiCGStab (krylov.cpp); returns how many steps it took.
+int run(const SystemOfLamps& system, const Goal& goal, int most, LightByLamp& x) {
+  LightByLamp r = system.source - x + reflected(system, x);
+  const LightByLamp shadow = r;
+  LightByLamp p = r;
+  Columns rho = products(shadow, r), active = goal.missed(r, x);
+  int steps = 0;
+  for (; steps < most && (active != 0.0).any(); ++steps) {
+    // Along p as far as makes the residual orthogonal to the shadow, ...
+    const LightByLamp v = p - reflected(system, p);
+    const Columns alpha = active * quotients(rho, products(shadow, v));
+    add(x, alpha, p);
+    add(r, -alpha, v);
+
+    // ... and along what is left of the residual as far as makes it shortest.
+    const LightByLamp t = r - reflected(system, r);
+    const Columns omega = active * quotients(products(t, r), products(t, t));
+    add(x, omega, r);
+    add(r, -omega, t);
+    active *= goal.missed(r, x);
+
+    // The next direction is conjugate to this one; a column without one has broken down.
+    const Columns next = products(shadow, r);
+    const Columns beta = quotients(next, rho) * quotients(alpha, omega);
+    active = (beta == 0.0).select(0.0, active);
+    add(p, -omega, v);
+    p = r + (p.array().rowwise() * beta).matrix();
+    rho = next;
+  }
+  return steps;
+}
+
+} // namespace
+
+LightByLamp transport_product(const Transport& transport, const LightByLamp& x) {
+  LightByLamp product = LightByLamp::Zero(static_cast<Eigen::Index>(transport.size), x.cols());
+  tbb::parallel_for(std::size_t{0}, transport.size, [&](std::size_t i) {
+    auto row = product.row(static_cast<Eigen::Index>(i));
+    for (std::uint64_t k = transport.row_begin[i]; k < transport.row_begin[i + 1]; ++k) {
+      const auto sent = x.row(transport.columns[k]);
+      if (transport.bands == 1) {
+        row += double{transport.weights[k]} * sent;
+        continue;
+      }
+      for (Eigen::Index c = 0; c < x.cols(); ++c)
+        row(c) += double{transport.weights[3 * k + static_cast<std::size_t>(c % 3)]} * sent(c);
+    }
+  });
+  return product;
+}
+
+LightByLamp scattered(const Scattering& scattering, const LightByLamp& irradiance) {
+  LightByLamp sent(irradiance.rows(), irradiance.cols());
+  for (std::size_t l = 0; l < static_cast<std::size_t>(irradiance.cols() / 3); ++l)
+    set_light_of_lamp(sent, l,
+                      scattered(scattering.reflectance, scattering.translucent,
+                                light_of_lamp(irradiance, l)));
+  return sent;
+}
+
+LightByLamp solve_together(const Transport& transport, const LightByLamp& sources,
+                           const Scattering& scattering, const SolverSettings& settings) {
+  if (!scattering.translucent.empty()) {
+    const MixedRows mixed = mixed_rows(transport, scattering.reflectance, scattering.translucent);
+    return solve_together(mixed.transport, sources, {mixed.total, {}}, settings);
+  }
+  std::vector<Rgb> all(scattering.reflectance.size(), Rgb(0.0));
+  for (std::size_t l = 0; l < static_cast<std::size_t>(sources.cols() / 3); ++l) {
+    const std::vector<Rgb> own = light_of_lamp(sources, l);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i] += own[i];
+  }
+  const LinearSystem<Rgb> together{transport, all, scattering.reflectance};
+  if (has_lit_trap(together))
+    return sources;
+  SystemOfLamps system{transport, no_light(all.size(), 1), sources};
+  set_light_of_lamp(system.reflectance, 0, scattering.reflectance);
+  const Goal goal{by_column(amplification_bound(together), sources.cols()), settings.tolerance};
+
+  // A run whose recurrences have drifted is begun anew, from where it is.
+  LightByLamp x = sources;
+  for (int left = settings.max_iterations; left > 0;) {
+    const LightByLamp before = system.source - x + reflected(system, x);
+    if (!(goal.missed(before, x) != 0.0).any())
+      break;
+    left -= std::max(1, run(system, goal, left, x));
+    const LightByLamp after = system.source - x + reflected(system, x);
+    constexpr double progress = 0.5; // a run that leaves more than this share everywhere is the last
+    if (!(norms(after) <= progress * norms(before) && norms(before) > 0.0).any())
+      break;
+  }
+  return x.cwiseMax(sources); // light only adds to what is there without bounces
+}
+
+} // namespace meninas
