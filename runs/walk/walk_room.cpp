@@ -105,8 +105,9 @@ private:
     const Material& material = material_of_patch(patch);
     const WalkLook& shown = room_.looks[look];
     WalkBatch key;
-    key.section = shown.kind == WalkKind::pane || shown.kind == WalkKind::covering
-                      ? WalkSection::pane
+    const bool passes = shown.kind == WalkKind::pane || shown.kind == WalkKind::covering ||
+                        shown.kind == WalkKind::unlit_covering;
+    key.section = passes ? WalkSection::pane
                   : material.double_sided || shown.cutoff >= 0.0 ? WalkSection::both
                                                                  : WalkSection::single;
     key.colour = texture_of(material.base_color_texture);
@@ -125,7 +126,7 @@ private:
     vertex.emission_place = texture_place(scene, material.emissive_texture, at);
     vertex.colour = vertex_colour(scene, at);
     if (const WalkKind kind = room_.looks[vertex.look].kind;
-        kind == WalkKind::curved || kind == WalkKind::solid) {
+        kind >= WalkKind::curved) {
       const glm::vec3 normal(shading_normal(scene, at.triangle, at.barycentric));
       vertex.normal = face.facing == Facing::front ? normal : -normal;
     }

@@ -45,9 +45,11 @@ std::string solution_of(const std::string& name) {
 class SolutionViewers : public testing::Test {
 protected:
   Outcome run(std::vector<std::string> arguments) { return run_program(folder_.path(), arguments); }
-  void solve(const std::string& name, const std::string& elements) {
-    const Outcome outcome = run({"solve", source_dir() + "/scenes/gallery/" + name, "-o",
-                                 solution_of(name), "--quality", "draft", "--elements", elements});
+  void solve(const std::string& name, const std::vector<std::string>& besides = {}) {
+    std::vector<std::string> arguments{"solve", source_dir() + "/scenes/gallery/" + name, "-o",
+                                       solution_of(name), "--quality", "draft"};
+    arguments.insert(arguments.end(), besides.begin(), besides.end());
+    const Outcome outcome = run(arguments);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
   TemporaryFolder folder_;
@@ -62,7 +64,7 @@ TEST_F(SolutionViewers, TheKhronosValidatorFindsNothing) {
     GTEST_SKIP() << "no gltf-validator here (npm install --global gltf-validator): solutions are "
                     "not validated";
   for (const std::string& name : names) {
-    solve(name, "1000");
+    solve(name, {"--elements", "1000"});
     arguments.push_back(solution_of(name));
   }
   said = run_other_program("node", folder_.path(), arguments);
@@ -87,7 +89,7 @@ class ReadBack : public SolutionViewers, public testing::WithParamInterface<Read
 // which COLOR_0 clips.
 TEST_P(ReadBack, ASolutionShowsWhatItsSceneShows) {
   const auto& [scene, camera] = GetParam();
-  solve(scene, "8000");
+  solve(scene);
   const std::string solution = solution_of(scene);
   const double scale = read_glb(folder_ / solution)
                            .root.at("asset").at("extras").at("meninas").at("display_scale");

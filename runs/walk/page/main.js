@@ -10,7 +10,7 @@ async function start() {
   const images = await Promise.all(data.images.map(readImage));
   const textures = data.textures.map(use => makeTexture(gl, images[use.image], use));
   if (data.sky) textures.sky = await makeSky(gl, data.sky);
-  const paint = makePainter(gl, data, room, textures), rays = raysWhenAsked(room), motion = makeMotion(room, rays);
+  const { paint, fillNextProbe } = makePainter(gl, data, room, textures), rays = raysWhenAsked(room), motion = makeMotion(room, rays);
   const asked = readAddress(), mostWide = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE);
   const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0,
     most: Math.ceil(clamped(8e5 / tables.triangles.length, 1, 8)), coarse: true, slow: true };
@@ -63,6 +63,8 @@ async function start() {
       shows.most *= 2;
       setTimeout(() => askForFrame(false), 0);
     }
+    // Then for what curved and rough bodies show.
+    if (!moving && fillNextProbe()) setTimeout(() => askForFrame(false), 0);
     panel.figures(figures);
     panel.show({ ...shows, mode: motion.state.mode, exposure: motion.state.exposure });
     clearTimeout(rest);
@@ -121,6 +123,7 @@ async function start() {
   followAddress();
   if (!asked.shot) return;
   canvas.style.width = canvas.style.height = "auto";
+  while (fillNextProbe());
   const figures = paintNow(4, mostWorldsOfShot);
   document.body.dataset.figures = JSON.stringify(figures);
   document.body.dataset.shot = canvas.toDataURL("image/png");
