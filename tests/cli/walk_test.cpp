@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <fstream>
 
 namespace meninas::test {
@@ -263,6 +264,23 @@ TEST_F(Walk, UnlitSheetsCoverTheirShare) {
   room.root["meshes"].push_back(room.root["meshes"][2]);
   room.root["meshes"].back()["primitives"][0]["material"] = 3;
   add_node(room, {{"name", "sheet"}, {"mesh", room.root["meshes"].size() - 1}, {"translation", {0.0, 0.0, 1.5}}});
+  write_room(folder_ / "room.glb", room);
+  const json page = page_beside_picture((folder_ / "room.glb").string(), "camera", "1");
+  if (page.is_null())
+    GTEST_SKIP() << "this Chromium draws no WebGL 2";
+  EXPECT_LE(page.at("flip").get<double>(), 0.02);
+}
+
+// Straight down on a coat that is a little rough: cosines of one, and no NaN (which are black).
+TEST_F(Walk, RoughCoatsAreShownFromAbove) {
+  if (!has_browser())
+    GTEST_SKIP() << "no Chromium here: pages are not drawn";
+  TinyRoom room = tiny_room();
+  room.root["materials"].push_back(room.root["materials"][0]);
+  room.root["materials"].back()["pbrMetallicRoughness"]["roughnessFactor"] = 0.15;
+  room.root["meshes"][0]["primitives"][0]["material"] = 3;
+  room.root["nodes"].back()["translation"] = {0.5, 2.5, 0.5};
+  room.root["nodes"].back()["rotation"] = {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)};
   write_room(folder_ / "room.glb", room);
   const json page = page_beside_picture((folder_ / "room.glb").string(), "camera", "1");
   if (page.is_null())
