@@ -293,8 +293,7 @@ TEST_F(Walk, SkiesOfAnyBrightnessAreKept) {
   if (!has_browser())
     GTEST_SKIP() << "no Chromium here: pages are not used";
   write_room(folder_ / "room.glb", tiny_room());
-  ASSERT_EQ(run({"render", "room.glb", "-o", "sky.exr", "--size", "32x16", "--quality", "draft",
-                 "--projection", "equirectangular"}).code, 0);
+  ASSERT_EQ(run({"render", "room.glb", "-o", "sky.exr", "--size", "32x16", "--quality", "draft"}).code, 0);
   std::vector<double> brightest;
   for (const std::string strength : {"1e9", "1e-9"}) {
     const Outcome page = run({"walk", "room.glb", "-o", "room.html", "--quality", "draft",
@@ -369,32 +368,21 @@ TEST_F(Walk, PicturesOfTheLargestSizeAreBounded) {
   EXPECT_EQ(said.at("asked"), "4096,4096");
 }
 
-TEST_F(Walk, ASolutionOfAnotherSceneIsRefused) {
-  write_room(folder_ / "room.glb", tiny_room());
-  ASSERT_EQ(run({"solve", "room.glb", "-o", "s.glb", "--quality", "draft"}).code, 0);
-  const Outcome outcome =
-      run({"walk", gallery("furnace.gltf"), "--solution", "s.glb", "-o", "f.html"});
-  EXPECT_EQ(outcome.code, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("is not a solution of"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "f.html"));
-}
-
-TEST_F(Walk, OptionsOfPassOneHaveNoEffectOnASolution) {
-  write_room(folder_ / "room.glb", tiny_room());
-  const Outcome outcome = run(
-      {"walk", "room.glb", "--solution", "s.glb", "-o", "r.html", "--solver", "jacobi"});
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("has no effect with --solution"));
-}
-
-TEST_F(Walk, APageThatCannotBeWrittenIsSaidBeforeTheWork) {
-  write_room(folder_ / "room.glb", tiny_room());
-  const Outcome named = run({"walk", "room.glb", "-o", "room.bin"});
-  EXPECT_EQ(named.code, 4);
-  EXPECT_EQ(named.err, "meninas: room.bin: cannot write: a page is an .html file\n");
-  const Outcome outcome = run({"walk", "room.glb", "-o", "nowhere/r.html"});
-  EXPECT_EQ(outcome.code, 4);
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+// Each page compiles what its room has: curved or rough bodies, rough mirrors, panes.
+TEST_F(Walk, EveryShaderIsTaken) {
+  if (!has_browser())
+    GTEST_SKIP() << "no Chromium here: pages are not drawn";
+  write_tiny_page();
+  const json said = drawn("room.html", "", R"(
+    const gl = document.createElement('canvas').getContext('webgl2'), refused = [];
+    for (let k = 0; gl && k < 8; ++k)
+      try { makeProgram(gl, roomVertex, roomFragment({ bodies: k & 1, rough: (k & 2) / 2, panes: (k & 4) / 4 })); }
+      catch (problem) { refused.push(`${k}: ${problem.message}`); }
+    return { gl: Boolean(gl), refused };)");
+  ASSERT_FALSE(said.is_null());
+  if (said.at("gl") == false)
+    GTEST_SKIP() << "this Chromium draws no WebGL 2";
+  EXPECT_EQ(said.at("refused"), json::array());
 }
 
 } // namespace

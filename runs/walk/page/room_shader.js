@@ -71,6 +71,12 @@ void glassShares(float c, out vec3 reflectedPart, out vec3 passedPart) {
   passedPart = (1.0 - face) * (1.0 - face) * tint.rgb / max(1.0 - loop * loop, 1e-6);
   reflectedPart = face + loop * passedPart;
 }
+#endif
+vec3 coatReflectance(float c) {
+  vec4 f = NUMBERS(3);
+  return min(f.rgb + (f.w - f.rgb) * pow(1.0 - c, 5.0), 1.0);
+}
+#if BODIES || ROUGH
 /// Where the picture aside shows a point, and whether it does.
 vec2 onAside(vec3 x, out bool isSeen) {
   vec4 seen = asideProjection * vec4(x, 1.0);
@@ -84,12 +90,6 @@ float farOnAside(vec3 x) {
   float far = textureLod(behindPane, onAside(x), 0.0).a;
   return min(distance(asideEye + far * normalize(x - asideEye), place), 1e4);
 }
-#endif
-vec3 coatReflectance(float c) {
-  vec4 f = NUMBERS(3);
-  return min(f.rgb + (f.w - f.rgb) * pow(1.0 - c, 5.0), 1.0);
-}
-#if BODIES || ROUGH
 /// The frame of facets by GGX about n: 48 of them, turned from pixel to pixel.
 const int facets = 48;
 struct Facets { vec3 n, t, b; float alpha, o, turn; };
@@ -154,6 +154,8 @@ vec3 seenByFacets(vec3 n, vec3 towards, float roughness) {
   }
   return sum * probeScale / max(weights, 1e-6);
 }
+#endif
+#if BODIES
 /// What the middle of a body sees along a direction, taken for what is seen from here: as far away as
 /// the walls of the box around the room.
 vec3 seenByBody(vec3 r, float roughness) {
