@@ -258,6 +258,7 @@ function makePainter(gl, data, room, textures) {
     bind(4, scale);
     bind(5, blackCube, gl.TEXTURE_CUBE_MAP);
     gl.uniform1i(at.falseColours, options.falseColours);
+    gl.uniform1i(at.facets, options.facets || 8);
     gl.uniform1f(at.probeScale, exposed / probeExposed);
     gl.uniform1f(at.lightScale, data.light);
     gl.uniform1f(at.exposed, exposed);

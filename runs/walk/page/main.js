@@ -1,6 +1,9 @@
 // The page: reads its data, draws when something has changed, and does what keys ask for.
 "use strict";
 
+/// Rays to a rough surface's pixel: of pictures, at rest, while someone moves.
+const facetsFor = block => block > 2 ? 48 : block > 1 ? 24 : 12;
+
 /// More worlds than that make no frame slow on a plain graphics card; slow ones have fewer.
 const mostWorlds = 128, mostWorldsOfShot = 1024, slowFrame = 80, mostPixels = 1 << 24;
 
@@ -46,7 +49,7 @@ async function start() {
     const [width, height] = sizeOfCanvas(coarse), before = performance.now();
     while (block > 1 && (Math.max(width, height) * block > mostWide || width * height * block * block > mostPixels)) block /= 2;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-    const figures = paint(motion.view(width / height), { ...shows, width, height, block, most, exposure: motion.state.exposure });
+    const figures = paint(motion.view(width / height), { ...shows, width, height, block, most, facets: facetsFor(block), exposure: motion.state.exposure });
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
     return { ...figures, milliseconds: performance.now() - before };
   }

@@ -41,7 +41,7 @@ precision highp int;
 in vec3 place, light, normal;
 in vec4 onTextures, colour;
 flat in int look;
-uniform int shows;
+uniform int shows, facets;
 uniform mat4 asideProjection;
 uniform bool aside, falseColours, hasColour, hasEmission, hasProbe;
 uniform vec3 eye, asideEye, ambient, lowest, highest, probePlace;
@@ -90,19 +90,18 @@ float farOnAside(vec3 x) {
   float far = textureLod(behindPane, onAside(x), 0.0).a;
   return min(distance(asideEye + far * normalize(x - asideEye), place), 1e4);
 }
-/// The frame of facets by GGX about n: 48 of them, turned from pixel to pixel.
-const int facets = 48;
+/// The frame of facets by GGX about n, turned from pixel to pixel.
 struct Facets { vec3 n, t, b; float alpha, o, turn; };
 Facets facetsAbout(vec3 n, vec3 towards, float roughness) {
   vec3 t = normalize(cross(abs(n.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), n));
   float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   return Facets(n, t, cross(n, t), roughness * roughness, max(1e-3, -dot(towards, n)), turn);
 }
-/// Where the ray of facet k goes, its cosine o.h, and its weight G2 (o.h) / (n.h) (Walter et al. 2007). It stands
-/// for slopes in a square of sqrt(pi / 24) alpha / (1 - u); width is that by its own slope.
+/// Where the ray of facet k goes, its cosine o.h, and its weight G2 (o.h) / (n.h) (Walter et al. 2007). Of 48
+/// facets it stands for a quarter of its way from the middle (more would reach below the horizon).
 vec3 facetRay(Facets f, vec3 towards, int k, out float c, out float weight, out float width) {
   float u = (float(k) + 0.5) / float(facets), phi = f.turn + 2.39996323 * float(k), slope = f.alpha * sqrt(u / (1.0 - u));
-  width = 0.25;
+  width = 0.25 * sqrt(48.0 / float(facets));
   vec3 h = normalize(f.n + slope * (cos(phi) * f.t + sin(phi) * f.b));
   c = clamp(-dot(towards, h), 0.0, 1.0);
   vec3 r = towards + 2.0 * c * h;
