@@ -1,14 +1,14 @@
-// A solution as a file: a GLB any viewer shows (COLOR_0) that keeps the exact irradiance
-// (_IRRADIANCE) with the settings of its mesh and the hash of its scene,
-// so that one solve serves any number of views.
+// A solution as a file: a GLB that any viewer shows (viewer_scene.h: names, cameras, textures,
+// materials, COLOR_0) and that keeps the exact irradiance (_IRRADIANCE) with the settings of its mesh
+// and the hash of its scene, so that one solve serves any number of views.
 //
-// One mesh of one primitive holds all element vertices (POSITION,
-// COLOR_0, _IRRADIANCE, and the parts of the field that are known:
-// _IRRADIANCE_MIRRORED, _IRRADIANCE_INDIRECT, _IRRADIANCE_INDIRECT_MIRRORED, see IrradianceField;
-// VEC3 float) and the elements' triangles. COLOR_0 is the radiosity, exposed for display
-// and linear. `extras` of the asset holds {"meninas": {version, scene_hash, data_hash,
-// mesh settings, counts, figures of the solve}}, and where the field has a mesh of its own,
-// `division`, the number of the view of bytes that say which cells of the forest are divided.
+// The field, W/m^2, is one array of VEC3 floats for each part that is known (_IRRADIANCE,
+// _IRRADIANCE_MIRRORED, _IRRADIANCE_INDIRECT, _IRRADIANCE_INDIRECT_MIRRORED, see IrradianceField), by
+// vertex of the mesh, after them the points that viewers alone need; the lit primitives take ranges of
+// it. `extras` of the asset holds {"meninas": {version, scene_hash, data_hash, mesh settings, counts,
+// field: the accessors of the arrays, display_scale: COLOR_0 / B, figures of the solve}}, and where the
+// field has a mesh of its own, `division`, the number of the view of bytes that say which cells of the
+// forest are divided.
 // A solution by lamp keeps the light of each (lamp_codes.h): `lamps` has the grouping and for each
 // lamp {name, top, view}.
 #pragma once

@@ -81,17 +81,13 @@ void read_figures(const std::filesystem::path& file, const json& figures, Stored
   stored.closure = {closure.at("mean_error"), closure.at("max_error"), closure.at("cut")};
 }
 
-const json& attributes_of(const GlbContent& glb) {
-  return glb.root.at("meshes").at(0).at("primitives").at(0).at("attributes");
-}
-
 std::vector<glm::vec3> read_irradiance(const std::filesystem::path& file, const GlbContent& glb,
                                        std::size_t accessor_index, std::size_t vertices) {
   const json& root = glb.root;
   const json& accessor = root.at("accessors").at(accessor_index);
   const json& view = root.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
   const std::size_t offset = view.at("byteOffset");
-  // Points on outlines of regions, which viewers show, come after the vertices.
+  // Points that viewers alone show come after the vertices.
   const bool fits = accessor.at("count").get<std::size_t>() >= vertices &&
                     offset <= glb.binary.size() &&
                     vertices <= (glb.binary.size() - offset) / vec3_size;
@@ -194,7 +190,7 @@ StoredSolution read_checked(const std::filesystem::path& file, const GlbContent&
   stored.mesh = read_mesh_settings(file, extras.at("mesh"));
   stored.elements = extras.at("elements");
   stored.division = read_division(file, glb, extras);
-  const json& attributes = attributes_of(glb);
+  const json& attributes = extras.at("field");
   const std::size_t vertices = extras.at("vertices");
   for (const FieldPart& part : field_parts) {
     if (part.values == &VertexIrradiance::irradiance || attributes.contains(part.attribute)) {

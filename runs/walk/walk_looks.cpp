@@ -41,18 +41,34 @@ Rgb f0_of_pane(const Glass& pane) {
   return below_film(pane.film, pane.f0, schlick_f0_of_mean(mean, pane.f90));
 }
 
+/// A direction for what hardly depends on it.
+Direction from_most_sides() {
+  constexpr double cosine = 0.7;
+  return {std::sqrt(1.0 - cosine * cosine), 0.0, cosine};
+}
+
 /// The share of light that it scatters evenly to the eye, where its lobes are shown by themselves.
 Rgb even_part(const Bsdf& bsdf, WalkKind kind) {
   if (kind == WalkKind::coat)
     return bsdf.diffuse;
-  constexpr double cosine = 0.7; // from most sides
-  const Direction from_most_sides{std::sqrt(1.0 - cosine * cosine), 0.0, cosine};
-  return even_reflectance(bsdf, from_most_sides);
+  return even_reflectance(bsdf, from_most_sides());
 }
 
-WalkKind kind_of(const Material& material, WalkFace face) {
+/// What metal, and the coat of what is not metal, reflect in their lobe, from most sides.
+Rgb lobe_reflectance(const Bsdf& bsdf) {
+  const SchlickAlbedo albedo = lobe_albedo(bsdf, from_most_sides());
+  return bsdf.metal * (albedo.f0 + albedo.f90) + bsdf.coat * coat_albedo(bsdf, from_most_sides());
+}
+
+/// What is worth looking for in a lobe.
+bool shows_metal(const Material& material, const MaterialPoint& point) {
+  constexpr double least = 0.02; // of the light
+  return is_glossy(material) && point.metallic * largest(point.base_color) > least;
+}
+
+WalkKind kind_of(const Material& material, const MaterialPoint& point, WalkFace face) {
   if (material.unlit)
-    return WalkKind::unlit;
+    return is_blended(material) ? WalkKind::unlit_covering : WalkKind::unlit;
   if (is_blended(material))
     return WalkKind::covering;
   if (is_solid_glass(material))
@@ -62,7 +78,7 @@ WalkKind kind_of(const Material& material, WalkFace face) {
   if (face == WalkFace::facet)
     return WalkKind::curved;
   if (face == WalkFace::plain)
-    return WalkKind::plain;
+    return shows_metal(material, point) ? WalkKind::glossy : WalkKind::plain;
   return has_mirror_coat(material) ? WalkKind::coat : WalkKind::mirror;
 }
 
@@ -81,7 +97,7 @@ WalkLook walk_look(const Scene& scene, const DecodedTextures& textures, Material
   MaterialPoint point = mean_point(textures, material);
   WalkLook look;
   look.name = material.name;
-  look.kind = kind_of(material, face);
+  look.kind = kind_of(material, point, face);
   look.roughness = point.roughness;
   look.emission = material.emission;
   if (material.alpha_mode != AlphaMode::opaque)
@@ -93,7 +109,7 @@ WalkLook walk_look(const Scene& scene, const DecodedTextures& textures, Material
     // The factor's share is in the material's; the page takes all of alpha.
     look.emission = material.alpha > 0.0 ? material.emission / material.alpha : Rgb(0.0);
   }
-  if (look.kind == WalkKind::unlit) {
+  if (material.unlit) {
     look.albedo = point.base_color;
     return look;
   }
@@ -102,6 +118,9 @@ WalkLook walk_look(const Scene& scene, const DecodedTextures& textures, Material
   const Bsdf bsdf =
       look.kind == WalkKind::coat ? mirror_coat(material) : make_bsdf(material, point);
   look.reflectance = bsdf.metal;
+  // What facets spread is in the even part, of light that only metals with a field receive.
+  if (look.kind == WalkKind::glossy)
+    look.reflectance = lobe_reflectance(bsdf);
   if (look.kind == WalkKind::coat) {
     look.f0 = bsdf.coat * below_film(bsdf.film, bsdf.coat_f0,
                                      schlick_f0_of_mean(bsdf.film_on_coat.reflectance, bsdf.coat_f90));
@@ -112,7 +131,10 @@ WalkLook walk_look(const Scene& scene, const DecodedTextures& textures, Material
     look.ior = bsdf.pane.ior;
     look.tint = bsdf.pane.tint;
     if (look.kind == WalkKind::solid)
-      look.reflectance = glm::log(glm::max(attenuation(material, 1.0), Rgb(1e-300)));
+      look.reflectance = std::isfinite(material.attenuation_distance)
+                             ? glm::log(glm::max(material.attenuation_color, Rgb(1e-300))) /
+                                   material.attenuation_distance
+                             : Rgb(0.0);
   }
   return look;
 }

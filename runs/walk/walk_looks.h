@@ -12,16 +12,19 @@
 //   mirror     its reflectance times c of what its mirror shows, above the even part of rough metals
 //   pane       R(cos) of what its mirror shows, T(cos) of what is behind (scenes/materials/glass.h)
 //   covering   a rho H / pi, and 1 - a of what is behind: alphaMode BLEND
+//   unlit_covering  a albedo c, and 1 - a of what is behind
 //   curved     its reflectance times c of what the middle of its body sees: an approximation
 //   solid      R(cos) and T(cos) of one face of what the middle of its body sees along the mirrored
 //              and the refracted ray, as if that met no second face: an approximation
+//   glossy     a metal without a mirror world: rho H / pi of what its facets spread, and its lobe of what
+//              the middle of its body sees along it
 #pragma once
 
 #include "scenes/materials/texture_lookup.h"
 
 namespace meninas {
 
-enum class WalkKind { plain, unlit, coat, mirror, pane, covering, curved, solid };
+enum class WalkKind { plain, unlit, coat, mirror, pane, covering, unlit_covering, curved, solid, glossy };
 
 struct WalkLook {
   Rgb albedo{0.0}, rest{0.0};

@@ -217,25 +217,40 @@ json cameras_json(const std::vector<WalkCamera>& cameras, const Point3& middle) 
   return list;
 }
 
+/// What halves times this are radiances of the sky: up to the brightest, unless the rest would then be
+/// too dark for halves. What is clipped then is millions of times as bright as the mean.
+double sky_scale(std::span<const glm::vec3> texels) {
+  constexpr double brightest = 65504.0, least_mean = 0.01;
+  double most = 0.0, sum = 0.0;
+  for (const glm::vec3& texel : texels) {
+    most = std::max(most, double{largest(texel)});
+    sum += double{largest(texel)} / double(texels.size());
+  }
+  return most > 0.0 ? std::min(most / brightest, sum / least_mean) : 1.0;
+}
+
 /// The sky in at most 256 x 128 texels, as halves, row by row from the zenith.
 json sky_json(const Environment& background) {
   if (!background.map)
     return nullptr;
   const RadianceMap& map = *background.map;
   const int width = std::min(map.width, 256), height = std::min(map.height, 128);
-  std::vector<std::byte> bytes;
+  std::vector<glm::vec3> texels;
   for (int j = 0; j < height; ++j)
-    for (int i = 0; i < width; ++i) {
-      const glm::vec3 radiance = radiance_from(
-          map, direction_at(map, (i + 0.5) / width, (j + 0.5) / height), Suns::shown);
-      for (int k = 0; k < 3; ++k) {
-        const std::uint32_t bits = half_bits(radiance[k]);
-        bytes.push_back(static_cast<std::byte>(bits & 0xffU));
-        bytes.push_back(static_cast<std::byte>(bits >> 8U));
-      }
+    for (int i = 0; i < width; ++i)
+      texels.emplace_back(radiance_from(
+          map, direction_at(map, (i + 0.5) / width, (j + 0.5) / height), Suns::shown));
+  const double scale = sky_scale(texels);
+  std::vector<std::byte> bytes;
+  for (const glm::vec3& texel : texels)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t bits = half_bits(static_cast<float>(texel[k] / scale));
+      bytes.push_back(static_cast<std::byte>(bits & 0xffU));
+      bytes.push_back(static_cast<std::byte>(bits >> 8U));
     }
   return {{"width", width},
           {"height", height},
+          {"scale", scale},
           {"turned", {map.turned_cos, map.turned_sin}},
           {"texels", base64(deflated(bytes))}};
 }

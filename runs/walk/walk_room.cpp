@@ -1,7 +1,7 @@
 #include "runs/walk/walk_room.h"
 
 #include "radiosity/solution/element_triangles.h"
-#include "scenes/content_hash.h"
+#include "radiosity/solution/scene_places.h"
 #include "scenes/materials/texture_lookup.h"
 #include "scenes/shading_normal.h"
 
@@ -56,10 +56,6 @@ public:
   }
 
 private:
-  struct Place {
-    TriangleId triangle = none<TriangleId>;
-    Vec2 barycentric{0.0};
-  };
   /// The bytes of what makes a corner of a side differ from others at its vertex.
   using CornerKey = std::array<std::uint32_t, 13>;
   struct HashOfKey {
@@ -106,8 +102,9 @@ private:
     const Material& material = material_of_patch(patch);
     const WalkLook& shown = room_.looks[look];
     WalkBatch key;
-    key.section = shown.kind == WalkKind::pane || shown.kind == WalkKind::covering
-                      ? WalkSection::pane
+    const bool passes = shown.kind == WalkKind::pane || shown.kind == WalkKind::covering ||
+                        shown.kind == WalkKind::unlit_covering;
+    key.section = passes ? WalkSection::pane
                   : material.double_sided || shown.cutoff >= 0.0 ? WalkSection::both
                                                                  : WalkSection::single;
     key.colour = texture_of(material.base_color_texture);
@@ -118,52 +115,15 @@ private:
     return key;
   }
 
-  /// Of the triangles of a patch the one that holds the point, or comes nearest to that.
-  Place place_of(const Patch& patch, const Point3& x) const {
-    Place best{patch.triangles[0], Vec2(0.0)};
-    double most = -std::numeric_limits<double>::infinity();
-    for (const TriangleId triangle : patch.triangles) {
-      if (triangle == none<TriangleId>)
-        continue;
-      const auto p = corners(light_.scene, triangle);
-      const Vec3 e1 = p[1] - p[0], e2 = p[2] - p[0], normal = glm::cross(e1, e2);
-      const Vec2 b = Vec2(glm::dot(glm::cross(x - p[0], e2), normal),
-                          glm::dot(glm::cross(e1, x - p[0]), normal)) /
-                     glm::dot(normal, normal);
-      if (const double least = std::min({b.x, b.y, 1.0 - b.x - b.y}); least > most) {
-        most = least;
-        best = {triangle, b};
-      }
-    }
-    return best;
-  }
-
-  glm::vec2 on_texture(const std::optional<TextureUse>& use, const Triangle& triangle,
-                       const glm::vec3& weights) const {
-    if (!use)
-      return glm::vec2(0.0F);
-    glm::vec2 place(0.0F);
-    for (int k = 0; k < 3; ++k)
-      place += weights[k] * light_.scene.vertices[index(triangle.vertices[std::size_t(k)])]
-                                .texcoord[std::size_t(use->texcoord_set)];
-    return glm::vec2(transformed_texcoord(*use, Vec2(place)));
-  }
-
   /// Colour, textures and normal of a face at a point of a triangle of the scene.
-  void dress(WalkVertex& vertex, const Face& face, const Place& at) const {
+  void dress(WalkVertex& vertex, const Face& face, const ScenePlace& at) const {
     const Scene& scene = light_.scene;
-    const Triangle& triangle = scene.triangles[index(at.triangle)];
-    const glm::vec3 weights(1.0 - at.barycentric.x - at.barycentric.y, at.barycentric.x,
-                            at.barycentric.y);
-    const Material& material = scene.materials[index(triangle.material)];
-    vertex.colour_place = on_texture(material.base_color_texture, triangle, weights);
-    vertex.emission_place = on_texture(material.emissive_texture, triangle, weights);
-    glm::vec4 colour(0.0F);
-    for (int k = 0; k < 3; ++k)
-      colour += weights[k] * scene.vertices[index(triangle.vertices[std::size_t(k)])].color;
-    vertex.colour = colour;
+    const Material& material = material_of(scene, at.triangle);
+    vertex.colour_place = texture_place(scene, material.base_color_texture, at);
+    vertex.emission_place = texture_place(scene, material.emissive_texture, at);
+    vertex.colour = vertex_colour(scene, at);
     if (const WalkKind kind = room_.looks[vertex.look].kind;
-        kind == WalkKind::curved || kind == WalkKind::solid) {
+        kind >= WalkKind::curved) {
       const glm::vec3 normal(shading_normal(scene, at.triangle, at.barycentric));
       vertex.normal = face.facing == Facing::front ? normal : -normal;
     }
@@ -211,7 +171,7 @@ private:
     vertex.position = from_middle(x);
     vertex.irradiance = irradiance_of(side, id, x, own);
     dress(vertex, {side.patch, side.facing},
-          place_of(light_.surfaces.patches[index(side.patch)], x));
+          place_on(light_.scene, light_.surfaces.patches[index(side.patch)], x));
     return vertex_index(of, vertex);
   }
 

@@ -9,7 +9,7 @@
 "use strict";
 
 function makePainter(gl, data, room, textures) {
-  const roomProgram = makeProgram(gl, roomVertex, roomFragment), skyProgram = makeProgram(gl, wholeVertex, skyFragment);
+  const roomProgram = makeProgram(gl, roomVertex, roomFragment(room.needs)), skyProgram = makeProgram(gl, wholeVertex, skyFragment);
   const screenProgram = makeProgram(gl, wholeVertex, screenFragment);
   const array = makeRoomArrays(gl, data, room.tables), looks = makeLooks(gl, data.looks);
   const nothing = gl.createVertexArray(), scale = makeScale(gl, data.falseColours), targets = [];
@@ -79,7 +79,7 @@ function makePainter(gl, data, room, textures) {
       drawParts(run);
     }
   }
-  function drawSky(camera) {
+  function drawSky(camera, place) {
     const sky = skyProgram.at;
     gl.useProgram(skyProgram.program);
     gl.bindVertexArray(nothing);
@@ -87,6 +87,7 @@ function makePainter(gl, data, room, textures) {
     gl.uniform3fv(sky.up, times(camera.up, camera.half));
     gl.uniform3fv(sky.forward, camera.forward);
     gl.uniform1f(sky.depth, 1);
+    gl.uniform1f(sky.alpha, place > 0 ? 6e4 : 1);
     gl.frontFace(gl.CCW);
     gl.depthFunc(gl.ALWAYS);
     gl.depthMask(true);
@@ -135,7 +136,7 @@ function makePainter(gl, data, room, textures) {
     drawRuns(mirror.runs, shown.weight);
     gl.colorMask(true, true, true, true);
     stencil(level + 1, gl.KEEP);
-    drawSky(child.camera);
+    drawSky(child.camera, place);
     drawWorld(child, level + 1, place);
 
     useWorld(world);
@@ -161,7 +162,12 @@ function makePainter(gl, data, room, textures) {
     stencil(level, gl.KEEP);
     gl.depthFunc(gl.EQUAL);
     bind(3, mirrored);
+    gl.generateMipmap(gl.TEXTURE_2D);
+    setFilters(gl, gl.LINEAR_MIPMAP_LINEAR, gl.LINEAR);
+    gl.uniformMatrix4fv(at.asideProjection, false, viewProjection(child.camera));
+    gl.uniform3fv(at.asideEye, child.camera.eye);
     drawRuns(child.mirror.runs, shown.rough);
+    setFilters(gl, gl.NEAREST, gl.NEAREST);
     bind(3, black);
     gl.depthFunc(gl.LEQUAL);
   }
@@ -173,7 +179,7 @@ function makePainter(gl, data, room, textures) {
     blend();
     gl.clear(gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
     stencil(0, gl.KEEP);
-    drawSky(child.camera);
+    drawSky(child.camera, place + 1);
     drawWorld(child, 0, place + 1);
     scissor(child.rectangle, target);
     takeMean(target);
@@ -240,6 +246,7 @@ function makePainter(gl, data, room, textures) {
     gl.uniform1i(skyProgram.at.hasSky, textures.sky ? 1 : 0);
     gl.uniform1i(skyProgram.at.falseColours, options.falseColours);
     gl.uniform1f(skyProgram.at.exposed, exposed);
+    gl.uniform1f(skyProgram.at.skyScale, data.sky ? data.sky.scale : 1);
     gl.uniform1i(skyProgram.at.sky, 6);
     gl.uniform2fv(skyProgram.at.turned, data.sky ? data.sky.turned : [1, 0]);
     bind(6, textures.sky || black);
@@ -251,6 +258,7 @@ function makePainter(gl, data, room, textures) {
     bind(4, scale);
     bind(5, blackCube, gl.TEXTURE_CUBE_MAP);
     gl.uniform1i(at.falseColours, options.falseColours);
+    gl.uniform1i(at.facets, options.facets || 8);
     gl.uniform1f(at.probeScale, exposed / probeExposed);
     gl.uniform1f(at.lightScale, data.light);
     gl.uniform1f(at.exposed, exposed);
@@ -294,26 +302,32 @@ function makePainter(gl, data, room, textures) {
     options = { width: probeSize, height: probeSize, exposure: data.cameras[0].exposure, falseColours: false, lines: false, without };
     const target = bindTarget(place);
     begin(target);
-    drawSky(camera);
+    drawSky(camera, place);
     drawWorld(rootWorld(camera), 0, place);
     scissor([0, 0, 1, 1], target);
     takeMean(target);
     return target.mean;
   }
-  room.probes.forEach(probe => fillProbe(gl, room, probe, paintFace));
+  /// What a body sees does not change: asked for once, when a first picture is there. Returns whether there was one left.
+  function fillNextProbe() {
+    const probe = room.probes.find(p => !p.texture);
+    if (probe) fillProbe(gl, room, probe, paintFace);
+    return probe !== undefined;
+  }
 
   /// `wanted`: width and height in pixels of the screen, block, exposure, lines, falseColours, mirrors,
   /// and how many worlds at most. Returns figures of the frame.
-  return function paint(camera, wanted) {
+  function paint(camera, wanted) {
     options = { ...wanted, width: wanted.width * wanted.block, height: wanted.height * wanted.block };
     draws = 0;
     const follows = (mirror, world) => options.mirrors && (mirror.kind === "mirror" || !options.falseColours)
       && (!(mirror.kind === "pane" || mirror.rough) || world.asides < 2);
     const worlds = visibleWorlds(room, camera, options.most, follows);
     begin(bindTarget(0));
-    drawSky(camera);
+    drawSky(camera, 0);
     drawWorld(worlds.root, 0, 0);
     showOnScreen(options.block);
     return { worlds: worlds.count, cut: worlds.cut, depth: worlds.depth, draws };
-  };
+  }
+  return { paint, fillNextProbe };
 }

@@ -125,7 +125,7 @@ function makeTarget(gl, width, height) {
   const target = { width, height, drawn: gl.createFramebuffer(), mean: gl.createFramebuffer(), texture: gl.createTexture(),
     parts: [gl.createRenderbuffer(), gl.createRenderbuffer()] };
   gl.bindTexture(gl.TEXTURE_2D, target.texture);
-  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA16F, width, height);
+  gl.texStorage2D(gl.TEXTURE_2D, Math.floor(Math.log2(Math.max(width, height))) + 1, gl.RGBA16F, width, height);
   setFilters(gl, gl.NEAREST, gl.NEAREST);
   gl.bindFramebuffer(gl.FRAMEBUFFER, target.mean);
   gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target.texture, 0);

@@ -1,6 +1,9 @@
 // The page: reads its data, draws when something has changed, and does what keys ask for.
 "use strict";
 
+/// Rays to a rough surface's pixel: of pictures, at rest, while someone moves.
+const facetsFor = block => block > 2 ? 48 : block > 1 ? 24 : 12;
+
 /// More worlds than that make no frame slow on a plain graphics card; slow ones have fewer.
 const mostWorlds = 128, mostWorldsOfShot = 1024, slowFrame = 80, mostPixels = 1 << 24;
 
@@ -10,7 +13,7 @@ async function start() {
   const images = await Promise.all(data.images.map(readImage));
   const textures = data.textures.map(use => makeTexture(gl, images[use.image], use));
   if (data.sky) textures.sky = await makeSky(gl, data.sky);
-  const paint = makePainter(gl, data, room, textures), rays = raysWhenAsked(room), motion = makeMotion(room, rays);
+  const { paint, fillNextProbe } = makePainter(gl, data, room, textures), rays = raysWhenAsked(room), motion = makeMotion(room, rays);
   const asked = readAddress(), mostWide = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE);
   const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0,
     most: Math.ceil(clamped(8e5 / tables.triangles.length, 1, 8)), coarse: true, slow: true };
@@ -46,7 +49,7 @@ async function start() {
     const [width, height] = sizeOfCanvas(coarse), before = performance.now();
     while (block > 1 && (Math.max(width, height) * block > mostWide || width * height * block * block > mostPixels)) block /= 2;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-    const figures = paint(motion.view(width / height), { ...shows, width, height, block, most, exposure: motion.state.exposure });
+    const figures = paint(motion.view(width / height), { ...shows, width, height, block, most, facets: facetsFor(block), exposure: motion.state.exposure });
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
     return { ...figures, milliseconds: performance.now() - before };
   }
@@ -63,6 +66,8 @@ async function start() {
       shows.most *= 2;
       setTimeout(() => askForFrame(false), 0);
     }
+    // Then for what curved and rough bodies show.
+    if (!moving && fillNextProbe()) setTimeout(() => askForFrame(false), 0);
     panel.figures(figures);
     panel.show({ ...shows, mode: motion.state.mode, exposure: motion.state.exposure });
     clearTimeout(rest);
@@ -121,6 +126,7 @@ async function start() {
   followAddress();
   if (!asked.shot) return;
   canvas.style.width = canvas.style.height = "auto";
+  while (fillNextProbe());
   const figures = paintNow(4, mostWorldsOfShot);
   document.body.dataset.figures = JSON.stringify(figures);
   document.body.dataset.shot = canvas.toDataURL("image/png");

@@ -14,7 +14,7 @@ const cubeFrames = [[[0, 0, -1], [0, -1, 0], [1, 0, 0]], [[0, 0, 1], [0, -1, 0],
 function findProbes(room) {
   const bodies = new Map();
   for (const run of room.opaque.filter(r => r.node >= 0)) {
-    const body = bodies.get(run.node) || { runs: [], count: 0 };
+    const body = bodies.get(run.node) || { node: run.node, runs: [], count: 0 };
     body.runs.push(run);
     body.count += run.count;
     bodies.set(run.node, body);

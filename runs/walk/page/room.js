@@ -9,7 +9,7 @@ function joinedRuns(data, tables, batches) {
   const runs = [];
   for (const batch of batches) {
     const [section, colour, emission, mirror, node, first, count] = batch, last = runs[runs.length - 1];
-    const body = lookOf(data, tables, batch).kind >= kinds.curved ? node : -1;
+    const body = isBody(lookOf(data, tables, batch)) ? node : -1;
     if (last && section !== sections.pane && last.section === section && last.colour === colour
       && last.emission === emission && last.node === body && last.first + last.count === first) {
       last.count += count;
@@ -19,6 +19,10 @@ function joinedRuns(data, tables, batches) {
   }
   return runs;
 }
+
+/// Whether it shows what its middle sees: of rough mirrors beside what their world's picture has.
+const leastRough = 0.03;
+const isBody = look => look.kind >= kinds.curved || (look.kind === kinds.mirror && look.roughness > leastRough);
 
 function lookOf(data, tables, batch) { return data.looks[tables.look[tables.triangles[3 * batch[5]]]]; }
 
@@ -72,18 +76,22 @@ function readRoom(data, tables) {
   room.panes.forEach(run => { run.middle = middleOf(tables, run); run.plane = data.mirrors[run.mirror]; });
   room.probes = findProbes(room);
   room.backs = data.batches.filter(b => b[0] === sections.single).reduce((sum, b) => sum + b[6], 0);
-  room.mirrors = data.mirrors.map((mirror, number) => ({ ...mirror, number, rough: isRough(data, tables, mirror, number),
+  room.mirrors = data.mirrors.map((mirror, number) => ({ ...mirror, number, ...roughnessOf(data, tables, mirror, number),
     runs: joinedRuns(data, tables, data.batches.filter(b => b[3] === number)),
     // Whether it shows light of its own below what it mirrors.
     shines: mirror.kind !== "mirror" || data.batches.some(b => b[3] === number && hasOwn(data, tables, b)) }))
     .filter(mirror => mirror.runs.length);
+  for (const run of room.mirrors.flatMap(mirror => mirror.runs))
+    run.probe = room.probes.find(probe => run.node >= 0 && probe.node === run.node) || null;
+  room.needs = { bodies: room.opaque.some(run => run.node >= 0) || data.looks.some(isBody), rough: room.mirrors.some(mirror => mirror.rough), panes: room.panes.length > 0 };
   return room;
 }
 
-/// Whether what it mirrors is blurred: it is drawn aside, as what panes mirror.
-function isRough(data, tables, mirror, number) {
-  const least = 0.03, batch = data.batches.find(b => b[3] === number);
-  return mirror.kind !== "pane" && batch !== undefined && lookOf(data, tables, batch).roughness > least;
+/// Whether what it mirrors is blurred: it is drawn aside, as what panes mirror, and by how much, alpha.
+function roughnessOf(data, tables, mirror, number) {
+  const batch = data.batches.find(b => b[3] === number);
+  const roughness = mirror.kind === "pane" || !batch ? 0 : lookOf(data, tables, batch).roughness;
+  return { rough: roughness > leastRough, alpha: roughness ** 2 };
 }
 
 function hasOwn(data, tables, batch) {

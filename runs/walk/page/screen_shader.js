@@ -16,16 +16,16 @@ in vec2 at;
 uniform vec3 right, up, forward, background;
 uniform vec2 turned;
 uniform bool hasSky, falseColours;
-uniform float exposed;
+uniform float exposed, skyScale, alpha; // of what is drawn aside: farther away than all else
 uniform sampler2D sky;
 out vec4 result;
 void main() {
   vec3 d = normalize(forward + at.x * right + at.y * up), light = background;
   if (hasSky) {
     d.xz = vec2(turned.x * d.x - turned.y * d.z, turned.y * d.x + turned.x * d.z);
-    light = textureLod(sky, vec2(0.5 + atan(d.z, d.x) / 6.28318530718, acos(clamp(d.y, -1.0, 1.0)) / 3.14159265359), 0.0).rgb;
+    light = textureLod(sky, vec2(0.5 + atan(d.z, d.x) / 6.28318530718, acos(clamp(d.y, -1.0, 1.0)) / 3.14159265359), 0.0).rgb * skyScale;
   }
-  result = vec4(falseColours ? vec3(0.0) : min(light * exposed, vec3(6e4)), 1.0);
+  result = vec4(falseColours ? vec3(0.0) : min(light * exposed, vec3(6e4)), alpha);
 }`;
 
 const screenFragment = `#version 300 es

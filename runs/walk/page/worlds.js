@@ -58,6 +58,8 @@ function rectangleOf(camera, windows) {
 /// The camera behind a mirror: it sees from the nearest corner of the windows to beyond the room.
 function behind(camera, mirror, windows, room) {
   const image = cameraBehind(camera, mirror), depths = windows.flat().map(x => dot(image.forward, minus(x, image.eye)));
+  // What is blurred takes from beside the picture, too.
+  if (mirror.rough) image.half += Math.min(1, 2 * mirror.alpha * (1 + image.half ** 2));
   return { ...image, near: Math.max(camera.near, 0.9 * Math.min(...depths)), far: lengthOf(image.eye) + room.size };
 }
 
