@@ -1,4 +1,4 @@
-#include "radiosity/pass_one_for_view.h"
+#include "radiosity/pass_one.h"
 
 #include "radiosity/field/interpolation.h"
 #include "radiosity/hierarchical/node_field.h"
@@ -38,7 +38,7 @@ void take_received(const ElementMesh& mesh, const TranslucentLinks& translucent,
 }
 
 /// H at the vertices: D there, and the rest gathered from the elements, by nodes where these say so.
-/// Elements that are not seen may be less exact (pass_one_for_view.h); `seen` empty: all are.
+/// Elements that are not seen may be less exact (pass_one.h); `seen` empty: all are.
 InterpolatedField at_vertices(const LightScene& light, const PassOneSettings& settings,
                               ReflectedLight& solved, const std::vector<Rgb>& irradiance,
                               const SeenElements& seen, const Progress& progress) {

@@ -45,6 +45,19 @@ RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress = {},
                                  const PassOneWatch& watch = {});
 
+/// By ElementId of the mesh, 1: it is seen.
+using SeenElements = std::vector<std::uint8_t>;
+
+/// Pass one for one view: elements that it does not show are less exact, and take less time.
+/// Light is gathered twice (hierarchical/node_field.h). What elements send on is known after the first time,
+/// everywhere and as exactly as ever; the second, with more rays and by smaller nodes, is for what is looked at.
+/// So the field is that of the whole solution where it is seen, and elsewhere that of the first gathering.
+/// Importance-driven radiosity: Smits, Arvo and Salesin 1992.
+/// A cut at the leaves is found everywhere, whatever is seen.
+RadiositySolution solve_for_view(const std::shared_ptr<const LightScene>& light,
+                                 const PassOneSettings& settings, const SeenElements& seen,
+                                 const Progress& progress = {}, const PassOneWatch& watch = {});
+
 /// Pass one by rays that are shot, whatever the number of elements.
 RadiositySolution shoot_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress = {},

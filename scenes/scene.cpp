@@ -43,6 +43,15 @@ void add_film(ContentHash& hash, const Material& material) {
   add_texture_use(hash, material.film_thickness_texture);
 }
 
+void add_sheen(ContentHash& hash, const Material& material) {
+  if (material.sheen_color == Rgb(0.0))
+    return;
+  hash.add(material.sheen_color);
+  hash.add(material.sheen_roughness);
+  add_texture_use(hash, material.sheen_color_texture);
+  add_texture_use(hash, material.sheen_roughness_texture);
+}
+
 void add_material(ContentHash& hash, const Material& material) {
   hash.add(material.base_color);
   hash.add(material.alpha);
@@ -77,12 +86,7 @@ void add_material(ContentHash& hash, const Material& material) {
     hash.add(material.normal_scale);
     add_texture_use(hash, material.normal_texture);
   }
-  if (material.sheen_color != Rgb(0.0)) {
-    hash.add(material.sheen_color);
-    hash.add(material.sheen_roughness);
-    add_texture_use(hash, material.sheen_color_texture);
-    add_texture_use(hash, material.sheen_roughness_texture);
-  }
+  add_sheen(hash, material);
   if (material.diffuse_transmission > 0.0) {
     hash.add(std::uint64_t{4}); // no other's
     hash.add(material.diffuse_transmission);

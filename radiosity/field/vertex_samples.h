@@ -57,7 +57,7 @@ struct VertexGathering {
   const DirectSettings& direct;
   const InterpolationSettings& interpolation;
   const Progress& progress;
-  std::span<const std::uint8_t> seen = {}; ///< by ElementId (pass_one_for_view.h); empty: all are
+  std::span<const std::uint8_t> seen = {}; ///< by ElementId (pass_one.h); empty: all are
 };
 
 /// Rays per vertex = times x max(min(N, 128), N / part).

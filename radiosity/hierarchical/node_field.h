@@ -7,7 +7,7 @@
 //
 //   B_j = rho_j (mean of H, by its corners and second differences; curved_means.h).
 //
-// Receivers of which nothing is seen (pass_one_for_view.h) keep the light of the first.
+// Receivers of which nothing is seen (pass_one.h) keep the light of the first.
 // In the second gathering a vertex takes the more rays the more elements it stands for
 // (gather_noise.h).
 //

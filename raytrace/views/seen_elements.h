@@ -6,7 +6,7 @@
 // Radiosity with as much care as the view needs: importance (Smits, Arvo and Salesin 1992).
 #pragma once
 
-#include "radiosity/pass_one_for_view.h"
+#include "radiosity/pass_one.h"
 #include "raytrace/render_settings.h"
 #include "scenes/camera.h"
 
