@@ -64,12 +64,18 @@ void add_outputs(Options& command, RenderOptions& options) {
       .group(study_group);
 }
 
+/// Times what a lamp is: light of more is no float in bright scenes.
+constexpr double brightest_lamp = 1e6;
+
 /// NAME=FACTOR or NAME=R,G,B; names may hold an equals sign.
 LampFactor parse_lamp(const std::string& text) {
   const std::size_t at = text.rfind('=');
   if (at == std::string::npos || at == 0)
     throw UsageError("--lamp", fmt::format("'{}' is not NAME=FACTOR or NAME=R,G,B", text));
-  return {text.substr(0, at), parse_colour("--lamp", text.substr(at + 1))};
+  const Rgb factor = parse_colour("--lamp", text.substr(at + 1));
+  if (largest(factor) > brightest_lamp)
+    throw UsageError("--lamp", fmt::format("'{}' is more than {:g} times as bright", text, brightest_lamp));
+  return {text.substr(0, at), factor};
 }
 
 /// Several are joined by semicolons, as in the settings of a batch.

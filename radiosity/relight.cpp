@@ -16,17 +16,17 @@ void add_up_by_vertex(VertexIrradiance& field) {
   const auto share = [&](std::vector<glm::vec3> VertexLightOfLamp::*part, std::size_t v,
                          const glm::vec3& whole) {
     for (int band = 0; band < 3; ++band) {
-      float sum = 0.0F;
+      double sum = 0.0; // of denormals too
       for (VertexLightOfLamp& lamp : field.by_lamp)
-        sum += (lamp.*part)[v][band] = std::max((lamp.*part)[v][band], 0.0F);
-      for (std::size_t l = 0; l < in_all.size() && !(sum > 0.0F); ++l)
+        sum += double{(lamp.*part)[v][band] = std::max((lamp.*part)[v][band], 0.0F)};
+      for (std::size_t l = 0; l < in_all.size() && !(sum > 0.0); ++l)
         (field.by_lamp[l].*part)[v][band] = static_cast<float>(in_all[l][band]);
-      if (!(sum > 0.0F))
+      if (!(sum > 0.0))
         for (const VertexLightOfLamp& lamp : field.by_lamp)
-          sum += (lamp.*part)[v][band];
-      const float times = sum > 0.0F ? std::max(whole[band], 0.0F) / sum : 0.0F;
+          sum += double{(lamp.*part)[v][band]};
+      const double times = sum > 0.0 ? double{std::max(whole[band], 0.0F)} / sum : 0.0;
       for (VertexLightOfLamp& lamp : field.by_lamp)
-        (lamp.*part)[v][band] *= times;
+        (lamp.*part)[v][band] = static_cast<float>(double{(lamp.*part)[v][band]} * times);
     }
   };
   for (std::size_t v = 0; !field.by_lamp.empty() && v < field.irradiance.size(); ++v) {

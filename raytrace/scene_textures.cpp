@@ -30,9 +30,7 @@ static DecodedTextures decoded_or_white(const Scene& scene, std::vector<std::str
   });
 }
 
-DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings) {
-  DecodedTextures textures = decoded_or_white(scene, warnings);
-  std::ranges::move(fold_constant_textures(scene, textures), std::back_inserter(warnings));
+void settle_sky(Scene& scene, std::vector<std::string>& warnings) {
   settle_environment(
       scene.background,
       [](std::span<const std::byte> encoded, const std::string& name) {
@@ -40,6 +38,12 @@ DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings
         return TexturePixels{image.width, image.height, std::move(image.pixels)};
       },
       warnings);
+}
+
+DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings) {
+  DecodedTextures textures = decoded_or_white(scene, warnings);
+  std::ranges::move(fold_constant_textures(scene, textures), std::back_inserter(warnings));
+  settle_sky(scene, warnings);
   return textures;
 }
 

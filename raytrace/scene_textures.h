@@ -13,4 +13,7 @@ namespace meninas {
 /// A texture that cannot be decoded changes nothing; a warning names it, and whatever is left out.
 DecodedTextures settle_textures(Scene& scene, std::vector<std::string>& warnings);
 
+/// Decodes the picture of the sky that the file brings, if there is one that is not decoded yet.
+void settle_sky(Scene& scene, std::vector<std::string>& warnings);
+
 } // namespace meninas

@@ -2,6 +2,7 @@
 
 #include "image/image_file.h"
 #include "raytrace/pixels/section_plane.h"
+#include "raytrace/scene_textures.h"
 #include "runs/report/percent.h"
 #include "scenes/errors.h"
 #include "scenes/gltf/gltf.h"
@@ -45,13 +46,25 @@ Scene load_relit_scene(const std::filesystem::path& file, const RunSettings& set
 Scene under_lamps(Scene scene, const RunSettings& settings) {
   if (settings.lamp_factors.empty())
     return scene;
+  settle_sky(scene, scene.warnings);
   const LampGroups lamps = find_lamps(scene, settings.lamps.value_or(LampGrouping::node));
   const std::vector<Rgb> factors = factors_of_lamps(lamps.names, settings.lamp_factors);
   return relit(std::move(scene), lamps, factors);
 }
 
+/// Throws UsageError where the methods do not tell the light of lamps apart.
+static void check_lamps(const PassOneSettings& settings) {
+  if (!settings.lamps)
+    return;
+  if (settings.cut == MeshCut::uniform && settings.solver.method == SolverMethod::progressive)
+    throw UsageError("--solver progressive", "keeps no transport by which lamps are told apart");
+  if (settings.interpolation.method == Interpolation::average)
+    throw UsageError("--interpolation average", "does not tell lamps apart: they need gather");
+}
+
 std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,
                                            const RunEvents& events, RunFigures& figures) {
+  check_lamps(settings);
   auto prepared = prepare_scene(std::move(scene), settings);
   for (const std::string& warning : prepared->plan.warnings) {
     warn(events, warning);

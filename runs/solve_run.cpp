@@ -81,16 +81,6 @@ static RunSettings with_rows_to_keep(const SolveRequest& request) {
   return settings;
 }
 
-/// What the light of lamps needs of the methods.
-static void check_lamps(const PassOneSettings& settings) {
-  if (!settings.lamps)
-    return;
-  if (settings.solver.method == SolverMethod::progressive)
-    throw UsageError("--by-lamp", "does not go with --solver progressive, which keeps no transport");
-  if (settings.interpolation.method == Interpolation::average)
-    throw UsageError("--by-lamp", "needs --interpolation gather");
-}
-
 /// Light at the points themselves, by eight times the rays of a vertex.
 static PointQuerySettings point_query_settings(const PassOneSettings& settings) {
   PointQuerySettings query;
@@ -144,7 +134,6 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   if (events.progress)
     events.progress("scene", 0.0);
   const PassOneSettings settings = two_pass_settings(chosen).pass_one;
-  check_lamps(settings);
   RunFigures figures;
   figures.threads = limit.threads();
   Stopwatch total;

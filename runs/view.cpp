@@ -62,13 +62,14 @@ LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings setti
   else if (stored.lamps.empty())
     throw InputError(file.string(), "",
                      "does not know its lamps apart: solve again with --by-lamp");
-  else if (stored.lamps != find_lamps(scene, stored.grouping).names)
-    throw InputError(file.string(), "", "has other lamps than its scene: solve again");
   else
     settings.lamps = stored.grouping;
   figures.seconds.load += watch.lap();
   LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures),
                .field = {}};
+  // Lamps are found once textures and the sky are decoded.
+  if (lamps == LampsApart::yes && stored.lamps != lit.prepared->light->lamp_groups->names)
+    throw InputError(file.string(), "", "has other lamps than its scene: solve again");
   figures.solver = std::move(stored.solver);
   figures.links = stored.links;
   figures.energy = stored.energy;

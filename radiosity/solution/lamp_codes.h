@@ -5,7 +5,7 @@
 //
 //   H_c = m_c / 16383 * 2^(x + top - 63),     top of the whole lamp
 //
-// The error is 2^-15 of the brightest channel at the vertex; what is 2^-63 of the lamp's brightest is 0.
+// The error is at most 2^-14 of the brightest channel at the vertex; what is 2^-63 of the lamp's brightest is 0.
 #pragma once
 
 #include "radiosity/field/irradiance_field.h"

@@ -10,8 +10,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 namespace meninas {
 namespace {
@@ -134,15 +136,28 @@ void read_lamps(const std::filesystem::path& file, const GlbContent& glb, const 
     return;
   }
   const json& lamps = extras.at("lamps");
+  if (stored.field.indirect.size() != vertices) {
+    refuse(file, "damaged: it holds the light of lamps and not all light without that of emitters");
+  }
   stored.grouping =
       lamps.at("grouping") == "material" ? LampGrouping::material : LampGrouping::node;
+  std::set<std::size_t> views;
   for (const json& lamp : lamps.at("list")) {
     const auto bytes = bytes_of(file, glb, lamp.at("view"), "light of lamps");
     if (bytes.size() != vertices * vec3_size) {
       refuse(file, "damaged: it does not hold the light of lamps it announces");
     }
+    // Exponents of floats; each lamp has bytes of its own.
+    const json& top = lamp.at("top");
+    const bool is_exponent = top.is_number_integer() && top >= -200 && top <= 128;
+    if (!is_exponent || !views.insert(lamp.at("view").get<std::size_t>()).second) {
+      refuse(file, "damaged: the light of its lamps makes no sense");
+    }
     stored.lamps.push_back(lamp.at("name"));
-    stored.field.by_lamp.push_back(decoded(lamp.at("top"), bytes));
+    stored.field.by_lamp.push_back(decoded(top, bytes));
+    for (const auto* values : {&stored.field.by_lamp.back().direct, &stored.field.by_lamp.back().indirect})
+      if (!std::ranges::all_of(*values, [](const glm::vec3& v) { return std::isfinite(v.r + v.g + v.b); }))
+        refuse(file, "damaged: the light of its lamps is no number");
   }
   add_up_by_vertex(stored.field);
 }

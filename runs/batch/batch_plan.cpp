@@ -172,9 +172,8 @@ std::string solution_key(const SceneFacts& facts, const JobMode& mode) {
   hash.add(facts.hash);
   hash.add(mode.environment);
   // One solution by lamp serves all states of lamps.
-  if (std::ranges::any_of(mode.settings, [](const Setting& one) {
-        return one.name == "lamp" || (one.name == "layers" && one.value == "lamps");
-      }))
+  const RunSettings& wanted = mode.request.settings;
+  if (!wanted.lamp_factors.empty() || wanted.lamp_layers)
     hash.add("by lamp");
   add_settings(hash, std::move(settings));
   return hex_digits(hash.value());
@@ -235,6 +234,11 @@ BatchPicture picture_of(const JobScene& at, const JobMode& mode, const Camera& c
   picture.request.settings.display = display_of(picture.outputs, mode.request.picture);
   picture.name = picture.outputs.front().string();
   picture.key = picture_key(picture, mode);
+  const RunSettings& settings = mode.request.settings;
+  if (settings.mode != PictureMode::reference && !settings.lamp_factors.empty() &&
+      settings.layers == WithLayers::yes)
+    throw UsageError("layers", "what mirrors bring is not known of lamps: `light` does not go with "
+                               "`lamp`");
   if (mode.request.settings.mode != PictureMode::reference) {
     picture.solution_key = solution_key(*at.known.facts, mode);
   }
