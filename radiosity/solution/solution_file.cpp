@@ -5,6 +5,7 @@
 #include "radiosity/solution/lamp_codes.h"
 #include "radiosity/solution/solution_format.h"
 #include "radiosity/solution/viewer_scene.h"
+#include "scenes/content_hash.h"
 #include "scenes/glb_file.h"
 #include "scenes/version.h"
 
