@@ -2,6 +2,7 @@
 
 #include "radiosity/solution/element_triangles.h"
 #include "radiosity/solution/scene_places.h"
+#include "scenes/content_hash.h"
 #include "scenes/materials/texture_lookup.h"
 #include "scenes/shading_normal.h"
 
