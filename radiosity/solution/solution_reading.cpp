@@ -207,8 +207,10 @@ StoredSolution read_checked(const std::filesystem::path& file, const GlbContent&
   stored.division = read_division(file, glb, extras);
   const json& attributes = extras.at("field");
   const std::size_t vertices = extras.at("vertices");
+  // Where all surfaces are mirrors there are no vertices, and no attributes of them.
   for (const FieldPart& part : field_parts) {
-    if (part.values == &VertexIrradiance::irradiance || attributes.contains(part.attribute)) {
+    if (vertices > 0 &&
+        (part.values == &VertexIrradiance::irradiance || attributes.contains(part.attribute))) {
       stored.field.*part.values =
           read_irradiance(file, glb, attributes.at(part.attribute), vertices);
     }

@@ -136,6 +136,27 @@ TEST_F(SolutionFile, KeepsADividedMesh) {
   EXPECT_NEAR(area, 2.5, 1e-6);
 }
 
+// No elements, so no attributes of vertices: the file has what viewers show of the mirror alone.
+TEST_F(SolutionFile, OfAMirrorAloneIsReadBack) {
+  Scene scene;
+  add_polygon(scene, "mirror", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, mirror(0.9));
+  const SurfaceModel surfaces = find_surfaces(scene);
+  const ElementMesh mesh = make_element_mesh(scene, surfaces, settings_);
+  ASSERT_TRUE(mesh.vertices.empty());
+  const TransportPlan plan = plan_transport(scene, surfaces);
+  const RayScene rays = make_ray_scene(scene, surfaces);
+  RadiositySolution solution;
+  solution.field.scene = std::make_shared<const LightScene>(
+      make_light_scene(scene, surfaces, rays, {plan.mirrors, plan.worlds}, mesh));
+  write_solution(file_, content_hash(scene), mesh, solution, settings_);
+
+  const StoredSolution stored = read_solution(file_, scene);
+  EXPECT_TRUE(stored.field.irradiance.empty());
+  EXPECT_EQ(stored.elements, 0U);
+  EXPECT_NO_THROW(check_belongs(file_, stored, mesh));
+  EXPECT_FALSE(load_gltf(file_).triangles.empty());
+}
+
 TEST_F(SolutionFile, IsAPictureForViewers) {
   const Scene shown = load_gltf(file_);
   EXPECT_TRUE(shown.degenerate_triangles == 0);
