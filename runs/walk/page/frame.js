@@ -167,6 +167,7 @@ function makePainter(gl, data, room, textures) {
     gl.uniformMatrix4fv(at.asideProjection, false, viewProjection(child.camera));
     gl.uniform3fv(at.asideEye, child.camera.eye);
     drawRuns(child.mirror.runs, shown.rough);
+    bind(3, mirrored); // runs bind textures of their own
     setFilters(gl, gl.NEAREST, gl.NEAREST);
     bind(3, black);
     gl.depthFunc(gl.LEQUAL);
@@ -309,8 +310,9 @@ function makePainter(gl, data, room, textures) {
     return target.mean;
   }
   /// What a body sees does not change: asked for once, when a first picture is there. Returns whether there was one left.
+  /// Each is tried once: a graphics card that has dropped the page gives no texture, ever.
   function fillNextProbe() {
-    const probe = room.probes.find(p => !p.texture);
+    const probe = room.probes.find(p => p.texture === undefined);
     if (probe) fillProbe(gl, room, probe, paintFace);
     return probe !== undefined;
   }

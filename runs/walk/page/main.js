@@ -126,7 +126,7 @@ async function start() {
   followAddress();
   if (!asked.shot) return;
   canvas.style.width = canvas.style.height = "auto";
-  while (fillNextProbe());
+  for (let k = 0; k < mostProbes && fillNextProbe();) ++k;
   const figures = paintNow(4, mostWorldsOfShot);
   document.body.dataset.figures = JSON.stringify(figures);
   document.body.dataset.shot = canvas.toDataURL("image/png");
