@@ -28,18 +28,31 @@ missing_packages() {
   done
 }
 
-# Asks before packages are installed where somebody can answer, and says what it costs.
+# Whether keys that are typed come here: who reads the terminal in the background is stopped.
+in_foreground() {
+  local line fields
+  { read -r line </proc/$$/stat; } 2>/dev/null || return 1
+  # Behind the name, which may have blanks: state, parent, group, session, terminal, its group in the foreground.
+  read -r -a fields <<<"${line##*) }"
+  [[ ${fields[2]} == "${fields[5]}" ]] && { : </dev/tty; } 2>/dev/null
+}
+
+# Asks before packages are installed where somebody can answer, and says what it costs. No answer is a no.
 may_install() {
   local answer costs download='' disk=''
-  if [[ ${CI:-} == true || ! -t 2 ]] || ! { : </dev/tty; } 2>/dev/null; then return 0; fi
-  costs=$(LC_ALL=C apt-get --assume-no install --no-install-recommends "$@" </dev/null 2>/dev/null || true)
+  if [[ -n ${CI:-} || ! -t 2 ]] || ! in_foreground; then return 0; fi
+  # Who is not root may not take the lock, and does not need it to ask.
+  costs=$(LC_ALL=C apt-get -o Debug::NoLocking=true --assume-no install --no-install-recommends "$@" </dev/null 2>/dev/null || true)
   download=$(sed -n 's/^Need to get \([^/]*\).* of archives.*/\1/p' <<<"$costs")
   disk=$(sed -n 's/^After this operation, \(.*\) of additional disk space.*/\1/p' <<<"$costs")
   note "$# packages are missing: $*"
   note "they and what they need are ${download:-some 270 MB} to download and ${disk:-about 1.1 GB} of disk, a few minutes" \
     "to install; building takes some seven minutes more"
-  printf 'meninas: install them? [Y/n] ' >&2
-  read -r answer </dev/tty || answer=n
+  printf 'meninas: install them? [Y/n, no after a minute] ' >&2
+  if ! read -r -t 60 answer </dev/tty; then
+    printf '\n' >&2
+    answer=n
+  fi
   [[ ${answer:-y} == [Yy]* ]]
 }
 
