@@ -134,7 +134,7 @@ protected:
                    "printf 'PS1=\\nsource ./meninas.bash\\n"
                    "meninas() { printf \"got\" >&2; printf \"<%%s>\" \"$@\" >&2; echo >&2; }\\n"
                    "%s\\t\\n' '" +
-                       line + "' | TERM=dumb INPUTRC=/dev/null HISTFILE= bash --norc -i 2>&1");
+                       line + "' | TERM=dumb INPUTRC=/dev/null HISTFILE= setsid --wait bash --norc -i 2>&1");
     std::smatch words;
     return std::regex_search(typed.out, words, std::regex("\ngot(<[^\r\n]*>)")) ? words[1].str()
                                                                                 : typed.out;
