@@ -50,7 +50,8 @@ json glass_extensions(const Material& material) {
   return extensions;
 }
 
-json camera_json(const Camera& camera, double size) {
+/// Of a scene of this size about this centre.
+json camera_json(const Camera& camera, const Point3& centre, double size) {
   constexpr double nearest = 1e-3; // of the scene: depth buffers ask for some distance
   const double znear = camera.znear > 0.0 ? camera.znear : nearest * size;
   json made{{"name", camera.name}};
@@ -60,7 +61,7 @@ json camera_json(const Camera& camera, double size) {
     made["orthographic"] = {{"xmag", camera.half_height * aspect},
                             {"ymag", camera.half_height},
                             {"znear", camera.znear},
-                            {"zfar", camera.znear + 4.0 * size + glm::length(camera.position)}};
+                            {"zfar", camera.znear + glm::distance(camera.position, centre) + size}};
   } else {
     const double ahead = 0.5 * std::numbers::pi;
     made["type"] = "perspective";
@@ -181,12 +182,13 @@ void ViewerMaterials::write(json& root, GlbArrays& glb) const {
 ViewerCameras viewer_cameras(const Scene& scene) {
   ViewerCameras made;
   const Bounds bounds = bounds_of(scene);
+  const Point3 centre = 0.5 * bounds.low + 0.5 * bounds.high;
   const double size = glm::length(bounds.high - bounds.low);
   for (const Camera& camera : scene.cameras) {
     made.nodes.push_back({{"name", camera.name},
                           {"camera", made.cameras.size()},
                           {"matrix", matrix_of(camera)}});
-    made.cameras.push_back(camera_json(camera, size));
+    made.cameras.push_back(camera_json(camera, centre, size));
   }
   return made;
 }
