@@ -22,8 +22,7 @@ OptionInfo info_of(const CLI::Option& option) {
           option.get_items_expected_max() > 1,
           option.get_type_name(),
           option.get_description(),
-          option.get_group(),
-          option.get_expected_max() > 1};
+          option.get_group()};
 }
 
 } // namespace

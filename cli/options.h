@@ -27,7 +27,6 @@ struct OptionInfo {
   bool repeatable = false; ///< may be given several times
   std::string value; ///< what stands for the value: N, FILE, ...
   std::string description, group;
-  bool is_repeatable = false; ///< may be given several times
 };
 
 /// An option of a command that is being declared.

@@ -221,7 +221,7 @@ std::string zsh_option(const OptionInfo& option) {
   std::string text;
   const std::vector<std::string> names = names_with_dashes(option);
   for (const std::string& name : names) {
-    std::string line = option.is_repeatable ? "*" : fmt::format("({})", fmt::join(names, " "));
+    std::string line = option.repeatable ? "*" : fmt::format("({})", fmt::join(names, " "));
     line += name;
     if (option.takes_value != TakesValue::no)
       line += option.takes_value == TakesValue::if_given ? "=-"
