@@ -27,7 +27,7 @@ dpkg-deb -x "$program" "$scratch/root"
 depends=$(dpkg-deb -f "$program" Depends)
 for file in usr/bin/meninas $(cd "$scratch/root" && find usr/lib -name '*.so'); do
   while read -r needed; do
-    path=$(/sbin/ldconfig -p | sed -n "s|^\s*$needed (.*x86-64.*) => ||p" | head -n 1)
+    path=$(/sbin/ldconfig -p | sed -n "s|^\s*$needed (.*) => ||p" | head -n 1)
     # By its last parts: what is in /lib is in /usr/lib as well.
     path=$(readlink -f "$path")
     package=$(dpkg-query -S "*/$(basename "$(dirname "$path")")/$(basename "$path")" | head -n 1 | cut -d: -f1)
