@@ -129,15 +129,14 @@ std::string name_of(const Json& object) {
   return one_line(value->get<std::string>());
 }
 
-/// As much of a name as a line has room for, cut between characters of UTF-8.
-static std::string excerpt(std::string_view name) {
+std::string excerpt(std::string_view text) {
   constexpr std::size_t most = 100;
-  if (name.size() <= most)
-    return one_line(std::string(name));
+  if (text.size() <= most)
+    return one_line(std::string(text));
   std::size_t end = most;
-  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U)
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
     --end;
-  return one_line(std::string(name.substr(0, end))) + "...";
+  return one_line(std::string(text.substr(0, end))) + "...";
 }
 
 std::string place(const Json& root, std::string_view array, std::size_t index) {

@@ -98,6 +98,8 @@ const Json& element(const Json& root, std::string_view array, std::size_t index)
 
 /// Text of the file made fit for a message: control characters become spaces.
 std::string one_line(std::string text);
+/// As much of it as a line has room for, cut between characters of UTF-8.
+std::string excerpt(std::string_view text);
 std::string name_of(const Json& object);
 /// `nodes[5] 'Lamp'`, or `nodes[5]` for the unnamed.
 std::string place(const Json& root, std::string_view array, std::size_t index);

@@ -29,7 +29,7 @@ LightUnits light_units_of(const Document& document, Findings& findings) {
   if (units != "radiometric")
     findings.say(fmt::format("asset.extras.light_units is neither 'radiometric' nor 'photometric' but '{}': "
                              "light counts as radiometric",
-                             one_line(units.substr(0, 100))));
+                             excerpt(units)));
   return LightUnits::radiometric;
 }
 
@@ -56,7 +56,7 @@ static Profile read_profile(const Document& document, std::size_t index) {
     const auto name = uri->get<std::string>();
     const bool beside = !name.starts_with("data:");
     return profile_of(read_uri(name, document.folder, document.settings), document.file,
-                      beside ? fmt::format("{} '{}'", where, one_line(name.substr(0, 200))) : where);
+                      beside ? fmt::format("{} '{}'", where, excerpt(name)) : where);
   }
   const auto view = index_at(json, "bufferView");
   if (!view)

@@ -159,6 +159,9 @@ TEST(GltfUnits, AsTheFileSaysUnlessTheUserDoes) {
     EXPECT_EQ(emission({}), 1.0);
     EXPECT_TRUE(warns(load(file), {"asset.extras.light_units is neither"}));
   }
+  // Long words are cut between characters: 99 bytes and then one of two.
+  file.json["asset"]["extras"]["light_units"] = std::string(99, 'x') + "\u00e4ndern";
+  EXPECT_TRUE(warns(load(file), {std::string(99, 'x') + "...'"}));
   file.json["asset"]["extras"] = "photometric";
   EXPECT_EQ(emission({}), 1.0);
 }
