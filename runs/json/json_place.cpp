@@ -93,6 +93,8 @@ std::vector<Setting> settings_at(const Place& place) {
         settings.push_back({name, std::nullopt});
       }
     } else if (value.is_array()) {
+      if (value.empty())
+        place.at(name).fail("is empty");
       for (std::size_t k = 0; k < value.size(); ++k)
         settings.push_back({name, text_at(place.at(name).at(k))});
     } else {

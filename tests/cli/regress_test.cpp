@@ -175,8 +175,9 @@ TEST_F(Regress, MalformedCasesAreRefusedByTheirPlace) {
                  "/cases/0/settings/quality: no value 'drafd', did you mean 'draft'?");
   expect_refused(with("/settings/float", 1), "/cases/0/settings/float: takes true or false");
   expect_refused(with("/settings/size", true), "/cases/0/settings/size: takes a value");
-  expect_refused(with("/settings/size", json::array()),
-                 "/cases/0/settings/size: is neither a text, a number nor true or false");
+  expect_refused(with("/settings/size", json::object()),
+                 "/cases/0/settings/size: is neither a text, a list of texts, a number nor true or false");
+  expect_refused(with("/settings/ies", json::array()), "/cases/0/settings/ies: is empty");
   expect_refused(with("/name", "a/b"),
                  "/cases/0/name: has to be a file name of letters, digits, '.', '_' and '-', not "
                  "beginning with '.'");
