@@ -2,6 +2,9 @@
 
 #include "scenes/materials/texture_lookup.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace meninas {
 
 namespace {
