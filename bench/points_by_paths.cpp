@@ -4,6 +4,7 @@
 //
 // L the radiance that a narrow view sees at the point, in 8 x 8 pixels of SAMPLES each (1024). Beside it
 // its standard error: a second route to the numbers of `solve --points`, which shares no light with it.
+// Points that lie on no surface that faces as they do and is matt are refused.
 #include "reference/reference_picture.h"
 #include "reference/scene_setup.h"
 #include "runs/points/point_sets.h"
@@ -11,9 +12,11 @@
 #include "scenes/gltf/gltf.h"
 #include "scenes/material.h"
 
+#include <fmt/format.h>
+
+#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
 
 namespace meninas {
@@ -34,6 +37,23 @@ double reflectance_at(const Scene& scene, const QueryPoint& at) {
       return diffuse_reflectance(scene.materials[index(scene.triangles[t].material)]).g;
   }
   return 0.0;
+}
+
+/// Throws InputError with the place of a point that no matt surface has.
+void check_places(const Scene& scene, const std::vector<QueryPoint>& points,
+                  const std::string& file) {
+  for (const QueryPoint& at : points)
+    if (!(reflectance_at(scene, at) > 0.0))
+      throw InputError(file, fmt::format("{:g}, {:g}, {:g}", at.position.x, at.position.y, at.position.z),
+                       "lies on no matt surface that faces as it does");
+}
+
+int samples_of(const std::string& text) {
+  int samples = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), samples);
+  if (problem != std::errc() || end != text.data() + text.size() || samples < 1)
+    throw UsageError("SAMPLES", fmt::format("'{}' is not a whole number from 1", text));
+  return samples;
 }
 
 Camera view_of(const QueryPoint& at) {
@@ -74,13 +94,16 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
+    const int samples = argc == 4 ? samples_of(argv[3]) : 1024;
     const auto traced = reference::make_traced_scene(load_gltf(argv[1]));
+    const std::vector<QueryPoint> points = read_points(argv[2]);
+    check_places(traced.scene, points, argv[2]);
     std::puts("x_m,y_m,z_m,irradiance_W_m2,standard_error_W_m2");
-    for (const QueryPoint& point : read_points(argv[2]))
-      print_light(traced, point, argc == 4 ? std::atoi(argv[3]) : 1024);
+    for (const QueryPoint& point : points)
+      print_light(traced, point, samples);
   } catch (const UserError& error) {
     std::fprintf(stderr, "points_by_paths: %s\n", error.what());
-    return 3;
+    return static_cast<int>(error.code());
   }
   return 0;
 }
