@@ -205,5 +205,16 @@ TEST_F(ViewerSceneTest, CamerasStandWhereTheyStood) {
   EXPECT_EQ(lens.at("aspectRatio"), 1.5);
 }
 
+// The room lies far from the origin: that says nothing about what the camera sees.
+TEST_F(ViewerSceneTest, OrthographicCamerasReachTheFarEndOfTheScene) {
+  add_polygon(scene_, "wall", {{1000, 0, 0}, {1001, 0, 0}, {1001, 1, 0}, {1000, 1, 0}}, diffuse(0.5));
+  Camera camera = look_at({1000.5, 0.5, 4.0}, {1000.5, 0.5, 0.0}, 0.75);
+  camera.projection = Projection::orthographic;
+  scene_.cameras.push_back(camera);
+  write();
+  const json lens = shown_.document.at("cameras").at(0).at("orthographic");
+  EXPECT_NEAR(lens.at("zfar").get<double>(), 4.0 + std::numbers::sqrt2, 1e-9);
+}
+
 } // namespace
 } // namespace meninas::test
