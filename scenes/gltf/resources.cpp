@@ -138,7 +138,7 @@ static fs::path existing_spelling(const fs::path& folder, const std::string& uri
 Resource read_uri(const std::string& uri, const fs::path& folder, const GltfSettings& settings) {
   if (uri.starts_with("data:"))
     return decode_data_uri(uri);
-  const auto shown = one_line(uri.substr(0, 200));
+  const auto shown = excerpt(uri);
   // Exporters also make file names of names with colons.
   std::error_code error;
   if (has_scheme(uri) && !fs::exists(folder / uri, error))
