@@ -135,6 +135,19 @@ void follow(const LightScene& light, const CameraRay& start, int max_bounces, st
   }
 }
 
+/// Those elements and all that share a vertex with one.
+SeenElements with_neighbours(const ElementMesh& mesh, const VertexElements& around,
+                             const SeenElements& seen) {
+  SeenElements more = seen;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto elements = meninas::around(around, static_cast<std::uint32_t>(v));
+    if (std::ranges::any_of(elements, [&](ElementId e) { return seen[index(e)] != 0; }))
+      for (const ElementId e : elements)
+        more[index(e)] = 1;
+  }
+  return more;
+}
+
 } // namespace
 
 SeenElements seen_elements(const LightScene& light, const Camera& camera,
@@ -158,15 +171,14 @@ SeenElements seen_elements(const LightScene& light, const Camera& camera,
     }
   });
 
-  // Elements beside those that are met fill the rest of the pixels.
   SeenElements seen(element_count(light.mesh), 0);
+  for (std::size_t e = 0; e < seen.size(); ++e)
+    seen[e] = marks.at(e) ? 1 : 0;
+  // Elements beside those that are met fill the rest of the pixels; light at their vertices is as exact as
+  // what is beside them, too.
   const VertexElements around = elements_around(light.mesh);
-  for (std::size_t v = 0; v < light.mesh.vertices.size(); ++v) {
-    const auto elements = meninas::around(around, static_cast<std::uint32_t>(v));
-    if (std::ranges::any_of(elements, [&](ElementId e) { return marks.at(index(e)); }))
-      for (const ElementId e : elements)
-        seen[index(e)] = 1;
-  }
+  for (int ring = 0; ring < 2; ++ring)
+    seen = with_neighbours(light.mesh, around, seen);
   return seen;
 }
 

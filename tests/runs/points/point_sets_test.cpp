@@ -93,7 +93,7 @@ TEST(PointSets, SidesWithoutLightAreLeftOut) {
 TEST(PointSets, GridsLeaveOutWhatLiesInsideOfThings) {
   MeasuredSet set = measured("floor", Rgb(1.0));
   set.set.points.push_back({{4, 5, 6}, {0, 1, 0}});
-  set.light.push_back({Rgb(0.0), Rgb(0.0), Rgb(0.0), true});
+  set.light.push_back({.inside = true});
   EXPECT_EQ(without_points_inside(set).light.size(), 2U) << "points that were asked for are all there";
   set.set.grid = MeasuringGrid{.node = "floor"};
   const MeasuredSet kept = without_points_inside(set);
