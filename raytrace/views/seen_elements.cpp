@@ -136,8 +136,8 @@ void follow(const LightScene& light, const CameraRay& start, int max_bounces, st
 }
 
 /// Those elements and all that share a vertex with one.
-SeenElements with_neighbours(const ElementMesh& mesh, const VertexElements& around,
-                             const SeenElements& seen) {
+SeenElements with_neighbours(const ElementMesh& mesh, const SeenElements& seen) {
+  const VertexElements around = elements_around(mesh);
   SeenElements more = seen;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const auto elements = meninas::around(around, static_cast<std::uint32_t>(v));
@@ -174,12 +174,8 @@ SeenElements seen_elements(const LightScene& light, const Camera& camera,
   SeenElements seen(element_count(light.mesh), 0);
   for (std::size_t e = 0; e < seen.size(); ++e)
     seen[e] = marks.at(e) ? 1 : 0;
-  // Elements beside those that are met fill the rest of the pixels; light at their vertices is as exact as
-  // what is beside them, too.
-  const VertexElements around = elements_around(light.mesh);
-  for (int ring = 0; ring < 2; ++ring)
-    seen = with_neighbours(light.mesh, around, seen);
-  return seen;
+  // Elements beside those that are met fill the rest of the pixels.
+  return with_neighbours(light.mesh, seen);
 }
 
 } // namespace meninas

@@ -2,8 +2,7 @@
 //
 // Paths are followed from the eye, one through each of so many points of the picture, by ideal mirrors, through
 // glass and by one direction of every lobe (lobe_grid.h), while their throughput is at least `min_throughput`.
-// The elements in which they end are seen, and two rings of those that share a vertex with them: pixels in between
-// see these, and light at their vertices is as exact.
+// The elements in which they end are seen, and those that share a vertex with them: pixels in between see these.
 // Radiosity with as much care as the view needs: importance (Smits, Arvo and Salesin 1992).
 #pragma once
 
