@@ -60,11 +60,11 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
 RadiositySolution solve_for_picture(const PreparedScene& prepared, const Camera& camera,
                                     const TwoPassSettings& settings, const Progress& progress,
                                     const PassOneWatch& watch) {
-  // Small rooms are found whole in as little time, and have the picture of their stored solution to the bit.
+  // Rooms of few patches are found whole in little time, and have the picture of their stored solution to the bit.
   // Light that is gathered at hits comes from everywhere.
-  constexpr std::size_t small_room = 16'384;
+  constexpr std::size_t few_patches = 8192;
   const bool by_view = settings.pass_one.cut == MeshCut::hierarchical &&
-                       element_count(prepared.light->mesh) > small_room &&
+                       prepared.surfaces.patches.size() > few_patches &&
                        settings.render.diffuse.term != DiffuseTerm::gather;
   const SeenElements seen =
       by_view ? seen_elements(*prepared.light, camera, settings.render) : SeenElements{};

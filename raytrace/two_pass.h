@@ -34,7 +34,7 @@ struct PreparedScene {
 /// Textures that cannot be decoded are left out, with a warning of the plan.
 std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings);
 
-/// Pass one for one picture: above 16,384 elements exact where that shows it (views/seen_elements.h).
+/// Pass one for one picture: above 8,192 patches exact where that shows it (views/seen_elements.h).
 RadiositySolution solve_for_picture(const PreparedScene& prepared, const Camera& camera,
                                     const TwoPassSettings& settings, const Progress& progress = {},
                                     const PassOneWatch& watch = {});
