@@ -76,14 +76,8 @@ struct RelitScene {
   }
 
   static Scene with_lights(const LightScene& from, std::span<const Rgb> factors) {
-    const LampGroups& lamps = *from.lamp_groups;
     Scene scene = from.scene;
-    for (std::size_t k = 0; k < scene.lights.size(); ++k)
-      scene.lights[k].intensity *= factors[lamps.of_light[k]];
-    const auto factor = [&](std::uint32_t lamp) {
-      return lamp == no_lamp ? Rgb(1.0) : factors[lamp];
-    };
-    scene.background = relit(scene.background, factor(lamps.sky), factor(lamps.sun));
+    relight_surroundings(scene, *from.lamp_groups, factors);
     return scene;
   }
 };

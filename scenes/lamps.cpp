@@ -113,6 +113,13 @@ Environment relit(const Environment& environment, const Rgb& sky, const Rgb& sun
   return other;
 }
 
+void relight_surroundings(Scene& scene, const LampGroups& lamps, std::span<const Rgb> factors) {
+  for (std::size_t k = 0; k < scene.lights.size(); ++k)
+    scene.lights[k].intensity *= factors[lamps.of_light[k]];
+  const auto factor = [&](std::uint32_t lamp) { return lamp == no_lamp ? Rgb(1.0) : factors[lamp]; };
+  scene.background = relit(scene.background, factor(lamps.sky), factor(lamps.sun));
+}
+
 Scene relit(Scene scene, const LampGroups& lamps, std::span<const Rgb> factors) {
   std::map<std::pair<MaterialId, std::uint32_t>, MaterialId> shining;
   std::vector<Material> materials = scene.materials;
@@ -131,10 +138,7 @@ Scene relit(Scene scene, const LampGroups& lamps, std::span<const Rgb> factors) 
     triangle.material = found->second;
   }
   scene.materials = std::move(materials);
-  for (std::size_t k = 0; k < scene.lights.size(); ++k)
-    scene.lights[k].intensity *= factors[lamps.of_light[k]];
-  const auto factor = [&](std::uint32_t lamp) { return lamp == no_lamp ? Rgb(1.0) : factors[lamp]; };
-  scene.background = relit(scene.background, factor(lamps.sky), factor(lamps.sun));
+  relight_surroundings(scene, lamps, factors);
   return scene;
 }
 

@@ -54,6 +54,9 @@ std::vector<Rgb> factors_of_lamps(std::span<const std::string> names,
 /// A map of the sky as bright as that, its suns by a factor of their own.
 Environment relit(const Environment& environment, const Rgb& sky, const Rgb& sun);
 
+/// Makes punctual lights, the sky and its suns so bright; faces stay what they are.
+void relight_surroundings(Scene& scene, const LampGroups& lamps, std::span<const Rgb> factors);
+
 /// The scene with its lamps so bright. A material that shines in several lamps becomes as many.
 Scene relit(Scene scene, const LampGroups& lamps, std::span<const Rgb> factors);
 

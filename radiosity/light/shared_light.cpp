@@ -11,6 +11,7 @@
 #include <numeric>
 
 namespace meninas {
+
 namespace {
 
 /// Of the points so far.
@@ -33,11 +34,6 @@ std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const Vi
                            .from_a_point = static_cast<std::uint32_t>(settings.rays),
                            .blockers = settings.learns ? &work.blockers_of[key] : nullptr});
   return found->second;
-}
-
-/// What an image brings to the point without blockers, its brightest channel.
-double brought_by(const ImageSum& image, double form_factor) {
-  return form_factor * largest(image.source);
 }
 
 /// Of the images at a point the most that one of them brings,
@@ -155,7 +151,8 @@ void find_lights(const Lighting& light, const NumberedPoint& point, std::uint32_
   }
   // Where images are chosen, the steps through them begin elsewhere at every point,
   // evenly by the golden section.
-  const double offset = 0x1p-32 * (hash(seed, 0xc401ce) + point.number * 0x9e3779b9U);
+  constexpr std::uint32_t golden_section = 0x9e3779b9;
+  const double offset = 0x1p-32 * (hash(seed, 0xc401ce) + point.number * golden_section);
   LightChoice choice{most, offset, static_cast<std::size_t>(settings.rays)};
   if (point.element != none<ElementId>) {
     choice.area = index(point.element) + std::uint64_t{1};
@@ -181,6 +178,7 @@ void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t 
           image_at(light, receiver, image, sum_of(work, light, image, settings), work));
   }
   const double most = settings.brightest_most ? max_brought(work) : 0.0;
+
   for (std::size_t i = 0; i < work.at_point.size(); ++i) {
     const ImageAtPoint& at = work.at_point[i];
     if (at.form_factor <= 0.0)
@@ -205,24 +203,6 @@ void meet_blocker(const Lighting& light, const LegBlocker& by, ImageSum& image) 
     return;
   if (auto blocker = blocker_of(light.scene, image.world, light.emitters[image.emitter], by))
     blockers.met.push_back(*std::move(blocker));
-}
-
-/// Later means know what rays have met: returns whether that is more than before.
-/// Where it is ever more, as it is of finely divided things, rays alone are better.
-bool learn(std::vector<ImageSum>& images) {
-  constexpr std::size_t most_known = 8;
-  bool any = false;
-  for (ImageSum& image : images) {
-    if (!image.blockers || image.blockers->met.empty())
-      continue;
-    auto& [known, met, learned] = *image.blockers;
-    learned += met.size();
-    any = true;
-    known.insert(known.begin(), met.begin(), met.end());
-    known.resize(image.blockers->too_many() ? 0 : std::min(known.size(), most_known));
-    met.clear();
-  }
-  return any;
 }
 
 /// The waiting rays by their number of mirrors, fewest first, in order where these are as many.
@@ -296,24 +276,6 @@ ArrivingLight mean_of(const Lighting& light, SharedLightWorkspace& work, const P
   return mean;
 }
 
-/// The variance of what a ray finds of an image: V (1 - V), and of an uneven sky that of what it shows.
-double variance_of(const Lighting& light, const ImageSum& image) {
-  if (!(image.all > 0.0))
-    return 0.0;
-  const double visible = image.seen / image.all;
-  if (!is_uneven(light.scene, light.emitters[image.emitter]))
-    return visible * (1.0 - visible);
-  const double mean = largest(image.left) / image.all;
-  return std::max(0.0, image.squares / image.all - mean * mean);
-}
-
-/// Whether rays have found different things of an image.
-bool shows_differences(const Lighting& light, const ImageSum& image) {
-  constexpr double alike = 1e-4;
-  return (image.seen > 0.0 && image.seen < image.all) ||
-         (is_uneven(light.scene, light.emitters[image.emitter]) && variance_of(light, image) > alike);
-}
-
 /// About the error of the mean by the shadow rays' choice.
 double penumbra_error(const Lighting& light, const SharedLightWorkspace& work, const PointSum& sum) {
   double error = 0.0;
@@ -341,7 +303,7 @@ void add_punctual(const Lighting& light, const Receiver& receiver, PointSum& sum
 
 /// The mean over the points that have been collected, all in the receiver's plane.
 SolidLight light_by_solids(const Lighting& light, const Receiver& last, int rays,
-                              std::uint32_t seed, DirectWorkspace& work) {
+                           std::uint32_t seed, DirectWorkspace& work) {
   if (!has_solid_light(light))
     return {};
   return solid_light(light.scene,
@@ -371,6 +333,7 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
       add_punctual(light, next.receiver, sum, work);
     if (++sum.points < wanted)
       continue;
+
     // Between the first half of the points and all
     // of them the mean has moved by about its own error.
     trace_waiting(light, next.receiver, work);
@@ -383,8 +346,8 @@ ArrivingLight mean_direct_irradiance(const Lighting& light, const NextPoint& nex
     if (has_settled || dark || sum.points >= settings.most_points) {
       work.has_learned = learn(work.images);
       work.shadow_error = penumbra_error(light, work, sum);
-      const SolidLight by_solids = light_by_solids(
-          light, next.receiver, settings.solid_rays, seed, work.point);
+      const SolidLight by_solids =
+          light_by_solids(light, next.receiver, settings.solid_rays, seed, work.point);
       for (std::size_t l = 0; l < by_solids.by_lamp.size(); ++l)
         work.point.by_lamp[l] += by_solids.by_lamp[l];
       return mean + ArrivingLight{by_solids.total, by_solids.mirrored, Rgb(0.0)};

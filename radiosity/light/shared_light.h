@@ -20,7 +20,7 @@
 #pragma once
 
 #include "radiosity/light/element_images.h"
-#include "radiosity/light/occluder_cache.h"
+#include "radiosity/light/image_sums.h"
 #include "radiosity/light/light_samples.h"
 
 #include <functional>
@@ -44,30 +44,6 @@ struct SharedLightSettings {
       false; ///< images that bring less than the brightest one in sight take fewer rays
   bool one_place = false; ///< all points are the same one, which sends rays in rounds
   bool learns = false; ///< what blocks its rays, and uses what others have learned
-};
-
-/// What is in the way to one emitter in one world.
-struct ImageBlockers {
-  std::vector<CachedOccluder> known;
-  std::vector<CachedOccluder> met; ///< by the mean in hand
-  std::size_t learned = 0;       ///< so far, forgotten ones too
-
-  /// Things as finely divided as this are left to rays.
-  bool too_many() const { return learned > 32; }
-};
-
-/// One emitter in one world, over all points so far.
-struct ImageSum {
-  Rgb source{0.0}; ///< tau E
-  WorldId world = real_world;
-  std::uint32_t emitter = 0;
-  double form_factor = 0.0;          ///< sum over points, past known blockers
-  double all = 0.0, seen = 0.0;      ///< weights of its shadow rays, and of those that arrive
-  Rgb left{0.0};                     ///< of the latter, what glass on their way leaves, and of the sky what they show
-  double squares = 0.0;              ///< the same, the square of its brightest channel
-  std::uint32_t rays = 0;            ///< shadow rays so far
-  std::uint32_t from_a_point = 1;    ///< from each of the next points
-  ImageBlockers* blockers = nullptr; ///< null where none are learned
 };
 
 /// A shadow ray that waits for others by way of about as many mirrors.

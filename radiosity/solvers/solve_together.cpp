@@ -2,8 +2,6 @@
 
 #include "radiosity/solvers/error_bound.h"
 
-#include <tbb/parallel_for.h>
-
 #include <limits>
 
 namespace meninas {
@@ -101,23 +99,6 @@ int run(const SystemOfLamps& system, const Goal& goal, int most, LightByLamp& x)
 }
 
 } // namespace
-
-LightByLamp transport_product(const Transport& transport, const LightByLamp& x) {
-  LightByLamp product = LightByLamp::Zero(static_cast<Eigen::Index>(transport.size), x.cols());
-  tbb::parallel_for(std::size_t{0}, transport.size, [&](std::size_t i) {
-    auto row = product.row(static_cast<Eigen::Index>(i));
-    for (std::uint64_t k = transport.row_begin[i]; k < transport.row_begin[i + 1]; ++k) {
-      const auto sent = x.row(transport.columns[k]);
-      if (transport.bands == 1) {
-        row += double{transport.weights[k]} * sent;
-        continue;
-      }
-      for (Eigen::Index c = 0; c < x.cols(); ++c)
-        row(c) += double{transport.weights[3 * k + static_cast<std::size_t>(c % 3)]} * sent(c);
-    }
-  });
-  return product;
-}
 
 LightByLamp scattered(const Scattering& scattering, const LightByLamp& irradiance) {
   LightByLamp sent(irradiance.rows(), irradiance.cols());

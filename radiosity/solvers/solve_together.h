@@ -14,9 +14,6 @@
 
 namespace meninas {
 
-/// T x of all columns; x has a row for every column of T.
-LightByLamp transport_product(const Transport& transport, const LightByLamp& x);
-
 /// `sources` in W/m^2, a row for each unknown; so is the result.
 LightByLamp solve_together(const Transport& transport, const LightByLamp& sources,
                            const Scattering& scattering, const SolverSettings& settings = {});

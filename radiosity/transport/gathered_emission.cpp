@@ -6,14 +6,11 @@
 
 namespace meninas {
 
-std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& factors,
-                                   std::uint32_t lamp) {
+std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& factors) {
   const ElementMesh& mesh = light.mesh;
   std::vector<Rgb> whole(mesh.area.size(), Rgb(0.0)), deep = whole;
   for (std::size_t e = 0; e < mesh.area.size(); ++e) {
     const SideId side = mesh.side_of_element[e];
-    if (lamp != no_lamp && light.lamps.of_side[index(side)] != lamp)
-      continue;
     (light.from_source[index(side)] != 0 ? deep : whole)[e] = mesh.emission[e];
   }
 
@@ -33,9 +30,25 @@ std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& f
 LightByLamp gathered_by_lamp(const LightScene& light, const FormFactors& factors) {
   if (!light.lamps)
     return {};
+  const ElementMesh& mesh = light.mesh;
+  LightByLamp whole = no_light(mesh.area.size(), light.lamps.count), deep = whole;
+  for (std::size_t e = 0; e < mesh.area.size(); ++e) {
+    const SideId side = mesh.side_of_element[e];
+    const std::uint32_t lamp = light.lamps.of_side[index(side)];
+    if (lamp == no_lamp)
+      continue;
+    LightByLamp& emission = light.from_source[index(side)] != 0 ? deep : whole;
+    for (int band = 0; band < 3; ++band)
+      emission(static_cast<Eigen::Index>(e), 3 * Eigen::Index{lamp} + band) = mesh.emission[e][band];
+  }
+
   LightByLamp gathered = no_light(factors.transport.size, light.lamps.count);
-  for (std::uint32_t l = 0; l < light.lamps.count; ++l)
-    set_light_of_lamp(gathered, l, gathered_emission(light, factors, l));
+  const auto add = [&](const Transport& transport, const LightByLamp& emission) {
+    if (!transport.columns.empty() && !emission.isZero(0.0))
+      gathered += transport_product(transport, emission);
+  };
+  add(factors.transport, whole);
+  add(factors.beyond, deep);
   return gathered;
 }
 

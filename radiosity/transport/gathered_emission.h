@@ -11,9 +11,8 @@
 
 namespace meninas {
 
-/// Irradiance by row, W/m^2. `lamp`: of that lamp alone (scene/lamp_shares.h).
-std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& factors,
-                                   std::uint32_t lamp = no_lamp);
+/// Irradiance by row, W/m^2.
+std::vector<Rgb> gathered_emission(const LightScene& light, const FormFactors& factors);
 
 /// The same by row and lamp; empty where light is not told apart.
 LightByLamp gathered_by_lamp(const LightScene& light, const FormFactors& factors);

@@ -45,6 +45,23 @@ std::vector<Value> transport_product(const Transport& transport, const std::vect
   return product;
 }
 
+LightByLamp transport_product(const Transport& transport, const LightByLamp& x) {
+  LightByLamp product = LightByLamp::Zero(static_cast<Eigen::Index>(transport.size), x.cols());
+  tbb::parallel_for(std::size_t{0}, transport.size, [&](std::size_t i) {
+    auto row = product.row(static_cast<Eigen::Index>(i));
+    for (std::uint64_t k = transport.row_begin[i]; k < transport.row_begin[i + 1]; ++k) {
+      const auto sent = x.row(transport.columns[k]);
+      if (transport.bands == 1) {
+        row += double{transport.weights[k]} * sent;
+        continue;
+      }
+      for (Eigen::Index c = 0; c < x.cols(); ++c)
+        row(c) += double{transport.weights[3 * k + static_cast<std::size_t>(c % 3)]} * sent(c);
+    }
+  });
+  return product;
+}
+
 template <typename Value>
 std::vector<Value> reflected(const LinearSystem<Value>& system, const std::vector<Value>& x) {
   std::vector<Value> light = transport_product(system.transport, x);

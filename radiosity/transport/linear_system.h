@@ -5,6 +5,7 @@
 // Sums run in a fixed order.
 #pragma once
 
+#include "radiosity/scene/lamp_shares.h"
 #include "radiosity/transport/form_factor_rows.h"
 
 #include <vector>
@@ -21,6 +22,9 @@ struct LinearSystem {
 /// T x, for rows of any number; x has a value for every column
 template <typename Value>
 std::vector<Value> transport_product(const Transport& transport, const std::vector<Value>& x);
+
+/// The same of the light of every lamp: x has a row for every column of T.
+LightByLamp transport_product(const Transport& transport, const LightByLamp& x);
 
 /// rho T x
 template <typename Value>

@@ -3,10 +3,10 @@
 #include "radiosity/field/vertex_places.h"
 #include "radiosity/scene/light_scene.h"
 #include "raytrace/lobe_grid.h"
+#include "raytrace/views/sight.h"
 #include "scenes/materials/normal_map.h"
 #include "scenes/materials/refraction.h"
 #include "scenes/sampling.h"
-#include "scenes/shading_normal.h"
 
 #include <tbb/parallel_for.h>
 
@@ -53,32 +53,17 @@ struct Met {
   Direction along; ///< of the leg
 };
 
-void mark_side(const Met& met, std::uint32_t side, const FaceRecord& face, Marks& seen) {
-  const glm::vec2 b(met.hit.barycentric);
-  const glm::vec2 uv = landing_uv(face, met.light.surfaces, index(met.hit.triangle), b.x, b.y);
-  seen.set(field_point(met.light.landing.elements, side, uv).element);
-}
-
 /// The element, and that of the other side of what is translucent.
 void mark(const Met& met, Marks& seen) {
   if (met.face.side == FaceRecord::nothing)
     return;
-  mark_side(met, met.face.side, met.face, seen);
-  const SideId behind = side_behind(met.light.mesh, SideId{met.face.side});
-  if (behind == none<SideId>)
-    return;
-  const std::size_t front = 2 * std::size_t{index(met.hit.triangle)};
-  const auto& faces = met.light.landing.faces;
-  mark_side(met, index(behind), faces[front].side == index(behind) ? faces[front] : faces[front + 1],
-            seen);
-}
-
-Direction normal_of(const Met& met) {
-  if (!met.face.curved)
-    return met.face.normal;
-  const Direction n = mapped_normal(met.light.scene, met.light.textures, met.hit.triangle,
-                                    met.hit.barycentric);
-  return visible_normal(met.hit.front ? n : -n, met.face.normal, -met.along);
+  const TriangleId triangle = met.hit.triangle;
+  const glm::vec2 b(met.hit.barycentric);
+  const glm::vec2 uv = landing_uv(met.face, met.light.surfaces, index(triangle), b.x, b.y);
+  seen.set(field_point(met.light.landing.elements, met.face.side, uv).element);
+  if (const auto behind =
+          place_behind(met.light, SideId{met.face.side}, triangle, met.hit.barycentric))
+    seen.set(behind->element);
 }
 
 /// The lobes of the surface, one direction each, by which it sends light to where the leg came from.
@@ -90,7 +75,8 @@ void continue_by_lobes(const Met& met, const Leg& leg, int max_bounces, Vec2 u,
   const Bsdf front = make_bsdf(material, material_at(met.light.scene, met.light.textures,
                                                      met.hit.triangle, met.hit.barycentric));
   Bsdf bsdf = met.hit.front ? front : from_behind(front);
-  const Direction normal = normal_of(met), out = local_out(normal, met.along);
+  const Direction normal = seen_normal(met.light, met.face, met.hit, met.along);
+  const Direction out = local_out(normal, met.along);
   // Through glass nothing is reflected: backs that the eye looks through stay so, and it is no bounce.
   const auto go_on = [&](const Direction& towards, const Rgb& weight, bool through) {
     const Rgb throughput = leg.throughput * weight;

@@ -22,9 +22,8 @@ static bool passes_most(const LightScene& light, const Hit& hit) {
   return transmission >= 0.5;
 }
 
-/// The normal by which the surface reflects towards the eye.
-static Direction seen_normal(const LightScene& light, const FaceRecord& face, const Hit& hit,
-                             const Vec3& along) {
+Direction seen_normal(const LightScene& light, const FaceRecord& face, const Hit& hit,
+                      const Vec3& along) {
   if (!face.curved)
     return face.normal;
   const Direction n = mapped_normal(light.scene, light.textures, hit.triangle, hit.barycentric);
@@ -72,6 +71,19 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
     }
     sight.side = FaceRecord::nothing;
   }
+}
+
+std::optional<FieldPoint> place_behind(const LightScene& light, SideId side, TriangleId triangle,
+                                       Vec2 barycentric) {
+  const SideId behind = side_behind(light.mesh, side);
+  if (behind == none<SideId>)
+    return std::nullopt;
+  const std::size_t front = 2 * std::size_t{index(triangle)};
+  const std::size_t face = light.landing.faces[front].side == index(behind) ? front : front + 1;
+  const glm::vec2 b(barycentric);
+  return field_point(
+      light.landing.elements, index(behind),
+      landing_uv(light.landing.faces[face], light.surfaces, index(triangle), b.x, b.y));
 }
 
 Rgb albedo_at(const LightScene& light, const Sight& sight) {

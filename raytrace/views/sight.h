@@ -4,6 +4,8 @@
 
 #include "raytrace/field_shading.h"
 
+#include <optional>
+
 namespace meninas {
 
 /// Where a line of sight ends.
@@ -24,6 +26,14 @@ struct Sight {
 /// A chain of more than `max_mirrors` ends at the mirror it has come to.
 Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
            int max_mirrors);
+
+/// The normal by which a face reflects towards where a ray comes from: its own, or that of its curve.
+Direction seen_normal(const LightScene& light, const FaceRecord& face, const Hit& hit,
+                      const Vec3& along);
+
+/// The same place on the other side of a translucent surface; none of others.
+std::optional<FieldPoint> place_behind(const LightScene& light, SideId side, TriangleId triangle,
+                                       Vec2 barycentric);
 
 /// rho_d, dimensionless, at the end of a sight, textures included; 0 where no diffuse surface is met.
 Rgb albedo_at(const LightScene& light, const Sight& sight);

@@ -25,15 +25,9 @@ void add_seen(const LightScene& light, const Sight& sight, float width,
     points.push_back({at.element, {at.place.s, at.place.t}, width});
   };
   add(sight.place);
-  const SideId behind = side_behind(light.mesh, SideId{sight.side});
-  if (behind == none<SideId>)
-    return;
-  const std::size_t front = 2 * std::size_t{index(sight.triangle)};
-  const std::size_t face = light.landing.faces[front].side == index(behind) ? front : front + 1;
-  const glm::vec2 b(sight.barycentric);
-  add(field_point(
-      light.landing.elements, index(behind),
-      landing_uv(light.landing.faces[face], light.surfaces, index(sight.triangle), b.x, b.y)));
+  if (const auto behind =
+          place_behind(light, SideId{sight.side}, sight.triangle, sight.barycentric))
+    add(*behind);
 }
 
 /// The points at the corners of each pixel and, where they are less than a pixel apart, between these.

@@ -18,24 +18,8 @@ if find "$prefix" -name '*.cmake' -exec grep -l "$scratch/first" {} + ; then
   exit 1
 fi
 
-mkdir "$scratch/consumer"
-cat >"$scratch/consumer/CMakeLists.txt" <<'END'
-cmake_minimum_required(VERSION 3.25)
-project(consumer LANGUAGES CXX)
-find_package(meninas 0.2 REQUIRED)
-add_executable(consumer consumer.cpp)
-target_link_libraries(consumer PRIVATE meninas::runs)
-END
-# Through the module that reads pictures too, which the program opens at run time.
-cat >"$scratch/consumer/consumer.cpp" <<'END'
-#include "image/image_file.h"
-#include "raytrace/two_pass.h"
-
-int main(int, char** arguments) {
-  meninas::write_png(arguments[1], meninas::Image(4, 4), 0.0);
-  return meninas::read_image(arguments[1]).picture.width == 4 ? 0 : 1;
-}
-END
+root=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..
+cp -r "$root/tests/house/consumer" "$scratch/consumer"
 flags=
 if [[ -n $sanitize ]]; then
   flags=-fsanitize=$sanitize
@@ -50,7 +34,6 @@ ninja -C "$scratch/consumer/build" --quiet
 test -s "$scratch/black.png"
 
 # The blocks of docs/library.md: its project, and its two programs.
-root=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..
 page=$scratch/page
 mkdir "$page"
 awk -v folder="$page" '/^```cmake/ { file = folder "/CMakeLists.txt"; next }

@@ -53,21 +53,7 @@ meninas batch --schema | grep "\"samples\"" >/dev/null || fail "the schema is em
 strings -a "$scratch/root/usr/bin/meninas" | grep -F "$source/" && fail "the program remembers its sources"
 
 dpkg-deb -x "$library" "$scratch/root"
-mkdir "$scratch/consumer"
-cat >"$scratch/consumer/CMakeLists.txt" <<'END'
-cmake_minimum_required(VERSION 3.25)
-project(consumer LANGUAGES CXX)
-find_package(Meninas 0.2 REQUIRED)
-add_executable(consumer consumer.cpp)
-target_link_libraries(consumer PRIVATE meninas::image)
-END
-cat >"$scratch/consumer/consumer.cpp" <<'END'
-#include "image/image_file.h"
-int main(int, char** arguments) {
-  meninas::write_png(arguments[1], meninas::Image(4, 4), 0.0);
-  return meninas::read_image(arguments[1]).picture.width == 4 ? 0 : 1;
-}
-END
+cp -r "$source/tests/house/consumer" "$scratch/consumer"
 cmake -S "$scratch/consumer" -B "$scratch/consumer/build" -G Ninja -DCMAKE_PREFIX_PATH="$scratch/root/usr" \
   -DCMAKE_CXX_COMPILER="$compiler" >/dev/null
 ninja -C "$scratch/consumer/build" --quiet

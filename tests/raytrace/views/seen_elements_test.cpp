@@ -1,7 +1,7 @@
 // Which elements a view shows, and what pass one makes of it.
 #include "raytrace/views/seen_elements.h"
-#include "raytrace/views/sight.h"
 #include "tests/raytrace/pictures.h"
+#include "tests/support/glass_rooms.h"
 #include "tests/support/metals.h"
 #include "tests/support/rooms.h"
 #include "tests/support/scene_builder.h"
@@ -57,7 +57,7 @@ Scene room(const Material& floor, const Material& x0) {
   return scene;
 }
 
-/// A narrow look at the middle of the wall x = 0 and, from x = 1.2, at that of the floor.
+/// Narrow looks at the middles of the wall x = 0 and of the floor.
 const Camera at_wall = look_at({1.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, 0.2);
 const Camera at_floor = look_at({1.0, 1.0, 0.4}, {1.0, 0.0, 1.0}, 0.1);
 
@@ -71,24 +71,16 @@ TEST(SeenElements, AreThoseInAMirrorAsWell) {
 
 TEST(SeenElements, AreThoseBehindGlassAndInItsReflection) {
   Scene scene = room(diffuse(0.5), diffuse(0.5));
-  Material pane = diffuse(1.0);
-  pane.roughness = 0.0;
-  pane.transmission = 1.0;
-  pane.double_sided = true;
   add_polygon(scene, "pane", {{0.5, 0.1, 1.9}, {0.5, 0.1, 0.1}, {0.5, 1.9, 0.1}, {0.5, 1.9, 1.9}},
-              pane);
+              glass(Rgb(1.0)));
   EXPECT_EQ(seen_nodes(scene, at_wall), (std::set<std::string>{"x0", "x1"}));
 }
 
 // The eye looks through the backs of walls, before a pane and behind it, whatever is left of bounces.
 TEST(SeenElements, AreThoseBehindAPaneAndTheBackOfAWall) {
   Scene scene = room(diffuse(0.5), diffuse(0.5));
-  Material pane = diffuse(1.0);
-  pane.roughness = 0.0;
-  pane.transmission = 1.0;
-  pane.double_sided = true;
   add_polygon(scene, "pane", {{2.5, 0.1, 1.9}, {2.5, 0.1, 0.1}, {2.5, 1.9, 0.1}, {2.5, 1.9, 1.9}},
-              pane);
+              glass(Rgb(1.0)));
   const auto prepared = prepare_scene(scene, room_settings());
   RenderSettings settings = small_picture();
   settings.max_bounces = 0;
