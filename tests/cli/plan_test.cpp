@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <limits>
+
 namespace meninas::test {
 namespace {
 
@@ -38,11 +41,14 @@ TEST_F(PlannedCost, IsTheSumOfItsStages) {
 }
 
 TEST_F(PlannedCost, GrowsWithWhatIsAskedFor) {
-  // Counts go into it as factors:
-  // a hundred times as many are more, whatever else the machine does meanwhile.
+  // Counts go into it as factors: a hundred times as many are more. What else the machine does
+  // meanwhile only adds to a forecast, which the least of three is spared.
   const auto stage = [&](const char* name, std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--quality", "draft"});
-    return expected(std::move(arguments)).at("seconds").at(name).get<double>();
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k)
+      least = std::min(least, expected(arguments).at("seconds").at(name).get<double>());
+    return least;
   };
   EXPECT_GT(stage("render", {"--size", "1600x1600"}), 3.0 * stage("render", {"--size", "32x32"}));
   EXPECT_GT(stage("form_factors", {"--size", "8x8", "--element-size", "0.01"}),
