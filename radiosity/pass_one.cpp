@@ -38,7 +38,7 @@ void take_received(const ElementMesh& mesh, const TranslucentLinks& translucent,
 }
 
 /// H at the vertices: D there, and the rest gathered from the elements, by nodes where these say so.
-/// Elements that are not seen may be less exact (pass_one.h); `seen` empty: all are.
+/// Elements that are not seen may be less exact (pass_one.h).
 InterpolatedField at_vertices(const LightScene& light, const PassOneSettings& settings,
                               ReflectedLight& solved, const std::vector<Rgb>& irradiance,
                               const SeenElements& seen, const Progress& progress) {
@@ -49,7 +49,7 @@ InterpolatedField at_vertices(const LightScene& light, const PassOneSettings& se
   if (solved.receivers)
     return field_by_nodes(light, elements, *solved.receivers,
                           {settings.form_factors, settings.direct, settings.interpolation, progress,
-                           seen});
+                           seen.elements, seen.direct});
   return interpolate(light, elements, settings.form_factors, settings.direct,
                      settings.interpolation, progress);
 }

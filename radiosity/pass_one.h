@@ -45,12 +45,16 @@ RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress = {},
                                  const PassOneWatch& watch = {});
 
-/// By ElementId of the mesh, 1: it is seen.
-using SeenElements = std::vector<std::uint8_t>;
+/// What of pass one a view shows, by ElementId of the mesh.
+struct SeenElements {
+  std::vector<std::uint8_t> elements; ///< 1: the element is seen; empty: every one is
+  std::vector<std::uint8_t> direct;   ///< 1: its direct light too is that of the field, and not found for each pixel
+};
 
 /// Pass one for one view: elements that it does not show are less exact, and take less time.
 /// Light is gathered twice (hierarchical/node_field.h). What elements send on is known after the first time,
-/// everywhere and as exactly as ever; the second, with more rays and by smaller nodes, is for what is looked at.
+/// everywhere and as exactly as ever; the second, with more rays and by smaller nodes, is for what is looked at,
+/// and edges of shadows are for that whose direct light is looked up.
 /// So the field is that of the whole solution where it is seen, and elsewhere that of the first gathering.
 /// Importance-driven radiosity: Smits, Arvo and Salesin 1992.
 /// A cut at the leaves is found everywhere, whatever is seen.

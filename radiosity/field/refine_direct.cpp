@@ -138,17 +138,21 @@ void light_fresh(const VertexSource& source, const SurfaceModel& surfaces, std::
     settle_hanging(found.mesh, *values);
 }
 
+bool is_wanted(const DirectRefinement& wanted, std::size_t element) {
+  return wanted.elements.empty() || wanted.elements[element] != 0;
+}
+
 /// Facets with edges have direct light of their own at their corners.
 void light_facets_with_edges(const LightScene& light, const VertexSource& source,
-                             const BendScale& scale, double x, std::uint32_t level,
+                             const DirectRefinement& wanted, std::uint32_t level,
                              VertexSamples& found) {
   if (std::ranges::find(found.states, VertexState::averaged) == found.states.end())
     return;
   const std::vector<double> bends =
-      edge_difference_error(found.mesh, from_source(found.field), scale);
+      edge_difference_error(found.mesh, from_source(found.field), wanted.scale);
   std::vector<ElementId> bent;
   for (std::uint32_t e = 0; e < bends.size(); ++e)
-    if (bends[e] > x && has_means(found, e))
+    if (bends[e] > wanted.x && is_wanted(wanted, e) && has_means(found, e))
       bent.push_back(ElementId{e});
   const std::vector<ElementId> facets = faces_with_shadow_edges(light, source, level, found, bent);
   if (facets.empty())
@@ -163,22 +167,29 @@ void light_facets_with_edges(const LightScene& light, const VertexSource& source
 
 } // namespace
 
-void refine_direct(const LightScene& light, const VertexSource& source, const BendScale& scale,
-                       double x, VertexSamples found, InterpolatedField& result) {
+void refine_direct(const LightScene& light, const VertexSource& source,
+                   const DirectRefinement& refinement, VertexSamples found,
+                   InterpolatedField& result) {
   constexpr std::uint32_t max_divisions = 3, first_level = 0xed9e;
   constexpr std::size_t parts_more = 3;
-  if (!(x > 0.0))
+  if (!(refinement.x > 0.0))
     return;
   const std::size_t solved = element_count(found.mesh), most = solved + max_at_shadows(solved);
   found.field = std::move(result.field);
   std::ranges::replace(found.states, VertexState::low, VertexState::gathered);
-  light_facets_with_edges(light, source, scale, x, first_level - 1, found);
+  std::vector<std::uint8_t> elements = parts_of(light.mesh, refinement.elements, found.mesh);
+  light_facets_with_edges(light, source, {refinement.scale, refinement.x, elements},
+                          first_level - 1, found);
   std::uint32_t level = 0;
   for (; level < max_divisions; ++level) {
     const std::size_t now = element_count(found.mesh), more = now < most ? most - now : 0;
     if (more < parts_more)
       break;
-    const auto marked = max_bent(bends_of(found, scale, level == 0), x, more / parts_more);
+    std::vector<double> bends = bends_of(found, refinement.scale, level == 0);
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      if (elements[e] == 0)
+        bends[e] = 0.0;
+    const auto marked = max_bent(bends, refinement.x, more / parts_more);
     if (std::ranges::find(marked, 1) == marked.end())
       break;
     // Every vertex that has a value keeps it, and none asks anew how it sees the source.
@@ -186,6 +197,7 @@ void refine_direct(const LightScene& light, const VertexSource& source, const Be
     const VertexSamples coarse = std::move(found);
     found = divided(light, coarse, marked);
     light_fresh(source, light.surfaces, first_level + level, coarse, found);
+    elements = parts_of(coarse.mesh, elements, found.mesh);
   }
   result.field = std::move(found.field);
   if (level > 0)

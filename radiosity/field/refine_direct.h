@@ -18,6 +18,7 @@
 #include "radiosity/field/vertex_gathering.h"
 
 #include <algorithm>
+#include <span>
 
 namespace meninas {
 
@@ -26,9 +27,18 @@ inline std::size_t max_at_shadows(std::size_t solved) {
   return std::max<std::size_t>(solved, 16384);
 }
 
+/// Which elements are divided.
+struct DirectRefinement {
+  BendScale scale;
+  double x = 0.0;                          ///< X; 0: none
+  /// By ElementId of the scene's mesh, 1: it may be; empty: every one may.
+  std::span<const std::uint8_t> elements = {};
+};
+
 /// `result` has the completed field of what was found,
-/// and takes the finer mesh and its field where anything bends. X = 0: nothing does.
-void refine_direct(const LightScene& light, const VertexSource& source, const BendScale& scale,
-                       double x, VertexSamples found, InterpolatedField& result);
+/// and takes the finer mesh and its field where anything bends.
+void refine_direct(const LightScene& light, const VertexSource& source,
+                   const DirectRefinement& refinement, VertexSamples found,
+                   InterpolatedField& result);
 
 } // namespace meninas

@@ -57,7 +57,8 @@ struct VertexGathering {
   const DirectSettings& direct;
   const InterpolationSettings& interpolation;
   const Progress& progress;
-  std::span<const std::uint8_t> seen = {}; ///< by ElementId (pass_one.h); empty: all are
+  std::span<const std::uint8_t> seen = {}; ///< by ElementId (SeenElements); empty: all are
+  std::span<const std::uint8_t> seen_direct = {}; ///< likewise, whose direct light is that of the field
 };
 
 /// Rays per vertex = times x max(min(N, 128), N / part).

@@ -4,178 +4,21 @@
 #include "radiosity/field/curves/smooth_vertices.h"
 #include "radiosity/field/curves/smoothing_groups.h"
 #include "radiosity/light/gather_noise.h"
-#include "radiosity/hierarchical/node_bends.h"
-#include "radiosity/hierarchical/node_edges.h"
+#include "radiosity/hierarchical/node_gathering.h"
 #include "radiosity/field/refine_direct.h"
 #include "radiosity/field/vertex_places.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 namespace meninas {
 
 namespace {
 
-constexpr int few_rays = 4; // for the first gathering, and for small nodes: so many times fewer
 constexpr RayShare first_share{few_rays, 1};
 constexpr double first_spared = 1.0, small_spared = 0.1; // of bright clusters there
-
-/// What nodes gather from: the same light, with many and with few rays.
-struct NodeSource {
-  const VertexSource& many;
-  const VertexSource& few;
-};
-
-/// The rest at vertices, `wanted` the areas that they stand for.
-/// Noise counts with the area: in an eighth of a receiver a quarter of the rays adds
-/// no more to the squared error than all do in a receiver (gather_noise.h).
-void gather_at_wanted(const NodeSource& source, const std::vector<double>& wanted, double receiver,
-                      VertexSamples& found) {
-  const double small = std::pow(few_rays, -2.0 * noise_order);
-  std::vector<std::uint8_t> large(wanted.size(), 0), rest(wanted.size(), 0);
-  for (std::size_t v = 0; v < wanted.size(); ++v) {
-    large[v] = wanted[v] > small * receiver ? 1 : 0;
-    rest[v] = wanted[v] > 0.0 && large[v] == 0 ? 1 : 0;
-  }
-  gather_at_lit(source.many, large, found);
-  gather_at_lit(source.few, rest, found);
-}
-
-/// How vertices take from those that gather.
-struct NodeInterpolation {
-  InterpolationWeights shares;
-  std::vector<MidpointStencil> crosses;
-};
-
-/// Whether an element is seen, by ElementId; empty: every one is.
-using Seen = std::span<const std::uint8_t>;
-
-bool is_seen(const NodeTree& tree, TreeNodeId node, Seen seen) {
-  return seen.empty() || std::ranges::any_of(elements_below(tree, node), [&](ElementId e) {
-           return seen[index(e)] != 0;
-         });
-}
-
-/// Takes the nodes of which nothing is seen from these.
-std::vector<TreeNodeId> take_unseen(const NodeTree& tree, Seen seen,
-                                    std::vector<TreeNodeId>& nodes) {
-  const auto unseen = std::ranges::stable_partition(
-      nodes, [&](TreeNodeId id) { return is_seen(tree, id, seen); });
-  std::vector<TreeNodeId> taken(unseen.begin(), unseen.end());
-  nodes.erase(unseen.begin(), unseen.end());
-  return taken;
-}
-
-/// The rest at the corners and in the middle of nodes as small as it asks for, with a bound of X.
-/// Middles alone do not see light that bends one way along a node and the other way across:
-/// what edges between nodes tell of that divides once more.
-NodeInterpolation gather_at_nodes(const NodeSource& source, const HierarchicalSolution& receivers,
-                                  std::vector<TreeNodeId> nodes, Seen seen,
-                                  double x, VertexSamples& found) {
-  const ElementMesh& mesh = found.mesh;
-  const NodeTree& tree = receivers.tree;
-  BendBound bound{bend_scale(mesh, source.many.gathering.reflected), x};
-  bound.scale.area *= double(element_count(mesh)) / double(receivers.receivers.size());
-  std::vector<TreeNodeId> straight;
-  std::vector<std::uint8_t> valid;
-  const auto gathered = [&]() -> GatheredVertices {
-    valid = with_values(found);
-    return {valid, found.field.irradiance, found.field.indirect};
-  };
-  const auto gather_below = [&](std::vector<TreeNodeId> below) {
-    while (!below.empty()) {
-      gather_at_wanted(source, wanted_vertices(mesh, tree, below), bound.scale.area, found);
-      below = parts_of_bent(mesh, tree, below, gathered(), bound, straight);
-      // Parts that are not seen have their corners, and are not asked how light bends in them.
-      const std::vector<TreeNodeId> unseen = take_unseen(tree, seen, below);
-      gather_at_wanted(source, wanted_vertices(mesh, tree, unseen), bound.scale.area, found);
-      std::ranges::copy(unseen, std::back_inserter(straight));
-    }
-  };
-  gather_below(std::move(nodes));
-  gather_below(parts_at_bent_edges(mesh, tree, gathered(), bound, straight));
-  return {vertex_shares(mesh, tree, straight), crosses_of(mesh, tree, straight)};
-}
-
-/// What a vertex takes from those that its shares name, as far as these have values.
-void take_shares(const InterpolationWeights& shares, std::size_t v, VertexSamples& found) {
-  VertexIrradiance& field = found.field;
-  glm::vec3 total(0.0F), mirrored(0.0F);
-  float weights = 0.0F;
-  for (std::size_t c = 0; c < 4; ++c) {
-    const std::uint32_t from = index(shares.from[v][c]);
-    if (!has_value(found.states[from]))
-      continue;
-    total += shares.weight[v][c] * field.indirect[from];
-    mirrored += shares.weight[v][c] * field.indirect_mirrored[from];
-    weights += shares.weight[v][c];
-  }
-  if (!(weights > 0.0F)) {
-    found.states[v] = VertexState::covered;
-    return;
-  }
-  for (auto& [direct, rest] : field.by_lamp) {
-    glm::vec3 of_lamp(0.0F);
-    for (std::size_t c = 0; c < 4; ++c)
-      if (const std::uint32_t from = index(shares.from[v][c]); has_value(found.states[from]))
-        of_lamp += shares.weight[v][c] * rest[from];
-    rest[v] = of_lamp / weights;
-  }
-  field.indirect[v] = total / weights;
-  field.indirect_mirrored[v] = mirrored / weights;
-  field.irradiance[v] += field.indirect[v];
-  field.mirrored[v] += field.indirect_mirrored[v];
-  found.states[v] = VertexState::gathered;
-}
-
-/// Adds what is curved to vertices between corners, of those that have a value;
-/// light is not negative, and the mirrors' part no more than all.
-void bend_between(const NodeInterpolation& by, std::span<const std::uint8_t> valid,
-                  VertexSamples& found) {
-  VertexIrradiance& field = found.field;
-  const std::vector<glm::vec3> bends = edge_bends(by.crosses, valid, field.indirect),
-                               of_mirrored = edge_bends(by.crosses, valid, field.indirect_mirrored);
-  const auto add = [](const glm::vec3& more, glm::vec3& indirect, glm::vec3& all) {
-    const glm::vec3 bent = glm::max(indirect + more, glm::vec3(0.0F));
-    all = glm::max(all + (bent - indirect), glm::vec3(0.0F));
-    indirect = bent;
-  };
-  for (std::size_t v = 0; v < bends.size(); ++v)
-    if (by.shares.between[v] != 0 && found.states[v] == VertexState::gathered) {
-      add(bends[v], field.indirect[v], field.irradiance[v]);
-      add(glm::min(of_mirrored[v], field.indirect[v] - field.indirect_mirrored[v]),
-          field.indirect_mirrored[v], field.mirrored[v]);
-    }
-}
-
-/// Vertices that were only asked how light bends, or whose nodes have given way,
-/// take from others as those around them do, or they would stand out by what nodes are off.
-void drop_indicator_samples(const InterpolationWeights& shares, VertexSamples& found) {
-  VertexIrradiance& field = found.field;
-  for (std::size_t v = 0; v < found.states.size(); ++v)
-    if (found.states[v] == VertexState::gathered && !gathers(shares, v)) {
-      // Sums of floats less one of their terms may be a rounding below the others.
-      field.irradiance[v] = glm::max(field.irradiance[v] - field.indirect[v], glm::vec3(0.0F));
-      field.mirrored[v] = glm::max(field.mirrored[v] - field.indirect_mirrored[v], glm::vec3(0.0F));
-      found.states[v] = VertexState::lit;
-    }
-}
-
-/// Gives vertices that are lit the rest of their light:
-/// first those between corners of nodes, which others take from.
-void share_out(const NodeInterpolation& by, VertexSamples& found) {
-  drop_indicator_samples(by.shares, found);
-  const std::vector<std::uint8_t> valid = with_values(found);
-  const auto take = [&](bool between) {
-    for (std::size_t v = 0; v < found.states.size(); ++v)
-      if (found.states[v] == VertexState::lit && (by.shares.between[v] != 0) == between)
-        take_shares(by.shares, v, found);
-  };
-  take(true);
-  bend_between(by, valid, found);
-  take(false);
-}
 
 /// What elements receive, by their corners: all of it where they share points for light from the
 /// source (node_light.h), or the rest. Of a spot of a few elements corners do not tell the light.
@@ -210,7 +53,8 @@ void add_from_behind(const ElementLight& elements, std::vector<Rgb> received,
 
 /// What lamps have in the light that elements send on, as their corners tell.
 LightByLamp reflected_by_lamp(const ElementLight& elements, const HierarchicalSolution& receivers,
-                              const VertexSamples& found, const std::vector<Rgb>& reflected) {
+                              const VertexSamples& found, const std::vector<Rgb>& reflected,
+                              std::span<const std::uint8_t> gathered) {
   LightByLamp by_lamp = elements.by_lamp;
   for (std::size_t l = 0; l < found.field.by_lamp.size(); ++l) {
     const auto& [direct, rest] = found.field.by_lamp[l];
@@ -227,7 +71,7 @@ LightByLamp reflected_by_lamp(const ElementLight& elements, const HierarchicalSo
   }
   // Of what corners know nothing the elements' own light tells.
   for (Eigen::Index e = 0; e < by_lamp.rows(); ++e)
-    if (by_lamp.row(e).isZero(0.0))
+    if (gathered[static_cast<std::size_t>(e)] == 0 || by_lamp.row(e).isZero(0.0))
       by_lamp.row(e) = elements.by_lamp.row(e);
   add_up_to(reflected, by_lamp);
   return by_lamp;
@@ -240,24 +84,83 @@ struct FirstField {
   std::vector<VertexState> states;
 };
 
-/// `found` has it in between.
+/// By ElementId, 1: the element is below one of these nodes.
+std::vector<std::uint8_t> elements_of(const NodeTree& tree, std::span<const TreeNodeId> nodes,
+                                      std::size_t count) {
+  std::vector<std::uint8_t> below(count, 0);
+  for (const TreeNodeId id : nodes)
+    for (const ElementId e : elements_below(tree, id))
+      below[index(e)] = 1;
+  return below;
+}
+
+/// Receivers of surfaces on which at least one of a vertex's rays lands in the mean:
+/// F = A_surface / A of a closed room.
+std::vector<TreeNodeId> met_by_rays(const HierarchicalSolution& receivers, const LightScene& light,
+                                    int rays) {
+  const ElementMesh& mesh = light.mesh;
+  const auto surface_of = [&](ElementId e) {
+    return index(
+        light.surfaces.patches[index(mesh.sides[index(mesh.side_of_element[index(e)])].patch)]
+            .surface);
+  };
+  std::vector<double> area(light.surfaces.surfaces.size(), 0.0);
+  for (std::uint32_t e = 0; e < element_count(mesh); ++e)
+    area[surface_of(ElementId{e})] += mesh.area[e];
+  const double all = std::accumulate(area.begin(), area.end(), 0.0);
+  std::vector<TreeNodeId> met;
+  std::ranges::copy_if(receivers.receivers, std::back_inserter(met), [&](TreeNodeId id) {
+    return area[surface_of(elements_below(receivers.tree, id).front())] * rays >= all;
+  });
+  return met;
+}
+
+/// Vertices that are lit and that none of these elements has take the mean of the rest
+/// that the elements around them have been solved to receive.
+void take_solved(const ElementLight& elements, std::span<const std::uint8_t> gathered,
+                 std::span<const VertexState> before, VertexSamples& found) {
+  VertexIrradiance& field = found.field;
+  const VertexElements around = elements_around(found.mesh);
+  for (std::uint32_t v = 0; v < before.size(); ++v) {
+    const auto here = meninas::around(around, v);
+    if (before[v] != VertexState::lit ||
+        std::ranges::any_of(here, [&](ElementId e) { return gathered[index(e)] != 0; }))
+      continue;
+    Rgb rest(0.0);
+    double area = 0.0;
+    for (const ElementId e : here) {
+      const double own = found.mesh.area[index(e)];
+      rest += own * glm::max(elements.irradiance[index(e)] - elements.from_source[index(e)], Rgb(0.0));
+      area += own;
+    }
+    field.indirect[v] = area > 0.0 ? glm::vec3(rest / area) : glm::vec3(0.0F);
+    field.irradiance[v] += field.indirect[v];
+    found.states[v] = VertexState::gathered;
+  }
+}
+
+/// `found` has it in between. Surfaces that are smaller than rays tell apart send what they were solved to.
 FirstField first_field(const VertexSource& few, const HierarchicalSolution& receivers,
-                       const ElementLight& elements, VertexSamples& found) {
+                       const ElementLight& elements, int rays, VertexSamples& found) {
   VertexIrradiance lit = found.field;
   std::vector<VertexState> states = found.states;
-  share_out(
-      gather_at_nodes({few, few}, receivers, receivers.receivers, {}, few_rays * receivers.bend,
-                      found),
-      found);
-  const std::vector<Rgb> received =
+  const std::vector<TreeNodeId> nodes = met_by_rays(receivers, few.gathering.light, rays);
+  const auto gathered = elements_of(receivers.tree, nodes, element_count(found.mesh));
+  share_out(gather_at_nodes({few, few}, receivers, nodes, {}, few_rays * receivers.bend, found),
+            found);
+  take_solved(elements, gathered, states, found);
+  std::vector<Rgb> received =
       received_at_corners(elements, receivers, found, filled(found, found.field.irradiance),
                           filled(found, found.field.indirect));
   std::vector<Rgb> reflected = elements.reflected;
-  for (std::size_t e = 0; e < received.size(); ++e)
+  for (std::size_t e = 0; e < received.size(); ++e) {
+    if (gathered[e] == 0)
+      received[e] = elements.irradiance[e];
     if (elements.irradiance[e] != Rgb(0.0))
       reflected[e] = found.mesh.reflectance[e] * received[e];
+  }
   add_from_behind(elements, received, reflected);
-  LightByLamp by_lamp = reflected_by_lamp(elements, receivers, found, reflected);
+  LightByLamp by_lamp = reflected_by_lamp(elements, receivers, found, reflected, gathered);
   std::swap(found.field, lit);
   std::swap(found.states, states);
   return {{std::move(reflected), std::move(by_lamp)}, std::move(lit), std::move(states)};
@@ -307,7 +210,7 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
     return StagePart{how.progress, "refinement", from, to};
   };
   const VertexSource few{elements.irradiance, solved, workspaces, &kept, true, part(0.0, 0.4)};
-  const FirstField first = first_field(few, receivers, elements, found);
+  const FirstField first = first_field(few, receivers, elements, how.interpolation.rays, found);
   const SentLight& reflected = first.sent;
   const int times = ray_multiplier(element_count(light.mesh), receivers.receivers.size());
   const PointGathering by_all = gathering_from(light, reflected, how, {}, 0.0, first_share),
@@ -334,7 +237,8 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
                                         result.field.indirect);
   const BendScale scale = bend_scale(light.mesh, elements.reflected);
   refine_indirect(light, source, scale, how.interpolation.bend, found, result);
-  refine_direct(light, source, scale, how.interpolation.shadow_bend, std::move(found), result);
+  refine_direct(light, source, {scale, how.interpolation.shadow_bend, how.seen_direct}, std::move(found),
+                result);
   return result;
 }
 

@@ -21,6 +21,20 @@ std::vector<CellId> same_cells(const ElementMesh& from, const ElementMesh& to) {
   return same;
 }
 
+std::vector<std::uint8_t> parts_of(const ElementMesh& from, std::span<const std::uint8_t> marks,
+                                   const ElementMesh& to) {
+  std::vector<std::uint8_t> parts(marks.empty() ? 0 : element_count(to), 0);
+  if (parts.empty())
+    return parts;
+  const std::vector<CellId> now = same_cells(from, to);
+  for (std::size_t e = 0; e < marks.size(); ++e)
+    if (marks[e] != 0) {
+      const MeshCell& cell = to.cells[index(now[index(from.cell_of_element[e])])];
+      std::fill_n(parts.begin() + cell.first_element, cell.element_count, std::uint8_t{1});
+    }
+  return parts;
+}
+
 ElementCorners same_corners(const ElementMesh& from, ElementId element, const ElementMesh& to,
                             CellId id) {
   const MeshCell& was = cell_of(from, element);

@@ -29,6 +29,7 @@ struct Leg {
   Rgb throughput{1.0};
   int bounces = 0; ///< reflections
   int legs = 0;    ///< before it
+  bool sight = true; ///< so far
   Backs backs = Backs::absorb;
 };
 
@@ -37,12 +38,16 @@ class Marks {
 public:
   explicit Marks(std::size_t count) : marks_(count) {}
   void set(std::uint32_t element) { marks_[element].store(1, std::memory_order_relaxed); }
-  bool at(std::size_t element) const {
-    return marks_[element].load(std::memory_order_relaxed) != 0;
-  }
+  std::vector<std::uint8_t> list() const { return {marks_.begin(), marks_.end()}; }
 
 private:
   std::vector<std::atomic<std::uint8_t>> marks_;
+};
+
+/// What is seen, and of what direct light is that of the field.
+struct SeenMarks {
+  Marks elements, direct;
+  bool direct_at_sights; ///< is found for each pixel
 };
 
 /// Where a leg has met something.
@@ -54,16 +59,21 @@ struct Met {
 };
 
 /// The element, and that of the other side of what is translucent.
-void mark(const Met& met, Marks& seen) {
+void mark(const Met& met, bool by_sight, SeenMarks& seen) {
   if (met.face.side == FaceRecord::nothing)
     return;
   const TriangleId triangle = met.hit.triangle;
   const glm::vec2 b(met.hit.barycentric);
   const glm::vec2 uv = landing_uv(met.face, met.light.surfaces, index(triangle), b.x, b.y);
-  seen.set(field_point(met.light.landing.elements, met.face.side, uv).element);
+  const auto set = [&](std::uint32_t element) {
+    seen.elements.set(element);
+    if (!by_sight || !seen.direct_at_sights)
+      seen.direct.set(element);
+  };
+  set(field_point(met.light.landing.elements, met.face.side, uv).element);
   if (const auto behind =
           place_behind(met.light, SideId{met.face.side}, triangle, met.hit.barycentric))
-    seen.set(behind->element);
+    set(behind->element);
 }
 
 /// The lobes of the surface, one direction each, by which it sends light to where the leg came from.
@@ -77,6 +87,7 @@ void continue_by_lobes(const Met& met, const Leg& leg, int max_bounces, Vec2 u,
   Bsdf bsdf = met.hit.front ? front : from_behind(front);
   const Direction normal = seen_normal(met.light, met.face, met.hit, met.along);
   const Direction out = local_out(normal, met.along);
+  const SightStep step = leg.sight ? sight_step(met.light, met.face, met.hit) : SightStep::end;
   // Through glass nothing is reflected: backs that the eye looks through stay so, and it is no bounce.
   const auto go_on = [&](const Direction& towards, const Rgb& weight, bool through) {
     const Rgb throughput = leg.throughput * weight;
@@ -89,6 +100,7 @@ void continue_by_lobes(const Met& met, const Leg& leg, int max_bounces, Vec2 u,
                     throughput,
                     bounces,
                     leg.legs + 1,
+                    step == (through ? SightStep::through : SightStep::mirror),
                     straight ? leg.backs : Backs::absorb});
   };
   if (is_open(bsdf)) {
@@ -105,8 +117,8 @@ void continue_by_lobes(const Met& met, const Leg& leg, int max_bounces, Vec2 u,
 
 /// The path through one point of the picture, in all its branches.
 void follow(const LightScene& light, const CameraRay& start, int max_bounces, std::uint32_t number,
-            Marks& seen) {
-  std::vector<Leg> legs{{{start.origin, start.direction}, Rgb(1.0), 0, 0, Backs::transparent}};
+            SeenMarks& seen) {
+  std::vector<Leg> legs{{{start.origin, start.direction}, Rgb(1.0), 0, 0, true, Backs::transparent}};
   for (std::uint32_t k = 0; !legs.empty(); ++k) {
     const Leg leg = legs.back();
     legs.pop_back();
@@ -115,19 +127,19 @@ void follow(const LightScene& light, const CameraRay& start, int max_bounces, st
       continue;
     const std::size_t face = 2 * std::size_t{index(hit->triangle)} + (hit->front ? 0 : 1);
     const Met met{light, *hit, light.landing.faces[face], leg.ray.direction};
-    mark(met, seen);
+    mark(met, leg.sight, seen);
     const auto u = sobol4(number, hash(k, 0x5ee2));
     continue_by_lobes(met, leg, max_bounces, {u[0], u[1]}, legs);
   }
 }
 
 /// Those elements and all that share a vertex with one.
-SeenElements with_neighbours(const ElementMesh& mesh, const SeenElements& seen) {
-  const VertexElements around = elements_around(mesh);
-  SeenElements more = seen;
+std::vector<std::uint8_t> with_neighbours(const ElementMesh& mesh, const VertexElements& around,
+                                          const std::vector<std::uint8_t>& marked) {
+  std::vector<std::uint8_t> more = marked;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const auto elements = meninas::around(around, static_cast<std::uint32_t>(v));
-    if (std::ranges::any_of(elements, [&](ElementId e) { return seen[index(e)] != 0; }))
+    if (std::ranges::any_of(elements, [&](ElementId e) { return marked[index(e)] != 0; }))
       for (const ElementId e : elements)
         more[index(e)] = 1;
   }
@@ -142,7 +154,8 @@ SeenElements seen_elements(const LightScene& light, const Camera& camera,
   const double apart = std::max(1.0, std::sqrt(pixels / most_paths));
   const auto columns = static_cast<std::uint32_t>(std::ceil(settings.width / apart));
   const auto rows = static_cast<std::uint32_t>(std::ceil(settings.height / apart));
-  Marks marks(element_count(light.mesh));
+  const std::size_t count = element_count(light.mesh);
+  SeenMarks marks{Marks(count), Marks(count), settings.diffuse.term == DiffuseTerm::direct};
   tbb::parallel_for(std::uint32_t{0}, rows, [&](std::uint32_t row) {
     for (std::uint32_t column = 0; column < columns; ++column) {
       const std::uint32_t number = row * columns + column;
@@ -157,11 +170,10 @@ SeenElements seen_elements(const LightScene& light, const Camera& camera,
     }
   });
 
-  SeenElements seen(element_count(light.mesh), 0);
-  for (std::size_t e = 0; e < seen.size(); ++e)
-    seen[e] = marks.at(e) ? 1 : 0;
   // Elements beside those that are met fill the rest of the pixels.
-  return with_neighbours(light.mesh, seen);
+  const VertexElements around = elements_around(light.mesh);
+  return {with_neighbours(light.mesh, around, marks.elements.list()),
+          with_neighbours(light.mesh, around, marks.direct.list())};
 }
 
 } // namespace meninas

@@ -22,6 +22,12 @@ static bool passes_most(const LightScene& light, const Hit& hit) {
   return transmission >= 0.5;
 }
 
+SightStep sight_step(const LightScene& light, const FaceRecord& face, const Hit& hit) {
+  if (face.glass)
+    return passes_most(light, hit) ? SightStep::through : SightStep::end;
+  return face.mirrors ? SightStep::mirror : SightStep::end;
+}
+
 Direction seen_normal(const LightScene& light, const FaceRecord& face, const Hit& hit,
                       const Vec3& along) {
   if (!face.curved)
@@ -54,12 +60,12 @@ Sight look(const LightScene& light, const Camera& camera, double picture_aspect,
       sight.place = field_point(light.landing.elements, face.side,
                                 landing_uv(face, light.surfaces, index(hit->triangle), b.x, b.y));
     }
-    const bool clear = face.glass && passes_most(light, *hit);
-    if (!clear && (!face.mirrors || face.glass || sight.mirrors >= max_mirrors))
+    const SightStep to = sight_step(light, face, *hit);
+    if (to == SightStep::end || (to == SightStep::mirror && sight.mirrors >= max_mirrors))
       return sight;
     ray.origin = sight.position;
     ray.leaving = static_cast<PlaneId>(face.plane_class);
-    if (clear) {
+    if (to == SightStep::through) {
       next = backs;
       // Where panes meet in an edge the one that was left before is met again,
       // unless the eye goes on: in steps that double.

@@ -27,6 +27,10 @@ struct Sight {
 Sight look(const LightScene& light, const Camera& camera, double picture_aspect, Vec2 at,
            int max_mirrors);
 
+/// What a sight does where it meets a face: ends, goes on through glass that is mostly clear, or is reflected.
+enum class SightStep { end, through, mirror };
+SightStep sight_step(const LightScene& light, const FaceRecord& face, const Hit& hit);
+
 /// The normal by which a face reflects towards where a ray comes from: its own, or that of its curve.
 Direction seen_normal(const LightScene& light, const FaceRecord& face, const Hit& hit,
                       const Vec3& along);

@@ -31,11 +31,14 @@ RenderSettings small_picture() {
   return settings;
 }
 
-/// Names of the nodes of which an element is seen.
-std::set<std::string> seen_nodes(const Scene& scene, const Camera& camera) {
+/// Names of the nodes of which an element is marked.
+std::set<std::string> marked_nodes(const Scene& scene, const Camera& camera,
+                                   std::vector<std::uint8_t> SeenElements::*marks, DiffuseTerm term) {
   const auto prepared = prepare_scene(scene, room_settings());
   const LightScene& light = *prepared->light;
-  const SeenElements seen = seen_elements(light, camera, small_picture());
+  RenderSettings settings = small_picture();
+  settings.diffuse.term = term;
+  const std::vector<std::uint8_t> seen = seen_elements(light, camera, settings).*marks;
   std::set<std::string> names;
   for (const MeshSide& side : light.mesh.sides) {
     const Patch& patch = light.surfaces.patches[index(side.patch)];
@@ -45,6 +48,14 @@ std::set<std::string> seen_nodes(const Scene& scene, const Camera& camera) {
         names.insert(light.scene.nodes[index(light.scene.triangles[index(triangle)].node)].name);
   }
   return names;
+}
+
+/// Of which one is seen, and of which direct light is looked up when pixels find theirs.
+std::set<std::string> seen_nodes(const Scene& scene, const Camera& camera) {
+  return marked_nodes(scene, camera, &SeenElements::elements, DiffuseTerm::interpolated);
+}
+std::set<std::string> looked_up_nodes(const Scene& scene, const Camera& camera) {
+  return marked_nodes(scene, camera, &SeenElements::direct, DiffuseTerm::direct);
 }
 
 /// A room 2 m wide whose walls are named x0 to z1, with a lamp.
@@ -86,7 +97,22 @@ TEST(SeenElements, AreThoseBehindAPaneAndTheBackOfAWall) {
   settings.max_bounces = 0;
   const SeenElements seen =
       seen_elements(*prepared->light, look_at({4.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, 0.1), settings);
-  EXPECT_GT(std::ranges::count(seen, 1), 0) << "the wall x = 0, through that at x = 2";
+  EXPECT_GT(std::ranges::count(seen.elements, 1), 0) << "the wall x = 0, through that at x = 2";
+}
+
+// Pixels find the direct light of what sights end at, in mirrors and behind panes too;
+// of what lobes and the reflections of panes show it is looked up.
+TEST(SeenElements, HaveTheirDirectLightLookedUpWhereNoSightEnds) {
+  const Scene matt = room(diffuse(0.5), diffuse(0.5)), satin = room(metal(Rgb(0.8), 0.4), diffuse(0.5));
+  EXPECT_TRUE(looked_up_nodes(matt, at_wall).empty());
+  EXPECT_TRUE(looked_up_nodes(room(diffuse(0.5), mirror(0.9)), at_wall).empty());
+  EXPECT_EQ(marked_nodes(matt, at_wall, &SeenElements::direct, DiffuseTerm::interpolated),
+            std::set<std::string>{"x0"});
+  EXPECT_TRUE(looked_up_nodes(satin, at_floor).contains("y1"));
+  Scene glazed = matt;
+  add_polygon(glazed, "pane", {{0.5, 0.1, 1.9}, {0.5, 0.1, 0.1}, {0.5, 1.9, 0.1}, {0.5, 1.9, 1.9}},
+              glass(Rgb(1.0)));
+  EXPECT_EQ(looked_up_nodes(glazed, at_wall), std::set<std::string>{"x1"});
 }
 
 // By a lobe a ceiling above a floor of satin metal; by a matt floor nothing else.
@@ -105,7 +131,7 @@ TEST(SolutionForAView, IsTheWholeOneWhereItIsSeen) {
   const SeenElements seen = seen_elements(light, camera, small_picture());
   const RadiositySolution all = solve_pass_one(prepared->light, settings),
                           view = solve_for_view(prepared->light, settings, seen);
-  const auto share = double(std::ranges::count(seen, 1)) / double(seen.size());
+  const auto share = double(std::ranges::count(seen.elements, 1)) / double(seen.elements.size());
   ASSERT_LT(share, 0.6);
   EXPECT_LT(view.form_factor_rays, all.form_factor_rays);
 
@@ -121,7 +147,7 @@ TEST(SolutionForAView, IsTheWholeOneWhereItIsSeen) {
   EXPECT_LT(std::sqrt(squares / n), 2e-3 * light_of_all / n); // beside the border of what is seen
   // Elsewhere light is off by what the first gathering allows, four times the bound.
   Rgb sum_view(0.0), sum_all(0.0);
-  for (std::size_t e = 0; e < seen.size(); ++e) {
+  for (std::size_t e = 0; e < seen.elements.size(); ++e) {
     sum_view += light.mesh.area[e] * view.irradiance[e];
     sum_all += light.mesh.area[e] * all.irradiance[e];
   }
@@ -132,12 +158,12 @@ TEST(SolutionForAView, IsTheWholeOneWhereItIsSeen) {
 TEST(SolutionForAView, LeavesNoVertexWithoutLight) {
   const PassOneSettings settings = room_settings();
   const auto prepared = prepare_scene(room(diffuse(0.5), mirror(0.9)), settings);
-  SeenElements one(element_count(prepared->light->mesh), 0);
+  std::vector<std::uint8_t> one(element_count(prepared->light->mesh), 0);
   const RadiositySolution all = solve_pass_one(prepared->light, settings);
   for (std::size_t e = 0; e < one.size(); e += one.size() / 7) {
     std::ranges::fill(one, 0);
     one[e] = 1;
-    const RadiositySolution view = solve_for_view(prepared->light, settings, one);
+    const RadiositySolution view = solve_for_view(prepared->light, settings, {one, one});
     double worst = 0.0, mean = 0.0;
     for (std::size_t v = 0; v < all.field.indirect.size() && v < view.field.indirect.size(); ++v) {
       worst = std::max(worst, std::abs(double{view.field.indirect[v].g} -
@@ -152,9 +178,9 @@ TEST(SolutionForAView, LeavesNoVertexWithoutLight) {
 TEST(SolutionForAView, ThatShowsEverythingIsTheWholeOneToTheBit) {
   const PassOneSettings settings = room_settings();
   const auto prepared = prepare_scene(room(diffuse(0.5), mirror(0.9)), settings);
-  const SeenElements everything(element_count(prepared->light->mesh), 1);
+  const std::vector<std::uint8_t> everything(element_count(prepared->light->mesh), 1);
   const RadiositySolution all = solve_pass_one(prepared->light, settings),
-                          view = solve_for_view(prepared->light, settings, everything);
+                          view = solve_for_view(prepared->light, settings, {everything, everything});
   EXPECT_EQ(all.field.irradiance, view.field.irradiance);
   EXPECT_EQ(all.field.indirect, view.field.indirect);
 }
