@@ -1,5 +1,7 @@
 #include "runs/preparation.h"
 
+#include "scenes/names.h"
+
 #include "image/image_file.h"
 #include "raytrace/pixels/section_plane.h"
 #include "raytrace/scene_textures.h"
@@ -73,13 +75,32 @@ std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& s
   return prepared;
 }
 
-void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
-                      const RunEvents& events) {
+/// Names of the nodes that these elements are of.
+static std::vector<std::string> nodes_of(const PreparedScene& prepared,
+                                         std::span<const std::uint32_t> elements) {
+  const LightScene& light = *prepared.light;
+  std::vector<std::string> names;
+  for (const std::uint32_t e : elements) {
+    const MeshSide& side = light.mesh.sides[index(light.mesh.side_of_element[e])];
+    const TriangleId triangle = light.surfaces.patches[index(side.patch)].triangles[0];
+    names.push_back(light.scene.nodes[index(light.scene.triangles[index(triangle)].node)].name);
+  }
+  return names;
+}
+
+void warn_of_solution(const PreparedScene& prepared, const SolverResult& solver,
+                      const ClosureError& closure, const RunEvents& events) {
   if (solver.end == SolverEnd::unsolvable) {
     warn(events,
-         "pass one has no solution: light enters a closed part of the scene that absorbs nothing; "
+         "pass one has no solution: all light is in closed parts of the scene that absorb nothing; "
          "only light that has not been reflected is shown");
-  } else if (!solver.converged) {
+  } else if (!solver.trapped.empty()) {
+    warn(events,
+         fmt::format("light enters closed parts of the scene that absorb nothing; what would be "
+                     "reflected there, without end, is left out: {}",
+                     quoted_names(nodes_of(prepared, solver.trapped))));
+  }
+  if (solver.end != SolverEnd::unsolvable && !solver.converged) {
     warn(events,
          fmt::format("pass one has not converged: residual {:.2g} after {} {}, error bound {:.2g}",
                      solver.residual, solver.iterations,

@@ -31,9 +31,9 @@ std::vector<std::filesystem::path> files_beside_scene(const RunSettings& setting
 std::unique_ptr<PreparedScene> prepare_run(Scene scene, const PassOneSettings& settings,
                                            const RunEvents& events, RunFigures& figures);
 
-/// Says what a user has to know about how well pass one went.
-void warn_of_solution(const SolverResult& solver, const ClosureError& closure,
-                      const RunEvents& events);
+/// Says what a user has to know about how well pass one went in a scene.
+void warn_of_solution(const PreparedScene& prepared, const SolverResult& solver,
+                      const ClosureError& closure, const RunEvents& events);
 
 /// The camera with the projection that the settings ask for.
 Camera projected(Camera camera, const RunSettings& settings);

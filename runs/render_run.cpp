@@ -135,7 +135,7 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
   if (!request.solution) {
     const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
     Rendering rendering = run_two_pass(*prepared, camera, settings, request, events, figures);
-    warn_of_solution(figures.solver, figures.closure, events);
+    warn_of_solution(*prepared, figures.solver, figures.closure, events);
     return picture_of(prepared->scene, camera, request.settings, std::move(rendering));
   }
   const LitScene lit =

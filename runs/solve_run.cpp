@@ -147,7 +147,7 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   auto sets = point_sets(std::move(points), request.points, prepared->scene, prepared->surfaces);
   const RadiositySolution solution = solve_or_relight(request, prepared->light, settings, events);
   add_solution(figures, solution);
-  warn_of_solution(figures.solver, figures.closure, events);
+  warn_of_solution(*prepared, figures.solver, figures.closure, events);
 
   watch.lap();
   write_solution(request.solution, scene_hash, prepared->mesh, solution, settings.mesh);

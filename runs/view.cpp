@@ -44,7 +44,7 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
                .field = {}};
   RadiositySolution solution = solve_pass_one(lit.prepared->light, settings, events.progress);
   add_solution(figures, solution);
-  warn_of_solution(figures.solver, figures.closure, events);
+  warn_of_solution(*lit.prepared, figures.solver, figures.closure, events);
   if (kept) {
     write_solution(*kept, scene_hash, lit.prepared->mesh, solution, settings.mesh);
   }
@@ -77,7 +77,7 @@ LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings setti
   lit.field = field_of(file, std::move(stored), lit.prepared->light);
   figures.elements = element_count(lit.field.mesh());
   figures.vertices = lit.field.mesh().vertices.size();
-  warn_of_solution(figures.solver, figures.closure, events);
+  warn_of_solution(*lit.prepared, figures.solver, figures.closure, events);
   return lit;
 }
 

@@ -1,5 +1,6 @@
 #include "scenes/names.h"
 
+#include <set>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -72,6 +73,20 @@ std::string unknown_name(std::string_view kind, std::string_view name,
   return message + (known.size() == 1 ? fmt::format(", there is only '{}'", known.front())
                                       : fmt::format(" among {} {}s such as '{}'", known.size(), kind,
                                                     known.front()));
+}
+
+std::string quoted_names(std::span<const std::string> names) {
+  constexpr std::size_t most = 6;
+  std::vector<std::string> first;
+  for (const std::string& name : names) {
+    if (first.size() < most && std::ranges::find(first, '\'' + name + '\'') == first.end()) {
+      first.push_back('\'' + name + '\'');
+    }
+  }
+  const std::size_t distinct = std::set<std::string>(names.begin(), names.end()).size();
+  const std::string rest =
+      distinct > first.size() ? fmt::format(" and {} more", distinct - first.size()) : "";
+  return fmt::format("{}{}", fmt::join(first, ", "), rest);
 }
 
 } // namespace meninas

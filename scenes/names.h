@@ -1,4 +1,4 @@
-// Names a user may have mistyped.
+// Names in messages: those a user may have mistyped, and lists of them.
 #pragma once
 
 #include <optional>
@@ -15,5 +15,8 @@ std::optional<std::string> nearest_name(std::string_view name, std::span<const s
 /// "no camera 'x', did you mean 'y'?", or how many there are and the first of them.
 std::string unknown_name(std::string_view kind, std::string_view name,
                          std::span<const std::string> known);
+
+/// 'A', 'B' and 3 more: each name once, the first six of them.
+std::string quoted_names(std::span<const std::string> names);
 
 } // namespace meninas

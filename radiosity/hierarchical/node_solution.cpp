@@ -74,6 +74,16 @@ Received solve_receivers(const NodeTree& tree, const NodeCut& cut, const FirstLi
   return received;
 }
 
+/// The elements below these receivers, indices of ElementId.
+std::vector<std::uint32_t> elements_of(const NodeTree& tree, const NodeCut& cut,
+                                       std::span<const std::uint32_t> receivers) {
+  std::vector<std::uint32_t> elements;
+  for (const std::uint32_t receiver : receivers)
+    for (const ElementId element : elements_below(tree, cut.receivers[receiver]))
+      elements.push_back(index(element));
+  return elements;
+}
+
 /// Area means of what receivers have, by TreeNodeId: of themselves and of what is above them.
 std::vector<Rgb> pulled(const NodeTree& tree, const NodeCut& cut, const std::vector<double>& areas,
                         const std::vector<Rgb>& by_receiver) {
@@ -237,6 +247,15 @@ LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_
   return lit;
 }
 
+/// Enough to tell which receivers have to be divided: what few bounces leave is smooth.
+SolverSettings roughly(SolverSettings settings) {
+  constexpr double tolerance = 0.01;
+  constexpr int iterations = 12;
+  settings.tolerance = std::max(settings.tolerance, tolerance);
+  settings.max_iterations = std::min(settings.max_iterations, iterations);
+  return settings;
+}
+
 /// Each lamp's light by the same rows: H_l of receivers, and of elements X_l = S_l + rho H_l.
 void tell_lamps_apart(const LitCut& lit, const NodeTree& tree, const Transport& links,
                       const SolverSettings& settings, NodeSolution& result) {
@@ -294,7 +313,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
   Received received;
   for (;;) {
     result.seconds_gathering += watch.lap();
-    received = solve_receivers(tree, lit.cut, lit.first, lit.areas, settings.solver);
+    received = solve_receivers(tree, lit.cut, lit.first, lit.areas, roughly(settings.solver));
     const auto marked = to_divide(tree, lit.cut, lit.first, lit.areas, received.irradiance, spread);
     result.seconds_solving += watch.lap();
     if (std::ranges::find(marked, 1) == marked.end())
@@ -303,6 +322,9 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
     light_up(problem, lit);
   }
 
+  received = solve_receivers(tree, lit.cut, lit.first, lit.areas, settings.solver);
+  result.seconds_solving += watch.lap();
+
   // B = S + rho H, what receivers have pushed down to their elements.
   const NodeCut& cut = lit.cut;
   if (light.lamps)
@@ -310,6 +332,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
   result.first = std::move(lit.first);
   result.arrived = by_element(cut, received.irradiance);
   result.solver = std::move(received.solver);
+  result.solver.trapped = elements_of(tree, cut, result.solver.trapped);
   result.solver.radiosity = result.first.source;
   const std::vector<Rgb> again =
       scattered(result.first.reflectance, result.first.translucent, result.arrived);

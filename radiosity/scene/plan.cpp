@@ -1,5 +1,7 @@
 #include "radiosity/scene/plan.h"
 
+#include "scenes/names.h"
+
 #include "scenes/sky/radiance_map.h"
 #include "scenes/surfaces/closedness.h"
 #include "radiosity/scene/enclosed_lights.h"
@@ -79,21 +81,6 @@ std::string plural(std::size_t count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-/// 'A', 'B' and 3 more
-std::string quoted(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 6;
-  std::vector<std::string> first;
-  for (const std::string& name : names) {
-    if (first.size() < most && std::ranges::find(first, '\'' + name + '\'') == first.end()) {
-      first.push_back('\'' + name + '\'');
-    }
-  }
-  const std::size_t distinct = std::set<std::string>(names.begin(), names.end()).size();
-  const std::string rest =
-      distinct > first.size() ? fmt::format(" and {} more", distinct - first.size()) : "";
-  return fmt::format("{}{}", fmt::join(first, ", "), rest);
-}
-
 template <typename Predicate>
 std::vector<std::string> names_where(const std::vector<const Material*>& materials,
                                      Predicate&& holds) {
@@ -165,7 +152,7 @@ void warn_of_facets(const Scene& scene, const SurfaceModel& surfaces, TransportP
     return;
   }
   plan.warnings.push_back(fmt::format(
-      "{} {} of {}: followed by rays, not enumerated", quoted(names),
+      "{} {} of {}: followed by rays, not enumerated", quoted_names(names),
       names.size() == 1 ? "is a curved or faceted mirror" : "are curved, faceted or small mirrors",
       plural(all.size(), "plane")));
 }
@@ -189,7 +176,7 @@ void warn_of_lights(const Scene& scene, TransportPlan& plan) {
   if (has_points && !solids.empty()) {
     plan.warnings.push_back("solid glass does not bend the light of point, spot and directional "
                             "lights: to that its faces are sheets, passed straight: " +
-                            quoted(solids));
+                            quoted_names(solids));
   }
 }
 
@@ -205,32 +192,32 @@ void warn_of_enclosed_lights(const Scene& scene, const SurfaceModel& surfaces,
 void warn_of_materials(const std::vector<const Material*>& materials, TransportPlan& plan) {
   if (const auto names = names_where(materials, throws_shapes); !names.empty()) {
     plan.warnings.push_back("light that smooth metals throw on other surfaces is spread evenly: " +
-                            quoted(names));
+                            quoted_names(names));
   }
   if (const auto names = names_where(materials, may_throw_shapes); !names.empty()) {
     plan.warnings.push_back(
         "light that metals throw on other surfaces is spread evenly, also where "
         "a texture makes them smooth: " +
-        quoted(names));
+        quoted_names(names));
   }
   const auto is_frosted = [](const Material& m) {
     return is_pane(m) && !is_blended(m) && widest_roughness(m) > ideal_mirror_roughness;
   };
   if (const auto names = names_where(materials, is_frosted); !names.empty()) {
     plan.warnings.push_back("frosted glass throws light on surfaces as clear glass does: " +
-                            quoted(names));
+                            quoted_names(names));
   }
   const auto is_rough_solid = [](const Material& m) {
     return is_solid_glass(m) && widest_roughness(m) > ideal_mirror_roughness;
   };
   if (const auto names = names_where(materials, is_rough_solid); !names.empty()) {
     plan.warnings.push_back("solid glass is polished, however rough it is said to be: " +
-                            quoted(names));
+                            quoted_names(names));
   }
   const auto is_textured_mirror = [](const Material& m) { return is_mirror(m) && is_textured(m); };
   if (const auto names = names_where(materials, is_textured_mirror); !names.empty()) {
     plan.warnings.push_back("textures of mirrors are not applied to what they throw on surfaces: " +
-                            quoted(names));
+                            quoted_names(names));
   }
 }
 
@@ -241,7 +228,7 @@ void warn_of_colored_mirrors(const Scene& scene, TransportPlan& plan) {
   const auto is_metal_mirror = [](const Material& m) { return is_mirror(m) && !is_glass(m); };
   if (const auto names = names_where(colored, is_metal_mirror); !names.empty()) {
     plan.warnings.push_back("vertex colours of mirrors are not applied to what they reflect: " +
-                            quoted(names));
+                            quoted_names(names));
   }
 }
 
@@ -251,38 +238,38 @@ void describe_lobes(const std::vector<const Material*>& materials,
   if (const auto names = names_where(materials, throws_evenly); !names.empty()) {
     stages.push_back("glossy metals: grids of rays over their lobes in the picture, spread evenly "
                      "in pass one: " +
-                     quoted(names));
+                     quoted_names(names));
   }
   if (const auto names = names_where(materials, throws_sharply); !names.empty()) {
     stages.push_back("smooth metals: grids of rays over their lobes in the picture, mirrors in "
                      "pass one: " +
-                     quoted(names));
+                     quoted_names(names));
   }
   if (const auto names = names_where(materials, has_mirror_coat); !names.empty()) {
     stages.push_back("coats of large flat surfaces: rays over their lobes in the picture, mirrors "
                      "by Schlick in pass one: " +
-                     quoted(names));
+                     quoted_names(names));
   }
   if (const auto names = names_where(materials, has_even_coat); !names.empty()) {
     stages.push_back("coats: rays over their lobes in the picture, spread evenly in pass one: " +
-                     quoted(names));
+                     quoted_names(names));
   }
   if (const auto names = names_where(materials, is_pane); !names.empty()) {
     stages.push_back("glass panes: passed straight and reflecting as mirrors do, by Fresnel and "
                      "their tint, in both passes: " +
-                     quoted(names));
+                     quoted_names(names));
   }
   if (const auto names = names_where(materials, is_translucent); !names.empty()) {
     stages.push_back(fmt::format(
         "translucent surfaces: {} diffuse light to the other side, in both "
         "passes: {}",
         names.size() == 1 ? "1 material passes" : fmt::format("{} materials pass", names.size()),
-        quoted(names)));
+        quoted_names(names)));
   }
   if (const auto names = names_where(materials, is_solid_glass); !names.empty()) {
     stages.push_back("solid glass: refracted by Snell's law in both passes, lamps behind it found "
                      "by rays of their own: " +
-                     quoted(names));
+                     quoted_names(names));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace meninas {
 
@@ -37,7 +38,7 @@ Escapes<Value> rows_that_lose_light(const LinearSystem<Value>& system) {
 } // namespace
 
 template <typename Value>
-bool has_lit_trap(const LinearSystem<Value>& system) {
+std::vector<Value> open_rows(const LinearSystem<Value>& system) {
   const Transport& transport = system.transport;
   Escapes<Value> escapes = rows_that_lose_light(system);
 
@@ -54,14 +55,14 @@ bool has_lit_trap(const LinearSystem<Value>& system) {
       escapes.open[i] = open;
     }
   }
+  return std::move(escapes.open);
+}
 
-  // Closed rows gather from closed rows alone:
-  // light is among them only where they have some of their own.
-  for (std::size_t i = 0; i < transport.size; ++i)
-    for (int band = 0; band < channel_count<Value>; ++band)
-      if (channel(escapes.open[i], band) == 0.0 && channel(system.source[i], band) > 0.0)
-        return true;
-  return false;
+template <typename Value>
+LinearSystem<Value> without_traps(LinearSystem<Value> system, const std::vector<Value>& open) {
+  for (std::size_t i = 0; i < open.size(); ++i)
+    system.reflectance[i] *= open[i];
+  return system;
 }
 
 template <typename Value>
@@ -92,14 +93,15 @@ std::vector<Value> lit_rows(const LinearSystem<Value>& system) {
 }
 
 template <typename Value>
-Value amplification_bound(const LinearSystem<Value>& system) {
+Value amplification_bound(const LinearSystem<Value>& system, int max_iterations) {
   constexpr double sharp = 0.1;   // of ||q||: leaves the bound within a factor (1 + q) / (1 - q)
   constexpr int most_bounces = 4; // of the Neumann series, which suffices for dark rooms
   // A bound is worth some seconds, and not more than the solution.
   constexpr double affordable_entries = 2e9, min_iterations = 40.0, most_iterations = 200.0;
   const double entries = 1.0 + double(system.transport.columns.size());
-  const auto enough_iterations = static_cast<int>(
-      std::clamp(affordable_entries / entries, min_iterations, most_iterations));
+  const auto enough_iterations = std::min(
+      max_iterations, static_cast<int>(std::clamp(affordable_entries / entries, min_iterations,
+                                                  most_iterations)));
   const LinearSystem<Value> ones{system.transport, lit_rows(system), system.reflectance};
 
   // The sum of m bounces of ones leaves q = (rho T)^m 1.
@@ -124,13 +126,15 @@ Value amplification_bound(const LinearSystem<Value>& system) {
   return bound;
 }
 
-template bool has_lit_trap(const LinearSystem<Rgb>&);
-template bool has_lit_trap(const LinearSystem<double>&);
+template std::vector<Rgb> open_rows(const LinearSystem<Rgb>&);
+template std::vector<double> open_rows(const LinearSystem<double>&);
+template LinearSystem<Rgb> without_traps(LinearSystem<Rgb>, const std::vector<Rgb>&);
+template LinearSystem<double> without_traps(LinearSystem<double>, const std::vector<double>&);
 template Rgb contraction(const LinearSystem<Rgb>&);
 template double contraction(const LinearSystem<double>&);
 template std::vector<Rgb> lit_rows(const LinearSystem<Rgb>&);
 template std::vector<double> lit_rows(const LinearSystem<double>&);
-template Rgb amplification_bound(const LinearSystem<Rgb>&);
-template double amplification_bound(const LinearSystem<double>&);
+template Rgb amplification_bound(const LinearSystem<Rgb>&, int);
+template double amplification_bound(const LinearSystem<double>&, int);
 
 } // namespace meninas

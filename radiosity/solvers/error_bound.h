@@ -20,18 +20,22 @@ namespace meninas {
 template <typename Value>
 std::vector<Value> lit_rows(const LinearSystem<Value>& system);
 
-/// G by channel, at most a quarter too large; infinite where no bound was found.
+/// G by channel, at most a quarter too large; infinite where no bound was found in so many iterations.
 template <typename Value>
-Value amplification_bound(const LinearSystem<Value>& system);
+Value amplification_bound(const LinearSystem<Value>& system, int max_iterations);
 
 /// ||rho T||: what is left of a change after one bounce, by channel.
 template <typename Value>
 Value contraction(const LinearSystem<Value>& system);
 
-/// Whether light enters a part of the scene that it cannot leave and that absorbs nothing:
-/// rows that reflect all they gather, all of it from one another. (Then, and only then,
-/// 1 - rho T is singular: a weakly chained diagonally dominant matrix is not.)
+/// By row and channel: 0 in parts of the scene that light cannot leave and that absorb nothing,
+/// rows that reflect all they gather, all of it from one another; 1 elsewhere.
+/// (Then, and only then, 1 - rho T is singular: a weakly chained diagonally dominant matrix is not.)
 template <typename Value>
-bool has_lit_trap(const LinearSystem<Value>& system);
+std::vector<Value> open_rows(const LinearSystem<Value>& system);
+
+/// The system whose traps reflect nothing: in them no solution would end. Where no light is nothing changes.
+template <typename Value>
+LinearSystem<Value> without_traps(LinearSystem<Value> system, const std::vector<Value>& open);
 
 } // namespace meninas

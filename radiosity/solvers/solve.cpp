@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace meninas {
 
@@ -38,20 +39,40 @@ void raise_to_source(const std::vector<Value>& source, std::vector<Value>& x) {
     x[i] = glm::max(x[i], source[i]);
 }
 
+/// Rows that have light in a trap, in any channel; and whether any has light outside.
 template <typename Value>
-SolverResult solve_system(const LinearSystem<Value>& system, const SolverSettings& settings,
+std::pair<std::vector<std::uint32_t>, bool> lit_in_traps(const std::vector<Value>& source,
+                                                         const std::vector<Value>& open) {
+  std::vector<std::uint32_t> trapped;
+  bool outside = false;
+  for (std::uint32_t i = 0; i < source.size(); ++i) {
+    if (worst(source[i] * (Value(1.0) - open[i])) > 0.0)
+      trapped.push_back(i);
+    outside = outside || worst(source[i] * open[i]) > 0.0;
+  }
+  return {std::move(trapped), outside};
+}
+
+template <typename Value>
+SolverResult solve_system(const LinearSystem<Value>& whole, const SolverSettings& settings,
                           const ShotPlan& plan) {
-  const bool trapped = has_lit_trap(system);
+  const std::vector<Value> open = open_rows(whole);
+  auto [trapped, outside] = lit_in_traps(whole.source, open);
+  const bool unsolvable = !trapped.empty() && !outside;
+  const LinearSystem<Value> system = without_traps(whole, open);
   const Value unbounded(std::numeric_limits<double>::infinity());
   const bool by_shots = settings.method == SolverMethod::progressive;
   const std::size_t shooters =
       plan.shooters.begin.empty() ? system.transport.size : plan.shooters.size();
   std::vector<Value> x = system.source;
-  auto convergence = stopping_rule(settings, trapped ? unbounded : amplification_bound(system),
-                                   by_shots ? std::max<std::size_t>(1, shooters) : 1);
+  auto convergence =
+      stopping_rule(settings,
+                    unsolvable ? unbounded
+                               : amplification_bound(system, settings.max_iterations),
+                    by_shots ? std::max<std::size_t>(1, shooters) : 1);
   SolverEnd end = SolverEnd::unsolvable;
-  if (trapped) {
-    record(convergence, maximum_norm(residual_of(system, x)), maximum_norm(x));
+  if (unsolvable) {
+    record(convergence, maximum_norm(residual_of(whole, x)), maximum_norm(x));
   } else {
     run(settings.method, system, plan, x, convergence);
     raise_to_source(system.source, x);
@@ -59,6 +80,7 @@ SolverResult solve_system(const LinearSystem<Value>& system, const SolverSetting
   }
   SolverResult result = report_of(settings, convergence, end);
   result.radiosity = colours_of(x);
+  result.trapped = std::move(trapped);
   return result;
 }
 

@@ -16,8 +16,9 @@
 //   ||B - B_k|| <= G ||r_k|| <= tolerance ||B_k||    in the maximum norm, for every channel.
 // None returns less than S, and so nothing negative:
 // light only adds to what is there without bounces.
-// Where light enters a closed part of the scene that absorbs nothing there is no solution:
-// that is found out beforehand, B = S is returned and the end says so.
+// In a closed part of the scene that absorbs nothing light would grow without end: that is found out beforehand,
+// such parts reflect nothing, and the result says how many unknowns they have. Where all light is in them
+// there is no solution: B = S is returned and the end says so.
 // Grey systems are solved in one band. Deterministic for any thread count.
 #pragma once
 

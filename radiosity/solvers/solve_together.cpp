@@ -121,12 +121,13 @@ LightByLamp solve_together(const Transport& transport, const LightByLamp& source
     for (std::size_t i = 0; i < all.size(); ++i)
       all[i] += own[i];
   }
-  const LinearSystem<Rgb> together{transport, all, scattering.reflectance};
-  if (has_lit_trap(together))
-    return sources;
+  const LinearSystem<Rgb> whole{transport, all, scattering.reflectance};
+  const LinearSystem<Rgb> together = without_traps(whole, open_rows(whole));
   SystemOfLamps system{transport, no_light(all.size(), 1), sources};
-  set_light_of_lamp(system.reflectance, 0, scattering.reflectance);
-  const Goal goal{by_column(amplification_bound(together), sources.cols()), settings.tolerance};
+  set_light_of_lamp(system.reflectance, 0, together.reflectance);
+  const Rgb amplification =
+      amplification_bound(together, settings.max_iterations);
+  const Goal goal{by_column(amplification, sources.cols()), settings.tolerance};
 
   // A run whose recurrences have drifted is begun anew, from where it is.
   LightByLamp x = sources;

@@ -5,7 +5,7 @@
 // the bound of its own error, G ||r|| <= tolerance ||X_l|| by channel in the maximum norm, G as for
 // all light together (error_bound.h): it speaks of the system, not of its source.
 //
-// Where light enters a part that absorbs nothing X = S, as in solve.h.
+// Closed parts that absorb nothing reflect nothing, as in solve.h.
 // The result is the same for any number of threads.
 #pragma once
 

@@ -6,6 +6,7 @@
 #include "radiosity/transport/form_factor_rows.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -37,7 +38,7 @@ enum class SolverEnd {
   converged,
   iteration_limit,
   rounding, ///< the residual is as small as rounding lets it be (without a bound: as the tolerance), the bound is not
-  unsolvable ///< light enters a closed part of the scene that absorbs nothing: it would grow without end
+  unsolvable ///< all light is in closed parts of the scene that absorb nothing: it would grow without end
 };
 
 struct SolverResult {
@@ -49,6 +50,8 @@ struct SolverResult {
   double error_bound = 0.0; ///< G ||r|| / ||B||, worst channel; infinite when there is no bound
   bool converged = false;
   SolverEnd end = SolverEnd::converged;
+  /// Unknowns, or the elements below, with light that nothing absorbs and that cannot leave: they reflect none.
+  std::vector<std::uint32_t> trapped;
   std::vector<double>
       residuals; ///< of every iterate, first one first, worst channel; of many shots every second, fourth, ...
   std::vector<Rgb> channel_residuals, channel_error_bounds; ///< the same for every channel

@@ -138,7 +138,7 @@ void light_scene(Steering& steering, const Parameters& knobs, const TwoPassSetti
   RadiositySolution solution =
       solve_for_picture(*prepared, steering.request.camera, settings, events.progress);
   add_solution(figures, solution);
-  warn_of_solution(figures.solver, figures.closure, events);
+  warn_of_solution(*prepared, figures.solver, figures.closure, events);
   steering.lit = LitScene{std::move(prepared), std::move(solution.field)};
   steering.lit_with = knobs;
   steering.figures = figures;

@@ -205,7 +205,7 @@ TEST_P(Solvers, AClosedRoomOfReflectanceOneHasNoSolution) {
 }
 
 // Two rooms without a connection, the second a trap:
-// only light inside it makes the system unsolvable.
+// what is in it reflects nothing, and the first is as ever.
 TEST_P(Solvers, ATrapMattersWhereThereIsLightInIt) {
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(4, 4);
   m.topLeftCorner(2, 2).setConstant(0.4);
@@ -220,7 +220,18 @@ TEST_P(Solvers, ATrapMattersWhereThereIsLightInIt) {
   EXPECT_NEAR(lit.radiosity[0].r, 3.0, 3e-8 + 3e-7); // weights are floats
   EXPECT_NEAR(lit.radiosity[1].r, 2.0, 3e-8 + 3e-7);
   EXPECT_EQ(lit.radiosity[3], Rgb(0.0));
-  system.source[3] = Rgb(0.0, 0.0, 1e-9);
+  EXPECT_TRUE(lit.trapped.empty());
+  system.source[3] = Rgb(0.0, 0.0, 5.0);
+  const SolverResult trapped = run(system);
+  EXPECT_TRUE(trapped.converged);
+  EXPECT_EQ(trapped.trapped, std::vector<std::uint32_t>{3});
+  EXPECT_NEAR(trapped.radiosity[0].r, 3.0, 3e-8 + 3e-7);
+  EXPECT_NEAR(trapped.radiosity[1].r, 2.0, 3e-8 + 3e-7);
+  EXPECT_EQ(trapped.radiosity[2], Rgb(0.0));
+  EXPECT_EQ(trapped.radiosity[3], system.source[3]);
+
+  // All light in it: there is no solution.
+  system.source[0] = Rgb(0.0);
   EXPECT_EQ(run(system).end, SolverEnd::unsolvable);
 
   // One patch that absorbs a millionth is a way out for all.
