@@ -46,25 +46,26 @@ function makeDimmer(lamp, number, lamps, list, changed) {
 /// Returns { show, toggle }. `changed` asks for a frame.
 function makeDimmers(lamps, changed) {
   const card = element("lamps"), button = element("lamps-button"), list = element("dimmers"), command = element("command");
-  const shows = lamps.lamps.map((lamp, number) => makeDimmer(lamp, number, lamps, list, changed));
+  let shown = -1;
+  const show = () => {
+    if (shown === lamps.state) return;
+    shown = lamps.state;
+    shows.forEach(showFactor => showFactor());
+    command.textContent = lampOptions(lamps.lamps);
+    element("copy").hidden = !command.textContent;
+  };
+  const moved = () => { show(); changed(); };
+  const shows = lamps.lamps.map((lamp, number) => makeDimmer(lamp, number, lamps, list, moved));
   button.hidden = !shows.length;
   card.hidden = !shows.length || innerWidth < 700;
-  element("reset").addEventListener("click", () => { lamps.reset(); changed(); });
+  element("reset").addEventListener("click", () => { lamps.reset(); moved(); });
   element("copy").addEventListener("click", async () => {
     try { await navigator.clipboard.writeText(command.textContent); }
     catch { getSelection().selectAllChildren(command); } // then the keys of the browser copy it
   });
   card.addEventListener("keydown", event => { if (event.key === "Escape") element("view").focus(); });
-  let shown = -1;
   return {
     toggle() { card.hidden = !card.hidden || !shows.length; },
-    show() {
-      button.setAttribute("aria-pressed", !card.hidden);
-      if (shown === lamps.state) return;
-      shown = lamps.state;
-      shows.forEach(show => show());
-      command.textContent = lampOptions(lamps.lamps);
-      element("copy").hidden = !command.textContent;
-    }
+    show() { button.setAttribute("aria-pressed", !card.hidden); show(); }
   };
 }

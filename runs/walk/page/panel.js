@@ -30,7 +30,7 @@ function makePanel(data, actions) {
   const colours = data.falseColours, stops = [];
   for (let k = 0; k < 256; k += 15) stops.push(`rgb(${colours.slice(3 * k, 3 * k + 3).join(",")}) ${k / 2.55}%`);
   element("scale").style.background = `linear-gradient(to right, ${stops.join(",")})`;
-  element("scale-top").textContent = `${figure(data.top)} W/m²`;
+  element("scale-top").textContent = figure(data.top);
   element("scale-middle").textContent = figure(data.top / 2);
 
   return {
