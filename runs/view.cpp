@@ -175,8 +175,10 @@ static Rendering painted(const LitScene& lit, const Camera& camera, const Render
   const std::string name(name_of(*settings.view));
   note(events, *settings.view == DebugView::elements
                    ? fmt::format("view elements: {} of them, each in a colour of its own", view.top)
-                   : fmt::format("view {}: from 0 (black) to {:g}{} (pale yellow)", name, view.top,
-                                 *settings.view == DebugView::irradiance ? " W/m^2" : ""));
+                   : fmt::format("view {}: from 0 (black) to {:g} {} (pale yellow)", name, view.top,
+                                 *settings.view == DebugView::irradiance ? "W/m^2"
+                                 : closure                               ? "of a row"
+                                                                         : "mirrors in a row"));
   Rendering rendering;
   rendering.image = std::move(view.colours);
   Image values(used.width, used.height);
