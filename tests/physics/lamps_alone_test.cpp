@@ -45,7 +45,8 @@ LampsCase by_material() {
 /// The green pane stands between both lamps; the second is seen through it alone from before.
 LampsCase behind_a_pane() {
   Scene scene = glazed_room();
-  add_polygon(scene, "behind", square({1.0, 0.8, 0.01}, {0.3, 0.0, 0.0}, {0.0, 0.3, 0.0}), diffuse(Rgb(0.0), Rgb(8.0, 6.0, 10.0)));
+  add_polygon(scene, "behind", square({1.0, 0.8, 0.01}, {0.3, 0.0, 0.0}, {0.0, 0.3, 0.0}),
+              diffuse(Rgb(0.0), Rgb(8.0, 6.0, 10.0)));
   scene.lights.push_back({.name = "bulb behind", .intensity = Rgb(0.5), .position = {0.6, 1.0, 0.4}});
   return {"BehindAPane", std::move(scene), {"lamp", "behind", "bulb behind"}};
 }
@@ -55,7 +56,8 @@ LampsCase behind_a_curtain() {
   Scene scene = half_room();
   add_polygon(scene, "curtain", {{0.3, 0.9, 0.6}, {1.7, 0.9, 0.6}, {1.7, 2.2, 1.0}, {0.3, 2.2, 1.0}},
               translucent({0.7, 0.5, 0.4}, 0.5, {0.9, 0.6, 0.5}));
-  add_polygon(scene, "behind", square({1.0, 1.5, 0.01}, {0.3, 0.0, 0.0}, {0.0, 0.3, 0.0}), diffuse(Rgb(0.0), Rgb(6.0, 9.0, 12.0)));
+  add_polygon(scene, "behind", square({1.0, 1.5, 0.01}, {0.3, 0.0, 0.0}, {0.0, 0.3, 0.0}),
+              diffuse(Rgb(0.0), Rgb(6.0, 9.0, 12.0)));
   scene.lights.push_back({.name = "bulb", .intensity = Rgb(0.4), .position = {1.4, 1.6, 0.4}});
   Material paper = translucent(Rgb(0.6), 0.4, Rgb(0.8, 0.7, 0.6));
   paper.emission = Rgb(0.8, 0.5, 0.2);
@@ -126,15 +128,18 @@ TEST_P(LampsAlone, AreTheSceneWithoutTheOthers) {
     EXPECT_GT(expected, 0.0);
     EXPECT_NEAR(sum_of(found), expected, 0.01 * expected);
     double squares = 0.0;
-    for (std::size_t v = 0; v < found.size(); ++v)
-      squares += glm::dot(glm::dvec3(found[v] - truth.field.irradiance[v]), glm::dvec3(found[v] - truth.field.irradiance[v]));
+    for (std::size_t v = 0; v < found.size(); ++v) {
+      const glm::dvec3 difference(found[v] - truth.field.irradiance[v]);
+      squares += glm::dot(difference, difference);
+    }
     const double rms = std::sqrt(squares / double(3 * found.size()));
     EXPECT_LT(rms, 0.05 * expected / double(3 * found.size()));
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Rooms, LampsAlone,
-                         testing::Values(by_material(), behind_a_pane(), behind_a_curtain(), in_a_lantern(), by_a_window()),
+                         testing::Values(by_material(), behind_a_pane(), behind_a_curtain(), in_a_lantern(),
+                                         by_a_window()),
                          [](const auto& one) { return one.param.name; });
 
 } // namespace
