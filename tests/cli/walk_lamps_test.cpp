@@ -1,5 +1,6 @@
 // Dimmers of `walk`: the page under its lamps is what `render --lamp` shows of the same solution, and it
 // answers to whoever moves them.
+#include "image/image_file.h"
 #include "tests/cli/browser.h"
 #include "tests/cli/tiny_room.h"
 #include "tests/cli/walk_pages.h"
@@ -67,12 +68,41 @@ INSTANTIATE_TEST_SUITE_P(
                  {"half-room.gltf", "main", "3", {"all=0", "reading-lamp=1"}}},
         LampCase{"HalfRoomInColours", {"half-room.gltf", "main", "1", {"lamp=1,0.3,0.1"}}},
         LampCase{"SunbeamWithoutSun", {"sunbeam.gltf", "main", "0.4", {"sun=0"}}},
-        // The sky's picture: what is seen of it, and its sun by itself.
-        LampCase{"SkyWithoutSun", {"glass-screen.gltf", "main", "-2", {"all=0", "sky=1,0.5,1"}, {"--sky", "clear", "--sun", "200,40"}}},
-        LampCase{"SunWithoutSky", {"glass-screen.gltf", "main", "-2", {"all=0", "sun=0.5,1,0.5"}, {"--sky", "clear", "--sun", "200,40"}}},
+        // The sky is seen, too.
+        LampCase{"SkyWithoutSun",
+                 {"solar-row.gltf", "main", "-2", {"all=0", "sky=1,0.5,1"}, {"--sky", "clear", "--sun", "200,40"}}},
         // Lobes by 48 facets, and by what one point sees: as without dimmers.
         LampCase{"RoughBodiesInColours", {"roughness-sweep.gltf", "main", "1", {"lamp=0.4,1,0.6"}}, 0.032}),
     [](const auto& instance) { return instance.param.name; });
+
+// A picture of a sky with a sun in it, each a lamp of its own: the map without its sun is on the page as well.
+TEST_F(WalkDimmers, TellTheSunOfASkyFromTheRest) {
+  if (!has_browser())
+    GTEST_SKIP() << "no Chromium here: pages are not drawn";
+  Image sky(256, 128);
+  for (int y = 0; y < sky.height; ++y)
+    for (int x = 0; x < sky.width; ++x)
+      sky.at(x, y) = y < 64 ? glm::vec3(0.5F, 0.8F, 1.2F) : glm::vec3(0.1F);
+  sky.at(160, 32) = glm::vec3(5e4F, 4e4F, 3e4F); // 45 degrees up
+  write_exr(folder_ / "sky.exr", sky);
+  const std::vector<std::string> around{"--environment", (folder_ / "sky.exr").string()};
+  for (const std::vector<std::string>& lamps :
+       {std::vector<std::string>{"all=0", "sky=2,1,0.5"}, {"all=0", "sun outside=0.5,1,0.5"}, {"sky=0.2", "sun=0"}}) {
+    const json said = page_beside_picture({gallery("solar-row.gltf"), "main", "-1", lamps, around});
+    if (said.is_null())
+      GTEST_SKIP() << "this Chromium draws no WebGL 2";
+    EXPECT_LE(said.at("flip").get<double>(), 0.02) << lamps.back();
+  }
+  const json said = drawn("s.html", "camera=main", R"(
+    const data = JSON.parse(document.getElementById('data').textContent), gl = document.createElement('canvas').getContext('webgl2');
+    const sky = await makeSky(gl, data.sky), most = texels => Math.max(...texels) * sky.scale;
+    return { shown: most(sky.shown), rest: most(sky.rest), sky: data.lamps[data.skyLamp].name, sun: data.lamps[data.sunLamp].name };)");
+  ASSERT_FALSE(said.is_null());
+  EXPECT_GT(said.at("shown"), 1e4);
+  EXPECT_LT(said.at("rest"), 1e2) << "a sun is what is a hundred times the mean (scenes/sky/radiance_map.cpp)";
+  EXPECT_EQ(said.at("sky"), "sky");
+  EXPECT_EQ(said.at("sun"), "sun outside") << "the scene has a lamp that is called sun";
+}
 
 /// What a page says of its dimmers while a script moves them.
 constexpr const char* move_dimmers = R"(
