@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/lamp_options.h"
 #include "cli/pixel_options.h"
 #include "cli/settings.h"
 #include "cli/values.h"
@@ -64,41 +65,6 @@ void add_outputs(Options& command, RenderOptions& options) {
       .group(study_group);
 }
 
-/// Times what a lamp is: light of more is no float in bright scenes.
-constexpr double brightest_lamp = 1e6;
-
-/// NAME=FACTOR or NAME=R,G,B; names may hold an equals sign.
-LampFactor parse_lamp(const std::string& text) {
-  const std::size_t at = text.rfind('=');
-  if (at == std::string::npos || at == 0)
-    throw UsageError("--lamp", fmt::format("'{}' is not NAME=FACTOR or NAME=R,G,B", text));
-  const Rgb factor = parse_colour("--lamp", text.substr(at + 1));
-  if (largest(factor) > brightest_lamp)
-    throw UsageError("--lamp", fmt::format("'{}' is more than {:g} times as bright", text, brightest_lamp));
-  return {text.substr(0, at), factor};
-}
-
-/// Several are joined by semicolons, as in the settings of a batch.
-void add_lamps(const std::string& text, std::vector<LampFactor>& lamps) {
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
-    lamps.push_back(parse_lamp(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-}
-
-void add_lamp_option(Options& command, std::vector<LampFactor>& lamps) {
-  command
-      .add_repeatable("--lamp", "NAME=FACTOR|R,G,B",
-                      "make a lamp so many times as bright, or of another colour; with --solution "
-                      "by `solve --by-lamp` without solving; `all` is every lamp, the last word "
-                      "counts; may be given several times [1]",
-                      [&lamps](const std::string& text) {
-                        add_lamps(text, lamps);
-                      })
-      .group(picture_group);
-}
-
 void add_depth_options(Options& command, PictureSettings& picture) {
   command
       .add("--depth", "8|16", "bits of a PNG's channel [8]",
@@ -134,7 +100,12 @@ void add_picture_options(Options& command, RenderOptions& options) {
   add("--size", "WxH",
       fmt::format("size in pixels [{}x{}, or as wide as the camera asks]", standard.width, standard.height),
       [&](const std::string& text) { request.size = parse_size("--size", text); });
-  add_lamp_option(command, options.common.settings.lamp_factors);
+  add_lamp_factors(command,
+                   "make a lamp so many times as bright, or of another colour; with --solution by "
+                   "`solve --by-lamp` without solving; `all` is every lamp, the last word counts; "
+                   "may be given several times [1]",
+                   options.common.settings.lamp_factors)
+      .group(picture_group);
   add("--samples", "N",
       fmt::format("camera rays per pixel, a power of two; with --mode reference an upper limit "
                   "[draft {}, normal {}, fine {}; no limit]",

@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/lamp_options.h"
 #include "cli/pixel_options.h"
 #include "cli/values.h"
 #include "runs/solve_run.h"
@@ -12,9 +13,6 @@ struct SolveOptions {
   CommonOptions common;
   SolveRequest request;
 };
-
-const Choices<LampGrouping> lamp_groupings{{"node", LampGrouping::node},
-                                           {"material", LampGrouping::material}};
 
 constexpr const char* points_group = "Numbers at points";
 
@@ -81,15 +79,10 @@ Command add_solve_command(Options& program) {
   add_file(command, "--reuse", options->request.reuse,
            "use the form factors of an earlier run; only emission and diffuse reflectances may "
            "have changed");
-  command
-      .add("--by-lamp", "[node|material]",
-           "find the light of each lamp apart, so that `render --lamp` changes it without solving "
-           "[by node]",
-           [options](const std::string& text) {
-             options->common.settings.lamps =
-                 parse_choice("--by-lamp", text == preset_value ? "node" : text, lamp_groupings);
-           })
-      .value_if_given(preset_value);
+  add_by_lamp(command,
+              "find the light of each lamp apart, so that `render --lamp` and the dimmers of `walk` "
+              "change it without solving [by node]",
+              options->common.settings.lamps);
   add_point_options(command, options->request.points);
   add_quality(command, options->common);
   add_state_options(command, options->common);

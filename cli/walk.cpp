@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/lamp_options.h"
 #include "cli/pixel_options.h"
 #include "cli/values.h"
 #include "runs/walk/walk_run.h"
@@ -13,8 +14,10 @@ struct WalkOptions {
 };
 
 void run(const Options& command, WalkOptions& options) {
-  if (options.request.solution)
+  if (options.request.solution) {
     refuse_pass_one_options(command, "has no effect with --solution: pass one is not run");
+    refuse(command, {"--by-lamp"}, "has no effect with --solution, which knows its lamps apart or does not");
+  }
   check_pass_one_options(command, options.common.settings);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;
@@ -40,6 +43,14 @@ Command add_walk_command(Options& program) {
               [=](const std::string& text) {
                 options->request.exposure = parse_number("--exposure", text, Sign::any);
               });
+  add_by_lamp(command,
+              "give the page a dimmer and a colour for each lamp; a --solution by `solve --by-lamp` "
+              "has them without it [by node]",
+              options->common.settings.lamps);
+  add_lamp_factors(command,
+                   "begin with a lamp so many times as bright, or of another colour; `all` is every "
+                   "lamp, the last word counts; may be given several times [1]",
+                   options->common.settings.lamp_factors);
   add_view_transform(command, "how the page shows what is brighter than a display",
                      options->request.transform, "Page");
   add_quality(command, options->common);

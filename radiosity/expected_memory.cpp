@@ -26,7 +26,7 @@ double expected_elements(const SceneSizes& scene, const PassOneChoice& choice) {
 
 } // namespace
 
-SceneSizes sizes_of(const Scene& scene) {
+SceneSizes sizes_of(const Scene& scene, std::optional<LampGrouping> lamps) {
   // Decoded, an image is four floats a pixel, and a third as much again in coarser copies.
   constexpr double texel = 16.0 * 4.0 / 3.0;
   SceneSizes sizes{.vertices = scene.vertices.size(), .triangles = scene.triangles.size()};
@@ -42,6 +42,8 @@ SceneSizes sizes_of(const Scene& scene) {
     sizes.sides += sides;
     sizes.area += double(sides) * glm::length(area_vector(corners(scene, triangle)));
   }
+  if (lamps)
+    sizes.lamps = find_lamps(scene, *lamps).size();
   return sizes;
 }
 
@@ -92,6 +94,10 @@ std::uint64_t solve_memory(const SceneSizes& scene, const PassOneChoice& choice)
   constexpr double per_entry = 20.0, per_element = 600.0;
   double bytes = rows_of(scene, choice, elements) * per_entry * row_entries(choice, elements) +
                  elements * per_element;
+  // At vertices and elements; 250 to 270 were measured of 4 to 64 lamps.
+  constexpr double per_element_and_lamp = 270.0;
+  if (choice.lamps)
+    bytes += per_element_and_lamp * elements * static_cast<double>(scene.lamps);
   if (choice.solver == SolverMethod::direct) {
     const double unknowns = rows_of(scene, choice, elements);
     bytes +=

@@ -22,22 +22,26 @@ static void check_heat_map(const DiffRequest& request) {
                 {request.picture, request.reference});
 }
 
-static std::string value_text(const PictureDifference& difference, Metric metric) {
+static std::string value_text(const PictureDifference& difference, Metric metric,
+                              const std::string& unit) {
   const double value = value_of(difference, metric);
   switch (metric) {
   case Metric::psnr:
     return std::isinf(value) && value > 0.0 ? "infinite" : fmt::format("{:.4g} dB", value);
   case Metric::max_abs:
     return value == 0.0 ? "0"
-                        : fmt::format("{:.6g} at pixel ({}, {})", value, difference.worst.x,
-                                      difference.worst.y);
-  default:
+                        : fmt::format("{:.6g} {} at pixel ({}, {})", value, unit,
+                                      difference.worst.x, difference.worst.y);
+  case Metric::rmse:
+  case Metric::mae:
+    return fmt::format("{:.6g} {}", value, unit);
+  default: // without one
     return fmt::format("{:.6g}", value);
   }
 }
 
 static std::string table(const DiffRequest& request, const PictureDifference& difference,
-                         const MetricSettings& settings) {
+                         const MetricSettings& settings, const std::string& unit) {
   std::string text = fmt::format("{:<10} {}\n{:<10} {}\n", "picture", request.picture.string(),
                                  "reference", request.reference.string());
   if (request.layer) {
@@ -46,7 +50,7 @@ static std::string table(const DiffRequest& request, const PictureDifference& di
   text += fmt::format("{:<10} {}x{}, ssim and flip at {:+.2f} EV\n", "size", difference.width,
                       difference.height, settings.exposure);
   for (const Metric metric : all_metrics) {
-    std::string line = fmt::format("{:<10} {}", name_of(metric), value_text(difference, metric));
+    std::string line = fmt::format("{:<10} {}", name_of(metric), value_text(difference, metric, unit));
     for (const MetricLimit& limit : request.limits) {
       if (limit.metric == metric) {
         const bool held = broken_limits(difference, {limit}).empty();
@@ -60,8 +64,11 @@ static std::string table(const DiffRequest& request, const PictureDifference& di
   return text;
 }
 
-std::string diff_json(const PictureDifference& difference) {
+std::string diff_json(const PictureDifference& difference, const std::string& unit) {
+  const nlohmann::ordered_json units{{"rmse", unit},  {"relmse", "1"},   {"mae", unit}, {"psnr", "dB"},
+                                     {"max_abs", unit}, {"ssim", "1"}, {"flip", "1"}};
   const nlohmann::ordered_json json{
+      {"units", units},
       {"rmse", difference.rmse},       {"relmse", difference.relmse},
       {"mae", difference.mae},         {"psnr", difference.psnr},
       {"max_abs", difference.max_abs}, {"width", difference.width},
@@ -98,8 +105,9 @@ DiffResult diff_run(const DiffRequest& request, const RunEvents& events) {
     write_png(*request.heat_map,
               heat_map(errors, heat_map_settings(difference, request.heat_metric, errors)), 0.0);
   }
-  return {.text = request.format == DiffFormat::json ? diff_json(difference)
-                                                     : table(request, difference, settings),
+  const std::string unit = request.layer ? "of the layer's unit" : unit_of_pixels(reference);
+  return {.text = request.format == DiffFormat::json ? diff_json(difference, unit)
+                                                     : table(request, difference, settings, unit),
           .broken = broken_limits(difference, request.limits)};
 }
 

@@ -33,8 +33,8 @@ struct DiffResult {
 /// Writes the heat map, whether or not the limits hold.
 DiffResult diff_run(const DiffRequest& request, const RunEvents& events = {});
 
-/// {"rmse","relmse","mae","psnr","max_abs","width","height","ssim","flip","worst_pixel"};
+/// {"units","rmse","relmse","mae","psnr","max_abs","width","height","ssim","flip","worst_pixel"};
 /// what is infinite is null.
-std::string diff_json(const PictureDifference& difference);
+std::string diff_json(const PictureDifference& difference, const std::string& unit);
 
 } // namespace meninas

@@ -148,7 +148,13 @@ std::string as_json(const Scene& scene, const FormFactorsRequest& request,
                       {"form_factor", world.factor.value},
                       {"throughput", Json::array({tau.r, tau.g, tau.b})}});
   }
-  const Json json{{"from", request.from},
+  const Json units{{"area", "m^2"},
+                   {"form_factor", "1"},
+                   {"error_estimate", "1"},
+                   {"throughput", "1"},
+                   {"seconds", "s"}};
+  const Json json{{"units", units},
+                  {"from", request.from},
                   {"to", request.to},
                   {"sides", name_of(request.factors.sides)},
                   {"area", factors.area},

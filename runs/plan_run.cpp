@@ -90,16 +90,29 @@ std::string describe_cost(const ExpectedCost& cost, int threads) {
       threads, cost.form_factors + cost.solve + cost.interpolate, readable_bytes(cost.bytes));
 }
 
+/// Their names, and what telling them apart takes beyond a picture; empty where there are none.
+std::string describe_lamps(const Scene& scene, const ExpectedCost& expected, PictureSize size,
+                           RunSettings settings) {
+  const std::vector<std::string> names = find_lamps(scene, LampGrouping::node).names;
+  if (names.empty())
+    return "";
+  settings.lamps = LampGrouping::node;
+  const std::uint64_t apart = expected_memory(sizes_of(scene, settings.lamps), settings, size);
+  return fmt::format("'{}': --lamp NAME=FACTOR dims one; --by-lamp tells them apart in {} more",
+                     fmt::join(names, "', '"), readable_bytes(apart - std::min(apart, expected.bytes)));
+}
+
 std::string plan_text(const PreparedScene& prepared, const TransportPlan& plan,
-                      const ExpectedCost& expected, int threads, std::span<const Oddity> odd) {
+                      const ExpectedCost& expected, int threads, std::span<const Oddity> odd,
+                      const std::string& lamps) {
   std::string text = fact("scene", prepared.scene.file);
   text += list("mirrors", describe_mirrors(plan));
   text += list("mirror worlds", describe_worlds(plan));
   text += fact("emitters", fmt::format("{} {}", plan.emitters,
                                     plan.emitters == 1 ? "face glows" : "faces glow"));
   text += fact("punctual lights", std::to_string(plan.punctual_lights));
-  if (const auto lamps = find_lamps(prepared.scene, LampGrouping::node).names; !lamps.empty())
-    text += fact("lamps", fmt::format("'{}': --lamp NAME=FACTOR dims one", fmt::join(lamps, "', '")));
+  if (!lamps.empty())
+    text += fact("lamps", lamps);
   if (const std::size_t openings = prepared.light->portals.size(); openings > 0)
     text += fact("openings", fmt::format("{} to the sky", openings));
   text += fact("materials", fmt::format("{} glossy, {} transmissive, {} textured", plan.glossy,
@@ -148,7 +161,8 @@ std::string plan_run(const PlanRequest& request) {
   const auto odd = report_scene(prepared->scene, prepared->surfaces, *prepared->rays);
   return request.format == PlanFormat::json
              ? plan_json(plan, prepared->scene.variants, patches, elements, expected, odd)
-             : plan_text(*prepared, plan, expected, limit.threads(), odd);
+             : plan_text(*prepared, plan, expected, limit.threads(), odd,
+                         describe_lamps(prepared->scene, expected, size, request.settings));
 }
 
 } // namespace meninas

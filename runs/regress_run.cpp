@@ -161,7 +161,8 @@ void compare_case(const RegressCase& regress_case, const fs::path& picture_file,
   leave_evidence(regress_case, found, picture_file, output);
   result.status = CaseStatus::failed;
   result.text = fmt::format("{}; {}", fmt::join(broken, ", "),
-                            describe_change(found.picture.image, found.reference.image));
+                            describe_change(found.picture.image, found.reference.image,
+                                            unit_of_pixels(found.reference)));
 }
 
 } // namespace

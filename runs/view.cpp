@@ -57,9 +57,11 @@ LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings setti
   Stopwatch watch;
   StoredSolution stored = read_solution(file, scene);
   settings.mesh = stored.mesh;
-  if (lamps == LampsApart::no)
+  const bool known = !stored.lamps.empty();
+  const bool apart = lamps == LampsApart::yes || (lamps == LampsApart::if_known && known);
+  if (!apart)
     stored.field.by_lamp.clear();
-  else if (stored.lamps.empty())
+  else if (!known)
     throw InputError(file.string(), "",
                      "does not know its lamps apart: solve again with --by-lamp");
   else
@@ -68,7 +70,7 @@ LitScene read_lit_scene(const fs::path& file, Scene scene, PassOneSettings setti
   LitScene lit{.prepared = prepare_run(std::move(scene), settings, events, figures),
                .field = {}};
   // Lamps are found once textures and the sky are decoded.
-  if (lamps == LampsApart::yes && stored.lamps != lit.prepared->light->lamp_groups->names)
+  if (apart && stored.lamps != lit.prepared->light->lamp_groups->names)
     throw InputError(file.string(), "", "has other lamps than its scene: solve again");
   figures.solver = std::move(stored.solver);
   figures.links = stored.links;
@@ -173,8 +175,10 @@ static Rendering painted(const LitScene& lit, const Camera& camera, const Render
   const std::string name(name_of(*settings.view));
   note(events, *settings.view == DebugView::elements
                    ? fmt::format("view elements: {} of them, each in a colour of its own", view.top)
-                   : fmt::format("view {}: from 0 (black) to {:g}{} (pale yellow)", name, view.top,
-                                 *settings.view == DebugView::irradiance ? " W/m^2" : ""));
+                   : fmt::format("view {}: from 0 (black) to {:g} {} (pale yellow)", name, view.top,
+                                 *settings.view == DebugView::irradiance ? "W/m^2"
+                                 : closure                               ? "of a row"
+                                                                         : "mirrors in a row"));
   Rendering rendering;
   rendering.image = std::move(view.colours);
   Image values(used.width, used.height);

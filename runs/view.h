@@ -28,7 +28,7 @@ LitScene solve_lit_scene(Scene scene, const PassOneSettings& settings,
                          RunFigures& figures);
 
 /// Whether the light of lamps is wanted as well.
-enum class LampsApart { no, yes };
+enum class LampsApart { no, yes, if_known };
 
 /// Pass one of an earlier run, whose figures are repeated.
 /// Throws InputError when the file is damaged or belongs to another scene or version, or has no

@@ -46,6 +46,7 @@ const std::map<std::string_view, std::vector<Example>>& all_examples() {
        {{"meninas trade room.gltf -o traded --budget 120", "then open traded/index.html"}}},
       {"walk",
        {{"meninas walk room.gltf -o room.html", "then open room.html"},
+        {"meninas walk room.gltf --by-lamp -o room.html", "with a dimmer for each lamp"},
         {"meninas walk room.gltf --solution room.glb -o room.html",
          "shows a solution that `meninas solve` has written"}}},
       {"formfactors",
@@ -62,7 +63,7 @@ const std::map<std::string_view, std::vector<std::string_view>>& first_options()
         "background", "solution", "stats"}},
       {"solve",
        {"output", "quality", "elements", "background", "per-node", "points", "grid", "units", "stats"}},
-      {"walk", {"output", "quality", "solution", "exposure", "elements", "background"}},
+      {"walk", {"output", "quality", "solution", "by-lamp", "exposure", "elements", "background"}},
       {"plan", {"json", "quality", "size", "camera", "background"}},
       {"compare", {"output", "quality", "reference", "max-seconds", "size", "camera", "exposure"}}};
   return options;

@@ -69,7 +69,7 @@ Region worst_region(const Image& picture, const Image& reference) {
 
 } // namespace
 
-std::string describe_change(const Image& picture, const Image& reference) {
+std::string describe_change(const Image& picture, const Image& reference, const std::string& unit) {
   expects(picture.width == reference.width && picture.height == reference.height,
           "pictures that are compared have one size");
   const Region region = worst_region(picture, reference);
@@ -83,10 +83,10 @@ std::string describe_change(const Image& picture, const Image& reference) {
     }
   const auto width = static_cast<std::size_t>(picture.width);
   return fmt::format(
-      "most at x {}-{}, y {}-{}: {}; whole picture {}; worst pixel ({}, {}): {}, was {}", region.x0,
+      "most at x {}-{}, y {}-{}: {}; whole picture {}; worst pixel ({}, {}): {}, was {} {}", region.x0,
       region.x1 - 1, region.y0, region.y1 - 1, brightness(sums_over(region, picture, reference)),
       brightness(sums_over(whole, picture, reference)), worst % width, worst / width,
-      colour(picture.pixels[worst]), colour(reference.pixels[worst]));
+      colour(picture.pixels[worst]), colour(reference.pixels[worst]), unit);
 }
 
 } // namespace meninas

@@ -9,9 +9,9 @@
 namespace meninas {
 
 /// "most at x 36-47, y 60-71: 12 % brighter; whole picture 1 % brighter;
-/// worst pixel (40, 66): (0.1, 0.2, 0.3), was (0.1, 0.2, 0.2)".
+/// worst pixel (40, 66): (0.1, 0.2, 0.3), was (0.1, 0.2, 0.2) W/m^2/sr", of that unit.
 /// The region is the one of 8 x 8 equal parts with the largest sum of squares;
 /// brightness is mean luminance.
-std::string describe_change(const Image& picture, const Image& reference);
+std::string describe_change(const Image& picture, const Image& reference, const std::string& unit);
 
 } // namespace meninas

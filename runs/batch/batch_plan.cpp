@@ -299,7 +299,8 @@ void check_distinct(const fs::path& file, const BatchJob& job,
 } // namespace
 
 SceneFacts facts_of(const Scene& scene) {
-  return {content_hash(scene), scene.cameras, bounds_of(scene), sizes_of(scene)};
+  return {content_hash(scene), scene.cameras, bounds_of(scene),
+          sizes_of(scene, LampGrouping::node)};
 }
 
 std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<BatchJob>& jobs,

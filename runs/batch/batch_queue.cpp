@@ -39,8 +39,11 @@ void BatchQueue::add(std::size_t picture, Group& group) {
   if (added.solution_key.empty()) {
     group.state = State::open;
   } else if (group.waiting.empty()) {
-    group.scene_memory = scene_memory(added.facts->sizes, added.request.settings);
-    group.task_memory = solve_memory(added.facts->sizes, added.request.settings);
+    RunSettings settings = added.request.settings;
+    if (!settings.lamp_factors.empty() || settings.lamp_layers)
+      settings.lamps = LampGrouping::node; // one solution for all their states
+    group.scene_memory = scene_memory(added.facts->sizes, settings);
+    group.task_memory = solve_memory(added.facts->sizes, settings);
   }
   // A picture that is too big even alone does not keep the others from being made.
   const std::uint64_t view = memory_of_view(added);

@@ -144,7 +144,14 @@ std::string points_json(std::span<const MeasuredSet> sets) {
   Json list = Json::array();
   for (const MeasuredSet& measured : sets)
     list.push_back(set_json(measured));
-  const Json json{{"units", {{"illuminance", "lx"}, {"irradiance", "W/m^2"}, {"position", "m"}}},
+  Json units{{"position", "m"}, {"length", "m"}, {"width", "m"}, {"normal", "1"}, {"luminous_efficacy", "lm/W"}};
+  for (const char* key : {"illuminance", "illuminance_direct", "illuminance_by_mirrors",
+                          "illuminance_by_lamp", "minimum", "mean", "maximum"})
+    units[key] = "lx";
+  units["uniformity"] = "1";
+  for (const char* key : {"irradiance", "irradiance_direct", "irradiance_by_mirrors"})
+    units[key] = "W/m^2";
+  const Json json{{"units", std::move(units)},
                   {"luminous_efficacy", sets.empty() ? 0.0 : sets.front().luminous_efficacy},
                   {"sets", std::move(list)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';

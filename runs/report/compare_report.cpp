@@ -177,6 +177,11 @@ Json mechanisms_json(const Comparison& comparison) {
 
 std::string compare_json(const Comparison& comparison) {
   Json json = header_json(comparison);
+  json["units"] = {{"exposure", "EV"}, {"seconds", "s"}, {"psnr", "dB"}};
+  for (const char* key : {"rmse", "mae", "max_abs"})
+    json["units"][key] = "W/m^2/sr";
+  for (const char* key : {"relmse", "ssim", "flip", "mean_error", "share", "mirrored_of_diffuse", "seen_in_mirrors"})
+    json["units"][key] = "1";
   json["modes"] = Json::array();
   for (const ComparedMode& mode : comparison.modes) {
     Json figures{{"id", mode.id}, {"seconds", mode.seconds}};

@@ -34,6 +34,10 @@ static Image take_layer(ImageFile& file, const fs::path& path, const std::string
   throw InputError(path.string(), "", fmt::format("no layer '{}'{}", name, hint));
 }
 
+std::string unit_of_pixels(const ComparedPicture& picture) {
+  return picture.encoding == Encoding::linear ? "W/m^2/sr" : "of white";
+}
+
 ComparedPicture read_compared(const fs::path& path, const std::optional<std::string>& layer) {
   ImageFile file = read_image(path, layer ? Picture::not_needed : Picture::needed);
   ComparedPicture result{.image = layer ? take_layer(file, path, *layer) : std::move(file.picture),

@@ -18,6 +18,9 @@ struct ComparedPicture {
   std::vector<std::string> remarks;     ///< what of the file is compared, a line each
 };
 
+/// What its pixels are in: radiance, as this program writes it, or parts of white.
+std::string unit_of_pixels(const ComparedPicture& picture);
+
 /// Throws InputError for a file that cannot be read, has no such layer (naming the nearest),
 /// or holds a value that is not finite (naming the pixel).
 ComparedPicture read_compared(const std::filesystem::path& file,

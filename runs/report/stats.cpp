@@ -125,8 +125,28 @@ Json expected_json(const ExpectedCost& cost) {
           {"memory_bytes", cost.bytes}};
 }
 
+/// What figures are in, by key or by the key they are below; 1: a share or a ratio. Counts have no entry.
+Json units_of_stats() {
+  return {{"energy", "W"},
+          {"imbalance", "1"},
+          {"solve", "1"},
+          {"closure", "1"},
+          {"tail_bound", "1"},
+          {"error_estimate", "1"},
+          {"mean_radiance", "W/m^2/sr"},
+          {"standard_error", "1"},
+          {"wanted_error", "1"},
+          {"error", "1"},
+          {"foretold_error", "1"},
+          {"wanted_seconds", "s"},
+          {"seconds", "s"},
+          {"peak_memory_bytes", "B"},
+          {"link_bytes", "B"}};
+}
+
 Json reference_json(const RunFigures& figures) {
-  return {{"reference",
+  return {{"units", units_of_stats()},
+          {"reference",
            {{"samples", figures.reference->samples},
             {"standard_error", figures.reference->standard_error},
             {"stopped_by", stop_name(figures.reference->stopped_by)}}},
@@ -204,7 +224,8 @@ std::string stats_json(const RunFigures& figures) {
   if (figures.reference) {
     return text_of(reference_json(figures));
   }
-  Json json{{"plan",
+  Json json{{"units", units_of_stats()},
+            {"plan",
              {{"mirrors", figures.mirrors},
               {"mirror_worlds", figures.mirror_worlds},
               {"worlds", worlds_json(figures.worlds)},
@@ -248,7 +269,12 @@ std::string per_node_json(const std::vector<NodeLight>& nodes, double luminous_e
                     {"irradiance", as_json(node.irradiance)},
                     {"illuminance", luminous(luminous_efficacy, node.irradiance)}});
   }
-  return text_of(Json{{"nodes", std::move(list)}});
+  const Json units{{"area", "m^2"},
+                   {"emitted", "W/m^2"},
+                   {"radiosity", "W/m^2"},
+                   {"irradiance", "W/m^2"},
+                   {"illuminance", "lx"}};
+  return text_of(Json{{"units", units}, {"nodes", std::move(list)}});
 }
 
 std::string plan_json(const TransportPlan& plan, const std::vector<std::string>& variants,
@@ -267,7 +293,13 @@ std::string plan_json(const TransportPlan& plan, const std::vector<std::string>&
                        {"area", mirror.area},
                        {"reflectance", as_json(mirror.reflectance)}});
   }
-  const Json json{{"mirrors", std::move(mirrors)},
+  const Json units{{"area", "m^2"},
+                   {"reflectance", "1"},
+                   {"tail_bound", "1"},
+                   {"seconds", "s"},
+                   {"memory_bytes", "B"}};
+  const Json json{{"units", units},
+                  {"mirrors", std::move(mirrors)},
                   {"mirror_worlds", plan.worlds.worlds.size() - 1},
                   {"worlds", worlds_json(world_figures(plan))},
                   {"emitters", plan.emitters},

@@ -34,7 +34,7 @@ ExpectedCost expect_cost(const PreparedScene& prepared, const Camera& camera, Pi
   cost.write = 0.01 + encoded_pixel * pixels;
   cost.total =
       cost.prepare + cost.form_factors + cost.solve + cost.interpolate + cost.render + cost.write;
-  cost.bytes = expected_memory(sizes_of(prepared.scene), settings, size);
+  cost.bytes = expected_memory(sizes_of(prepared.scene, settings.lamps), settings, size);
   return cost;
 }
 

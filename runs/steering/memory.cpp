@@ -67,15 +67,19 @@ std::uint64_t memory_limit(const RunSettings& settings) {
   return settings.memory_limit.value_or(available_memory_bytes());
 }
 
-void check_memory(const Scene& scene, const RunSettings& settings,
+void check_memory(const Scene& scene, const RunSettings& asked,
                   const std::optional<PictureSize>& size) {
-  const std::uint64_t needed = expected_memory(sizes_of(scene), settings, size);
+  RunSettings settings = asked;
+  if (settings.lamp_layers)
+    settings.lamps = LampGrouping::node;
+  const std::uint64_t needed = expected_memory(sizes_of(scene, settings.lamps), settings, size);
   const std::uint64_t limit = memory_limit(settings);
   if (needed > limit) {
     throw OutputError(scene.file, "memory",
                       fmt::format("needs about {}, more than the limit of {}: larger elements, "
-                                  "fewer --rays or a smaller picture need less",
-                                  readable_bytes(needed), readable_bytes(limit)));
+                                  "fewer --rays{} or a smaller picture need less",
+                                  readable_bytes(needed), readable_bytes(limit),
+                                  settings.lamps ? ", fewer lamps apart" : ""));
   }
 }
 

@@ -99,7 +99,13 @@ Json json_of(const TradeResult& result) {
                      {"seconds_ratio", knob.seconds},
                      {"error_ratio", knob.error}});
   const TradeReference& reference = result.reference;
-  return {{"scene", result.scene.filename().string()},
+  Json units;
+  for (const char* key : {"seconds", "processor_seconds", "stages", "budget", "spent"})
+    units[key] = "s";
+  for (const char* key : {"error", "error_spread", "seconds_spread", "estimate", "noise", "floor", "seconds_ratio", "error_ratio"})
+    units[key] = "1";
+  return {{"units", std::move(units)},
+          {"scene", result.scene.filename().string()},
           {"camera", result.camera ? Json(*result.camera) : Json()},
           {"width", reference.mean.width},
           {"height", reference.mean.height},

@@ -20,6 +20,7 @@
 //              the middle of its body sees along it
 #pragma once
 
+#include "scenes/lamps.h"
 #include "scenes/materials/texture_lookup.h"
 
 namespace meninas {
@@ -37,6 +38,7 @@ struct WalkLook {
   double cutoff = -1.0; ///< holes are where alpha is below it
   double roughness = 1.0;
   WalkKind kind = WalkKind::plain;
+  std::uint32_t lamp = no_lamp; ///< whose light it emits, where lamps are known apart
   std::string_view name = {}; ///< of the material, which outlives it
 };
 

@@ -37,14 +37,11 @@ std::array<std::uint32_t, 2> octahedral(const glm::vec3& n) {
   return {in_steps(double{p.x}, 0x1p-14), in_steps(double{p.y}, 0x1p-14)};
 }
 
-/// What halves can hold: the brightest irradiance becomes this.
-constexpr float brightest_half = 16384.0F;
-
-float light_scale(const WalkRoom& room) {
-  float most = 0.0F;
+std::vector<glm::vec3> irradiance_of(const WalkRoom& room) {
+  std::vector<glm::vec3> irradiance;
   for (const WalkVertex& v : room.vertices)
-    most = std::max(most, largest(v.irradiance));
-  return most > 0.0F ? most / brightest_half : 1.0F;
+    irradiance.push_back(v.irradiance);
+  return irradiance;
 }
 
 double position_step(const WalkRoom& room) {
@@ -57,10 +54,9 @@ double position_step(const WalkRoom& room) {
 /// Texture coordinates are kept in 2^-16 of the image.
 constexpr double texture_step = 0x1p-16;
 
-PackedNumbers packed_vertices(const WalkRoom& room) {
+PackedNumbers packed_vertices(const WalkRoom& room, float scale) {
   std::vector<std::uint32_t> position, irradiance, normal, place, colour, look;
   const double step = position_step(room);
-  const float scale = light_scale(room);
   for (const WalkVertex& v : room.vertices) {
     for (int k = 0; k < 3; ++k) {
       position.push_back(in_steps(double{v.position[k]}, step));
@@ -97,6 +93,8 @@ json tables_json(const PackedNumbers& packed) {
   return tables;
 }
 
+int number_of(std::uint32_t lamp) { return lamp == no_lamp ? -1 : int(lamp); }
+
 json looks_json(const WalkRoom& room) {
   json looks = json::array();
   for (const WalkLook& look : room.looks)
@@ -112,6 +110,7 @@ json looks_json(const WalkRoom& room) {
                      {"alpha", look.alpha},
                      {"cutoff", look.cutoff},
                      {"roughness", look.roughness},
+                     {"lamp", number_of(look.lamp)},
                      {"kind", static_cast<int>(look.kind)}});
   return looks;
 }
@@ -229,18 +228,22 @@ double sky_scale(std::span<const glm::vec3> texels) {
   return most > 0.0 ? std::min(most / brightest, sum / least_mean) : 1.0;
 }
 
-/// The sky in at most 256 x 128 texels, as halves, row by row from the zenith.
-json sky_json(const Environment& background) {
-  if (!background.map)
-    return nullptr;
-  const RadianceMap& map = *background.map;
-  const int width = std::min(map.width, 256), height = std::min(map.height, 128);
-  std::vector<glm::vec3> texels;
-  for (int j = 0; j < height; ++j)
-    for (int i = 0; i < width; ++i)
-      texels.emplace_back(radiance_from(
-          map, direction_at(map, (i + 0.5) / width, (j + 0.5) / height), Suns::shown));
-  const double scale = sky_scale(texels);
+/// The sky in at most 256 x 128 texels, row by row from the zenith.
+struct SkyTexels {
+  int width = 0, height = 0;
+  std::vector<glm::vec3> radiance;
+};
+
+SkyTexels sky_texels(const RadianceMap& map, Suns suns) {
+  SkyTexels sky{std::min(map.width, 256), std::min(map.height, 128), {}};
+  for (int j = 0; j < sky.height; ++j)
+    for (int i = 0; i < sky.width; ++i)
+      sky.radiance.emplace_back(radiance_from(
+          map, direction_at(map, (i + 0.5) / sky.width, (j + 0.5) / sky.height), suns));
+  return sky;
+}
+
+std::string as_halves(std::span<const glm::vec3> texels, double scale) {
   std::vector<std::byte> bytes;
   for (const glm::vec3& texel : texels)
     for (int k = 0; k < 3; ++k) {
@@ -248,21 +251,48 @@ json sky_json(const Environment& background) {
       bytes.push_back(static_cast<std::byte>(bits & 0xffU));
       bytes.push_back(static_cast<std::byte>(bits >> 8U));
     }
-  return {{"width", width},
-          {"height", height},
-          {"scale", scale},
-          {"turned", {map.turned_cos, map.turned_sin}},
-          {"texels", base64(deflated(bytes))}};
+  return base64(deflated(bytes));
+}
+
+/// Where suns and sky are lamps of their own, the sky without its suns as well.
+json sky_json(const Environment& background, bool suns_apart) {
+  if (!background.map)
+    return nullptr;
+  const RadianceMap& map = *background.map;
+  const SkyTexels sky = sky_texels(map, Suns::shown);
+  const double scale = sky_scale(sky.radiance);
+  json data{{"width", sky.width},
+            {"height", sky.height},
+            {"scale", scale},
+            {"turned", {map.turned_cos, map.turned_sin}},
+            {"texels", as_halves(sky.radiance, scale)}};
+  if (suns_apart)
+    data["withoutSuns"] = as_halves(sky_texels(map, Suns::left_out).radiance, scale);
+  return data;
+}
+
+/// The lamps with their tables, and which of them are beside the scene.
+json lamps_json(const WalkPage& page, PackedNumbers& packed) {
+  json lamps = json::array();
+  for (std::size_t l = 0; l < page.lamps.size(); ++l) {
+    const auto& irradiance = page.room.irradiance_by_lamp[l];
+    const float scale = scale_of_halves(irradiance);
+    add_lamp_table(packed, fmt::format("lamp{}", l), irradiance, scale);
+    lamps.push_back({{"name", page.lamps[l].name},
+                     {"factor", array_of(page.lamps[l].factor)},
+                     {"light", scale}});
+  }
+  return lamps;
 }
 
 double luminance(const glm::vec3& c) { return luminance_of(c); }
 
 /// Irradiance that all but two in a hundred vertices stay below: the top of the false colours.
-double top_irradiance(const WalkRoom& room) {
+double top_irradiance(std::span<const glm::vec3> irradiance) {
   std::vector<double> values;
-  for (const WalkVertex& v : room.vertices)
-    if (v.irradiance != glm::vec3(0.0F))
-      values.push_back(luminance(v.irradiance));
+  for (const glm::vec3& value : irradiance)
+    if (value != glm::vec3(0.0F))
+      values.push_back(luminance(value));
   if (values.empty())
     return 1.0;
   const auto place = values.begin() + std::ptrdiff_t(0.98 * double(values.size() - 1));
@@ -290,24 +320,34 @@ std::string walk_page_html(const WalkPage& page, std::vector<std::string>& warni
                      fmt::format("its solved mesh has {} triangles, and a page takes {} at the "
                                  "most: try --quality draft or fewer --elements",
                                  triangles, most_walk_triangles));
+  check_walk_lamps(scene.file, page.lamps.size(), page.room.vertices.size());
   Pictures pictures(scene, warnings);
-  const PackedNumbers packed = packed_vertices(page.room);
+  const std::vector<glm::vec3> irradiance = irradiance_of(page.room);
+  const float light = scale_of_halves(irradiance);
+  PackedNumbers packed = packed_vertices(page.room, light);
+  json lamps = lamps_json(page, packed);
+  const LampGroups groups = page.field.scene->lamp_groups ? *page.field.scene->lamp_groups : LampGroups{};
   json data{{"title", page.title},
             {"program", fmt::format("Meninas {}", program_version())},
             {"tables", tables_json(packed)},
             {"packed", base64(deflated(packed.bytes))},
             {"step", position_step(page.room)},
-            {"light", light_scale(page.room)},
+            {"light", light},
+            {"lamps", std::move(lamps)},
+            {"skyLamp", number_of(groups.sky)},
+            {"sunLamp", number_of(groups.sun)},
             {"looks", looks_json(page.room)},
             {"batches", batches_json(page.room, pictures)},
             {"mirrors", mirrors_json(page.field, page.room.middle)},
             {"cameras", cameras_json(page.cameras, page.room.middle)},
             {"background", array_of(scene.background.constant)},
-            {"sky", sky_json(scene.background)},
+            {"sky", sky_json(scene.background, groups.sun != no_lamp)},
             {"transform", std::string(name_of(page.transform))},
             {"leastThroughput", page.min_throughput},
             {"luminousEfficacy", page.luminous_efficacy},
-            {"top", top_irradiance(page.room)},
+            {"top", top_irradiance(page.lamps.empty()
+                                       ? irradiance
+                                       : under_factors(page.room.irradiance_by_lamp, page.lamps))},
             {"falseColours", false_colours_json()}};
   json nodes = json::array();
   for (const Node& node : scene.nodes)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "image/view_transform.h"
+#include "runs/walk/walk_lamps.h"
 #include "runs/walk/walk_room.h"
 
 #include <string>
@@ -24,6 +25,7 @@ struct WalkPage {
   ViewTransform transform = ViewTransform::neutral;
   double min_throughput = 1.0 / 1024.0;
   double luminous_efficacy = 683.0; ///< lm/W
+  std::vector<WalkLamp> lamps = {}; ///< those whose light the room knows, by their number
 };
 
 /// Pages with more triangles are refused: a browser would not draw them.

@@ -37,6 +37,18 @@ struct Face {
   Facing facing = Facing::front;
 };
 
+/// Where the light of a vertex comes from: a mean of the field's vertices, and a place of a side.
+struct LightOrigin {
+  SideId side = none<SideId>; ///< none: no light is known
+  Point3 place{0.0};
+  std::array<std::uint32_t, 4> vertices{};
+  std::array<float, 4> weights{}; ///< 0 of those that are not there
+};
+
+LightOrigin at_vertex(SideId side, const Point3& place, std::uint32_t vertex) {
+  return {side, place, {vertex}, {1.0F}};
+}
+
 class RoomBuilder {
 public:
   explicit RoomBuilder(const IrradianceField& field)
@@ -53,6 +65,7 @@ public:
     });
     for (const Piece& piece : pieces_)
       append(piece);
+    add_lamps();
     return std::move(room_);
   }
 
@@ -79,10 +92,14 @@ private:
     const WalkFace kind = mirror_of(face) != none<MirrorId>             ? WalkFace::mirror
                           : is_mirror(material_of_patch(patch)) ? WalkFace::facet
                                                                         : WalkFace::plain;
+    const std::uint32_t lamp =
+        light_.lamp_groups ? lamp_of(*light_.lamp_groups, patch.node, patch.material) : no_lamp;
     const auto [place, is_new] =
-        looks_.emplace(std::pair(patch.material, kind), std::uint32_t(room_.looks.size()));
-    if (is_new)
+        looks_.emplace(std::tuple(patch.material, kind, lamp), std::uint32_t(room_.looks.size()));
+    if (is_new) {
       room_.looks.push_back(walk_look(light_.scene, light_.textures, patch.material, kind));
+      room_.looks.back().lamp = lamp;
+    }
     return place->second;
   }
 
@@ -133,7 +150,8 @@ private:
   glm::vec3 from_middle(const Point3& x) const { return glm::vec3(x - room_.middle); }
 
   /// The vertex with these values, once. `of` tells apart what is at different places.
-  std::uint32_t vertex_index(std::uint32_t of, const WalkVertex& vertex) {
+  std::uint32_t vertex_index(std::uint32_t of, const WalkVertex& vertex,
+                             const LightOrigin& origin = {}) {
     CornerKey key{of, vertex.look};
     const auto put = [&](std::size_t at, float x) { std::memcpy(&key[at], &x, sizeof x); };
     put(2, vertex.colour_place.x);
@@ -147,44 +165,51 @@ private:
       put(9 + k, vertex.colour[static_cast<int>(k)]);
     const auto [place, is_new] =
         known_.emplace(key, static_cast<std::uint32_t>(room_.vertices.size()));
-    if (is_new)
+    if (is_new) {
       room_.vertices.push_back(vertex);
+      origins_.push_back(origin);
+    }
     return place->second;
   }
 
-  /// H at a corner of an element, or a point of it, with what comes from behind.
-  glm::vec3 irradiance_of(const MeshSide& side, SideId id, const Point3& x,
-                          const glm::vec3& own) const {
-    const SideId behind = side_behind(mesh_, id);
+  /// H of a field at a corner of an element, or a point of it, with what comes from behind.
+  glm::vec3 irradiance_of(const VertexIrradiance& field, const LightOrigin& origin) const {
+    glm::vec3 own(0.0F);
+    for (std::size_t k = 0; k < 4; ++k)
+      own += origin.weights[k] * field.irradiance[origin.vertices[k]];
+    const SideId behind = side_behind(mesh_, origin.side);
     if (behind == none<SideId>)
       return own;
+    const MeshSide& side = mesh_.sides[index(origin.side)];
     const Patch& patch = light_.surfaces.patches[index(side.patch)];
-    const glm::vec3 passed = irradiance_at(mesh_, field_, behind, uv_at(patch, x));
+    const glm::vec3 passed = irradiance_at(mesh_, field, behind, uv_at(patch, origin.place));
     const glm::vec3 ratio(side.transmittance / glm::max(side.reflectance, Rgb(1e-6)));
     return own + glm::min(ratio, glm::vec3(1e3F)) * passed;
   }
 
   /// A point of a side, and its own H there. `of` tells it from those at other places.
-  std::uint32_t lit_vertex(SideId id, std::uint32_t of, const Point3& x, const glm::vec3& own) {
-    const MeshSide& side = mesh_.sides[index(id)];
+  std::uint32_t lit_vertex(std::uint32_t of, const LightOrigin& origin) {
+    const MeshSide& side = mesh_.sides[index(origin.side)];
     WalkVertex vertex;
-    vertex.look = look_of_side_[index(id)];
-    vertex.position = from_middle(x);
-    vertex.irradiance = irradiance_of(side, id, x, own);
+    vertex.look = look_of_side_[index(origin.side)];
+    vertex.position = from_middle(origin.place);
+    vertex.irradiance = irradiance_of(field_, origin);
     dress(vertex, {side.patch, side.facing},
-          place_on(light_.scene, light_.surfaces.patches[index(side.patch)], x));
-    return vertex_index(of, vertex);
+          place_on(light_.scene, light_.surfaces.patches[index(side.patch)], origin.place));
+    return vertex_index(of, vertex, origin);
   }
 
   /// The corner of an element's triangle: a vertex of the mesh, or a point of a region's outline.
   std::uint32_t lit_corner(const ElementTriangles& all, SideId id, std::uint32_t v) {
     if (v < mesh_.vertices.size())
-      return lit_vertex(id, v, mesh_.vertices[v], field_.irradiance[v]);
+      return lit_vertex(v, at_vertex(id, mesh_.vertices[v], v));
     const RegionPoint& point = all.points[v - mesh_.vertices.size()];
-    glm::vec3 own(0.0F);
-    for (std::size_t c = 0; c < 4; ++c)
-      own += point.weights[c] * field_.irradiance[index(mesh_.corners[index(point.element)][c])];
-    return lit_vertex(id, v, point.position, own);
+    LightOrigin origin{.side = id, .place = point.position};
+    for (std::size_t c = 0; c < 4; ++c) {
+      origin.vertices[c] = index(mesh_.corners[index(point.element)][c]);
+      origin.weights[c] = point.weights[c];
+    }
+    return lit_vertex(v, origin);
   }
 
   /// Whether the field, bilinear in a quad, is far from linear in two triangles: by its cross
@@ -203,15 +228,14 @@ private:
   void add_about_middle(const ElementTriangles& all, ElementId element,
                         std::span<const Corners> fan, std::vector<Corners>& to) {
     const ElementCorners& c = mesh_.corners[index(element)];
-    Point3 x(0.0);
-    glm::vec3 own(0.0F);
-    for (const ElementVertexId corner : c) {
-      x += 0.25 * mesh_.vertices[index(corner)];
-      own += 0.25F * field_.irradiance[index(corner)];
-    }
     const SideId id = mesh_.side_of_element[index(element)];
+    LightOrigin origin{.side = id, .place = Point3(0.0), .weights = {0.25F, 0.25F, 0.25F, 0.25F}};
+    for (std::size_t k = 0; k < 4; ++k) {
+      origin.place += 0.25 * mesh_.vertices[index(c[k])];
+      origin.vertices[k] = index(c[k]);
+    }
     const auto number = static_cast<std::uint32_t>(mesh_.vertices.size() + all.points.size());
-    const std::uint32_t middle = lit_vertex(id, number + index(element), x, own);
+    const std::uint32_t middle = lit_vertex(number + index(element), origin);
     const Corners &first = fan.front(), &last = fan.back();
     if (mesh_.sides[index(id)].facing == Facing::front)
       to.insert(to.end(), {{middle, first[0], first[1]}, {middle, last[2], last[0]}});
@@ -314,13 +338,27 @@ private:
     room_.batches.back().count = count;
   }
 
+  /// The same mean of what each lamp sends.
+  void add_lamps() {
+    for (const VertexLightOfLamp& lamp : field_.by_lamp) {
+      VertexIrradiance alone{.irradiance = lamp.direct, .mirrored = {}, .indirect = {}, .indirect_mirrored = {}};
+      for (std::size_t v = 0; v < alone.irradiance.size(); ++v)
+        alone.irradiance[v] += lamp.indirect[v];
+      auto& by_vertex = room_.irradiance_by_lamp.emplace_back(room_.vertices.size(), glm::vec3(0.0F));
+      for (std::size_t v = 0; v < by_vertex.size(); ++v)
+        if (origins_[v].side != none<SideId>)
+          by_vertex[v] = irradiance_of(alone, origins_[v]);
+    }
+  }
+
   const IrradianceField& field_;
   const LightScene& light_;
   const ElementMesh& mesh_;
   WalkRoom room_;
   std::vector<Piece> pieces_;
   std::vector<std::uint32_t> look_of_side_;
-  std::map<std::pair<MaterialId, WalkFace>, std::uint32_t> looks_;
+  std::vector<LightOrigin> origins_; ///< by vertex of the room
+  std::map<std::tuple<MaterialId, WalkFace, std::uint32_t>, std::uint32_t> looks_;
   std::optional<std::uint32_t> black_;
   std::unordered_map<CornerKey, std::uint32_t, HashOfKey> known_;
 };

@@ -6,6 +6,8 @@
 //
 //   H + (tau / rho) H_behind
 //
+// Of a field that knows lamps apart the same is there of each of them: H = sum of H_l.
+//
 // Faces without a field (ideal mirrors, panes, dark sides) are the scene's triangles. All fronts are
 // counter-clockwise. The backs of single-sided surfaces are not there: the eye looks through them,
 // and by way of a mirror they are black.
@@ -52,6 +54,7 @@ struct WalkRoom {
   std::vector<std::uint32_t> element_ends; ///< triangles of an element follow one another: where they end
   std::vector<WalkBatch> batches;
   std::vector<WalkLook> looks;
+  std::vector<std::vector<glm::vec3>> irradiance_by_lamp; ///< by lamp and vertex; empty: not known apart
 };
 
 WalkRoom walk_room(const IrradianceField& field);

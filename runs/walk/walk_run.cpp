@@ -73,12 +73,37 @@ std::vector<WalkCamera> cameras_of(const LitScene& lit, const WalkRequest& reque
   return shown;
 }
 
+/// Without lamps apart the scene is solved with lamps as bright as they are asked for.
+Scene scene_of(const WalkRequest& request) {
+  if (!request.settings.lamps && !request.solution)
+    return load_relit_scene(request.scene, request.settings);
+  Scene scene = load_scene(request.scene, request.settings);
+  // Before the work, which finds the suns of the sky as well.
+  if (request.settings.lamps)
+    check_walk_lamps(scene.file, find_lamps(scene, *request.settings.lamps).size(), 0);
+  return scene;
+}
+
+/// Lamps are told apart where they are asked for, or where the solution knows them.
 LitScene lit_scene(const WalkRequest& request, Scene scene, const RunEvents& events,
                    RunFigures& figures) {
   const PassOneSettings settings = two_pass_settings(request.settings).pass_one;
+  const auto wanted = request.settings.lamp_factors.empty() ? LampsApart::if_known : LampsApart::yes;
   return request.solution
-             ? read_lit_scene(*request.solution, std::move(scene), settings, events, figures)
+             ? read_lit_scene(*request.solution, std::move(scene), settings, events, figures, wanted)
              : solve_lit_scene(std::move(scene), settings, std::nullopt, events, figures);
+}
+
+/// As bright as they are asked for before anybody dims them.
+std::vector<WalkLamp> lamps_of(const LitScene& lit, const WalkRequest& request) {
+  std::vector<WalkLamp> lamps;
+  if (lit.field.by_lamp.empty())
+    return lamps;
+  const auto& names = lit.field.scene->lamp_groups->names;
+  const std::vector<Rgb> factors = factors_of_lamps(names, request.settings.lamp_factors);
+  for (std::size_t l = 0; l < names.size(); ++l)
+    lamps.push_back({names[l], factors[l]});
+  return lamps;
 }
 
 } // namespace
@@ -93,21 +118,23 @@ RunFigures walk_run(const WalkRequest& request, const RunEvents& events) {
   figures.threads = limit.threads();
   Stopwatch total, watch;
 
-  Scene scene = load_scene(request.scene, request.settings);
+  Scene scene = scene_of(request);
   check_memory(scene, request.settings, std::nullopt);
   figures.seconds.load = watch.lap();
   const LitScene lit = lit_scene(request, std::move(scene), events, figures);
 
   watch.lap();
   const WalkRoom room = walk_room(lit.field);
+  const std::vector<WalkLamp> lamps = lamps_of(lit, request);
   std::vector<std::string> warnings;
   const std::string html =
       walk_page_html({.field = lit.field,
                       .room = room,
                       .title = request.scene.filename().string(),
-                      .cameras = cameras_of(lit, request),
+                      .cameras = cameras_of(lamps.empty() ? lit : under_lamps(lit, request.settings), request),
                       .transform = request.transform,
-                      .luminous_efficacy = request.settings.gltf.state.luminous_efficacy},
+                      .luminous_efficacy = request.settings.gltf.state.luminous_efficacy,
+                      .lamps = lamps},
                      warnings);
   for (const std::string& warning : warnings)
     warn(events, warning);
@@ -115,8 +142,9 @@ RunFigures walk_run(const WalkRequest& request, const RunEvents& events) {
   figures.seconds.write = watch.lap();
   figures.seconds.total = total.lap();
   figures.peak_memory_bytes = peak_memory_bytes();
-  note(events, fmt::format("{}: {} triangles, {:.1f} MB in {:.1f} s", request.page.string(),
-                           room.indices.size() / 3, double(html.size()) * 1e-6,
+  const std::string dimmers = lamps.empty() ? "" : fmt::format("dimmers for {} lamps, ", lamps.size());
+  note(events, fmt::format("{}: {} triangles, {}{:.1f} MB in {:.1f} s", request.page.string(),
+                           room.indices.size() / 3, dimmers, double(html.size()) * 1e-6,
                            figures.seconds.total));
   return figures;
 }

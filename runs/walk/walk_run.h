@@ -17,7 +17,7 @@ struct WalkRequest {
   std::optional<std::filesystem::path> solution; ///< of an earlier solve: pass one is skipped
   std::optional<double> exposure;                ///< stops; chosen for each camera otherwise
   ViewTransform transform = ViewTransform::neutral;
-  RunSettings settings;
+  RunSettings settings; ///< with lamps known apart, their factors are what the dimmers begin with
 };
 
 /// Writes the page, or throws a UserError before or after the work; what was written is whole.

@@ -99,7 +99,7 @@ TEST_F(Diff, TheTableShowsEveryMetricAndLimit) {
   }
   EXPECT_THAT(outcome.out, HasSubstr("at most 0.1: BROKEN"));
   EXPECT_THAT(outcome.out, HasSubstr("at most 0.3: held"));
-  EXPECT_THAT(outcome.out, HasSubstr("0.25 at pixel (0, 0)"));
+  EXPECT_THAT(outcome.out, HasSubstr("0.25 W/m^2/sr at pixel (0, 0)"));
 }
 
 TEST_F(Diff, LayersAreComparedByName) {

@@ -57,6 +57,31 @@ TEST_F(MemoryLimit, RunsBelowItAreMade) {
   EXPECT_LT(stats.at("peak_memory_bytes"), 1 << 30);
 }
 
+// Each lamp has light of its own at every vertex and element.
+TEST_F(MemoryLimit, LampsApartAreForetold) {
+  TinyRoom room = tiny_room();
+  room.root["extensionsUsed"] = {"KHR_lights_punctual"};
+  room.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 0.01}}};
+  for (int k = 0; k < 100; ++k) {
+    room.root["scenes"][0]["nodes"].push_back(room.root["nodes"].size());
+    room.root["nodes"].push_back({{"name", "bulb " + std::to_string(k)},
+                                  {"translation", {0.5, 0.5, 0.5}},
+                                  {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  }
+  write_room(folder_ / "room.glb", room);
+  const std::vector<std::string> solve{"solve", "room.glb", "-o", "out.glb", "--quality", "draft",
+                                       "--elements", "10000", "--memory-limit", "200M"};
+  std::vector<std::string> apart = solve;
+  apart.push_back("--by-lamp");
+  expect_refused(apart);
+  EXPECT_THAT(run(apart).err, HasSubstr("fewer lamps apart"));
+  // 15,000 elements at the most and 101 lamps, 270 bytes each: two thirds of 390 MiB.
+  EXPECT_THAT(run({"plan", "room.glb", "--elements", "10000"}).out,
+              testing::ContainsRegex("--by-lamp tells them apart in 2[4-9][0-9] MiB more"));
+  const Outcome together = run(solve);
+  EXPECT_EQ(together.code, 0) << together.err;
+}
+
 TEST_F(MemoryLimit, TheSceneItselfIsRefusedLikewise) {
   const Outcome outcome = run({"plan", "room.glb", "--memory-limit", "100"});
   EXPECT_EQ(outcome.code, 4) << outcome.err;

@@ -251,7 +251,7 @@ TEST_F(Outputs, StatsHaveTheDocumentedKeys) {
       documented["error_estimate"] = {"total",       "mesh",   "mesh_direct", "form_factors",
                                       "mirror_tail", "pixels", "solver",      "mean_radiance",
                                       "rays",        "seconds"};
-    std::set<std::string> keys{"peak_memory_bytes", "threads"};
+    std::set<std::string> keys{"peak_memory_bytes", "threads", "units"};
     for (const auto& [key, inner] : documented) {
       keys.insert(key);
       EXPECT_EQ(keys_of(stats.at(key)), inner) << name << ' ' << key;
@@ -279,7 +279,7 @@ TEST_F(Outputs, AReferenceHasItsVarianceAndItsFigures) {
   ASSERT_EQ(file.layers.size(), 1U);
   EXPECT_EQ(file.layers[0].name, "variance");
   const json stats = json_of("stats.json");
-  EXPECT_EQ(keys_of(stats), (std::set<std::string>{"reference", "rays", "seconds",
+  EXPECT_EQ(keys_of(stats), (std::set<std::string>{"units", "reference", "rays", "seconds",
                                                    "peak_memory_bytes", "threads"}));
   EXPECT_EQ(stats["reference"]["samples"], 64);
   EXPECT_EQ(stats["reference"]["stopped_by"], "samples");
@@ -307,7 +307,7 @@ TEST_F(Outputs, AReferenceStopsAtTheErrorThatIsAskedFor) {
 TEST_F(Outputs, PerNodeFiguresNameEveryNode) {
   run("solve", {"-o", "solution.glb", "--per-node", "nodes.json"});
   const json nodes = json_of("nodes.json");
-  EXPECT_EQ(keys_of(nodes), std::set<std::string>{"nodes"});
+  EXPECT_EQ(keys_of(nodes), (std::set<std::string>{"units", "nodes"}));
   std::vector<std::string> names;
   for (const json& node : nodes["nodes"]) {
     EXPECT_EQ(keys_of(node),
@@ -326,7 +326,7 @@ TEST_F(Outputs, ThePlanAsJson) {
   const Outcome outcome = run("plan", {"--json"});
   const json plan = json::parse(outcome.out);
   EXPECT_EQ(keys_of(plan), (std::set<std::string>{
-                               "mirrors", "mirror_worlds", "worlds", "emitters", "punctual_lights",
+                               "units", "mirrors", "mirror_worlds", "worlds", "emitters", "punctual_lights",
                                "glossy", "transmissive", "textured", "variants", "bands", "closed", "patches",
                                "elements", "expected", "stages", "ignored", "warnings", "odd"}));
   ASSERT_EQ(plan["mirrors"].size(), 1U);

@@ -3,7 +3,7 @@
 #include "tests/cli/browser.h"
 #include "tests/cli/program.h"
 #include "tests/cli/tiny_room.h"
-#include "tests/support/source_dir.h"
+#include "tests/cli/walk_pages.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,56 +19,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* wait_for_picture =
-    "while (!document.body.dataset.shot && !document.body.dataset.problem)"
-    "  await new Promise(resolve => setTimeout(resolve, 50));"
-    "const { shot = '', figures = '{}', problem = '' } = document.body.dataset;"
-    "return { shot, figures: JSON.parse(figures), problem };";
-
-class Walk : public testing::Test {
-protected:
-  std::string gallery(const std::string& name) const {
-    return source_dir() + "/scenes/gallery/" + name;
-  }
-  Outcome run(std::vector<std::string> arguments) {
-    return run_program(folder_.path(), arguments);
-  }
-  void write_tiny_page() {
-    write_room(folder_ / "room.glb", tiny_room());
-    const Outcome outcome = run({"walk", "room.glb", "-o", "room.html", "--quality", "draft"});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-  }
-  json drawn(const std::string& page, const std::string& fragment, const std::string& use) {
-    return browse_drawn_page(folder_.path(), (folder_ / page).string(), fragment, use);
-  }
-  /// FLIP and figures of the page's picture from a camera; null where the browser draws none.
-  json page_beside_picture(const std::string& scene, const std::string& camera,
-                           const std::string& exposure) {
-    EXPECT_EQ(run({"solve", scene, "-o", "s.glb", "--quality", "draft"}).code, 0);
-    const Outcome page = run({"walk", scene, "--solution", "s.glb", "-o", "s.html"});
-    EXPECT_EQ(page.code, 0) << page.err;
-    const Outcome picture =
-        run({"render", scene, "--solution", "s.glb", "-o", "s.png", "--mode", "hybrid",
-             "--diffuse", "interpolated", "--samples", "64", "--size", "128x128", "--camera",
-             camera, "--exposure", exposure});
-    EXPECT_EQ(picture.code, 0) << picture.err;
-    const json said =
-        drawn("s.html", "camera=" + camera + "&size=128x128&shot&exposure=" + exposure,
-              wait_for_picture);
-    if (said.is_null() ||
-        said.at("problem").get<std::string>().find("WebGL 2") != std::string::npos)
-      return nullptr;
-    EXPECT_EQ(said.at("problem"), "");
-    const std::string address = said.at("shot");
-    const std::vector<std::byte> png = from_base64(address.substr(address.find(',') + 1));
-    std::ofstream(folder_ / "w.png", std::ios::binary)
-        .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-    json difference = json::parse(run({"diff", "w.png", "s.png", "--json"}).out);
-    difference["figures"] = said.at("figures");
-    return difference;
-  }
-  TemporaryFolder folder_;
-};
+using Walk = WalkPages;
 
 /// Presses Enter once there is a picture.
 constexpr const char* met_in_the_middle =
@@ -99,7 +50,7 @@ TEST_P(WalkTruth, ThePageShowsWhatTheProgramRenders) {
   if (!has_browser())
     GTEST_SKIP() << "no Chromium here: pages are not drawn";
   const auto& [scene, camera, exposure, least_worlds, most_flip] = GetParam();
-  const json said = page_beside_picture(gallery(scene), camera, exposure);
+  const json said = page_beside_picture({gallery(scene), camera, exposure});
   if (said.is_null())
     GTEST_SKIP() << "this Chromium draws no WebGL 2";
   EXPECT_LE(said.at("flip").get<double>(), most_flip);
@@ -265,7 +216,7 @@ TEST_F(Walk, UnlitSheetsCoverTheirShare) {
   room.root["meshes"].back()["primitives"][0]["material"] = 3;
   add_node(room, {{"name", "sheet"}, {"mesh", room.root["meshes"].size() - 1}, {"translation", {0.0, 0.0, 1.5}}});
   write_room(folder_ / "room.glb", room);
-  const json page = page_beside_picture((folder_ / "room.glb").string(), "camera", "1");
+  const json page = page_beside_picture({(folder_ / "room.glb").string(), "camera", "1"});
   if (page.is_null())
     GTEST_SKIP() << "this Chromium draws no WebGL 2";
   EXPECT_LE(page.at("flip").get<double>(), 0.02);
@@ -282,7 +233,7 @@ TEST_F(Walk, RoughCoatsAreShownFromAbove) {
   room.root["nodes"].back()["translation"] = {0.5, 2.5, 0.5};
   room.root["nodes"].back()["rotation"] = {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)};
   write_room(folder_ / "room.glb", room);
-  const json page = page_beside_picture((folder_ / "room.glb").string(), "camera", "1");
+  const json page = page_beside_picture({(folder_ / "room.glb").string(), "camera", "1"});
   if (page.is_null())
     GTEST_SKIP() << "this Chromium draws no WebGL 2";
   EXPECT_LE(page.at("flip").get<double>(), 0.02);

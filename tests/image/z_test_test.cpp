@@ -78,17 +78,17 @@ TEST(Changes, SayWhereAndHowMuch) {
     for (int x = 30; x < 40; ++x)
       picture.at(x, y) = glm::vec3(0.75F);
   picture.at(33, 22) = glm::vec3(0.75F, 0.75F, 1.0F);
-  EXPECT_EQ(describe_change(picture, reference), "most at x 30-39, y 20-24: 50 % brighter; whole "
+  EXPECT_EQ(describe_change(picture, reference, "W/m^2/sr"), "most at x 30-39, y 20-24: 50 % brighter; whole "
                                                  "picture 0.78 % brighter; worst pixel (33, 22): "
-                                                 "(0.75, 0.75, 1), was (0.5, 0.5, 0.5)");
-  EXPECT_THAT(describe_change(reference, picture), testing::HasSubstr("33 % darker; whole"));
+                                                 "(0.75, 0.75, 1), was (0.5, 0.5, 0.5) W/m^2/sr");
+  EXPECT_THAT(describe_change(reference, picture, "W/m^2/sr"), testing::HasSubstr("33 % darker; whole"));
 }
 
 TEST(Changes, PicturesSmallerThanTheGridAndBlackOnes) {
   Image reference(3, 2);
   Image picture = reference;
   picture.at(2, 1) = glm::vec3(1.0F);
-  EXPECT_THAT(describe_change(picture, reference),
+  EXPECT_THAT(describe_change(picture, reference, "W/m^2/sr"),
               testing::StartsWith("most at x 2-2, y 1-1: no longer black"));
 }
 

@@ -11,7 +11,7 @@
 function makePainter(gl, data, room, textures) {
   const roomProgram = makeProgram(gl, roomVertex, roomFragment(room.needs)), skyProgram = makeProgram(gl, wholeVertex, skyFragment);
   const screenProgram = makeProgram(gl, wholeVertex, screenFragment);
-  const array = makeRoomArrays(gl, data, room.tables), looks = makeLooks(gl, data.looks);
+  const { array, light } = makeRoomArrays(gl, data, room.tables, room.lamps.irradiance()), looks = gl.createTexture();
   const nothing = gl.createVertexArray(), scale = makeScale(gl, data.falseColours), targets = [];
   const black = gl.createTexture(), blackCube = gl.createTexture();
   for (const [kind, texture] of [[gl.TEXTURE_2D, black], [gl.TEXTURE_CUBE_MAP, blackCube]]) {
@@ -21,7 +21,7 @@ function makePainter(gl, data, room, textures) {
     setFilters(gl, gl.NEAREST, gl.NEAREST, kind);
   }
   const probeExposed = 2 ** data.cameras[0].exposure;
-  let lines = null, options, draws, drawn, at = roomProgram.at;
+  let lines = null, options, draws, drawn, at = roomProgram.at, state = -1;
 
   const bind = (unit, texture, kind = gl.TEXTURE_2D) => { gl.activeTexture(gl.TEXTURE0 + unit); gl.bindTexture(kind, texture); };
   const scissor = (rectangle, { width, height }) => {
@@ -69,10 +69,12 @@ function makePainter(gl, data, room, textures) {
       gl.uniform1i(at.hasEmission, run.emission >= 0);
       bind(1, run.colour >= 0 ? textures[run.colour] : black);
       bind(2, run.emission >= 0 ? textures[run.emission] : black);
-      const probe = run.probe && run.probe.texture;
+      // Probes see one another as if for the first time, whatever they showed under other lamps.
+      const isOf = run.probe && run.probe.state === room.lamps.state, probe = run.probe && (isOf || !options.without) && run.probe.texture;
       gl.uniform1i(at.hasProbe, probe ? 1 : 0);
       if (probe) {
         bind(5, probe, gl.TEXTURE_CUBE_MAP);
+        gl.uniform3fv(at.probeScale, times(isOf ? [1, 1, 1] : ratioOf(run.probe, room.ambient), 2 ** options.exposure / probeExposed));
         gl.uniform3fv(at.probePlace, run.probe.place);
         gl.uniform1f(at.thickness, run.probe.thickness);
       }
@@ -243,14 +245,14 @@ function makePainter(gl, data, room, textures) {
   function setConstants() {
     const exposed = 2 ** options.exposure;
     gl.useProgram(skyProgram.program);
-    gl.uniform3fv(skyProgram.at.background, data.background);
+    gl.uniform3fv(skyProgram.at.background, room.lamps.of(data.skyLamp).map((s, k) => s * data.background[k]));
     gl.uniform1i(skyProgram.at.hasSky, textures.sky ? 1 : 0);
     gl.uniform1i(skyProgram.at.falseColours, options.falseColours);
     gl.uniform1f(skyProgram.at.exposed, exposed);
-    gl.uniform1f(skyProgram.at.skyScale, data.sky ? data.sky.scale : 1);
+    gl.uniform1f(skyProgram.at.skyScale, data.sky ? data.sky.brightness : 1);
     gl.uniform1i(skyProgram.at.sky, 6);
     gl.uniform2fv(skyProgram.at.turned, data.sky ? data.sky.turned : [1, 0]);
-    bind(6, textures.sky || black);
+    bind(6, textures.sky ? textures.sky.texture : black);
     gl.useProgram(roomProgram.program);
     ["looks", "colourTexture", "emissionTexture", "behindPane", "falseScale", "probe"].forEach((name, unit) =>
       gl.uniform1i(at[name], unit));
@@ -260,7 +262,6 @@ function makePainter(gl, data, room, textures) {
     bind(5, blackCube, gl.TEXTURE_CUBE_MAP);
     gl.uniform1i(at.falseColours, options.falseColours);
     gl.uniform1i(at.facets, options.facets || 8);
-    gl.uniform1f(at.probeScale, exposed / probeExposed);
     gl.uniform1f(at.lightScale, data.light);
     gl.uniform1f(at.exposed, exposed);
     gl.uniform1f(at.topIrradiance, data.top);
@@ -289,6 +290,17 @@ function makePainter(gl, data, room, textures) {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
+  /// The room under its lamps as they are now.
+  function relight() {
+    if (state === room.lamps.state) return;
+    state = room.lamps.state;
+    const irradiance = room.lamps.irradiance();
+    setValues(gl, light, irradiance);
+    gl.activeTexture(gl.TEXTURE0);
+    setLooks(gl, looks, room.lamps.looks());
+    if (textures.sky) setSky(gl, textures.sky, room.lamps.of(data.skyLamp), room.lamps.of(data.sunLamp));
+    if (room.needs.bodies || room.needs.rough) room.ambient = meanRadiance(data, room.tables, irradiance);
+  }
   function begin(target) {
     gl.viewport(0, 0, options.width, options.height);
     for (const test of [gl.DEPTH_TEST, gl.STENCIL_TEST, gl.SCISSOR_TEST, gl.CULL_FACE]) gl.enable(test);
@@ -309,10 +321,11 @@ function makePainter(gl, data, room, textures) {
     takeMean(target);
     return target.mean;
   }
-  /// What a body sees does not change: asked for once, when a first picture is there. Returns whether there was one left.
+  /// What a body sees changes with the lamps alone: asked for when a first picture is there. Returns whether there was one left.
   /// Each is tried once: a graphics card that has dropped the page gives no texture, ever.
   function fillNextProbe() {
-    const probe = room.probes.find(p => p.texture === undefined);
+    relight();
+    const probe = room.probes.find(p => p.state !== room.lamps.state);
     if (probe) fillProbe(gl, room, probe, paintFace);
     return probe !== undefined;
   }
@@ -325,6 +338,7 @@ function makePainter(gl, data, room, textures) {
     const follows = (mirror, world) => options.mirrors && (mirror.kind === "mirror" || !options.falseColours)
       && (!(mirror.kind === "pane" || mirror.rough) || world.asides < 2);
     const worlds = visibleWorlds(room, camera, options.most, follows);
+    relight();
     begin(bindTarget(0));
     drawSky(camera, 0);
     drawWorld(worlds.root, 0, 0);

@@ -39,17 +39,18 @@ function makeBuffer(gl, target, values) {
   return buffer;
 }
 
-/// The vertices of the room, and their triangles.
-function makeRoomArrays(gl, data, tables) {
+/// The vertices of the room, and their triangles. Returns { array, light }, the buffer of their irradiance.
+function makeRoomArrays(gl, data, tables, irradiance) {
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);
   const add = (place, values, count, type, normalized) => {
-    makeBuffer(gl, gl.ARRAY_BUFFER, values);
+    const buffer = makeBuffer(gl, gl.ARRAY_BUFFER, values);
     gl.enableVertexAttribArray(place);
     gl.vertexAttribPointer(place, count, type, normalized, 0, 0);
+    return buffer;
   };
   add(0, tables.points, 3, gl.FLOAT, false);
-  add(1, Uint16Array.from(tables.irradiance), 3, gl.HALF_FLOAT, false);
+  const light = add(1, irradiance, 3, gl.FLOAT, false);
   add(2, Float32Array.from(tables.normal, x => x / 16384), 2, gl.FLOAT, false);
   if (data.textures.length) add(3, Float32Array.from(tables.place, x => x / 65536), 4, gl.FLOAT, false);
   if (tables.colour.some(x => x !== 65535)) add(4, Uint16Array.from(tables.colour), 4, gl.UNSIGNED_SHORT, true);
@@ -59,19 +60,22 @@ function makeRoomArrays(gl, data, tables) {
   gl.vertexAttribIPointer(5, 1, gl.UNSIGNED_SHORT, 0, 0);
   makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, Uint32Array.from(tables.triangles));
   gl.bindVertexArray(null);
-  return array;
+  return { array, light };
+}
+
+function setValues(gl, buffer, values) {
+  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+  gl.bufferSubData(gl.ARRAY_BUFFER, 0, values);
 }
 
 /// The looks of materials, six texels in a row to each.
-function makeLooks(gl, looks) {
+function setLooks(gl, texture, looks) {
   const numbers = new Float32Array(24 * looks.length);
   looks.forEach((look, k) => numbers.set([...look.albedo, look.alpha, ...look.rest, look.cutoff, ...look.emission,
     look.kind, ...look.f0, look.f90, ...look.tint, look.ior, ...look.reflectance, look.roughness], 24 * k));
-  const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, texture);
   gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, 6, looks.length, 0, gl.RGBA, gl.FLOAT, numbers);
   setFilters(gl, gl.NEAREST, gl.NEAREST);
-  return texture;
 }
 
 function setFilters(gl, smaller, larger, target = gl.TEXTURE_2D) {
@@ -106,16 +110,28 @@ function makeScale(gl, colours) {
   return texture;
 }
 
+async function halvesOf(base64) {
+  const bytes = await inflated(bytesOf(base64));
+  return Float32Array.from(new Uint16Array(bytes.buffer, 0, bytes.length / 2), halfToNumber);
+}
+
+/// Its texture is made by setSky.
 async function makeSky(gl, sky) {
-  const texture = gl.createTexture(), bytes = await inflated(bytesOf(sky.texels));
-  const halves = new Uint16Array(bytes.buffer, 0, bytes.length / 2);
-  gl.bindTexture(gl.TEXTURE_2D, texture);
-  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 2);
-  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB16F, sky.width, sky.height, 0, gl.RGB, gl.HALF_FLOAT, halves);
-  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 4);
+  sky.shown = await halvesOf(sky.texels);
+  sky.rest = sky.withoutSuns ? await halvesOf(sky.withoutSuns) : sky.shown;
+  sky.texture = gl.createTexture();
+  return sky;
+}
+/// L = s_sky L_rest + s_sun (L - L_rest). Halves hold what is not brighter than the file's sky, the scale
+/// the rest.
+function setSky(gl, sky, factor, ofSun) {
+  const most = Math.max(1e-12, ...factor, ...(sky.withoutSuns ? ofSun : [])), [a, b] = [times(factor, 1 / most), times(ofSun, 1 / most)];
+  const texels = sky.shown.map((x, k) => a[k % 3] * sky.rest[k] + b[k % 3] * (x - sky.rest[k]));
+  sky.brightness = sky.scale * most;
+  gl.bindTexture(gl.TEXTURE_2D, sky.texture);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB16F, sky.width, sky.height, 0, gl.RGB, gl.FLOAT, texels);
   setFilters(gl, gl.LINEAR, gl.LINEAR);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.REPEAT);
-  return texture;
 }
 
 /// A picture of linear light with depth and stencil, several samples to a pixel, and the texture that

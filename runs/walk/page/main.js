@@ -26,6 +26,8 @@ async function start() {
     moved();
   }
   function followAddress() {
+    room.lamps.reset();
+    room.lamps.take(asked.lamps);
     const named = data.cameras.findIndex(camera => camera.name === asked.camera);
     goToCamera(Math.max(0, named));
     if (asked.at && asked.at.length === 5 && asked.at.every(Number.isFinite)) {
@@ -37,7 +39,9 @@ async function start() {
     const { camera, eye, yaw, pitch } = motion.state;
     const place = camera ? "camera=" + encodeURIComponent(camera.name) : "at=" + [...eye, yaw, pitch].map(x => Number(x.toPrecision(6))).join(",");
     const switches = (shows.mirrors ? "" : "&mirrors=off") + (shows.falseColours ? "&irradiance" : "") + (shows.lines ? "&elements" : "");
-    try { history.replaceState(null, "", `#${place}&exposure=${motion.state.exposure.toFixed(2)}${switches}`); } catch { /* a page that may not has no links */ }
+    const lamps = room.lamps.lamps.filter(({ factor, start }) => factorText(factor) !== factorText(start))
+      .map(({ name, factor }) => `&lamp=${encodeURIComponent(name)}=${factorText(factor)}`).join("");
+    try { history.replaceState(null, "", `#${place}&exposure=${motion.state.exposure.toFixed(2)}${switches}${lamps}`); } catch { /* a page that may not has no links */ }
   }
 
   function sizeOfCanvas(coarse) {
@@ -69,6 +73,7 @@ async function start() {
     // Then for what curved and rough bodies show.
     if (!moving && fillNextProbe()) setTimeout(() => askForFrame(false), 0);
     panel.figures(figures);
+    dimmers.show();
     panel.show({ ...shows, mode: motion.state.mode, exposure: motion.state.exposure });
     clearTimeout(rest);
     if (goesOn) moved();
@@ -97,7 +102,7 @@ async function start() {
     m: () => { shows.mirrors = !shows.mirrors; }, f: () => { shows.falseColours = !shows.falseColours; },
     e: () => { shows.lines = !shows.lines; }, c: () => goToCamera((shows.camera + 1) % data.cameras.length),
     "+": () => { motion.state.exposure += 0.25; }, "=": () => { motion.state.exposure += 0.25; },
-    "-": () => { motion.state.exposure -= 0.25; }, "?": () => panel.help(), h: () => panel.help(), escape: () => panel.met(null)
+    "-": () => { motion.state.exposure -= 0.25; }, "?": () => panel.help(), h: () => panel.help(), l: () => dimmers.toggle()
   };
   const panel = makePanel(data, { camera: goToCamera, key: key => {
     if (key >= "1" && key <= "9" && Number(key) <= data.cameras.length) goToCamera(Number(key) - 1);
@@ -105,15 +110,20 @@ async function start() {
     else return;
     moved();
   } });
+  let met = null; // the ray of a click
+  const tellMet = () => panel.met(met && lightMet(room, rays, ...met));
   const meet = (x, y) => {
     const camera = motion.view(canvas.clientWidth / canvas.clientHeight);
     const [i, j] = [2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight];
     const direction = unit(plus(plus(camera.forward, camera.right, i * camera.half * camera.aspect), camera.up, j * camera.half));
     // What the section plane cuts away is not met.
     const past = camera.near / Math.max(1e-6, dot(direction, camera.forward));
-    panel.met(lightMet(room, rays, plus(camera.eye, direction, past), direction));
+    met = [plus(camera.eye, direction, past), direction];
+    tellMet();
   };
   keys.enter = () => meet(canvas.clientWidth / 2, canvas.clientHeight / 2);
+  keys.escape = () => { met = null; tellMet(); };
+  const dimmers = makeDimmers(room.lamps, () => { room.lamps.looks(); tellMet(); moved(); });
   const step = listen(canvas, motion, room, moved, meet);
   addEventListener("resize", moved);
   addEventListener("hashchange", () => {

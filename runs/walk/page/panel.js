@@ -17,7 +17,7 @@ function makePanel(data, actions) {
   const cameras = element("cameras");
   data.cameras.forEach((camera, k) => cameras.append(new Option(`${camera.name}${k < 9 ? ` (${k + 1})` : ""}`, k)));
   cameras.addEventListener("change", () => { actions.camera(Number(cameras.value)); element("view").focus(); });
-  const switches = [["mode", "o"], ["mirrors", "m"], ["falseColours", "f"], ["elements", "e"]];
+  const switches = [["mode", "o"], ["mirrors", "m"], ["falseColours", "f"], ["elements", "e"], ["lamps-button", "l"]];
   for (const [name, key] of switches) element(name).addEventListener("click", () => actions.key(key));
   element("brighter").addEventListener("click", () => actions.key("+"));
   element("darker").addEventListener("click", () => actions.key("-"));
@@ -30,7 +30,7 @@ function makePanel(data, actions) {
   const colours = data.falseColours, stops = [];
   for (let k = 0; k < 256; k += 15) stops.push(`rgb(${colours.slice(3 * k, 3 * k + 3).join(",")}) ${k / 2.55}%`);
   element("scale").style.background = `linear-gradient(to right, ${stops.join(",")})`;
-  element("scale-top").textContent = `${figure(data.top)} W/m²`;
+  element("scale-top").textContent = figure(data.top);
   element("scale-middle").textContent = figure(data.top / 2);
 
   return {
@@ -74,12 +74,13 @@ function showProblem(problem) {
   document.body.dataset.problem = element("problem").textContent;
 }
 
-/// What the address asks for after #: camera or at, size, exposure, mirrors, shot.
+/// What the address asks for after #: camera or at, size, exposure, mirrors, lamp=NAME=FACTOR, shot.
 function readAddress() {
   const asked = new URLSearchParams(location.hash.slice(1)), numbers = name => (asked.get(name) || "").split(/[x,]/).map(Number);
   const size = asked.has("size") ? numbers("size") : null;
   return { camera: asked.get("camera"), at: asked.has("at") ? numbers("at") : null,
     size: size && size.length === 2 && size.every(x => x >= 1 && x <= 4096) ? size : null,
     exposure: asked.has("exposure") && Number.isFinite(Number(asked.get("exposure"))) ? Number(asked.get("exposure")) : null,
-    mirrors: asked.get("mirrors") !== "off", falseColours: asked.has("irradiance"), lines: asked.has("elements"), shot: asked.has("shot") };
+    mirrors: asked.get("mirrors") !== "off", falseColours: asked.has("irradiance"), lines: asked.has("elements"), shot: asked.has("shot"),
+    lamps: asked.getAll("lamp") };
 }

@@ -31,12 +31,15 @@ function findProbes(room) {
   return probes;
 }
 
+/// The light of a probe, in that of its picture, until it is filled anew: by the mean of the room's.
+const ratioOf = (probe, ambient) => ambient.map((x, k) => probe.ambient[k] > 0 ? x / probe.ambient[k] : 1);
+
 /// `paintFace` draws the room without some runs onto a square picture, and returns its framebuffer.
 function fillProbe(gl, room, probe, paintFace) {
-  probe.texture = gl.createTexture();
-  const part = gl.createFramebuffer();
+  const part = gl.createFramebuffer(), isNew = !probe.texture;
+  probe.texture = probe.texture || gl.createTexture();
   gl.bindTexture(gl.TEXTURE_CUBE_MAP, probe.texture);
-  gl.texStorage2D(gl.TEXTURE_CUBE_MAP, 8, gl.RGBA16F, probeSize, probeSize);
+  if (isNew) gl.texStorage2D(gl.TEXTURE_CUBE_MAP, 8, gl.RGBA16F, probeSize, probeSize);
   setFilters(gl, gl.LINEAR_MIPMAP_LINEAR, gl.LINEAR, gl.TEXTURE_CUBE_MAP);
   cubeFrames.forEach(([right, up, forward], face) => {
     const camera = { eye: probe.place, right, up, forward, half: 1, aspect: 1, near: 1e-3 * room.size, far: 2 * room.size };
@@ -49,4 +52,5 @@ function fillProbe(gl, room, probe, paintFace) {
   gl.bindTexture(gl.TEXTURE_CUBE_MAP, probe.texture);
   gl.generateMipmap(gl.TEXTURE_CUBE_MAP);
   gl.deleteFramebuffer(part);
+  [probe.state, probe.ambient] = [room.lamps.state, room.ambient];
 }

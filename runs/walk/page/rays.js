@@ -87,7 +87,7 @@ function lightMet(room, rays, origin, direction) {
     weights.forEach((w, k) => {
       const v = room.tables.triangles[3 * hit.triangle + k];
       for (let band = 0; band < 3; ++band)
-        irradiance[band] += w * halfToNumber(room.tables.irradiance[3 * v + band]) * room.data.light;
+        irradiance[band] += w * room.lamps.irradiance()[3 * v + band] * room.data.light;
     });
     return { ...part, at, irradiance, mirrors };
   }

@@ -48,15 +48,14 @@ function middleOf(tables, run) {
   return times(sum, 1 / (3 * run.count));
 }
 
-/// Mean radiance of the vertices, for what a curved mirror shows at the least.
-function meanRadiance(data, tables) {
-  const sum = [0, 0, 0], count = tables.look.length;
-  for (let v = 0; v < count; ++v)
-    for (let k = 0; k < 3; ++k) {
-      const look = data.looks[tables.look[v]];
-      sum[k] += halfToNumber(tables.irradiance[3 * v + k]) * data.light * (look.albedo[k] + look.rest[k]) / Math.PI;
-    }
-  return times(sum, 1 / Math.max(1, count));
+/// Mean radiance of the vertices under their irradiance, for what a curved mirror shows at the least.
+function meanRadiance(data, tables, irradiance) {
+  const sum = [0, 0, 0], count = tables.look.length, reflectances = data.looks.map(look => plus(look.albedo, look.rest));
+  for (let v = 0; v < count; ++v) {
+    const rho = reflectances[tables.look[v]];
+    for (let k = 0; k < 3; ++k) sum[k] += irradiance[3 * v + k] * rho[k];
+  }
+  return times(sum, data.light / Math.PI / Math.max(1, count));
 }
 
 function boundsOf(points) {
@@ -70,7 +69,7 @@ function readRoom(data, tables) {
   const { low, high } = boundsOf(tables.points), margin = 1e-5 * lengthOf(minus(high, low));
   data.batches.forEach(batch => { batch.part = partOfBatch(tables, batch, margin); });
   const runs = joinedRuns(data, tables, data.batches);
-  const room = { data, tables, low, high, size: lengthOf(minus(high, low)), ambient: meanRadiance(data, tables) };
+  const room = { data, tables, low, high, size: lengthOf(minus(high, low)), lamps: makeLamps(data, tables), ambient: [0, 0, 0] };
   room.opaque = runs.filter(run => run.section !== sections.pane);
   room.panes = runs.filter(run => run.section === sections.pane);
   room.panes.forEach(run => { run.middle = middleOf(tables, run); run.plane = data.mirrors[run.mirror]; });

@@ -16,7 +16,7 @@ out vec4 onTextures, colour;
 flat out int look;
 void main() {
   place = position;
-  light = irradiance; // of all lamps; of solutions that know lamps apart, the sum of each times its dimmer
+  light = irradiance; // of all lamps, each times its dimmer (lamps.js)
   vec3 n = vec3(octahedral, 1.0 - abs(octahedral.x) - abs(octahedral.y));
   if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
   normal = normalize(n);
@@ -44,9 +44,9 @@ flat in int look;
 uniform int shows, facets;
 uniform mat4 asideProjection;
 uniform bool aside, falseColours, hasColour, hasEmission, hasProbe;
-uniform vec3 eye, asideEye, ambient, lowest, highest, probePlace;
+uniform vec3 eye, asideEye, ambient, lowest, highest, probePlace, probeScale;
 uniform vec4 clip; // the room is where dot(clip.xyz, x) > clip.w
-uniform float lightScale, exposed, topIrradiance, probeScale, thickness;
+uniform float lightScale, exposed, topIrradiance, thickness;
 uniform vec2 pictureSize;
 uniform sampler2D looks, colourTexture, emissionTexture, behindPane, falseScale;
 uniform samplerCube probe;

@@ -1,0 +1,57 @@
+#include "cli/lamp_options.h"
+
+#include "cli/common_options.h"
+#include "cli/values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meninas {
+
+namespace {
+
+/// Times what a lamp is: light of more is no float in bright scenes.
+constexpr double brightest_lamp = 1e6;
+
+/// NAME=FACTOR or NAME=R,G,B; names may hold an equals sign.
+LampFactor parse_lamp(const std::string& text) {
+  const std::size_t at = text.rfind('=');
+  if (at == std::string::npos || at == 0)
+    throw UsageError("--lamp", fmt::format("'{}' is not NAME=FACTOR or NAME=R,G,B", text));
+  const Rgb factor = parse_colour("--lamp", text.substr(at + 1));
+  if (largest(factor) > brightest_lamp)
+    throw UsageError("--lamp", fmt::format("'{}' is more than {:g} times as bright", text, brightest_lamp));
+  return {text.substr(0, at), factor};
+}
+
+void add_lamps(const std::string& text, std::vector<LampFactor>& lamps) {
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    lamps.push_back(parse_lamp(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+}
+
+const Choices<LampGrouping> lamp_groupings{{"node", LampGrouping::node},
+                                           {"material", LampGrouping::material}};
+
+} // namespace
+
+Option add_lamp_factors(Options& command, const std::string& description,
+                         std::vector<LampFactor>& lamps) {
+  return command.add_repeatable("--lamp", "NAME=FACTOR|R,G,B", description,
+                                [&lamps](const std::string& text) { add_lamps(text, lamps); });
+}
+
+Option add_by_lamp(Options& command, const std::string& description,
+                    std::optional<LampGrouping>& grouping) {
+  return command
+      .add("--by-lamp", "[node|material]", description,
+           [&grouping](const std::string& text) {
+             grouping = parse_choice("--by-lamp", text == preset_value ? "node" : text, lamp_groupings);
+           })
+      .value_if_given(preset_value);
+}
+
+} // namespace meninas

@@ -1,0 +1,21 @@
+// Options about the lamps of a scene.
+#pragma once
+
+#include "cli/options.h"
+#include "scenes/lamps.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meninas {
+
+/// `--lamp NAME=FACTOR|R,G,B`, several times, or several joined by semicolons as in the settings of a batch.
+Option add_lamp_factors(Options& command, const std::string& description,
+                         std::vector<LampFactor>& lamps);
+
+/// `--by-lamp [node|material]`.
+Option add_by_lamp(Options& command, const std::string& description,
+                    std::optional<LampGrouping>& grouping);
+
+} // namespace meninas
