@@ -55,7 +55,7 @@ struct SeenElements {
 /// Light is gathered twice (hierarchical/node_field.h). What elements send on is known after the first time,
 /// everywhere and as exactly as ever; the second, with more rays and by smaller nodes, is for what is looked at,
 /// and edges of shadows are for that whose direct light is looked up.
-/// So the field is that of the whole solution where it is seen, and elsewhere that of the first gathering.
+/// So the field is that of the whole solution where it is seen, and elsewhere that of the first gathering or of the solver.
 /// Importance-driven radiosity: Smits, Arvo and Salesin 1992.
 /// A cut at the leaves is found everywhere, whatever is seen.
 RadiositySolution solve_for_view(const std::shared_ptr<const LightScene>& light,

@@ -11,6 +11,8 @@
 // A new vertex that is covered, or dark under a low cover, keeps the interpolated value: light is
 // continued to where things stand.
 //
+// For one view only elements are divided whose direct light is looked up in the field (SeenElements::direct).
+//
 // At most max(N, 16384) new elements are made; if more exceed the bound, the largest errors come first.
 #pragma once
 
