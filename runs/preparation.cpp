@@ -92,7 +92,7 @@ void warn_of_solution(const PreparedScene& prepared, const SolverResult& solver,
                       const ClosureError& closure, const RunEvents& events) {
   if (solver.end == SolverEnd::unsolvable) {
     warn(events,
-         "pass one has no solution: all light is in closed parts of the scene that absorb nothing; "
+         "pass one has no solution: light is in closed parts of the scene that absorb nothing; "
          "only light that has not been reflected is shown");
   } else if (!solver.trapped.empty()) {
     warn(events,

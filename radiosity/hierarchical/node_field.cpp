@@ -118,23 +118,42 @@ std::vector<TreeNodeId> met_by_rays(const HierarchicalSolution& receivers, const
 /// Vertices that are lit and that none of these elements has take the mean of the rest
 /// that the elements around them have been solved to receive.
 void take_solved(const ElementLight& elements, std::span<const std::uint8_t> gathered,
-                 std::span<const VertexState> before, VertexSamples& found) {
+                 const VertexIrradiance& lit, std::span<const VertexState> states,
+                 VertexSamples& found) {
   VertexIrradiance& field = found.field;
   const VertexElements around = elements_around(found.mesh);
-  for (std::uint32_t v = 0; v < before.size(); ++v) {
+  for (std::uint32_t v = 0; v < states.size(); ++v) {
     const auto here = meninas::around(around, v);
-    if (before[v] != VertexState::lit ||
+    if (states[v] != VertexState::lit ||
         std::ranges::any_of(here, [&](ElementId e) { return gathered[index(e)] != 0; }))
       continue;
-    Rgb rest(0.0);
     double area = 0.0;
-    for (const ElementId e : here) {
-      const double own = found.mesh.area[index(e)];
-      rest += own * glm::max(elements.irradiance[index(e)] - elements.from_source[index(e)], Rgb(0.0));
-      area += own;
+    for (const ElementId e : here)
+      area += found.mesh.area[index(e)];
+    // The mean of H - D of the elements around, of all light or of one lamp's.
+    const auto rest = [&](const auto& arrived, const auto& direct) {
+      Rgb sum(0.0);
+      for (const ElementId e : here)
+        sum += found.mesh.area[index(e)] * glm::max(arrived(index(e)) - direct(index(e)), Rgb(0.0));
+      return area > 0.0 ? glm::vec3(sum / area) : glm::vec3(0.0F);
+    };
+    const auto at = [](const std::vector<Rgb>& values) {
+      return [&values](std::uint32_t e) { return values[e]; };
+    };
+    field.indirect[v] = rest(at(elements.irradiance), at(elements.from_source));
+    field.irradiance[v] = lit.irradiance[v] + field.indirect[v];
+    field.indirect_mirrored[v] = glm::vec3(0.0F);
+    field.mirrored[v] = lit.mirrored[v];
+    for (std::size_t l = 0; l < field.by_lamp.size(); ++l) {
+      const auto of_lamp = [l](const LightByLamp& light) {
+        return [&light, l](std::uint32_t e) {
+          return Rgb(light(e, 3 * l), light(e, 3 * l + 1), light(e, 3 * l + 2));
+        };
+      };
+      field.by_lamp[l].direct[v] = lit.by_lamp[l].direct[v];
+      field.by_lamp[l].indirect[v] =
+          rest(of_lamp(elements.irradiance_by_lamp), of_lamp(elements.from_source_by_lamp));
     }
-    field.indirect[v] = area > 0.0 ? glm::vec3(rest / area) : glm::vec3(0.0F);
-    field.irradiance[v] += field.indirect[v];
     found.states[v] = VertexState::gathered;
   }
 }
@@ -148,7 +167,7 @@ FirstField first_field(const VertexSource& few, const HierarchicalSolution& rece
   const auto gathered = elements_of(receivers.tree, nodes, element_count(found.mesh));
   share_out(gather_at_nodes({few, few}, receivers, nodes, {}, few_rays * receivers.bend, found),
             found);
-  take_solved(elements, gathered, states, found);
+  take_solved(elements, gathered, lit, states, found);
   std::vector<Rgb> received =
       received_at_corners(elements, receivers, found, filled(found, found.field.irradiance),
                           filled(found, found.field.indirect));

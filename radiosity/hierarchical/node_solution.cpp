@@ -1,6 +1,7 @@
 #include "radiosity/hierarchical/node_solution.h"
 
 #include "radiosity/light/gather_noise.h"
+#include "radiosity/solvers/error_bound.h"
 #include "radiosity/solvers/solve_together.h"
 #include "radiosity/transport/linear_system.h"
 #include "scenes/stopwatch.h"
@@ -27,7 +28,8 @@ std::vector<Value> by_element(const NodeCut& cut, const std::vector<Value>& by_r
 /// The system of the receivers and its solution.
 struct Received {
   SolverResult solver;         ///< of rho H, by receiver
-  std::vector<Rgb> irradiance; ///< H by receiver
+  std::vector<Rgb> irradiance; ///< H by receiver, 0 in traps (solve.h)
+  std::vector<Rgb> open;       ///< likewise and by channel, 0 in traps; empty where there is none
   Transport links;
 };
 
@@ -71,6 +73,11 @@ Received solve_receivers(const NodeTree& tree, const NodeCut& cut, const FirstLi
   received.irradiance = apply_transport(received.links, received.solver.radiosity);
   for (std::size_t c = 0; c < source.size(); ++c)
     received.irradiance[c] += from_first[c];
+  if (!received.solver.trapped.empty()) {
+    received.open = open_rows(LinearSystem<Rgb>{received.links, source, reflectance});
+    for (std::size_t c = 0; c < source.size(); ++c)
+      received.irradiance[c] *= received.open[c];
+  }
   return received;
 }
 
@@ -251,14 +258,16 @@ LitCut first_lit_cut(const NodeProblem& problem, const FormFactorSettings& form_
 SolverSettings roughly(SolverSettings settings) {
   constexpr double tolerance = 0.01;
   constexpr int iterations = 12;
+  settings.method = SolverMethod::bicgstab;
   settings.tolerance = std::max(settings.tolerance, tolerance);
   settings.max_iterations = std::min(settings.max_iterations, iterations);
   return settings;
 }
 
 /// Each lamp's light by the same rows: H_l of receivers, and of elements X_l = S_l + rho H_l.
-void tell_lamps_apart(const LitCut& lit, const NodeTree& tree, const Transport& links,
+void tell_lamps_apart(const LitCut& lit, const NodeTree& tree, const Received& solved,
                       const SolverSettings& settings, NodeSolution& result) {
+  const Transport& links = solved.links;
   const NodeCut& cut = lit.cut;
   const FirstLight& first = lit.first;
   const Scattering of_elements{first.reflectance, first.translucent};
@@ -270,7 +279,10 @@ void tell_lamps_apart(const LitCut& lit, const NodeTree& tree, const Transport& 
   const Scattering of_receivers{reflectance, translucent};
   const LightByLamp sent =
       solve_together(links, scattered(of_receivers, from_first), of_receivers, settings);
-  const LightByLamp received = from_first + transport_product(links, sent);
+  LightByLamp received = from_first + transport_product(links, sent);
+  for (std::size_t c = 0; c < solved.open.size(); ++c)
+    for (Eigen::Index k = 0; k < received.cols(); ++k)
+      received(static_cast<Eigen::Index>(c), k) *= solved.open[c][static_cast<int>(k % 3)];
   LightByLamp arrived(source.rows(), source.cols());
   for (Eigen::Index e = 0; e < arrived.rows(); ++e)
     arrived.row(e) = received.row(cut.receiver_of_element[static_cast<std::size_t>(e)]);
@@ -328,7 +340,7 @@ NodeSolution solve_by_nodes(const LightScene& light, const NodeSolverSettings& s
   // B = S + rho H, what receivers have pushed down to their elements.
   const NodeCut& cut = lit.cut;
   if (light.lamps)
-    tell_lamps_apart(lit, tree, received.links, settings.solver, result);
+    tell_lamps_apart(lit, tree, received, settings.solver, result);
   result.first = std::move(lit.first);
   result.arrived = by_element(cut, received.irradiance);
   result.solver = std::move(received.solver);

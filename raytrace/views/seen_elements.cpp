@@ -95,12 +95,15 @@ void continue_by_lobes(const Met& met, const Leg& leg, int max_bounces, Vec2 u,
     if (largest(throughput) < min_throughput || bounces > max_bounces || leg.legs >= max_legs)
       return;
     const Point3 position = leg.ray.origin + met.hit.distance * leg.ray.direction;
-    const bool straight = through && glm::dot(towards, met.along) > 1.0 - 1e-9;
+    const auto goes = [&](const Direction& way) { return glm::dot(towards, way) > 1.0 - 1e-9; };
+    const bool straight = through && goes(met.along);
+    const bool mirrored = !through && goes(glm::reflect(met.along, normal));
     legs.push_back({{position, towards, static_cast<PlaneId>(met.face.plane_class)},
                     throughput,
                     bounces,
                     leg.legs + 1,
-                    step == (through ? SightStep::through : SightStep::mirror),
+                    (straight && step == SightStep::through) ||
+                        (mirrored && step == SightStep::mirror),
                     straight ? leg.backs : Backs::absorb});
   };
   if (is_open(bsdf)) {

@@ -3,7 +3,7 @@
 // Paths are followed from the eye, one through each of so many points of the picture, by ideal mirrors, through
 // glass and by one direction of every lobe (lobe_grid.h), while their throughput is at least `min_throughput`.
 // Of what a sight (sight.h) ends at, direct light is found for each pixel where the diffuse term says so (diffuse_term.h);
-// of what lobes and the reflections of panes show it is that of the field.
+// of what lobes, the reflections of panes and refraction show it is that of the field.
 // The elements in which they end are seen, and those that share a vertex with them: pixels in between see these.
 // Radiosity with as much care as the view needs: importance (Smits, Arvo and Salesin 1992).
 #pragma once

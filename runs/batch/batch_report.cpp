@@ -76,7 +76,7 @@ Json solve_json(const SolveResult& solve) {
 /// What summary and page have in common.
 Json report_json(const BatchReport& report) {
   const BatchCounts counts = count(report.results);
-  const Json units{{"seconds", "s"}, {"rays_per_second", "1/s"}, {"peak_memory_bytes", "B"}, {"error_bound", "1"}};
+  const Json units{{"seconds", "s"}, {"at", "s"}, {"rays_per_second", "1/s"}, {"peak_memory_bytes", "B"}, {"error_bound", "1"}};
   Json json{{"units", units},
             {"jobs_file", report.jobs_file.generic_string()},
             {"version", program_version()},

@@ -125,11 +125,16 @@ Json expected_json(const ExpectedCost& cost) {
           {"memory_bytes", cost.bytes}};
 }
 
-/// What figures are in, by key or by the key they are below; 1: a share or a ratio. Counts have no entry.
+/// What figures are in, by key or by the nearest key they are below that is here; 1: a share or a ratio.
+/// Counts have no entry.
 Json units_of_stats() {
   return {{"energy", "W"},
           {"imbalance", "1"},
-          {"solve", "1"},
+          {"residual", "1"},
+          {"residuals", "1"},
+          {"error_bound", "1"},
+          {"channel_residuals", "1"},
+          {"channel_error_bounds", "1"},
           {"closure", "1"},
           {"tail_bound", "1"},
           {"error_estimate", "1"},

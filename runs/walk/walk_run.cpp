@@ -79,8 +79,13 @@ Scene scene_of(const WalkRequest& request) {
     return load_relit_scene(request.scene, request.settings);
   Scene scene = load_scene(request.scene, request.settings);
   // Before the work, which finds the suns of the sky as well.
-  if (request.settings.lamps)
-    check_walk_lamps(scene.file, find_lamps(scene, *request.settings.lamps).size(), 0);
+  if (request.settings.lamps) {
+    const LampGroups groups = find_lamps(scene, *request.settings.lamps);
+    check_walk_lamps(scene.file, groups.size(), 0);
+    // The suns of a file's sky are not known yet.
+    if (!scene.background.encoded)
+      factors_of_lamps(groups.names, request.settings.lamp_factors);
+  }
   return scene;
 }
 
@@ -92,6 +97,16 @@ LitScene lit_scene(const WalkRequest& request, Scene scene, const RunEvents& eve
   return request.solution
              ? read_lit_scene(*request.solution, std::move(scene), settings, events, figures, wanted)
              : solve_lit_scene(std::move(scene), settings, std::nullopt, events, figures);
+}
+
+/// A solution's lamps that nobody has asked for are left out where a page would have too many.
+void leave_out_unasked_lamps(const WalkRequest& request, const RunEvents& events, LitScene& lit) {
+  const std::size_t lamps = lit.field.by_lamp.size(), vertices = lit.field.mesh().vertices.size();
+  const bool asked = !request.solution || !request.settings.lamp_factors.empty();
+  if (asked || (lamps <= most_walk_lamps && lamps * vertices <= most_lamp_vertices))
+    return;
+  warn(events, fmt::format("the page has no dimmers: the solution has {} lamps at {} vertices", lamps, vertices));
+  lit.field.by_lamp.clear();
 }
 
 /// As bright as they are asked for before anybody dims them.
@@ -121,7 +136,8 @@ RunFigures walk_run(const WalkRequest& request, const RunEvents& events) {
   Scene scene = scene_of(request);
   check_memory(scene, request.settings, std::nullopt);
   figures.seconds.load = watch.lap();
-  const LitScene lit = lit_scene(request, std::move(scene), events, figures);
+  LitScene lit = lit_scene(request, std::move(scene), events, figures);
+  leave_out_unasked_lamps(request, events, lit);
 
   watch.lap();
   const WalkRoom room = walk_room(lit.field);

@@ -70,6 +70,9 @@ TEST_P(Units, AreInTheFilesOfSolve) {
     EXPECT_THAT(without_unit(document(file)), testing::IsEmpty()) << file;
   EXPECT_EQ(document("nodes.json")["units"]["radiosity"], "W/m^2");
   EXPECT_EQ(document("nodes.json")["units"]["illuminance"], "lx");
+  // The nearest key upwards tells: seconds.solve are seconds.
+  EXPECT_FALSE(document("stats.json")["units"].contains("solve"));
+  EXPECT_EQ(document("stats.json")["units"]["residual"], "1");
   EXPECT_EQ(document("stats.json")["units"]["energy"], "W");
   run({"solve", "room.glb", "-o", "s.glb", "--quality", "draft", "--by-lamp", "--grid", "floor"});
   const std::string table = read_file(folder_ / "s.points.csv"), head = table.substr(0, table.find('\n'));

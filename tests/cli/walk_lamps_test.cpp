@@ -168,6 +168,9 @@ TEST_F(WalkDimmers, LeaveThePictureAsItIsUntilSomebodyMovesThem) {
   const json without = drawn("room.html", "size=96x96&shot", shot);
   write_page({"--by-lamp"});
   const json with = drawn("room.html", "size=96x96&shot", shot);
+  ASSERT_FALSE(with.is_null());
+  if (without.at("shot") == "")
+    GTEST_SKIP() << "this Chromium draws no WebGL 2";
   EXPECT_EQ(with, without);
 }
 
@@ -192,6 +195,29 @@ TEST_F(WalkDimmers, BeginAsTheCommandLineSays) {
   EXPECT_GT(said.at("top"), 0.0);
   EXPECT_GT(said.at("grows"), 1.9);
   EXPECT_EQ(said.at("drift"), 0.0) << "sums are made anew";
+}
+
+// What is kept of the sums is forgotten once all lamps are as the file has them.
+TEST_F(WalkDimmers, AddUpAfterAReset) {
+  if (!has_browser())
+    GTEST_SKIP() << "no Chromium here: pages are not used";
+  write_page({"--by-lamp"});
+  const json said = drawn("room.html", "camera=camera&lamp=lamp=&lamp=lamp=0x10&lamp=lamp=1,,1", R"(
+    const data = JSON.parse(document.getElementById('data').textContent);
+    const lamps = makeLamps(data, await readTables(data)), [a, b] = lamps.lamps;
+    const begins = lamps.lamps.map(l => l.factor);
+    lamps.take(readAddress().lamps);
+    const linked = lamps.lamps.map(l => l.factor);
+    const light = (lamp, factor) => { lamps.set(lamp, [factor, factor, factor]); return Math.max(...lamps.irradiance()); };
+    const whole = light(a, 1);
+    light(a, 0); const dark = light(b, 0);
+    lamps.reset(); lamps.irradiance();
+    const alone = light(b, 0);
+    return { begins, linked, dark, share: alone / whole };)");
+  ASSERT_FALSE(said.is_null());
+  EXPECT_EQ(said.at("linked"), said.at("begins")) << "what --lamp would refuse";
+  EXPECT_EQ(said.at("dark"), 0.0);
+  EXPECT_GT(said.at("share"), 0.1) << "the first lamp burns";
 }
 
 // Bodies and rough mirrors show pictures of the room, which are painted anew under other lamps.

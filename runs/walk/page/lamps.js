@@ -33,6 +33,9 @@ function addLamp(sum, { halves, light }, factor, scale) {
 
 const isWhole = factor => factor.every(s => s === 1);
 
+/// A number as the command line takes it; NaN of anything else.
+const plainNumber = text => /^\s*(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*$/i.test(text) ? Number(text) : NaN;
+
 /// Lamps with their factors, and the room under them. `state` counts the changes.
 function makeLamps(data, tables) {
   const lamps = data.lamps.map((lamp, number) => ({ name: lamp.name, start: lamp.factor, factor: lamp.factor, light: lamp.light,
@@ -53,7 +56,10 @@ function makeLamps(data, tables) {
     const changed = lamps.filter((lamp, k) => lamp.factor !== shown[k]);
     if (!changed.length) return sum;
     shown = lamps.map(lamp => lamp.factor);
-    if (lamps.every(lamp => isWhole(lamp.factor))) return sum = allOfThem;
+    if (lamps.every(lamp => isWhole(lamp.factor))) {
+      alone = null;
+      return sum = allOfThem;
+    }
     if (changed.length > 1 || changed[0] !== alone) {
       alone = changed[changed.length - 1];
       others = sumOfOthers(alone);
@@ -72,7 +78,7 @@ function makeLamps(data, tables) {
     /// What a link or the command line says: NAME=FACTOR or NAME=R,G,B, `all` for all; the last word counts.
     take(texts) {
       for (const text of texts) {
-        const at = text.lastIndexOf("="), name = text.slice(0, at), numbers = text.slice(at + 1).split(",").map(Number);
+        const at = text.lastIndexOf("="), name = text.slice(0, at), numbers = text.slice(at + 1).split(",").map(plainNumber);
         if (at < 1 || ![1, 3].includes(numbers.length) || !numbers.every(s => s >= 0 && s <= 1e6)) continue;
         const factor = numbers.length === 3 ? numbers : [0, 1, 2].map(() => numbers[0]), named = lamps.filter(lamp => lamp.name === name);
         for (const lamp of named.length ? named : name === "all" ? lamps : []) all.set(lamp, factor);

@@ -130,6 +130,8 @@ async function start() {
     Object.assign(asked, readAddress());
     Object.assign(shows, { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines });
     followAddress();
+    room.lamps.looks();
+    tellMet();
   });
   canvas.addEventListener("webglcontextlost", () => showProblem(new Error("The graphics card has dropped this page: load it again.")));
 

@@ -303,5 +303,41 @@ TEST(Hierarchical, RoomsWithoutAbsorptionAreFoundOut) {
   EXPECT_EQ(solve_pass_one(l->light, hierarchical(0.25, 0.05)).solver.end, SolverEnd::unsolvable);
 }
 
+// Beside a room like any other stands a white one with a lamp of its own, in which light would grow without end:
+// it keeps what comes from its lamp, by either cut, and the other room is as it is alone.
+TEST(Hierarchical, TrapsReflectNothingAndLeaveTheRestAsItIs) {
+  const auto scene_of = [](bool with_trap) {
+    Scene scene;
+    const Material wall = diffuse(0.5);
+    add_room(scene, Point3(0.0), Point3(1.0), {wall, wall, wall, diffuse(0.5, 1.0), wall, wall});
+    const Material white = diffuse(1.0);
+    if (with_trap) {
+      const std::size_t first = scene.nodes.size();
+      add_room(scene, Point3(2.0), Point3(3.0), {white, white, white, diffuse(1.0, 1.0), white, white});
+      for (std::size_t n = first; n < scene.nodes.size(); ++n)
+        scene.nodes[n].name = "trap." + scene.nodes[n].name;
+    }
+    return scene;
+  };
+  const PassOneSettings settings = hierarchical(0.125, 0.05);
+  const auto both = lit(scene_of(true), settings.mesh), alone = lit(scene_of(false), settings.mesh);
+  const RadiositySolution nodes = solve_pass_one(both->light, settings),
+                          rows = solve_pass_one(both->light, by_rows(settings, 512)),
+                          room = solve_pass_one(alone->light, settings);
+  for (const RadiositySolution* solution : {&nodes, &rows}) {
+    EXPECT_TRUE(solution->solver.converged);
+    // The elements of the trap, and they alone.
+    EXPECT_EQ(solution->solver.trapped.size(), element_count(both->mesh) / 2);
+    for (const std::uint32_t e : solution->solver.trapped)
+      EXPECT_GT(both->mesh.vertices[index(both->mesh.corners[e][0])].x, 1.5);
+    // Its lamp alone: the floor of a cube sees F = 0.1998 of the ceiling (C-11), and reflects it once.
+    // Direct light is at few points of each element: 2 %.
+    EXPECT_NEAR(mean_over(*both, solution->radiosity, "trap.y0").g, 0.1998, 0.02 * 0.1998);
+  }
+  // Other samples: the error of the links.
+  EXPECT_NEAR(mean_over(*both, nodes.radiosity, "y0").g, mean_over(*alone, room.radiosity, "y0").g,
+              0.01 * mean_over(*alone, room.radiosity, "y0").g);
+}
+
 } // namespace
 } // namespace meninas::test

@@ -113,6 +113,10 @@ TEST(SeenElements, HaveTheirDirectLightLookedUpWhereNoSightEnds) {
   add_polygon(glazed, "pane", {{0.5, 0.1, 1.9}, {0.5, 0.1, 0.1}, {0.5, 1.9, 0.1}, {0.5, 1.9, 1.9}},
               glass(Rgb(1.0)));
   EXPECT_EQ(looked_up_nodes(glazed, at_wall), std::set<std::string>{"x1"});
+  Scene block = matt; // a sight goes straight through it, the light is bent
+  add_box(block, "block", {0.3, 0.1, 0.1}, {0.6, 1.9, 1.9}, solid_glass(Rgb(1.0)));
+  const Camera aslant = look_at({1.0, 1.0, 1.0}, {0.0, 1.0, 0.7}, 0.1);
+  EXPECT_TRUE(looked_up_nodes(block, aslant).contains("x0"));
 }
 
 // By a lobe a ceiling above a floor of satin metal; by a matt floor nothing else.
