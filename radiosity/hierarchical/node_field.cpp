@@ -94,10 +94,11 @@ std::vector<std::uint8_t> elements_of(const NodeTree& tree, std::span<const Tree
   return below;
 }
 
-/// Receivers of surfaces on which at least one of a vertex's rays lands in the mean:
+/// Receivers of surfaces on which at least one of 512 rays of a vertex lands in the mean:
 /// F = A_surface / A of a closed room.
-std::vector<TreeNodeId> met_by_rays(const HierarchicalSolution& receivers, const LightScene& light,
-                                    int rays) {
+std::vector<TreeNodeId> met_by_rays(const HierarchicalSolution& receivers,
+                                    const LightScene& light) {
+  constexpr double rays = 512.0;
   const ElementMesh& mesh = light.mesh;
   const auto surface_of = [&](ElementId e) {
     return index(
@@ -160,10 +161,10 @@ void take_solved(const ElementLight& elements, std::span<const std::uint8_t> gat
 
 /// `found` has it in between. Surfaces that are smaller than rays tell apart send what they were solved to.
 FirstField first_field(const VertexSource& few, const HierarchicalSolution& receivers,
-                       const ElementLight& elements, int rays, VertexSamples& found) {
+                       const ElementLight& elements, VertexSamples& found) {
   VertexIrradiance lit = found.field;
   std::vector<VertexState> states = found.states;
-  const std::vector<TreeNodeId> nodes = met_by_rays(receivers, few.gathering.light, rays);
+  const std::vector<TreeNodeId> nodes = met_by_rays(receivers, few.gathering.light);
   const auto gathered = elements_of(receivers.tree, nodes, element_count(found.mesh));
   share_out(gather_at_nodes({few, few}, receivers, nodes, {}, few_rays * receivers.bend, found),
             found);
@@ -229,7 +230,7 @@ InterpolatedField gathered_at_corners(const LightScene& light, const ElementLigh
     return StagePart{how.progress, "refinement", from, to};
   };
   const VertexSource few{elements.irradiance, solved, workspaces, &kept, true, part(0.0, 0.4)};
-  const FirstField first = first_field(few, receivers, elements, how.interpolation.rays, found);
+  const FirstField first = first_field(few, receivers, elements, found);
   const SentLight& reflected = first.sent;
   const int times = ray_multiplier(element_count(light.mesh), receivers.receivers.size());
   const PointGathering by_all = gathering_from(light, reflected, how, {}, 0.0, first_share),

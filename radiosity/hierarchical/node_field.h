@@ -7,7 +7,7 @@
 //
 //   B_j = rho_j (mean of H, by its corners and second differences; curved_means.h).
 //
-// The first is spared on surfaces so small that less than one ray of a vertex lands on each: A_surface < A / rays.
+// The first is spared on surfaces so small that less than one of 512 rays lands on each: A_surface < A / 512.
 // They send what they were solved to; it is beside the edges of large ones that this is too even.
 // Receivers of which nothing is seen (pass_one.h) keep the light of the first, or what they were solved to.
 // In the second gathering a vertex takes the more rays the more elements it stands for
