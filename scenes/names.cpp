@@ -1,9 +1,9 @@
 #include "scenes/names.h"
 
-#include <set>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <vector>
 
 namespace meninas {

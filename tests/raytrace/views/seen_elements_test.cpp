@@ -179,6 +179,25 @@ TEST(SolutionForAView, LeavesNoVertexWithoutLight) {
   }
 }
 
+// Elements are divided at edges of shadows where their direct light is looked up, and nowhere else.
+TEST(SolutionForAView, HasEdgesOfShadowsWhereTheyAreLookedUp) {
+  PassOneSettings settings = room_settings();
+  settings.interpolation.shadow_bend = 0.01;
+  Scene scene = room(diffuse(0.5), diffuse(0.5));
+  add_polygon(scene, "shade", {{0.6, 1.0, 0.6}, {0.6, 1.0, 1.4}, {1.4, 1.0, 1.4}, {1.4, 1.0, 0.6}}, diffuse(0.5));
+  const auto prepared = prepare_scene(std::move(scene), settings);
+  const std::size_t solved = element_count(prepared->light->mesh);
+  const std::vector<std::uint8_t> all(solved, 1), none(solved, 0);
+  const auto elements = [&](const std::vector<std::uint8_t>& direct) {
+    return element_count(solve_for_view(prepared->light, settings, {all, direct}).field.mesh());
+  };
+  std::vector<std::uint8_t> half = none;
+  std::fill_n(half.begin(), solved / 2, std::uint8_t{1});
+  EXPECT_EQ(elements(none), solved);
+  EXPECT_GT(elements(half), solved);
+  EXPECT_GT(elements(all), elements(half));
+}
+
 TEST(SolutionForAView, ThatShowsEverythingIsTheWholeOneToTheBit) {
   const PassOneSettings settings = room_settings();
   const auto prepared = prepare_scene(room(diffuse(0.5), mirror(0.9)), settings);
