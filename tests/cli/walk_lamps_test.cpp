@@ -286,6 +286,13 @@ TEST_F(WalkDimmers, HaveABoundThatIsSaidBeforeTheWork) {
   EXPECT_EQ(many.code, 3);
   EXPECT_EQ(many.err, "meninas: room.glb: has 72 lamps, and a page has dimmers for 64 at the most: give several "
                       "the same `extras.lamp`, or go by --by-lamp material\n");
+
+  // A solution that knows them is shown all the same, unless somebody asks for them.
+  ASSERT_EQ(run({"solve", "room.glb", "--by-lamp", "-o", "s.glb", "--quality", "draft"}).code, 0);
+  const Outcome shown = run({"walk", "room.glb", "--solution", "s.glb", "-o", "r.html"});
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_THAT(shown.err, HasSubstr("the page has no dimmers: the solution has 72 lamps at "));
+  EXPECT_EQ(run({"walk", "room.glb", "--solution", "s.glb", "-o", "r.html", "--lamp", "all=0.5"}).code, 3);
 }
 
 } // namespace
