@@ -25,9 +25,19 @@ LampFactor parse_lamp(const std::string& text) {
   return {text.substr(0, at), factor};
 }
 
+/// A semicolon parts two lamps where a factor stands before it; any other is of a name.
+bool is_between(const std::string& text, std::size_t begin, std::size_t semicolon) {
+  const std::size_t equals = text.rfind('=', semicolon);
+  return equals != std::string::npos && equals >= begin &&
+         text.find_first_not_of("0123456789.,+-eE ", equals + 1) == semicolon;
+}
+
 void add_lamps(const std::string& text, std::vector<LampFactor>& lamps) {
   for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
+    std::size_t end = text.find(';', begin);
+    while (end != std::string::npos && !is_between(text, begin, end))
+      end = text.find(';', end + 1);
+    end = std::min(end, text.size());
     lamps.push_back(parse_lamp(text.substr(begin, end - begin)));
     begin = end + 1;
   }

@@ -5,6 +5,7 @@
 #include "image/whole_file.h"
 #include "runs/report/compare_report.h"
 #include "runs/report/page.h"
+#include "runs/report/picture_units.h"
 #include "runs/steering/memory.h"
 #include "runs/steering/setting_options.h"
 #include "runs/outputs.h"
@@ -53,10 +54,9 @@ void write_modes(const fs::path& folder, const Comparison& comparison) {
   for (const ComparedMode& mode : comparison.modes) {
     const Attributes attributes{
         {"scene", comparison.scene}, {"camera", comparison.camera}, {"mode", mode.id}};
-    const bool layered = mode.id == "hybrid";
-    write_exr(folder / (mode.id + ".exr"), mode.image,
-              layered ? std::span<const Layer>(comparison.layers) : std::span<const Layer>(),
-              PixelType::half, attributes);
+    const auto layers = mode.id == "hybrid" ? std::span<const Layer>(comparison.layers) : std::span<const Layer>();
+    write_exr(folder / (mode.id + ".exr"), mode.image, layers, PixelType::half,
+              with_units(attributes, unit_of_radiance, layers));
     write_png(folder / (mode.id + ".png"), mode.image,
               {.exposure = comparison.exposure, .transform = comparison.transform});
   }

@@ -25,18 +25,16 @@ static void check_heat_map(const DiffRequest& request) {
 static std::string value_text(const PictureDifference& difference, Metric metric,
                               const std::string& unit) {
   const double value = value_of(difference, metric);
+  const std::string behind = unit_behind(metric, unit);
   switch (metric) {
   case Metric::psnr:
-    return std::isinf(value) && value > 0.0 ? "infinite" : fmt::format("{:.4g} dB", value);
+    return std::isinf(value) && value > 0.0 ? "infinite" : fmt::format("{:.4g}{}", value, behind);
   case Metric::max_abs:
     return value == 0.0 ? "0"
-                        : fmt::format("{:.6g} {} at pixel ({}, {})", value, unit,
+                        : fmt::format("{:.6g}{} at pixel ({}, {})", value, behind,
                                       difference.worst.x, difference.worst.y);
-  case Metric::rmse:
-  case Metric::mae:
-    return fmt::format("{:.6g} {}", value, unit);
-  default: // without one
-    return fmt::format("{:.6g}", value);
+  default:
+    return fmt::format("{:.6g}{}", value, behind);
   }
 }
 
@@ -49,14 +47,16 @@ static std::string table(const DiffRequest& request, const PictureDifference& di
   }
   text += fmt::format("{:<10} {}x{}, ssim and flip at {:+.2f} EV\n", "size", difference.width,
                       difference.height, settings.exposure);
+  if (unit.empty()) {
+    text += fmt::format("{:<10} the files do not state theirs\n", "unit");
+  }
   for (const Metric metric : all_metrics) {
     std::string line = fmt::format("{:<10} {}", name_of(metric), value_text(difference, metric, unit));
     for (const MetricLimit& limit : request.limits) {
       if (limit.metric == metric) {
-        const bool held = broken_limits(difference, {limit}).empty();
-        line = fmt::format("{:<32} {} {:.6g}: {}", line,
+        line = fmt::format("{:<32} {} {:.6g}{}: {}", line,
                            larger_is_nearer(metric) ? "at least" : "at most", limit.limit,
-                           held ? "held" : "BROKEN");
+                           unit_behind(metric, unit), holds(difference, limit) ? "held" : "BROKEN");
       }
     }
     text += line + '\n';
@@ -64,7 +64,8 @@ static std::string table(const DiffRequest& request, const PictureDifference& di
   return text;
 }
 
-std::string diff_json(const PictureDifference& difference, const std::string& unit) {
+std::string diff_json(const PictureDifference& difference, const std::string& stated) {
+  const std::string unit = stated.empty() ? "not stated" : stated;
   const nlohmann::ordered_json units{{"rmse", unit},  {"relmse", "1"},   {"mae", unit}, {"psnr", "dB"},
                                      {"max_abs", unit}, {"ssim", "1"}, {"flip", "1"}};
   const nlohmann::ordered_json json{
@@ -96,6 +97,11 @@ DiffResult diff_run(const DiffRequest& request, const RunEvents& events) {
                              "exposure and clipping differ",
                              request.picture.string(), request.reference.string()));
   }
+  if (picture.encoding == reference.encoding && !picture.unit.empty() && !reference.unit.empty() &&
+      picture.unit != reference.unit) {
+    warn(events, fmt::format("their units differ: {} has {}, {} has {}", request.picture.string(), picture.unit,
+                             request.reference.string(), reference.unit));
+  }
   MetricSettings settings = metric_settings(reference, request.exposure);
   settings.relmse_epsilon = request.relmse_epsilon;
   const PictureDifference difference = compare_pictures(picture.image, reference.image, settings);
@@ -105,10 +111,10 @@ DiffResult diff_run(const DiffRequest& request, const RunEvents& events) {
     write_png(*request.heat_map,
               heat_map(errors, heat_map_settings(difference, request.heat_metric, errors)), 0.0);
   }
-  const std::string unit = request.layer ? "of the layer's unit" : unit_of_pixels(reference);
+  const std::string unit = unit_of_differences(picture, reference);
   return {.text = request.format == DiffFormat::json ? diff_json(difference, unit)
                                                      : table(request, difference, settings, unit),
-          .broken = broken_limits(difference, request.limits)};
+          .broken = broken_limits(difference, request.limits, unit)};
 }
 
 } // namespace meninas

@@ -34,7 +34,7 @@ struct DiffResult {
 DiffResult diff_run(const DiffRequest& request, const RunEvents& events = {});
 
 /// {"units","rmse","relmse","mae","psnr","max_abs","width","height","ssim","flip","worst_pixel"};
-/// what is infinite is null.
-std::string diff_json(const PictureDifference& difference, const std::string& unit);
+/// what is infinite is null, and a unit that no file states is "not stated".
+std::string diff_json(const PictureDifference& difference, const std::string& stated);
 
 } // namespace meninas

@@ -106,7 +106,8 @@ void write_pictures(const std::vector<fs::path>& files, const WrittenPicture& pi
     note(events, "values that 16 bits do not hold: the EXR has 32 bits a channel");
   for (const fs::path& file : files) {
     if (picture_format(file) == PictureFormat::exr) {
-      write_exr(file, picture.image, picture.layers, type, attributes);
+      write_exr(file, picture.image, picture.layers, type,
+                with_units(attributes, picture.unit, picture.layers));
       continue;
     }
     if (picture_format(file) == PictureFormat::hdr) {

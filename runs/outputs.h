@@ -3,6 +3,7 @@
 
 #include "image/image_file.h"
 #include "raytrace/render_settings.h"
+#include "runs/report/picture_units.h"
 #include "runs/run_events.h"
 
 #include <filesystem>
@@ -37,6 +38,7 @@ struct WrittenPicture {
   const Image& image;
   std::span<const Layer> layers = {};
   const ShownPixels* edges = nullptr;
+  std::string_view unit = unit_of_radiance; ///< of the image, for EXRs alone
 };
 void write_pictures(const std::vector<std::filesystem::path>& files, const WrittenPicture& picture,
                     const PictureSettings& settings, const Attributes& attributes,

@@ -73,6 +73,7 @@ struct Comparison {
   MetricSettings settings;
   PictureDifference difference;
   std::optional<double> z;
+  std::string unit; ///< of differences
 };
 
 Comparison compare(const RegressCase& regress_case, const fs::path& picture_file) {
@@ -85,6 +86,7 @@ Comparison compare(const RegressCase& regress_case, const fs::path& picture_file
   result.reference = read_compared(regress_case.reference, std::nullopt);
   check_same_size(result.reference.image, regress_case.reference, result.picture.image,
                   "the picture");
+  result.unit = unit_of_differences(result.picture, result.reference);
   result.settings = metric_settings(result.reference, std::nullopt);
   result.settings.relmse_epsilon = regress_case.relmse_epsilon;
   result.difference =
@@ -98,7 +100,7 @@ Comparison compare(const RegressCase& regress_case, const fs::path& picture_file
 
 std::vector<std::string> broken_limits_of(const RegressCase& regress_case,
                                           const Comparison& found) {
-  auto broken = broken_limits(found.difference, regress_case.limits);
+  auto broken = broken_limits(found.difference, regress_case.limits, found.unit);
   if (found.z && !(*found.z <= *regress_case.max_z)) {
     broken.push_back(fmt::format("z {:.4g} exceeds {:.4g}", *found.z, *regress_case.max_z));
   }
@@ -108,14 +110,14 @@ std::vector<std::string> broken_limits_of(const RegressCase& regress_case,
 /// "relmse 1.2e-07 (limit 1e-06), ..."
 std::string figures(const RegressCase& regress_case, const Comparison& found) {
   std::vector<std::string> parts;
-  const auto add = [&](const char* name, double value, double limit) {
-    parts.push_back(fmt::format("{} {:.3g} (limit {:.3g})", name, value, limit));
+  const auto add = [&](const char* name, double value, double limit, const std::string& unit) {
+    parts.push_back(fmt::format("{} {:.3g} (limit {:.3g}{})", name, value, limit, unit));
   };
   for (const auto& [metric, limit] : regress_case.limits) {
-    add(name_of(metric), value_of(found.difference, metric), limit);
+    add(name_of(metric), value_of(found.difference, metric), limit, unit_behind(metric, found.unit));
   }
   if (found.z) {
-    add("z", *found.z, *regress_case.max_z);
+    add("z", *found.z, *regress_case.max_z, "");
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -129,7 +131,7 @@ void leave_evidence(const RegressCase& regress_case, const Comparison& found,
   copy_into(regress_case.reference, folder / (regress_case.name + ".reference.exr"));
   Metric shown = Metric::relmse;
   for (const MetricLimit& limit : regress_case.limits) {
-    if (!broken_limits(found.difference, {limit}).empty() && limit.metric != Metric::psnr) {
+    if (!holds(found.difference, limit) && limit.metric != Metric::psnr) {
       shown = limit.metric;
       break;
     }
@@ -162,7 +164,7 @@ void compare_case(const RegressCase& regress_case, const fs::path& picture_file,
   result.status = CaseStatus::failed;
   result.text = fmt::format("{}; {}", fmt::join(broken, ", "),
                             describe_change(found.picture.image, found.reference.image,
-                                            unit_of_pixels(found.reference)));
+                                            found.unit));
 }
 
 } // namespace

@@ -122,8 +122,13 @@ ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Cam
                                                              settings.pass_one, events, figures)
                                           : solve_lit_scene(std::move(scene), settings.pass_one,
                                                             std::nullopt, events, figures);
-    return render_lamp_layers(lit, camera, size, settings_for(lit.field, request.settings), events,
-                              figures);
+    const RunSettings known = settings_for(lit.field, request.settings);
+    ViewPicture picture = render_lamp_layers(lit, camera, size, known, events, figures);
+    settings.render.diffuse = two_pass_settings(known).render.diffuse;
+    const LitScene shown = under_lamps(lit, known);
+    report_error({shown.field, camera, settings, figures.solver}, wanted_report(request, events),
+                 {picture.image, picture.samples}, picture.layers, events, figures);
+    return picture;
   }
   if (request.settings.view) {
     const LitScene lit = request.solution ? read_shown_scene(request, std::move(scene),
@@ -208,7 +213,7 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
     warn_of_darkness(picture.image, camera, events);
   }
   watch.lap();
-  write_pictures(request.pictures, {picture.image, picture.layers, &picture.edges}, request.picture,
+  write_pictures(request.pictures, {picture.image, picture.layers, &picture.edges, picture.unit}, request.picture,
                  picture.attributes, events);
   figures.seconds.write = watch.lap();
   figures.seconds.total = total.lap();

@@ -96,6 +96,7 @@ ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettin
                       .edges = std::move(rendering.edges),
                       .layers = std::move(rendering.layers),
                       .attributes = attributes_of(scene, camera, settings),
+                      .unit = settings.view ? unit_of_colours : unit_of_radiance,
                       .finer = std::move(rendering.finer)};
   picture.attributes.emplace_back("mode", used.mode == RenderMode::hybrid ? "hybrid" : "radiosity");
   picture.attributes.emplace_back("samples", std::to_string(used.samples));
@@ -202,6 +203,12 @@ ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize s
   return picture_of(lit.prepared->scene, camera, settings, std::move(rendering));
 }
 
+/// Of two pictures that add up, an error is at most that of the fewer samples.
+static void take_fewer(SampleCounts& samples, const SampleCounts& others) {
+  for (std::size_t k = 0; k < samples.size() && k < others.size(); ++k)
+    samples[k] = std::min(samples[k], others[k]);
+}
+
 ViewPicture render_lamp_layers(const LitScene& lit, const Camera& camera, PictureSize size,
                                const RunSettings& settings, const RunEvents& events,
                                RunFigures& figures) {
@@ -220,6 +227,7 @@ ViewPicture render_lamp_layers(const LitScene& lit, const Camera& camera, Pictur
     if (!sum) {
       sum = std::move(picture);
     } else {
+      take_fewer(sum->samples, picture.samples);
       for (std::size_t k = 0; k < sum->image.pixels.size(); ++k)
         sum->image.pixels[k] += layer.image.pixels[k];
     }

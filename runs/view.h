@@ -7,6 +7,7 @@
 #include "image/image_file.h"
 #include "runs/run_events.h"
 #include "runs/run_settings.h"
+#include "runs/report/picture_units.h"
 #include "runs/report/stats.h"
 
 #include <filesystem>
@@ -48,6 +49,7 @@ struct ViewPicture {
   ShownPixels edges; ///< of a PNG
   std::vector<Layer> layers;
   Attributes attributes;
+  std::string_view unit = unit_of_radiance; ///< of the image
   std::shared_ptr<const IrradianceField> finer = nullptr; ///< Rendering::finer
 };
 

@@ -90,7 +90,7 @@ void write_outputs(const BatchFolder& folder, const BatchPicture& picture,
                         "cannot be made a folder: " + error.message());
     }
   }
-  write_pictures(files, {view.image, view.layers, &view.edges}, picture.request.picture,
+  write_pictures(files, {view.image, view.layers, &view.edges, view.unit}, picture.request.picture,
                  view.attributes, {});
 }
 

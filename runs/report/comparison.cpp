@@ -1,6 +1,7 @@
 #include "runs/report/comparison.h"
 
 #include "image/display.h"
+#include "runs/report/picture_units.h"
 #include "scenes/errors.h"
 #include "scenes/names.h"
 
@@ -34,14 +35,16 @@ static Image take_layer(ImageFile& file, const fs::path& path, const std::string
   throw InputError(path.string(), "", fmt::format("no layer '{}'{}", name, hint));
 }
 
-std::string unit_of_pixels(const ComparedPicture& picture) {
-  return picture.encoding == Encoding::linear ? "W/m^2/sr" : "of white";
+std::string unit_of_differences(const ComparedPicture& picture, const ComparedPicture& reference) {
+  return reference.unit.empty() ? picture.unit : reference.unit;
 }
 
 ComparedPicture read_compared(const fs::path& path, const std::optional<std::string>& layer) {
   ImageFile file = read_image(path, layer ? Picture::not_needed : Picture::needed);
+  std::string unit = stated_unit(file, layer.value_or(""));
   ComparedPicture result{.image = layer ? take_layer(file, path, *layer) : std::move(file.picture),
                          .encoding = file.encoding,
+                         .unit = std::move(unit),
                          .remarks = std::move(file.remarks)};
   if (const auto bad = first_bad_pixel(result.image)) {
     throw InputError(path.string(), layer ? fmt::format("layer '{}'", *layer) : "", *bad);
@@ -69,17 +72,33 @@ MetricSettings metric_settings(const ComparedPicture& reference, std::optional<d
   return settings;
 }
 
-std::vector<std::string> broken_limits(const PictureDifference& difference,
-                                       const std::vector<MetricLimit>& limits) {
-  std::vector<std::string> broken;
-  for (const auto& [metric, limit] : limits) {
-    const double value = value_of(difference, metric);
-    const bool held = larger_is_nearer(metric) ? value >= limit : value <= limit;
-    if (!held) {
-      broken.push_back(fmt::format("{} {:.4g} {} {:.4g}", name_of(metric), value,
-                                   larger_is_nearer(metric) ? "is below" : "exceeds", limit));
-    }
+std::string unit_behind(Metric metric, const std::string& unit) {
+  switch (metric) {
+  case Metric::psnr:
+    return " dB";
+  case Metric::rmse:
+  case Metric::mae:
+  case Metric::max_abs:
+    return unit.empty() ? "" : ' ' + unit;
+  default: // ratios
+    return "";
   }
+}
+
+bool holds(const PictureDifference& difference, const MetricLimit& limit) {
+  const double value = value_of(difference, limit.metric);
+  return larger_is_nearer(limit.metric) ? value >= limit.limit : value <= limit.limit;
+}
+
+std::vector<std::string> broken_limits(const PictureDifference& difference,
+                                       const std::vector<MetricLimit>& limits, const std::string& unit) {
+  std::vector<std::string> broken;
+  for (const MetricLimit& limit : limits)
+    if (!holds(difference, limit))
+      broken.push_back(fmt::format("{} {:.4g} {} {:.4g}{}", name_of(limit.metric),
+                                   value_of(difference, limit.metric),
+                                   larger_is_nearer(limit.metric) ? "is below" : "exceeds", limit.limit,
+                                   unit_behind(limit.metric, unit)));
   return broken;
 }
 

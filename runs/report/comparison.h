@@ -15,11 +15,13 @@ namespace meninas {
 struct ComparedPicture {
   Image image;
   Encoding encoding = Encoding::linear; ///< of the file: sRGB code values are a displayed picture
+  std::string unit;                     ///< of its values; empty where the file does not say
   std::vector<std::string> remarks;     ///< what of the file is compared, a line each
 };
 
-/// What its pixels are in: radiance, as this program writes it, or parts of white.
-std::string unit_of_pixels(const ComparedPicture& picture);
+/// What differences of the two are in: the unit of the reference, or of the picture where the reference does not say its own.
+/// Empty where neither says it.
+std::string unit_of_differences(const ComparedPicture& picture, const ComparedPicture& reference);
 
 /// Throws InputError for a file that cannot be read, has no such layer (naming the nearest),
 /// or holds a value that is not finite (naming the pixel).
@@ -39,9 +41,14 @@ struct MetricLimit {
   double limit = 0.0; ///< the largest value that passes; the smallest for psnr and ssim
 };
 
-/// "rmse 0.02 exceeds 0.01", a line for each limit that is not held.
-/// A value that is NaN holds no limit.
+/// " W/m^2/sr", as it stands behind a value of this metric of pictures in that unit; empty where it has none or it is not known.
+std::string unit_behind(Metric metric, const std::string& unit);
+
+/// Whether the limit holds; a value that is NaN holds none.
+bool holds(const PictureDifference& difference, const MetricLimit& limit);
+
+/// "rmse 0.02 exceeds 0.01 W/m^2/sr", a line for each limit that is not held.
 std::vector<std::string> broken_limits(const PictureDifference& difference,
-                                       const std::vector<MetricLimit>& limits);
+                                       const std::vector<MetricLimit>& limits, const std::string& unit);
 
 } // namespace meninas

@@ -84,7 +84,7 @@ TEST_F(Diff, BrokenLimitsAreSaidInOneLine) {
   expect(1, "a.exr: rmse 0.125 exceeds 0.1", {"a.exr", "b.exr", "--max-rmse", "0.1"});
   expect(1, "a.exr: mae 0.0625 exceeds 0.05, max_abs 0.25 exceeds 0.2",
          {"a.exr", "b.exr", "--max-mae", "0.05", "--max-abs", "0.2", "--max-rmse", "0.2"});
-  expect(1, "a.exr: psnr 12.04 is below 40", {"a.exr", "b.exr", "--min-psnr", "40"});
+  expect(1, "a.exr: psnr 12.04 is below 40 dB", {"a.exr", "b.exr", "--min-psnr", "40"});
   for (const std::string option : {"--max-flip", "--max-relmse"}) {
     EXPECT_EQ(run({"a.exr", "b.exr", option, "0.001"}).code, 1) << option;
   }
@@ -99,7 +99,28 @@ TEST_F(Diff, TheTableShowsEveryMetricAndLimit) {
   }
   EXPECT_THAT(outcome.out, HasSubstr("at most 0.1: BROKEN"));
   EXPECT_THAT(outcome.out, HasSubstr("at most 0.3: held"));
-  EXPECT_THAT(outcome.out, HasSubstr("0.25 W/m^2/sr at pixel (0, 0)"));
+  EXPECT_THAT(outcome.out, HasSubstr("0.25 at pixel (0, 0)"));
+}
+
+// Pictures of other programs do not say their unit. What says it may be radiance, a layer of another unit,
+// or colours that stand for numbers.
+TEST_F(Diff, FiguresHaveTheUnitThatThePicturesState) {
+  EXPECT_THAT(run({"a.exr", "b.exr"}).out, HasSubstr("unit       the files do not state theirs"));
+  EXPECT_EQ(json::parse(run({"a.exr", "b.exr", "--json"}).out)["units"]["rmse"], "not stated");
+  const auto write = [&](const char* name, float value, const char* unit) {
+    write_exr(folder_ / name, grey(16, 12, value), std::vector<Layer>{{"depth", grey(16, 12, value)}}, PixelType::half,
+              {{"units", unit}, {"units.depth", "m"}});
+  };
+  write("one.exr", 1.0F, "W/m^2/sr");
+  write("two.exr", 2.0F, "W/m^2/sr");
+  write("colours.exr", 1.0F, "of white");
+  EXPECT_THAT(run({"one.exr", "two.exr", "--max-abs", "3"}).out,
+              testing::ContainsRegex("max_abs +1 W/m\\^2/sr at pixel \\(0, 0\\) +at most 3 W/m\\^2/sr: held"));
+  EXPECT_THAT(run({"one.exr", "two.exr", "--layer", "depth"}).out, testing::ContainsRegex("rmse +1 m\n"));
+  EXPECT_THAT(run({"one.exr", "b.exr"}).out, testing::ContainsRegex("rmse +[0-9.]+ W/m\\^2/sr\n"));
+  expect(1, "one.exr: rmse 1 exceeds 0.5 W/m^2/sr", {"one.exr", "two.exr", "--max-rmse", "0.5"});
+  const Outcome mixed = run({"colours.exr", "two.exr"});
+  EXPECT_THAT(mixed.err, HasSubstr("their units differ: colours.exr has of white, two.exr has W/m^2/sr"));
 }
 
 TEST_F(Diff, LayersAreComparedByName) {

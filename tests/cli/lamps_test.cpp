@@ -98,6 +98,31 @@ TEST_F(LampsOfTheProgram, HaveALayerEachWhichAddUpToThePicture) {
     EXPECT_EQ(all.pixels[k], layers[0].image.pixels[k] + layers[1].image.pixels[k]);
 }
 
+TEST_F(LampsOfTheProgram, HaveAnEstimateOfTheErrorOfTheirSum) {
+  ASSERT_EQ(solved().code, 0);
+  ASSERT_EQ(rendered("rack.exr", {"--solution", "out.glb", "--layers", "lamps", "--stats", "rack.json"}).code, 0);
+  ASSERT_EQ(rendered("whole.exr", {"--solution", "out.glb", "--stats", "whole.json"}).code, 0);
+  const auto error_of = [&](const char* stats) {
+    return json::parse(std::ifstream(folder_ / stats))["error_estimate"]["total"].get<double>();
+  };
+  // The same picture but for the draws of its samples, which the estimates find at other places.
+  EXPECT_NEAR(error_of("rack.json"), error_of("whole.json"), 0.5 * error_of("whole.json"));
+  EXPECT_GT(error_of("rack.json"), 0.0);
+}
+
+TEST_F(LampsOfTheProgram, MayHaveASemicolonInTheirName) {
+  TinyRoom room = two_lamps();
+  room.root["nodes"].back()["extras"]["lamp"] = "desk; left";
+  write_room(folder_ / "room.glb", room);
+  ASSERT_EQ(solved().code, 0);
+  ASSERT_EQ(rendered("a.exr", {"--solution", "out.glb", "--lamp", "all=0;desk; left=1"}).code, 0);
+  ASSERT_EQ(rendered("b.exr", {"--solution", "out.glb", "--lamp", "lamp=0", "--lamp", "desk; left=1,1,1"}).code, 0);
+  const double desk = mean_of(picture("a.exr"));
+  EXPECT_GT(desk, 0.0);
+  EXPECT_EQ(mean_of(picture("b.exr")), desk);
+  EXPECT_EQ(rendered("a.exr", {"--solution", "out.glb", "--lamp", "all=0;desk"}).code, 2);
+}
+
 TEST_F(LampsOfTheProgram, AreListedByThePlanAndWhereANameIsUnknown) {
   EXPECT_THAT(run({"plan", "room.glb"}).out, HasSubstr("'lamp', 'desk'"));
   ASSERT_EQ(solved().code, 0);

@@ -87,7 +87,7 @@ TEST_F(Regress, ReferencesAreMadeAndThenMet) {
 
   const Outcome met = run({"--junit", "results.xml", "--threads", "1"});
   EXPECT_EQ(met.code, 0) << met.out;
-  EXPECT_THAT(met.out, HasSubstr("passed   room: relmse 0 (limit 1e-06), max_abs 0 (limit 0.01)"));
+  EXPECT_THAT(met.out, HasSubstr("passed   room: relmse 0 (limit 1e-06), max_abs 0 (limit 0.01 W/m^2/sr)"));
   EXPECT_THAT(read_file(folder_ / "results.xml"),
               HasSubstr("tests=\"1\" failures=\"0\" errors=\"0\""));
   EXPECT_THAT(files_in(folder_.path()),

@@ -106,6 +106,12 @@ TEST_P(Units, AreInWhatPicturesAndComparisonsSay) {
   }
   EXPECT_THAT(radiances, ContainsRegex("psnr +[0-9.]+ dB"));
   EXPECT_THAT(without_unit(json::parse(run({"diff", "1.exr", "2.exr", "--json"}, false).out)), testing::IsEmpty());
+  // False colours are no radiance; the numbers that they stand for are a layer.
+  for (const char* seed : {"1", "2"})
+    run({"render", "room.glb", "-o", std::string("lux") + seed + ".exr", "--quality", "draft", "--size", "24x24", "--seed", seed,
+         "--view", "illuminance"});
+  EXPECT_THAT(run({"diff", "lux1.exr", "lux2.exr"}, false).out, ContainsRegex("rmse +[0-9.e-]+ of white"));
+  EXPECT_THAT(run({"diff", "lux1.exr", "lux2.exr", "--layer", "illuminance"}, false).out, ContainsRegex("rmse +[0-9.e-]+ lx"));
   for (const auto& [view, unit] : {std::pair{"irradiance", "W/m\\^2"}, {"illuminance", "lx"}, {"luminance", "cd/m2"},
                                    {"closure", "of a row"}, {"mirror-depth", "mirrors in a row"}})
     EXPECT_THAT(run({"render", "room.glb", "-o", "v.png", "--quality", "draft", "--size", "24x24", "--view", view}).err,
