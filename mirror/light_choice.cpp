@@ -155,6 +155,7 @@ struct Chooser {
 
     // In the order of the tree, neighbours take even steps together.
     std::sort(cut.begin(), cut.end(), by_place);
+    std::sort(work.afar.begin(), work.afar.end(), by_place);
   }
 
   void take(std::uint32_t at_world, std::uint32_t leaf, double weight) {
@@ -213,7 +214,6 @@ struct Chooser {
     const double count = std::ceil(std::max(asked, nodes / 4.0));
     const double step = afar / count;
     const auto seed = static_cast<std::uint32_t>(0x1p32 * choice.offset);
-    std::sort(work.afar.begin(), work.afar.end(), by_place);
     double sum = 0.0, next = choice.offset * step;
     for (const CutNode& at : work.afar) {
       sum += at.estimate;
@@ -249,9 +249,12 @@ struct Chooser {
   }
 
   void choose(const LightChoice& choice) {
-    find_cut(choice);
+    if (!choice.same_point)
+      find_cut(choice);
+    auto& cut = work.chosen_from;
+    cut = work.cut;
     double sum = 0.0, afar = 0.0;
-    for (const auto& node : work.cut)
+    for (const auto& node : cut)
       sum += node.estimate;
     for (const auto& node : work.afar)
       afar += node.estimate;
@@ -264,7 +267,7 @@ struct Chooser {
     for (bool changed = true; changed && budget > 0.0;) {
       changed = false;
       const double sum_before = sum, budget_before = budget;
-      for (auto& node : work.cut) {
+      for (auto& node : cut) {
         if (node.estimate <= 0.0 || !is_leaf(node.node) ||
             node.estimate * budget_before < sum_before)
           continue;
@@ -279,7 +282,7 @@ struct Chooser {
       return;
     double begin = choice.offset;
     const double steps = std::max(1.0, budget) / sum;
-    for (const auto& node : work.cut) {
+    for (const auto& node : cut) {
       if (node.estimate <= 0.0)
         continue;
       const double q = steps * node.estimate;
@@ -297,12 +300,14 @@ void sample_light_tree(const EmitterChoice& of, const Observer& observer, const 
   lights.clear();
   if (emitters.empty())
     return;
-  seen_worlds(worlds, observer, work.seen);
+  if (!choice.same_point)
+    seen_worlds(worlds, observer, work.seen);
   if (emitters.size() * work.seen.worlds.size() <= choice.most) {
     all_lights(worlds, emitters, work.seen, observer, lights);
     return;
   }
-  find_cones(work.seen, observer.position, work.cones);
+  if (!choice.same_point)
+    find_cones(work.seen, observer.position, work.cones);
   Chooser{worlds, emitters, tree, observer, work, lights}.choose(choice);
 }
 

@@ -19,6 +19,8 @@
 // (lightcuts: Walter et al. 2005). For shadow rays some of its emitters stand for it,
 // chosen by power times cosine.
 //
+// Who chooses again at the same point, with other steps, has the cut already.
+//
 // The points of one small area share the cut that the first of them finds, refined for all of them:
 // they ask its nodes alone what they bring.
 #pragma once
@@ -33,6 +35,7 @@ struct LightChoice {
   std::size_t afar = 0; ///< above 0: nodes are seen from afar, by so many of their emitters in all at least
   std::uint64_t area = 0; ///< above 0: a name of the area whose point x is
   double extent = 0.0;    ///< largest distance of two points of it
+  bool same_point = false; ///< as the choice before, by the same workspace: only the steps begin elsewhere
 };
 
 /// Storage reused from point to point.
@@ -44,7 +47,8 @@ struct LightChoiceWorkspace {
     std::uint32_t world; ///< index into `seen`
     std::uint32_t node;
   };
-  std::vector<CutNode> open, cut, afar;
+  std::vector<CutNode> open, cut, afar; ///< the last two by place, kept for the same point
+  std::vector<CutNode> chosen_from;     ///< of the cut, what steps have not met yet
 
   /// The nodes of a cut by world, in order, for all points of an area.
   struct AreaNode {

@@ -116,7 +116,7 @@ const std::map<std::string_view, std::string_view>& other_details() {
        "the run makes a quick picture, estimates its error and chooses the next settings, until the "
        "estimate is below X. It says which options make the same picture again."},
       {"--exposure",
-       "an EXR is never scaled. It keeps scene, camera, seed, samples and background as attributes "
+       "an EXR is never scaled. It keeps scene, camera, seed, samples, background and units as attributes "
        "`meninas:...`."},
       {"--factors",
        "with `--reuse` a later run may change emission, diffuse reflectances, solver, tolerance and "

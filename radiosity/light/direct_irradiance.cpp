@@ -248,19 +248,19 @@ static ArrivingLight chosen_irradiance(const Lighting& light, const Receiver& re
                                        const DirectSettings& settings, std::uint32_t seed,
                                        DirectWorkspace& work) {
   const Observer observer{receiver.position, receiver.normal, light.scene.surfaces.tolerance};
-  const auto choose = [&](int rays) {
+  const auto choose = [&](int rays, bool again) {
     const LightChoice choice{static_cast<std::size_t>(settings.images),
-                             0x1p-32 * hash(seed, 0xc401ce, 0), static_cast<std::size_t>(rays)};
+                             0x1p-32 * hash(seed, 0xc401ce, 0), static_cast<std::size_t>(rays), 0, 0.0, again};
     sample_light_tree({light.worlds, light.emitters, light.emitter_tree}, observer, choice,
                       work.choice, work.lights);
     return images_irradiance(light, receiver, settings, seed, work);
   };
-  ArrivingLight sum = choose(settings.shadow_rays);
+  ArrivingLight sum = choose(settings.shadow_rays, false);
   if (!stand_for_others(work))
     return sum;
   const bool in_part = groups_in_part(work);
   if (in_part || settings.penumbra_samples == PenumbraSamples::everywhere)
-    sum = choose(settings.penumbra_rays);
+    sum = choose(settings.penumbra_rays, true);
   sum.in_part = sum.in_part || in_part;
   return sum;
 }

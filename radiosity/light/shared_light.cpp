@@ -21,8 +21,9 @@ struct PointSum {
   int points = 0, punctual_points = 0;
 };
 
+/// `learns`: of what blocks its rays.
 std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const VirtualLight& image,
-                     const SharedLightSettings& settings) {
+                     int rays, bool learns) {
   const std::uint64_t key = (std::uint64_t{index(image.world)} << 32) | image.emitter;
   const auto [found, is_new] =
       work.image_of.try_emplace(key, static_cast<std::uint32_t>(work.images.size()));
@@ -31,8 +32,8 @@ std::uint32_t sum_of(SharedLightWorkspace& work, const Lighting& light, const Vi
                                      light.emitters[image.emitter].radiosity,
                            .world = image.world,
                            .emitter = image.emitter,
-                           .from_a_point = static_cast<std::uint32_t>(settings.rays),
-                           .blockers = settings.learns ? &work.blockers_of[key] : nullptr});
+                           .from_a_point = static_cast<std::uint32_t>(rays),
+                           .blockers = learns ? &work.blockers_of[key] : nullptr});
   return found->second;
 }
 
@@ -154,7 +155,8 @@ void find_lights(const Lighting& light, const NumberedPoint& point, std::uint32_
   constexpr std::uint32_t golden_section = 0x9e3779b9;
   const double offset = 0x1p-32 * (hash(seed, 0xc401ce) + point.number * golden_section);
   LightChoice choice{most, offset, static_cast<std::size_t>(settings.rays)};
-  if (point.element != none<ElementId>) {
+  choice.same_point = settings.one_place && point.number > 0;
+  if (point.element != none<ElementId> && !settings.one_place) {
     choice.area = index(point.element) + std::uint64_t{1};
     choice.extent = extent_of(light.scene.mesh, point.element);
   }
@@ -167,15 +169,19 @@ void find_lights(const Lighting& light, const NumberedPoint& point, std::uint32_
 void add_point(const Lighting& light, const NumberedPoint& point, std::uint32_t seed,
                const SharedLightSettings& settings, SharedLightWorkspace& work) {
   const Receiver& receiver = point.receiver;
-  const bool knows_images = settings.one_place && point.number > 0 &&
-                            std::ranges::none_of(work.point.lights, &VirtualLight::stands_for_others);
+  const auto are_all = [&] {
+    return std::ranges::none_of(work.point.lights, &VirtualLight::stands_for_others);
+  };
+  const bool knows_images = settings.one_place && point.number > 0 && are_all();
   if (!knows_images) {
     find_lights(light, point, seed, settings, work);
     work.at_point.clear();
     work.parts.clear();
+    // An image that is one of a choice has too few rays to learn from.
+    const bool learns = settings.learns && are_all();
     for (const VirtualLight& image : work.point.lights)
       work.at_point.push_back(
-          image_at(light, receiver, image, sum_of(work, light, image, settings), work));
+          image_at(light, receiver, image, sum_of(work, light, image, settings.rays, learns), work));
   }
   const double most = settings.brightest_most ? max_brought(work) : 0.0;
 
