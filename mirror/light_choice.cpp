@@ -62,14 +62,15 @@ struct Chooser {
 
   /// Puts a node where it belongs; returns its estimate.
   double add(std::uint32_t world, std::uint32_t node, bool from_afar) {
-    CutNode next{estimate(world, node), world, node};
+    const SeenWorld& seen = seen_world(world);
+    if (from_afar && !is_leaf(node) && estimates.is_small(seen, node) &&
+        estimates.is_wholly_seen(seen, node))
+      return add_afar(world, node);
+    const CutNode next{estimate(world, node), world, node};
     if (next.estimate <= 0.0)
       return 0.0;
-    const SeenWorld& seen = seen_world(world);
     if (is_leaf(node)) {
       work.cut.push_back(next);
-    } else if (from_afar && estimates.is_small(seen, node) && estimates.is_wholly_seen(seen, node)) {
-      return add_afar(world, node);
     } else {
       work.open.push_back(next);
       std::push_heap(work.open.begin(), work.open.end(), is_darker);
@@ -185,23 +186,32 @@ struct Chooser {
       descend(world, second, begin + share, q - share);
   }
 
-  /// One of a node's emitters, by power times cosine; of those that face x any
-  /// where some tries do not tell. `x` in the lamp's own space.
+  bool faces(std::uint32_t emitter, const Point3& x) const {
+    return glm::dot(emitters[emitter].plane.normal, x - emitters[emitter].polygon.vertices[0]) > 0.0;
+  }
+
+  /// One of a node's emitters, by power times the cosine towards x from the node's middle; of those that
+  /// face x any where some tries do not tell. `x` in the lamp's own space.
   std::uint32_t emitter_of(const EmitterNode& node, const Point3& x, std::uint32_t seed) const {
     constexpr std::uint32_t tries = 16, nobody = 0xffffffffU;
     const double* const begin = tree.sent.data() + node.first;
+    const Direction towards = glm::normalize(x - node.middle);
     std::uint32_t facing = nobody, emitter = 0;
     for (std::uint32_t k = 0; k < tries; ++k) {
       const double at = glm::mix(begin[0], begin[node.count], 0x1p-32 * hash(seed, 2 * k));
       const auto place = static_cast<std::size_t>(
           std::upper_bound(begin + 1, begin + node.count, at) - tree.sent.data() - 1);
       emitter = tree.order[place];
-      const Vec3 to = x - emitters[emitter].polygon.vertices[0];
-      const double cosine = glm::dot(emitters[emitter].plane.normal, to) / glm::length(to);
-      if (0x1p-32 * hash(seed, 2 * k + 1) < cosine)
+      const Vec3& flux = tree.flux[place];
+      const double cosine = glm::dot(flux, towards) / glm::length(flux);
+      const bool is_chosen = 0x1p-32 * hash(seed, 2 * k + 1) < cosine;
+      if (!is_chosen && (cosine <= 0.0 || facing != nobody))
+        continue;
+      if (!faces(emitter, x))
+        continue;
+      if (is_chosen)
         return emitter;
-      if (cosine > 0.0 && facing == nobody)
-        facing = emitter;
+      facing = emitter;
     }
     return facing != nobody ? facing : emitter;
   }

@@ -123,9 +123,13 @@ MeanLight direct_irradiance(const Lighting& light, ElementId element, ContactMas
   if (covered == wholly_covered)
     return {};
   DirectSettings settings = asked;
-  if (needs_few_samples(light.scene, element))
+  if (needs_few_samples(light.scene, element)) {
     for (int* samples : {&settings.points, &settings.most_points, &settings.images_in_element})
       *samples = few_of(*samples);
+    // What a face of a lamp reflects is little beside what it emits: the mean of many faces has to settle, not each.
+    if (light.scene.mesh.emission[index(element)] != Rgb(0.0))
+      settings.most_points = settings.points;
+  }
   const Receiving r{light,
                     element,
                     receiver_of(light.scene, element),
