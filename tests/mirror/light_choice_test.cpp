@@ -175,6 +175,34 @@ TEST(LightChoice, IsRightOnAverageAndNearlyRightEachTime) {
   }
 }
 
+// Who chooses again at the same point keeps the cut: the choice is the one that a fresh cut gives.
+TEST(LightChoice, IsTheSameByAKeptCut) {
+  for (const auto& emitters : {ceiling_of_lamps(), glowing_sphere(24)}) {
+    const Lamps lamps = lamps_in({true, false, false, false, true}, emitters);
+    for (const Observer& observer :
+         {Observer{{0.3, 0.01, 0.6}, {0, 1, 0}}, {{0.01, 1.7, 0.4}, {1, 0, 0}}})
+      for (const std::size_t afar : {std::size_t{0}, std::size_t{16}}) {
+        LightChoiceWorkspace kept;
+        std::vector<VirtualLight> again, fresh;
+        for (int k = 0; k < 8; ++k) {
+          LightChoice choice{.most = 64, .offset = (k + 0.5) / 8.0, .afar = afar, .same_point = k > 0};
+          const EmitterChoice of{lamps.worlds, lamps.emitters, lamps.tree};
+          sample_light_tree(of, observer, choice, kept, again);
+          LightChoiceWorkspace empty;
+          choice.same_point = false;
+          sample_light_tree(of, observer, choice, empty, fresh);
+          ASSERT_EQ(again.size(), fresh.size());
+          for (std::size_t l = 0; l < again.size(); ++l) {
+            EXPECT_EQ(again[l].emitter, fresh[l].emitter);
+            EXPECT_EQ(again[l].world, fresh[l].world);
+            EXPECT_EQ(again[l].weight, fresh[l].weight);
+            EXPECT_EQ(again[l].afar, fresh[l].afar);
+          }
+        }
+      }
+  }
+}
+
 TEST(LightChoice, FewImagesAreAllTaken) {
   const Lamps lamps = lamps_in({true}, {ceiling_of_lamps()[0], ceiling_of_lamps()[77]});
   const Observer observer{{0.3, 0.01, 0.6}, {0, 1, 0}};
