@@ -170,13 +170,29 @@ void add_leaves(const NewElements& to, std::uint32_t number) {
   cell.element_count = static_cast<std::uint32_t>(mesh.area.size()) - first;
 }
 
+/// By surface_side(): 1 where elements are new, or parts of divided cells. On other surfaces nobody asks
+/// for a vertex by its place.
+std::vector<std::uint8_t> surfaces_with_parts(const ElementMesh& mesh, const SurfaceModel& surfaces,
+                                              const CutCells& cuts) {
+  std::vector<std::uint8_t> have(2 * surfaces.surfaces.size(), 0);
+  for (std::size_t number = 0; number < mesh.cells.size(); ++number) {
+    const MeshCell& cell = mesh.cells[number];
+    const bool touched = !cuts.of_cell.empty() && cuts.of_cell[number] != uncut;
+    if (touched || cell.level > 0)
+      have[surface_side(mesh, surfaces, cell)] = 1;
+  }
+  return have;
+}
+
 /// The vertices before that new elements may share, by place: corners of cells that are divided,
 /// and of the parts of others. Within a patch roots beside one another are alike.
 /// Leaves that something touches are made anew.
 void place_vertices(const ElementMesh& mesh, const SurfaceModel& surfaces, const MeshBefore& before,
                     const CutCells& cuts, VertexNumbers& vertices) {
+  const std::vector<std::uint8_t> has_parts = surfaces_with_parts(mesh, surfaces, cuts);
   for (std::size_t number = 0; number < mesh.cells.size(); ++number) {
-    if (before.cells[number] == none<CellId>)
+    if (before.cells[number] == none<CellId> ||
+        has_parts[surface_side(mesh, surfaces, mesh.cells[number])] == 0)
       continue;
     const MeshCell& was = before.mesh.cells[index(before.cells[number])];
     const bool touched = !cuts.of_cell.empty() && cuts.of_cell[number] != uncut;
