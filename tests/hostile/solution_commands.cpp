@@ -56,7 +56,9 @@ void dim_lamps(const IrradianceField& field, const TwoPassSettings& settings, Ra
   const IrradianceField other = relit(field, factors);
   const Scene& scene = other.scene->scene;
   const Camera camera = scene.cameras.empty() ? default_camera(bounds_of(scene)) : scene.cameras.front();
-  require_light(render(other, camera, settings.render).image.pixels, "pixel under other lamps");
+  RenderSettings plain = settings.render; // what mirrors bring is not known of other lamps
+  plain.layers = WithLayers::no;
+  require_light(render(other, camera, plain).image.pixels, "pixel under other lamps");
 }
 
 /// A file that goes away, in a folder that is there.
