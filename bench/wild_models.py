@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What becomes of a folder of other people's models: which are drawn, which are refused, and why.
 
-    bench/wild_models.py build/release/cli/meninas FOLDER... [--csv FILE] [--size 48x48] [--seconds 60] [--memory 4]
+    bench/wild_models.py build/release/cli/meninas FOLDER... [--csv FILE] [--size 48x48] [--seconds 60] [--memory 4] [--also]
 
 Every .gltf and .glb below the folders is planned and rendered (draft, under --background 1, so that nothing is dark for want
 of a lamp), each run in a process of its own with a limit on processor time and address space. A model is
@@ -16,7 +16,8 @@ of a lamp), each run in a process of its own with a limit on processor time and 
 
 A table counts them by collection, the folder right below the one that is named, with the processor seconds of its models;
 SLOW PLAN counts those whose plan takes a second and more, and longer than the draft. The program exits with 1 when one of the
-last three is there. `--table CSV...` prints the tables of runs that are over. Nothing but Python's standard library is needed.
+last three is there. `--also` takes each model that is drawn through `solve --by-lamp` and `walk` as well, and `--pictures FOLDER`
+keeps the pictures, to be looked at. `--table CSV...` prints the tables of runs that are over. Nothing but Python's standard library is needed.
 """
 import argparse
 import collections
@@ -28,6 +29,7 @@ import pathlib
 import re
 import resource
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -106,13 +108,17 @@ class Model:
 
 
 def triangles_of(path):
-    """As the file says, without instances; 0 where it cannot be read."""
+    """As the file says; 0 where it cannot be read."""
     try:
         data = path.read_bytes()
         if data[:4] == b"glTF":
             data = data[20:20 + int.from_bytes(data[12:16], "little")]
         document = json.loads(data)
-        meshes = collections.Counter(node["mesh"] for node in document.get("nodes", ()) if "mesh" in node)
+        meshes = collections.Counter()
+        for node in document.get("nodes", ()):
+            if "mesh" in node:
+                copies = node.get("extensions", {}).get("EXT_mesh_gpu_instancing", {}).get("attributes", {})
+                meshes[node["mesh"]] += max((document["accessors"][k]["count"] for k in copies.values()), default=1)
         count = 0
         for mesh, uses in meshes.items():
             for primitive in document["meshes"][mesh]["primitives"]:
@@ -136,14 +142,21 @@ def judge(model, arguments, folder):
     path = str(model.path)
     plan = ["plan", path, "--quality", "draft", "--background", "1", "--json"]
     render = ["render", path, "--quality", "draft", "--size", arguments.size, "--background", "1", "--quiet", "-o", str(picture)]
-    lines = []
-    for command in [plan] if arguments.plan else [plan, render + arguments.render]:
+    commands = [plan] if arguments.plan else [plan, render + arguments.render]
+    if arguments.also and not arguments.plan:
+        by_lamp = [path, "--quality", "draft", "--background", "1", "--by-lamp", "--quiet", "-o"]
+        commands += [["solve"] + by_lamp + [str(folder / "solution.glb")], ["walk"] + by_lamp + [str(folder / "room.html")]]
+    lines, said = [], []
+    for command in commands:
         code, text, output, took = run([arguments.meninas] + command, arguments)
         lines = text.splitlines()
         if command is plan:
             model.plan = took
-        else:
+        elif command[0] == "render":
             model.draft = took
+            said = lines
+        elif code in (2, 3, 4) and lines and all(line.startswith("meninas: ") for line in lines):
+            continue # too large for a page, say: it is drawn all the same
         if code == "time":
             return over_time(model, command[0], arguments)
         model.lines = lines[-1:]
@@ -154,7 +167,11 @@ def judge(model, arguments, folder):
             model.lines = [f"{command[0]} ends with {code}"] + lines[-3:]
             return "CRASH"
     if arguments.plan:
-        lines = json.loads(output)["warnings"]
+        said = json.loads(output)["warnings"]
+    lines = said
+    if arguments.pictures and not arguments.plan:
+        arguments.pictures.mkdir(parents=True, exist_ok=True)
+        shutil.copy(picture, arguments.pictures / (re.sub(r"[^A-Za-z0-9.-]+", "_", path)[-120:] + ".png"))
     model.lines = [line for line in lines if not any(small in line for small in UNIMPORTANT)]
     if not arguments.plan and brightest(picture) == 0 and not any(dark in line for dark in DARK for line in lines):
         model.lines.insert(0, "a black picture")
@@ -255,6 +272,8 @@ def main():
     parser.add_argument("--nice", type=int, default=10)
     parser.add_argument("--plan", action="store_true", help="only plan, which is faster")
     parser.add_argument("--render", type=shlex.split, default=[], metavar="OPTIONS", help="more options for render, such as '--rays 16'")
+    parser.add_argument("--also", action="store_true", help="solve --by-lamp and walk too")
+    parser.add_argument("--pictures", type=pathlib.Path, help="folder that keeps the pictures")
     parser.add_argument("--table", action="store_true", help="run nothing, print the tables of earlier runs")
     arguments = parser.parse_args()
 

@@ -80,17 +80,15 @@ bool is_over(const Patch& patch, const Point3& x, const Direction& normal) {
   return true;
 }
 
-std::size_t rounded_count(double x) {
-  return static_cast<std::size_t>(std::max(1.0, std::round(x)));
-}
+double rounded_count(double x) { return std::max(1.0, std::round(x)); }
 
-/// How many points a grid has along the longer and the shorter side.
-std::pair<std::size_t, std::size_t> counts(double length, double width) {
+/// How many points a grid has along the longer and the shorter side, which may be more than there are numbers for.
+std::pair<double, double> counts(double length, double width) {
   const double p = grid_spacing(length, width);
   const bool narrow = length >= 2.0 * width;
   const double d = narrow ? width : length, other = narrow ? length : width;
-  const std::size_t along_d = rounded_count(d / p);
-  const std::size_t along_other = rounded_count(other / (d / double(along_d)));
+  const double along_d = rounded_count(d / p);
+  const double along_other = rounded_count(other / (d / along_d));
   return narrow ? std::pair{along_other, along_d} : std::pair{along_d, along_other};
 }
 
@@ -103,11 +101,12 @@ std::optional<MeasuringGrid> grid_on(const Patches& patches, const Direction& no
                      .width = all.b - 2.0 * settings.margin};
   if (!(grid.width > 0.0))
     return std::nullopt;
-  std::tie(grid.along, grid.across) = counts(grid.length, grid.width);
-  const double count = double(grid.along) * double(grid.across);
-  if (count > double(most_points) || count * double(patches.size()) > most_tests)
-    throw UsageError("--grid", fmt::format("node '{}' would have {} x {} points", node, grid.along,
-                                           grid.across));
+  const auto [along, across] = counts(grid.length, grid.width);
+  const double count = along * across;
+  if (!(count <= double(most_points)) || count * double(patches.size()) > most_tests)
+    throw UsageError("--grid", fmt::format("node '{}' would have {:g} x {:g} points", node, along, across));
+  grid.along = static_cast<std::size_t>(along);
+  grid.across = static_cast<std::size_t>(across);
   for (std::size_t j = 0; j < grid.across; ++j)
     for (std::size_t i = 0; i < grid.along; ++i) {
       const double s = settings.margin + (double(i) + 0.5) * grid.length / double(grid.along);

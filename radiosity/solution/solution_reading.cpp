@@ -175,8 +175,9 @@ MeshSettings read_mesh_settings(const std::filesystem::path& file, const json& m
   const MeshSettings settings{.element_size = mesh.at("element_size"),
                               .target_elements = mesh.at("target_elements"),
                               .max_elements = mesh.at("max_elements")};
+  // More than the program makes would take all memory before anything else is found wrong.
   if (!(settings.element_size >= 0.0) || !(settings.target_elements > 0.0) ||
-      settings.max_elements == 0) {
+      settings.max_elements == 0 || settings.max_elements > MeshSettings{}.max_elements) {
     refuse(file, "damaged: the settings of its mesh make no sense");
   }
   return settings;

@@ -44,6 +44,16 @@ struct ShotEvents {
   const ShotWatch& watch;
 };
 
+/// Traps reflect nothing, nor do they pass anything on: both sides of a surface are of one part.
+void leave_out_traps(const std::vector<Rgb>& open, std::vector<Rgb>& reflectance,
+                     TranslucentLinks& links) {
+  for (std::size_t e = 0; e < open.size(); ++e)
+    reflectance[e] *= open[e];
+  for (std::size_t e = 0; e < open.size() && !links.empty(); ++e)
+    for (auto k = links.row_begin[e]; k < links.row_begin[e + 1]; ++k)
+      links.transmittance[k] *= open[e];
+}
+
 /// S, rho and tau.
 template <typename Value>
 struct ShotProblem {
@@ -61,7 +71,7 @@ ShotSolution run(const ShotScene& scene, const ShotProblem<Value>& problem, cons
     state.translucent = &problem.translucent;
   auto convergence = stopping_rule(settings, value_of<Value>(bound.amplification),
                                    std::max<std::size_t>(1, scene.blocks.size()));
-  if (bound.trapped)
+  if (bound.unsolvable)
     convergence.max_iterations = 0;
   RayShots<Value> shots(scene.light, scene.survey, scene.rays);
   const auto tell = told<Value>(events.watch);
@@ -73,7 +83,8 @@ ShotSolution run(const ShotScene& scene, const ShotProblem<Value>& problem, cons
                });
   ShotSolution solution;
   solution.solver =
-      report_of(settings, convergence, bound.trapped ? SolverEnd::unsolvable : end_of(convergence));
+      report_of(settings, convergence, bound.unsolvable ? SolverEnd::unsolvable : end_of(convergence));
+  solution.solver.trapped = bound.trapped;
   solution.solver.radiosity = colours_of(radiosities(state));
   solution.arrived = colours_of(state.arrived);
   solution.rays_traced = bound.rays_traced + shots.rays_traced();
@@ -103,14 +114,16 @@ ShotSolution solve_by_shots(const LightScene& light, const HemisphereSurvey& sur
                             const ShotSource& from, const ShotSettings& settings,
                             const Progress& progress, const ShotWatch& watch) {
   const auto& [source, scattering] = from;
-  const std::vector<Rgb>& reflectance = scattering.reflectance;
-  const PassedShots translucent{scattering.translucent, transposed(scattering.translucent)};
+  const ShotBound bound = bound_of_shots(light, survey, settings.rays, source, scattering);
+  std::vector<Rgb> reflectance = scattering.reflectance;
+  TranslucentLinks links = scattering.translucent;
+  leave_out_traps(bound.open, reflectance, links);
+  const PassedShots translucent{links, transposed(links)};
   const auto& [rays, solver] = settings;
   const ShotScene scene{light, survey, rays, make_shooting_blocks(light.mesh, survey.exposed)};
   const bool grey = grey_mirrors(light.scene) && std::ranges::all_of(source, is_grey_colour) &&
                     std::ranges::all_of(reflectance, is_grey_colour) &&
-                    std::ranges::all_of(scattering.translucent.transmittance, is_grey_colour);
-  const ShotBound bound = bound_of_shots(light, survey, rays, source, scattering);
+                    std::ranges::all_of(links.transmittance, is_grey_colour);
   if (grey)
     return run<double>(scene,
                        {values_of<double>(source), values_of<double>(reflectance), translucent},

@@ -26,13 +26,29 @@ Parts parts_of(const ElementMesh& mesh, const HemisphereSurvey& survey,
   return parts;
 }
 
-bool has_lit_trap(const Parts& parts) {
+/// Of a part, by channel: light in it never ends.
+bool is_lit_trap(const Parts& parts, std::uint32_t part, int band) {
   constexpr double rounding = 1.2e-7; // of the rays' weights, which are floats
-  for (std::size_t part = 0; part < parts.lit.size(); ++part)
+  return parts.lit[part][band] > 0.0 && parts.lost[part][band] <= rounding;
+}
+
+void find_traps(const ElementMesh& mesh, const HemisphereSurvey& survey, const Parts& parts,
+                const std::vector<Rgb>& source, ShotBound& bound) {
+  bool outside = false;
+  std::vector<Rgb> open(source.size(), Rgb(1.0));
+  for (std::uint32_t e = 0; e < source.size(); ++e) {
+    if (survey.exposed[e] == 0.0F)
+      continue;
+    const std::uint32_t part = survey.part[index(mesh.side_of_element[e])];
     for (int band = 0; band < 3; ++band)
-      if (parts.lit[part][band] > 0.0 && parts.lost[part][band] <= rounding)
-        return true;
-  return false;
+      open[e][band] = is_lit_trap(parts, part, band) ? 0.0 : 1.0;
+    if (largest(source[e] * (1.0 - open[e])) > 0.0)
+      bound.trapped.push_back(e);
+    outside = outside || largest(source[e] * open[e]) > 0.0;
+  }
+  bound.unsolvable = !bound.trapped.empty() && !outside;
+  if (!bound.trapped.empty())
+    bound.open = std::move(open);
 }
 
 /// By ElementId and channel: 1 for what may ever shoot.
@@ -40,9 +56,10 @@ std::vector<Rgb> shooting(const ElementMesh& mesh, const HemisphereSurvey& surve
                           const Parts& parts, const std::vector<Rgb>& reflectance) {
   std::vector<Rgb> may(reflectance.size(), Rgb(0.0));
   for (std::size_t e = 0; e < may.size(); ++e) {
-    const Rgb& lit = parts.lit[survey.part[index(mesh.side_of_element[e])]];
+    const std::uint32_t part = survey.part[index(mesh.side_of_element[e])];
     for (int band = 0; band < 3; ++band)
-      if (survey.exposed[e] > 0.0F && lit[band] > 0.0 && reflectance[e][band] > 0.0)
+      if (survey.exposed[e] > 0.0F && parts.lit[part][band] > 0.0 && reflectance[e][band] > 0.0 &&
+          !is_lit_trap(parts, part, band))
         may[e][band] = 1.0;
   }
   return may;
@@ -83,10 +100,10 @@ ShotBound bound_of_shots(const LightScene& light, const HemisphereSurvey& survey
   const std::vector<Rgb> may = shooting(
       light.mesh, survey, parts, total_shares(scattering.reflectance, scattering.translucent));
   ShotBound result;
-  result.trapped = has_lit_trap(parts);
+  find_traps(light.mesh, survey, parts, source, result);
   result.kept = largest_of(survey.returned, may);
   result.amplification = bound(Rgb(1.0), result.kept);
-  if (result.trapped || glm::all(glm::lessThanEqual(result.kept, Rgb(bright))))
+  if (result.unsolvable || glm::all(glm::lessThanEqual(result.kept, Rgb(bright))))
     return result;
 
   std::vector<Rgb> q = survey.returned, sum(q.size(), Rgb(1.0));

@@ -8,6 +8,9 @@
 // m = 1 gives 1 / (1 - kappa). Where some elements see hardly anything but bright
 // walls the rays are traced again for a larger m, until that is no better.
 // Only what may ever shoot counts: elements that reflect, of parts of the scene that have light.
+//
+// Parts whose elements lose none of their light are traps: in them light would grow without end. They reflect
+// nothing, as in solve.h, and where all light is in them there is no solution.
 #pragma once
 
 #include "radiosity/solvers/hemisphere_survey.h"
@@ -19,7 +22,9 @@ namespace meninas {
 struct ShotBound {
   Rgb kept{0.0};          ///< kappa
   Rgb amplification{1.0}; ///< G; infinite where none was found
-  bool trapped = false;   ///< there is light in a part that loses none: there is no solution
+  std::vector<Rgb> open;  ///< by ElementId: 0 in traps with light, 1 elsewhere; empty where there are none
+  std::vector<std::uint32_t> trapped; ///< elements with light in a trap
+  bool unsolvable = false;            ///< all light is in traps
   std::uint64_t rays_traced = 0;
 };
 

@@ -1,8 +1,12 @@
 // What libFuzzer throws at the loader: any bytes end as a scene whose numbers are finite
-// and whose indices are in range, or with one UserError of one line. Then the scene's
+// and whose indices are in range, or with one UserError of one line. Its materials reflect
+// what is a number from any angle, its luminaires shine so, its lamps can be dimmed. Then the scene's
 // surfaces are found and reported on, as every command does. Anything else is a finding.
 #include "scenes/errors.h"
 #include "scenes/gltf/gltf.h"
+#include "scenes/ies/intensity_distribution.h"
+#include "scenes/lamps.h"
+#include "scenes/materials/bsdf.h"
 #include "scenes/rays/hidden_copies.h"
 #include "scenes/report/mesh_oddities.h"
 #include "scenes/report/overlaps.h"
@@ -17,6 +21,8 @@
 namespace {
 
 using namespace meninas;
+
+constexpr std::size_t few = 300; // triangles; larger scenes are the loader's business here
 
 void require(bool condition, const char* what) {
   if (!condition) {
@@ -53,8 +59,30 @@ void check(const Scene& scene) {
   }
 }
 
+/// From straight on, from aside, and along the surface.
+void check_light(const Scene& scene) {
+  constexpr Direction views[] = {{0.0, 0.0, 1.0}, {0.6, 0.0, 0.8}, {0.0, 1.0, 1e-12}};
+  for (const Material& material : scene.materials) {
+    const Bsdf bsdf = make_bsdf(material, untextured(material));
+    for (const Direction& view : views) {
+      require(is_finite(evaluate(bsdf, view, views[1])), "a scattering that is not finite");
+      require(is_finite(ideal_reflection(bsdf, view.z)) && is_finite(straight_transmission(bsdf, view.z)),
+              "a reflection that is not finite");
+    }
+  }
+  for (const PunctualLight& light : scene.lights)
+    for (const Direction& view : views)
+      require(is_finite(light.intensity) &&
+                  (!light.distribution || std::isfinite(intensity_at(*light.distribution, view))),
+              "a light that is not finite");
+  for (const LampGrouping grouping : {LampGrouping::node, LampGrouping::material}) {
+    const LampGroups lamps = find_lamps(scene, grouping);
+    if (lamps.size() > 0 && lamps.size() < 16)
+      relit(scene, lamps, std::vector<Rgb>(lamps.size(), Rgb(0.5)));
+  }
+}
+
 void look_at(const Scene& scene) {
-  constexpr std::size_t few = 300; // larger scenes are the loader's business here
   if (scene.triangles.size() > few) {
     return;
   }
@@ -76,6 +104,8 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
                                   {.memory_limit = std::uint64_t{1} << 24,
                                    .state = {.at = 0.5}});
     check(scene);
+    if (scene.triangles.size() <= few)
+      check_light(scene);
     look_at(scene);
   } catch (const UserError& error) {
     require(std::string_view(error.what()).find('\n') == std::string_view::npos,

@@ -46,7 +46,7 @@ int main(int count, char** arguments) {
   const std::pair<const char*, GltfFile> files[] = {
       {"square", square()},           {"everything", everything()},
       {"skinned", skinned_square()},  {"morphed", morphed_square()},
-      {"animated", animated_square()}, {"instanced", instanced_square()}, {"old", old_material()},
+      {"animated", animated_square()}, {"instanced", instanced_square()}, {"layered", layered_square()}, {"old", old_material()},
       {"meshopt", with_meshopt(bumpy_sheet(3))},
       {"draco", with_draco(quantised_sheet(3))},
       {"sequential", with_draco(bumpy_sheet(3), {.position_bits = 11, .normal_bits = 8, .edgebreaker = false})}};

@@ -4,20 +4,14 @@
 //   every radiosity, irradiance, energy, pixel and form factor is finite and not negative,
 //   a form factor is at most 1, as is the sum of those to bodies that hide one another,
 //   under a sky alone nothing is brighter than the sky (a bound of every bounce: rho <= 1).
+//
+// What goes on from the solution is done as well (solution_commands.h).
 #pragma once
 
 #include "scenes/scene.h"
 #include "tests/support/random.h"
 
-#include <stdexcept>
-#include <string>
-
 namespace meninas::test {
-
-/// Something that must not be.
-struct Finding : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// So many triangles or fewer are also asked for form factors, and drawn by the reference.
 struct Effort {
@@ -25,7 +19,7 @@ struct Effort {
   std::size_t few_triangles = 150;
 };
 
-/// Throws a Finding, which names the settings. A UserError is the program's right and is passed on.
+/// Throws a Finding (findings.h), which names the settings. A UserError is the program's right and is passed on.
 void run_every_command(Scene scene, Random& random, const Effort& effort);
 
 } // namespace meninas::test

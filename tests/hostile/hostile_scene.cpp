@@ -1,5 +1,7 @@
 #include "tests/hostile/hostile_scene.h"
 
+#include "tests/hostile/hostile_lights.h"
+#include "tests/hostile/hostile_materials.h"
 #include "tests/hostile/hostile_shapes.h"
 
 #include <array>
@@ -9,8 +11,6 @@
 namespace meninas::test {
 
 namespace {
-
-Json as_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 Json turned(Random& random) {
   if (happens(random, 0.5))
@@ -32,50 +32,38 @@ struct Maker {
   Json children = Json::array();
   std::vector<Point3> corners; ///< of bodies, where cameras and lights may stand
 
-  double factor() {
-    const std::array values{0.0, 1.0, 0.5, 0.99, random.between(0.0, 1.0)};
-    return values[choose(random, values.size())];
-  }
-  Rgb colour() {
-    return happens(random, 0.5) ? Rgb(factor()) : Rgb(factor(), factor(), factor());
-  }
-
-  void add_glass(Json& material) {
-    Json& extensions = material["extensions"];
-    extensions["KHR_materials_transmission"] = {{"transmissionFactor", factor()}};
-    extensions["KHR_materials_ior"] = {{"ior", random.between(1.0, 2.5)}};
-    if (happens(random, 0.5))
-      extensions["KHR_materials_volume"] = {{"thicknessFactor", 0.1},
-                                            {"attenuationDistance", power_of_ten(random, -3, 2)},
-                                            {"attenuationColor", as_json(colour())}};
-  }
-
-  void add_material() {
-    const Rgb base = colour();
-    const bool metal = happens(random, 0.35);
-    Json material{{"doubleSided", happens(random, 0.5)}};
-    material["pbrMetallicRoughness"] = {
-        {"baseColorFactor", Json::array({base.r, base.g, base.b, factor()})},
-        {"metallicFactor", metal ? (happens(random, 0.8) ? 1.0 : factor()) : 0.0},
-        {"roughnessFactor", happens(random, 0.4) ? 0.0 : factor()}};
-    if (happens(random, 0.25)) {
-      material["emissiveFactor"] = as_json(happens(random, 0.5) ? Rgb(1.0) : colour());
-      material["extensions"]["KHR_materials_emissive_strength"] = {
-          {"emissiveStrength", happens(random, 0.5) ? 1.0 : power_of_ten(random, -6.0, 6.0)}};
-    }
-    if (happens(random, 0.2))
-      add_glass(material);
-    if (happens(random, 0.1))
-      material["extensions"]["KHR_materials_specular"] = {{"specularFactor", factor()}};
+  /// Lamps go by names of nodes, or by one that several share, which may be that of all.
+  void name_lamp(Json& node) {
+    static constexpr std::array names{"a lamp", "sky", "all", "", "a=b;c", "\xc3\xa4"};
     if (happens(random, 0.15))
-      material["extensions"]["KHR_materials_diffuse_transmission"] = {
-          {"diffuseTransmissionFactor", factor()},
-          {"diffuseTransmissionColorFactor", as_json(colour())}};
-    if (happens(random, 0.1)) {
-      material["alphaMode"] = happens(random, 0.5) ? "MASK" : "BLEND";
-      material["alphaCutoff"] = factor();
+      node["extras"]["lamp"] = names[choose(random, names.size())];
+  }
+
+  /// Copies in places, sizes and turns of any kind, some of no size.
+  Json instances() {
+    const auto count = 1 + choose(random, 6);
+    std::vector<float> places, turns, sizes;
+    const auto add = [](std::vector<float>& values, const Vec3& v) {
+      for (int d = 0; d < 3; ++d)
+        values.push_back(static_cast<float>(v[d]));
+    };
+    for (std::uint32_t k = 0; k < count; ++k) {
+      add(places, happens(random, 0.2) ? Vec3(0.0) : random.in_box(Vec3(-1.5), Vec3(1.5)));
+      add(turns, random.direction());
+      turns.push_back(static_cast<float>(random.between(-1.0, 1.0)));
+      Vec3 size(happens(random, 0.7) ? 1.0 : power_of_ten(random, -7.0, 2.0));
+      if (happens(random, 0.1))
+        size[static_cast<int>(choose(random, 3))] *= happens(random, 0.5) ? 0.0 : -1.0;
+      add(sizes, size);
     }
-    materials.push_back(file.add_material(material));
+    Json attributes = Json::object();
+    if (happens(random, 0.9))
+      attributes["TRANSLATION"] = file.add_accessor(places, "VEC3");
+    if (happens(random, 0.5))
+      attributes["ROTATION"] = file.add_accessor(turns, "VEC4");
+    if (attributes.empty() || happens(random, 0.5))
+      attributes["SCALE"] = file.add_accessor(sizes, "VEC3");
+    return attributes;
   }
 
   /// Positions are floats, and often quantised before.
@@ -89,7 +77,7 @@ struct Maker {
     Json attributes{{"POSITION", file.add_accessor(positions, "VEC3")}};
     if (happens(random, 0.1)) {
       for (std::size_t k = 0; k < shape.points.size() * 3; ++k)
-        colours.push_back(static_cast<float>(factor()));
+        colours.push_back(static_cast<float>(hostile_factor(random)));
       attributes["COLOR_0"] = file.add_accessor(colours, "VEC3");
     }
     const auto mesh = file.add_mesh(
@@ -99,6 +87,9 @@ struct Maker {
     Json node = placing;
     node["mesh"] = mesh;
     node["name"] = "body" + std::to_string(children.size());
+    if (happens(random, 0.1))
+      node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = instances();
+    name_lamp(node);
     children.push_back(file.add_node(node));
   }
 
@@ -165,6 +156,20 @@ struct Maker {
     }
     if (!lights.empty())
       file.json["extensions"]["KHR_lights_punctual"]["lights"] = lights;
+    if (happens(random, 0.2))
+      add_luminaire(scale);
+  }
+
+  void add_luminaire(double scale) {
+    const std::string text = hostile_luminaire(random);
+    file.json["extensions"]["EXT_lights_ies"]["lights"] =
+        Json::array({{{"uri", data_uri({text.begin(), text.end()})}}});
+    Json node{{"translation", as_json(place())}, {"rotation", turned(random)}};
+    node["extensions"]["EXT_lights_ies"] = {{"light", 0},
+                                            {"multiplier", power_of_ten(random, -2.0, 3.0) * scale * scale},
+                                            {"color", as_json(hostile_colour(random))}};
+    name_lamp(node);
+    children.push_back(file.add_node(node));
   }
 
   void add_camera() {
@@ -201,7 +206,7 @@ GltfFile hostile_scene(std::uint32_t seed) {
   Maker maker(seed);
   Random& random = maker.random;
   for (std::uint32_t k = 0, count = 1 + choose(random, 4); k < count; ++k)
-    maker.add_material();
+    maker.materials.push_back(maker.file.add_material(hostile_material(random)));
   const double scale = happens(random, 0.6) ? 1.0 : power_of_ten(random, -4.0, 6.0);
   maker.add_bodies();
   if (happens(random, 0.4))

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace meninas::test {
 namespace {
 
@@ -105,6 +107,19 @@ TEST(MeasuringGrid, FacesNarrowerThanTheMarginHaveNone) {
   const Scene desk = as_one_node(std::move(scene), "desk");
   EXPECT_EQ(measuring_grids(desk, find_surfaces(desk), "desk", {.margin = 0.1}).size(), 2U);
   EXPECT_THROW(measuring_grids(desk, find_surfaces(desk), "desk", {.margin = 0.5}), UsageError);
+}
+
+// What a margin leaves by rounding is a strip that is 1e22 times as long as wide.
+TEST(MeasuringGrid, MorePointsThanThereAreNumbersAreRefused) {
+  Scene scene;
+  add_polygon(scene, "road", {{0, 0, 0}, {0, 0, 1}, {1e6, 0, 1}, {1e6, 0, 0}}, diffuse(0.5));
+  const SurfaceModel surfaces = find_surfaces(scene);
+  try {
+    measuring_grids(scene, surfaces, "road", {.margin = std::nextafter(0.5, 0.0)});
+    ADD_FAILURE() << "a grid";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("9.00719e+21 x 1 points"));
+  }
 }
 
 // A frame of a metre is 0.05 m wide, and its points, 0.2 m apart from 0.1 on, are all in the hole.

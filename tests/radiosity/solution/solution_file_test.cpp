@@ -215,6 +215,12 @@ TEST_F(SolutionFile, WithWrongCountsIsRefused) {
 TEST_F(SolutionFile, WithSenselessSettingsIsRefused) {
   spoil([](json& root) { extras(root)["mesh"]["element_size"] = -1.0; });
   EXPECT_THAT(refusal(), HasSubstr("the settings of its mesh make no sense"));
+  // A mesh of so many elements would take all memory before it is found not to be the file's.
+  spoil([](json& root) {
+    extras(root)["mesh"] = {
+        {"element_size", 1e-4}, {"target_elements", 1.0}, {"max_elements", std::uint64_t{1} << 40}};
+  });
+  EXPECT_THAT(refusal(), HasSubstr("the settings of its mesh make no sense"));
 }
 
 TEST_F(SolutionFile, WithAChangedByteIsRefused) {

@@ -120,6 +120,55 @@ GltfFile instanced_square() {
   return file;
 }
 
+GltfFile layered_square() {
+  auto file = square();
+  square_primitive(file)["attributes"]["TEXCOORD_1"] =
+      file.add_accessor<float>({0, 0, 1, 0, 1, 1, 0, 1}, "VEC2");
+  const Json texture{{"index", 0}, {"texCoord", 1}};
+  file.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
+  file.json["materials"][0]["extensions"] = {
+      {"KHR_materials_iridescence",
+       {{"iridescenceFactor", 1},
+        {"iridescenceTexture", texture},
+        {"iridescenceIor", 1.3},
+        {"iridescenceThicknessMinimum", 100},
+        {"iridescenceThicknessMaximum", 400},
+        {"iridescenceThicknessTexture", texture}}},
+      {"KHR_materials_anisotropy",
+       {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1}, {"anisotropyTexture", texture}}},
+      {"KHR_materials_clearcoat",
+       {{"clearcoatFactor", 1}, {"clearcoatRoughnessFactor", 0}, {"clearcoatTexture", texture}}}};
+  file.add_material({{"alphaMode", "BLEND"},
+                     {"extensions",
+                      {{"KHR_materials_sheen",
+                        {{"sheenColorFactor", {1, 0.5, 0}}, {"sheenRoughnessFactor", 0.5}}},
+                       {"KHR_materials_diffuse_transmission",
+                        {{"diffuseTransmissionFactor", 0.5},
+                         {"diffuseTransmissionColorFactor", {1, 1, 0.5}}}}}}});
+  file.add_material({{"extensions",
+                      {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                       {"KHR_materials_dispersion", {{"dispersion", 0.1}}},
+                       {"KHR_materials_volume",
+                        {{"thicknessFactor", 1},
+                         {"attenuationDistance", 0.5},
+                         {"attenuationColor", {0.5, 1, 1}}}}}}});
+  for (std::size_t material : {1U, 2U}) {
+    Json primitive = square_primitive(file);
+    primitive["material"] = material;
+    file.json["meshes"][0]["primitives"].push_back(primitive);
+  }
+  const auto view = file.add_view(Bytes(8, 0x89));
+  file.json["textures"] = Json::array({{{"source", 0}}});
+  file.json["images"] = Json::array({{{"bufferView", view}, {"mimeType", "image/png"}}});
+  file.json["nodes"][0]["extras"]["lamp"] = "ceiling";
+  file.json["asset"]["extras"]["light_units"] = "photometric";
+  file.json["extensions"]["EXT_lights_image_based"]["lights"] = Json::array(
+      {{{"specularImages", Json::array({{0, 0, 0, 0, 0, 0}})}, {"intensity", 2}, {"rotation", {0, 0, 0, 1}}}});
+  file.json["scenes"] = Json::array({{{"nodes", {0}}, {"extensions", {{"EXT_lights_image_based", {{"light", 0}}}}}}});
+  file.json["scene"] = 0;
+  return file;
+}
+
 GltfFile old_material() {
   auto file = square();
   file.json["images"] = Json::array({{{"bufferView", 0}, {"name", "first"}}});

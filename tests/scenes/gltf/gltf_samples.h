@@ -27,6 +27,9 @@ GltfFile animated_square();
 /// Two copies of the square: moved, turned and scaled.
 GltfFile instanced_square();
 
+/// A square of three materials, of films, sheen, coats, cloth and tinted glass, which is a lamp under a cube of sky.
+GltfFile layered_square();
+
 /// A square with a specular-glossiness material and a WebP texture that is none.
 GltfFile old_material();
 
