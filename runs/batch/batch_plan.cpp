@@ -336,6 +336,25 @@ std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<Bat
     }
     check_distinct(file, job, std::span(pictures).subspan(first), owners);
   }
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    pictures[k].number = k;
+  }
+  return pictures;
+}
+
+std::vector<BatchPicture> pictures_of(std::vector<BatchPicture> pictures,
+                                      const std::vector<NumberRange>& only) {
+  for (const NumberRange& range : only) {
+    if (range.last >= pictures.size()) {
+      throw UsageError("--only", fmt::format("no picture {}: the batch has {}, from 0 on",
+                                             range.last, pictures.size()));
+    }
+  }
+  std::erase_if(pictures, [&](const BatchPicture& picture) {
+    return !only.empty() && std::ranges::none_of(only, [&](const NumberRange& range) {
+      return range.first <= picture.number && picture.number <= range.last;
+    });
+  });
   return pictures;
 }
 
