@@ -61,17 +61,6 @@ std::string schema_with_settings() {
   return schema.dump(2) + '\n';
 }
 
-/// K/N. Whether K counts from 0 or from 1 does not matter: 0/N and N/N are the same part.
-Shard parse_shard(const std::string& option, const std::string& text) {
-  const auto slash = text.find('/');
-  if (slash == std::string::npos) {
-    throw UsageError(option, fmt::format("'{}' is no part such as 1/4", text));
-  }
-  const auto count = parse_integer(option, text.substr(slash + 1), 1, 1'000'000);
-  const auto number = parse_integer(option, text.substr(0, slash), 0, count);
-  return {static_cast<int>(number), static_cast<int>(count)};
-}
-
 /// 3; 10-19; 1,4-6
 std::vector<NumberRange> parse_numbers(const std::string& option, const std::string& text) {
   constexpr std::int64_t most = 1'000'000'000;
@@ -173,7 +162,10 @@ void add_options(Options& command, BatchOptions& options) {
               "10-19 or 1,4-6 [all]",
               [&](const std::string& text) { request.only = parse_numbers("--only", text); });
   command.add("--shard", "K/N", "make only part K of N, such as 1/4",
-              [&](const std::string& text) { request.shard = parse_shard("--shard", text); });
+              [&](const std::string& text) {
+                const PicturePart part = parse_part("--shard", text);
+                request.shard = {part.number, part.count};
+              });
   command.add(
       "--memory-limit", "SIZE",
       "memory that the process may need, such as 4G; fewer pictures run at a time to stay below "

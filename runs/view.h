@@ -46,6 +46,7 @@ struct ViewPicture {
   Image image;
   SampleCounts samples;
   ShownPixels edges; ///< of a PNG
+  std::vector<ShownPixels> likely_edges; ///< Rendering::likely_edges
   std::vector<Layer> layers;
   Attributes attributes;
   std::shared_ptr<const IrradianceField> finer = nullptr; ///< Rendering::finer

@@ -63,8 +63,7 @@ struct NumberRange {
 std::vector<BatchPicture> pictures_of(std::vector<BatchPicture> pictures,
                                       const std::vector<NumberRange>& only);
 
-/// Part `number` of `count`: neighbours stay together, so that few parts need the same scene.
-/// Numbers may count from 0 or from 1, `count` being the same as 0.
+/// Part `number` of `count`, from 0: neighbours stay together, so that few parts need the same scene.
 struct Shard {
   int number = 0, count = 1;
 };
