@@ -75,7 +75,7 @@ protected:
 
 TEST_F(Parts, HaveTheBitsOfTheWhole) {
   expect_same(1, {});
-  expect_same(4, {"--quality", "normal"});
+  expect_same(4, {"--diffuse", "direct", "--samples", "8"});
   expect_same(9, {"--exposure", "1.7", "--view-transform", "agx"}, {"--depth", "16"});
   expect_same(3, {"--mode", "radiosity", "--filter", "gaussian"}, {"--float"});
 }
