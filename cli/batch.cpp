@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <set>
 
@@ -60,15 +61,22 @@ std::string schema_with_settings() {
   return schema.dump(2) + '\n';
 }
 
-/// K/N. Whether K counts from 0 or from 1 does not matter: 0/N and N/N are the same part.
-Shard parse_shard(const std::string& option, const std::string& text) {
-  const auto slash = text.find('/');
-  if (slash == std::string::npos) {
-    throw UsageError(option, fmt::format("'{}' is no part such as 1/4", text));
+/// 3; 10-19; 1,4-6
+std::vector<NumberRange> parse_numbers(const std::string& option, const std::string& text) {
+  constexpr std::int64_t most = 1'000'000'000;
+  std::vector<NumberRange> ranges;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string part = text.substr(begin, end - begin);
+    const std::size_t dash = part.find('-', 1);
+    const auto first = parse_integer(option, part.substr(0, dash), 0, most);
+    const auto last = dash == std::string::npos
+                          ? first
+                          : parse_integer(option, part.substr(dash + 1), first, most);
+    ranges.push_back({static_cast<std::size_t>(first), static_cast<std::size_t>(last)});
+    begin = end + 1;
   }
-  const auto count = parse_integer(option, text.substr(slash + 1), 1, 1'000'000);
-  const auto number = parse_integer(option, text.substr(0, slash), 0, count);
-  return {static_cast<int>(number), static_cast<int>(count)};
+  return ranges;
 }
 
 std::string status_line(const BatchProgress& progress, double seconds) {
@@ -149,8 +157,15 @@ void add_options(Options& command, BatchOptions& options) {
                    [&] { request.resume = Resume::yes; });
   command.add_flag("--dry-run", "list what would be solved and rendered, and end",
                    [&] { options.task = BatchTask::outlook; });
+  command.add("--only", "NUMBERS",
+              "make only these pictures, by the numbers of --dry-run and the page, such as "
+              "10-19 or 1,4-6 [all]",
+              [&](const std::string& text) { request.only = parse_numbers("--only", text); });
   command.add("--shard", "K/N", "make only part K of N, such as 1/4",
-              [&](const std::string& text) { request.shard = parse_shard("--shard", text); });
+              [&](const std::string& text) {
+                const PicturePart part = parse_part("--shard", text);
+                request.shard = {part.number, part.count};
+              });
   command.add(
       "--memory-limit", "SIZE",
       "memory that the process may need, such as 4G; fewer pictures run at a time to stay below "

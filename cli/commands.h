@@ -21,6 +21,7 @@ Command add_diff_command(Options& program);
 Command add_regress_command(Options& program);
 Command add_compare_command(Options& program);
 Command add_batch_command(Options& program);
+Command add_merge_command(Options& program);
 Command add_trade_command(Options& program);
 Command add_walk_command(Options& program);
 

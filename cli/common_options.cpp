@@ -1,6 +1,6 @@
 #include "cli/common_options.h"
 
-#include "cli/sky_options.h"
+#include "cli/light/sky_options.h"
 #include "cli/values.h"
 
 #include <fmt/format.h>

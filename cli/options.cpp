@@ -81,7 +81,7 @@ Option Options::add_repeatable(const std::string& names, const std::string& valu
   };
   return Option(*app_->add_option_function<std::vector<std::string>>(names, take_all, description)
                      ->type_name(value)
-                     ->allow_extra_args(false));
+                     ->allow_extra_args(!names.starts_with('-')));
 }
 
 Option Options::add_flag(const std::string& names, const std::string& description,

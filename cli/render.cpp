@@ -1,6 +1,6 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
-#include "cli/lamp_options.h"
+#include "cli/light/lamp_options.h"
 #include "cli/pixel_options.h"
 #include "cli/settings.h"
 #include "cli/values.h"
@@ -34,6 +34,11 @@ void add_outputs(Options& command, RenderOptions& options) {
   add_file(command, "--solution", request.solution,
            "render a solution written by `meninas solve` instead of solving");
   add_file(command, "--stats", request.stats, "write the figures of the run as JSON");
+  command.add("--tile", "K/N",
+              "render only part K of N, such as 1/4, to an EXR for `meninas merge`",
+              [&](const std::string& text) {
+                options.common.settings.part = parse_part("--tile", text);
+              });
   command.add_flag("--error-map",
                    "add the layer `error` to an EXR: the estimated error of each pixel",
                    [&] { request.error_map = WithErrorMap::yes; });
@@ -193,6 +198,20 @@ void check_goal(const Options& command, const RenderOptions& options) {
          std::string("does not go with ") + goal + ", which chooses for itself");
 }
 
+/// A part is an EXR of floats, of what is known pixel by pixel.
+void check_tile(const Options& command, const RenderOptions& options) {
+  if (!options.common.settings.part)
+    return;
+  if (options.common.settings.mode == PictureMode::reference)
+    throw UsageError("--tile", "is of the two passes: --mode reference samples all of a picture "
+                               "until its mean is known");
+  refuse(command, {"--error-map", "--error", "--time", "--view", "--snapshots"},
+         "is of whole pictures: it does not go with --tile");
+  refuse(command, {"--depth", "--float"}, "is for `meninas merge`: a part is what it is");
+  if (options.request.pictures.size() != 1 || !has_format(options, PictureFormat::exr))
+    throw UsageError("--tile", "needs one output, an EXR: `meninas merge` makes the others");
+}
+
 /// What the mode does not heed is refused, not ignored.
 void check_mode(const Options& command, const RenderOptions& options) {
   if (options.common.settings.mode == PictureMode::reference) {
@@ -238,6 +257,7 @@ RenderRequest& completed_request(const Options& command, RenderOptions& options)
   check_mode(command, options);
   check_error_map(options);
   check_goal(command, options);
+  check_tile(command, options);
   check_pixel_options(command, options.common.settings, options.request.pictures);
   if (options.common.settings.view && has_format(options, PictureFormat::hdr))
     throw UsageError("--view", "has no light for a .hdr: an .exr holds its numbers");
@@ -252,6 +272,8 @@ RenderRequest& completed_request(const Options& command, RenderOptions& options)
   options.request.settings = options.common.settings;
   const RunSettings& settings = options.common.settings;
   options.request.settings.display = display_of(options.request.pictures, options.request.picture);
+  if (options.common.settings.part) // PNGs may come of it
+    options.request.settings.display = {options.request.picture.exposure, options.request.picture.transform};
   if (settings.layers == WithLayers::yes || settings.lamp_layers || !settings.features.empty() || settings.view) {
     // In halves parts would not add up, and indices would be rounded.
     options.request.picture.exr_type = PixelType::float32;

@@ -1,6 +1,6 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
-#include "cli/lamp_options.h"
+#include "cli/light/lamp_options.h"
 #include "cli/pixel_options.h"
 #include "cli/values.h"
 #include "runs/solve_run.h"
@@ -52,7 +52,23 @@ void check_point_options(const Options& command, const PointRequest& request) {
     refuse(command, {"--points-out"}, "has no effect without --points or --grid");
 }
 
+/// One solve on many machines: rows by --shard, then the rest by --join.
+void check_parts(const Options& command, const SolveRequest& request) {
+  if (request.shard) {
+    refuse(command,
+           {"--output", "--per-node", "--stats", "--reuse", "--join", "--points", "--grid", "--by-lamp"},
+           "does not go with --shard, which writes rows alone");
+  } else if (request.solution.empty()) {
+    throw UsageError("solve", "--output is required");
+  }
+  if ((request.shard || request.join) && !request.factors)
+    throw UsageError(request.shard ? "--shard" : "--join", "needs the folder of the rows: --factors DIR");
+  if (request.join)
+    refuse(command, {"--reuse"}, "does not go with --join");
+}
+
 void run(const Options& command, SolveOptions& options) {
+  check_parts(command, options.request);
   check_pass_one_options(command, options.common.settings);
   check_point_options(command, options.request.points);
   options.request.scene = options.common.scene;
@@ -68,14 +84,21 @@ Command add_solve_command(Options& program) {
   Options& command = program.add_command("solve", "Solve pass one once, for any number of views");
   const auto options = std::make_shared<SolveOptions>();
   add_scene(command, options->common);
-  command
-      .add("-o,--output", "FILE", "solution, .glb; any glTF viewer shows it",
-           [=](const std::string& text) { options->request.solution = text; })
-      .required();
+  command.add("-o,--output", "FILE", "solution, .glb; any glTF viewer shows it",
+              [=](const std::string& text) { options->request.solution = text; });
   add_file(command, "--per-node", options->request.per_node,
            "write area, emission, radiosity, irradiance and illuminance of each glTF node as JSON");
   add_file(command, "--stats", options->request.stats, "write the figures of the run as JSON");
   add_file(command, "--factors", options->request.factors, "write the form factors for later runs");
+  command.add("--shard", "K/N",
+              "write only part K of N of the rows, such as 1/4, into the folder --factors",
+              [=](const std::string& text) {
+                const PicturePart part = parse_part("--shard", text);
+                options->request.shard = FactorPart{static_cast<std::uint64_t>(part.number),
+                                                    static_cast<std::uint64_t>(part.count)};
+              });
+  command.add_flag("--join", "solve with the rows that --shard wrote into the folder --factors",
+                   [=] { options->request.join = true; });
   add_file(command, "--reuse", options->request.reuse,
            "use the form factors of an earlier run; only emission and diffuse reflectances may "
            "have changed");

@@ -96,6 +96,15 @@ Rgb parse_colour(const std::string& option, const std::string& text) {
   return values.size() == 1 ? Rgb(values[0]) : Rgb(values[0], values[1], values[2]);
 }
 
+PicturePart parse_part(const std::string& option, const std::string& text) {
+  const auto slash = text.find('/');
+  if (slash == std::string::npos)
+    throw UsageError(option, fmt::format("'{}' is no part such as 1/4", text));
+  const auto count = parse_integer(option, text.substr(slash + 1), 1, 1'000'000);
+  const auto number = parse_integer(option, text.substr(0, slash), 0, count);
+  return {static_cast<int>((number + count - 1) % count), static_cast<int>(count)};
+}
+
 PictureSize parse_size(const std::string& option, const std::string& text) {
   constexpr int longest_side = 65'536;
   constexpr std::int64_t max_pixels = std::int64_t{1} << 27;

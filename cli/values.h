@@ -31,6 +31,9 @@ double parse_number(const std::string& option, const std::string& text, Sign sig
 /// One number for a grey, or three: linear red, green and blue; none negative.
 Rgb parse_colour(const std::string& option, const std::string& text);
 
+/// K/N. Whether K counts from 0 or from 1 does not matter: 0/N and N/N are the same part, the last.
+PicturePart parse_part(const std::string& option, const std::string& text);
+
 /// WIDTHxHEIGHT
 PictureSize parse_size(const std::string& option, const std::string& text);
 

@@ -1,6 +1,6 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
-#include "cli/lamp_options.h"
+#include "cli/light/lamp_options.h"
 #include "cli/pixel_options.h"
 #include "cli/values.h"
 #include "runs/walk/walk_run.h"

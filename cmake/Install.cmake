@@ -19,6 +19,10 @@ install(FILES ${manuals}/fish/meninas.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/
 install(FILES docs/regress.schema.json ${CMAKE_BINARY_DIR}/batch.schema.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/meninas COMPONENT program)
 
+install(PROGRAMS integrations/slurm/meninas-slurm DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(DIRECTORY integrations/openjd DESTINATION ${CMAKE_INSTALL_DATADIR}/meninas COMPONENT program
+  FILES_MATCHING PATTERN "*.yaml")
+
 # In the places they have here, so that their links lead somewhere.
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 if(NOT MENINAS_DEBIAN_PACKAGES) # cmake/Package.cmake has Debian's names for them

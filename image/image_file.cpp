@@ -103,6 +103,17 @@ void write_exr(const fs::path& file, const Image& picture, std::span<const Layer
                                     [&] { return encode_exr(picture, layers, type, attributes); }));
 }
 
+void write_exr_window(const fs::path& file, const Image& pixels, std::span<const Layer> layers,
+                      const DataWindow& window, const Attributes& attributes) {
+  expect_picture(pixels);
+  expect_layers(pixels, layers);
+  expect_attributes(attributes);
+  expects(window.width == pixels.width && window.height == pixels.height, "a window has its pixels");
+  write_whole_file(file, encoded_as(file.string(), [&] {
+                     return encode_exr_window(pixels, layers, window, attributes);
+                   }));
+}
+
 static std::vector<std::byte> encode_hdr(const Image& picture) {
   const decoder::Table& table = decoder::module_table();
   decoder::Encoded encoded =
@@ -288,6 +299,41 @@ static std::string view_transform_of(std::span<const std::byte> bytes) {
   return found == view_transforms.end() ? "" : std::string(title_of(*found));
 }
 
+static Attributes attributes_of(const decoder::Decoded& decoded) {
+  Attributes attributes;
+  for (const auto& [key, value] : std::span(decoded.attributes, decoded.attribute_count))
+    if (std::string_view(key).starts_with(attribute_prefix))
+      attributes.emplace_back(key + attribute_prefix.size(), value);
+  std::ranges::sort(attributes);
+  return attributes;
+}
+
+/// All that is stored of a part.
+static Image stored_pixels(const decoder::DecodedPart& part, const Components& components) {
+  Image image(part.width, part.height);
+  const auto stride = static_cast<std::size_t>(part.channels);
+  for (std::size_t p = 0; p < image.pixels.size(); ++p)
+    for (int c = 0; c < 3; ++c)
+      image.pixels[p][c] = part.pixels[p * stride + static_cast<std::size_t>(components[static_cast<std::size_t>(c)])];
+  return image;
+}
+
+WindowFile read_exr_window(const fs::path& file) {
+  const auto decoded = decode(read_bytes(file), file.string(), decoder::Use::window);
+  const PictureChannels channels = picture_channels(*decoded);
+  const decoder::DecodedPart& part = decoded->parts[0];
+  if (!channels.picture || decoded->part_count != 1 || part.left_out || decoded->code_values != 0)
+    throw InputError(file.string(), "", "is no part of a picture");
+  WindowFile result{.window = {part.x, part.y, part.width, part.height, part.full_width,
+                               part.full_height},
+                    .pixels = stored_pixels(part, channels.picture->components),
+                    .layers = {},
+                    .attributes = attributes_of(*decoded)};
+  for (const ColourChannels& layer : channels.layers)
+    result.layers.push_back({layer.name, stored_pixels(part, layer.components)});
+  return result;
+}
+
 ImageFile read_image(const fs::path& file, Picture picture) {
   const auto name = file.string();
   const auto bytes = read_bytes(file);
@@ -315,10 +361,7 @@ ImageFile read_image(const fs::path& file, Picture picture) {
   for (const ColourChannels& layer : channels.layers)
     result.layers.push_back({layer.name, image_of(layer)});
 
-  for (const auto& [key, value] : std::span(decoded->attributes, decoded->attribute_count))
-    if (std::string_view(key).starts_with(attribute_prefix))
-      result.attributes.emplace_back(key + attribute_prefix.size(), value);
-  std::ranges::sort(result.attributes);
+  result.attributes = attributes_of(*decoded);
   return result;
 }
 

@@ -41,6 +41,11 @@ void write_exr(const std::filesystem::path& file, const Image& picture,
                std::span<const Layer> layers = {}, PixelType type = PixelType::half,
                const Attributes& attributes = {});
 
+/// Pixels of a window of a picture, as floats, with layers that are all of R, G and B. No value may be NaN.
+void write_exr_window(const std::filesystem::path& file, const Image& pixels,
+                      std::span<const Layer> layers, const DataWindow& window,
+                      const Attributes& attributes);
+
 /// Linear Radiance picture of 8 bits a channel and a common exponent (Ward 1991): values are within 1 % of
 /// the brightest channel of theirs. No value may be NaN; negative ones become 0.
 void write_hdr(const std::filesystem::path& file, const Image& picture);
@@ -86,6 +91,16 @@ enum class Picture { needed, not_needed };
 /// parts is the picture, picture_channels.h says.
 /// Refuses more than 65536 pixels on a side and more than 2^30 values in all.
 ImageFile read_image(const std::filesystem::path& file, Picture picture = Picture::needed);
+
+/// A file as write_exr_window wrote it: of a large picture what is stored is read, and no more.
+/// Throws InputError for a file that is no such picture.
+struct WindowFile {
+  DataWindow window;
+  Image pixels;
+  std::vector<Layer> layers; ///< sorted by name
+  Attributes attributes;     ///< likewise
+};
+WindowFile read_exr_window(const std::filesystem::path& file);
 
 /// Decodes an encoded image held in memory;
 /// `linear` leaves the values as they are, otherwise sRGB becomes linear.

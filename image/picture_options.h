@@ -17,6 +17,13 @@ enum class PixelType { half, float32 };
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 inline constexpr std::string_view attribute_prefix = "meninas:";
 
+/// Where the pixels of a file are in a picture: an EXR's data window in its display window, which begins at (0, 0).
+struct DataWindow {
+  int x = 0, y = 0;                       ///< of the first of them
+  int width = 0, height = 0;              ///< theirs
+  int picture_width = 0, picture_height = 0;
+};
+
 /// How hard compression tries; the pixels are the same.
 enum class Compression { small, quick };
 

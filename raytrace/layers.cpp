@@ -38,15 +38,17 @@ Rendering render_layers(const IrradianceField& coarse, const Camera& camera,
     const std::size_t first = result.layers.size();
     for (const char* way : {"", ".mirror", ".mirrors"})
       result.layers.push_back({part.name + way, Image(settings.width, settings.height)});
+    const auto trace = [&](const SampleShare& share, const StorePixel& store) {
+      add(result, trace_picture({*field.scene, part.light, gathering.get(), camera, settings}, share,
+                                progress, store));
+    };
     for (const SampleRound& round : rounds)
-      add(result,
-          trace_picture({*field.scene, part.light, gathering.get(), camera, settings},
-                        round.share(), progress, [&](int x, int y, const SeenRadiance& seen) {
-                          for (std::size_t way = 0; way < seen_ways; ++way) {
-                            glm::vec3& pixel = result.layers[first + way].image.at(x, y);
-                            pixel = blended(round.samples, pixel, seen[way]);
-                          }
-                        }));
+      trace_round(settings, round, trace, [&](int x, int y, const SeenRadiance& seen) {
+        for (std::size_t way = 0; way < seen_ways; ++way) {
+          glm::vec3& pixel = result.layers[first + way].image.at(x, y);
+          pixel = blended(round.samples, pixel, seen[way]);
+        }
+      });
   }
   for (std::size_t p = 0; p < result.image.pixels.size(); ++p)
     for (const Layer& layer : result.layers)

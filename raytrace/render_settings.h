@@ -32,6 +32,12 @@ struct DisplayChoice {
   ViewTransform transform = ViewTransform::srgb;
 };
 
+/// Pixels of a picture: from (x, y) on.
+struct PictureWindow {
+  int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const PictureWindow&) const = default;
+};
+
 struct RenderSettings {
   RenderMode mode = RenderMode::hybrid;
   int width = 512;
@@ -51,6 +57,8 @@ struct RenderSettings {
   DiffuseSettings diffuse;
   /// Edges of what is brighter than a display that shows the picture so (pixels/bright_edges.h).
   std::optional<DisplayChoice> display;
+  /// Pixels that are wanted, those of a part (pixels/picture_window.h); none: all. Others are not what they would be.
+  std::optional<PictureWindow> window;
 };
 
 /// By pixel, row by row; empty: all have as many as the settings say.
@@ -60,6 +68,7 @@ struct Rendering {
   Image image; ///< radiance
   SampleCounts samples;
   ShownPixels edges; ///< as RenderSettings::display asks for
+  std::vector<ShownPixels> likely_edges; ///< of a window: for each exposure that the whole picture may turn out to have
   std::vector<Layer>
       layers; ///< of render_layers: they add up to the image, in their order; then features
   std::shared_ptr<const IrradianceField> finer; ///< that the picture shows (views/view_light.h); null: the one that was asked for

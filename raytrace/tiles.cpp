@@ -1,6 +1,7 @@
 #include "raytrace/tiles.h"
 
 #include "raytrace/beams/coherent_beams.h"
+#include "raytrace/pixels/picture_window.h"
 #include "raytrace/pixels/pixel_samples.h"
 #include "raytrace/specular_paths.h"
 #include "scenes/materials/lobes.h"
@@ -14,8 +15,6 @@
 namespace meninas {
 
 namespace {
-
-constexpr int tile_size = 32; ///< pixels square
 
 void render_tile(const RenderContext& context, const TileArea& tile, TileWorkspace& work,
                  const StorePixel& store) {
@@ -120,12 +119,14 @@ RayTotals trace_picture(const TracedView& view, const SampleShare& share, const 
   if (is_affine(context.camera))
     context.frustum_faces =
         frustum_faces(view.light, max_frustum_faces(settings, context.net_x.size()));
-  const int columns = (settings.width + tile_size - 1) / tile_size,
-            rows = (settings.height + tile_size - 1) / tile_size;
+  const PictureWindow window =
+      share.window ? *share.window : PictureWindow{0, 0, settings.width, settings.height};
+  const int columns = (window.width + tile_size - 1) / tile_size,
+            rows = (window.height + tile_size - 1) / tile_size;
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
   std::atomic<int> done{0};
   tbb::parallel_for(0, columns * rows, [&](int t) {
-    const int x0 = t % columns * tile_size, y0 = t / columns * tile_size;
+    const int x0 = window.x + t % columns * tile_size, y0 = window.y + t / columns * tile_size;
     const TileArea tile{x0, y0, std::min(tile_size, settings.width - x0),
                         std::min(tile_size, settings.height - y0)};
     TileWorkspace& work = workspaces.local();

@@ -19,6 +19,7 @@ struct RayTotals {
 struct SampleShare {
   SampleRange samples;
   const PixelMask* pixels = nullptr; ///< null: all
+  const PictureWindow* window = nullptr; ///< of whole tiles, whose pixels alone are traced; null: all
 };
 
 /// What pixels are traced of.

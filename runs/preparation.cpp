@@ -146,6 +146,20 @@ Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
   return projected(scene.cameras.front(), settings);
 }
 
+void add_camera(ContentHash& hash, const Camera& camera) {
+  hash.add(camera.name);
+  hash.add(static_cast<std::uint64_t>(camera.projection));
+  for (const Vec3& vector : {camera.position, camera.right, camera.up, camera.forward}) {
+    hash.add(vector);
+  }
+  for (const double number :
+       {camera.vertical_fov, camera.half_height, camera.aspect, camera.znear, camera.lens_radius,
+        camera.focus_distance}) {
+    hash.add(number);
+  }
+  hash.add(static_cast<std::uint64_t>(camera.sensor_fit));
+}
+
 PictureSize choose_size(const std::optional<PictureSize>& asked, const Camera& camera) {
   if (asked) {
     if (camera.projection == Projection::cube && asked->width != cube_faces * asked->height) {

@@ -5,6 +5,7 @@
 #include "runs/run_events.h"
 #include "runs/run_settings.h"
 #include "runs/report/stats.h"
+#include "scenes/content_hash.h"
 
 #include <filesystem>
 #include <memory>
@@ -44,6 +45,9 @@ Camera default_view(const Bounds& bounds, const RunSettings& settings);
 /// The camera of that name, else the file's first, else a default view, as projected().
 Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
                      const RunSettings& settings, const RunEvents& events);
+
+/// All that a picture depends on of its camera.
+void add_camera(ContentHash& hash, const Camera& camera);
 
 /// As asked, else 512 rows, as wide as the camera wants them, else square. Throws UsageError where
 /// the six faces of a cube would be no squares.

@@ -1,5 +1,6 @@
 #include "runs/render_run.h"
 
+#include "runs/farm/tile_file.h"
 #include "runs/steering/memory.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"
@@ -34,6 +35,8 @@ void check_files(const RenderRequest& request) {
 
 /// What nobody reads is not found out. A further view of a solution takes less time than its error.
 ErrorReport wanted_report(const RenderRequest& request, const RunEvents& events) {
+  if (request.settings.part)
+    return ErrorReport::none; // of whole pictures
   if (request.error_map == WithErrorMap::yes)
     return ErrorReport::map;
   const bool is_read = events.note && !request.solution;
@@ -114,8 +117,7 @@ LitScene read_shown_scene(const RenderRequest& request, Scene scene, const PassO
 ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Camera& camera,
                             PictureSize size, const RunEvents& events, RunFigures& figures) {
   TwoPassSettings settings = two_pass_settings(request.settings);
-  settings.render.width = size.width;
-  settings.render.height = size.height;
+  settings.render = render_settings(request.settings, size);
   if (request.settings.lamp_layers) {
     settings.pass_one.lamps = LampGrouping::node;
     const LitScene lit = request.solution ? read_shown_scene(request, std::move(scene),
@@ -209,11 +211,15 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   };
   const ViewPicture picture = render_picture();
 
-  if (is_lit) {
+  if (is_lit && !request.settings.part) {
     warn_of_darkness(picture.image, camera, events);
   }
   watch.lap();
-  write_pictures(request.pictures, {picture.image, picture.layers, &picture.edges, picture.unit}, request.picture,
+  if (request.settings.part)
+    write_tile(request.pictures.front(), picture,
+               {camera, request.settings, request.solution, request.picture});
+  else
+    write_pictures(request.pictures, {picture.image, picture.layers, &picture.edges, picture.unit}, request.picture,
                  picture.attributes, events);
   figures.seconds.write = watch.lap();
   figures.seconds.total = total.lap();

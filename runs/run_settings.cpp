@@ -1,5 +1,8 @@
 #include "runs/run_settings.h"
 
+#include "raytrace/pixels/picture_window.h"
+#include "scenes/errors.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,6 +35,21 @@ DiffuseTerm diffuse_term(const RunSettings& settings) {
 
 TwoPassSettings two_pass_settings(const RunSettings& settings) {
   return two_pass_settings(settings, render_mode(settings));
+}
+
+RenderSettings render_settings(const RunSettings& settings, PictureSize size) {
+  RenderSettings render = two_pass_settings(settings).render;
+  render.width = size.width;
+  render.height = size.height;
+  if (settings.part) {
+    const int most = most_parts(size.width, size.height);
+    if (settings.part->count > most)
+      throw UsageError("--tile", fmt::format("a picture of {}x{} pixels has no more than {} parts",
+                                             size.width, size.height, most));
+    render.window = window_of_part(size.width, size.height, settings.part->number,
+                                   settings.part->count);
+  }
+  return render;
 }
 
 /// Whole batches, at least two: one says nothing about its variance.

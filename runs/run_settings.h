@@ -25,6 +25,11 @@ struct PictureSize {
   int height = 512;
 };
 
+/// One of so many windows of a picture (raytrace/pixels/picture_window.h), from 0.
+struct PicturePart {
+  int number = 0, count = 1;
+};
+
 /// How a picture is made.
 enum class PictureMode {
   radiosity, ///< pass one alone: mirrors are black
@@ -36,6 +41,7 @@ struct RunSettings : TwoPassChoice {
   GltfSettings gltf; ///< how the scene's file is read
   PictureMode mode = PictureMode::hybrid;
   std::optional<Projection> projection; ///< in place of the camera's
+  std::optional<PicturePart> part; ///< all that is wanted of the picture
   std::optional<DebugView> view;     ///< painted instead of light
   std::optional<double> view_top;    ///< the brightest colour of a view in lx or cd/m^2
   std::optional<double> max_error;   ///< of a reference
@@ -52,6 +58,10 @@ struct RunSettings : TwoPassChoice {
 /// As the two passes know them, which are not asked for a reference.
 DiffuseTerm diffuse_term(const RunSettings& settings);
 TwoPassSettings two_pass_settings(const RunSettings& settings);
+
+/// Pass two of a picture, or a part of one, of that size.
+/// Throws UsageError for more parts than such a picture has.
+RenderSettings render_settings(const RunSettings& settings, PictureSize size);
 
 /// The limits that are given, or else the preset's error. Samples are rounded up to whole batches.
 reference::ReferenceSettings reference_settings(const RunSettings& settings);

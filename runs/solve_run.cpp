@@ -27,9 +27,15 @@ static std::filesystem::path points_file(const SolveRequest& request) {
 }
 
 static void check_files(const SolveRequest& request) {
+  if (request.shard) {
+    make_folder(*request.factors);
+    check_outputs({.pictures = {}, .solution = {}, .texts = {part_file(*request.factors, *request.shard)}},
+                  {request.scene});
+    return;
+  }
   OutputFiles outputs{.pictures = {}, .solution = request.solution, .texts = {}};
   for (const auto& text : {request.per_node, request.stats, request.factors}) {
-    if (text) {
+    if (text && !(request.join && text == request.factors)) {
       outputs.texts.push_back(*text);
     }
   }
@@ -58,16 +64,32 @@ static RadiositySolution solve_or_relight(const SolveRequest& request,
   settings.form_factors.relightable = true;
   const FactorKey key = factor_key(*light, settings.form_factors);
   Stopwatch watch;
-  FormFactors factors = request.reuse
-                            ? read_factors(*request.reuse, key)
-                            : assemble_transport(*light, settings.form_factors, events.progress);
+  FormFactors factors =
+      request.join    ? join_factor_parts(*request.factors, key, element_count(light->mesh))
+      : request.reuse ? read_factors(*request.reuse, key)
+                      : assemble_transport(*light, settings.form_factors, events.progress);
   const double seconds = watch.lap();
-  if (request.factors) {
+  if (request.factors && !request.join) {
     write_factors(*request.factors, factors, key);
   }
   RadiositySolution solution = solve_pass_one(light, factors, settings, events.progress);
   solution.seconds.form_factors += seconds;
   return solution;
+}
+
+/// Rows of one part, for a run that joins them.
+static void write_rows(const SolveRequest& request, const LightScene& light,
+                       FormFactorSettings settings, const RunEvents& events) {
+  if (settings.method == FormFactorMethod::analytic)
+    throw UsageError("--shard", "has no rows by --form-factors analytic: those are of few elements");
+  settings.relightable = true;
+  FactorPart part = *request.shard;
+  part.elements = element_count(light.mesh);
+  const RowRange rows = rows_of_part(part.elements, part.number, part.count);
+  write_factor_part(*request.factors, assemble_some_rows(light, rows, settings, events.progress),
+                    part, factor_key(light, settings));
+  note(events, fmt::format("{}: {} of {} rows", part_file(*request.factors, part).string(),
+                           rows.count, part.elements));
 }
 
 /// Form factors that are kept or used again are those of a uniform mesh.
@@ -144,6 +166,10 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   figures.seconds.load = watch.lap();
   const std::uint64_t scene_hash = content_hash(scene);
   const auto prepared = prepare_run(std::move(scene), settings, events, figures);
+  if (request.shard) {
+    write_rows(request, *prepared->light, settings.form_factors, events);
+    return figures;
+  }
   auto sets = point_sets(std::move(points), request.points, prepared->scene, prepared->surfaces);
   const RadiositySolution solution = solve_or_relight(request, prepared->light, settings, events);
   add_solution(figures, solution);

@@ -1,6 +1,7 @@
 // `solve`: pass one alone, kept as a solution file, as figures per node and at points.
 #pragma once
 
+#include "radiosity/transport/factor_file.h"
 #include "runs/points/point_sets.h"
 #include "runs/run_events.h"
 #include "runs/run_settings.h"
@@ -18,6 +19,8 @@ struct SolveRequest {
   std::optional<std::filesystem::path> stats;
   std::optional<std::filesystem::path> factors; ///< written: the form factors, for later runs
   std::optional<std::filesystem::path> reuse;   ///< read: form factors of an earlier run
+  std::optional<FactorPart> shard; ///< the rows of this part alone, into the folder `factors`; no solution
+  bool join = false;               ///< with the rows of the folder `factors`
   PointRequest points;
   RunSettings settings;
 };

@@ -94,6 +94,7 @@ ViewPicture picture_of(const Scene& scene, const Camera& camera, const RunSettin
   ViewPicture picture{.image = std::move(rendering.image),
                       .samples = std::move(rendering.samples),
                       .edges = std::move(rendering.edges),
+                      .likely_edges = std::move(rendering.likely_edges),
                       .layers = std::move(rendering.layers),
                       .attributes = attributes_of(scene, camera, settings),
                       .unit = settings.view ? unit_of_colours : unit_of_radiance,
@@ -192,9 +193,7 @@ static Rendering painted(const LitScene& lit, const Camera& camera, const Render
 ViewPicture render_view(const LitScene& lit, const Camera& camera, PictureSize size,
                         const RunSettings& settings, const RunEvents& events, RunFigures& figures) {
   Stopwatch watch;
-  RenderSettings used = two_pass_settings(settings).render;
-  used.width = size.width;
-  used.height = size.height;
+  const RenderSettings used = render_settings(settings, size);
   Rendering rendering = settings.view
                             ? painted(lit, camera, used, settings, events)
                             : render(lit.field, camera, used, events.progress);
@@ -237,6 +236,7 @@ ViewPicture render_lamp_layers(const LitScene& lit, const Camera& camera, Pictur
   if (!sum)
     throw InputError(lit.prepared->scene.file, "", "has no lamps for --layers lamps");
   sum->edges = {};
+  sum->likely_edges.clear();
   return *std::move(sum);
 }
 
@@ -246,6 +246,7 @@ ViewPicture render_reference_view(Scene scene, const Camera& camera, PictureSize
   ViewPicture result{.image = {},
                      .samples = {},
                      .edges = {},
+                     .likely_edges = {},
                      .layers = {},
                      .attributes = attributes_of(scene, camera, settings)};
   reference::ReferenceSettings limits = reference_settings(settings);

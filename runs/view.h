@@ -47,6 +47,7 @@ struct ViewPicture {
   Image image;
   SampleCounts samples;
   ShownPixels edges; ///< of a PNG
+  std::vector<ShownPixels> likely_edges; ///< Rendering::likely_edges
   std::vector<Layer> layers;
   Attributes attributes;
   std::string_view unit = unit_of_radiance; ///< of the image

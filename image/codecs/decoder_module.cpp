@@ -204,7 +204,7 @@ void add_part(OIIO::ImageInput& input, int number, const EncodedPicture& picture
   part->name = spec.get_string_attribute("oiio:subimagename");
   try {
     check_limits(spec, storage.values, picture.limits);
-    if (picture.format == "openexr")
+    if (picture.format == "openexr" && picture.limits.use != Use::window)
       check_display_window(spec, picture.limits);
     if (picture.format == "tiff")
       check_tiff_size(spec, picture.bytes.size());

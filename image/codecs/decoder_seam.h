@@ -19,7 +19,7 @@
 namespace meninas::decoder {
 
 /// Raised with every change of this file: a module from another build is refused, not misread.
-inline constexpr int seam_version = 5;
+inline constexpr int seam_version = 6;
 
 struct TextPair {
   const char* key;
@@ -50,8 +50,9 @@ struct Decoded {
 };
 
 /// What is read of a file: all parts of an EXR; or what a glTF file may name,
-/// the first part, and no TIFF, whose size is not checked against the memory (scenes/materials/image_size.h).
-enum class Use { picture, texture };
+/// the first part, and no TIFF, whose size is not checked against the memory (scenes/materials/image_size.h);
+/// or a window, however much larger the picture is.
+enum class Use { picture, texture, window };
 
 struct Limits {
   Use use;

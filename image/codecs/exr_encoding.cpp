@@ -68,10 +68,15 @@ constexpr Imf::PixelType stored_type = std::is_same_v<Value, half> ? Imf::HALF :
 
 } // namespace
 
-static std::vector<Planes> planes_of(const Image& picture, std::span<const Layer> layers) {
+/// As compositors know layers, or all as colours.
+enum class LayerChannels { known, colours };
+
+static std::vector<Planes> planes_of(const Image& picture, std::span<const Layer> layers,
+                                     LayerChannels channels) {
   std::vector<Planes> planes{{"", &picture, colour}};
   for (const Layer& layer : layers)
-    planes.push_back({layer.name + ".", &layer.image, components_of(layer.name)});
+    planes.push_back({layer.name + ".", &layer.image,
+                      channels == LayerChannels::known ? components_of(layer.name) : colour});
   return planes;
 }
 
@@ -83,9 +88,12 @@ static std::size_t channel_count(std::span<const Planes> planes) {
 }
 
 /// No date among the attributes: the same picture would become two different files.
-static Imf::Header header_of(const Image& picture, std::span<const Planes> planes,
+static Imf::Header header_of(const DataWindow& window, std::span<const Planes> planes,
                              Imf::PixelType type, const Attributes& attributes) {
-  Imf::Header header(picture.width, picture.height);
+  const Imath::V2i first(window.x, window.y), size(window.width, window.height), one(1, 1);
+  const Imath::V2i all(window.picture_width, window.picture_height);
+  Imf::Header header(Imath::Box2i(Imath::V2i(0, 0), all - one),
+                     Imath::Box2i(first, first + size - one));
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const auto& [prefix, image, components] : planes)
     for (const char* component : components)
@@ -119,19 +127,21 @@ static std::vector<Value> gather_rows(std::span<const Planes> planes, int first,
   return rows;
 }
 
-/// Tells where the values of each channel are, for rows from `first` on.
+/// Tells where the values of each channel are, for rows of the window from `first` on.
 template <typename Value>
 static Imf::FrameBuffer frame_of(std::vector<Value>& rows, std::span<const Planes> planes,
-                                 int first) {
+                                 const DataWindow& window, int first) {
   const auto width = static_cast<std::size_t>(planes.front().image->width);
   const auto stride = channel_count(planes) * sizeof(Value);
   Imf::FrameBuffer frame;
   std::size_t place = 0;
   for (const Planes& one : planes)
     for (const char* component : one.components) {
-      // The library counts rows from the top of the picture.
+      // The library counts rows from the top of the picture, and columns from its left.
+      const auto before = static_cast<std::size_t>(window.y + first) * width +
+                          static_cast<std::size_t>(window.x);
       auto* top = reinterpret_cast<char*>(rows.data() + place++) -
-                  static_cast<std::ptrdiff_t>(static_cast<std::size_t>(first) * width * stride);
+                  static_cast<std::ptrdiff_t>(before * stride);
       frame.insert(one.prefix + component,
                    Imf::Slice(stored_type<Value>, top, stride, width * stride));
     }
@@ -141,13 +151,14 @@ static Imf::FrameBuffer frame_of(std::vector<Value>& rows, std::span<const Plane
 /// A band of rows at a time keeps the interleaved copy small,
 /// and is enough for parallel compression.
 template <typename Value>
-static void write_rows(Imf::OutputFile& file, std::span<const Planes> planes) {
+static void write_rows(Imf::OutputFile& file, std::span<const Planes> planes,
+                       const DataWindow& window) {
   constexpr int band = 256;
-  const int height = planes.front().image->height;
+  const int height = window.height;
   for (int first = 0; first < height; first += band) {
     const int last = std::min(first + band, height);
     auto rows = gather_rows<Value>(planes, first, last);
-    file.setFrameBuffer(frame_of(rows, planes, first));
+    file.setFrameBuffer(frame_of(rows, planes, window, first));
     file.writePixels(last - first);
   }
 }
@@ -162,17 +173,31 @@ static int use_threads() {
   return threads;
 }
 
-std::vector<std::byte> encode_exr(const Image& picture, std::span<const Layer> layers,
-                                  PixelType type, const Attributes& attributes) {
-  const auto planes = planes_of(picture, layers);
+static std::vector<std::byte> encode_planes(std::span<const Planes> planes, PixelType type,
+                                            const DataWindow& window,
+                                            const Attributes& attributes) {
   const auto stored = type == PixelType::half ? Imf::HALF : Imf::FLOAT;
   std::vector<std::byte> bytes;
   ByteStream stream(bytes);
   {
-    Imf::OutputFile file(stream, header_of(picture, planes, stored, attributes), use_threads());
-    type == PixelType::half ? write_rows<half>(file, planes) : write_rows<float>(file, planes);
+    Imf::OutputFile file(stream, header_of(window, planes, stored, attributes), use_threads());
+    type == PixelType::half ? write_rows<half>(file, planes, window)
+                            : write_rows<float>(file, planes, window);
   }
   return bytes;
+}
+
+std::vector<std::byte> encode_exr(const Image& picture, std::span<const Layer> layers,
+                                  PixelType type, const Attributes& attributes) {
+  const int width = picture.width, height = picture.height;
+  return encode_planes(planes_of(picture, layers, LayerChannels::known), type,
+                       {0, 0, width, height, width, height}, attributes);
+}
+
+std::vector<std::byte> encode_exr_window(const Image& picture, std::span<const Layer> layers,
+                                         const DataWindow& window, const Attributes& attributes) {
+  return encode_planes(planes_of(picture, layers, LayerChannels::colours), PixelType::float32,
+                       window, attributes);
 }
 
 } // namespace meninas

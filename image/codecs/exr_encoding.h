@@ -18,4 +18,8 @@ namespace meninas {
 std::vector<std::byte> encode_exr(const Image& picture, std::span<const Layer> layers,
                                   PixelType type, const Attributes& attributes);
 
+/// The file that `write_exr_window` writes: floats, all layers of R, G and B.
+std::vector<std::byte> encode_exr_window(const Image& picture, std::span<const Layer> layers,
+                                         const DataWindow& window, const Attributes& attributes);
+
 } // namespace meninas

@@ -3,7 +3,6 @@
 #include "image/whole_file.h"
 #include "scenes/content_hash.h"
 #include "scenes/errors.h"
-#include "scenes/materials/lobes.h"
 #include "scenes/version.h"
 
 #include <fmt/format.h>
@@ -11,8 +10,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <span>
 #include <type_traits>
 
@@ -21,123 +22,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "factor files are little-endian");
 
-constexpr std::uint64_t magic = 0x3130'4146'4e45'4dULL; // "MENFA01"
-
-std::uint64_t hash_of_geometry(const Scene& scene) {
-  ContentHash hash;
-  for (const Vertex& vertex : scene.vertices) {
-    hash.add(vertex.position);
-  }
-  for (const Triangle& triangle : scene.triangles) {
-    for (const VertexId vertex : triangle.vertices) {
-      hash.add(std::uint64_t{index(vertex)});
-    }
-    hash.add(std::uint64_t{scene.materials[index(triangle.material)].double_sided});
-    if (triangle.curved)
-      for (const VertexId vertex : triangle.vertices)
-        hash.add(Vec3(scene.vertices[index(vertex)].normal));
-  }
-  return hash.value();
-}
-
-/// What light meets in glass and on coats is part of the transport.
-void add_film(ContentHash& hash, const ThinFilm& film) {
-  if (film.share > 0.0)
-    hash.add(Rgb(film.share, film.ior, film.thickness));
-}
-void add_coat(ContentHash& hash, const Bsdf& coat) {
-  add_film(hash, coat.film);
-  hash.add(coat.coat_f0);
-  hash.add(Rgb(coat.coat, coat.coat_f90, 0.0));
-}
-void add_glass(ContentHash& hash, const Bsdf& glass) {
-  add_film(hash, glass.pane.film);
-  hash.add(glass.metal);
-  hash.add(Rgb(glass.glass, glass.pane.ior, glass.pane.f90));
-  hash.add(glass.pane.f0);
-  hash.add(glass.pane.tint);
-  hash.add(static_cast<std::uint64_t>(glass.pane.faces));
-}
-
-/// Of glass: which image, and how it lies.
-void add_texture(ContentHash& hash, const Scene& scene, const std::optional<TextureUse>& use) {
-  if (!use)
-    return;
-  const Texture& texture = scene.textures[index(use->texture)];
-  hash.add(std::as_bytes(std::span(texture.encoded)));
-  hash.add(static_cast<std::uint64_t>(texture.wrap_u));
-  hash.add(static_cast<std::uint64_t>(texture.wrap_v));
-  hash.add(static_cast<std::uint64_t>(texture.magnified));
-  hash.add(static_cast<std::uint64_t>(use->texcoord_set));
-  hash.add(Rgb(use->offset, use->rotation));
-  hash.add(Rgb(use->scale, 0.0));
-}
-
-std::uint64_t hash_of_mirrors(const Scene& scene, const WorldTree& worlds) {
-  ContentHash hash;
-  for (const Triangle& triangle : scene.triangles) {
-    const Material& material = scene.materials[index(triangle.material)];
-    hash.add(mirror_reflectance(material));
-    if (is_glass(material))
-      add_glass(hash, clear_glass(material, untextured(material)));
-    if (has_mirror_coat(material))
-      add_coat(hash, mirror_coat(material));
-    if (is_blended(material))
-      for (const VertexId vertex : triangle.vertices)
-        hash.add(Rgb(double{scene.vertices[index(vertex)].color.a}));
-    if (is_glass(material) && is_textured(material))
-      for (const VertexId vertex : triangle.vertices)
-        for (const glm::vec2& texcoord : scene.vertices[index(vertex)].texcoord)
-          hash.add(Vec3(texcoord, 0.0));
-  }
-  for (const Material& material : scene.materials)
-    if (is_glass(material))
-      for (const auto* use : {&material.base_color_texture, &material.metallic_roughness_texture,
-                              &material.transmission_texture, &material.thickness_texture,
-                              &material.iridescence_texture, &material.film_thickness_texture}) {
-        if (use == &material.film_thickness_texture && *use)
-          hash.add(Rgb(material.film_min_thickness, material.film_thickness, 0.0));
-        add_texture(hash, scene, *use);
-      }
-  for (const MirrorWorld& world : worlds.worlds) {
-    hash.add(std::uint64_t{index(world.parent)});
-    hash.add(std::uint64_t{index(world.mirror)});
-  }
-  return hash.value();
-}
-
-std::uint64_t hash_of_mesh(const ElementMesh& mesh) {
-  ContentHash hash;
-  for (const MeshSide& side : mesh.sides) {
-    hash.add(std::uint64_t{index(side.patch)});
-    hash.add(std::uint64_t{static_cast<std::uint8_t>(side.facing)});
-    hash.add(static_cast<std::uint64_t>(side.nu));
-    hash.add(static_cast<std::uint64_t>(side.nv));
-  }
-  for (const MeshCell& cell : mesh.cells) {
-    hash.add(std::uint64_t{cell.level});
-  }
-  for (const Point3& vertex : mesh.vertices) {
-    hash.add(vertex);
-  }
-  return hash.value();
-}
-
-std::uint64_t hash_of_sampling(const FormFactorSettings& settings) {
-  // All of them, by name: a new setting does not compile before it has a place here.
-  const auto& [method, rays, hemicube_resolution, min_throughput, max_bounces, accuracy, seed,
-               relightable] = settings;
-  ContentHash hash;
-  hash.add(static_cast<std::uint64_t>(method));
-  hash.add(static_cast<std::uint64_t>(rays));
-  hash.add(static_cast<std::uint64_t>(hemicube_resolution));
-  hash.add(accuracy);
-  hash.add(min_throughput);
-  hash.add(static_cast<std::uint64_t>(max_bounces));
-  hash.add(std::uint64_t{seed});
-  hash.add(std::uint64_t{relightable});
-  return hash.value();
-}
+constexpr std::uint64_t magic = 0x3130'4146'4e45'4dULL,      // "MENFA01"
+    part_magic = 0x3130'5046'4e45'4dULL; // "MENFP01"
 
 template <typename Item>
 void append(std::vector<std::byte>& bytes,
@@ -159,6 +45,14 @@ void append(std::vector<std::byte>& bytes, const Transport& transport) {
   append(bytes, transport.row_begin);
   append(bytes, transport.columns);
   append(bytes, transport.weights);
+}
+
+void append(std::vector<std::byte>& bytes, const FormFactors& factors) {
+  append(bytes, factors.transport);
+  append(bytes, factors.beyond);
+  append(bytes, factors.closure);
+  append(bytes, factors.covered);
+  append(bytes, factors.exposed);
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
@@ -201,6 +95,13 @@ struct Reader {
     take(transport.columns);
     take(transport.weights);
   }
+  void take(FormFactors& factors) {
+    take(factors.transport);
+    take(factors.beyond);
+    take(factors.closure);
+    take(factors.covered);
+    take(factors.exposed);
+  }
 };
 
 std::vector<std::byte> bytes_of(const std::filesystem::path& file) {
@@ -218,9 +119,9 @@ std::vector<std::byte> bytes_of(const std::filesystem::path& file) {
 }
 
 /// Rows in order, columns that exist, weights that can be form factors.
-bool makes_sense(const Transport& transport) {
+bool makes_sense(const Transport& transport, std::size_t elements) {
   const auto& begin = transport.row_begin;
-  const auto fits = [&](std::uint32_t column) { return column < transport.size; };
+  const auto fits = [&](std::uint32_t column) { return column < elements; };
   const auto possible = [](float weight) { return std::isfinite(weight) && weight >= 0.0F; };
   return (transport.bands == 1 || transport.bands == 3) && begin.size() == transport.size + 1 &&
          begin.front() == 0 && std::ranges::is_sorted(begin) &&
@@ -231,9 +132,11 @@ bool makes_sense(const Transport& transport) {
          std::ranges::all_of(transport.weights, possible);
 }
 
-void check_sense(const std::filesystem::path& file, const FormFactors& factors) {
+void check_sense(const std::filesystem::path& file, const FormFactors& factors,
+                 std::size_t elements) {
   const std::size_t size = factors.transport.size;
-  const bool sound = makes_sense(factors.transport) && makes_sense(factors.beyond) &&
+  const bool sound = makes_sense(factors.transport, elements) &&
+                     makes_sense(factors.beyond, elements) &&
                      factors.beyond.size == size && factors.closure.size() == size &&
                      factors.covered.size() == size && factors.exposed.size() == size;
   if (!sound) {
@@ -254,37 +157,24 @@ void check_key(const std::filesystem::path& file, const FactorKey& found, const 
   check(found.sampling, key.sampling, "the settings of the form factors have changed");
 }
 
-} // namespace
-
-FactorKey factor_key(const LightScene& light, const FormFactorSettings& settings) {
-  return {hash_of_geometry(light.scene), hash_of_mirrors(light.scene, light.worlds),
-          hash_of_mesh(light.mesh), hash_of_sampling(settings)};
-}
-
-void write_factors(const std::filesystem::path& file, const FormFactors& factors,
-                   const FactorKey& key) {
-  std::vector<std::byte> bytes;
-  append(bytes, magic);
+std::vector<std::byte> header_bytes(std::uint64_t kind, const FactorKey& key) {
+  std::vector<std::byte> bytes(sizeof(kind));
+  std::memcpy(bytes.data(), &kind, sizeof(kind));
   const std::string version(program_version());
   append(bytes, std::vector<char>(version.begin(), version.end()));
   append(bytes, key);
-  append(bytes, factors.transport);
-  append(bytes, factors.beyond);
-  append(bytes, factors.closure);
-  append(bytes, factors.covered);
-  append(bytes, factors.exposed);
-  append(bytes, hash_of_bytes(bytes));
-  write_whole_file(file, bytes);
+  return bytes;
 }
 
-FormFactors read_factors(const std::filesystem::path& file, const FactorKey& key) {
-  const std::vector<std::byte> bytes = bytes_of(file);
+/// What comes after the header of a file of that kind, undamaged and made from `key`.
+Reader checked(const std::filesystem::path& file, std::span<const std::byte> bytes,
+               std::uint64_t kind, const FactorKey& key) {
   Reader reader{file, bytes};
   std::uint64_t word = 0;
   if (bytes.size() >= 2 * sizeof(word)) {
     reader.take(word);
   }
-  if (word != magic) {
+  if (word != kind) {
     refuse(file, "not a factor file written by 'meninas solve --factors'");
   }
   std::vector<char> version;
@@ -296,7 +186,7 @@ FormFactors read_factors(const std::filesystem::path& file, const FactorKey& key
 
   // The hash comes first: nothing damaged is looked at any closer.
   std::uint64_t announced = 0;
-  const auto hashed = std::span(bytes).first(bytes.size() - sizeof(announced));
+  const auto hashed = bytes.first(bytes.size() - sizeof(announced));
   std::memcpy(&announced, hashed.data() + hashed.size(), sizeof(announced));
   if (hash_of_bytes(hashed) != announced) {
     refuse(file, "damaged: its data do not have the hash it announces");
@@ -304,14 +194,113 @@ FormFactors read_factors(const std::filesystem::path& file, const FactorKey& key
   FactorKey found;
   reader.take(found);
   check_key(file, found, key);
+  return reader;
+}
+
+} // namespace
+
+void write_factors(const std::filesystem::path& file, const FormFactors& factors,
+                   const FactorKey& key) {
+  std::vector<std::byte> bytes = header_bytes(magic, key);
+  append(bytes, factors);
+  append(bytes, hash_of_bytes(bytes));
+  write_whole_file(file, bytes);
+}
+
+FormFactors read_factors(const std::filesystem::path& file, const FactorKey& key) {
+  const std::vector<std::byte> bytes = bytes_of(file);
+  Reader reader = checked(file, bytes, magic, key);
   FormFactors factors;
-  reader.take(factors.transport);
-  reader.take(factors.beyond);
-  reader.take(factors.closure);
-  reader.take(factors.covered);
-  reader.take(factors.exposed);
-  check_sense(file, factors);
+  reader.take(factors);
+  check_sense(file, factors, factors.transport.size);
   return factors;
+}
+
+std::filesystem::path part_file(const std::filesystem::path& folder, const FactorPart& part) {
+  return folder / fmt::format("rows-{}-of-{}.factors", part.number + 1, part.count);
+}
+
+void write_factor_part(const std::filesystem::path& folder, const FormFactors& rows,
+                       const FactorPart& part, const FactorKey& key) {
+  std::vector<std::byte> bytes = header_bytes(part_magic, key);
+  append(bytes, part);
+  append(bytes, rows);
+  append(bytes, hash_of_bytes(bytes));
+  write_whole_file(part_file(folder, part), bytes);
+}
+
+/// Into how many parts rows are divided, by the names of the files.
+static std::uint64_t division_of(const std::filesystem::path& folder) {
+  std::map<std::uint64_t, std::filesystem::path> divisions;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    unsigned long long number = 0, count = 0;
+    const std::string name = entry.path().filename().string();
+    if (std::sscanf(name.c_str(), "rows-%llu-of-%llu.factors", &number, &count) == 2 &&
+        number > 0 && number <= count && entry.path() == part_file(folder, {number - 1, count}))
+      divisions.emplace(count, part_file(folder, {0, count}));
+  }
+  if (divisions.empty())
+    refuse(folder, "holds no rows written by 'meninas solve --factors DIR --shard K/N'");
+  if (divisions.size() > 1)
+    refuse(divisions.rbegin()->second,
+           fmt::format("is of another division than {}: one of them has to go",
+                       divisions.begin()->second.string()));
+  return divisions.begin()->first;
+}
+
+static void check_parts_are_there(const std::filesystem::path& folder, std::uint64_t count) {
+  std::string missing;
+  for (std::uint64_t k = 0; k < count; ++k)
+    if (!std::filesystem::exists(part_file(folder, {k, count})))
+      missing += (missing.empty() ? "" : ", ") + part_file({}, {k, count}).string();
+  if (!missing.empty())
+    refuse(folder, "rows are missing: " + missing);
+}
+
+static FormFactors read_part(const std::filesystem::path& folder, const FactorPart& wanted,
+                             const FactorKey& key) {
+  const std::filesystem::path file = part_file(folder, wanted);
+  const std::vector<std::byte> bytes = bytes_of(file);
+  Reader reader = checked(file, bytes, part_magic, key);
+  FactorPart part;
+  FormFactors rows;
+  reader.take(part);
+  reader.take(rows);
+  if (part.number != wanted.number || part.count != wanted.count ||
+      part.elements != wanted.elements)
+    refuse(file, fmt::format("is not what its name says, but part {}/{}", part.number + 1, part.count));
+  check_sense(file, rows, part.elements);
+  if (rows.transport.size != rows_of_part(part.elements, part.number, part.count).count)
+    refuse(file, "damaged: it has other rows than its part");
+  return rows;
+}
+
+static void append_rows(Transport& all, const Transport& rows) {
+  const std::uint64_t before = all.columns.size();
+  for (std::size_t row = 0; row < rows.size; ++row)
+    all.row_begin.push_back(before + rows.row_begin[row + 1]);
+  all.columns.insert(all.columns.end(), rows.columns.begin(), rows.columns.end());
+  all.weights.insert(all.weights.end(), rows.weights.begin(), rows.weights.end());
+  all.size += rows.size;
+  all.bands = rows.bands;
+}
+
+FormFactors join_factor_parts(const std::filesystem::path& folder, const FactorKey& key,
+                              std::size_t elements) {
+  const std::uint64_t count = division_of(folder);
+  check_parts_are_there(folder, count);
+  FormFactors all;
+  all.transport.row_begin = all.beyond.row_begin = {0};
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const FormFactors rows = read_part(folder, {k, count, elements}, key);
+    append_rows(all.transport, rows.transport);
+    append_rows(all.beyond, rows.beyond);
+    all.closure.insert(all.closure.end(), rows.closure.begin(), rows.closure.end());
+    all.covered.insert(all.covered.end(), rows.covered.begin(), rows.covered.end());
+    all.exposed.insert(all.exposed.end(), rows.exposed.begin(), rows.exposed.end());
+  }
+  return all;
 }
 
 } // namespace meninas

@@ -10,21 +10,26 @@
 // A file is as large as the factors in memory, and is written whole or not at all.
 #pragma once
 
+#include "radiosity/transport/factor_key.h"
 #include "radiosity/transport/form_factors.h"
 
 #include <filesystem>
 
 namespace meninas {
 
-/// What form factors were made from.
-struct FactorKey {
-  std::uint64_t geometry = 0; ///< vertices, triangles, which sides of them are there
-  std::uint64_t mirrors =
-      0; ///< which triangles are mirrors, their reflectances, the enumerated worlds
-  std::uint64_t mesh = 0;     ///< sides and elements
-  std::uint64_t sampling = 0; ///< all of FormFactorSettings
+/// Some rows as a file of a folder in which all parts of them come together: `rows-K-of-N.factors`, K from 1.
+struct FactorPart {
+  std::uint64_t number = 0, count = 1; ///< from 0
+  std::uint64_t elements = 0;          ///< of all parts
 };
-FactorKey factor_key(const LightScene& light, const FormFactorSettings& settings);
+std::filesystem::path part_file(const std::filesystem::path& folder, const FactorPart& part);
+void write_factor_part(const std::filesystem::path& folder, const FormFactors& rows,
+                       const FactorPart& part, const FactorKey& key);
+
+/// All rows of a folder, put together: the bits of assemble_transport. Throws InputError that names the file where
+/// parts are missing, damaged, of another division, of another version, or made from something else than `key`.
+FormFactors join_factor_parts(const std::filesystem::path& folder, const FactorKey& key,
+                              std::size_t elements);
 
 void write_factors(const std::filesystem::path& file, const FormFactors& factors,
                    const FactorKey& key);

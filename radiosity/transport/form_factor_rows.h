@@ -55,6 +55,17 @@ struct FormFactors {
   std::uint64_t rays_traced = 0;        ///< legs, reflected ones included
 };
 
+/// Rows from `first` on.
+struct RowRange {
+  std::size_t first = 0, count = 0;
+};
+
+/// Part `number` of `count`, from 0, of so many rows: as many as any other, but for one.
+inline RowRange rows_of_part(std::size_t rows, std::size_t number, std::size_t count) {
+  const std::size_t first = rows * number / count;
+  return {first, rows * (number + 1) / count - first};
+}
+
 /// What a row may speak of besides an element:
 /// a part of a surface (hemisphere_samples.h), by row. Called from any thread.
 using RowReceiver = std::function<ReceiverArea(std::size_t row)>;

@@ -148,6 +148,7 @@ struct Assembly {
       beyond; ///< by ElementId: 1 where its row beyond the enumerated worlds is kept
   int bands;
   const RowReceiver& receiver;
+  std::size_t first_row; ///< of those that are made
 };
 
 void gather(const Assembly& assembly, const ReceiverArea& element, std::uint32_t seed,
@@ -168,8 +169,9 @@ void gather(const Assembly& assembly, const ReceiverArea& element, std::uint32_t
 
 void assemble_row(const Assembly& assembly, std::size_t row, Workspace& work, RowChunk& chunk,
                   FormFactors& result) {
-  const auto seed = hash(static_cast<std::uint32_t>(row), assembly.settings.seed, 0x9a7e);
-  gather(assembly, assembly.receiver(row), seed, work.gather);
+  const std::size_t number = assembly.first_row + row;
+  const auto seed = hash(static_cast<std::uint32_t>(number), assembly.settings.seed, 0x9a7e);
+  gather(assembly, assembly.receiver(number), seed, work.gather);
   const GatheredRays& gathered = work.gather.result;
   const Rgb kept = kept_light(gathered);
   result.covered[row] = gathered.covered;
@@ -234,25 +236,38 @@ private:
 
 } // namespace
 
+static FormFactors assemble(const LightScene& light, RowRange range, const RowReceiver& receiver,
+                            const FormFactorSettings& settings, const Progress& progress);
+
 FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings,
                                const Progress& progress) {
   if (settings.method == FormFactorMethod::analytic)
     return analytic_transport(light, settings, progress);
+  return assemble_some_rows(light, {0, element_count(light.mesh)}, settings, progress);
+}
+
+FormFactors assemble_some_rows(const LightScene& light, RowRange rows,
+                               const FormFactorSettings& settings, const Progress& progress) {
   const auto element = [&](std::size_t row) {
     ReceiverArea receiver = receiver_of(light, static_cast<ElementId>(row));
     receiver.few_rays = has_few_rays(light, static_cast<ElementId>(row));
     return receiver;
   };
-  FormFactors factors =
-      assemble_rows(light, element_count(light.mesh), element, settings, progress);
-  for (std::size_t e = 0; e < factors.exposed.size(); ++e)
-    factors.exposed[e] *= light.mesh.solid[e];
+  FormFactors factors = assemble(light, rows, element, settings, progress);
+  for (std::size_t row = 0; row < rows.count; ++row)
+    factors.exposed[row] *= light.mesh.solid[rows.first + row];
   return factors;
 }
 
 FormFactors assemble_rows(const LightScene& light, std::size_t size, const RowReceiver& receiver,
                           const FormFactorSettings& settings, const Progress& progress) {
-  expects(settings.method != FormFactorMethod::analytic, "rows of parts of surfaces are sampled");
+  return assemble(light, {0, size}, receiver, settings, progress);
+}
+
+static FormFactors assemble(const LightScene& light, RowRange range, const RowReceiver& receiver,
+                            const FormFactorSettings& settings, const Progress& progress) {
+  expects(settings.method != FormFactorMethod::analytic, "rows of parts are sampled");
+  const std::size_t size = range.count;
   const bool by_cubes = settings.method == FormFactorMethod::hemicube;
   const Assembly assembly{light,
                           settings,
@@ -261,7 +276,8 @@ FormFactors assemble_rows(const LightScene& light, std::size_t size, const RowRe
                           by_cubes ? make_hemicube(settings.hemicube_resolution) : Hemicube{},
                           kept_beyond(light.mesh, settings),
                           grey_mirrors(light.scene) ? 1 : 3,
-                          receiver};
+                          receiver,
+                          range.first};
   FormFactors result;
   result.closure.resize(size);
   result.covered.resize(size);

@@ -28,6 +28,11 @@ namespace meninas {
 
 FormFactors assemble_transport(const LightScene& light, const FormFactorSettings& settings, const Progress& progress = {});
 
+/// The rows of so many elements from `first` on, as a table of these alone: the same bits as in that of all.
+/// What is by ElementId there is by row. Precondition: not by the analytic method.
+FormFactors assemble_some_rows(const LightScene& light, RowRange rows,
+                               const FormFactorSettings& settings, const Progress& progress = {});
+
 /// The same for other receivers, by rays or hemicubes:
 /// what is by ElementId there is by row, columns are elements as ever.
 /// The exposed share is that of the receiver's area, whatever is cut out of it.

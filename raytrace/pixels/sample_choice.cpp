@@ -1,5 +1,6 @@
 #include "raytrace/pixels/sample_choice.h"
 
+#include "raytrace/pixels/picture_window.h"
 #include "raytrace/pixels/pixel_neighbours.h"
 
 #include <algorithm>
@@ -99,6 +100,21 @@ std::vector<SampleRound> choose_samples(const RenderSettings& settings, const Tr
     taken = until;
   }
   return rounds;
+}
+
+void trace_round(const RenderSettings& settings, const SampleRound& round, const TraceSamples& trace,
+                 const StorePixel& store) {
+  SampleShare share = round.share();
+  if (!settings.window)
+    return trace(share, store);
+  share.window = &*settings.window;
+  trace(share, store);
+  if (!settings.display)
+    return;
+  const PixelMask around =
+      pixels_around(*settings.window, settings.width, settings.height, round.pixels);
+  const PictureWindow tiles = with_tiles_around(*settings.window, settings.width, settings.height);
+  trace({round.samples, &around, &tiles}, store);
 }
 
 SampleCounts counts_of(const std::vector<SampleRound>& rounds, std::size_t pixels) {

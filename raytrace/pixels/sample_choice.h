@@ -40,6 +40,11 @@ using TraceSamples = std::function<void(const SampleShare&, const StorePixel&)>;
 std::vector<SampleRound> choose_samples(const RenderSettings& settings, const TraceSamples& trace,
                                         Image& picture);
 
+/// Traces a round: of a window its pixels, and those around it where edges are asked for, which are between
+/// pixels of either side.
+void trace_round(const RenderSettings& settings, const SampleRound& round, const TraceSamples& trace,
+                 const StorePixel& store);
+
 /// By pixel, of all rounds.
 SampleCounts counts_of(const std::vector<SampleRound>& rounds, std::size_t pixels);
 

@@ -132,20 +132,6 @@ std::vector<Camera> chosen_cameras(const CameraChoice& choice, const Scene& came
   return matching;
 }
 
-void add_camera(ContentHash& hash, const Camera& camera) {
-  hash.add(camera.name);
-  hash.add(static_cast<std::uint64_t>(camera.projection));
-  for (const Vec3& vector : {camera.position, camera.right, camera.up, camera.forward}) {
-    hash.add(vector);
-  }
-  for (const double number :
-       {camera.vertical_fov, camera.half_height, camera.aspect, camera.znear, camera.lens_radius,
-        camera.focus_distance}) {
-    hash.add(number);
-  }
-  hash.add(static_cast<std::uint64_t>(camera.sensor_fit));
-}
-
 void add_settings(ContentHash& hash, std::vector<Setting> settings) {
   std::ranges::sort(settings, {}, &Setting::name);
   for (const Setting& setting : settings) {
@@ -336,12 +322,31 @@ std::vector<BatchPicture> plan_batch(const fs::path& file, const std::vector<Bat
     }
     check_distinct(file, job, std::span(pictures).subspan(first), owners);
   }
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    pictures[k].number = k;
+  }
+  return pictures;
+}
+
+std::vector<BatchPicture> pictures_of(std::vector<BatchPicture> pictures,
+                                      const std::vector<NumberRange>& only) {
+  for (const NumberRange& range : only) {
+    if (range.last >= pictures.size()) {
+      throw UsageError("--only", fmt::format("no picture {}: the batch has {}, from 0 on",
+                                             range.last, pictures.size()));
+    }
+  }
+  std::erase_if(pictures, [&](const BatchPicture& picture) {
+    return !only.empty() && std::ranges::none_of(only, [&](const NumberRange& range) {
+      return range.first <= picture.number && picture.number <= range.last;
+    });
+  });
   return pictures;
 }
 
 std::vector<BatchPicture> pictures_of(std::vector<BatchPicture> pictures, const Shard& shard) {
   const auto count = static_cast<std::size_t>(shard.count);
-  const std::size_t number = static_cast<std::size_t>(shard.number) % count;
+  const std::size_t number = static_cast<std::size_t>(shard.number);
   const auto begin =
       pictures.begin() + static_cast<std::ptrdiff_t>(pictures.size() * number / count);
   const auto end =

@@ -31,6 +31,7 @@ struct BatchProblem {
 };
 
 struct BatchPicture {
+  std::size_t number = 0; ///< place in the batch, from 0
   std::string name; ///< of its first output, for people; of job and scene where there is a problem
   std::string job, mode;
   std::filesystem::path scene;
@@ -52,8 +53,17 @@ std::vector<BatchPicture> plan_batch(const std::filesystem::path& file,
                                      const std::vector<BatchJob>& jobs,
                                      const GltfSettings& gltf = {});
 
-/// Part `number` of `count`: neighbours stay together, so that few parts need the same scene.
-/// Numbers may count from 0 or from 1, `count` being the same as 0.
+/// Pictures by their numbers, both ends among them.
+struct NumberRange {
+  std::size_t first = 0, last = 0;
+};
+
+/// Those of some numbers; all where none are given, each once, in the batch's order.
+/// Throws UsageError for a number that no picture has.
+std::vector<BatchPicture> pictures_of(std::vector<BatchPicture> pictures,
+                                      const std::vector<NumberRange>& only);
+
+/// Part `number` of `count`, from 0: neighbours stay together, so that few parts need the same scene.
 struct Shard {
   int number = 0, count = 1;
 };

@@ -37,7 +37,8 @@ Json picture_json(const BatchPicture& picture, const PictureResult& result) {
     files.push_back(output.generic_string());
   }
   const PictureRecord& record = result.record;
-  Json json{{"name", picture.name},
+  Json json{{"number", picture.number},
+            {"name", picture.name},
             {"status", name_of(result.status)},
             {"job", picture.job},
             {"scene", picture.scene.generic_string()},

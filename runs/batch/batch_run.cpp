@@ -30,11 +30,17 @@ fs::path cache_of(const BatchRequest& request) {
   return request.cache.value_or(request.folder / ".meninas" / "solutions");
 }
 
+/// This process' share.
+std::vector<BatchPicture> own_pictures(const BatchRequest& request,
+                                       const std::vector<BatchPicture>& all) {
+  return pictures_of(pictures_of(all, request.only), request.shard);
+}
+
 /// A batch under way, with everything its end needs.
 struct Batch {
   Batch(const BatchRequest& asked, std::vector<BatchPicture> pictures, int thread_count,
         const BatchEvents& told)
-      : request(asked), events(told), all(std::move(pictures)), own(pictures_of(all, asked.shard)),
+      : request(asked), events(told), all(std::move(pictures)), own(own_pictures(asked, all)),
         folder(asked.folder, cache_of(asked), asked.resume), threads(thread_count),
         work(folder, own, thread_count, asked.memory_limit.value_or(available_memory_bytes()),
              {.run = told.run, .finished = told.finished, .progress = [this](const auto& progress) {
@@ -186,16 +192,16 @@ std::string batch_outlook(const BatchRequest& request, const std::vector<BatchPi
   std::string text;
   std::size_t done = 0, failed = 0, rendered = 0;
   std::set<std::string> known, to_solve;
-  const auto own = pictures_of(pictures, request.shard);
+  const auto own = own_pictures(request, pictures);
   for (const BatchPicture& picture : own) {
     if (picture.problem) {
       ++failed;
-      text += fmt::format("cannot  {}: {}\n", picture.name, picture.problem->what);
+      text += fmt::format("cannot  {} {}: {}\n", picture.number, picture.name, picture.problem->what);
       continue;
     }
     if (is_done(request.folder, picture)) {
       ++done;
-      text += fmt::format("done    {}\n", picture.name);
+      text += fmt::format("done    {} {}\n", picture.number, picture.name);
       continue;
     }
     const std::string& key = picture.solution_key;
@@ -205,7 +211,7 @@ std::string batch_outlook(const BatchRequest& request, const std::vector<BatchPi
       text += fmt::format("solve   {}\n", picture.scene.string());
     }
     ++rendered;
-    text += fmt::format("render  {}\n", picture.name);
+    text += fmt::format("render  {} {}\n", picture.number, picture.name);
   }
   return text + fmt::format("{} pictures: {} to render, {} done already, {} that cannot be; {} to "
                             "solve\n",

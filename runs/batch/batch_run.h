@@ -13,7 +13,8 @@ struct BatchRequest {
   std::optional<std::filesystem::path> junit;
   GltfSettings gltf; ///< how scenes are read
   Resume resume = Resume::no;
-  Shard shard;
+  std::vector<NumberRange> only; ///< pictures; empty: all
+  Shard shard;                   ///< of these
   std::optional<std::uint64_t> memory_limit; ///< bytes; what the machine allows otherwise
   int threads = 0;                           ///< 0: all the machine has
 };

@@ -224,6 +224,16 @@ TEST_F(BatchTest, WrongUsageIsRefused) {
     EXPECT_EQ(outcome.code, 2);
     EXPECT_EQ(outcome.err, "meninas: --shard: " + line + "\n");
   }
+  for (const auto& [only, line] : std::vector<std::pair<std::string, std::string>>{
+           {"", "'' is not a whole number from 0 to 1000000000"},
+           {"1,", "'' is not a whole number from 0 to 1000000000"},
+           {"3-1", "'1' is not a whole number from 3 to 1000000000"},
+           {"0-1", "no picture 1: the batch has 1, from 0 on"}}) {
+    const Outcome outcome = batch({"--only", only});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.err, "meninas: --only: " + line + "\n");
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
   EXPECT_EQ(run_program(folder_.path(), {"batch", "jobs.json"}).code, 2);
   const Outcome missing = run_program(folder_.path(), {"batch", "no.json", "-o", "out"});
   EXPECT_EQ(missing.code, 3);

@@ -61,6 +61,24 @@ TEST_F(BatchTest, TheSameBitsInAnyOrderWithAnyThreadsAndShards) {
   EXPECT_EQ(pictures("turned"), expected);
 }
 
+TEST_F(BatchTest, PicturesAreMadeByTheirNumbers) {
+  write_jobs({view_job(), other_job()});
+  ASSERT_EQ(batch({"-o", "all"}).code, 0);
+  const Json listed = summary("all")["pictures"];
+  for (std::size_t k = 0; k < listed.size(); ++k)
+    EXPECT_EQ(listed[k]["number"], k);
+  ASSERT_EQ(batch({"--only", "1,4-6"}).code, 0);
+  const Json some = summary()["pictures"];
+  for (std::size_t k = 0; k < some.size(); ++k)
+    EXPECT_EQ(some[k]["status"] == "made", k == 1 || (k >= 4 && k <= 6)) << k;
+  // Parts of the chosen ones, and what is chosen twice is made once.
+  const Outcome last = batch({"--resume", "--only", "6-7,7,5-7", "--shard", "3/3"});
+  EXPECT_EQ(made_by(last.err), 1) << last.err;
+  EXPECT_EQ(summary()["pictures"][7]["status"], "made");
+  ASSERT_EQ(batch({"--resume", "--only", "0,2-3,8-11"}).code, 0);
+  EXPECT_TRUE(pictures() == pictures("all"));
+}
+
 TEST_F(BatchTest, ProcessesOnOneFolderShareTheWork) {
   write_jobs({view_job(), other_job()});
   ASSERT_EQ(batch({"-o", "alone"}).code, 0);

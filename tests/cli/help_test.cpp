@@ -68,7 +68,7 @@ TEST(Help, ShowsWhatMattersFirst) {
 }
 
 const std::vector<std::string> commands{"render", "solve",   "plan",  "compare",    "batch",
-                                        "diff",   "regress", "trade", "formfactors", "walk"};
+                                        "diff",   "regress", "trade", "formfactors", "walk", "merge"};
 
 TEST(Help, FitsTheTerminal) {
   const TemporaryFolder folder;

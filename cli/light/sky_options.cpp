@@ -1,4 +1,4 @@
-#include "cli/sky_options.h"
+#include "cli/light/sky_options.h"
 
 #include "cli/values.h"
 

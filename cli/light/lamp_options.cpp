@@ -1,4 +1,4 @@
-#include "cli/lamp_options.h"
+#include "cli/light/lamp_options.h"
 
 #include "cli/common_options.h"
 #include "cli/values.h"

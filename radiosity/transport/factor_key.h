@@ -1,0 +1,21 @@
+// What form factors depend on, as hashes: rows T_ij that are kept (factor_file.h) are those of a scene and settings
+// with the same key, but for one chance in 2^64. They do not depend on emission and diffuse reflectances.
+#pragma once
+
+#include "radiosity/transport/form_factors.h"
+
+#include <cstdint>
+
+namespace meninas {
+
+/// What form factors were made from.
+struct FactorKey {
+  std::uint64_t geometry = 0; ///< vertices, triangles, which sides of them are there
+  std::uint64_t mirrors =
+      0; ///< which triangles are mirrors, their reflectances, the enumerated worlds
+  std::uint64_t mesh = 0;     ///< sides and elements
+  std::uint64_t sampling = 0; ///< all of FormFactorSettings
+};
+FactorKey factor_key(const LightScene& light, const FormFactorSettings& settings);
+
+} // namespace meninas
