@@ -31,6 +31,9 @@ double parse_number(const std::string& option, const std::string& text, Sign sig
 /// One number for a grey, or three: linear red, green and blue; none negative.
 Rgb parse_colour(const std::string& option, const std::string& text);
 
+/// X,Y,Z: three finite numbers.
+Point3 parse_point(const std::string& option, const std::string& text);
+
 /// WIDTHxHEIGHT
 PictureSize parse_size(const std::string& option, const std::string& text);
 
