@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <thread>
 
@@ -63,6 +64,7 @@ void run(const Options& command, ViewOptions& options) {
   live_run(options.request,
            [&](const std::string& address) {
              tell(stdout, address + "\n");
+             std::fflush(stdout);
              if (options.opens && has_display())
                open_browser(address, console.events());
            },
