@@ -20,6 +20,7 @@ using testing::HasSubstr;
 
 /// until(holds), press(key), text(id), status() for the scripts below.
 const std::string helpers = R"(
+  while (document.readyState !== 'complete' || !document.body) await new Promise(r => setTimeout(r, 50));
   const until = async holds => { for (let k = 0; k < 1200 && !holds(); ++k) await new Promise(r => setTimeout(r, 50)); return Boolean(holds()); };
   const press = (key, more = {}) => dispatchEvent(new KeyboardEvent('keydown', { key, ...more }));
   const text = id => (document.getElementById(id) || {}).textContent || '';
