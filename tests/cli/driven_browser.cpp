@@ -10,8 +10,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <fstream>
+#include <thread>
 #include <vector>
 
 namespace meninas::test {
@@ -91,7 +93,15 @@ std::string DrivenBrowser::open(const std::string& address) {
   if (!target.is_object())
     return "";
   const json attached = call("Target.attachToTarget", {{"targetId", target.at("targetId")}, {"flatten", true}});
-  return attached.is_object() ? attached.value("sessionId", "") : "";
+  const std::string page = attached.is_object() ? attached.value("sessionId", "") : "";
+  // What is run before the page is there would be lost with the empty one.
+  for (int k = 0; k < 1200; ++k) {
+    const json state = call("Runtime.evaluate", {{"expression", "location.href !== 'about:blank' && document.readyState === 'complete'"}, {"returnByValue", true}}, page);
+    if (state.is_object() && state.contains("result") && state["result"].value("value", false))
+      break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return page;
 }
 
 json DrivenBrowser::run(const std::string& page, const std::string& use) {

@@ -20,7 +20,6 @@ using testing::HasSubstr;
 
 /// until(holds), press(key), text(id), status() for the scripts below.
 const std::string helpers = R"(
-  while (document.readyState !== 'complete' || !document.body) await new Promise(r => setTimeout(r, 50));
   const until = async holds => { for (let k = 0; k < 1200 && !holds(); ++k) await new Promise(r => setTimeout(r, 50)); return Boolean(holds()); };
   const press = (key, more = {}) => dispatchEvent(new KeyboardEvent('keydown', { key, ...more }));
   const text = id => (document.getElementById(id) || {}).textContent || '';
@@ -97,7 +96,8 @@ TEST_F(ViewBrowser, ThePageEndsWithTheLightOfTheSolution) {
   EXPECT_EQ(said.at("scale"), true);
   EXPECT_EQ(said.at("ambient"), (json{0.0, 0.0, 0.0}));
   ASSERT_EQ(run_program(folder_.path(), {"walk", "room.glb", "--quality", "draft", "-o", "room.html"}).code, 0);
-  const json walked = browse_drawn_page(folder_.path(), (folder_ / "room.html").string(), "", R"(
+  page_ = browser_->open("file://" + (folder_ / "room.html").string());
+  const json walked = run(R"(
     const tables = await readTables(JSON.parse(document.getElementById('data').textContent));
     return { bits: tables.irradiance.reduce((sum, x) => (31 * sum + x) % 1000003, 7), rows: tables.irradiance.length };)");
   ASSERT_TRUE(walked.is_object());
@@ -116,7 +116,7 @@ TEST_F(ViewBrowser, PassTwoShowsWhatRestsAndIsSaved) {
     press('ArrowRight'); await new Promise(r => setTimeout(r, 100)); report.gone = data.resting === undefined;
     dispatchEvent(new KeyboardEvent('keyup', { key: 'ArrowRight' }));
     report.again = await until(() => data.resting === 'whole');
-    const shown = document.querySelectorAll('.resting.shown'); report.shown = shown.length > 0 && shown[shown.length - 1].naturalWidth;
+    report.shown = Math.max(...[...document.querySelectorAll('.resting.shown')].map(layer => layer.naturalWidth));
     report.wide = document.getElementById('view').clientWidth;
     press('s', { ctrlKey: true }); await until(() => text('said').includes('meninas render'));
     report.command = document.querySelector('#said code').textContent; report.problem = data.problem || '';

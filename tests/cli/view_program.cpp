@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -81,5 +85,17 @@ Outcome ViewProgram::end() {
   program_.send(SIGINT);
   return program_.outcome();
 }
+
+SilentReader::SilentReader(const ViewProgram& view, const std::string& path) : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(static_cast<std::uint16_t>(view.port()));
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
+  const std::string request = "GET " + view.base() + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(view.port()) + "\r\n\r\n";
+  EXPECT_EQ(write(socket_, request.data(), request.size()), static_cast<ssize_t>(request.size()));
+}
+
+SilentReader::~SilentReader() { close(socket_); }
 
 } // namespace meninas::test

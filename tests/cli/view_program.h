@@ -44,4 +44,16 @@ private:
   std::string address_;
 };
 
+/// One that asks, and never reads what comes.
+class SilentReader {
+public:
+  SilentReader(const ViewProgram& view, const std::string& path);
+  ~SilentReader();
+  SilentReader(const SilentReader&) = delete;
+  SilentReader& operator=(const SilentReader&) = delete;
+
+private:
+  int socket_ = -1;
+};
+
 } // namespace meninas::test
