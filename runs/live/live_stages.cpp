@@ -102,14 +102,15 @@ private:
 class ShownShots {
 public:
   ShownShots(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const LightScene> light)
-      : stage_(stage), light_(std::move(light)), room_(shown, stage) {}
+      : shown_(shown), stage_(stage), light_(std::move(light)), room_(shown, stage) {}
 
   /// The room before any light, if somebody wants to see that.
   void begin() {
     if (!stage_.steps.paused())
       return;
     const std::vector<glm::vec3> dark(light_->mesh.vertices.size(), glm::vec3(0.0F));
-    room_.show({{dark, {}, dark, {}}, light_}, Rgb(0.0));
+    // A room of its own: the exposure of the lit one is another.
+    ShownRoom(shown_, stage_).show({{dark, {}, dark, {}}, light_}, Rgb(0.0));
     wait(0);
   }
   void look(const PassOneSoFar& state) {
@@ -139,6 +140,7 @@ private:
     stage_.board.change_status([&](LiveStatus& status) { status.paused = stage_.steps.paused(); });
   }
 
+  const LiveScene& shown_;
   const LiveStage& stage_;
   std::shared_ptr<const LightScene> light_;
   ShownRoom room_;
