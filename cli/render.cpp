@@ -70,6 +70,32 @@ void add_outputs(Options& command, RenderOptions& options) {
       .group(study_group);
 }
 
+/// Not of a batch, whose paths are places, too.
+void add_place(Options& command, RenderOptions& options) {
+  auto& place = options.request.place;
+  const auto at = [&place]() -> FreeCamera& { return place ? *place : place.emplace(); };
+  command.add("--eye", "X,Y,Z", "look from there, upright, in metres, instead of a camera of the file; needs --target",
+              [=](const std::string& text) { at().eye = parse_point("--eye", text); })
+      .group(picture_group);
+  command.add("--target", "X,Y,Z", "--eye: the point that is looked at",
+              [=](const std::string& text) { at().target = parse_point("--target", text); })
+      .group(picture_group);
+  command.add("--angle", "DEGREES", "--eye: angle of view from bottom to top [45.8]",
+              [=](const std::string& text) { at().angle = parse_number("--angle", text, Sign::positive); })
+      .group(picture_group);
+}
+
+void check_place(const Options& command, const RenderRequest& request) {
+  if (!request.place)
+    return;
+  for (const char* const needed : {"--eye", "--target"})
+    if (!command.given(needed))
+      throw UsageError(needed, "is needed with --eye, --target and --angle, which go together");
+  refuse(command, {"--camera"}, "does not go with --eye, which is no camera of the file");
+  if (request.place->angle && *request.place->angle >= 180.0)
+    throw UsageError("--angle", "is below 180 degrees");
+}
+
 void add_depth_options(Options& command, PictureSettings& picture) {
   command
       .add("--depth", "8|16", "bits of a PNG's channel [8]",
@@ -290,6 +316,7 @@ void run(const Options& command, RenderOptions& options) {
     options.request.pictures = {options.common.scene.filename().replace_extension(".png")};
   }
   completed_request(command, options);
+  check_place(command, options.request);
   Console console(options.common.verbosity);
   console.say_notes(options.common);
   render_run(options.request, console.events());
@@ -303,6 +330,7 @@ Command add_render_command(Options& program) {
   add_scene(command, options->common);
   add_outputs(command, *options);
   add_settings(command, *options);
+  add_place(command, *options);
   return {&command, [=, &command] { run(command, *options); }};
 }
 

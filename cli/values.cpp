@@ -105,6 +105,22 @@ PicturePart parse_part(const std::string& option, const std::string& text) {
   return {static_cast<int>((number + count - 1) % count), static_cast<int>(count)};
 }
 
+Point3 parse_point(const std::string& option, const std::string& text) {
+  Point3 point(0.0);
+  std::size_t begin = 0;
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t end = k < 2 ? text.find(',', begin) : text.size();
+    const auto value = end == std::string::npos
+                           ? std::nullopt
+                           : whole_number_in<double>(std::string_view(text).substr(begin, end - begin));
+    if (!value || !std::isfinite(*value))
+      throw UsageError(option, fmt::format("'{}' is no point such as 1.5,1.6,-2", text));
+    point[k] = *value;
+    begin = end + 1;
+  }
+  return point;
+}
+
 PictureSize parse_size(const std::string& option, const std::string& text) {
   constexpr int longest_side = 65'536;
   constexpr std::int64_t max_pixels = std::int64_t{1} << 27;

@@ -34,6 +34,9 @@ Rgb parse_colour(const std::string& option, const std::string& text);
 /// K/N. Whether K counts from 0 or from 1 does not matter: 0/N and N/N are the same part, the last.
 PicturePart parse_part(const std::string& option, const std::string& text);
 
+/// X,Y,Z: three finite numbers.
+Point3 parse_point(const std::string& option, const std::string& text);
+
 /// WIDTHxHEIGHT
 PictureSize parse_size(const std::string& option, const std::string& text);
 

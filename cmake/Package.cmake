@@ -23,15 +23,17 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Meninas renders rooms from glTF files, with the light that mirrors throw:
 radiosity extended with mirror worlds, then a ray tracer that follows what
 mirrors and glass show. It also solves once for any number of views, runs
-batches, writes a solved room as a web page to walk through, compares
-pictures, and computes form factors and illuminance in lux.")
+batches, writes a solved room as a web page to walk through, shows in a
+browser how a room is solved, compares pictures, and computes form factors
+and illuminance in lux.")
 
 # What meninas-config.cmake looks for, as Debian packages.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libmeninas-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
   "meninas (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})" libembree-dev libopenexr-dev libpng-dev zlib1g-dev libglm-dev
-  libtinygltf-dev libdraco-dev libmeshoptimizer-dev libtbb-dev libeigen3-dev libfmt-dev nlohmann-json3-dev)
+  libtinygltf-dev libdraco-dev libmeshoptimizer-dev libtbb-dev libeigen3-dev libfmt-dev nlohmann-json3-dev
+  libcpp-httplib-dev)
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "Static libraries and headers of Meninas, which renders rooms with mirrors by
 radiosity and ray tracing, with the CMake package that finds them.")
 

@@ -14,10 +14,12 @@ struct PassOneSoFar {
   int shots = 0;
   VertexIrradiance field;
   Rgb ambient{0.0}; ///< irradiance, everywhere
+  double unshot = 0.0; ///< the power that is left to shoot, in that of the first light, luminance
 };
 struct PassOneWatch {
   int every = 0; ///< shots, and after the last; 0: never
   std::function<void(const PassOneSoFar&)> look;
+  bool before_shots = false; ///< what the first light alone brings, too, where rays are shot
 };
 
 } // namespace meninas

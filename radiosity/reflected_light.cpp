@@ -6,6 +6,7 @@
 #include "radiosity/solvers/shooting_blocks.h"
 #include "radiosity/solvers/solve_together.h"
 #include "radiosity/transport/gathered_emission.h"
+#include "scenes/photometry.h"
 #include "scenes/stopwatch.h"
 
 namespace meninas {
@@ -27,7 +28,14 @@ ShotWatch shown(Watched& watched, const PassOneWatch& watch) {
   std::vector<double> area = watched.light.mesh.area;
   for (std::size_t i = 0; i < area.size(); ++i)
     area[i] *= double{watched.exposed[i]};
-  const auto look = [&, area = std::move(area)](const ShotsSoFar& shots) {
+  const auto power_of = [&](const std::vector<Rgb>& light, const std::vector<double>& areas) {
+    double power = 0.0;
+    for (std::size_t i = 0; i < areas.size(); ++i)
+      power += areas[i] * luminance_of(light[i]);
+    return power;
+  };
+  const double first_power = power_of(watched.first.source, area);
+  const auto look = [=, &watched, area = std::move(area)](const ShotsSoFar& shots) {
     const auto& [light, settings, first, closure, exposed, seconds] = watched;
     Stopwatch stopwatch;
     std::vector<Rgb> irradiance = shots.arrived;
@@ -38,7 +46,8 @@ ShotWatch shown(Watched& watched, const PassOneWatch& watch) {
                     settings.direct, {Interpolation::average});
     watch.look({shots.shots, interpolated.field,
                 ambient_irradiance(area, closure, shots.unshot,
-                                   total_shares(first.reflectance, first.translucent))});
+                                   total_shares(first.reflectance, first.translucent)),
+                first_power > 0.0 ? power_of(shots.unshot, area) / first_power : 0.0});
     watched.seconds += stopwatch.lap();
   };
   return {watch.every, look};
@@ -92,9 +101,12 @@ ReflectedLight reflected_by_shots(const LightScene& light, const PassOneSettings
   solved.form_factor_seconds = stopwatch.lap();
 
   Watched watched{light, settings, solved.first, survey.closure, survey.exposed};
+  const ShotWatch told = shown(watched, watch);
+  if (watch.before_shots)
+    told.look({0, std::vector<Rgb>(solved.first.source.size(), Rgb(0.0)), solved.first.source});
   ShotSolution shots = solve_by_shots(
       light, survey, {solved.first.source, {solved.first.reflectance, solved.first.translucent}},
-      {settings.form_factors, settings.solver}, progress, shown(watched, watch));
+      {settings.form_factors, settings.solver}, progress, told);
   solved.solver = std::move(shots.solver);
   solved.arrived = std::move(shots.arrived);
   solved.closure = survey.closure;

@@ -57,17 +57,19 @@ std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings&
   return prepared;
 }
 
+bool solves_for_view(const PreparedScene& prepared, const TwoPassSettings& settings) {
+  // Light that is gathered at hits comes from everywhere.
+  constexpr std::size_t few_patches = 8192;
+  return settings.pass_one.cut == MeshCut::hierarchical &&
+         prepared.surfaces.patches.size() > few_patches &&
+         settings.render.diffuse.term != DiffuseTerm::gather;
+}
+
 RadiositySolution solve_for_picture(const PreparedScene& prepared, const Camera& camera,
                                     const TwoPassSettings& settings, const Progress& progress,
                                     const PassOneWatch& watch) {
-  // Rooms of few patches are found whole in little time, and have the picture of their stored solution to the bit.
-  // Light that is gathered at hits comes from everywhere.
-  constexpr std::size_t few_patches = 8192;
-  const bool by_view = settings.pass_one.cut == MeshCut::hierarchical &&
-                       prepared.surfaces.patches.size() > few_patches &&
-                       settings.render.diffuse.term != DiffuseTerm::gather;
   const SeenElements seen =
-      by_view ? seen_elements(*prepared.light, camera, settings.render) : SeenElements{};
+      solves_for_view(prepared, settings) ? seen_elements(*prepared.light, camera, settings.render) : SeenElements{};
   return solve_for_view(prepared.light, settings.pass_one, seen, progress, watch);
 }
 

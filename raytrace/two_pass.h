@@ -34,6 +34,10 @@ struct PreparedScene {
 /// Textures that cannot be decoded are left out, with a warning of the plan.
 std::unique_ptr<PreparedScene> prepare_scene(Scene scene, const PassOneSettings& settings);
 
+/// Whether pass one for a picture is less exact where that shows nothing: rooms of few patches are found whole in
+/// little time, and have the picture of their stored solution to the bit.
+bool solves_for_view(const PreparedScene& prepared, const TwoPassSettings& settings);
+
 /// Pass one for one picture: above 8,192 patches exact where that shows it (views/seen_elements.h).
 RadiositySolution solve_for_picture(const PreparedScene& prepared, const Camera& camera,
                                     const TwoPassSettings& settings, const Progress& progress = {},

@@ -1,5 +1,6 @@
 #include "runs/outputs.h"
 
+#include "image/codecs/exr_encoding.h"
 #include "image/display.h"
 #include "image/whole_file.h"
 #include "scenes/errors.h"
@@ -127,6 +128,19 @@ void write_pictures(const std::vector<fs::path>& files, const WrittenPicture& pi
   if (settings.exposure && has_png(files)) {
     note(events, fmt::format("exposure {:+.2f} EV", *settings.exposure));
   }
+}
+
+std::vector<std::byte> picture_bytes(PictureFormat format, const WrittenPicture& picture,
+                                     const PictureSettings& settings, const Attributes& attributes) {
+  expects(format != PictureFormat::hdr, "pictures in memory are EXRs or PNGs");
+  if (format == PictureFormat::exr)
+    return encode_exr(picture.image, picture.layers,
+                      type_for(picture.image, picture.layers, settings.exr_type), attributes);
+  expects(settings.exposure.has_value(), "a PNG has an exposure");
+  return encode_png(picture.image, {.exposure = *settings.exposure,
+                                    .transform = settings.transform,
+                                    .edges = picture.edges,
+                                    .bits = settings.png_bits});
 }
 
 } // namespace meninas

@@ -44,6 +44,10 @@ void write_pictures(const std::vector<std::filesystem::path>& files, const Writt
                     const PictureSettings& settings, const Attributes& attributes,
                     const RunEvents& events);
 
+/// The bytes that write_pictures writes: of an .exr, or of a .png, whose exposure is then given.
+std::vector<std::byte> picture_bytes(PictureFormat format, const WrittenPicture& picture,
+                                     const PictureSettings& settings, const Attributes& attributes);
+
 /// How PNGs among these files show the picture, if there are any.
 std::optional<DisplayChoice> display_of(const std::vector<std::filesystem::path>& files,
                                         const PictureSettings& settings);

@@ -5,6 +5,7 @@
 #include "image/image_file.h"
 #include "raytrace/pixels/section_plane.h"
 #include "raytrace/scene_textures.h"
+#include "runs/batch/camera_path.h"
 #include "runs/report/percent.h"
 #include "scenes/errors.h"
 #include "scenes/gltf/gltf.h"
@@ -128,6 +129,15 @@ Camera default_view(const Bounds& bounds, const RunSettings& settings) {
     camera.up = {0.0, 1.0, 0.0};
     camera.forward = glm::cross(camera.up, camera.right);
   }
+  return camera;
+}
+
+Camera camera_at(const FreeCamera& place, const RunSettings& settings) {
+  if (place.eye == place.target)
+    throw UsageError("--target", "is where --eye is: there is no direction to look in");
+  const double fov = place.angle ? glm::radians(*place.angle) : Camera{}.vertical_fov;
+  Camera camera = projected(looking_at(place.eye, place.target, fov), settings);
+  camera.name = "free";
   return camera;
 }
 

@@ -42,6 +42,15 @@ Camera projected(Camera camera, const RunSettings& settings);
 /// Of a scene without a camera: all of it from outside, or around from its middle.
 Camera default_view(const Bounds& bounds, const RunSettings& settings);
 
+/// A place to look from that the file need not know.
+struct FreeCamera {
+  Point3 eye{0.0}, target{0.0};
+  std::optional<double> angle; ///< of view, vertical, degrees; that of Camera otherwise
+};
+
+/// Upright at its eye, as projected(). Throws UsageError where eye and target are one point.
+Camera camera_at(const FreeCamera& place, const RunSettings& settings);
+
 /// The camera of that name, else the file's first, else a default view, as projected().
 Camera choose_camera(const Scene& scene, const std::optional<std::string>& name,
                      const RunSettings& settings, const RunEvents& events);

@@ -193,7 +193,8 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   Scene scene = lamps_later ? load_scene(request.scene, request.settings)
                             : load_relit_scene(request.scene, request.settings);
   const bool is_lit = has_light(scene);
-  const Camera chosen = choose_camera(scene, request.camera, request.settings, events);
+  const Camera chosen = request.place ? camera_at(*request.place, request.settings)
+                                      : choose_camera(scene, request.camera, request.settings, events);
   const PictureSize size = choose_size(request.size, chosen);
   const Camera camera = cut_open(scene, chosen, size, events);
   check_memory(scene, request.settings, size);

@@ -3,6 +3,7 @@
 
 #include "runs/steering/error_report.h"
 #include "runs/outputs.h"
+#include "runs/preparation.h"
 #include "runs/run_settings.h"
 #include "runs/snapshots.h"
 #include "runs/report/stats.h"
@@ -24,6 +25,7 @@ struct RenderRequest {
   WithErrorMap error_map = WithErrorMap::no;
   std::optional<Goal> goal; ///< the run chooses what the settings leave open
   std::optional<std::string> camera;
+  std::optional<FreeCamera> place; ///< in place of the file's cameras
   std::optional<PictureSize> size;
   PictureSettings picture;
   RunSettings settings;

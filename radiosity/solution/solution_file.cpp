@@ -92,6 +92,12 @@ json extras_json(std::uint64_t scene_hash, const ElementMesh& mesh, const MeshSe
 void write_solution(const std::filesystem::path& file, std::uint64_t scene_hash,
                     const ElementMesh& solved, const RadiositySolution& solution,
                     const MeshSettings& settings) {
+  write_whole_file(file, solution_bytes(scene_hash, solved, solution, settings, file.string()));
+}
+
+std::vector<std::byte> solution_bytes(std::uint64_t scene_hash, const ElementMesh& solved,
+                                      const RadiositySolution& solution,
+                                      const MeshSettings& settings, const std::string& name) {
   const ElementMesh& mesh = solution.field.mesh();
   GlbArrays glb;
   auto [root, field, scale] = viewer_scene(glb, solution.field);
@@ -119,7 +125,7 @@ void write_solution(const std::filesystem::path& file, std::uint64_t scene_hash,
     root["bufferViews"] = std::move(glb.views);
     root["accessors"] = std::move(glb.accessors);
   }
-  write_whole_file(file, glb_bytes(root, glb.binary, file));
+  return glb_bytes(root, glb.binary, name);
 }
 
 } // namespace meninas

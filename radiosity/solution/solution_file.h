@@ -23,6 +23,10 @@ namespace meninas {
 void write_solution(const std::filesystem::path& file, std::uint64_t scene_hash,
                     const ElementMesh& solved, const RadiositySolution& solution,
                     const MeshSettings& settings);
+/// The bytes of that file.
+std::vector<std::byte> solution_bytes(std::uint64_t scene_hash, const ElementMesh& solved,
+                                      const RadiositySolution& solution,
+                                      const MeshSettings& settings, const std::string& name);
 
 /// What a solution was made with, and what the solve said about itself.
 struct StoredSolution {

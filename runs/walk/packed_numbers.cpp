@@ -36,12 +36,13 @@ void add_table(PackedNumbers& packed, const std::string& name,
   packed.tables.push_back(std::move(table));
 }
 
-std::vector<std::byte> deflated(std::span<const std::byte> bytes) {
+std::vector<std::byte> deflated(std::span<const std::byte> bytes, PackedSize packed) {
   uLongf size = compressBound(bytes.size());
   std::vector<std::byte> result(size);
   const int outcome =
       compress2(reinterpret_cast<Bytef*>(result.data()), &size,
-                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
+                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
+                packed == PackedSize::quick ? Z_BEST_SPEED : Z_BEST_COMPRESSION);
   expects(outcome == Z_OK, "there is room for what is deflated");
   result.resize(size);
   return result;

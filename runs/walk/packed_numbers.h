@@ -33,8 +33,11 @@ struct PackedNumbers {
 void add_table(PackedNumbers& packed, const std::string& name,
                std::span<const std::uint32_t> values, std::size_t columns);
 
+/// How much time packing may take: for a file that is kept, or for one that is waited for.
+enum class PackedSize { smallest, quick };
+
 /// RFC 1950, as DecompressionStream("deflate") takes it.
-std::vector<std::byte> deflated(std::span<const std::byte> bytes);
+std::vector<std::byte> deflated(std::span<const std::byte> bytes, PackedSize size = PackedSize::smallest);
 
 /// x as a whole number of `step`s, which may be negative; what is no number is 0, what is too large
 /// the largest there is.

@@ -287,19 +287,6 @@ json lamps_json(const WalkPage& page, PackedNumbers& packed) {
 
 double luminance(const glm::vec3& c) { return luminance_of(c); }
 
-/// Irradiance that all but two in a hundred vertices stay below: the top of the false colours.
-double top_irradiance(std::span<const glm::vec3> irradiance) {
-  std::vector<double> values;
-  for (const glm::vec3& value : irradiance)
-    if (value != glm::vec3(0.0F))
-      values.push_back(luminance(value));
-  if (values.empty())
-    return 1.0;
-  const auto place = values.begin() + std::ptrdiff_t(0.98 * double(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
 json false_colours_json() {
   json colours = json::array();
   for (int k = 0; k < 256; ++k) {
@@ -312,7 +299,19 @@ json false_colours_json() {
 
 } // namespace
 
-std::string walk_page_html(const WalkPage& page, std::vector<std::string>& warnings) {
+double top_irradiance(std::span<const glm::vec3> irradiance) {
+  std::vector<double> values;
+  for (const glm::vec3& value : irradiance)
+    if (value != glm::vec3(0.0F))
+      values.push_back(luminance(value));
+  if (values.empty())
+    return 1.0;
+  const auto place = values.begin() + std::ptrdiff_t(0.98 * double(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+std::string walk_page_data(const WalkPage& page, std::vector<std::string>& warnings) {
   const Scene& scene = page.field.scene->scene;
   const std::size_t triangles = page.room.indices.size() / 3;
   if (triangles > most_walk_triangles)
@@ -330,7 +329,7 @@ std::string walk_page_html(const WalkPage& page, std::vector<std::string>& warni
   json data{{"title", page.title},
             {"program", fmt::format("Meninas {}", program_version())},
             {"tables", tables_json(packed)},
-            {"packed", base64(deflated(packed.bytes))},
+            {"packed", base64(deflated(packed.bytes, page.packed))},
             {"step", position_step(page.room)},
             {"light", light},
             {"lamps", std::move(lamps)},
@@ -355,7 +354,11 @@ std::string walk_page_html(const WalkPage& page, std::vector<std::string>& warni
   data["nodes"] = std::move(nodes);
   data["images"] = std::move(pictures.images);
   data["textures"] = std::move(pictures.textures);
-  return fill_page(walk_page, data.dump(-1, ' ', false, json::error_handler_t::replace));
+  return data.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::string walk_page_html(const WalkPage& page, std::vector<std::string>& warnings) {
+  return fill_page(walk_page, walk_page_data(page, warnings));
 }
 
 } // namespace meninas

@@ -6,6 +6,7 @@
 #include "runs/walk/walk_lamps.h"
 #include "runs/walk/walk_room.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,13 +26,21 @@ struct WalkPage {
   ViewTransform transform = ViewTransform::neutral;
   double min_throughput = 1.0 / 1024.0;
   double luminous_efficacy = 683.0; ///< lm/W
+  PackedSize packed = PackedSize::smallest;
   std::vector<WalkLamp> lamps = {}; ///< those whose light the room knows, by their number
 };
 
 /// Pages with more triangles are refused: a browser would not draw them.
 inline constexpr std::size_t most_walk_triangles = 3'000'000;
 
-/// The whole file. `warnings` gets what had to be left out, a sentence each.
+/// Its JSON. `warnings` gets what had to be left out, a sentence each. Throws InputError where a browser would
+/// not draw it, naming the scene's file.
+std::string walk_page_data(const WalkPage& page, std::vector<std::string>& warnings);
+
+/// Irradiance that all but two in a hundred vertices stay below, luminance, W/m^2: the top of the false colours.
+double top_irradiance(std::span<const glm::vec3> irradiance);
+
+/// The whole file, with the same data. `warnings` gets what had to be left out, a sentence each.
 std::string walk_page_html(const WalkPage& page, std::vector<std::string>& warnings);
 
 } // namespace meninas

@@ -37,14 +37,6 @@ struct Face {
   Facing facing = Facing::front;
 };
 
-/// Where the light of a vertex comes from: a mean of the field's vertices, and a place of a side.
-struct LightOrigin {
-  SideId side = none<SideId>; ///< none: no light is known
-  Point3 place{0.0};
-  std::array<std::uint32_t, 4> vertices{};
-  std::array<float, 4> weights{}; ///< 0 of those that are not there
-};
-
 LightOrigin at_vertex(SideId side, const Point3& place, std::uint32_t vertex) {
   return {side, place, {vertex}, {1.0F}};
 }
@@ -167,24 +159,9 @@ private:
         known_.emplace(key, static_cast<std::uint32_t>(room_.vertices.size()));
     if (is_new) {
       room_.vertices.push_back(vertex);
-      origins_.push_back(origin);
+      room_.origins.push_back(origin);
     }
     return place->second;
-  }
-
-  /// H of a field at a corner of an element, or a point of it, with what comes from behind.
-  glm::vec3 irradiance_of(const VertexIrradiance& field, const LightOrigin& origin) const {
-    glm::vec3 own(0.0F);
-    for (std::size_t k = 0; k < 4; ++k)
-      own += origin.weights[k] * field.irradiance[origin.vertices[k]];
-    const SideId behind = side_behind(mesh_, origin.side);
-    if (behind == none<SideId>)
-      return own;
-    const MeshSide& side = mesh_.sides[index(origin.side)];
-    const Patch& patch = light_.surfaces.patches[index(side.patch)];
-    const glm::vec3 passed = irradiance_at(mesh_, field, behind, uv_at(patch, origin.place));
-    const glm::vec3 ratio(side.transmittance / glm::max(side.reflectance, Rgb(1e-6)));
-    return own + glm::min(ratio, glm::vec3(1e3F)) * passed;
   }
 
   /// A point of a side, and its own H there. `of` tells it from those at other places.
@@ -193,7 +170,7 @@ private:
     WalkVertex vertex;
     vertex.look = look_of_side_[index(origin.side)];
     vertex.position = from_middle(origin.place);
-    vertex.irradiance = irradiance_of(field_, origin);
+    vertex.irradiance = irradiance_from(light_, field_, origin);
     dress(vertex, {side.patch, side.facing},
           place_on(light_.scene, light_.surfaces.patches[index(side.patch)], origin.place));
     return vertex_index(of, vertex, origin);
@@ -344,10 +321,7 @@ private:
       VertexIrradiance alone{.irradiance = lamp.direct, .mirrored = {}, .indirect = {}, .indirect_mirrored = {}};
       for (std::size_t v = 0; v < alone.irradiance.size(); ++v)
         alone.irradiance[v] += lamp.indirect[v];
-      auto& by_vertex = room_.irradiance_by_lamp.emplace_back(room_.vertices.size(), glm::vec3(0.0F));
-      for (std::size_t v = 0; v < by_vertex.size(); ++v)
-        if (origins_[v].side != none<SideId>)
-          by_vertex[v] = irradiance_of(alone, origins_[v]);
+      room_.irradiance_by_lamp.push_back(irradiance_from(light_, alone, room_.origins));
     }
   }
 
@@ -357,7 +331,6 @@ private:
   WalkRoom room_;
   std::vector<Piece> pieces_;
   std::vector<std::uint32_t> look_of_side_;
-  std::vector<LightOrigin> origins_; ///< by vertex of the room
   std::map<std::tuple<MaterialId, WalkFace, std::uint32_t>, std::uint32_t> looks_;
   std::optional<std::uint32_t> black_;
   std::unordered_map<CornerKey, std::uint32_t, HashOfKey> known_;

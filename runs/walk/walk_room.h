@@ -2,9 +2,7 @@
 //
 // Faces that receive light are the triangles of the field's elements (radiosity/solution/
 // element_triangles.h), with the irradiance H, W/m^2, at their corners: the field itself, linear
-// between them. Of a translucent surface H is what would show the same from the front,
-//
-//   H + (tau / rho) H_behind
+// between them (walk_light.h).
 //
 // Of a field that knows lamps apart the same is there of each of them: H = sum of H_l.
 //
@@ -16,6 +14,7 @@
 #pragma once
 
 #include "radiosity/field/irradiance_field.h"
+#include "runs/walk/walk_light.h"
 #include "runs/walk/walk_looks.h"
 
 #include <vector>
@@ -50,6 +49,7 @@ struct WalkBatch {
 struct WalkRoom {
   Point3 middle{0.0};
   std::vector<WalkVertex> vertices;
+  std::vector<LightOrigin> origins; ///< by vertex
   std::vector<std::uint32_t> indices; ///< three to a triangle
   std::vector<std::uint32_t> element_ends; ///< triangles of an element follow one another: where they end
   std::vector<WalkBatch> batches;

@@ -1,7 +1,5 @@
 #include "runs/walk/walk_run.h"
 
-#include "image/display.h"
-#include "raytrace/pixels/section_plane.h"
 #include "runs/outputs.h"
 #include "runs/preparation.h"
 #include "runs/report/stats.h"
@@ -9,7 +7,7 @@
 #include "runs/run_stages.h"
 #include "runs/steering/memory.h"
 #include "runs/view.h"
-#include "runs/walk/walk_page.h"
+#include "runs/walk/walk_cameras.h"
 #include "scenes/errors.h"
 #include "scenes/stopwatch.h"
 
@@ -32,45 +30,6 @@ void check_files(const WalkRequest& request) {
   const std::string extension = request.page.extension().string();
   if (extension != ".html" && extension != ".htm")
     throw OutputError(request.page.string(), "", "cannot write: a page is an .html file");
-}
-
-/// What a PNG of the page's picture from there would be exposed with, by a small one.
-double exposure_from(const LitScene& lit, const Camera& camera, const WalkRequest& request) {
-  if (request.exposure)
-    return *request.exposure;
-  RenderSettings settings;
-  settings.width = settings.height = 96;
-  settings.samples = 4;
-  settings.diffuse.term = DiffuseTerm::interpolated;
-  return automatic_exposure(render(lit.field, camera, settings).image);
-}
-
-/// For files without a camera: standing in the middle of the scene, along its longer side.
-Camera inside(const Bounds& bounds) {
-  const Vec3 size = bounds.high - bounds.low;
-  constexpr double eye_height = 1.6, most_of_height = 0.6;
-  Camera camera;
-  camera.name = "inside";
-  camera.position = 0.5 * bounds.low + 0.5 * bounds.high;
-  camera.position.y = bounds.low.y + std::min(eye_height, most_of_height * size.y);
-  camera.forward = size.x > size.z ? Direction(1.0, 0.0, 0.0) : Direction(0.0, 0.0, -1.0);
-  camera.right = glm::cross(camera.forward, camera.up);
-  return camera;
-}
-
-/// Those of the file, else a view of all of it and one from inside.
-std::vector<WalkCamera> cameras_of(const LitScene& lit, const WalkRequest& request) {
-  const Scene& scene = lit.prepared->scene;
-  std::vector<Camera> cameras = scene.cameras;
-  if (cameras.empty())
-    cameras = {default_view(bounds_of(scene), request.settings), inside(bounds_of(scene))};
-  std::vector<WalkCamera> shown;
-  for (const Camera& camera : cameras) {
-    const double aspect = natural_aspect(camera) > 0.0 ? natural_aspect(camera) : 1.0;
-    const Camera cutting = with_section(scene, camera, aspect);
-    shown.push_back({cutting, exposure_from(lit, cutting, request)});
-  }
-  return shown;
 }
 
 /// Without lamps apart the scene is solved with lamps as bright as they are asked for.
@@ -147,7 +106,8 @@ RunFigures walk_run(const WalkRequest& request, const RunEvents& events) {
       walk_page_html({.field = lit.field,
                       .room = room,
                       .title = request.scene.filename().string(),
-                      .cameras = cameras_of(lamps.empty() ? lit : under_lamps(lit, request.settings), request),
+                      .cameras = walk_cameras(lamps.empty() ? lit.field : under_lamps(lit, request.settings).field,
+                                              request.settings, request.exposure),
                       .transform = request.transform,
                       .luminous_efficacy = request.settings.gltf.state.luminous_efficacy,
                       .lamps = lamps},

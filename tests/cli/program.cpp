@@ -87,6 +87,8 @@ RunningProgram::~RunningProgram() {
 
 void RunningProgram::send(int signal) const { kill(process_, signal); }
 
+std::string RunningProgram::out() const { return read_file(*streams_ / "out"); }
+
 Outcome RunningProgram::outcome() {
   int status = 0;
   waitpid(std::exchange(process_, -1), &status, 0);

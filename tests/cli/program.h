@@ -40,6 +40,8 @@ public:
   RunningProgram(RunningProgram&& other) noexcept;
 
   void send(int signal) const;
+  /// What it has printed so far.
+  std::string out() const;
   /// Waits for its end.
   Outcome outcome();
 

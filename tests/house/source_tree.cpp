@@ -55,6 +55,7 @@ constexpr std::array wrapped_libraries = {
     WrappedLibrary{"libpng", "png.h", "image"},
     WrappedLibrary{"CLI11", "CLI/", "cli"},
     WrappedLibrary{"xxHash", "xxhash.h", "scenes"},
+    WrappedLibrary{"cpp-httplib", "httplib.h", "runs"},
 };
 
 /// What things were called before they had the field's names.

@@ -11,7 +11,7 @@
 function makePainter(gl, data, room, textures) {
   const roomProgram = makeProgram(gl, roomVertex, roomFragment(room.needs)), skyProgram = makeProgram(gl, wholeVertex, skyFragment);
   const screenProgram = makeProgram(gl, wholeVertex, screenFragment);
-  const { array, light } = makeRoomArrays(gl, data, room.tables, room.lamps.irradiance()), looks = gl.createTexture();
+  const { array, light, buffers } = makeRoomArrays(gl, data, room.tables, room.lamps.irradiance()), looks = gl.createTexture();
   const nothing = gl.createVertexArray(), scale = makeScale(gl, data.falseColours), targets = [];
   const black = gl.createTexture(), blackCube = gl.createTexture();
   for (const [kind, texture] of [[gl.TEXTURE_2D, black], [gl.TEXTURE_CUBE_MAP, blackCube]]) {
@@ -345,5 +345,14 @@ function makePainter(gl, data, room, textures) {
     showOnScreen(options.block);
     return { worlds: worlds.count, cut: worlds.cut, depth: worlds.depth, draws };
   }
-  return { paint, fillNextProbe };
+  /// What the graphics card keeps for this room; programs stay for the next.
+  function free() {
+    targets.forEach(target => target && freeTarget(gl, target));
+    buffers.forEach(buffer => gl.deleteBuffer(buffer));
+    if (lines) gl.deleteBuffer(lines.ends);
+    [...textures, ...(textures.sky ? [textures.sky.texture] : []), ...room.probes.map(probe => probe.texture || null), looks, scale, black, blackCube]
+      .forEach(texture => gl.deleteTexture(texture));
+    [array, nothing].forEach(made => gl.deleteVertexArray(made));
+  }
+  return { paint, fillNextProbe, free };
 }

@@ -11,7 +11,13 @@ function openGpu(canvas) {
   return gl;
 }
 
+/// Compiled once: it takes as long as drawing many frames where software draws.
 function makeProgram(gl, vertex, fragment) {
+  const known = gl.programs = gl.programs || new Map(), text = vertex + fragment;
+  if (!known.has(text)) known.set(text, compiledProgram(gl, vertex, fragment));
+  return known.get(text);
+}
+function compiledProgram(gl, vertex, fragment) {
   const program = gl.createProgram();
   for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
     const shader = gl.createShader(kind);
@@ -39,12 +45,13 @@ function makeBuffer(gl, target, values) {
   return buffer;
 }
 
-/// The vertices of the room, and their triangles. Returns { array, light }, the buffer of their irradiance.
+/// The vertices of the room, and their triangles. Returns { array, light, buffers }, light the buffer of their irradiance.
 function makeRoomArrays(gl, data, tables, irradiance) {
-  const array = gl.createVertexArray();
+  const array = gl.createVertexArray(), buffers = [];
   gl.bindVertexArray(array);
   const add = (place, values, count, type, normalized) => {
     const buffer = makeBuffer(gl, gl.ARRAY_BUFFER, values);
+    buffers.push(buffer);
     gl.enableVertexAttribArray(place);
     gl.vertexAttribPointer(place, count, type, normalized, 0, 0);
     return buffer;
@@ -55,12 +62,12 @@ function makeRoomArrays(gl, data, tables, irradiance) {
   if (data.textures.length) add(3, Float32Array.from(tables.place, x => x / 65536), 4, gl.FLOAT, false);
   if (tables.colour.some(x => x !== 65535)) add(4, Uint16Array.from(tables.colour), 4, gl.UNSIGNED_SHORT, true);
   else gl.vertexAttrib4f(4, 1, 1, 1, 1);
-  makeBuffer(gl, gl.ARRAY_BUFFER, Uint16Array.from(tables.look));
+  buffers.push(makeBuffer(gl, gl.ARRAY_BUFFER, Uint16Array.from(tables.look)));
   gl.enableVertexAttribArray(5);
   gl.vertexAttribIPointer(5, 1, gl.UNSIGNED_SHORT, 0, 0);
-  makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, Uint32Array.from(tables.triangles));
+  buffers.push(makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, Uint32Array.from(tables.triangles)));
   gl.bindVertexArray(null);
-  return { array, light };
+  return { array, light, buffers };
 }
 
 function setValues(gl, buffer, values) {

@@ -84,6 +84,8 @@ function makeLamps(data, tables) {
         for (const lamp of named.length ? named : name === "all" ? lamps : []) all.set(lamp, factor);
       }
     },
+    /// Other light of the whole room, by vertex, in units of data.light; no lamp is known apart.
+    receive(values) { allOfThem.set(values); ++all.state; },
     reset() { for (const lamp of lamps) all.set(lamp, lamp.start); }
   };
   return all;

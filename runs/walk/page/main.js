@@ -1,4 +1,4 @@
-// The page: reads its data, draws when something has changed, and does what keys ask for.
+// The page: shows its data, draws when something has changed, and does what keys ask for.
 "use strict";
 
 /// Rays to a rough surface's pixel: of pictures, at rest, while someone moves.
@@ -7,16 +7,26 @@ const facetsFor = block => block > 2 ? 48 : block > 1 ? 24 : 12;
 /// More worlds than that make no frame slow on a plain graphics card; slow ones have fewer.
 const mostWorlds = 128, mostWorldsOfShot = 1024, slowFrame = 80, mostPixels = 1 << 24;
 
-async function start() {
-  const data = JSON.parse(element("data").textContent), canvas = element("view"), gl = openGpu(canvas);
-  const tables = await readTables(data), room = readRoom(data, tables);
-  const images = await Promise.all(data.images.map(readImage));
+/// The room of some data, and its images for the graphics card.
+async function readShown(gl, data) {
+  const room = readRoom(data, await readTables(data)), images = await Promise.all(data.images.map(readImage));
   const textures = data.textures.map(use => makeTexture(gl, images[use.image], use));
   if (data.sky) textures.sky = await makeSky(gl, data.sky);
-  const { paint, fillNextProbe } = makePainter(gl, data, room, textures), rays = raysWhenAsked(room), motion = makeMotion(room, rays);
+  return { room, textures };
+}
+
+/// Opens the page on its data. `told` may have moved() and rested(), of the camera. Returns what others do with the page:
+///   keys           by name, what they do; others may be added
+///   takeRoom(data, shift)  shows another room, or another mesh of it, from where the eye is; its points are those before plus `shift`
+///   takeLight({ irradiance, scale, top })  shows the room under other light: numbers by vertex, times scale W/m^2
+///   redraw()       after a change of something beside the camera
+async function openPage(data, told = {}) {
+  const canvas = element("view"), gl = openGpu(canvas), { room, textures } = await readShown(gl, data);
+  let painter = makePainter(gl, data, room, textures);
+  const rays = raysWhenAsked(room), motion = makeMotion(room, rays);
   const asked = readAddress(), mostWide = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE);
   const shows = { mirrors: asked.mirrors, falseColours: asked.falseColours, lines: asked.lines, camera: 0,
-    most: Math.ceil(clamped(8e5 / tables.triangles.length, 1, 8)), coarse: true, slow: true };
+    most: Math.ceil(clamped(8e5 / room.tables.triangles.length, 1, 8)), coarse: true, slow: true };
   let waiting = false, moving = true, last = 0, rest = 0;
 
   function goToCamera(number) {
@@ -53,7 +63,7 @@ async function start() {
     const [width, height] = sizeOfCanvas(coarse), before = performance.now();
     while (block > 1 && (Math.max(width, height) * block > mostWide || width * height * block * block > mostPixels)) block /= 2;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-    const figures = paint(motion.view(width / height), { ...shows, width, height, block, most, facets: facetsFor(block), exposure: motion.state.exposure });
+    const figures = painter.paint(motion.view(width / height), { ...shows, width, height, block, most, facets: facetsFor(block), exposure: motion.state.exposure });
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
     return { ...figures, milliseconds: performance.now() - before };
   }
@@ -71,13 +81,13 @@ async function start() {
       setTimeout(() => askForFrame(false), 0);
     }
     // Then for what curved and rough bodies show.
-    if (!moving && fillNextProbe()) setTimeout(() => askForFrame(false), 0);
+    if (!moving && painter.fillNextProbe()) setTimeout(() => askForFrame(false), 0);
     panel.figures(figures);
     dimmers.show();
     panel.show({ ...shows, mode: motion.state.mode, exposure: motion.state.exposure });
     clearTimeout(rest);
     if (goesOn) moved();
-    else if (moving) rest = setTimeout(() => { saveAddress(); askForFrame(false); }, 250);
+    else if (moving) rest = setTimeout(() => { saveAddress(); askForFrame(false); if (told.rested) told.rested(); }, 250);
   }
   /// While someone moves, slow frames have fewer pixels, and then fewer worlds, those by the most
   /// mirrors first. At rest there are more of both.
@@ -96,7 +106,11 @@ async function start() {
     waiting = true;
     requestAnimationFrame(now => { try { frame(now); } catch (problem) { showProblem(problem); } });
   }
-  function moved() { askForFrame(true); }
+  function redraw() { askForFrame(true); }
+  function moved() {
+    if (told.moved) told.moved();
+    redraw();
+  }
   const keys = {
     o: () => motion.setMode(motion.state.mode === "walk" ? "orbit" : "walk"),
     m: () => { shows.mirrors = !shows.mirrors; }, f: () => { shows.falseColours = !shows.falseColours; },
@@ -135,12 +149,41 @@ async function start() {
   });
   canvas.addEventListener("webglcontextlost", () => showProblem(new Error("The graphics card has dropped this page: load it again.")));
 
+  async function takeRoom(other, shift) {
+    const next = await readShown(gl, other), { camera, exposure } = motion.state;
+    painter.free();
+    for (const name of Object.keys(data)) delete data[name];
+    Object.assign(data, other);
+    Object.assign(room, next.room, { data });
+    painter = makePainter(gl, data, room, next.textures);
+    panel.room();
+    const same = data.cameras.findIndex(one => camera && one.name === camera.name);
+    if (same >= 0) {
+      shows.camera = same;
+      motion.goTo(data.cameras[same]);
+      if (exposure !== camera.exposure) motion.state.exposure = exposure;
+    } else {
+      motion.leave();
+      for (const place of ["eye", "focus"]) motion.state[place] = plus(motion.state[place], shift);
+    }
+    tellMet();
+    redraw();
+  }
+  function takeLight({ irradiance, scale, top }) {
+    [data.light, data.top] = [scale, top];
+    room.lamps.receive(irradiance);
+    panel.scale();
+    tellMet();
+    redraw();
+  }
+
   followAddress();
-  if (!asked.shot) return;
+  const page = { keys, takeRoom, takeLight, redraw, motion, shows, canvas, room, rays };
+  if (!asked.shot) return page;
   canvas.style.width = canvas.style.height = "auto";
-  for (let k = 0; k < mostProbes && fillNextProbe();) ++k;
+  for (let k = 0; k < mostProbes && painter.fillNextProbe();) ++k;
   const figures = paintNow(4, mostWorldsOfShot);
   document.body.dataset.figures = JSON.stringify(figures);
   document.body.dataset.shot = canvas.toDataURL("image/png");
+  return page;
 }
-start().catch(showProblem);

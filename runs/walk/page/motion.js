@@ -11,8 +11,8 @@ function halfOf(camera, aspect) {
 }
 
 function makeMotion(room, rays) {
-  const up = [0, 1, 0], tall = room.high[1] - room.low[1];
-  const eyeHeight = tall > 2 ? 1.6 : 0.6 * tall, girth = Math.min(0.25, 0.05 * room.size);
+  const up = [0, 1, 0], girthOf = () => Math.min(0.25, 0.05 * room.size);
+  const eyeHeightOf = () => { const tall = room.high[1] - room.low[1]; return tall > 2 ? 1.6 : 0.6 * tall; };
   const state = { mode: "walk", eye: [0, 0, 0], yaw: 0, pitch: 0, focus: [0, 0, 0], camera: null, half: 0.5, exposure: 0 };
 
   const forwardOf = () => [Math.sin(state.yaw) * Math.cos(state.pitch), Math.sin(state.pitch), -Math.cos(state.yaw) * Math.cos(state.pitch)];
@@ -49,8 +49,8 @@ function makeMotion(room, rays) {
 
   /// How far along a direction nothing stands in the way, at two heights.
   function blockedBy(direction, length) {
-    for (const height of [0, 0.7 * eyeHeight]) {
-      const hit = rays(plus(state.eye, up, -height), direction, length + girth);
+    for (const height of [0, 0.7 * eyeHeightOf()]) {
+      const hit = rays(plus(state.eye, up, -height), direction, length + girthOf());
       if (hit && Math.abs(hit.normal[1]) < 0.7) return hit;
     }
     return null;
@@ -67,7 +67,7 @@ function makeMotion(room, rays) {
     }
     state.eye = plus(state.eye, step);
     const floor = rays(state.eye, [0, -1, 0]);
-    if (floor && Math.abs(floor.normal[1]) > 0.5) state.eye = plus(state.eye, up, eyeHeight - floor.distance);
+    if (floor && Math.abs(floor.normal[1]) > 0.5) state.eye = plus(state.eye, up, eyeHeightOf() - floor.distance);
   }
 
   function turn(yaw, pitch) {
@@ -98,13 +98,13 @@ function makeMotion(room, rays) {
 /// Keys, pointer and touch on the canvas; `moved` is called when the view has changed, `clicked` with
 /// the place of a press that did not move, and step() by every frame with its seconds.
 function listen(canvas, motion, room, moved, clicked) {
-  const pressed = new Set(), pointers = new Map(), speed = clamped(0.15 * room.size, 0.02, 2.5);
+  const pressed = new Set(), pointers = new Map(), speedOf = () => clamped(0.15 * room.size, 0.02, 2.5);
   let travelled = 0, spread = 0;
   const moves = { w: [1, 0, 0], s: [-1, 0, 0], a: [0, -1, 0], d: [0, 1, 0], arrowup: [1, 0, 0], arrowdown: [-1, 0, 0],
     arrowleft: [0, 0, -1], arrowright: [0, 0, 1], pageup: [0, 0, 0, 1], pagedown: [0, 0, 0, -1] };
   const move = (key, seconds) => {
     const [ahead, aside, yaw = 0, pitch = 0] = moves[key];
-    if (ahead || aside) motion.go(ahead * speed * seconds, aside * speed * seconds);
+    if (ahead || aside) motion.go(ahead * speedOf() * seconds, aside * speedOf() * seconds);
     if (yaw || pitch) motion.turn(1.4 * yaw * seconds, pitch * seconds);
   };
   const isText = target => ["INPUT", "SELECT", "TEXTAREA"].includes(target.tagName);
@@ -134,7 +134,7 @@ function listen(canvas, motion, room, moved, clicked) {
     if (travelled < 4) return;
     if (pointers.size === 2) {
       const now = distanceOfTwo();
-      motion.go(0.004 * speed * (now - spread), 0);
+      motion.go(0.004 * speedOf() * (now - spread), 0);
       spread = now;
       travelled += 100;
     } else motion.turn(-0.004 * x, 0.004 * y);
@@ -148,7 +148,7 @@ function listen(canvas, motion, room, moved, clicked) {
   canvas.addEventListener("pointercancel", release);
   canvas.addEventListener("wheel", event => {
     event.preventDefault();
-    motion.go(-Math.sign(event.deltaY) * 0.15 * speed, 0);
+    motion.go(-Math.sign(event.deltaY) * 0.15 * speedOf(), 0);
     moved();
   }, { passive: false });
   /// Returns whether keys are still down.

@@ -11,11 +11,17 @@ function figure(x) {
 const luminance = c => 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
 
 function makePanel(data, actions) {
-  document.title = data.title + " - Meninas";
-  const efficacy = data.luminousEfficacy;
-  element("title").textContent = data.title;
-  const cameras = element("cameras");
-  data.cameras.forEach((camera, k) => cameras.append(new Option(`${camera.name}${k < 9 ? ` (${k + 1})` : ""}`, k)));
+  const efficacy = data.luminousEfficacy, cameras = element("cameras");
+  function showRoom() {
+    document.title = data.title + " - Meninas";
+    element("title").textContent = data.title;
+    cameras.replaceChildren(...data.cameras.map((camera, k) => new Option(`${camera.name}${k < 9 ? ` (${k + 1})` : ""}`, k)));
+    showScale();
+  }
+  function showScale() {
+    element("scale-top").textContent = figure(data.top);
+    element("scale-middle").textContent = figure(data.top / 2);
+  }
   cameras.addEventListener("change", () => { actions.camera(Number(cameras.value)); element("view").focus(); });
   const switches = [["mode", "o"], ["mirrors", "m"], ["falseColours", "f"], ["elements", "e"], ["lamps-button", "l"]];
   for (const [name, key] of switches) element(name).addEventListener("click", () => actions.key(key));
@@ -30,10 +36,11 @@ function makePanel(data, actions) {
   const colours = data.falseColours, stops = [];
   for (let k = 0; k < 256; k += 15) stops.push(`rgb(${colours.slice(3 * k, 3 * k + 3).join(",")}) ${k / 2.55}%`);
   element("scale").style.background = `linear-gradient(to right, ${stops.join(",")})`;
-  element("scale-top").textContent = figure(data.top);
-  element("scale-middle").textContent = figure(data.top / 2);
+  showRoom();
 
   return {
+    room: showRoom,
+    scale: showScale,
     show({ camera, mode, mirrors, falseColours, lines, exposure }) {
       cameras.value = camera;
       element("mode").textContent = mode === "walk" ? "walk" : "orbit";

@@ -64,10 +64,13 @@ function makeRays(room) {
   };
 }
 
-/// The same, its tree built when it is asked for the first ray.
+/// The same, its tree built when it is asked for the first ray into these triangles.
 function raysWhenAsked(room) {
-  let rays = null;
-  return (...ray) => (rays = rays || makeRays(room))(...ray);
+  let rays = null, of = null;
+  return (...ray) => {
+    if (of !== room.tables) [rays, of] = [makeRays(room), room.tables];
+    return rays(...ray);
+  };
 }
 
 /// What a ray meets, by way of mirrors: the part of the room, its light there, and how many mirrors.

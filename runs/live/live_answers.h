@@ -1,0 +1,23 @@
+// What the server of `view` answers (live_run.h): what is newest, pictures of a view, and how shots go on.
+#pragma once
+
+#include "runs/live/live_board.h"
+#include "runs/live/resting_pictures.h"
+#include "runs/live/shot_steps.h"
+#include "runs/live/web_server.h"
+
+namespace meninas {
+
+/// Answers any number of requests at once; refers to all three.
+struct LiveAnswers {
+  LiveBoard& board;
+  ShotSteps& steps;
+  RestingPictures& pictures;
+
+  WebReply operator()(const WebRequest& request) const;
+};
+
+/// The view of a query, numbers in metres, degrees and stops; nothing where the query is none.
+std::optional<RestingView> view_of(const std::map<std::string, std::string>& query);
+
+} // namespace meninas

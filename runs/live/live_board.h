@@ -1,0 +1,85 @@
+// What is newest of a room that is being solved, for as many readers as there are: the room, its light, and
+// how far the work is.
+//
+// A room is sent once, its light by changes. Light is irradiance H, W/m^2, at the vertices of the room, without the
+// ambient term, as halves h times a scale of the room's,
+//
+//   H = scale h,     error 2^-11 of each channel
+//
+// and a change of it is the difference of the bits of h since a state that the reader has, packed as
+// walk/packed_numbers.h says: where nothing has changed it is next to nothing. A few states are kept to differ
+// from; whoever has an older one gets all of it.
+#pragma once
+
+#include "scenes/types.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meninas {
+
+/// How far the work is.
+struct LiveStatus {
+  std::string stage;
+  double done = 0.0;                  ///< of the stage that is shown, 0 to 1
+  std::optional<double> seconds_left; ///< until the solution is there
+  double seconds = 0.0;               ///< since the scene was read
+  int shots = 0;
+  std::optional<double> unshot; ///< the share of the first light that is still to be shot
+  std::optional<double> error;  ///< ||B - B_k|| / ||B||, at the most
+  std::size_t elements = 0;
+  bool paused = false, solved = false;
+  std::string problem; ///< why the file is not shown as it is now
+};
+
+/// The light of one moment.
+struct LiveLight {
+  std::vector<glm::vec3> irradiance; ///< by vertex of the room, without the ambient term
+  Rgb ambient{0.0};                  ///< irradiance that light still to be shot would bring, everywhere
+};
+
+class LiveBoard {
+public:
+  /// Another room: the JSON of walk_page_data(), in whose coordinates `middle` is 0, with its light.
+  void show_room(std::string data, const Point3& middle, const LiveLight& light);
+  /// Other light of that room.
+  void show_light(const LiveLight& light);
+  void change_status(const std::function<void(LiveStatus&)>& change);
+
+  /// JSON of what there is, once it is newer than `seen`; nothing where it is not after so long.
+  std::optional<std::string> next(std::uint64_t& seen, std::chrono::milliseconds patience) const;
+  /// JSON of the room; null before there is one.
+  std::shared_ptr<const std::string> room() const;
+  /// The newest light: four bytes with the length of some JSON, lowest first, that, and a deflated table of the
+  /// bits, or of their differences since the state `base`. Null before there is a room.
+  std::shared_ptr<const std::string> light(std::uint64_t base) const;
+
+private:
+  struct State {
+    std::uint64_t number = 0;
+    float scale = 1.0F;
+    double top = 1.0;
+    Rgb ambient{0.0};
+    std::vector<std::uint16_t> halves;
+  };
+  std::shared_ptr<const State> state_of(const LiveLight& light);
+  std::string announcement() const;
+  void changed();
+
+  mutable std::mutex mutex_;
+  mutable std::condition_variable news_;
+  std::uint64_t version_ = 0, room_number_ = 0, state_number_ = 0;
+  std::shared_ptr<const std::string> room_;
+  std::deque<std::shared_ptr<const State>> states_; ///< of this room, newest last
+  LiveStatus status_;
+};
+
+} // namespace meninas

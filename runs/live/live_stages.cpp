@@ -1,0 +1,242 @@
+#include "runs/live/live_stages.h"
+
+#include "runs/preparation.h"
+#include "runs/report/run_progress.h"
+#include "runs/run_stages.h"
+#include "runs/steering/memory.h"
+#include "runs/walk/walk_cameras.h"
+#include "scenes/content_hash.h"
+
+#include <chrono>
+#include <mutex>
+
+namespace meninas {
+
+namespace {
+
+/// Wall-clock time since it was made.
+class SecondsSince {
+public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+
+private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// Progress of a stage for the board, at most some times a second, from any thread.
+class StageProgress {
+public:
+  StageProgress(const LiveStage& stage, std::vector<RunStage> stages) : stage_(stage) {
+    progress_.begin(std::move(stages), 0.0);
+  }
+  void report(std::string_view name, double fraction) {
+    if (stage_.is_over())
+      throw StageOver{};
+    const std::scoped_lock lock(mutex_);
+    const double now = since_.seconds();
+    progress_.report(name, fraction, now);
+    constexpr double between = 0.1;
+    if (now < told_ + between)
+      return;
+    told_ = now;
+    const RunState state = progress_.state(now);
+    stage_.board.change_status([&](LiveStatus& status) {
+      status.stage = state.stage;
+      status.done = state.done;
+      status.seconds_left = state.seconds_left;
+    });
+  }
+
+private:
+  const LiveStage& stage_;
+  std::mutex mutex_;
+  SecondsSince since_;
+  double told_ = -1.0;
+  RunProgress progress_;
+};
+
+/// Shows a room whose mesh stays the same while its light changes.
+class ShownRoom {
+public:
+  ShownRoom(const LiveScene& shown, const LiveStage& stage) : shown_(shown), stage_(stage) {}
+
+  void show(const IrradianceField& field, const Rgb& ambient) {
+    if (room_) {
+      stage_.board.show_light({irradiance_from(*field.scene, field, room_->origins), ambient});
+      return;
+    }
+    room_ = walk_room(field);
+    LiveLight light{{}, ambient};
+    for (const WalkVertex& vertex : room_->vertices)
+      light.irradiance.push_back(vertex.irradiance);
+    stage_.board.show_room(data_of(field, ambient), room_->middle, light);
+  }
+
+private:
+  std::string data_of(const IrradianceField& field, const Rgb& ambient) const {
+    std::vector<std::string> left_out;
+    std::string data = walk_page_data({.field = field,
+                                       .room = *room_,
+                                       .title = shown_.file.filename().string(),
+                                       .cameras = walk_cameras(with_ambient(field, ambient), shown_.settings, shown_.exposure),
+                                       .transform = shown_.transform,
+                                       .luminous_efficacy = shown_.settings.gltf.state.luminous_efficacy,
+                                       .packed = PackedSize::quick},
+                                      left_out);
+    return data;
+  }
+  static IrradianceField with_ambient(const IrradianceField& field, const Rgb& ambient) {
+    IrradianceField lit = field;
+    for (auto* irradiances : {&lit.irradiance, &lit.indirect})
+      for (glm::vec3& irradiance : *irradiances)
+        irradiance += glm::vec3(ambient);
+    return lit;
+  }
+
+  const LiveScene& shown_;
+  const LiveStage& stage_;
+  std::optional<WalkRoom> room_;
+};
+
+/// Each shot as a state; waits before the next where somebody wants that.
+class ShownShots {
+public:
+  ShownShots(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const LightScene> light)
+      : shown_(shown), stage_(stage), light_(std::move(light)), room_(shown, stage) {}
+
+  /// The room before any light, if somebody wants to see that.
+  void begin() {
+    if (!stage_.steps.paused())
+      return;
+    const std::vector<glm::vec3> dark(light_->mesh.vertices.size(), glm::vec3(0.0F));
+    // A room of its own: the exposure of the lit one is another.
+    ShownRoom(shown_, stage_).show({{dark, {}, dark, {}}, light_}, Rgb(0.0));
+    wait(0);
+  }
+  void look(const PassOneSoFar& state) {
+    if (stage_.is_over())
+      throw StageOver{};
+    room_.show({state.field, light_}, state.ambient);
+    stage_.board.change_status([&](LiveStatus& status) {
+      status.stage = "shots";
+      status.shots = state.shots;
+      status.unshot = state.unshot;
+      status.elements = element_count(light_->mesh);
+      status.seconds = since_.seconds();
+    });
+    wait(state.shots);
+  }
+
+private:
+  void wait(int shots) {
+    if (!stage_.steps.paused())
+      return;
+    stage_.board.change_status([&](LiveStatus& status) {
+      status.paused = true;
+      status.shots = shots;
+      status.stage = shots == 0 ? "dark" : "shots";
+    });
+    stage_.steps.wait(stage_.is_over);
+    stage_.board.change_status([&](LiveStatus& status) { status.paused = stage_.steps.paused(); });
+  }
+
+  const LiveScene& shown_;
+  const LiveStage& stage_;
+  std::shared_ptr<const LightScene> light_;
+  ShownRoom room_;
+  SecondsSince since_;
+};
+
+void show_coarse(const Scene& scene, const LiveScene& shown, const LiveStage& stage) {
+  const RunSettings coarse = coarse_settings(shown.settings);
+  PassOneSettings settings = two_pass_settings(coarse).pass_one;
+  // A mean over an element that is as large as furniture has no sharp shadow anyway.
+  settings.direct.points = 4;
+  settings.direct.most_points = 16;
+  settings.direct.images_in_element = 16;
+  const auto prepared = prepare_scene(scene, settings);
+  ShownShots shots(shown, stage, prepared->light);
+  shots.begin();
+  StageProgress progress(stage, pass_one_stages(coarse));
+  shoot_pass_one(prepared->light, settings, [&](std::string_view name, double fraction) { progress.report(name, fraction); },
+                 {1, [&](const PassOneSoFar& state) { shots.look(state); }, true});
+}
+
+/// Shots between states: telling one takes a time in proportion to the elements.
+int shots_between(std::size_t elements) {
+  constexpr std::size_t few = 2000;
+  return static_cast<int>(1 + elements / few);
+}
+
+} // namespace
+
+RunSettings coarse_settings(RunSettings settings) {
+  constexpr int elements = 1000, rays = 32;
+  constexpr double tolerance = 0.02;
+  settings.quality = Quality::draft;
+  settings.element_size.reset();
+  settings.elements = elements;
+  settings.mesh = MeshCut::uniform;
+  settings.bends.reset();
+  settings.form_factors = FormFactorMethod::rays;
+  settings.rays = rays;
+  settings.solver = SolverMethod::progressive;
+  settings.tolerance = tolerance;
+  settings.steps.reset();
+  settings.link_error.reset();
+  settings.interpolation = Interpolation::average;
+  settings.lamps.reset();
+  return settings;
+}
+
+std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& shown, const LiveStage& stage) {
+  const SecondsSince since;
+  stage.board.change_status([&](LiveStatus& status) {
+    const std::string problem = std::move(status.problem);
+    status = {};
+    status.problem = problem;
+    status.stage = "first pictures";
+  });
+  check_memory(scene, shown.settings, std::nullopt);
+  show_coarse(scene, shown, stage);
+
+  const PassOneSettings settings = two_pass_settings(shown.settings).pass_one;
+  RunFigures figures;
+  const std::uint64_t scene_hash = content_hash(scene);
+  const std::shared_ptr<const PreparedScene> prepared = prepare_run(std::move(scene), settings, stage.events, figures);
+  ShownShots shots(shown, stage, prepared->light);
+  StageProgress progress(stage, pass_one_stages(shown.settings));
+  RadiositySolution solution = solve_pass_one(
+      prepared->light, settings,
+      [&](std::string_view name, double fraction) {
+        progress.report(name, fraction);
+        stage.board.change_status([&](LiveStatus& status) { status.seconds = since.seconds(); });
+      },
+      {shots_between(element_count(prepared->mesh)), [&](const PassOneSoFar& state) { shots.look(state); }, true});
+  add_solution(figures, solution);
+  warn_of_solution(*prepared, figures.solver, figures.closure, stage.events);
+  ShownRoom(shown, stage).show(solution.field, Rgb(0.0));
+  const LitScene lit{prepared, solution.field};
+  auto room = std::make_shared<SolvedRoom>(SolvedRoom{.lit = lit,
+                                                      .solution = std::move(solution),
+                                                      .scene_hash = scene_hash,
+                                                      .scene = shown.file,
+                                                      .settings = shown.settings,
+                                                      .picture = {}});
+  room->picture.transform = shown.transform;
+  stage.board.change_status([&](LiveStatus& status) {
+    status = {.stage = "solved",
+              .done = 1.0,
+              .seconds_left = 0.0,
+              .seconds = since.seconds(),
+              .shots = status.shots,
+              .unshot = std::nullopt,
+              .error = figures.solver.error_bound,
+              .elements = figures.elements,
+              .solved = true,
+              .problem = status.problem};
+  });
+  return room;
+}
+
+} // namespace meninas

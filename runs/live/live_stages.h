@@ -1,0 +1,46 @@
+// What is shown of a scene from the first second on, one after another:
+//
+//   coarse   a uniform mesh of few elements, solved by shots (radiosity/solvers/progressive.h), H = D + G + what has been
+//            shot, with the ambient term beside it; every shot is a state
+//   solution pass one as `solve` has it with the same settings, to the bit, and its field. Where that shoots as well, its shots
+//            are states, too
+//
+// The coarse mesh has a thousand elements or so, at least one to a patch: that is what the first picture takes.
+#pragma once
+
+#include "runs/live/live_board.h"
+#include "runs/live/resting_pictures.h"
+#include "runs/live/shot_steps.h"
+#include "runs/run_events.h"
+
+#include <filesystem>
+#include <functional>
+
+namespace meninas {
+
+/// Whom the states go to, and who may end them.
+struct LiveStage {
+  LiveBoard& board;
+  ShotSteps& steps;
+  std::function<bool()> is_over; ///< asked all the time: another scene waits
+  RunEvents events;
+};
+
+/// What is shown, and how.
+struct LiveScene {
+  std::filesystem::path file;
+  RunSettings settings;
+  ViewTransform transform = ViewTransform::neutral;
+  std::optional<double> exposure; ///< stops; chosen for each camera otherwise
+};
+
+/// Thrown where work tells its progress, once the stage is over.
+struct StageOver {};
+
+/// The settings of the first pictures, after those that are asked for.
+RunSettings coarse_settings(RunSettings settings);
+
+/// Shows both stages and returns the solution. Throws StageOver, and UserError as `solve` and `walk` do.
+std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& shown, const LiveStage& stage);
+
+} // namespace meninas

@@ -1,0 +1,148 @@
+// The page of `view`: the room from the server that serves this page, its light as it changes, and how far the work is.
+//
+// The server tells what is newest (runs/live/live_board.h); the page asks for that when it has drawn what it had, and so
+// misses what came between.
+"use strict";
+
+const liveStyle = `
+#live { left: 50%; top: 10px; transform: translateX(-50%); max-width: calc(100% - 20px); font-variant-numeric: tabular-nums; z-index: 2; }
+#live progress { width: 9rem; height: .6rem; vertical-align: middle; accent-color: var(--accent); } #live code { user-select: all; overflow-wrap: anywhere; font-size: .85em; }
+#live p { margin: .2rem 0 0; } #live .wrong { color: var(--accent); }
+#live .teach { margin-left: .4rem; }
+.resting { position: fixed; inset: 0; width: 100%; height: 100%; opacity: 0; pointer-events: none; }
+.resting.shown { opacity: 1; transition: opacity .35s; }
+.card, #cards { z-index: 2; }
+@media (prefers-reduced-motion: reduce) { .resting.shown { transition: none; } }`;
+
+/// Below the address of this page.
+const askServer = (path, options = {}) => fetch(location.pathname + path, { cache: "no-store", ...options });
+const tellServer = path => askServer(path, { method: "POST" }).catch(() => {});
+
+/// Bits of halves from the message of live_board.h, and what it says of them. `before`: those of the state it differs from.
+async function readLight(buffer, before) {
+  const length = new DataView(buffer).getUint32(0, true), bytes = new Uint8Array(buffer);
+  const head = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
+  const bits = readTable(await inflated(bytes.subarray(4 + length)), 0, head);
+  if (head.base) for (let k = 0; k < bits.length; ++k) bits[k] += before[k];
+  return { ...head, bits };
+}
+
+/// Numbers for the page, with the ambient term or without.
+function lightOf({ bits, scale, ambient, top }, withAmbient) {
+  const irradiance = Float32Array.from(bits, x => halfNumbers[x & 0x7fff]), more = ambient.map(x => withAmbient ? x / scale : 0);
+  for (let k = 0; k < irradiance.length; ++k) irradiance[k] += more[k % 3];
+  return { irradiance, scale, top };
+}
+
+const shares = x => x === null ? "-" : x >= 0.0095 ? `${(100 * x).toPrecision(2)} %` : x.toExponential(1);
+
+/// The card with the status; `actions` are what its buttons do. Returns { show, say }.
+function makeStatusCard(actions) {
+  document.head.append(madeElement("style", {}, liveStyle));
+  const card = madeElement("div", { id: "live", className: "card" }), text = madeElement("span", { id: "live-status" });
+  const bar = madeElement("progress", { max: 1 }), problem = madeElement("p", { className: "wrong", hidden: true }), said = madeElement("p", { id: "said", hidden: true });
+  problem.setAttribute("role", "alert");
+  text.setAttribute("role", "status");
+  card.append(bar, " ", text);
+  for (const [id, label, key, title] of [["pause", "pause", "P", "stop after the next shot"], ["step", "one shot", "N", "the next shot, and then stop"],
+    ["ambient", "ambient", "T", "light still to be shot, spread evenly"], ["save", "save", "Ctrl+S", "the picture of this view as EXR and PNG"]]) {
+    const button = madeElement("button", { id: "live-" + id, type: "button", title, className: "teach" }, label + " ");
+    button.append(madeElement("kbd", {}, key));
+    button.addEventListener("click", () => actions[id]());
+    card.append(button);
+  }
+  card.append(problem, said);
+  document.body.append(card);
+  return {
+    show(status, withAmbient) {
+      const left = status.secondsLeft === null || status.solved ? "" : `, ${Math.ceil(status.secondsLeft)} s left`;
+      const parts = [status.paused ? `${status.stage}, stopped` : status.stage + left, `${status.elements} elements`];
+      if (!status.solved && status.shots) parts.push(`${status.shots} shots`);
+      if (status.unshot !== null) parts.push(`unshot ${shares(status.unshot)}`);
+      if (status.error !== null) parts.push(`error below ${shares(status.error)}`);
+      parts.push(`${status.seconds.toFixed(1)} s`);
+      text.textContent = parts.join("; ");
+      bar.hidden = status.solved;
+      bar.value = status.done;
+      problem.hidden = !status.problem;
+      problem.textContent = status.problem;
+      const shoots = !status.solved;
+      for (const id of ["pause", "step", "ambient"]) element("live-" + id).hidden = !shoots;
+      element("live-save").hidden = !status.solved;
+      element("live-pause").firstChild.textContent = status.paused ? "go on " : "pause ";
+      element("live-ambient").setAttribute("aria-pressed", withAmbient);
+      document.body.dataset.status = JSON.stringify(status);
+    },
+    say(line, code) {
+      said.hidden = !line;
+      said.replaceChildren(line, ...(code ? [madeElement("code", {}, code)] : []));
+    }
+  };
+}
+
+async function openLive() {
+  let status = null, page = null, resting = null, room = 0, light = null, middle = [0, 0, 0], busy = false, withAmbient = true, name = "view";
+  const actions = { pause: () => tellServer(status && status.paused ? "go-on" : "pause"), step: () => tellServer("step"),
+    ambient: () => { withAmbient = !withAmbient; if (page && light) page.takeLight(lightOf(light, withAmbient)); card.show(status, withAmbient); },
+    save: async () => {
+      if (!resting) return;
+      card.say("making the picture ...");
+      const command = await resting.save(name);
+      if (command) card.say("saved; again by ", command); else card.say("There is no solution yet to make a picture of.");
+    } };
+  const card = makeStatusCard(actions);
+  const told = { moved: () => { if (resting) resting.moved(); }, rested: () => { if (resting && status.solved) resting.rested().catch(showProblem); } };
+
+  async function takeRoom() {
+    const reply = await askServer("room");
+    if (reply.status !== 200) return;
+    const fresh = await reply.json(), shift = minus(middle, fresh.middle);
+    [room, middle] = [fresh.room, fresh.middle];
+    name = fresh.data.title.replace(/\.[^.]*$/, "") || "view";
+    light = null;
+    if (page) await page.takeRoom(fresh.data, shift);
+    else {
+      page = await openPage(fresh.data, told);
+      Object.assign(page.keys, { n: actions.step, p: actions.pause, t: actions.ambient });
+      resting = makeResting(page, () => middle, askServer);
+    }
+    light = { bits: Int32Array.from(page.room.tables.irradiance), scale: fresh.data.light, ambient: fresh.ambient, top: fresh.data.top, state: fresh.state };
+    page.takeLight(lightOf(light, withAmbient));
+  }
+  async function takeLight() {
+    const reply = await askServer(`light?base=${light.state}`);
+    if (reply.status !== 200) return;
+    const fresh = await readLight(await reply.arrayBuffer(), light.bits);
+    if (fresh.room !== room) return;
+    light = fresh;
+    page.takeLight(lightOf(light, withAmbient));
+  }
+  /// One thing after another, the newest alone.
+  async function follow() {
+    if (busy || !status) return;
+    busy = true;
+    try {
+      while (status.room && (status.room !== room || (status.state > light.state))) {
+        if (status.room !== room) await takeRoom(); else await takeLight();
+        document.body.dataset.state = light.state;
+        await new Promise(resolve => setTimeout(resolve, 0));
+      }
+    } catch (problem) { if (!(problem instanceof TypeError)) showProblem(problem); else console.warn(problem); } finally { busy = false; }
+  }
+  addEventListener("keydown", event => {
+    if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "s") return;
+    event.preventDefault();
+    actions.save().catch(showProblem);
+  });
+  const events = new EventSource(location.pathname + "events");
+  events.addEventListener("message", event => {
+    const before = status;
+    status = JSON.parse(event.data);
+    card.show(status, withAmbient);
+    if (before && status.solved && !before.solved && page) page.redraw();
+    follow();
+  });
+  events.addEventListener("error", () => card.say("The program does not answer: it has ended, or is busy."));
+  events.addEventListener("open", () => card.say(""));
+}
+openLive().catch(showProblem);

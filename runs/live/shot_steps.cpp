@@ -1,0 +1,42 @@
+#include "runs/live/shot_steps.h"
+
+#include <chrono>
+
+namespace meninas {
+
+bool ShotSteps::paused() const {
+  const std::scoped_lock lock(mutex_);
+  return paused_;
+}
+
+void ShotSteps::pause(bool paused) {
+  const std::scoped_lock lock(mutex_);
+  paused_ = paused;
+  steps_ = 0;
+  goes_on_.notify_all();
+}
+
+void ShotSteps::step() {
+  constexpr int most = 1000;
+  const std::scoped_lock lock(mutex_);
+  paused_ = true;
+  if (steps_ < most)
+    ++steps_;
+  goes_on_.notify_all();
+}
+
+void ShotSteps::wait(const std::function<bool()>& is_over) {
+  constexpr std::chrono::milliseconds patience(100);
+  std::unique_lock lock(mutex_);
+  while (!goes_on_.wait_for(lock, patience, [this] { return !paused_ || steps_ > 0; })) {
+    lock.unlock();
+    const bool over = is_over();
+    lock.lock();
+    if (over)
+      return;
+  }
+  if (paused_)
+    --steps_;
+}
+
+} // namespace meninas

@@ -1,0 +1,201 @@
+// `view` in a real browser: the first picture, that the camera moves while it solves, pass two's picture and its
+// files, the keys, and that the room follows its file.
+#include "image/image_file.h"
+#include "tests/cli/browser.h"
+#include "tests/cli/driven_browser.h"
+#include "tests/cli/tiny_room.h"
+#include "tests/cli/view_program.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+namespace meninas::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// until(holds), press(key), text(id), status() for the scripts below.
+const std::string helpers = R"(
+  const until = async holds => { for (let k = 0; k < 1200 && !holds(); ++k) await new Promise(r => setTimeout(r, 50)); return Boolean(holds()); };
+  const press = (key, more = {}) => dispatchEvent(new KeyboardEvent('keydown', { key, ...more }));
+  const text = id => (document.getElementById(id) || {}).textContent || '';
+  const status = () => JSON.parse(document.body.dataset.status || '{}'), data = document.body.dataset;
+)";
+
+class ViewBrowser : public testing::Test {
+protected:
+  void SetUp() override {
+    if (!has_browser())
+      GTEST_SKIP() << "no Chromium here: pages are not used";
+    write_room(folder_ / "room.glb", tiny_room());
+    browser_.emplace(folder_.path());
+  }
+  /// Opens the page and waits for its first picture; false where this browser draws none.
+  bool open(const ViewProgram& view) {
+    page_ = browser_->open(view.address());
+    const json said = run("await until(() => text('figures') || data.problem); return { figures: text('figures'), problem: data.problem || '' };");
+    return said.is_object() && said.at("problem").get<std::string>().find("WebGL 2") == std::string::npos &&
+           !said.at("figures").get<std::string>().empty();
+  }
+  /// 0 to 1, of all that is on the screen.
+  double mean_of_picture() {
+    browser_->take_picture(page_, folder_ / "screen.png");
+    double sum = 0.0;
+    const Image picture = read_image(folder_ / "screen.png").picture;
+    for (const glm::vec3& pixel : picture.pixels)
+      sum += double{pixel.r + pixel.g + pixel.b} / 3.0;
+    return sum / double(picture.pixels.size());
+  }
+  json run(const std::string& use) { return browser_->run(page_, helpers + use); }
+
+  TemporaryFolder folder_;
+  std::optional<DrivenBrowser> browser_;
+  std::string page_;
+};
+
+#define OPEN_OR_SKIP(view) \
+  if (!open(view))         \
+  GTEST_SKIP() << "this Chromium draws no WebGL 2"
+
+TEST_F(ViewBrowser, TheCameraMovesWhileItSolvesAndEveryShotIsSeen) {
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft", "--paused"});
+  OPEN_OR_SKIP(view);
+  const double dark = mean_of_picture();
+  ASSERT_TRUE(run("press('n'); return until(() => data.state === '2' && text('figures'));").get<bool>());
+  run("await new Promise(r => setTimeout(r, 1000));");
+  EXPECT_GT(mean_of_picture(), dark + 0.02) << "the first picture has the light of the lamps, and the ambient term";
+  const json said = run(R"(
+    const report = { states: [data.state] };
+    press('n'); await until(() => status().shots === 1 && data.state === '3'); report.states.push(data.state);
+    const before = location.hash;
+    press('ArrowLeft'); await new Promise(r => setTimeout(r, 300)); dispatchEvent(new KeyboardEvent('keyup', { key: 'ArrowLeft' }));
+    report.moved = await until(() => location.hash !== before && location.hash.startsWith('#at'));
+    report.solvedMeanwhile = status().solved;
+    report.ambient = document.getElementById('live-ambient').getAttribute('aria-pressed');
+    press('t'); report.without = document.getElementById('live-ambient').getAttribute('aria-pressed');
+    press('p'); report.solved = await until(() => status().solved && status().state === Number(data.state));
+    report.text = text('live-status'); report.problem = data.problem || '';
+    return report;)");
+  ASSERT_TRUE(said.is_object());
+  EXPECT_EQ(said.at("problem"), "");
+  EXPECT_EQ(said.at("states"), (json{"2", "3"}));
+  EXPECT_EQ(said.at("moved"), true);
+  EXPECT_EQ(said.at("solvedMeanwhile"), false);
+  EXPECT_EQ(said.at("ambient"), "true");
+  EXPECT_EQ(said.at("without"), "false");
+  EXPECT_EQ(said.at("solved"), true);
+  EXPECT_THAT(said.at("text").get<std::string>(), HasSubstr("error below"));
+}
+
+// What the page has at last is what `walk` has of the same solution, in halves of the same scale.
+TEST_F(ViewBrowser, ThePageEndsWithTheLightOfTheSolution) {
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft"});
+  OPEN_OR_SKIP(view);
+  const json said = run(R"(
+    await until(() => status().solved && Number(data.state) === status().state);
+    const { data: room, ambient } = await (await fetch(location.pathname + 'room')).json(), tables = await readTables(room);
+    const light = await readLight(await (await fetch(location.pathname + 'light')).arrayBuffer());
+    return { same: tables.irradiance.every((x, k) => x === light.bits[k]), scale: light.scale === room.light, ambient,
+      bits: tables.irradiance.reduce((sum, x) => (31 * sum + x) % 1000003, 7), rows: tables.irradiance.length };)");
+  ASSERT_TRUE(said.is_object());
+  EXPECT_EQ(said.at("same"), true);
+  EXPECT_EQ(said.at("scale"), true);
+  EXPECT_EQ(said.at("ambient"), (json{0.0, 0.0, 0.0}));
+  ASSERT_EQ(run_program(folder_.path(), {"walk", "room.glb", "--quality", "draft", "-o", "room.html"}).code, 0);
+  page_ = browser_->open("file://" + (folder_ / "room.html").string());
+  const json walked = run(R"(
+    const tables = await readTables(JSON.parse(document.getElementById('data').textContent));
+    return { bits: tables.irradiance.reduce((sum, x) => (31 * sum + x) % 1000003, 7), rows: tables.irradiance.length };)");
+  ASSERT_TRUE(walked.is_object());
+  EXPECT_EQ(said.at("bits"), walked.at("bits"));
+  EXPECT_EQ(said.at("rows"), walked.at("rows"));
+}
+
+TEST_F(ViewBrowser, PassTwoShowsWhatRestsAndIsSaved) {
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft"});
+  OPEN_OR_SKIP(view);
+  const std::filesystem::path saved = folder_ / "saved";
+  std::filesystem::create_directory(saved);
+  browser_->save_into(saved);
+  const json said = run(R"(
+    const report = { whole: await until(() => data.resting === 'whole') };
+    press('ArrowRight'); await new Promise(r => setTimeout(r, 100)); report.gone = data.resting === undefined;
+    dispatchEvent(new KeyboardEvent('keyup', { key: 'ArrowRight' }));
+    report.again = await until(() => data.resting === 'whole');
+    report.shown = Math.max(...[...document.querySelectorAll('.resting.shown')].map(layer => layer.naturalWidth));
+    report.wide = document.getElementById('view').clientWidth;
+    press('s', { ctrlKey: true }); await until(() => text('said').includes('meninas render'));
+    report.command = document.querySelector('#said code').textContent; report.problem = data.problem || '';
+    return report;)");
+  ASSERT_TRUE(said.is_object());
+  EXPECT_EQ(said.at("problem"), "");
+  for (const char* what : {"whole", "gone", "again"})
+    EXPECT_EQ(said.at(what), true) << what;
+  EXPECT_EQ(said.at("shown"), said.at("wide"));
+  const std::string command = said.at("command");
+  ASSERT_THAT(command, HasSubstr("meninas render room.glb"));
+  ASSERT_THAT(command, HasSubstr("--eye="));
+  for (int k = 0; k < 200 && !(std::filesystem::exists(saved / "room.png") && std::filesystem::exists(saved / "room.exr")); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std::vector<std::string> words;
+  std::istringstream in(command.substr(command.find(' ') + 1));
+  for (std::string word; in >> word;)
+    words.push_back(word);
+  const Outcome outcome = run_program(folder_.path(), words);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* name : {"room.exr", "room.png"})
+    EXPECT_TRUE(read_file(saved / name) == read_file(folder_ / name)) << name << " of " << command;
+}
+
+TEST_F(ViewBrowser, TheRoomFollowsItsFile) {
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft"});
+  OPEN_OR_SKIP(view);
+  ASSERT_EQ(run("return until(() => status().solved && Number(data.state) === status().state);"), true);
+  std::ofstream(folder_ / "room.glb") << "nonsense";
+  const json broken = run("await until(() => status().problem); return { line: document.querySelector('#live .wrong').textContent, "
+                          "hidden: document.querySelector('#live .wrong').hidden, rows: text('figures') };");
+  ASSERT_TRUE(broken.is_object());
+  EXPECT_THAT(broken.at("line").get<std::string>(), HasSubstr("room.glb"));
+  EXPECT_EQ(broken.at("hidden"), false);
+  TinyRoom other = tiny_room();
+  other.root["cameras"][0]["perspective"]["yfov"] = 0.5;
+  for (auto& node : other.root["nodes"])
+    if (node.contains("camera"))
+      node["name"] = "another";
+  write_room(folder_ / "room.glb", other);
+  const json said = run(R"(
+    const report = { camera: await until(() => document.getElementById('cameras').options[0].text.startsWith('another')) };
+    report.solved = await until(() => status().solved && Number(data.state) === status().state);
+    report.hidden = document.querySelector('#live .wrong').hidden; report.problem = data.problem || '';
+    return report;)");
+  ASSERT_TRUE(said.is_object());
+  EXPECT_EQ(said.at("problem"), "");
+  EXPECT_EQ(said.at("camera"), true);
+  EXPECT_EQ(said.at("solved"), true);
+  EXPECT_EQ(said.at("hidden"), true);
+}
+
+TEST_F(ViewBrowser, ThreeBrowsersSeeTheSame) {
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft", "--paused"});
+  OPEN_OR_SKIP(view);
+  const std::string first = page_;
+  page_ = browser_->open(view.address());
+  const std::string second = page_;
+  ASSERT_EQ(run("return until(() => data.state === '1');"), true);
+  browser_->close(browser_->open(view.address()));
+  ASSERT_EQ(view.post("step").status, 204);
+  for (const std::string& page : {first, second}) {
+    page_ = page;
+    EXPECT_EQ(run("return until(() => data.state === '2');"), true);
+  }
+  ASSERT_EQ(view.post("go-on").status, 204);
+  EXPECT_TRUE(view.status_when_solved().is_object());
+}
+
+} // namespace
+} // namespace meninas::test
