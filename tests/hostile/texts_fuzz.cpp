@@ -2,7 +2,7 @@
 // read as numbers that make sense, or ends with one error. Anything else is a finding, and so is a sanitizer's report:
 //
 //   texts_fuzz [--seed N] [--count N]
-#include "cli/lamp_options.h"
+#include "cli/light/lamp_options.h"
 #include "runs/points/point_sets.h"
 #include "scenes/errors.h"
 #include "scenes/ies/ies_file.h"
