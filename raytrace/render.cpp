@@ -89,7 +89,7 @@ static void show_edges(const IrradianceField& field, const Camera& camera,
                             settings, result);
     return;
   }
-  constexpr int steps_around = 3;
+  constexpr int steps_around = 6;
   constexpr double step = 1.0 / 16.0; // of automatic_exposure
   const double middle = given ? *given : expected_exposure(field, camera, settings, result);
   for (int k = given ? 0 : -steps_around; k <= (given ? 0 : steps_around); ++k)

@@ -26,6 +26,14 @@ static std::filesystem::path points_file(const SolveRequest& request) {
       std::filesystem::path(request.solution).replace_extension(".points.csv"));
 }
 
+static std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    files.push_back(entry.path());
+  return files;
+}
+
 static void check_files(const SolveRequest& request) {
   if (request.shard) {
     make_folder(*request.factors);
@@ -44,6 +52,9 @@ static void check_files(const SolveRequest& request) {
     if (input) {
       inputs.push_back(*input);
     }
+  }
+  if (request.join) {
+    std::ranges::move(files_in(*request.factors), std::back_inserter(inputs));
   }
   if (request.points.asks()) {
     check_points_file(points_file(request));
@@ -85,6 +96,9 @@ static void write_rows(const SolveRequest& request, const LightScene& light,
   settings.relightable = true;
   FactorPart part = *request.shard;
   part.elements = element_count(light.mesh);
+  if (part.count > part.elements)
+    throw UsageError("--shard", fmt::format("{} parts are more than the {} elements that there are",
+                                            part.count, part.elements));
   const RowRange rows = rows_of_part(part.elements, part.number, part.count);
   write_factor_part(*request.factors, assemble_some_rows(light, rows, settings, events.progress),
                     part, factor_key(light, settings));
@@ -146,7 +160,8 @@ static void report_points(const SolveRequest& request, std::vector<PointSet> set
 }
 
 RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
-  check_files(request);
+  if (!request.shard)
+    check_files(request);
   std::vector<QueryPoint> points;
   if (request.points.points)
     points = read_points(*request.points.points);
@@ -162,7 +177,9 @@ RunFigures solve_run(const SolveRequest& request, const RunEvents& events) {
   Stopwatch watch;
 
   Scene scene = load_scene(request.scene, request.settings);
-  check_memory(scene, chosen, std::nullopt);
+  if (request.shard)
+    check_files(request); // which makes a folder
+  check_memory(scene, chosen, std::nullopt, request.shard ? request.shard->count : 1);
   figures.seconds.load = watch.lap();
   const std::uint64_t scene_hash = content_hash(scene);
   const auto prepared = prepare_run(std::move(scene), settings, events, figures);

@@ -3,6 +3,7 @@
 #include "image/whole_file.h"
 #include "scenes/content_hash.h"
 #include "scenes/errors.h"
+#include "scenes/names.h"
 #include "scenes/version.h"
 
 #include <fmt/format.h>
@@ -154,6 +155,7 @@ void check_key(const std::filesystem::path& file, const FactorKey& found, const 
   check(found.mirrors, key.mirrors, "the mirrors or how far they are followed have changed");
   check(found.mesh, key.mesh,
         "the elements (size, number, or which surfaces have any) have changed");
+  check(found.sky, key.sky, "the sky has changed");
   check(found.sampling, key.sampling, "the settings of the form factors have changed");
 }
 
@@ -229,6 +231,9 @@ void write_factor_part(const std::filesystem::path& folder, const FormFactors& r
   write_whole_file(part_file(folder, part), bytes);
 }
 
+/// As many as a command line may ask for.
+constexpr std::uint64_t max_parts = 1'000'000;
+
 /// Into how many parts rows are divided, by the names of the files.
 static std::uint64_t division_of(const std::filesystem::path& folder) {
   std::map<std::uint64_t, std::filesystem::path> divisions;
@@ -237,7 +242,7 @@ static std::uint64_t division_of(const std::filesystem::path& folder) {
     unsigned long long number = 0, count = 0;
     const std::string name = entry.path().filename().string();
     if (std::sscanf(name.c_str(), "rows-%llu-of-%llu.factors", &number, &count) == 2 &&
-        number > 0 && number <= count && entry.path() == part_file(folder, {number - 1, count}))
+        number > 0 && number <= count && count <= max_parts && entry.path() == part_file(folder, {number - 1, count}))
       divisions.emplace(count, part_file(folder, {0, count}));
   }
   if (divisions.empty())
@@ -250,12 +255,12 @@ static std::uint64_t division_of(const std::filesystem::path& folder) {
 }
 
 static void check_parts_are_there(const std::filesystem::path& folder, std::uint64_t count) {
-  std::string missing;
+  std::vector<std::string> missing;
   for (std::uint64_t k = 0; k < count; ++k)
     if (!std::filesystem::exists(part_file(folder, {k, count})))
-      missing += (missing.empty() ? "" : ", ") + part_file({}, {k, count}).string();
+      missing.push_back(part_file({}, {k, count}).string());
   if (!missing.empty())
-    refuse(folder, "rows are missing: " + missing);
+    refuse(folder, "rows are missing: " + quoted_names(missing));
 }
 
 static FormFactors read_part(const std::filesystem::path& folder, const FactorPart& wanted,

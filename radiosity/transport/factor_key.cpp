@@ -128,7 +128,9 @@ std::uint64_t hash_of_sampling(const FormFactorSettings& settings) {
 
 FactorKey factor_key(const LightScene& light, const FormFactorSettings& settings) {
   return {hash_of_geometry(light.scene), hash_of_mirrors(light.scene, light.worlds),
-          hash_of_mesh(light.mesh), hash_of_sampling(settings)};
+          hash_of_mesh(light.mesh),
+          light.scene.background.map ? content_hash(light.scene.background) : 0,
+          hash_of_sampling(settings)};
 }
 
 } // namespace meninas

@@ -14,6 +14,7 @@ struct FactorKey {
   std::uint64_t mirrors =
       0; ///< which triangles are mirrors, their reflectances, the enumerated worlds
   std::uint64_t mesh = 0;     ///< sides and elements
+  std::uint64_t sky = 0;      ///< of a picture of the sky: rows hold what windows and rays have seen of it
   std::uint64_t sampling = 0; ///< all of FormFactorSettings
 };
 FactorKey factor_key(const LightScene& light, const FormFactorSettings& settings);

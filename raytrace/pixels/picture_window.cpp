@@ -3,6 +3,7 @@
 #include "scenes/types.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace meninas {
 
@@ -13,7 +14,8 @@ static PictureWindow tiles_of_part(PictureWindow all, int number, int count) {
     int& length = across ? all.width : all.height;
     const int other = across ? all.height : all.width;
     const int half = count / 2;
-    const int cut = std::clamp((length * half + half) / count, 1, length - 1);
+    const auto even = (std::int64_t{length} * half + half) / count;
+    const int cut = std::clamp(static_cast<int>(even), 1, length - 1);
     // Each side has a tile for each of its parts.
     const int left = std::clamp(half, std::max(1, count - (length - cut) * other),
                                 std::min(count - 1, cut * other));

@@ -37,6 +37,15 @@ std::string value_of(const Attributes& attributes, std::string_view key) {
   return found == attributes.end() ? "none" : found->second;
 }
 
+/// "1/9, 2/9 and 5 more"
+std::string first_of(std::vector<std::string> names) {
+  constexpr std::size_t most = 8;
+  const std::size_t count = names.size();
+  names.resize(std::min(count, most));
+  return fmt::format("{}{}", fmt::join(names, ", "),
+                     count > most ? fmt::format(" and {} more", count - most) : "");
+}
+
 std::vector<std::string> names_of(const std::vector<Layer>& layers) {
   std::vector<std::string> names;
   for (const Layer& layer : layers)
@@ -70,7 +79,7 @@ public:
     if (!missing.empty())
       throw InputError(first_->string(), "",
                        fmt::format("its picture is not whole: without part{} {}",
-                                   missing.size() > 1 ? "s" : "", fmt::join(missing, ", ")));
+                                   missing.size() > 1 ? "s" : "", first_of(missing)));
   }
 
   void write(const MergeRequest& request, const RunEvents& events) const {
@@ -162,7 +171,8 @@ private:
     if (!right)
       throw InputError(first_->string(), "",
                        fmt::format("no PNG: its parts do not know the edges of bright things at the "
-                                   "picture's exposure: render them with --exposure {}",
+                                   "picture's exposure: an EXR alone can be made of them, or render "
+                                   "them with --exposure {}",
                                    none.exposure));
     return *known;
   }

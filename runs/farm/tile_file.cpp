@@ -1,5 +1,6 @@
 #include "runs/farm/tile_file.h"
 
+#include "image/metrics/metrics.h"
 #include "raytrace/pixels/picture_window.h"
 #include "runs/preparation.h"
 #include "runs/steering/setting_options.h"
@@ -49,7 +50,11 @@ ShownPixels edges_of(const Image& layer, double exposure, ViewTransform transfor
 }
 
 std::string settings_text(const TileOrigin& origin) {
-  std::vector<std::string> options = options_of(origin.settings);
+  // What these files hold is in the scene's hash.
+  RunSettings settings = origin.settings;
+  settings.environment.file.reset();
+  settings.gltf.state.luminaires.clear();
+  std::vector<std::string> options = options_of(settings);
   for (const LampFactor& lamp : origin.settings.lamp_factors)
     options.push_back(fmt::format("--lamp {}={},{},{}", lamp.lamp, lamp.factor.r, lamp.factor.g,
                                   lamp.factor.b));
@@ -108,6 +113,28 @@ PicturePart part_in(const fs::path& file, const std::string& text) {
   return {*number - 1, *count};
 }
 
+bool is_exposure(const std::optional<double>& stops) {
+  constexpr double most = 1000.0; // floats have 277 stops
+  return stops && std::abs(*stops) <= most;
+}
+
+/// Refuses values that no part has: what is not finite, and edges that are not shown.
+void check_values(const fs::path& file, const WindowFile& stored) {
+  if (const auto bad = first_bad_pixel(stored.pixels))
+    refuse(file, ("damaged: " + *bad).c_str());
+  for (const Layer& layer : stored.layers) {
+    if (const auto bad = first_bad_pixel(layer.image))
+      refuse(file, fmt::format("damaged: layer '{}': {}", layer.name, *bad).c_str());
+    const bool edges = layer.name.starts_with(edges_prefix);
+    const auto is_shown = [](const glm::vec3& pixel) {
+      return pixel == glm::vec3(no_edge) || (glm::all(glm::greaterThanEqual(pixel, glm::vec3(0.0F))) &&
+                                             glm::all(glm::lessThanEqual(pixel, glm::vec3(1.0F))));
+    };
+    if (edges && !std::ranges::all_of(layer.image.pixels, is_shown))
+      refuse(file, fmt::format("damaged: layer '{}' holds what no display shows", layer.name).c_str());
+  }
+}
+
 /// Moves the layers of edges to where they belong.
 void take_edges(const fs::path& file, TileFile& tile) {
   const std::string list = value_of(tile.attributes, "tileEdges");
@@ -115,8 +142,8 @@ void take_edges(const fs::path& file, TileFile& tile) {
   for (std::size_t begin = 0; tile.knows_edges && begin <= list.size();) {
     const std::size_t end = std::min(list.find(',', begin), list.size());
     const auto exposure = number_in<double>(std::string_view(list).substr(begin, end - begin));
-    if (!exposure)
-      refuse(file, "damaged: its exposures are no numbers");
+    if (!is_exposure(exposure))
+      refuse(file, "damaged: its exposures are no numbers of stops");
     const std::string name = fmt::format("{}{}", edges_prefix, tile.edges.size());
     const auto layer = std::ranges::find(tile.layers, name, &Layer::name);
     tile.edges.push_back(layer == tile.layers.end()
@@ -148,20 +175,26 @@ void write_tile(const fs::path& file, const ViewPicture& picture, const TileOrig
 TileFile read_tile(const fs::path& file) {
   WindowFile stored = read_exr_window(file);
   constexpr int longest_side = 1 << 16;
+  constexpr std::int64_t most_pixels = std::int64_t{1} << 27; // of a picture, as `--size` has it
   TileFile tile;
   tile.part = part_in(file, value_of(stored.attributes, "tile"));
   tile.window = stored.window;
   const auto& [x, y, width, height, picture_width, picture_height] = tile.window;
   const bool possible = picture_width > 0 && picture_height > 0 && picture_width <= longest_side &&
                         picture_height <= longest_side &&
+                        std::int64_t{picture_width} * picture_height <= most_pixels &&
                         tile.part.count <= most_parts(picture_width, picture_height);
   if (!possible || window_of_part(picture_width, picture_height, tile.part.number,
                                   tile.part.count) != PictureWindow{x, y, width, height})
     refuse(file, "damaged: it has other pixels than its part of the picture");
+  check_values(file, stored);
   tile.pixels = std::move(stored.pixels);
   tile.layers = std::move(stored.layers);
   tile.attributes = std::move(stored.attributes);
-  tile.exposure = number_in<double>(value_of(tile.attributes, "tileExposure"));
+  const std::string exposure = value_of(tile.attributes, "tileExposure");
+  tile.exposure = number_in<double>(exposure);
+  if (!exposure.empty() && !is_exposure(tile.exposure))
+    refuse(file, "damaged: its exposure is no number of stops");
   const std::string transform = value_of(tile.attributes, "tileTransform");
   const auto known = std::ranges::find_if(
       view_transforms, [&](ViewTransform each) { return name_of(each) == transform; });

@@ -52,13 +52,13 @@ std::uint64_t view_memory(const SceneSizes& scene, const RunSettings& settings, 
 }
 
 std::uint64_t expected_memory(const SceneSizes& scene, const RunSettings& settings,
-                              const std::optional<PictureSize>& size) {
+                              const std::optional<PictureSize>& size, std::uint64_t parts) {
   // The parts are meant not to be exceeded; what the program needs before any scene is not in them.
   constexpr double of_bound = 0.65, program = 60e6;
   // A reference does not solve.
   const bool solves = settings.mode != PictureMode::reference;
   const std::uint64_t bound = (solves ? scene_memory(scene, settings) : 0) +
-                              (solves ? solve_memory(scene, settings) : 0) +
+                              (solves ? solve_memory(scene, settings) / parts : 0) +
                               (size ? view_memory(scene, settings, *size) : 0);
   return whole(program + of_bound * static_cast<double>(bound));
 }
@@ -68,11 +68,11 @@ std::uint64_t memory_limit(const RunSettings& settings) {
 }
 
 void check_memory(const Scene& scene, const RunSettings& asked,
-                  const std::optional<PictureSize>& size) {
+                  const std::optional<PictureSize>& size, std::uint64_t parts) {
   RunSettings settings = asked;
   if (settings.lamp_layers)
     settings.lamps = LampGrouping::node;
-  const std::uint64_t needed = expected_memory(sizes_of(scene, settings.lamps), settings, size);
+  const std::uint64_t needed = expected_memory(sizes_of(scene, settings.lamps), settings, size, parts);
   const std::uint64_t limit = memory_limit(settings);
   if (needed > limit) {
     throw OutputError(scene.file, "memory",

@@ -23,8 +23,9 @@ std::uint64_t view_memory(const SceneSizes& scene, const RunSettings& settings, 
 /// What one run is likely to have resident at most:
 /// solving the scene, and a picture of that size if there is one.
 /// 1.4 times what was measured for an interior of 450,620 elements (1.1 GiB), solved by rays.
+/// `parts`: of the rows of a uniform mesh only one of so many is made.
 std::uint64_t expected_memory(const SceneSizes& scene, const RunSettings& settings,
-                              const std::optional<PictureSize>& size);
+                              const std::optional<PictureSize>& size, std::uint64_t parts = 1);
 
 /// What a run by these settings may have: as asked, else all there is.
 std::uint64_t memory_limit(const RunSettings& settings);
@@ -32,7 +33,7 @@ std::uint64_t memory_limit(const RunSettings& settings);
 /// Throws OutputError when a run of this scene is expected to take more than it may,
 /// before it takes it.
 void check_memory(const Scene& scene, const RunSettings& settings,
-                  const std::optional<PictureSize>& size);
+                  const std::optional<PictureSize>& size, std::uint64_t parts = 1);
 
 /// "3.2 GiB"
 std::string readable_bytes(std::uint64_t bytes);

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 namespace meninas::test {
@@ -209,7 +210,7 @@ TEST_F(Rows, ThatDoNotFitAreNamed) {
   expect_no_join("rows: holds no rows written by 'meninas solve --factors DIR --shard K/N'");
   write_rows(3);
   fs::rename(folder_ / "rows" / "rows-2-of-3.factors", folder_ / "kept");
-  expect_no_join("rows: rows are missing: rows-2-of-3.factors");
+  expect_no_join("rows: rows are missing: 'rows-2-of-3.factors'");
   fs::copy(folder_ / "rows" / "rows-1-of-3.factors", folder_ / "rows" / "rows-2-of-3.factors");
   expect_no_join("rows/rows-2-of-3.factors: is not what its name says, but part 1/3");
   must(solve({"--factors", "rows", "--shard", "2/3", "--seed", "7"}));
@@ -222,6 +223,42 @@ TEST_F(Rows, ThatDoNotFitAreNamed) {
   expect_no_join("rows/rows-1-of-3.factors: is of another division than rows/rows-1-of-2.factors: one of them has to go");
   fs::remove(folder_ / "rows" / "rows-1-of-2.factors");
   must(solve({"--factors", "rows", "--join", "-o", "joined.glb"}));
+}
+
+// Rows hold what windows and rays have seen of the sky.
+TEST_F(Rows, OfAnotherSkyAreNamed) {
+  const std::vector<std::string> morning{"--sky", "clear", "--sun", "90,20"}, noon{"--sky", "clear", "--sun", "180,60"};
+  const auto with_sky = [&](std::vector<std::string> options, const std::vector<std::string>& sky) {
+    options.insert(options.end(), sky.begin(), sky.end());
+    return solve(options);
+  };
+  must(with_sky({"--factors", "rows", "--shard", "1/2"}, morning));
+  must(with_sky({"--factors", "rows", "--shard", "2/2"}, noon));
+  const Outcome mixed = run(with_sky({"--factors", "rows", "--join", "-o", "no.glb", "--quiet"}, morning));
+  EXPECT_EQ(mixed.code, 3);
+  EXPECT_EQ(mixed.err, "meninas: rows/rows-2-of-2.factors: cannot be reused: the sky has changed since it was written\n");
+  must(with_sky({"--factors", "rows", "--shard", "2/2"}, morning));
+  must(with_sky({"--factors", "rows", "--join", "-o", "joined.glb"}, morning));
+}
+
+TEST_F(Rows, AreNotWrittenOver) {
+  write_rows(2);
+  const Outcome outcome = run(solve({"--factors", "rows", "--join", "-o", "no.glb", "--stats", "rows/rows-1-of-2.factors"}));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("rows/rows-1-of-2.factors: is an input, which would be overwritten"));
+}
+
+TEST_F(Rows, OfStrangeNumbersAreNone) {
+  fs::create_directory(folder_ / "rows");
+  std::ofstream(folder_ / "rows" / "rows-1-of-18446744073709551615.factors") << "none";
+  expect_no_join("rows: holds no rows written by 'meninas solve --factors DIR --shard K/N'");
+  const Outcome many = run(solve({"--factors", "rows", "--shard", "1/900000"}));
+  EXPECT_EQ(many.code, 2);
+  EXPECT_THAT(many.err, HasSubstr("--shard: 900000 parts are more than the "));
+  std::vector<std::string> missing = solve({"--factors", "new/rows", "--shard", "1/2"});
+  std::ranges::replace(missing, std::string("room.glb"), std::string("missing.glb"));
+  EXPECT_EQ(run(missing).code, 3);
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
 }
 
 TEST_F(Rows, AreRefusedWithWhatTheyDoNotGoWith) {
