@@ -135,7 +135,8 @@ std::vector<std::byte> picture_bytes(PictureFormat format, const WrittenPicture&
   expects(format != PictureFormat::hdr, "pictures in memory are EXRs or PNGs");
   if (format == PictureFormat::exr)
     return encode_exr(picture.image, picture.layers,
-                      type_for(picture.image, picture.layers, settings.exr_type), attributes);
+                      type_for(picture.image, picture.layers, settings.exr_type),
+                      with_units(attributes, picture.unit, picture.layers));
   expects(settings.exposure.has_value(), "a PNG has an exposure");
   return encode_png(picture.image, {.exposure = *settings.exposure,
                                     .transform = settings.transform,
