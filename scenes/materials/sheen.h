@@ -13,18 +13,15 @@
 //
 // What is below has the rest: (1 - m E(o)) (1 - m E(i)) / (1 - m E_avg) of it if it is diffuse, m the
 // largest channel of c, so that white fibres on white cloth reflect exactly 1; lobes have the smaller
-// of 1 - m E(o) and 1 - m E(i), as glTF says.
+// of 1 - m E(o) and 1 - m E(i), as glTF says, and ideal mirrors of pass one 1 - m E_avg.
 #pragma once
 
 #include "scenes/materials/bsdf_parameters.h"
+#include "scenes/materials/sheen_albedo.h"
 
 #include <string>
 
 namespace meninas {
-
-/// E of white fibres, dimensionless; from a table good to 5e-3 of 1.
-double sheen_albedo(double roughness, double cosine);
-double mean_sheen_albedo(double roughness);
 
 /// 1 - m E(w): what of the light of a direction gets below the fibres; 1 where there are none.
 double below_sheen(const Bsdf& bsdf, double cosine);
