@@ -1,7 +1,5 @@
 #include "scenes/material.h"
 
-#include "scenes/materials/sheen_albedo.h"
-
 #include <cmath>
 
 namespace meninas {
@@ -65,24 +63,6 @@ ThinFilm film_of(const Material& material) {
                                ? 0.5 * (material.film_min_thickness + material.film_thickness)
                                : material.film_thickness;
   return {material.film_ior, thickness, material.iridescence};
-}
-
-/// Below the fibres of sheen, in the mean over all directions as of films: what they reflect counts as even.
-static double mean_below_sheen(const Material& material) {
-  return material.sheen_color == Rgb(0.0)
-             ? 1.0
-             : 1.0 - largest(material.sheen_color) * mean_sheen_albedo(material.sheen_roughness);
-}
-
-Rgb mirror_reflectance(const Material& material) {
-  if (!is_mirror(material))
-    return Rgb(0.0);
-  const double share = mean_below_sheen(material) * material.metallic;
-  if (material.iridescence == 0.0)
-    return material.base_color * share;
-  const ThinFilm film = film_of(material);
-  const Rgb mean = mean_of_film(film, material.base_color).reflectance;
-  return below_film(film, material.base_color, mean) * share;
 }
 
 } // namespace meninas

@@ -17,11 +17,14 @@
 #pragma once
 
 #include "scenes/materials/bsdf_parameters.h"
-#include "scenes/materials/sheen_albedo.h"
 
 #include <string>
 
 namespace meninas {
+
+/// E of white fibres, dimensionless; from a table good to 5e-3 of 1.
+double sheen_albedo(double roughness, double cosine);
+double mean_sheen_albedo(double roughness);
 
 /// 1 - m E(w): what of the light of a direction gets below the fibres; 1 where there are none.
 double below_sheen(const Bsdf& bsdf, double cosine);
