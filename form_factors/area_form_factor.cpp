@@ -193,6 +193,8 @@ Estimate area_form_factor(const ConvexPolygon& a, const ConvexPolygon& b) {
   const double gap =
       glm::distance(around_a.centre, around_b.centre) - around_a.radius - around_b.radius;
   const double size = std::max(around_a.radius, around_b.radius);
+  if (!(size > 0.0)) // of faces that share a corner that alone may be in front of the other
+    return {};
 
   // Gauss points see a smooth integrand where the polygons are well apart;
   // thin ones are theirs as well.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <numeric>
 
 namespace meninas {
 
@@ -13,6 +14,11 @@ void add_up_by_vertex(VertexIrradiance& field) {
     for (std::size_t v = 0; v < direct.size(); ++v)
       sum += glm::dvec3(direct[v]) + glm::dvec3(indirect[v]);
   }
+  // And where nothing is known of any lamp anywhere, as of a narrow spot between all points, all have as much.
+  const glm::dvec3 known = std::accumulate(in_all.begin(), in_all.end(), glm::dvec3(0.0));
+  for (glm::dvec3& sum : in_all)
+    for (int band = 0; band < 3; ++band)
+      sum[band] = known[band] > 0.0 ? sum[band] : 1.0;
   const auto share = [&](std::vector<glm::vec3> VertexLightOfLamp::*part, std::size_t v,
                          const glm::vec3& whole) {
     for (int band = 0; band < 3; ++band) {

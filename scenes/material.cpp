@@ -65,14 +65,4 @@ ThinFilm film_of(const Material& material) {
   return {material.film_ior, thickness, material.iridescence};
 }
 
-Rgb mirror_reflectance(const Material& material) {
-  if (!is_mirror(material))
-    return Rgb(0.0);
-  if (material.iridescence == 0.0)
-    return material.base_color * material.metallic;
-  const ThinFilm film = film_of(material);
-  const Rgb mean = mean_of_film(film, material.base_color).reflectance;
-  return below_film(film, material.base_color, mean) * material.metallic;
-}
-
 } // namespace meninas

@@ -29,6 +29,19 @@ double number_or_infinity(const json& value) {
   return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
 }
 
+/// A number of things. What is none, such as 1.5 or 1e308, is no solution of ours.
+std::size_t count_in(const json& value) {
+  if (!value.is_number_unsigned())
+    throw json::type_error::create(302, "no number of things", &value);
+  return value.get<std::size_t>();
+}
+
+int whole_in(const json& value) {
+  if (!value.is_number_integer())
+    throw json::type_error::create(302, "no whole number", &value);
+  return value.get<int>();
+}
+
 Rgb colour_of(const json& value) {
   const auto numbers = value.get<std::array<double, 3>>();
   return {numbers[0], numbers[1], numbers[2]};
@@ -55,9 +68,9 @@ std::vector<Rgb> colours_of(const json& list) {
 SolverResult read_solver(const std::filesystem::path& file, const json& solve) {
   SolverResult solver;
   solver.method = method_of(file, solve.at("solver"));
-  solver.end = static_cast<SolverEnd>(solve.at("end").get<int>());
-  solver.bands = solve.at("bands");
-  solver.iterations = solve.at("iterations");
+  solver.end = static_cast<SolverEnd>(whole_in(solve.at("end")));
+  solver.bands = whole_in(solve.at("bands"));
+  solver.iterations = whole_in(solve.at("iterations"));
   solver.residual = number_or_infinity(solve.at("residual"));
   solver.error_bound = number_or_infinity(solve.at("error_bound"));
   solver.converged = solve.at("converged");
@@ -72,7 +85,7 @@ SolverResult read_solver(const std::filesystem::path& file, const json& solve) {
 void read_figures(const std::filesystem::path& file, const json& figures, StoredSolution& stored) {
   stored.solver = read_solver(file, figures.at("solve"));
   if (const json& links = figures.at("links"); !links.empty())
-    stored.links = {links.at("receivers"), links.at("links"), links.at("bytes")};
+    stored.links = {count_in(links.at("receivers")), count_in(links.at("links")), count_in(links.at("bytes"))};
   const json& energy = figures.at("energy");
   stored.energy.emitted = colour_of(energy.at("emitted"));
   stored.energy.absorbed = colour_of(energy.at("absorbed"));
@@ -87,10 +100,10 @@ std::vector<glm::vec3> read_irradiance(const std::filesystem::path& file, const 
                                        std::size_t accessor_index, std::size_t vertices) {
   const json& root = glb.root;
   const json& accessor = root.at("accessors").at(accessor_index);
-  const json& view = root.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
-  const std::size_t offset = view.at("byteOffset");
+  const json& view = root.at("bufferViews").at(count_in(accessor.at("bufferView")));
+  const std::size_t offset = count_in(view.at("byteOffset"));
   // Points that viewers alone show come after the vertices.
-  const bool fits = accessor.at("count").get<std::size_t>() >= vertices &&
+  const bool fits = count_in(accessor.at("count")) >= vertices &&
                     offset <= glb.binary.size() &&
                     vertices <= (glb.binary.size() - offset) / vec3_size;
   if (!fits) {
@@ -111,8 +124,8 @@ std::vector<glm::vec3> read_irradiance(const std::filesystem::path& file, const 
 /// The bytes of a view.
 std::span<const std::uint8_t> bytes_of(const std::filesystem::path& file, const GlbContent& glb,
                                        const json& number, const char* what) {
-  const json& view = glb.root.at("bufferViews").at(number.get<std::size_t>());
-  const std::size_t offset = view.at("byteOffset"), size = view.at("byteLength");
+  const json& view = glb.root.at("bufferViews").at(count_in(number));
+  const std::size_t offset = count_in(view.at("byteOffset")), size = count_in(view.at("byteLength"));
   if (offset > glb.binary.size() || size > glb.binary.size() - offset) {
     refuse(file, fmt::format("damaged: it does not hold the {} it announces", what));
   }
@@ -150,11 +163,11 @@ void read_lamps(const std::filesystem::path& file, const GlbContent& glb, const 
     // Exponents of floats; each lamp has bytes of its own.
     const json& top = lamp.at("top");
     const bool is_exponent = top.is_number_integer() && top >= -200 && top <= 128;
-    if (!is_exponent || !views.insert(lamp.at("view").get<std::size_t>()).second) {
+    if (!is_exponent || !views.insert(count_in(lamp.at("view"))).second) {
       refuse(file, "damaged: the light of its lamps makes no sense");
     }
     stored.lamps.push_back(lamp.at("name"));
-    stored.field.by_lamp.push_back(decoded(top, bytes));
+    stored.field.by_lamp.push_back(decoded(top.get<int>(), bytes));
     for (const auto* values : {&stored.field.by_lamp.back().direct, &stored.field.by_lamp.back().indirect})
       if (!std::ranges::all_of(*values, [](const glm::vec3& v) { return std::isfinite(v.r + v.g + v.b); }))
         refuse(file, "damaged: the light of its lamps is no number");
@@ -164,7 +177,7 @@ void read_lamps(const std::filesystem::path& file, const GlbContent& glb, const 
 
 /// The bytes the hash was made of: the binary chunk without its padding.
 std::span<const std::byte> data_of(const std::filesystem::path& file, const GlbContent& glb) {
-  const std::size_t size = glb.root.at("buffers").at(0).at("byteLength");
+  const std::size_t size = count_in(glb.root.at("buffers").at(0).at("byteLength"));
   if (size > glb.binary.size()) {
     refuse(file, "damaged: it does not hold the data it announces");
   }
@@ -174,7 +187,7 @@ std::span<const std::byte> data_of(const std::filesystem::path& file, const GlbC
 MeshSettings read_mesh_settings(const std::filesystem::path& file, const json& mesh) {
   const MeshSettings settings{.element_size = mesh.at("element_size"),
                               .target_elements = mesh.at("target_elements"),
-                              .max_elements = mesh.at("max_elements")};
+                              .max_elements = count_in(mesh.at("max_elements"))};
   // More than the program makes would take all memory before anything else is found wrong.
   if (!(settings.element_size >= 0.0) || !(settings.target_elements > 0.0) ||
       settings.max_elements == 0 || settings.max_elements > MeshSettings{}.max_elements) {
@@ -186,7 +199,7 @@ MeshSettings read_mesh_settings(const std::filesystem::path& file, const json& m
 StoredSolution read_checked(const std::filesystem::path& file, const GlbContent& glb,
                             const Scene& scene) {
   const json& extras = glb.root.at("asset").at("extras").at("meninas");
-  const int format = extras.value("format", 1);
+  const int format = extras.contains("format") ? whole_in(extras.at("format")) : 1;
   if (format != solution_format) {
     refuse(file, fmt::format("has format {} of solution files, this program reads {}: solve again",
                              format, solution_format));
@@ -204,16 +217,16 @@ StoredSolution read_checked(const std::filesystem::path& file, const GlbContent&
   }
   StoredSolution stored;
   stored.mesh = read_mesh_settings(file, extras.at("mesh"));
-  stored.elements = extras.at("elements");
+  stored.elements = count_in(extras.at("elements"));
   stored.division = read_division(file, glb, extras);
   const json& attributes = extras.at("field");
-  const std::size_t vertices = extras.at("vertices");
+  const std::size_t vertices = count_in(extras.at("vertices"));
   // Where all surfaces are mirrors there are no vertices, and no attributes of them.
   for (const FieldPart& part : field_parts) {
     if (vertices > 0 &&
         (part.values == &VertexIrradiance::irradiance || attributes.contains(part.attribute))) {
       stored.field.*part.values =
-          read_irradiance(file, glb, attributes.at(part.attribute), vertices);
+          read_irradiance(file, glb, count_in(attributes.at(part.attribute)), vertices);
     }
   }
   read_lamps(file, glb, extras, vertices, stored);

@@ -292,7 +292,14 @@ Rgb diffuse_transmittance(const Material& material, const MaterialPoint& point) 
 }
 
 Bsdf clear_glass(const Material& material, const MaterialPoint& point) {
-  Bsdf clear = make_bsdf(material, point);
+  // Rays meet glass by the million, and a film's means over metals and coats that are left out here take long.
+  MaterialPoint bare = point;
+  if (!is_mirror(material))
+    bare.film.share = 0.0;
+  Bsdf clear = make_bsdf(material, bare);
+  clear.film = point.film;
+  if (clear.pane.faces != GlassFaces::none)
+    clear.pane.film = point.film;
   if (!is_mirror(material))
     clear.metal = Rgb(0.0);
   clear.diffuse = clear.passed = clear.sheen = Rgb(0.0);

@@ -13,7 +13,7 @@
 //
 // What is below has the rest: (1 - m E(o)) (1 - m E(i)) / (1 - m E_avg) of it if it is diffuse, m the
 // largest channel of c, so that white fibres on white cloth reflect exactly 1; lobes have the smaller
-// of 1 - m E(o) and 1 - m E(i), as glTF says.
+// of 1 - m E(o) and 1 - m E(i), as glTF says, and ideal mirrors of pass one 1 - m E_avg.
 #pragma once
 
 #include "scenes/materials/bsdf_parameters.h"

@@ -2,6 +2,7 @@
 
 #include "scenes/materials/lobes.h"
 #include "scenes/surfaces/surfaces.h"
+#include "scenes/materials/sheen.h"
 #include "scenes/materials/texture_lookup.h"
 
 #include <algorithm>
@@ -136,6 +137,20 @@ void spread_coats(Scene& scene) {
   for (Material& material : scene.materials)
     if (has_mirror_coat(material))
       material.specular_in_pass_one = false;
+}
+
+Rgb mirror_reflectance(const Material& material) {
+  if (!is_mirror(material))
+    return Rgb(0.0);
+  // Below the fibres of sheen, in the mean over all directions as of films: what they reflect counts as even.
+  const double below = material.sheen_color == Rgb(0.0)
+                           ? 1.0
+                           : 1.0 - largest(material.sheen_color) * mean_sheen_albedo(material.sheen_roughness);
+  if (material.iridescence == 0.0)
+    return material.base_color * (below * material.metallic);
+  const ThinFilm film = film_of(material);
+  const Rgb mean = mean_of_film(film, material.base_color).reflectance;
+  return below_film(film, material.base_color, mean) * (below * material.metallic);
 }
 
 } // namespace meninas

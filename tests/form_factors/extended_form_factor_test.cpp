@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace meninas::test {
@@ -19,6 +20,21 @@ TEST(ExtendedFormFactor, PairsOfPolygonsInClosedForm) {
     const double error = std::abs(factor.total.value - c.form_factor);
     EXPECT_LT(error, 1e-9 * c.form_factor + 1e-14) << c.name << " (" << c.formula << ")";
     EXPECT_LE(error, factor.total.error + 1e-15) << c.name;
+  }
+}
+
+// Triangles that share a corner, which alone is in front of the other's plane: nothing is seen, and that is certain.
+TEST(ExtendedFormFactor, APointInFrontOfAPlaneSeesNothing) {
+  const auto triangle = [](const std::array<Point3, 3>& corners) { return ConvexPolygon(corners); };
+  const ConvexPolygon a = triangle({{{-0.38844824874428557, -1.1045509407608212, -1.1377378125958806},
+                        {-0.36393877344675624, -1.1178237679634404, -1.1413526573963397},
+                        {-0.39196969515686769, -1.116457530536314, -1.1428857267790853}}}),
+      b = triangle({{{-0.38103493028002194, -1.1399883885787723, -1.1438825662391594},
+        {-0.36393877344675624, -1.1178237679634404, -1.1413526573963397},
+        {-0.36950868256522745, -1.1453075820679022, -1.1394643901903143}}});
+  for (const Estimate& factor : {area_form_factor(a, b), area_form_factor(b, a)}) {
+    EXPECT_EQ(factor.value, 0.0);
+    EXPECT_EQ(factor.error, 0.0); // it was no number
   }
 }
 

@@ -156,7 +156,7 @@ void find_form_factors(const Scene& scene, const SurfaceModel& surfaces, Random&
   for (const ExtendedFactor& factor : factors.to) {
     const double value = factor.total.value, error = factor.total.error;
     require(std::isfinite(value) && value >= 0.0 && std::isfinite(error) && error >= 0.0,
-            fmt::format("a form factor of {} +- {}", value, error));
+            fmt::format("a form factor of {} +- {} by method {}", value, error, static_cast<int>(settings.method)));
     sum += value - 3.0 * error;
   }
   require(sum <= 1.01, fmt::format("form factors of {} in all", sum));

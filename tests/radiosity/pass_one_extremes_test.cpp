@@ -1,5 +1,6 @@
 // Scenes at the extremes through the whole of pass one, with every solver:
 // finite, and as elimination in long double solves for the same form factors and sources.
+#include "radiosity/relight.h"
 #include "tests/radiosity/lit_system.h"
 #include "tests/support/rooms.h"
 
@@ -166,6 +167,27 @@ TEST(ManyElements, ThousandsOnOnePatchAndOneOnAnother) {
     EXPECT_TRUE(result.converged);
     EXPECT_LT(residual / (1.0L - rho), static_cast<long double>(tolerance) * largest);
   }
+}
+
+// A narrow spot lights a place between all points at which light of lamps is known: what walls reflect of it is
+// there, by rays, and belongs to some lamp. A page with dimmers would be black otherwise.
+TEST(Relighting, LightOfWhichNoLampIsKnownIsNotLost) {
+  VertexIrradiance field;
+  field.irradiance = {glm::vec3(1e-9F, 0.0F, 3e-10F), glm::vec3(2e-9F, 0.0F, 1e-10F)};
+  field.indirect = {field.irradiance[0], glm::vec3(0.0F)};
+  const std::vector<glm::vec3> nothing(2, glm::vec3(0.0F));
+  field.by_lamp.assign(2, {nothing, nothing});
+  field.by_lamp[0].direct[1].b = 1.0F; // of blue something is known
+  add_up_by_vertex(field);
+  for (std::size_t v = 0; v < 2; ++v)
+    for (int band = 0; band < 3; ++band) {
+      float sum = 0.0F;
+      for (const VertexLightOfLamp& lamp : field.by_lamp)
+        sum += lamp.direct[v][band] + lamp.indirect[v][band];
+      EXPECT_FLOAT_EQ(sum, field.irradiance[v][band]) << v << ' ' << band;
+    }
+  EXPECT_FLOAT_EQ(field.by_lamp[0].indirect[0].r, 5e-10F) << "as much of one as of the other";
+  EXPECT_EQ(field.by_lamp[1].indirect[0].b, 0.0F) << "it is all of the lamp that is known";
 }
 
 } // namespace

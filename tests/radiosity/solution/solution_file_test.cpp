@@ -212,6 +212,13 @@ TEST_F(SolutionFile, WithWrongCountsIsRefused) {
   EXPECT_THAT(refusal(), HasSubstr("does not hold the irradiance it announces"));
 }
 
+TEST_F(SolutionFile, WithCountsThatAreNoneIsRefused) {
+  for (const json& count : {json(1e308), json(-1), json(double(element_count(mesh_)) + 0.25), json("3")}) {
+    spoil([&](json& root) { extras(root)["elements"] = count; });
+    EXPECT_THAT(refusal(), HasSubstr("not a solution written by 'meninas solve'")) << count;
+  }
+}
+
 TEST_F(SolutionFile, WithSenselessSettingsIsRefused) {
   spoil([](json& root) { extras(root)["mesh"]["element_size"] = -1.0; });
   EXPECT_THAT(refusal(), HasSubstr("the settings of its mesh make no sense"));

@@ -112,5 +112,27 @@ TEST(Sheen, AddsItsColourInTheMean) {
   EXPECT_FALSE(has_lobes(material));
 }
 
+// Of a white mirror the fibres leave 1 - E_avg, so that the two reflect 1 together: without that light between two
+// such mirrors would grow without end.
+TEST(Sheen, SmoothMetalBelowItReflectsNoMoreThanArrives) {
+  for (const double roughness : {0.2, 0.6, 1.0}) {
+    Material metal = white_cloth(roughness);
+    metal.metallic = 1.0;
+    metal.roughness = 0.0;
+    ASSERT_TRUE(is_mirror(metal));
+    const Rgb mirror = mirror_reflectance(metal), even = diffuse_reflectance(metal);
+    EXPECT_NEAR(even.g, mean_sheen_albedo(roughness), 1e-12);
+    EXPECT_NEAR(mirror.g + even.g, 1.0, 1e-12) << roughness;
+    metal.sheen_color = Rgb(0.5, 0.25, 0.0);
+    EXPECT_NEAR(mirror_reflectance(metal).b, 1.0 - 0.5 * mean_sheen_albedo(roughness), 1e-12)
+        << "by the largest channel, as glTF says";
+    metal.iridescence = 1.0;
+    metal.film_ior = 1.3;
+    const double with_film = mirror_reflectance(metal).g;
+    metal.sheen_color = Rgb(0.0);
+    EXPECT_NEAR(with_film, mirror_reflectance(metal).g * (1.0 - 0.5 * mean_sheen_albedo(roughness)), 1e-12);
+  }
+}
+
 } // namespace
 } // namespace meninas::test
