@@ -36,7 +36,8 @@ struct LiveStatus {
   std::optional<double> unshot; ///< the share of the first light that is still to be shot
   std::optional<double> error;  ///< ||B - B_k|| / ||B||, at the most
   std::size_t elements = 0;
-  bool paused = false, solved = false;
+  bool paused = false; ///< it waits for a step
+  bool solved = false;
   std::string problem; ///< why the file is not shown as it is now
 };
 

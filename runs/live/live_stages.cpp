@@ -137,7 +137,7 @@ private:
       status.stage = shots == 0 ? "dark" : "shots";
     });
     stage_.steps.wait(stage_.is_over);
-    stage_.board.change_status([&](LiveStatus& status) { status.paused = stage_.steps.paused(); });
+    stage_.board.change_status([](LiveStatus& status) { status.paused = false; });
   }
 
   const LiveScene& shown_;
