@@ -92,8 +92,7 @@ void check_place(const Options& command, const RenderRequest& request) {
     if (!command.given(needed))
       throw UsageError(needed, "is needed with --eye, --target and --angle, which go together");
   refuse(command, {"--camera"}, "does not go with --eye, which is no camera of the file");
-  if (request.place->angle && *request.place->angle >= 180.0)
-    throw UsageError("--angle", "is below 180 degrees");
+  static_cast<void>(camera_at(*request.place, request.settings)); // before anything is solved
 }
 
 void add_depth_options(Options& command, PictureSettings& picture) {

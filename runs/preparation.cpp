@@ -133,8 +133,15 @@ Camera default_view(const Bounds& bounds, const RunSettings& settings) {
 }
 
 Camera camera_at(const FreeCamera& place, const RunSettings& settings) {
-  if (place.eye == place.target)
+  // Rays are traced in single precision: from farther away they meet nothing, or no finite point.
+  constexpr double farthest = 1e6, nearest = 1e-9, narrowest = 0.01, widest = 179.9;
+  for (const auto& [option, point] : {std::pair{"--eye", place.eye}, {"--target", place.target}})
+    if (!glm::all(glm::lessThanEqual(glm::abs(point), Vec3(farthest))))
+      throw UsageError(option, fmt::format("has a coordinate beyond {:g} m", farthest));
+  if (!(glm::length(place.target - place.eye) > nearest))
     throw UsageError("--target", "is where --eye is: there is no direction to look in");
+  if (place.angle && !(*place.angle >= narrowest && *place.angle <= widest))
+    throw UsageError("--angle", fmt::format("is not from {} to {} degrees", narrowest, widest));
   const double fov = place.angle ? glm::radians(*place.angle) : Camera{}.vertical_fov;
   Camera camera = projected(looking_at(place.eye, place.target, fov), settings);
   camera.name = "free";

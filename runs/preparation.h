@@ -48,7 +48,7 @@ struct FreeCamera {
   std::optional<double> angle; ///< of view, vertical, degrees; that of Camera otherwise
 };
 
-/// Upright at its eye, as projected(). Throws UsageError where eye and target are one point.
+/// Upright at its eye, as projected(). Throws UsageError of coordinates beyond 1e6 m, points 1e-9 m apart, and angles outside 0.01 to 179.9.
 Camera camera_at(const FreeCamera& place, const RunSettings& settings);
 
 /// The camera of that name, else the file's first, else a default view, as projected().

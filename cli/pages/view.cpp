@@ -7,6 +7,7 @@
 #include "runs/report/progress_line.h"
 
 #include <fmt/format.h>
+#include <csignal>
 #include <spawn.h>
 #include <sys/wait.h>
 
@@ -44,7 +45,17 @@ void open_browser(std::string address, const RunEvents& events) {
     std::array<char*, 3> words{program.data(), address.data(), nullptr};
     pid_t process = 0;
     int status = 1;
-    const int failed = posix_spawnp(&process, program.c_str(), &silent, nullptr, words.data(), environ);
+    // Ctrl-C here is none there, and no signal is blocked or ignored that is not so elsewhere.
+    posix_spawnattr_t apart{};
+    posix_spawnattr_init(&apart);
+    sigset_t all{}, none{};
+    sigfillset(&all);
+    sigemptyset(&none);
+    posix_spawnattr_setsigdefault(&apart, &all);
+    posix_spawnattr_setsigmask(&apart, &none);
+    posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+    const int failed = posix_spawnp(&process, program.c_str(), &silent, &apart, words.data(), environ);
+    posix_spawnattr_destroy(&apart);
     posix_spawn_file_actions_destroy(&silent);
     if (failed == 0)
       waitpid(process, &status, 0);
@@ -78,7 +89,7 @@ Command add_view_command(Options& program) {
   const auto options = std::make_shared<ViewOptions>();
   add_scene(command, options->common);
   command.add("--port", "N", "listen on that port of 127.0.0.1 [any that is free]", [=](const std::string& text) {
-    options->request.port = static_cast<int>(parse_integer("--port", text, 1, 65'535));
+    options->request.port = static_cast<int>(parse_integer("--port", text, 1024, 65'535));
   });
   command.add_flag("--no-open", "print the address and open no browser", [=] { options->opens = false; });
   command.add_flag("--paused", "begin in the dark and wait: N in the browser makes the next shot, P goes on",

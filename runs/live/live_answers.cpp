@@ -63,11 +63,18 @@ bool take_place(const Query& query, RestingView& view) {
   }
   const auto eye = numbers_in<double>(value_in(query, "eye"), ',', 3), target = numbers_in<double>(value_in(query, "target"), ',', 3);
   const auto angle = number_in<double>(value_in(query, "angle"));
-  if (eye.empty() || target.empty() || eye == target || !angle || !(*angle > 0.0 && *angle < 180.0))
+  if (eye.empty() || target.empty() || !angle)
     return false;
   view.place = {{eye[0], eye[1], eye[2]}, {target[0], target[1], target[2]}, angle};
+  try {
+    static_cast<void>(camera_at(view.place, {}));
+  } catch (const UserError&) {
+    return false;
+  }
   return true;
 }
+
+WebReply not_now(const std::string& why) { return text_reply(503, "text/plain", why + "\n"); }
 
 WebReply picture_reply(RestingPictures& pictures, const WebRequest& request) {
   const auto view = view_of(request.query);
@@ -79,6 +86,8 @@ WebReply picture_reply(RestingPictures& pictures, const WebRequest& request) {
   try {
     const auto bytes = pictures.picture(*view, step, exr ? PictureFormat::exr : PictureFormat::png);
     return bytes ? bytes_reply(exr ? "image/x-exr" : "image/png", *bytes) : WebReply{204, "", nullptr};
+  } catch (const NoPictureNow& reason) {
+    return not_now(reason.why);
   } catch (const UserError& error) {
     return text_reply(400, "text/plain", error.what());
   }
@@ -88,15 +97,28 @@ WebReply command_reply(const RestingPictures& pictures, const WebRequest& reques
   const auto view = view_of(request.query);
   const auto room = pictures.room();
   if (!view || !room)
-    return view ? WebReply{204, "", nullptr} : text_reply(400, "text/plain", "no view\n");
+    return view ? not_now(not_solved_yet) : text_reply(400, "text/plain", "no view\n");
   const std::string name = value_in(request.query, "name");
   return text_reply(200, "text/plain", command_of(*room, *view, name.empty() ? "view" : name));
+}
+
+/// Once it is solved there are no shots to stop.
+void change_steps(LiveBoard& board, ShotSteps& steps, const std::string& how) {
+  board.change_status([&](LiveStatus& status) {
+    if (status.solved)
+      return;
+    if (how == "step")
+      steps.step();
+    else
+      steps.pause(how == "pause");
+    status.paused = steps.paused();
+  });
 }
 
 WebReply solution_reply(const RestingPictures& pictures) {
   const auto room = pictures.room();
   if (!room)
-    return {204, "", nullptr};
+    return not_now(not_solved_yet);
   return bytes_reply("model/gltf-binary",
                      solution_bytes(room->scene_hash, room->lit.prepared->mesh, room->solution,
                                     two_pass_settings(room->settings).pass_one.mesh, room->scene.string()));
@@ -125,10 +147,8 @@ std::optional<RestingView> view_of(const Query& query) {
 
 WebReply LiveAnswers::operator()(const WebRequest& request) const {
   if (request.changes_something) {
-    if (request.path == "step")
-      steps.step();
-    else if (request.path == "pause" || request.path == "go-on")
-      steps.pause(request.path == "pause");
+    if (request.path == "step" || request.path == "pause" || request.path == "go-on")
+      change_steps(board, steps, request.path);
     else if (const auto number = number_in<std::uint64_t>(value_in(request.query, "number")); request.path == "moved" && number)
       pictures.moved(value_in(request.query, "viewer").substr(0, 32), *number);
     else

@@ -88,6 +88,11 @@ void LiveBoard::change_status(const std::function<void(LiveStatus&)>& change) {
   changed();
 }
 
+LiveStatus LiveBoard::status() const {
+  const std::scoped_lock lock(mutex_);
+  return status_;
+}
+
 std::string LiveBoard::announcement() const {
   const auto known = [](const auto& value) { return value ? json(*value) : json(nullptr); };
   return text_of({{"room", room_number_},

@@ -36,7 +36,8 @@ struct LiveStatus {
   std::optional<double> unshot; ///< the share of the first light that is still to be shot
   std::optional<double> error;  ///< ||B - B_k|| / ||B||, at the most
   std::size_t elements = 0;
-  bool paused = false, solved = false;
+  bool paused = false; ///< no shot is made without a step
+  bool solved = false;
   std::string problem; ///< why the file is not shown as it is now
 };
 
@@ -52,7 +53,9 @@ public:
   void show_room(std::string data, const Point3& middle, const LiveLight& light);
   /// Other light of that room.
   void show_light(const LiveLight& light);
+  /// `change` may not ask the board.
   void change_status(const std::function<void(LiveStatus&)>& change);
+  LiveStatus status() const;
 
   /// JSON of what there is, once it is newer than `seen`; nothing where it is not after so long.
   std::optional<std::string> next(std::uint64_t& seen, std::chrono::milliseconds patience) const;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <new>
 
 namespace meninas {
 
@@ -18,6 +19,29 @@ namespace {
 
 std::string figures_of(const RadiositySolution& solution) {
   return fmt::format("solved: {} elements, error bound {:.2g}", element_count(solution.field.mesh()), solution.solver.error_bound);
+}
+
+/// The room that was solved last, and what was said of it.
+struct LastSolved {
+  std::shared_ptr<const SolvedRoom> room;
+  LiveStatus status;
+};
+
+/// In place of one that cannot be solved; nothing changes before there is one.
+void show_again(const LastSolved& last, const LiveScene& shown, const LiveStage& stage) {
+  if (!last.room)
+    return stage.board.change_status([](LiveStatus& status) { status.stage = "not solved"; });
+  show_solved(*last.room, shown, stage);
+  stage.solved(last.room);
+  stage.board.change_status([&](LiveStatus& status) { status = last.status; });
+}
+
+/// Of errors that are no user's, with the file in front.
+std::string line_of(const std::exception& error, const std::filesystem::path& file) {
+  if (dynamic_cast<const UserError*>(&error) != nullptr)
+    return error.what();
+  const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  return fmt::format("{}: {}", file.string(), is_memory ? "not enough memory" : error.what());
 }
 
 } // namespace
@@ -39,20 +63,25 @@ void live_run(const LiveRequest& request, const std::function<void(const std::st
   opened(server.address());
 
   const LiveScene shown{request.scene, request.settings, request.transform, request.exposure};
-  const LiveStage stage{board, steps, [&] { return watch.has_changed(); }, {events.warning, {}, {}, {}}};
+  const LiveStage stage{board, steps, [&] { return watch.has_changed(); },
+                        [&](std::shared_ptr<const SolvedRoom> room) { pictures.show(std::move(room)); },
+                        {events.warning, {}, {}, {}}};
+  LastSolved last;
   for (bool first = true;; first = false) {
     try {
-      const auto room = show_stages(std::move(scene), shown, stage);
-      pictures.show(room);
-      note(events, figures_of(room->solution));
+      last.room = show_stages(std::move(scene), shown, stage);
+      last.status = board.status();
+      note(events, figures_of(last.room->solution));
     } catch (const StageOver&) {
       // Another scene waits.
-    } catch (const UserError& error) {
+    } catch (const std::exception& error) {
       if (first)
         throw;
-      tell_problem(error.what());
+      show_again(last, shown, stage);
+      tell_problem(line_of(error, request.scene));
     }
     scene = watch.next();
+    pictures.show(nullptr);
     note(events, fmt::format("{} has changed", request.scene.string()));
   }
 }

@@ -7,7 +7,7 @@
 //   events      server-sent: what is newest
 //   room        JSON of the room
 //   light       ?base=N                        its light, or the change of it
-//   picture     ?VIEW&step=coarse|whole        PNG; 204 where nobody wants it any more
+//   picture     ?VIEW&step=coarse|whole        PNG; 204 where nobody wants it any more, 503 with a sentence where there is none now
 //   save.exr, save.png  ?VIEW                  the whole picture as files
 //   command     ?VIEW                          the line that makes these files again
 //   solution    what `solve` writes

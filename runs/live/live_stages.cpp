@@ -108,15 +108,15 @@ public:
   void begin() {
     if (!stage_.steps.paused())
       return;
+    stage_.board.change_status([&](LiveStatus& status) { status.stage = "dark"; });
     const std::vector<glm::vec3> dark(light_->mesh.vertices.size(), glm::vec3(0.0F));
     // A room of its own: the exposure of the lit one is another.
     ShownRoom(shown_, stage_).show({{dark, {}, dark, {}}, light_}, Rgb(0.0));
-    wait(0);
+    wait();
   }
   void look(const PassOneSoFar& state) {
     if (stage_.is_over())
       throw StageOver{};
-    room_.show({state.field, light_}, state.ambient);
     stage_.board.change_status([&](LiveStatus& status) {
       status.stage = "shots";
       status.shots = state.shots;
@@ -124,20 +124,14 @@ public:
       status.elements = element_count(light_->mesh);
       status.seconds = since_.seconds();
     });
-    wait(state.shots);
+    room_.show({state.field, light_}, state.ambient);
+    wait();
   }
 
 private:
-  void wait(int shots) {
-    if (!stage_.steps.paused())
-      return;
-    stage_.board.change_status([&](LiveStatus& status) {
-      status.paused = true;
-      status.shots = shots;
-      status.stage = shots == 0 ? "dark" : "shots";
-    });
-    stage_.steps.wait(stage_.is_over);
-    stage_.board.change_status([&](LiveStatus& status) { status.paused = stage_.steps.paused(); });
+  void wait() {
+    if (stage_.steps.paused())
+      stage_.steps.wait(stage_.is_over);
   }
 
   const LiveScene& shown_;
@@ -189,6 +183,10 @@ RunSettings coarse_settings(RunSettings settings) {
   return settings;
 }
 
+void show_solved(const SolvedRoom& room, const LiveScene& shown, const LiveStage& stage) {
+  ShownRoom(shown, stage).show(room.solution.field, Rgb(0.0));
+}
+
 std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& shown, const LiveStage& stage) {
   const SecondsSince since;
   stage.board.change_status([&](LiveStatus& status) {
@@ -196,6 +194,7 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
     status = {};
     status.problem = problem;
     status.stage = "first pictures";
+    status.paused = stage.steps.paused();
   });
   check_memory(scene, shown.settings, std::nullopt);
   show_coarse(scene, shown, stage);
@@ -224,6 +223,9 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
                                                       .settings = shown.settings,
                                                       .picture = {}});
   room->picture.transform = shown.transform;
+  if (stage.is_over())
+    throw StageOver{};
+  stage.solved(room);
   stage.board.change_status([&](LiveStatus& status) {
     status = {.stage = "solved",
               .done = 1.0,

@@ -23,6 +23,7 @@ struct LiveStage {
   LiveBoard& board;
   ShotSteps& steps;
   std::function<bool()> is_over; ///< asked all the time: another scene waits
+  std::function<void(std::shared_ptr<const SolvedRoom>)> solved; ///< gets the solution before anybody is told of it
   RunEvents events;
 };
 
@@ -39,6 +40,9 @@ struct StageOver {};
 
 /// The settings of the first pictures, after those that are asked for.
 RunSettings coarse_settings(RunSettings settings);
+
+/// The solution's light alone.
+void show_solved(const SolvedRoom& room, const LiveScene& shown, const LiveStage& stage);
 
 /// Shows both stages and returns the solution. Throws StageOver, and UserError as `solve` and `walk` do.
 std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& shown, const LiveStage& stage);

@@ -16,6 +16,8 @@ namespace {
 /// Thrown where a picture tells its progress, to end it.
 struct MovedOn {};
 
+constexpr const char* another_room = "The scene has changed meanwhile.";
+
 /// Panoramas are looked at straight ahead.
 RunSettings settings_for(const SolvedRoom& room, const RestingView& view) {
   RunSettings settings = room.settings;
@@ -49,8 +51,10 @@ Camera camera_of(const SolvedRoom& room, const RestingView& view) {
 
 void RestingPictures::show(std::shared_ptr<const SolvedRoom> room) {
   const std::scoped_lock lock(mutex_);
+  if (room != room_)
+    kept_ = {};
   room_ = std::move(room);
-  kept_ = {};
+  ++rooms_;
 }
 
 std::shared_ptr<const SolvedRoom> RestingPictures::room() const {
@@ -58,8 +62,7 @@ std::shared_ptr<const SolvedRoom> RestingPictures::room() const {
   return room_;
 }
 
-std::shared_ptr<const std::atomic<std::uint64_t>> RestingPictures::newest_of(const std::string& viewer,
-                                                                            std::uint64_t number) {
+RestingPictures::Newest RestingPictures::newest_of(const std::string& viewer, std::uint64_t number) {
   constexpr std::size_t most_viewers = 32;
   const std::scoped_lock lock(mutex_);
   auto place = std::ranges::find(viewers_, viewer, &Viewer::name);
@@ -67,23 +70,75 @@ std::shared_ptr<const std::atomic<std::uint64_t>> RestingPictures::newest_of(con
     if (viewers_.size() == most_viewers)
       viewers_.pop_front();
     viewers_.push_back({viewer, std::make_shared<std::atomic<std::uint64_t>>(number)});
-    place = viewers_.end() - 1;
-  }
-  if (*place->number < number)
-    *place->number = number;
-  return place->number;
+  } else
+    std::rotate(place, place + 1, viewers_.end());
+  const auto& newest = viewers_.back().number;
+  if (*newest < number)
+    *newest = number;
+  turns_.notify_all();
+  return newest;
 }
 
 void RestingPictures::moved(const std::string& viewer, std::uint64_t number) { newest_of(viewer, number); }
+
+bool RestingPictures::wait_for_turn(const RestingView& view, const Newest& newest) {
+  constexpr std::size_t most_waiting = 4;
+  std::unique_lock lock(mutex_);
+  if (is_rendering_) {
+    // Those that its viewer has moved on from leave in any case.
+    std::erase_if(waiting_, [&](const auto& one) { return one.first == view.viewer && one.second < view.number; });
+    if (std::ranges::find(waiting_, view.viewer, [](const auto& one) { return one.first; }) != waiting_.end())
+      throw NoPictureNow{"A picture of this page is waited for already."};
+    if (waiting_.size() >= most_waiting)
+      throw NoPictureNow{"Other pages wait for pictures: try again later."};
+    const std::pair mine{view.viewer, view.number};
+    waiting_.push_back(mine);
+    turns_.wait(lock, [&] { return !is_rendering_ || *newest > view.number; });
+    std::erase(waiting_, mine);
+  }
+  if (*newest > view.number)
+    return false;
+  is_rendering_ = true;
+  return true;
+}
+
+void RestingPictures::done() {
+  const std::scoped_lock lock(mutex_);
+  is_rendering_ = false;
+  turns_.notify_all();
+}
+
+std::shared_ptr<const ViewPicture> RestingPictures::rendered(const std::shared_ptr<const SolvedRoom>& room, const RestingView& seen,
+                                                             const RunSettings& settings, const Newest& newest) {
+  const std::uint64_t rooms = rooms_;
+  if (this->room() != room)
+    throw NoPictureNow{another_room};
+  RunFigures figures;
+  RunEvents events;
+  events.progress = [&](std::string_view, double) {
+    if (*newest > seen.number || rooms_ != rooms)
+      throw MovedOn{};
+  };
+  try {
+    return std::make_shared<const ViewPicture>(
+        render_view(room->lit, camera_of(*room, seen), seen.size, settings, events, figures));
+  } catch (const MovedOn&) {
+    if (rooms_ != rooms)
+      throw NoPictureNow{another_room};
+    return nullptr;
+  }
+}
 
 std::optional<std::vector<std::byte>> RestingPictures::picture(const RestingView& view, RestingStep step,
                                                                PictureFormat format) {
   constexpr int coarser = 3, few_samples = 4;
   const auto newest = newest_of(view.viewer, view.number);
-  const std::scoped_lock one_at_a_time(rendering_);
-  const auto room = this->room();
-  if (!room || *newest > view.number)
+  if (!wait_for_turn(view, newest))
     return std::nullopt;
+  const auto turn = std::shared_ptr<void>(nullptr, [this](void*) { done(); });
+  const auto room = this->room();
+  if (!room)
+    throw NoPictureNow{not_solved_yet};
   RestingView seen = view;
   RunSettings settings = settings_for(*room, view);
   PictureSettings written = room->picture;
@@ -94,29 +149,17 @@ std::optional<std::vector<std::byte>> RestingPictures::picture(const RestingView
     settings.pixel_error.reset();
   }
   std::shared_ptr<const ViewPicture> picture;
-  if (const std::string key = key_of(seen); step == RestingStep::whole) {
-    const std::scoped_lock lock(mutex_);
-    if (kept_.room == room && kept_.view == key)
-      picture = kept_.picture;
-  }
-  if (!picture) {
-    RunFigures figures;
-    RunEvents events;
-    events.progress = [&](std::string_view, double) {
-      if (*newest > view.number)
-        throw MovedOn{};
-    };
-    try {
-      picture = std::make_shared<const ViewPicture>(
-          render_view(room->lit, camera_of(*room, seen), seen.size, settings, events, figures));
-    } catch (const MovedOn&) {
-      return std::nullopt;
-    }
-    if (step == RestingStep::whole) {
-      const std::scoped_lock lock(mutex_);
-      kept_ = {key_of(seen), room, picture};
-    }
-  }
+  const std::string key = key_of(seen);
+  if (const std::scoped_lock lock(mutex_); step == RestingStep::whole && kept_.room == room && kept_.view == key)
+    picture = kept_.picture;
+  if (!picture)
+    picture = rendered(room, seen, settings, newest);
+  if (!picture)
+    return std::nullopt;
+  if (const std::scoped_lock lock(mutex_); room_ != room)
+    throw NoPictureNow{another_room};
+  else if (step == RestingStep::whole)
+    kept_ = {key, room, picture};
   return picture_bytes(format, {picture->image, picture->layers, &picture->edges}, written, picture->attributes);
 }
 
@@ -170,6 +213,7 @@ void add_place(const RestingView& view, std::vector<std::string>& words) {
 
 std::string command_of(const SolvedRoom& room, const RestingView& view, const std::string& name) {
   const RunSettings settings = settings_for(room, view);
+  const std::string solution = name + "-solved.glb"; // NAME.glb may be the scene itself
   const bool from_solution = solves_for_view(*room.lit.prepared, two_pass_settings(settings));
   std::vector<std::string> solve{"meninas", "solve", room.scene.string()}, render{"meninas", "render", room.scene.string()};
   if (settings.gltf.external_files == ExternalFiles::anywhere)
@@ -187,9 +231,9 @@ std::string command_of(const SolvedRoom& room, const RestingView& view, const st
   if (room.picture.transform != ViewTransform::neutral)
     render.insert(render.end(), {"--view-transform", std::string(name_of(room.picture.transform))});
   if (from_solution)
-    render.insert(render.end(), {"--solution", name + ".glb"});
+    render.insert(render.end(), {"--solution", solution});
   render.insert(render.end(), {"-o", name + ".exr", "-o", name + ".png"});
-  solve.insert(solve.end(), {"-o", name + ".glb"});
+  solve.insert(solve.end(), {"-o", solution});
   return from_solution ? line_of(solve) + " && " + line_of(render) : line_of(render);
 }
 

@@ -10,12 +10,15 @@
 #include "runs/view.h"
 
 #include <atomic>
+#include <condition_variable>
 #include <deque>
 #include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace meninas {
 
@@ -41,14 +44,20 @@ struct SolvedRoom {
 
 enum class RestingStep { coarse, whole };
 
+/// Thrown where there is no picture, with a sentence for whoever asked.
+struct NoPictureNow {
+  std::string why;
+};
+inline constexpr const char* not_solved_yet = "The room is not solved yet.";
+
 class RestingPictures {
 public:
   /// From now on; null: there is none.
   void show(std::shared_ptr<const SolvedRoom> room);
   std::shared_ptr<const SolvedRoom> room() const;
 
-  /// Nothing where there is no room, or where the viewer has moved on. Throws UserError, of a camera that
-  /// the file has not.
+  /// Nothing where the viewer has moved on. Throws UserError, of a camera that the file has not, and NoPictureNow
+  /// where there is no room or another by now, or where a picture of that viewer waits, or four of anybody.
   std::optional<std::vector<std::byte>> picture(const RestingView& view, RestingStep step, PictureFormat format);
   /// Pictures of lower numbers are not wanted any more.
   void moved(const std::string& viewer, std::uint64_t number);
@@ -58,10 +67,19 @@ private:
     std::string name;
     std::shared_ptr<std::atomic<std::uint64_t>> number;
   };
-  std::shared_ptr<const std::atomic<std::uint64_t>> newest_of(const std::string& viewer, std::uint64_t number);
+  using Newest = std::shared_ptr<const std::atomic<std::uint64_t>>;
+  Newest newest_of(const std::string& viewer, std::uint64_t number);
+  /// True when it is this picture's turn, which done() ends; false where its viewer has moved on.
+  bool wait_for_turn(const RestingView& view, const Newest& newest);
+  void done();
+  std::shared_ptr<const ViewPicture> rendered(const std::shared_ptr<const SolvedRoom>& room, const RestingView& seen,
+                                              const RunSettings& settings, const Newest& newest);
 
   mutable std::mutex mutex_;
-  std::mutex rendering_;
+  std::condition_variable turns_;
+  bool is_rendering_ = false;
+  std::vector<std::pair<std::string, std::uint64_t>> waiting_; ///< viewers, with their numbers
+  std::atomic<std::uint64_t> rooms_{0};                        ///< that were shown
   std::shared_ptr<const SolvedRoom> room_;
   std::deque<Viewer> viewers_; ///< the latest last
   struct Kept {

@@ -48,10 +48,12 @@ std::vector<FileState> states_of(const std::vector<fs::path>& files) {
 std::vector<fs::path> files_of_scene(const fs::path& scene, const RunSettings& settings) {
   std::vector<fs::path> files = files_beside_scene(settings);
   files.push_back(scene);
-  if (scene.extension() == ".glb") // all is in it, as a rule
+  std::error_code unknown;
+  if (scene.extension() == ".glb" || !fs::is_regular_file(scene, unknown)) // all is in it, as a rule
     return files;
-  std::ifstream in(scene);
-  const json root = json::parse(in, nullptr, false);
+  std::ifstream in(scene, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const json root = json::parse(text, nullptr, false);
   if (!root.is_object())
     return files;
   for (const char* list : {"buffers", "images"}) {
@@ -80,27 +82,31 @@ void SceneWatch::watch() {
   std::vector<FileState> last = known_;
   while (!over_) {
     std::this_thread::sleep_for(between);
-    const auto now = states_of(files_);
-    const bool is_still = now == last;
-    last = now;
-    if (!is_still || now == known_)
-      continue;
-    files_ = files_of_scene(file_, settings_);
-    last = known_ = states_of(files_);
-    std::string problem;
     try {
-      Scene scene = load_relit_scene(file_, settings_);
-      const std::scoped_lock lock(mutex_);
-      newer_ = std::move(scene);
-      has_changed_ = true;
-      news_.notify_all();
+      look(last);
     } catch (const std::bad_alloc&) {
-      problem = file_.string() + ": not enough memory";
+      told_(file_.string() + ": not enough memory");
     } catch (const std::exception& error) {
-      problem = error.what();
+      told_(error.what());
     }
-    told_(problem);
   }
+}
+
+void SceneWatch::look(std::vector<FileState>& last) {
+  const auto now = states_of(files_);
+  const bool is_still = now == last;
+  last = now;
+  if (!is_still || now == known_)
+    return;
+  known_ = now;
+  files_ = files_of_scene(file_, settings_);
+  last = known_ = states_of(files_);
+  Scene scene = load_relit_scene(file_, settings_);
+  told_("");
+  const std::scoped_lock lock(mutex_);
+  newer_ = std::move(scene);
+  has_changed_ = true;
+  news_.notify_all();
 }
 
 Scene SceneWatch::next() {

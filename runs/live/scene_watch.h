@@ -39,6 +39,8 @@ public:
 
 private:
   void watch();
+  /// Reads the scene where its files are still and others than those known. `last`: as they were a moment ago.
+  void look(std::vector<FileState>& last);
 
   std::filesystem::path file_;
   RunSettings settings_;

@@ -9,7 +9,9 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <condition_variable>
 #include <cstring>
+#include <mutex>
 #include <sys/random.h>
 #include <thread>
 
@@ -20,7 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using httplib::Server;
 
-constexpr std::size_t most_connections = 48, most_listeners = 24, longest_request = 1024;
+constexpr std::size_t most_connections = 48, most_listeners = 24, longest_request = 1024, most_waiting = 64;
 
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};
@@ -31,6 +33,38 @@ std::string random_token() {
     token += fmt::format("{:02x}", byte);
   return token;
 }
+
+/// Threads, and so many connections that wait for one. More are not accepted before there is room: they wait in the
+/// system's own short queue, and past that they are refused.
+class BoundedThreads : public httplib::TaskQueue {
+public:
+  explicit BoundedThreads(const std::atomic<bool>& over) : over_(over), threads_(most_connections) {}
+
+  void enqueue(std::function<void()> job) override {
+    constexpr std::chrono::milliseconds patience(100);
+    std::unique_lock lock(mutex_);
+    while (!room_.wait_for(lock, patience, [this] { return waiting_ < most_waiting || over_; })) {
+    }
+    ++waiting_;
+    lock.unlock();
+    threads_.enqueue([this, job = std::move(job)] {
+      {
+        const std::scoped_lock begins(mutex_);
+        --waiting_;
+      }
+      room_.notify_one();
+      job();
+    });
+  }
+  void shutdown() override { threads_.shutdown(); }
+
+private:
+  const std::atomic<bool>& over_;
+  std::mutex mutex_;
+  std::condition_variable room_;
+  std::size_t waiting_ = 0;
+  httplib::ThreadPool threads_;
+};
 
 /// In a time that tells nothing about where they differ.
 bool same_text(const std::string& a, const std::string& b) {
@@ -139,7 +173,9 @@ WebServer::WebServer(int port, AnswerRequest answer, NextEvent events) : state_(
   state.answer = std::move(answer);
   state.events = std::move(events);
   Server& server = state.server;
-  server.new_task_queue = [] { return new httplib::ThreadPool(most_connections); };
+  server.new_task_queue = [&state] { return new BoundedThreads(state.over); };
+  constexpr time_t patience = 2;
+  server.set_read_timeout(patience);
   server.set_keep_alive_max_count(1);
   server.set_payload_max_length(longest_request);
   server.set_tcp_nodelay(true);

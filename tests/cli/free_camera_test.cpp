@@ -41,7 +41,11 @@ TEST_F(FreeCameraOptions, WhatDoesNotGoTogetherIsRefused) {
       {{"--eye", "1,2", "--target", "0,0,0"}, "no point such as"},
       {{"--eye", "1,2,3,4", "--target", "0,0,0"}, "no point such as"},
       {{"--eye", "1,2,nan", "--target", "0,0,0"}, "no point such as"},
-      {{"--eye", "1,2,3", "--target", "0,0,0", "--angle", "180"}, "below 180"},
+      {{"--eye", "1,2,3", "--target", "0,0,0", "--angle", "180"}, "--angle: is not from 0.01 to 179.9"},
+      {{"--eye", "1,2,3", "--target", "0,0,0", "--angle", "0.001"}, "--angle: is not from 0.01 to 179.9"},
+      {{"--eye", "1e30,0,0", "--target", "0,0,0"}, "--eye: has a coordinate beyond"},
+      {{"--eye", "0,0,0", "--target=0,-1e7,0"}, "--target: has a coordinate beyond"},
+      {{"--eye", "1,0,0", "--target", "1,1e-12,0"}, "--target: is where --eye is"},
       {{"--eye", "1,2,3", "--target", "0,0,0", "--camera", "camera"}, "--camera: does not go with --eye"}};
   for (const auto& [options, said] : wrong) {
     const Outcome outcome = render(options);

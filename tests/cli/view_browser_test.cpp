@@ -180,6 +180,33 @@ TEST_F(ViewBrowser, TheRoomFollowsItsFile) {
   EXPECT_EQ(said.at("hidden"), true);
 }
 
+// Neither while another room is solved, nor over false colours; and none is made meanwhile.
+TEST_F(ViewBrowser, PassTwosPictureGoesWithItsRoom) {
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft"});
+  OPEN_OR_SKIP(view);
+  ASSERT_EQ(run("return until(() => data.resting === 'whole' && Number(data.state) === status().state);"), true);
+  EXPECT_EQ(run("press('f'); return data.resting === undefined && !document.querySelector('.resting.shown');"), true);
+  ASSERT_EQ(run("await new Promise(r => setTimeout(r, 1000)); const none = data.resting === undefined; press('f'); return none && until(() => data.resting === 'whole');"), true);
+  run(R"(
+    window.wrong = 0; window.unsolved = 0;
+    new MutationObserver(() => { if (!status().solved) { ++unsolved; if (data.resting !== undefined) setTimeout(() => { if (!status().solved && data.resting !== undefined) ++wrong; }); } })
+      .observe(document.body, { attributes: true }); return 0;)");
+  TinyRoom other = tiny_room();
+  other.root["nodes"][0]["name"] = "another";
+  write_room(folder_ / "room.glb", other);
+  const json said = run(R"(
+    const report = { begun: await until(() => window.unsolved) };
+    press('s', { ctrlKey: true });
+    report.resting = await until(() => status().solved && data.resting === 'whole' && Number(data.state) === status().state);
+    report.wrong = window.wrong; report.problem = data.problem || '';
+    return report;)");
+  ASSERT_TRUE(said.is_object());
+  EXPECT_EQ(said.at("problem"), "");
+  EXPECT_EQ(said.at("begun"), true);
+  EXPECT_EQ(said.at("resting"), true);
+  EXPECT_EQ(said.at("wrong"), 0);
+}
+
 TEST_F(ViewBrowser, ThreeBrowsersSeeTheSame) {
   const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft", "--paused"});
   OPEN_OR_SKIP(view);

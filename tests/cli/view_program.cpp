@@ -42,9 +42,24 @@ Answer ViewProgram::ask(const std::string& method, const std::string& path, cons
   httplib::Headers sent;
   for (const auto& [name, value] : headers)
     sent.emplace(name, value);
-  const auto result = method == "GET"    ? client.Get(path, sent)
-                      : method == "POST" ? client.Post(path, sent, "", "text/plain")
-                                         : client.Delete(path, sent);
+  Answer answer;
+  if (method == "GET") {
+    // Events have no end: their status is all that is waited for.
+    const auto result = client.Get(
+        path, sent,
+        [&](const httplib::Response& response) {
+          answer.status = response.status;
+          return response.get_header_value("Content-Type") != "text/event-stream";
+        },
+        [&](const char* data, std::size_t size) {
+          answer.body.append(data, size);
+          return true;
+        });
+    if (result)
+      answer.status = result->status;
+    return answer;
+  }
+  const auto result = method == "POST" ? client.Post(path, sent, "", "text/plain") : client.Delete(path, sent);
   return result ? Answer{result->status, result->body} : Answer{};
 }
 

@@ -100,6 +100,9 @@ TEST_F(View, PicturesNobodyWantsAnyMoreAreLeftOut) {
   EXPECT_EQ(view.get("picture?viewer=b" + place.substr(8) + "&step=whole").status, 200) << "another's camera has not moved";
   for (const std::string wrong : {"", "viewer=a&number=9&exposure=1&size=9999999x2&camera=camera", "viewer=a&number=9&exposure=nan&size=8x8&camera=camera",
                                   "viewer=a&number=9&exposure=1&size=8x8&camera=none", "viewer=a&number=9&exposure=1&size=8x8&eye=1,1,1&target=1,1,1&angle=40",
+                                  "viewer=a&number=9&exposure=1&size=8x8&eye=1e30,1,1&target=1,1,2&angle=40",
+                                  "viewer=a&number=9&exposure=1&size=8x8&eye=1,1,1&target=1,1,1.000000000001&angle=40",
+                                  "viewer=a&number=9&exposure=1&size=8x8&eye=1,1,1&target=1,1,2&angle=0.001",
                                   "viewer=a&number=9&exposure=1&size=8x8&eye=1,1&target=1,1,2&angle=40"})
     EXPECT_EQ(view.get("picture?" + wrong + "&step=whole").status, 400) << wrong;
 }
@@ -147,6 +150,51 @@ TEST_F(View, ABrokenFileKeepsTheOldRoomAndAWholeOneIsShown) {
   EXPECT_THAT(view.get("room").body, HasSubstr("another"));
 }
 
+TEST_F(View, AFolderInPlaceOfTheFileIsSaidAndTheOldRoomStays) {
+  TinyRoom room = tiny_room(); // as text: a glb is not looked into for files beside it
+  room.root["buffers"][0]["uri"] = "room.bin";
+  room.root["buffers"][0]["byteLength"] = room.binary.size();
+  write("room.bin", std::string(reinterpret_cast<const char*>(room.binary.data()), room.binary.size()));
+  write("room.gltf", room.root.dump());
+  const ViewProgram view(folder_.path(), {"room.gltf", "--quality", "draft"});
+  ASSERT_TRUE(view.status_when_solved().is_object());
+  std::filesystem::remove(folder_ / "room.gltf");
+  std::filesystem::create_directory(folder_ / "room.gltf");
+  const json broken = view.status_when([](const json& status) { return status.at("problem") != ""; });
+  ASSERT_TRUE(broken.is_object());
+  EXPECT_THAT(broken.at("problem").get<std::string>(), HasSubstr("not a file but a folder"));
+  EXPECT_EQ(broken.at("solved"), true);
+  EXPECT_EQ(view.get("picture?" + place + "&step=coarse").status, 200);
+}
+
+// Nothing is answered from the old room; and what is stopped before the shots is said to be so.
+TEST_F(View, WhileAnotherRoomIsSolvedThereAreNoPictures) {
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft", "--paused"});
+  ASSERT_TRUE(view.status_when([](const json& status) { return status.at("stage") == "dark"; }).is_object());
+  const auto expect_none = [&] {
+    for (const std::string path : {"picture?" + place + "&step=coarse", "save.png?" + place, "save.exr?" + place, "command?" + place, std::string("solution")}) {
+      const Answer answer = view.get(path);
+      EXPECT_EQ(answer.status, 503) << path;
+      EXPECT_EQ(answer.body, "The room is not solved yet.\n") << path;
+    }
+  };
+  expect_none();
+  ASSERT_EQ(view.post("go-on").status, 204);
+  const json first = view.status_when_solved();
+  ASSERT_TRUE(first.is_object());
+  EXPECT_EQ(first.at("paused"), false);
+  EXPECT_EQ(view.get("solution").status, 200) << "from the moment on when it is said to be solved";
+  ASSERT_EQ(view.post("pause").status, 204);
+  EXPECT_EQ(view.status_when_solved().at("paused"), false) << "there is nothing to stop";
+  TinyRoom other = tiny_room();
+  other.root["nodes"][0]["name"] = "another";
+  write_room(folder_ / "room.glb", other);
+  const json again = view.status_when([&](const json& status) { return status.at("solved") == true && status.at("room") > first.at("room"); });
+  ASSERT_TRUE(again.is_object());
+  ASSERT_EQ(run({"solve", "room.glb", "--quality", "draft", "-o", "s.glb"}).code, 0);
+  EXPECT_TRUE(view.get("solution").body == read_file(folder_ / "s.glb"));
+}
+
 TEST_F(View, ItEndsAtOnceAndLeavesNothingBehind) {
   ViewProgram view(folder_.path(), {"room.glb", "--quality", "fine"});
   EXPECT_EQ(view.get("").status, 200);
@@ -162,8 +210,13 @@ TEST_F(View, WhatCannotBeShownIsSaidInOneLine) {
   EXPECT_EQ(missing.code, 3);
   EXPECT_THAT(missing.err, HasSubstr("none.glb"));
   EXPECT_EQ(std::count(missing.err.begin(), missing.err.end(), '\n'), 1) << missing.err;
-  const Outcome port = run({"view", "room.glb", "--port", "70000"});
-  EXPECT_EQ(port.code, 2);
+  std::filesystem::create_directory(folder_ / "folder.gltf");
+  const Outcome folder = run({"view", "folder.gltf"});
+  EXPECT_EQ(folder.code, 3);
+  EXPECT_EQ(folder.err, run({"solve", "folder.gltf", "-o", "s.glb"}).err);
+  EXPECT_THAT(folder.err, HasSubstr("not a file but a folder"));
+  for (const char* number : {"70000", "80", "1023"})
+    EXPECT_EQ(run({"view", "room.glb", "--port", number}).code, 2) << number;
   const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft"});
   const std::string taken = std::to_string(view.port());
   const Outcome second = run({"view", "room.glb", "--port", taken});

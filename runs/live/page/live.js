@@ -15,7 +15,12 @@ const liveStyle = `
 @media (prefers-reduced-motion: reduce) { .resting.shown { transition: none; } }`;
 
 /// Below the address of this page.
-const askServer = (path, options = {}) => fetch(location.pathname + path, { cache: "no-store", ...options });
+const noAnswer = "The program does not answer: it has ended, or is busy.";
+async function askServer(path, options = {}) {
+  try { return await fetch(location.pathname + path, { cache: "no-store", ...options }); } catch (problem) {
+    throw problem.name === "AbortError" ? problem : Object.assign(new Error(noAnswer), { name: "NoAnswer" });
+  }
+}
 const tellServer = path => askServer(path, { method: "POST" }).catch(() => {});
 
 /// Bits of halves from the message of live_board.h, and what it says of them. `before`: those of the state it differs from.
@@ -56,7 +61,7 @@ function makeStatusCard(actions) {
   return {
     show(status, withAmbient) {
       const left = status.secondsLeft === null || status.solved ? "" : `, ${Math.ceil(status.secondsLeft)} s left`;
-      const parts = [status.paused ? `${status.stage}, stopped` : status.stage + left, `${status.elements} elements`];
+      const parts = [status.stage + (!status.paused ? left : ["shots", "dark"].includes(status.stage) ? ", stopped" : ", stops at the next shot"), `${status.elements} elements`];
       if (!status.solved && status.shots) parts.push(`${status.shots} shots`);
       if (status.unshot !== null) parts.push(`unshot ${shares(status.unshot)}`);
       if (status.error !== null) parts.push(`error below ${shares(status.error)}`);
@@ -81,31 +86,31 @@ function makeStatusCard(actions) {
 }
 
 async function openLive() {
-  let status = null, page = null, resting = null, room = 0, light = null, middle = [0, 0, 0], busy = false, withAmbient = true, name = "view";
-  const actions = { pause: () => tellServer(status && status.paused ? "go-on" : "pause"), step: () => tellServer("step"),
+  let status = null, page = null, resting = null, room = 0, failed = 0, light = null, middle = [0, 0, 0], busy = false, withAmbient = true, name = "view";
+  const shoots = () => status && !status.solved, say = problem => problem.name === "NoAnswer" ? card.say(problem.message) : showProblem(problem);
+  const actions = { pause: () => { if (shoots()) tellServer(status.paused ? "go-on" : "pause"); }, step: () => { if (shoots()) tellServer("step"); },
     ambient: () => { withAmbient = !withAmbient; if (page && light) page.takeLight(lightOf(light, withAmbient)); card.show(status, withAmbient); },
     save: async () => {
-      if (!resting) return;
+      if (!resting || !status.solved) { card.say("The room is not solved yet."); return; }
       card.say("making the picture ...");
-      const command = await resting.save(name);
-      if (command) card.say("saved; again by ", command); else card.say("There is no solution yet to make a picture of.");
+      try { card.say("saved; again by ", await resting.save(name)); } catch (problem) { card.say(problem.message); }
     } };
   const card = makeStatusCard(actions);
-  const told = { moved: () => { if (resting) resting.moved(); }, rested: () => { if (resting && status.solved) resting.rested().catch(showProblem); } };
+  const told = { moved: () => { if (resting) resting.moved(); }, rested: () => { if (resting && status.solved) resting.rested().catch(say); } };
 
   async function takeRoom() {
     const reply = await askServer("room");
     if (reply.status !== 200) return;
     const fresh = await reply.json(), shift = minus(middle, fresh.middle);
-    [room, middle] = [fresh.room, fresh.middle];
-    name = fresh.data.title.replace(/\.[^.]*$/, "") || "view";
-    light = null;
+    if (resting) resting.moved();
     if (page) await page.takeRoom(fresh.data, shift);
     else {
       page = await openPage(fresh.data, told);
       Object.assign(page.keys, { n: actions.step, p: actions.pause, t: actions.ambient });
       resting = makeResting(page, () => middle, askServer);
     }
+    [room, middle] = [fresh.room, fresh.middle];
+    name = fresh.data.title.replace(/\.[^.]*$/, "") || "view";
     light = { bits: Int32Array.from(page.room.tables.irradiance), scale: fresh.data.light, ambient: fresh.ambient, top: fresh.data.top, state: fresh.state };
     page.takeLight(lightOf(light, withAmbient));
   }
@@ -119,15 +124,23 @@ async function openLive() {
   }
   /// One thing after another, the newest alone.
   async function follow() {
-    if (busy || !status) return;
+    if (busy || !status || status.room === failed) return;
     busy = true;
+    let wanted = 0;
     try {
       while (status.room && (status.room !== room || (status.state > light.state))) {
+        const asked = status, before = light;
+        wanted = status.room;
         if (status.room !== room) await takeRoom(); else await takeLight();
-        document.body.dataset.state = light.state;
+        if (light) document.body.dataset.state = light.state;
+        if (light === before && status === asked) break; // it comes with the next event
         await new Promise(resolve => setTimeout(resolve, 0));
       }
-    } catch (problem) { if (!(problem instanceof TypeError)) showProblem(problem); else console.warn(problem); } finally { busy = false; }
+    } catch (problem) {
+      // That room is not asked for again and again.
+      if (problem.name !== "NoAnswer") failed = wanted;
+      say(problem);
+    } finally { busy = false; }
   }
   addEventListener("keydown", event => {
     if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "s") return;
@@ -139,10 +152,11 @@ async function openLive() {
     const before = status;
     status = JSON.parse(event.data);
     card.show(status, withAmbient);
+    if (before && before.solved && !status.solved && resting) resting.moved();
     if (before && status.solved && !before.solved && page) page.redraw();
     follow();
   });
-  events.addEventListener("error", () => card.say("The program does not answer: it has ended, or is busy."));
-  events.addEventListener("open", () => card.say(""));
+  events.addEventListener("error", () => card.say(noAnswer));
+  events.addEventListener("open", () => { failed = 0; card.say(""); });
 }
 openLive().catch(showProblem);

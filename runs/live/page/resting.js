@@ -10,7 +10,7 @@ const longestSide = 2048;
 function makeResting(page, middle, ask) {
   const viewer = Math.random().toString(36).slice(2), layers = [0, 1].map(() => madeElement("img", { className: "resting", alt: "" }));
   page.canvas.after(...layers);
-  let number = 0, asking = null, top = 0, isThere = false;
+  let number = 0, saves = 0, asking = null, top = 0, isThere = false;
 
   /// What the server is asked for: a camera of the file as it is, or where somebody has gone.
   function viewNow() {
@@ -34,12 +34,13 @@ function makeResting(page, middle, ask) {
     delete document.body.dataset.resting;
   }
   /// The layer on top of the other, whose picture stays below it until it is seen.
-  async function show(blob, step) {
+  async function show(blob, step, isWanted) {
     const layer = layers[top = 1 - top], before = layer.src;
     layer.classList.remove("shown");
     layer.src = URL.createObjectURL(blob);
     if (before) URL.revokeObjectURL(before);
     await layer.decode();
+    if (!isWanted()) return;
     layers[0].style.zIndex = top === 0 ? 1 : 0;
     layers[1].style.zIndex = top === 1 ? 1 : 0;
     layer.classList.add("shown");
@@ -58,7 +59,8 @@ function makeResting(page, middle, ask) {
         if (reply.status !== 200) return;
         const blob = await reply.blob();
         if (asking !== control) return;
-        await show(blob, step);
+        await show(blob, step, () => asking === control);
+        if (asking !== control) return;
       }
     } catch (problem) { if (problem.name !== "AbortError") throw problem; }
   }
@@ -73,20 +75,36 @@ function makeResting(page, middle, ask) {
     if (isThere) hide();
   }
 
-  /// EXR and PNG into the browser's downloads; returns the command that makes them again, or null before there is a solution.
+  /// What the server has for it; throws a sentence where that is nothing.
+  async function given(path) {
+    const reply = await ask(path);
+    if (reply.status === 200) return reply;
+    if (reply.status === 204) throw new Error("Another picture was asked for before this one was there.");
+    const said = reply.status === 400 || reply.status === 503 ? (await reply.text()).trim() : "";
+    throw new Error(said || `The program could not make the picture (${reply.status}).`);
+  }
+  /// EXR and PNG into the browser's downloads, both or neither; returns the command that makes them again. It goes on
+  /// while the camera moves. Throws a sentence where there are none.
   async function save(name) {
-    const query = viewNow(), command = await ask(`command?${query}&name=${encodeURIComponent(name)}`);
-    if (command.status !== 200) return null;
-    for (const kind of ["exr", "png"]) {
-      const reply = await ask(`save.${kind}?${query}`);
-      if (reply.status !== 200) return null;
-      const link = madeElement("a", { href: URL.createObjectURL(await reply.blob()), download: `${name}.${kind}` });
+    const query = viewNow();
+    query.set("viewer", `${viewer}-save`);
+    query.set("number", ++saves);
+    const command = await (await given(`command?${query}&name=${encodeURIComponent(name)}`)).text(), files = [];
+    for (const kind of ["exr", "png"]) files.push([kind, await (await given(`save.${kind}?${query}`)).blob()]);
+    for (const [kind, blob] of files) {
+      const link = madeElement("a", { href: URL.createObjectURL(blob), download: `${name}.${kind}` });
       document.body.append(link);
       link.click();
       link.remove();
       setTimeout(() => URL.revokeObjectURL(link.href), 60000);
     }
-    return command.text();
+    return command;
   }
+  // A request that outlives its page; sendBeacon would not say its origin.
+  addEventListener("pagehide", () => {
+    for (const [who, last] of [[viewer, number], [`${viewer}-save`, saves]])
+      ask(`moved?viewer=${who}&number=${last + 1}`, { method: "POST", keepalive: true }).catch(() => {});
+    [number, saves] = [number + 1, saves + 1];
+  });
   return { rested, moved, save };
 }
