@@ -1,3 +1,4 @@
+#include "cli/camera_options.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/light/lamp_options.h"
@@ -68,31 +69,6 @@ void add_outputs(Options& command, RenderOptions& options) {
              options.every = static_cast<int>(parse_integer("--every", text, 1, 1'000'000'000));
            })
       .group(study_group);
-}
-
-/// Not of a batch, whose paths are places, too.
-void add_place(Options& command, RenderOptions& options) {
-  auto& place = options.request.place;
-  const auto at = [&place]() -> FreeCamera& { return place ? *place : place.emplace(); };
-  command.add("--eye", "X,Y,Z", "look from there, upright, in metres, instead of a camera of the file; needs --target",
-              [=](const std::string& text) { at().eye = parse_point("--eye", text); })
-      .group(picture_group);
-  command.add("--target", "X,Y,Z", "--eye: the point that is looked at",
-              [=](const std::string& text) { at().target = parse_point("--target", text); })
-      .group(picture_group);
-  command.add("--angle", "DEGREES", "--eye: angle of view from bottom to top [45.8]",
-              [=](const std::string& text) { at().angle = parse_number("--angle", text, Sign::positive); })
-      .group(picture_group);
-}
-
-void check_place(const Options& command, const RenderRequest& request) {
-  if (!request.place)
-    return;
-  for (const char* const needed : {"--eye", "--target"})
-    if (!command.given(needed))
-      throw UsageError(needed, "is needed with --eye, --target and --angle, which go together");
-  refuse(command, {"--camera"}, "does not go with --eye, which is no camera of the file");
-  static_cast<void>(camera_at(*request.place, request.settings)); // before anything is solved
 }
 
 void add_depth_options(Options& command, PictureSettings& picture) {
@@ -315,7 +291,7 @@ void run(const Options& command, RenderOptions& options) {
     options.request.pictures = {options.common.scene.filename().replace_extension(".png")};
   }
   completed_request(command, options);
-  check_place(command, options.request);
+  check_free_camera(command, options.request.place, options.request.settings);
   Console console(options.common.verbosity);
   console.say_notes(options.common);
   render_run(options.request, console.events());
@@ -329,7 +305,8 @@ Command add_render_command(Options& program) {
   add_scene(command, options->common);
   add_outputs(command, *options);
   add_settings(command, *options);
-  add_place(command, *options);
+  // Not among the settings of a batch, which has paths of cameras.
+  add_free_camera(command, options->request.place);
   return {&command, [=, &command] { run(command, *options); }};
 }
 
