@@ -1,6 +1,6 @@
 #include "cli/camera_options.h"
 
-#include "cli/common_options.h"
+#include "cli/pixel_options.h"
 #include "cli/values.h"
 
 namespace meninas {
