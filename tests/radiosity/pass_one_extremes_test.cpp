@@ -171,7 +171,7 @@ TEST(ManyElements, ThousandsOnOnePatchAndOneOnAnother) {
 
 // A narrow spot lights a place between all points at which light of lamps is known: what walls reflect of it is
 // there, by rays, and belongs to some lamp. A page with dimmers would be black otherwise.
-TEST(Relighting, LightOfWhichNoLampIsKnownIsNotLost) {
+TEST(LampsApart, LightOfWhichNoLampIsKnownIsNotLost) {
   VertexIrradiance field;
   field.irradiance = {glm::vec3(1e-9F, 0.0F, 3e-10F), glm::vec3(2e-9F, 0.0F, 1e-10F)};
   field.indirect = {field.irradiance[0], glm::vec3(0.0F)};
