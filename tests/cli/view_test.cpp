@@ -237,6 +237,18 @@ TEST_F(View, WhileAnotherRoomIsSolvedThereAreNoPictures) {
   EXPECT_TRUE(view.get("solution").body == read_file(folder_ / "s.glb"));
 }
 
+TEST_F(View, ARoomThatCannotBeSolvedLeavesTheOldOneWithItsPictures) {
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft", "--memory-limit", "100M"});
+  const json first = view.status_when_solved();
+  ASSERT_TRUE(first.is_object());
+  write_room(folder_ / "room.glb", room_of_many_patches());
+  const json refused = view.status_when([](const json& status) { return status.at("solved") == true && status.at("problem") != ""; });
+  ASSERT_TRUE(refused.is_object());
+  EXPECT_THAT(refused.at("problem").get<std::string>(), HasSubstr("more than the limit of 100 MiB"));
+  EXPECT_EQ(refused.at("elements"), first.at("elements"));
+  EXPECT_EQ(view.get("picture?" + place + "&step=coarse").status, 200);
+}
+
 TEST_F(View, ItEndsAtOnceAndLeavesNothingBehind) {
   ViewProgram view(folder_.path(), {"room.glb", "--quality", "fine"});
   EXPECT_EQ(view.get("").status, 200);
