@@ -1,7 +1,7 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/values.h"
-#include "runs/farm/merge_run.h"
+#include "runs/parts/merge_run.h"
 #include "runs/report/progress_line.h"
 
 namespace meninas {

@@ -18,6 +18,19 @@ std::vector<Rgb> reflected_by_elements(const IrradianceField& field) {
                    corner_means(mesh, field.irradiance));
 }
 
+SentLight sent_light(const IrradianceField& field) {
+  LightByLamp by_lamp = no_light(element_count(field.mesh()), field.by_lamp.size());
+  for (std::size_t l = 0; l < field.by_lamp.size(); ++l) {
+    IrradianceField alone{{}, field.scene};
+    alone.irradiance = field.by_lamp[l].direct;
+    for (std::size_t v = 0; v < alone.irradiance.size(); ++v)
+      alone.irradiance[v] += field.by_lamp[l].indirect[v];
+    set_light_of_lamp(by_lamp, l, reflected_by_elements(alone));
+  }
+  return field.by_lamp.empty() ? SentLight(reflected_by_elements(field))
+                               : SentLight(reflected_by_elements(field), by_lamp);
+}
+
 std::unique_ptr<const PointGathering> make_gathering(const IrradianceField& field,
                                                      const DiffuseSettings& settings) {
   if (settings.term != DiffuseTerm::gather)

@@ -41,6 +41,9 @@ FieldContent field_content(const IrradianceField& field, const DiffuseSettings& 
 /// rho times the mean of H at their corners, and tau times that of the elements behind.
 std::vector<Rgb> reflected_by_elements(const IrradianceField& field);
 
+/// The same, of each lamp too where the field is told apart by lamps.
+SentLight sent_light(const IrradianceField& field);
+
 /// What the term needs besides the field; for `gather` alone.
 std::unique_ptr<const PointGathering>
 make_gathering(const IrradianceField& field, const DiffuseSettings& settings);

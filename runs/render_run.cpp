@@ -1,6 +1,6 @@
 #include "runs/render_run.h"
 
-#include "runs/farm/tile_file.h"
+#include "runs/parts/tile_file.h"
 #include "runs/steering/memory.h"
 #include "runs/preparation.h"
 #include "runs/resources.h"

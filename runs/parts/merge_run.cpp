@@ -1,7 +1,7 @@
-#include "runs/farm/merge_run.h"
+#include "runs/parts/merge_run.h"
 
 #include "raytrace/pixels/bright_edges.h"
-#include "runs/farm/tile_file.h"
+#include "runs/parts/tile_file.h"
 #include "scenes/errors.h"
 
 #include <fmt/format.h>

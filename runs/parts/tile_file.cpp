@@ -1,4 +1,4 @@
-#include "runs/farm/tile_file.h"
+#include "runs/parts/tile_file.h"
 
 #include "image/metrics/metrics.h"
 #include "raytrace/pixels/picture_window.h"
