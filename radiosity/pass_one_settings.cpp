@@ -37,19 +37,25 @@ PassOneQuality pass_one_quality(Quality quality) {
             .rays = 128,
             .hemicube_resolution = 32,
             .link_error = 0.02,
-            .penumbra_rays = 32};
+            .penumbra_rays = 32,
+            .images = 64,
+            .images_in_element = 8};
   case Quality::normal:
     return {.target_elements = 16'000,
             .rays = 512,
             .hemicube_resolution = 64,
             .link_error = 0.01,
-            .penumbra_rays = 128};
+            .penumbra_rays = 128,
+            .images = 256,
+            .images_in_element = 32};
   case Quality::fine:
     return {.target_elements = 64'000,
             .rays = 2'048,
             .hemicube_resolution = 128,
             .link_error = 0.005,
-            .penumbra_rays = 512};
+            .penumbra_rays = 512,
+            .images = 256,
+            .images_in_element = 32};
   }
   return {};
 }
@@ -91,6 +97,8 @@ PassOneSettings pass_one_settings(const PassOneChoice& choice) {
   settings.form_factors.seed = choice.seed;
   settings.direct.seed = choice.seed;
   settings.direct.penumbra_rays = quality.penumbra_rays;
+  settings.direct.images = quality.images;
+  settings.direct.images_in_element = quality.images_in_element;
   settings.solver.method = choice.solver;
   settings.solver.tolerance = choice.tolerance.value_or(settings.solver.tolerance);
   settings.solver.max_shots = choice.steps;

@@ -51,6 +51,8 @@ struct PassOneQuality {
   double link_error =
       0.0; ///< of a hierarchical mesh: how much light may bend where it is interpolated
   int penumbra_rays = 0; ///< shadow rays from a vertex to an emitter that it sees in part
+  int images = 0;        ///< of emitters, computed at a vertex; of more, a choice (mirror/light_choice.h)
+  int images_in_element = 0; ///< likewise, at each of an element's points
 };
 PassOneQuality pass_one_quality(Quality quality);
 
