@@ -1,7 +1,12 @@
 # What `cmake --install` lays down: the program with its manual pages, completions, documents and schemas (component
-# `program`), and the libraries with their headers and the package that finds them (component `library`).
+# `program`), the shared library (`runtime`), and its header with the package that finds it (`library`).
 # Everything is found relative to itself, so the installed tree can be moved.
 include(CMakePackageConfigHelpers)
+
+# After `./meninas` alone there is the program and nothing else: the rest is built when it is laid down.
+install(CODE "execute_process(
+  COMMAND \"${CMAKE_COMMAND}\" --build \"${CMAKE_BINARY_DIR}\" --target meninas_cli meninas_library meninas_manuals meninas_jobs_schema
+  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)" ALL_COMPONENTS)
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/meninas)
 option(MENINAS_DEBIAN_PACKAGES "Lay down what Debian packages contain, where Debian has it" OFF)
@@ -33,14 +38,10 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
 install(DIRECTORY scenes/gallery DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes COMPONENT program
   FILES_MATCHING PATTERN "*.gltf" PATTERN "*.glb" PATTERN "README.md" PATTERN "generator" EXCLUDE PATTERN "blender" EXCLUDE)
 
-foreach(folder IN ITEMS scenes image mirror form_factors radiosity raytrace reference runs)
-  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/meninas COMPONENT library
-    FILES_MATCHING PATTERN "*.h" PATTERN "gallery" EXCLUDE)
-endforeach()
-
-# A stranger's program finds the image module by the search path it gets with the library that opens it.
-target_link_options(meninas_image INTERFACE
-  $<INSTALL_INTERFACE:-Wl,-rpath,$<INSTALL_PREFIX>/${CMAKE_INSTALL_LIBDIR}/meninas>)
+# The library is what its one header says: nothing of what it is built from is installed.
+install(FILES library/meninas.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/meninas COMPONENT library)
+install(TARGETS meninas_library EXPORT meninas-targets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT library)
 
 install(EXPORT meninas-targets NAMESPACE meninas:: DESTINATION ${package_directory} COMPONENT library)
 configure_package_config_file(cmake/meninas-config.cmake.in meninas-config.cmake

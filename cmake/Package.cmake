@@ -1,5 +1,5 @@
-# `cmake --workflow --preset package` makes two Debian packages: `meninas`, the program with all it needs, and
-# `libmeninas-dev`, the libraries and headers with the -dev packages that their headers include.
+# `cmake --workflow --preset package` makes three Debian packages: `meninas`, the program with all it needs, `libmeninas0.2`,
+# the shared library, and `libmeninas-dev`, its header and the CMake package.
 set(CPACK_PACKAGE_NAME meninas)
 set(CPACK_PACKAGE_VENDOR Meninas)
 set(CPACK_PACKAGE_CONTACT "Meninas maintainers <maintainers@meninas.example>" CACHE STRING "Who made the packages")
@@ -8,7 +8,7 @@ set(CPACK_SOURCE_GENERATOR "")
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-set(CPACK_COMPONENTS_ALL program library)
+set(CPACK_COMPONENTS_ALL program runtime library)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -27,15 +27,23 @@ batches, writes a solved room as a web page to walk through, shows in a
 browser how a room is solved, compares pictures, and computes form factors
 and illuminance in lux.")
 
-# What meninas-config.cmake looks for, as Debian packages.
+# The module that reads pictures is the program's.
+set(soname ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(release ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME libmeninas${soname})
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "meninas (= ${release})")
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Shared library of Meninas, which renders rooms with mirrors by
+radiosity and ray tracing, for programs that are built on it.")
+
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libmeninas-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
-string(JOIN ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "meninas (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})" libembree-dev libopenexr-dev libpng-dev zlib1g-dev libglm-dev
-  libtinygltf-dev libdraco-dev libmeshoptimizer-dev libtbb-dev libeigen3-dev libfmt-dev nlohmann-json3-dev
-  libcpp-httplib-dev)
-set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "Static libraries and headers of Meninas, which renders rooms with mirrors by
-radiosity and ray tracing, with the CMake package that finds them.")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libmeninas${soname} (= ${release})")
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "Header of the shared library of Meninas, which renders rooms with mirrors by
+radiosity and ray tracing, with the CMake package that finds it.")
 
 if(MENINAS_DEBIAN_PACKAGES)
   find_program(MENINAS_GZIP gzip REQUIRED)
@@ -43,7 +51,7 @@ if(MENINAS_DEBIAN_PACKAGES)
     OUTPUT_FILE ${PROJECT_BINARY_DIR}/changelog.Debian.gz COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND ${MENINAS_GZIP} -9 --no-name --stdout ${PROJECT_SOURCE_DIR}/CHANGELOG.md
     OUTPUT_FILE ${PROJECT_BINARY_DIR}/changelog.gz COMMAND_ERROR_IS_FATAL ANY)
-  foreach(component IN ITEMS PROGRAM LIBRARY)
+  foreach(component IN ITEMS PROGRAM RUNTIME LIBRARY)
     string(TOLOWER ${component} name)
     install(FILES cmake/debian/copyright ${PROJECT_BINARY_DIR}/changelog.Debian.gz ${PROJECT_BINARY_DIR}/changelog.gz
       DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${component}_PACKAGE_NAME} COMPONENT ${name})

@@ -58,13 +58,10 @@ set(MENINAS_COMMON_HEADERS <glm/glm.hpp> <algorithm> <array> <cmath> <cstdint> <
 function(meninas_library folder)
   add_library(meninas_${folder} STATIC ${ARGN})
   add_library(meninas::${folder} ALIAS meninas_${folder})
-  target_include_directories(meninas_${folder} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/meninas>)
+  target_include_directories(meninas_${folder} PUBLIC ${PROJECT_SOURCE_DIR})
   target_compile_features(meninas_${folder} PUBLIC cxx_std_20)
-  target_link_libraries(meninas_${folder} PRIVATE $<BUILD_INTERFACE:meninas_options>)
+  target_link_libraries(meninas_${folder} PRIVATE meninas_options)
   target_precompile_headers(meninas_${folder} PRIVATE ${MENINAS_COMMON_HEADERS})
-  set_target_properties(meninas_${folder} PROPERTIES EXPORT_NAME ${folder})
-  install(TARGETS meninas_${folder} EXPORT meninas-targets ARCHIVE COMPONENT library)
 endfunction()
 
 # meninas_tests(scenes a_test.cpp): the tests of one folder, one executable, found by CTest one by one.

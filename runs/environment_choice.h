@@ -23,6 +23,8 @@ struct EnvironmentChoice {
   std::optional<UtcTime> time;
   std::optional<double> turbidity;
   std::optional<double> illuminance; ///< of an analytic sky, lux
+
+  bool operator==(const EnvironmentChoice&) const = default;
 };
 
 /// Puts the scene under what was asked for; warnings go into the scene. Throws InputError of the

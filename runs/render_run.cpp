@@ -114,49 +114,53 @@ LitScene read_shown_scene(const RenderRequest& request, Scene scene, const PassO
   return given.empty() || request.settings.lamp_layers ? lit : under_lamps(lit, request.settings);
 }
 
-ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Camera& camera,
-                            PictureSize size, const RunEvents& events, RunFigures& figures) {
-  TwoPassSettings settings = two_pass_settings(request.settings);
-  settings.render = render_settings(request.settings, size);
-  if (request.settings.lamp_layers) {
-    settings.pass_one.lamps = LampGrouping::node;
-    const LitScene lit = request.solution ? read_shown_scene(request, std::move(scene),
-                                                             settings.pass_one, events, figures)
-                                          : solve_lit_scene(std::move(scene), settings.pass_one,
-                                                            std::nullopt, events, figures);
-    const RunSettings known = settings_for(lit.field, request.settings);
+} // namespace
+
+ViewPicture picture_of_solution(const RenderRequest& request, const LitScene& lit,
+                                const Camera& camera, PictureSize size, const RunEvents& events,
+                                RunFigures& figures) {
+  const RunSettings known = settings_for(lit.field, request.settings);
+  TwoPassSettings settings = two_pass_settings(known);
+  settings.render = render_settings(known, size);
+  const auto report = [&](const IrradianceField& field, ViewPicture& picture) {
+    report_error({field, camera, settings, figures.solver}, wanted_report(request, events),
+                 {picture.image, picture.samples, picture.finer.get()}, picture.layers, events,
+                 figures);
+  };
+  if (known.lamp_layers) {
     ViewPicture picture = render_lamp_layers(lit, camera, size, known, events, figures);
-    settings.render.diffuse = two_pass_settings(known).render.diffuse;
-    const LitScene shown = under_lamps(lit, known);
-    report_error({shown.field, camera, settings, figures.solver}, wanted_report(request, events),
-                 {picture.image, picture.samples}, picture.layers, events, figures);
+    report(under_lamps(lit, known).field, picture);
     return picture;
   }
-  if (request.settings.view) {
-    const LitScene lit = request.solution ? read_shown_scene(request, std::move(scene),
-                                                             settings.pass_one, events, figures)
-                                          : solve_lit_scene(std::move(scene), settings.pass_one,
-                                                            std::nullopt, events, figures);
-    return render_view(lit, camera, size, settings_for(lit.field, request.settings), events, figures);
-  }
-  if (!request.solution) {
-    const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
-    Rendering rendering = run_two_pass(*prepared, camera, settings, request, events, figures);
-    warn_of_solution(*prepared, figures.solver, figures.closure, events);
-    return picture_of(prepared->scene, camera, request.settings, std::move(rendering));
-  }
-  const LitScene lit =
-      read_shown_scene(request, std::move(scene), settings.pass_one, events, figures);
-  const RunSettings known = settings_for(lit.field, request.settings);
-  settings.render.diffuse = two_pass_settings(known).render.diffuse;
-  check_field(*request.solution, lit.field, settings.render);
+  if (known.view)
+    return render_view(lit, camera, size, known, events, figures);
+  check_field(request.solution.value_or("the solution"), lit.field, settings.render);
   ViewPicture picture = render_view(lit, camera, size, known, events, figures);
-  report_error({lit.field, camera, settings, figures.solver}, wanted_report(request, events),
-               {picture.image, picture.samples, picture.finer.get()}, picture.layers, events,
-               figures);
+  report(lit.field, picture);
   picture.finer.reset();
   return picture;
 }
+
+static ViewPicture render_two_pass(const RenderRequest& request, Scene scene, const Camera& camera,
+                                   PictureSize size, const RunEvents& events, RunFigures& figures) {
+  TwoPassSettings settings = two_pass_settings(request.settings);
+  settings.render = render_settings(request.settings, size);
+  if (request.settings.lamp_layers)
+    settings.pass_one.lamps = LampGrouping::node;
+  if (request.solution || request.settings.lamp_layers || request.settings.view) {
+    const LitScene lit = request.solution ? read_shown_scene(request, std::move(scene),
+                                                             settings.pass_one, events, figures)
+                                          : solve_lit_scene(std::move(scene), settings.pass_one,
+                                                            std::nullopt, events, figures);
+    return picture_of_solution(request, lit, camera, size, events, figures);
+  }
+  const auto prepared = prepare_run(std::move(scene), settings.pass_one, events, figures);
+  Rendering rendering = run_two_pass(*prepared, camera, settings, request, events, figures);
+  warn_of_solution(*prepared, figures.solver, figures.closure, events);
+  return picture_of(prepared->scene, camera, request.settings, std::move(rendering));
+}
+
+namespace {
 
 /// What is left to do once there is a picture.
 double seconds_to_write(PictureSize size) {
@@ -177,6 +181,30 @@ std::string closing_line(const std::vector<std::filesystem::path>& pictures, Pic
 
 } // namespace
 
+RequestedPicture requested_picture(const RenderRequest& request, Scene scene, const RunEvents& events,
+                                   RunFigures& figures) {
+  const bool is_lit = has_light(scene);
+  const Camera chosen = request.place ? camera_at(*request.place, request.settings)
+                                      : choose_camera(scene, request.camera, request.settings, events);
+  const PictureSize size = choose_size(request.size, chosen);
+  const Camera camera = cut_open(scene, chosen, size, events);
+  check_memory(scene, request.settings, size);
+  const auto render_picture = [&] {
+    if (request.settings.mode == PictureMode::reference)
+      return render_reference_view(std::move(scene), camera, size, request.settings, events,
+                                   figures);
+    if (request.goal)
+      return steer({scene, camera, size, request.settings, *request.goal, figures.seconds.load,
+                    seconds_to_write(size)},
+                   events, figures);
+    return render_two_pass(request, std::move(scene), camera, size, events, figures);
+  };
+  RequestedPicture result{render_picture(), size, camera};
+  if (is_lit && !request.settings.part)
+    warn_of_darkness(result.picture.image, camera, events);
+  return result;
+}
+
 RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   check_files(request);
   const ThreadLimit limit(request.settings.threads);
@@ -192,36 +220,15 @@ RunFigures render_run(const RenderRequest& request, const RunEvents& events) {
   const bool lamps_later = request.solution || request.settings.lamp_layers;
   Scene scene = lamps_later ? load_scene(request.scene, request.settings)
                             : load_relit_scene(request.scene, request.settings);
-  const bool is_lit = has_light(scene);
-  const Camera chosen = request.place ? camera_at(*request.place, request.settings)
-                                      : choose_camera(scene, request.camera, request.settings, events);
-  const PictureSize size = choose_size(request.size, chosen);
-  const Camera camera = cut_open(scene, chosen, size, events);
-  check_memory(scene, request.settings, size);
   figures.seconds.load = watch.lap();
-
-  const auto render_picture = [&] {
-    if (request.settings.mode == PictureMode::reference)
-      return render_reference_view(std::move(scene), camera, size, request.settings, events,
-                                   figures);
-    if (request.goal)
-      return steer({scene, camera, size, request.settings, *request.goal, figures.seconds.load,
-                    seconds_to_write(size)},
-                   events, figures);
-    return render_two_pass(request, std::move(scene), camera, size, events, figures);
-  };
-  const ViewPicture picture = render_picture();
-
-  if (is_lit && !request.settings.part) {
-    warn_of_darkness(picture.image, camera, events);
-  }
+  const auto [picture, size, camera] = requested_picture(request, std::move(scene), events, figures);
   watch.lap();
   if (request.settings.part)
     write_tile(request.pictures.front(), picture,
                {camera, request.settings, request.solution, request.picture});
   else
     write_pictures(request.pictures, {picture.image, picture.layers, &picture.edges, picture.unit}, request.picture,
-                 picture.attributes, events);
+                   picture.attributes, events);
   figures.seconds.write = watch.lap();
   figures.seconds.total = total.lap();
   figures.peak_memory_bytes = peak_memory_bytes();

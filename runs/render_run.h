@@ -8,6 +8,7 @@
 #include "runs/snapshots.h"
 #include "runs/report/stats.h"
 #include "runs/steering/steering.h"
+#include "runs/view.h"
 
 #include <filesystem>
 #include <optional>
@@ -30,6 +31,20 @@ struct RenderRequest {
   PictureSettings picture;
   RunSettings settings;
 };
+
+/// The picture of a scene that was loaded with these settings, and of what the request names to be read besides.
+struct RequestedPicture {
+  ViewPicture picture;
+  PictureSize size;
+  Camera camera;
+};
+RequestedPicture requested_picture(const RenderRequest& request, Scene scene, const RunEvents& events,
+                                   RunFigures& figures);
+
+/// The same of a solution that is there: pass two alone.
+ViewPicture picture_of_solution(const RenderRequest& request, const LitScene& lit,
+                                const Camera& camera, PictureSize size, const RunEvents& events,
+                                RunFigures& figures);
 
 /// Writes all outputs, or throws a UserError before or after the work; what was written is whole.
 RunFigures render_run(const RenderRequest& request, const RunEvents& events = {});

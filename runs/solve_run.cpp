@@ -117,8 +117,7 @@ static RunSettings with_rows_to_keep(const SolveRequest& request) {
   return settings;
 }
 
-/// Light at the points themselves, by eight times the rays of a vertex.
-static PointQuerySettings point_query_settings(const PassOneSettings& settings) {
+PointQuerySettings point_query_settings(const PassOneSettings& settings) {
   PointQuerySettings query;
   query.rays = 8 * settings.form_factors.rays;
   query.form_factors = settings.form_factors;

@@ -1,6 +1,7 @@
 // `solve`: pass one alone, kept as a solution file, as figures per node and at points.
 #pragma once
 
+#include "radiosity/queries/point_light.h"
 #include "radiosity/transport/factor_file.h"
 #include "runs/points/point_sets.h"
 #include "runs/run_events.h"
@@ -24,6 +25,9 @@ struct SolveRequest {
   PointRequest points;
   RunSettings settings;
 };
+
+/// Light at the points themselves, by eight times the rays of a vertex.
+PointQuerySettings point_query_settings(const PassOneSettings& settings);
 
 /// Writes all outputs, or throws a UserError before or after the work; what was written is whole.
 RunFigures solve_run(const SolveRequest& request, const RunEvents& events = {});

@@ -14,17 +14,20 @@ namespace meninas {
 struct GeographicPlace {
   double latitude = 0.0;  ///< degrees, north positive
   double longitude = 0.0; ///< degrees, east positive
+  bool operator==(const GeographicPlace&) const = default;
 };
 
 /// Universal time, in the proleptic Gregorian calendar.
 struct UtcTime {
   int year = 2000, month = 1, day = 1;
   double hours = 0.0; ///< since midnight
+  bool operator==(const UtcTime&) const = default;
 };
 
 /// Degrees.
 struct SunAngles {
   double azimuth = 0.0, elevation = 90.0;
+  bool operator==(const SunAngles&) const = default;
 };
 
 SunAngles sun_angles(const GeographicPlace& place, const UtcTime& time);

@@ -30,8 +30,8 @@ fi
 cmake -S "$scratch/consumer" -B "$scratch/consumer/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
   -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >/dev/null
 ninja -C "$scratch/consumer/build" --quiet
-"$scratch/consumer/build/consumer" "$scratch/black.png"
-test -s "$scratch/black.png"
+"$scratch/consumer/build/consumer" "$root/scenes/gallery/furnace.gltf" "$scratch/room.png"
+test -s "$scratch/room.png"
 
 # The blocks of docs/library.md: its project, and its two programs.
 page=$scratch/page

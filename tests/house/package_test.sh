@@ -16,6 +16,7 @@ cpack --config "$build/CPackConfig.cmake" -B "$scratch/packages" -D CPACK_PACKAG
   -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >"$scratch/log" 2>&1 || fail "$(<"$scratch/log")"
 program=$(find "$scratch/packages" -maxdepth 1 -name 'meninas_*.deb')
 library=$(find "$scratch/packages" -maxdepth 1 -name 'libmeninas-dev_*.deb')
+runtime=$(find "$scratch/packages" -maxdepth 1 -name 'libmeninas[0-9]*.deb')
 
 # One version everywhere.
 version=$(dpkg-deb -f "$program" Version)
@@ -53,13 +54,14 @@ meninas batch --schema | grep "\"samples\"" >/dev/null || fail "the schema is em
 strings -a "$scratch/root/usr/bin/meninas" | grep -F "$source/" && fail "the program remembers its sources"
 
 dpkg-deb -x "$library" "$scratch/root"
+dpkg-deb -x "$runtime" "$scratch/root"
 cp -r "$source/tests/house/consumer" "$scratch/consumer"
 cmake -S "$scratch/consumer" -B "$scratch/consumer/build" -G Ninja -DCMAKE_PREFIX_PATH="$scratch/root/usr" \
   -DCMAKE_CXX_COMPILER="$compiler" >/dev/null
 ninja -C "$scratch/consumer/build" --quiet
-"$scratch/consumer/build/consumer" "$scratch/black.png"
+"$scratch/consumer/build/consumer" "$source/scenes/gallery/furnace.gltf" "$scratch/room.png"
 
 # lintian judges what the package preset makes: a build that is laid down elsewhere has other names for some files.
 if grep -q 'MENINAS_DEBIAN_PACKAGES:BOOL=ON' "$build/CMakeCache.txt" && command -v lintian >/dev/null; then
-  lintian --allow-root --fail-on error "$program" "$library"
+  lintian --allow-root --fail-on error "$program" "$runtime" "$library"
 fi

@@ -1,8 +1,8 @@
-// Writes a picture and reads it, through the module that reads pictures, which is opened at run time.
-#include "image/image_file.h"
-#include "raytrace/two_pass.h"
+// Writes a picture of a scene and reads it, through the module that reads pictures, which is opened at run time.
+#include <meninas/meninas.h>
 
 int main(int, char** arguments) {
-  meninas::write_png(arguments[1], meninas::Image(4, 4), 0.0);
-  return meninas::read_image(arguments[1]).picture.width == 4 ? 0 : 1;
+  const meninas::Room room(arguments[1], {{"quality", "draft"}});
+  room.render({{"size", "4x4"}}).write(arguments[2]);
+  return meninas::RoomPicture::read(arguments[2]).width() == 4 ? 0 : 1;
 }

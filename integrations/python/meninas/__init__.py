@@ -1,0 +1,285 @@
+"""Meninas renders rooms with mirrors: radiosity with mirror worlds, then ray tracing.
+
+    room = meninas.load("room.gltf", quality="draft")
+    picture = room.render(size="640x480")        # (480, 640, 3) float32, linear radiance, W/m^2/sr
+    picture.write("room.png")
+    solution = room.solve()                      # irradiance of all surfaces, for any number of pictures
+
+Settings are the options of `meninas render` by their names, with underscores for dashes: text, numbers, True for a
+flag, a list for what may be given several times. Lengths are metres, +Y is up; radiosity and irradiance are W/m^2;
+colours are linear red, green and blue. Arrays show the memory of the library and cannot be written.
+
+`warning` is called with a line of text, `progress` with a stage and the share of it that is done; where it returns
+False, or on Ctrl-C, the call ends. What goes wrong is an Error of one line, as the program says it.
+"""
+
+import json
+import sys
+
+import numpy
+
+__all__ = ["load", "read_picture", "diff", "Room", "Solution", "FormFactors", "Picture", "Error", "UsageError",
+           "InputError", "OutputError", "Cancelled", "__version__"]
+
+
+class Error(Exception):
+    """One line: FILE: WHERE: WHAT."""
+
+
+class UsageError(Error, ValueError):
+    """A setting, name or shape that is not known, or does not go with others."""
+
+
+class InputError(Error):
+    """A file that cannot be read, or says nothing meaningful."""
+
+
+class OutputError(Error):
+    """A file that cannot be written, or memory that is not there."""
+
+
+class Cancelled(Error):
+    """`progress` has returned False."""
+
+
+from . import _meninas  # noqa: E402  (it raises the errors above)
+
+__version__ = _meninas.version()
+
+
+def _warn(text):
+    print("meninas: warning:", text, file=sys.stderr)
+
+
+def _text(value):
+    if isinstance(value, (list, tuple, numpy.ndarray)):
+        return ",".join(_text(part) for part in value)
+    if isinstance(value, float):
+        return repr(value)
+    return str(value)
+
+
+# Lists of these are one value; of all others several of the same name.
+_JOINED = {"layers", "background", "sun", "place"}
+
+
+def _settings(named):
+    """Pairs of names and texts; None and False are left out."""
+    pairs = []
+    for name, value in named.items():
+        option = name.replace("_", "-")
+        if value is None or value is False:
+            continue
+        if value is True:
+            pairs.append((option, ""))
+        elif option == "size" and not isinstance(value, str):
+            pairs.append((option, "x".join(str(int(side)) for side in value)))
+        elif option == "lamp" and isinstance(value, dict):
+            pairs.extend((option, f"{lamp}={_text(factor)}") for lamp, factor in value.items())
+        elif isinstance(value, (list, tuple)) and option not in _JOINED:
+            pairs.extend((option, _text(one)) for one in value)
+        else:
+            pairs.append((option, _text(value)))
+    return pairs
+
+
+def _factors(lamps):
+    """Lamps with three factors each: a number stands for a grey one."""
+    pairs = []
+    for lamp, factor in lamps.items():
+        three = numpy.broadcast_to(numpy.asarray(factor, dtype=float), (3,)) if numpy.size(factor) in (1, 3) else None
+        if three is None:
+            raise UsageError(f"lamps: {lamp!r} takes a number, or red, green and blue")
+        pairs.append((lamp, [float(channel) for channel in three]))
+    return pairs
+
+
+class Picture(numpy.ndarray):
+    """Linear radiance, shape (height, width, 3), float32, W/m^2/sr, rows from the top.
+
+    `layers` is a dict of arrays of the same shape, `stats` the figures of the run (docs/stats.md). What is computed from
+    a picture is an ordinary array, without these.
+    """
+
+    def __new__(cls, inner):
+        picture = inner.pixels().view(cls)
+        picture._inner = inner
+        return picture
+
+    def __array_finalize__(self, other):
+        self._inner = None
+
+    def _whole(self):
+        if self._inner is None:
+            raise UsageError("picture: what is computed from a picture, or a part of one, has no layers or file")
+        return self._inner
+
+    @property
+    def layers(self):
+        inner = self._whole()
+        return {name: inner.layer(name) for name in inner.layers()}
+
+    @property
+    def stats(self):
+        text = self._whole().stats()
+        return json.loads(text) if text else {}
+
+    def write(self, file, **settings):
+        """Writes .exr or .hdr, which are linear, or .png. Settings: exposure, view_transform, depth, float."""
+        self._whole().write(file, _settings(settings))
+
+
+class Solution:
+    """Pass one: the irradiance of all diffuse surfaces, at the vertices of elements.
+
+    vertices (n, 3) m; irradiance (n, 3) W/m^2; elements (m, 4) vertices, a triangle repeats its third; area (m,) m^2;
+    nodes (m,) places in Room.nodes; stats, the figures of the solve.
+    """
+
+    def __init__(self, inner):
+        self._inner = inner
+
+    vertices = property(lambda self: self._inner.vertices())
+    irradiance = property(lambda self: self._inner.irradiance())
+    elements = property(lambda self: self._inner.elements())
+    area = property(lambda self: self._inner.area())
+    nodes = property(lambda self: self._inner.node_of_element())
+    stats = property(lambda self: json.loads(self._inner.stats()))
+
+    def write(self, file):
+        """Writes a .glb that any viewer shows, and that `Room.read_solution` and `meninas render --solution` take."""
+        self._inner.write(file)
+
+    def render(self, camera=None, warning=_warn, progress=None, **settings):
+        """Pass two: the picture of a camera, the first one of the file unless it is named."""
+        return Picture(self._inner.render(_settings({"camera": camera, **settings}), warning, progress))
+
+    def relight(self, lamps):
+        """The same room with lamps so many times as bright: a dict of numbers, or of red, green and blue; `all` is
+        every lamp. Exact, without solving again. The solution has to know its lamps: `solve(by_lamp=True)`."""
+        return Solution(self._inner.relit(_factors(lamps)))
+
+    def irradiance_at(self, points, normals):
+        """What arrives at points, (n, 3) in metres, on the side of their normals: a dict of `total`, `direct` and
+        `by_mirrors`, (n, 3) W/m^2, and `inside`, (n,), true where a point is inside of something."""
+        points = numpy.atleast_2d(numpy.asarray(points, dtype=float))
+        normals = numpy.atleast_2d(numpy.asarray(normals, dtype=float))
+        if normals.shape[0] == 1 and points.ndim == 2 and points.shape[0] > 1:
+            normals = numpy.repeat(normals, points.shape[0], axis=0)
+        return self._inner.irradiance_at(points, normals)
+
+
+class FormFactors:
+    """T of Eq. 1 between the elements of a uniform mesh: H_i = sum_j T_ij B_j, light by way of mirrors included.
+
+    area (n,) m^2; centre, normal (n, 3); reflectance, emission (n, 3), emission in W/m^2; nodes (n,) places in
+    Room.nodes. Without mirrors T_ij is the form factor F_ij.
+    """
+
+    def __init__(self, inner, names):
+        self._inner = inner
+        self._names = names
+
+    area = property(lambda self: self._inner.area())
+    centre = property(lambda self: self._inner.centre())
+    normal = property(lambda self: self._inner.normal())
+    reflectance = property(lambda self: self._inner.reflectance())
+    emission = property(lambda self: self._inner.emission())
+    nodes = property(lambda self: self._inner.node_of_element())
+
+    def __len__(self):
+        return self._inner.size()
+
+    def arrays(self, channel=0):
+        """(data, indices, indptr) of compressed sparse rows: scipy.sparse.csr_matrix(f.arrays(), shape=f.shape)."""
+        channels = self._inner.channels()
+        if channel not in (0, 1, 2):
+            raise UsageError(f"channel: {channel!r} is not 0, 1 or 2")
+        weights = self._inner.weights()
+        return (weights if channels == 1 else weights[:, channel]), self._inner.columns(), self._inner.row_begin()
+
+    @property
+    def shape(self):
+        return len(self), len(self)
+
+    def elements_of(self, node):
+        """The elements of a node, by its name or place."""
+        if isinstance(node, str):
+            if node not in self._names:
+                raise UsageError(f"node: there is no {node!r}")
+            places = [place for place, name in enumerate(self._names) if name == node]
+        else:
+            places = [node]
+        return numpy.flatnonzero(numpy.isin(self.nodes, places))
+
+    def between(self, node, other, channel=0):
+        """The dense matrix of T from the elements of a node to those of another."""
+        rows, columns = self.elements_of(node), self.elements_of(other)
+        data, indices, indptr = self.arrays(channel)
+        place = numpy.full(len(self), -1, dtype=numpy.int64)
+        place[columns] = numpy.arange(columns.size)
+        block = numpy.zeros((rows.size, columns.size), dtype=numpy.float32)
+        for k, row in enumerate(rows):
+            begin, end = int(indptr[row]), int(indptr[row + 1])
+            at = place[indices[begin:end]]
+            block[k, at[at >= 0]] = data[begin:end][at >= 0]
+        return block
+
+    def solve(self, emission=None, **settings):
+        """B = E + rho T B: a dict of `radiosity` (n, 3) W/m^2, `iterations`, `residual`, `error_bound`, `converged`.
+        Emission (n, 3) W/m^2, of the scene where it is left out. Settings: solver, tolerance."""
+        return self._inner.solve(emission, _settings(settings))
+
+
+class Room:
+    """A scene as its file says it. See `load`."""
+
+    def __init__(self, inner):
+        self._inner = inner
+
+    nodes = property(lambda self: self._inner.nodes())
+    cameras = property(lambda self: self._inner.cameras())
+    lamps = property(lambda self: self._inner.lamps())
+
+    def plan(self, **settings):
+        """What the room contains, what will be modelled and what is odd about it (`meninas plan --json`)."""
+        return json.loads(self._inner.plan(_settings(settings)))
+
+    def render(self, camera=None, warning=_warn, progress=None, **settings):
+        """Both passes for one camera, the first one of the file unless it is named: a Picture."""
+        return Picture(self._inner.render(_settings({"camera": camera, **settings}), warning, progress))
+
+    def solve(self, lamps=None, by_lamp=None, warning=_warn, progress=None, **settings):
+        """Pass one: a Solution. `by_lamp` (True, "node" or "material") tells lamps apart; `lamps` is a dict of what
+        each is multiplied by."""
+        by_lamp = by_lamp or (True if lamps else None)
+        solution = Solution(self._inner.solve(_settings({"by_lamp": by_lamp, **settings}), warning, progress))
+        return solution.relight(lamps) if lamps else solution
+
+    def read_solution(self, file, warning=_warn):
+        """A Solution that `write` or `meninas solve` has made of this scene."""
+        return Solution(self._inner.read_solution(file, warning))
+
+    def form_factors(self, method="rays", worlds=True, warning=_warn, progress=None, **settings):
+        """FormFactors by rays, hemicube or analytic; without light by way of mirrors where `worlds` is False.
+        Settings: elements, element_size, rays, hemicube_resolution, seed."""
+        if not worlds:
+            settings = {**settings, "mirror_depth": 0}
+        inner = self._inner.form_factors(_settings({"form_factors": method, **settings}), warning, progress)
+        return FormFactors(inner, self.nodes)
+
+
+def load(file, warning=_warn, **settings):
+    """A Room from a .gltf or .glb file. Settings hold for all its calls; which state of the file is shown, its units
+    and what surrounds it (variant, at, environment, sky, background, ...) can be said here alone."""
+    return Room(_meninas.Room(file, _settings(settings), warning))
+
+
+def read_picture(file):
+    """A Picture from an EXR, HDR, PNG, JPEG, WebP or TIFF file."""
+    return Picture(_meninas.Picture.read(file))
+
+
+def diff(picture, reference):
+    """How far a picture is from its reference: a dict of rmse, relmse, mae, psnr, max_abs, ssim and flip."""
+    return _meninas.distance(picture._whole(), reference._whole())

@@ -1,0 +1,92 @@
+#include "library/impl.h"
+
+#include "radiosity/field/vertex_places.h"
+#include "radiosity/solvers/solve.h"
+#include "runs/resources.h"
+#include "scenes/errors.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace meninas {
+
+RoomFactors Room::form_factors(const Settings& settings, const Listener& listener) const {
+  return guarded([&] {
+    RunSettings chosen = call_of(*impl_, settings).request.settings;
+    check_reading(*impl_, chosen);
+    chosen.mesh = MeshCut::uniform; // nodes of a hierarchy have no rows of their own
+    const ThreadLimit limit(chosen.threads);
+    const RunEvents events = events_of(listener);
+    const PassOneSettings of_pass_one = two_pass_settings(chosen).pass_one;
+    RunFigures figures;
+    check_memory(impl_->scene, chosen, std::nullopt);
+    const auto prepared = prepare_run(impl_->scene, of_pass_one, events, figures);
+    const LightScene& light = *prepared->light;
+    const ElementMesh& mesh = light.mesh;
+    auto impl = std::make_shared<RoomFactors::Impl>();
+    impl->room = impl_;
+    impl->factors = assemble_transport(light, of_pass_one.form_factors, events.progress);
+    impl->solver = of_pass_one.solver;
+    impl->area = mesh.area;
+    impl->reflectance = flat<double>(mesh.reflectance);
+    impl->emission = flat<double>(mesh.emission);
+    std::vector<Vec3> centres, normals;
+    for (std::uint32_t e = 0; e < element_count(mesh); ++e) {
+      centres.push_back(centre_of(mesh, ElementId{e}));
+      normals.push_back(mesh.sides[index(mesh.side_of_element[e])].normal);
+    }
+    impl->centre = flat<float>(centres);
+    impl->normal = flat<float>(normals);
+    describe_elements(mesh, nullptr, impl->nodes);
+    return RoomFactors(std::move(impl));
+  });
+}
+
+std::size_t RoomFactors::size() const { return impl_->factors.transport.size; }
+int RoomFactors::channels() const { return impl_->factors.transport.bands; }
+std::span<const std::uint64_t> RoomFactors::row_begin() const { return impl_->factors.transport.row_begin; }
+std::span<const std::uint32_t> RoomFactors::columns() const { return impl_->factors.transport.columns; }
+std::span<const float> RoomFactors::weights() const { return impl_->factors.transport.weights; }
+std::span<const double> RoomFactors::area() const { return impl_->area; }
+std::span<const float> RoomFactors::centre() const { return impl_->centre; }
+std::span<const float> RoomFactors::normal() const { return impl_->normal; }
+std::span<const double> RoomFactors::reflectance() const { return impl_->reflectance; }
+std::span<const double> RoomFactors::emission() const { return impl_->emission; }
+std::span<const std::uint32_t> RoomFactors::node_of_element() const { return impl_->nodes; }
+
+/// Three numbers each as colours. Throws UsageError unless there are as many as elements, all finite and none negative.
+static std::vector<Rgb> colours_at(std::span<const double> values, std::size_t elements) {
+  if (values.size() != 3 * elements)
+    throw UsageError("emission", fmt::format("has {} numbers, not three for each of {} elements",
+                                             values.size(), elements));
+  std::vector<Rgb> colours;
+  for (std::size_t e = 0; e < elements; ++e) {
+    const Rgb colour(values[3 * e], values[3 * e + 1], values[3 * e + 2]);
+    for (int c = 0; c < 3; ++c)
+      if (!std::isfinite(colour[c]) || colour[c] < 0.0)
+        throw UsageError("emission", fmt::format("{} of element {} is no light", colour[c], e));
+    colours.push_back(colour);
+  }
+  return colours;
+}
+
+RoomFactors::Solved RoomFactors::solve(std::span<const double> emission,
+                                       const Settings& settings) const {
+  return guarded([&] {
+    SolverSettings how = impl_->solver;
+    if (!settings.empty()) {
+      const RunSettings chosen = call_of(*impl_->room, settings).request.settings;
+      how = two_pass_settings(chosen).pass_one.solver;
+    }
+    const auto own = std::span<const double>(impl_->emission);
+    check_size(how.method, size());
+    const SolverResult result =
+        meninas::solve(impl_->factors.transport, colours_at(emission.empty() ? own : emission, size()),
+                       colours_at(impl_->reflectance, size()), how);
+    return Solved{flat<double>(result.radiosity), result.iterations, result.residual,
+                  result.error_bound, result.converged};
+  });
+}
+
+} // namespace meninas

@@ -1,0 +1,80 @@
+#include "library/impl.h"
+
+#include "cli/settings.h"
+#include "image/metrics/metrics.h"
+#include "runs/outputs.h"
+#include "runs/report/comparison.h"
+#include "scenes/errors.h"
+
+#include <algorithm>
+
+namespace meninas {
+
+RoomPicture RoomPicture::read(const std::filesystem::path& file) {
+  return guarded([&] {
+    ImageFile read = read_image(file, meninas::Picture::not_needed);
+    auto impl = std::make_shared<Impl>();
+    impl->picture.image = std::move(read.picture);
+    impl->picture.layers = std::move(read.layers);
+    impl->picture.attributes = std::move(read.attributes);
+    return RoomPicture(std::move(impl));
+  });
+}
+
+int RoomPicture::width() const { return impl_->picture.image.width; }
+int RoomPicture::height() const { return impl_->picture.image.height; }
+std::span<const float> RoomPicture::pixels() const { return floats_of(impl_->picture.image.pixels); }
+
+std::vector<std::string> RoomPicture::layers() const {
+  std::vector<std::string> names;
+  for (const Layer& layer : impl_->picture.layers)
+    names.push_back(layer.name);
+  return names;
+}
+
+std::span<const float> RoomPicture::layer(const std::string& name) const {
+  const auto& layers = impl_->picture.layers;
+  const auto found = std::ranges::find(layers, name, &Layer::name);
+  if (found == layers.end())
+    throw Error(Error::Kind::usage, "layer: there is no '" + name + "' in the picture");
+  return floats_of(found->image.pixels);
+}
+
+std::string RoomPicture::stats() const { return impl_->stats; }
+
+void RoomPicture::write(const std::filesystem::path& file, const Settings& settings) const {
+  guarded([&] {
+    PictureSettings shown = impl_->shown;
+    if (!settings.empty()) {
+      std::vector<Setting> named;
+      for (const auto& [name, value] : settings)
+        named.push_back({name, value.empty() ? std::nullopt : std::optional(value)});
+      shown = parse_render_settings({}, named).picture;
+      shown.exr_type = std::max(shown.exr_type, impl_->shown.exr_type);
+    }
+    check_outputs({.pictures = {file}, .solution = {}, .texts = {}}, {});
+    const ViewPicture& picture = impl_->picture;
+    write_pictures({file}, {picture.image, picture.layers, &picture.edges, picture.unit}, shown,
+                   picture.attributes, {});
+  });
+}
+
+PictureDistance distance(const RoomPicture& picture, const RoomPicture& reference) {
+  return guarded([&] {
+    const auto image_of = [](const RoomPicture& from) {
+      Image image(from.width(), from.height());
+      const auto floats = from.pixels();
+      for (std::size_t k = 0; k < image.pixels.size(); ++k)
+        image.pixels[k] = {floats[3 * k], floats[3 * k + 1], floats[3 * k + 2]};
+      return image;
+    };
+    const Image a = image_of(picture);
+    const ComparedPicture b{image_of(reference), Encoding::linear, {}, {}};
+    if (a.width != b.image.width || a.height != b.image.height)
+      throw UsageError("distance", "the pictures are not of one size");
+    const PictureDifference d = compare_pictures(a, b.image, metric_settings(b, std::nullopt));
+    return PictureDistance{d.rmse, d.relmse, d.mae, d.psnr, d.max_abs, d.ssim, d.flip};
+  });
+}
+
+} // namespace meninas
