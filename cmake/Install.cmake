@@ -4,8 +4,13 @@
 include(CMakePackageConfigHelpers)
 
 # After `./meninas` alone there is the program and nothing else: the rest is built when it is laid down.
+set(laid_down meninas_cli meninas_library meninas_manuals meninas_jobs_schema)
+if(TARGET _meninas)
+  list(APPEND laid_down _meninas)
+endif()
+list(JOIN laid_down " " laid_down)
 install(CODE "execute_process(
-  COMMAND \"${CMAKE_COMMAND}\" --build \"${CMAKE_BINARY_DIR}\" --target meninas_cli meninas_library meninas_manuals meninas_jobs_schema
+  COMMAND \"${CMAKE_COMMAND}\" --build \"${CMAKE_BINARY_DIR}\" --target ${laid_down}
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)" ALL_COMPONENTS)
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/meninas)

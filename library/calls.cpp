@@ -72,14 +72,31 @@ static LampGrouping grouping_of(const std::string& text) {
                                             {"material", LampGrouping::material}});
 }
 
+/// What a run that chooses for itself is to reach. The room's quality gives way to it, the call's does not go with it.
+static std::optional<Goal> goal_of(const Settings& of_call, Settings& all) {
+  std::optional<Goal> goal;
+  for (const auto& [name, value] : {std::pair("error", &Goal::error), std::pair("time", &Goal::seconds)})
+    if (const auto text = taken(all, name)) {
+      goal = goal ? goal : Goal{};
+      *goal.*value = parse_number(name, *text, Sign::positive);
+      if (std::ranges::find(of_call, "quality", &Settings::value_type::first) != of_call.end())
+        throw UsageError("quality", std::string("does not go with ") + name + ", which chooses for itself");
+    }
+  if (goal)
+    taken(all, "quality");
+  return goal;
+}
+
 Call call_of(const Room::Impl& room, const Settings& settings) {
   Settings all = merged(room.settings, settings);
+  const auto goal = goal_of(settings, all);
   const auto threads = taken(all, "threads");
   const auto by_lamp = taken(all, "by-lamp");
   std::vector<Setting> named;
   for (const auto& [name, value] : all)
     named.push_back({name, value.empty() ? std::nullopt : std::optional(value)});
   Call call{parse_render_settings(room.file, named), {}};
+  call.request.goal = goal;
   if (by_lamp)
     call.by_lamp = grouping_of(*by_lamp);
   if (threads)

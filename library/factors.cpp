@@ -11,6 +11,17 @@
 
 namespace meninas {
 
+/// Light that was not followed to its end is shared out among the rest of a row, so that it closes for a
+/// solve. Here it is lost: a row without mirrors is that of black ones.
+static void take_back_what_was_cut(FormFactors& factors) {
+  Transport& rows = factors.transport;
+  for (std::size_t row = 0; row < rows.size; ++row)
+    for (std::uint64_t k = rows.row_begin[row]; k < rows.row_begin[row + 1]; ++k)
+      for (int band = 0; band < rows.bands; ++band)
+        rows.weights[k * static_cast<std::size_t>(rows.bands) + static_cast<std::size_t>(band)] *=
+            1.0F - factors.closure[row].cut_light[band];
+}
+
 RoomFactors Room::form_factors(const Settings& settings, const Listener& listener) const {
   return guarded([&] {
     RunSettings chosen = call_of(*impl_, settings).request.settings;
@@ -27,6 +38,8 @@ RoomFactors Room::form_factors(const Settings& settings, const Listener& listene
     auto impl = std::make_shared<RoomFactors::Impl>();
     impl->room = impl_;
     impl->factors = assemble_transport(light, of_pass_one.form_factors, events.progress);
+    if (of_pass_one.form_factors.method != FormFactorMethod::analytic) // has not shared out anything
+      take_back_what_was_cut(impl->factors);
     impl->solver = of_pass_one.solver;
     impl->area = mesh.area;
     impl->reflectance = flat<double>(mesh.reflectance);

@@ -8,7 +8,8 @@
 //
 // Settings are the options of `meninas render` by their names without dashes, with the values that they have on
 // the command line (docs/options.md): {{"quality", "draft"}, {"size", "640x480"}}. Those of a call go over those of
-// its room. Values are what a presets says where nothing is said. `threads` limits the threads of one call.
+// its room; what is not said has the values of a preset. `threads` limits the threads of one call, `error` and `time` choose
+// the rest of a picture's settings.
 //
 // Objects are handles of what does not change: copies share it, and any thread may use them. Spans live as long as
 // the object that they are of. Results are the same bits for any number of threads, and those of the commands.
@@ -137,7 +138,7 @@ private:
 };
 
 /// T of Eq. 1 between the elements of a uniform mesh, as rows without zeros (CSR), and what the elements are.
-/// A row sums to at most 1, in a closed room without mirrors to 1. Form factors F are those of one channel where no
+/// A row sums to at most 1, in a closed room without mirrors to 1; light that meets more mirrors than `mirror-depth` allows is lost. Form factors F are those of one channel where no
 /// mirror is coloured.
 class MENINAS_API RoomFactors {
 public:

@@ -46,7 +46,7 @@ def _files(scratch):
         options += [f"-DCMAKE_PREFIX_PATH={tree}", "-DMENINAS_RPATH=$ORIGIN"]
     _run("cmake", "-S", HERE, "-B", scratch / "build", "-G", "Ninja", *options)
     _run("cmake", "--build", scratch / "build")
-    files = {f"meninas/{file.name}": file for file in sorted((HERE / "meninas").iterdir()) if file.is_file()}
+    files = {f"meninas/{file.name}": file for file in sorted((HERE / "src" / "meninas").iterdir()) if file.is_file()}
     files.update({f"meninas/{file.name}": file for file in (scratch / "build").glob("_meninas*.so")})
     if tree:
         library = next(file for file in tree.rglob("libmeninas.so.*") if not file.is_symlink())
@@ -58,6 +58,8 @@ def _files(scratch):
 
 
 def _version():
+    if "MENINAS_VERSION" in os.environ:
+        return os.environ["MENINAS_VERSION"]
     listing = ROOT / "CMakeLists.txt"
     if listing.exists():
         return re.search(r"project\(meninas VERSION ([0-9.]+)", listing.read_text()).group(1)

@@ -15,6 +15,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace py = pybind11;
@@ -108,6 +109,8 @@ auto listened(const py::object& warning, const py::object& progress, const Work&
     std::rethrow_exception(interruption);
   if (failure)
     std::rethrow_exception(failure);
+  if (heard.is_cancelled) // as the work ended
+    throw Error(Error::Kind::cancelled, "cancelled");
   return std::move(*result);
 }
 

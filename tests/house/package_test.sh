@@ -61,7 +61,19 @@ cmake -S "$scratch/consumer" -B "$scratch/consumer/build" -G Ninja -DCMAKE_PREFI
 ninja -C "$scratch/consumer/build" --quiet
 "$scratch/consumer/build/consumer" "$source/scenes/gallery/furnace.gltf" "$scratch/room.png"
 
+# The Python module, on the same library, where it was built.
+packages=("$program" "$runtime" "$library")
+module=$(find "$scratch/packages" -maxdepth 1 -name 'python3-meninas_*.deb')
+if [[ -n $module ]] && /usr/bin/python3 -c 'import numpy' 2>/dev/null; then
+  packages+=("$module")
+  dpkg-deb -x "$module" "$scratch/root"
+  (cd "$scratch/away" && env -i PATH=/usr/bin:/bin PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$scratch/root/usr/lib/python3/dist-packages" \
+    LD_LIBRARY_PATH="$(dirname "$(find "$scratch/root" -name 'libmeninas.so.*' | head -n 1)")" /usr/bin/python3 -c '
+import meninas
+assert meninas.load("room.gltf", quality="draft").render(size=(5, 4)).shape == (4, 5, 3)')
+fi
+
 # lintian judges what the package preset makes: a build that is laid down elsewhere has other names for some files.
 if grep -q 'MENINAS_DEBIAN_PACKAGES:BOOL=ON' "$build/CMakeCache.txt" && command -v lintian >/dev/null; then
-  lintian --allow-root --fail-on error "$program" "$runtime" "$library"
+  lintian --allow-root --fail-on error "${packages[@]}"
 fi

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t longest_file = 400;
 
 /// Which folders a folder may include, besides itself:
-///   scenes, image <- mirror <- form_factors <- radiosity <- raytrace <- runs <- cli
+///   scenes, image <- mirror <- form_factors <- radiosity <- raytrace <- runs <- cli <- library
 /// and
 ///   scenes, image <- reference <- runs
 /// The image folder stands beside scenes;
@@ -31,6 +31,8 @@ const std::map<std::string, std::set<std::string>, std::less<>> allowed_folders 
     {"runs", {"scenes", "image", "mirror", "form_factors", "radiosity", "raytrace", "reference"}},
     {"cli",
      {"scenes", "image", "mirror", "form_factors", "radiosity", "raytrace", "reference", "runs"}},
+    {"library",
+     {"scenes", "image", "mirror", "form_factors", "radiosity", "raytrace", "reference", "runs", "cli"}},
 };
 const std::set<std::string, std::less<>> vocabulary = {"scenes/errors.h", "scenes/types.h"};
 
