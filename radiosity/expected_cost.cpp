@@ -7,7 +7,7 @@
 #include "radiosity/light/gather_noise.h"
 #include "radiosity/light/point_irradiance.h"
 #include "scenes/sampling.h"
-#include "scenes/stopwatch.h"
+#include "scenes/seconds_of_one.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +16,13 @@ namespace meninas {
 
 namespace {
 
-/// So many, spread over all there are.
+/// Of at most so many, spread over all there are.
 template <typename Do>
-double seconds_of_one(std::size_t all, std::size_t some, const Do& work) {
-  const std::size_t count = std::clamp<std::size_t>(all, 1, some);
-  Stopwatch watch;
-  for (std::size_t k = 0; k < count; ++k)
-    work(k * all / count);
-  return watch.lap() / double(count);
+double seconds_of_one_of(std::size_t all, std::size_t some, const Do& work) {
+  return seconds_of_one(std::min(all, some), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k)
+      work(std::min(all - 1, static_cast<std::size_t>(sobol4(static_cast<std::uint32_t>(k), 0xc057)[0] * double(all))));
+  });
 }
 
 /// One gathering, and direct light at one vertex and on one element;
@@ -45,14 +44,14 @@ PointSeconds point_seconds(const LightScene& light, const PassOneSettings& setti
   PointWorkspace work;
   PointSeconds seconds;
   const auto seed = [](std::size_t v) { return hash(static_cast<std::uint32_t>(v), 0xc057); };
-  seconds.gather = seconds_of_one(receivers.size(), some, [&](std::size_t v) {
+  seconds.gather = seconds_of_one_of(receivers.size(), some, [&](std::size_t v) {
     indirect_light_at(gathering, receivers[v], seed(v), work);
   });
-  seconds.source = seconds_of_one(receivers.size(), 4 * some, [&](std::size_t v) {
+  seconds.source = seconds_of_one_of(receivers.size(), 4 * some, [&](std::size_t v) {
     direct_irradiance(light, receivers[v], settings.direct, seed(v), work.direct);
   });
   SharedLightWorkspace element_work;
-  seconds.on_element = seconds_of_one(element_count(mesh), some, [&](std::size_t e) {
+  seconds.on_element = seconds_of_one_of(element_count(mesh), some, [&](std::size_t e) {
     direct_irradiance(light, static_cast<ElementId>(e), 0, settings.direct, element_work);
   });
   return seconds;

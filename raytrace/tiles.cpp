@@ -8,6 +8,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -142,7 +143,8 @@ RayTotals trace_pixels(const TracedView& view, std::span<const glm::ivec2> pixel
   const RenderSettings& settings = view.settings;
   const FilterPlaces places = places_of(settings);
   const RenderContext context = context_of(view, {{0, std::max(settings.samples, 1)}}, places);
-  constexpr std::size_t run = 32;
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const std::size_t run = std::clamp<std::size_t>(pixels.size() / threads, 1, 32);
   tbb::enumerable_thread_specific<TileWorkspace> workspaces;
   tbb::parallel_for(std::size_t{0}, (pixels.size() + run - 1) / run, [&](std::size_t first) {
     TileWorkspace& work = workspaces.local();

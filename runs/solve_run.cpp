@@ -77,7 +77,7 @@ static RadiositySolution solve_or_relight(const SolveRequest& request,
   Stopwatch watch;
   FormFactors factors =
       request.join    ? join_factor_parts(*request.factors, key, element_count(light->mesh))
-      : request.reuse ? read_factors(*request.reuse, key)
+      : request.reuse ? read_factors(*request.reuse, key, element_count(light->mesh))
                       : assemble_transport(*light, settings.form_factors, events.progress);
   const double seconds = watch.lap();
   if (request.factors && !request.join) {

@@ -124,7 +124,7 @@ bool makes_sense(const Transport& transport, std::size_t elements) {
   const auto& begin = transport.row_begin;
   const auto fits = [&](std::uint32_t column) { return column < elements; };
   const auto possible = [](float weight) { return std::isfinite(weight) && weight >= 0.0F; };
-  return (transport.bands == 1 || transport.bands == 3) && begin.size() == transport.size + 1 &&
+  return (transport.bands == 1 || transport.bands == 3) && !begin.empty() && begin.size() - 1 == transport.size &&
          begin.front() == 0 && std::ranges::is_sorted(begin) &&
          begin.back() == transport.columns.size() &&
          transport.weights.size() ==
@@ -133,13 +133,21 @@ bool makes_sense(const Transport& transport, std::size_t elements) {
          std::ranges::all_of(transport.weights, possible);
 }
 
+bool is_finite(const RowClosure& row) {
+  const glm::vec3 light = row.mirror_absorbed + row.escaped_light + row.black_light + row.cut_light + row.sky +
+                          row.owned_light + row.by_portals;
+  return std::isfinite(row.landed + row.escaped + row.black + row.cut + light.r + light.g + light.b);
+}
+
 void check_sense(const std::filesystem::path& file, const FormFactors& factors,
                  std::size_t elements) {
   const std::size_t size = factors.transport.size;
   const bool sound = makes_sense(factors.transport, elements) &&
                      makes_sense(factors.beyond, elements) &&
                      factors.beyond.size == size && factors.closure.size() == size &&
-                     factors.covered.size() == size && factors.exposed.size() == size;
+                     factors.covered.size() == size && factors.exposed.size() == size &&
+                     std::ranges::all_of(factors.closure, is_finite) &&
+                     std::ranges::all_of(factors.exposed, [](float share) { return std::isfinite(share) && share >= 0.0F; });
   if (!sound) {
     refuse(file, "damaged: its form factors make no sense");
   }
@@ -209,12 +217,14 @@ void write_factors(const std::filesystem::path& file, const FormFactors& factors
   write_whole_file(file, bytes);
 }
 
-FormFactors read_factors(const std::filesystem::path& file, const FactorKey& key) {
+FormFactors read_factors(const std::filesystem::path& file, const FactorKey& key, std::size_t elements) {
   const std::vector<std::byte> bytes = bytes_of(file);
   Reader reader = checked(file, bytes, magic, key);
   FormFactors factors;
   reader.take(factors);
-  check_sense(file, factors, factors.transport.size);
+  check_sense(file, factors, elements);
+  if (factors.transport.size != elements)
+    refuse(file, "damaged: it has other rows than there are elements");
   return factors;
 }
 
@@ -298,7 +308,10 @@ FormFactors join_factor_parts(const std::filesystem::path& folder, const FactorK
   FormFactors all;
   all.transport.row_begin = all.beyond.row_begin = {0};
   for (std::uint64_t k = 0; k < count; ++k) {
-    const FormFactors rows = read_part(folder, {k, count, elements}, key);
+    const FactorPart part{k, count, elements};
+    const FormFactors rows = read_part(folder, part, key);
+    if (k > 0 && (rows.transport.bands != all.transport.bands || rows.beyond.bands != all.beyond.bands))
+      refuse(part_file(folder, part), "damaged: it has other bands of colour than the parts before it");
     append_rows(all.transport, rows.transport);
     append_rows(all.beyond, rows.beyond);
     all.closure.insert(all.closure.end(), rows.closure.begin(), rows.closure.end());

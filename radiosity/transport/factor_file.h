@@ -35,7 +35,8 @@ void write_factors(const std::filesystem::path& file, const FormFactors& factors
                    const FactorKey& key);
 
 /// Throws InputError when the file is damaged,
-/// of another version of the program, or made from something else than `key`.
-FormFactors read_factors(const std::filesystem::path& file, const FactorKey& key);
+/// of another version of the program, or made from something else than `key`. What it returns can be solved
+/// with, whatever the file says: a row for each of the elements, columns among them, numbers that are finite.
+FormFactors read_factors(const std::filesystem::path& file, const FactorKey& key, std::size_t elements);
 
 } // namespace meninas

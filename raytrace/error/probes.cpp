@@ -2,7 +2,9 @@
 
 #include "raytrace/pixels/sample_choice.h"
 #include "scenes/sampling.h"
-#include "scenes/stopwatch.h"
+#include "scenes/seconds_of_one.h"
+
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -75,6 +77,8 @@ double camera_ray_seconds(const std::shared_ptr<const LightScene>& light, const 
   field.mirrored = field.indirect = field.indirect_mirrored = field.irradiance;
   settings.samples = std::min(settings.samples, 16);
   settings.layers = WithLayers::no;
+  const VisibleLight all = visible_light(field, field_content(field, settings.diffuse));
+  const auto gathering = make_gathering(field, settings.diffuse);
   std::vector<glm::ivec2> pixels;
   for (std::uint32_t k = 0; k < some; ++k) {
     const auto at = sobol4(k, 0xc057);
@@ -82,9 +86,14 @@ double camera_ray_seconds(const std::shared_ptr<const LightScene>& light, const 
         std::min(static_cast<int>(at[0] * float(settings.width)), settings.width - 1),
         std::min(static_cast<int>(at[1] * float(settings.height)), settings.height - 1));
   }
-  Stopwatch watch;
-  render_pixels(field, camera, settings, pixels);
-  return watch.lap() / (double(some) * settings.samples);
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  return seconds_of_one(some, threads,
+                        [&](std::size_t first, std::size_t last) {
+                          trace_pixels({*light, all, gathering.get(), camera, settings},
+                                       std::span(pixels).subspan(first, last - first),
+                                       [](int, int, const SeenRadiance&) {});
+                        }) /
+         settings.samples;
 }
 
 } // namespace meninas

@@ -67,8 +67,8 @@ std::string hostile_luminaire(Random& random) {
   const std::uint32_t vertical = 1 + choose(random, 7),
                       horizontal = last == 0.0 ? 1 : 2 + choose(random, 5);
   std::string text = "IESNA:LM-63-2002\n[TEST] hostile\nTILT=NONE\n";
-  text += fmt::format("1 1000 {} {} {} {} 2 0 0 0\n{} 1 10\n", power_of_ten(random, -3, 3), vertical,
-                      horizontal, type_c ? 1 : 2, happens(random, 0.1) ? 0.0 : 1.0);
+  const double multiplier = power_of_ten(random, -3, 3), ballast = happens(random, 0.1) ? 0.0 : 1.0;
+  text += fmt::format("1 1000 {} {} {} {} 2 0 0 0\n{} 1 10\n", multiplier, vertical, horizontal, type_c ? 1 : 2, ballast);
   text += angles(random, vertical, type_c ? 0.0 : -90.0, type_c ? (happens(random, 0.5) ? 90.0 : 180.0) : 90.0);
   text += angles(random, horizontal, type_c || happens(random, 0.5) ? 0.0 : -last, last);
   text += candela(random, vertical * horizontal);

@@ -132,9 +132,9 @@ struct Maker {
     case 1:
       return random.in_box(Vec3(-1.4), Vec3(1.4));
     case 2:
-      return corner + power_of_ten(random, -7.0, 0.0) * random.direction();
+      return corner + offset_of_any_size(random, -7.0, 0.0);
     default:
-      return power_of_ten(random, 0.0, 5.0) * random.direction();
+      return offset_of_any_size(random, 0.0, 5.0);
     }
   }
 
@@ -190,7 +190,7 @@ struct Maker {
   GltfFile finished(double scale) {
     const Vec3 offset = happens(random, 0.8)
                             ? Vec3(0.0)
-                            : scale * power_of_ten(random, 0.0, 4.0) * random.direction();
+                            : scale * offset_of_any_size(random, 0.0, 4.0);
     const auto root = file.add_node({{"scale", as_json(Vec3(scale))},
                                      {"translation", as_json(offset)},
                                      {"children", children}});

@@ -24,6 +24,11 @@ double power_of_ten(Random& random, double low, double high) {
   return std::pow(10.0, random.between(low, high));
 }
 
+Vec3 offset_of_any_size(Random& random, double low, double high) {
+  const double length = power_of_ten(random, low, high);
+  return length * random.direction();
+}
+
 std::uint32_t choose(Random& random, std::uint32_t count) {
   return static_cast<std::uint32_t>(random.between(0.0, count));
 }
@@ -172,8 +177,8 @@ Shape soup(Random& random) {
   Shape shape;
   for (std::uint32_t k = 0, count = 1 + choose(random, 30); k < count; ++k) {
     const Point3 a = random.in_box(Vec3(-0.5), Vec3(0.5));
-    const Point3 b = a + power_of_ten(random, -6.0, 0.0) * random.direction();
-    Point3 c = a + power_of_ten(random, -6.0, 0.0) * random.direction();
+    const Point3 b = a + offset_of_any_size(random, -6.0, 0.0);
+    Point3 c = a + offset_of_any_size(random, -6.0, 0.0);
     if (happens(random, 0.1))
       c = happens(random, 0.5) ? a : glm::mix(a, b, random.between(-1.0, 2.0));
     shape.add_fan({a, b, c});

@@ -1,5 +1,8 @@
 // Bodies as no one should model them and as people do: nearly nothing, nearly flat, on top of one
 // another, and by the hundred.
+//
+// A seed is the same scene whatever compiled it: compilers differ in the order in which they evaluate the arguments
+// of a call and the operands of + and *, so no two of these draw a number. In braces they go from left to right.
 #pragma once
 
 #include "tests/support/random.h"
@@ -29,6 +32,9 @@ Shape box(Point3 low, Point3 high, bool inwards);
 
 /// One of 10^low ... 10^high.
 double power_of_ten(Random& random, double low, double high);
+
+/// In any direction, one of 10^low ... 10^high long.
+Vec3 offset_of_any_size(Random& random, double low, double high);
 
 /// Below `count`.
 std::uint32_t choose(Random& random, std::uint32_t count);

@@ -36,7 +36,7 @@ protected:
                   factor_key(*l->light, settings_.form_factors));
   }
   FormFactors kept(const LitScene& l) {
-    return read_factors(file_, factor_key(*l.light, settings_.form_factors));
+    return read_factors(file_, factor_key(*l.light, settings_.form_factors), element_count(l.light->mesh));
   }
   std::string refusal(const Scene& scene) {
     try {
@@ -140,6 +140,52 @@ TEST_F(Relighting, DamagedFilesAreRefused) {
   EXPECT_NE(refusal(scene), "");
   write(whole);
   EXPECT_EQ(refusal(scene), "");
+}
+
+TEST_F(Relighting, WholeFilesOfFactorsThatAreNoneAreRefused) {
+  const Scene scene = half_room();
+  const auto l = lit(scene, settings_.mesh, settings_.plan);
+  const FormFactors good = assemble_transport(*l->light, settings_.form_factors);
+  const std::pair<const char*, void (*)(FormFactors&)> faults[] = {
+      {"rows beyond counting", [](FormFactors& f) { f.transport.size = SIZE_MAX, f.transport.row_begin.clear(); }},
+      {"no rows", [](FormFactors& f) { f = FormFactors{}, f.transport.row_begin = f.beyond.row_begin = {0}; }},
+      {"a column beyond the elements", [](FormFactors& f) { f.transport.columns.back() = 1'000'000; }},
+      {"no weight for a column", [](FormFactors& f) { f.beyond.weights.push_back(1.0F); }},
+      {"a weight that is no number", [](FormFactors& f) { f.transport.weights.front() = NAN; }},
+      {"light that is no number", [](FormFactors& f) { f.closure.back().sky.g = INFINITY; }},
+      {"less than nothing of an area", [](FormFactors& f) { f.exposed.front() = -0.5F; }}};
+  const FactorKey key = factor_key(*l->light, settings_.form_factors);
+  for (const auto& [fault, make] : faults) {
+    FormFactors factors = good;
+    make(factors);
+    write_factors(file_, factors, key);
+    EXPECT_THAT(refusal(scene), HasSubstr("damaged")) << fault;
+  }
+  write_factors(file_, good, key);
+  EXPECT_EQ(refusal(scene), "");
+}
+
+TEST_F(Relighting, PartsOfUnlikeBandsAreRefused) {
+  const auto l = lit(half_room(), settings_.mesh, settings_.plan);
+  const FactorKey key = factor_key(*l->light, settings_.form_factors);
+  const std::size_t elements = element_count(l->light->mesh);
+  const fs::path folder = file_.string() + ".parts";
+  fs::create_directories(folder);
+  for (const std::uint64_t k : {0, 1}) {
+    FormFactors rows = assemble_some_rows(*l->light, rows_of_part(elements, k, 2), settings_.form_factors);
+    if (k == 1 && rows.transport.bands == 1) {
+      rows.transport.bands = 3;
+      rows.transport.weights.assign(3 * rows.transport.columns.size(), 0.0F);
+    }
+    write_factor_part(folder, rows, {k, 2, elements}, key);
+  }
+  try {
+    join_factor_parts(folder, key, elements);
+    ADD_FAILURE() << "weights of one band were taken for three";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("bands"));
+  }
+  fs::remove_all(folder);
 }
 
 } // namespace
