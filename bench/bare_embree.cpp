@@ -52,15 +52,13 @@ std::uint32_t trace_bare(const BareScene& bare, Query query, Coherence coherence
                          const RayPacket& packet) {
   alignas(64) static constexpr int valid[packet_size] = {-1, -1, -1, -1, -1, -1, -1, -1,
                                                          -1, -1, -1, -1, -1, -1, -1, -1};
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  if (coherence == Coherence::coherent)
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  QueryContext context;
+  init_context(context, coherence, nullptr);
   std::uint32_t met = 0;
   if (query == Query::occlusion) {
     RTCRay16 ray;
     fill(packet, bare_epsilon, 1.0F - bare_epsilon, ray);
-    rtcOccluded16(valid, bare.scene, &context, &ray);
+    trace(valid, bare.scene, context, ray);
     for (std::size_t k = 0; k < packet_size; ++k)
       met += ray.tfar[k] < 0.0F;
     return met;
@@ -68,7 +66,7 @@ std::uint32_t trace_bare(const BareScene& bare, Query query, Coherence coherence
   RTCRayHit16 traced;
   fill(packet, bare_epsilon, 1.0F, traced.ray);
   std::fill_n(traced.hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
-  rtcIntersect16(valid, bare.scene, &context, &traced);
+  trace(valid, bare.scene, context, traced);
   for (std::size_t k = 0; k < packet_size; ++k)
     met += traced.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
   return met;

@@ -3,9 +3,8 @@
 // behind a transparent back they see nothing.
 #pragma once
 
+#include "scenes/rays/embree_api.h"
 #include "scenes/rays/frame_geometry.h"
-
-#include <embree3/rtcore.h>
 
 namespace meninas::bench {
 

@@ -1,8 +1,7 @@
-// The module behind decoder_seam.h, and the only user of OpenImageIO.
+// The module behind decoder_seam.h, and the only user of OpenImageIO, which reads all but PNG.
 #include "image/codecs/decoder_seam.h"
 #include "image/codecs/exr_header.h"
-#include "image/codecs/png_pixels.h"
-#include "image/codecs/png_rows.h"
+#include "image/codecs/png_decoding.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -91,7 +90,6 @@ const char* format_of(std::string_view bytes) {
   using namespace std::literals;
   constexpr std::pair<std::string_view, const char*> signatures[] = {
       {"\x76\x2f\x31\x01"sv, "openexr"},
-      {"\x89PNG\r\n\x1a\n"sv, "png"},
       {"\xff\xd8\xff"sv, "jpeg"},
       {"#?RADIANCE"sv, "hdr"},
       {"#?RGBE"sv, "hdr"},
@@ -123,21 +121,27 @@ void check_display_window(const OIIO::ImageSpec& spec, const Limits& limits) {
 }
 
 /// `used` are the values of the parts before.
-void check_limits(const OIIO::ImageSpec& spec, std::size_t used, const Limits& limits) {
-  if (spec.deep)
-    throw std::runtime_error("holds deep data, not a flat picture");
-  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1)
+void check_size(int width, int height, int channels, std::size_t used, const Limits& limits) {
+  if (width <= 0 || height <= 0 || channels <= 0)
     throw std::runtime_error("holds no flat picture");
-  const auto size = std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                    " pixels of " + std::to_string(spec.nchannels) + " channels";
-  if (spec.width > limits.side || spec.height > limits.side)
+  const auto size = std::to_string(width) + " x " + std::to_string(height) + " pixels of " +
+                    std::to_string(channels) + " channels";
+  if (width > limits.side || height > limits.side)
     throw std::runtime_error(size + " are too many; a side may have " +
                              std::to_string(limits.side));
-  const auto values = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
-                      static_cast<std::size_t>(spec.nchannels);
+  const auto values = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                      static_cast<std::size_t>(channels);
   if (values > limits.values - used)
     throw std::runtime_error(size + " are too many; all together may be " +
                              std::to_string(limits.values) + " values");
+}
+
+void check_limits(const OIIO::ImageSpec& spec, std::size_t used, const Limits& limits) {
+  if (spec.deep)
+    throw std::runtime_error("holds deep data, not a flat picture");
+  if (spec.depth > 1)
+    throw std::runtime_error("holds no flat picture");
+  check_size(spec.width, spec.height, spec.nchannels, used, limits);
 }
 
 /// libtiff makes room for a strip before it reads it. No compression of a picture with anything
@@ -239,7 +243,47 @@ void add_part(OIIO::ImageInput& input, int number, const EncodedPicture& picture
   storage.seen.push_back(seen);
 }
 
+void hand_out(std::unique_ptr<DecodedStorage> storage, int code_values, Decoded& result) {
+  result = {.owner = nullptr,
+            .parts = storage->seen.data(),
+            .part_count = storage->seen.size(),
+            .code_values = code_values,
+            .attributes = storage->attribute_pointers.data(),
+            .attribute_count = storage->attribute_pointers.size(),
+            .error = {}};
+  result.owner = storage.release();
+}
+
+void decode_png_into(Decoded& result, std::string_view bytes, const Limits& limits) {
+  DecodedPng png = decode_png(bytes, [&](const PngShape& shape) {
+    check_size(shape.width, shape.height, shape.channels, 0, limits);
+  });
+  const PngShape& shape = png.shape;
+  auto part = std::make_unique<StoredPart>();
+  part->pixels = std::move(png.pixels);
+  if (shape.channels < 3)
+    part->channel_pointers = {"Y", "A"};
+  else
+    part->channel_pointers = {"R", "G", "B", "A"};
+  auto storage = std::make_unique<DecodedStorage>();
+  storage->seen.push_back({.name = part->name.c_str(),
+                           .left_out = nullptr,
+                           .width = shape.width,
+                           .height = shape.height,
+                           .channels = shape.channels,
+                           .x = 0,
+                           .y = 0,
+                           .full_width = shape.width,
+                           .full_height = shape.height,
+                           .pixels = part->pixels.get(),
+                           .channel_names = part->channel_pointers.data()});
+  storage->parts.push_back(std::move(part));
+  hand_out(std::move(storage), shape.bits == 16 ? 65535 : 255, result);
+}
+
 void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) {
+  if (bytes.starts_with("\x89PNG\r\n\x1a\n"))
+    return decode_png_into(result, bytes, limits);
   const char* format = format_of(bytes);
   if (format == nullptr)
     throw std::runtime_error("not a picture: neither EXR, PNG, JPEG, WebP, TIFF nor HDR");
@@ -252,11 +296,6 @@ void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) 
     throw std::runtime_error("a TIFF cannot be a texture");
   if (name == "openexr")
     check_exr_header(bytes, limits);
-  std::vector<std::uint8_t> png;
-  if (name == "png") {
-    png = png_pixel_chunks(bytes);
-    bytes = {reinterpret_cast<const char*>(png.data()), png.size()};
-  }
 
   // Straight alpha, as glTF wants it:
   // colours must not be multiplied where a texture is transparent.
@@ -267,10 +306,6 @@ void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) 
   input->set_ioproxy(&reader);
   if (!input->open(file_name, spec, config))
     fail(input->geterror(), "cannot be opened");
-  if (!png.empty()) {
-    check_limits(spec, 0, limits);
-    check_png_rows(bytes);
-  }
 
   // Pages of a TIFF are pictures of their own: the first is meant.
   constexpr int max_parts = 256;
@@ -284,14 +319,7 @@ void decode_into(Decoded& result, std::string_view bytes, const Limits& limits) 
     fail(storage->parts.empty() ? input->geterror() : storage->parts.front()->left_out,
          "holds no flat picture");
   copy_attributes(spec, *storage);
-  result = {.owner = nullptr,
-            .parts = storage->seen.data(),
-            .part_count = storage->seen.size(),
-            .code_values = code_values_of(spec, name),
-            .attributes = storage->attribute_pointers.data(),
-            .attribute_count = storage->attribute_pointers.size(),
-            .error = {}};
-  result.owner = storage.release();
+  hand_out(std::move(storage), code_values_of(spec, name), result);
 }
 
 /// OpenEXR decompresses by threads of its own,

@@ -7,6 +7,8 @@
 // a texture, a picture to compare with. EXR and PNG are written by the small libraries of their formats,
 // the rare Radiance picture by this module.
 //
+// PNGs are read there by libpng; all other formats by OpenImageIO.
+//
 // The module only translates encoded bytes in memory to pixels, and back.
 // It opens no file and knows no error class, so what crosses the seam is plain data;
 // an exception is caught on its own side and crosses as one line of text.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace meninas {
@@ -47,8 +48,9 @@ private:
 };
 
 bool is_of_type(const Json& value, const std::string& type) {
-  if (type == "integer") {
-    return value.is_number_integer();
+  if (type == "integer") { // 1.0 is one
+    return value.is_number_integer() ||
+           (value.is_number() && value.get<double>() == std::floor(value.get<double>()));
   }
   if (type == "number") {
     return value.is_number();
@@ -82,11 +84,20 @@ void check_choice(const Place& place, const Json& choices) {
   if (std::ranges::find(choices, place.json) != choices.end()) {
     return;
   }
+  if (!std::ranges::all_of(choices, [](const Json& choice) { return choice.is_string(); })) {
+    place.fail(fmt::format("is none of {}", choices.dump()));
+  }
   if (!place.json.is_string()) {
     place.fail("is not a text");
   }
   const auto given = place.json.get<std::string>();
   place.fail(with_hint(fmt::format("no value '{}'", given), given, texts_of(choices)));
+}
+
+/// Code points of UTF-8: all bytes but those that go on.
+std::size_t length_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
 }
 
 void check_number(const Place& place, const Json& schema) {
@@ -108,17 +119,30 @@ const Json& Checker::followed(const Json& schema) const {
   if (reference == schema.end()) {
     return schema;
   }
-  return root.at(Json::json_pointer(reference->get<std::string>().substr(1)));
+  const auto target = reference->get<std::string>();
+  expects(target.starts_with('#') && target.find('%') == std::string::npos,
+          "a schema refers to parts of itself");
+  const Json::json_pointer part(target.substr(1));
+  expects(root.contains(part), "a schema refers to parts that it has");
+  return root.at(part);
 }
 
 bool Checker::has_type_of(const Json& value, const Json& schema) const {
   const Json& direct = followed(schema);
+  if (direct.is_boolean()) {
+    return direct.get<bool>();
+  }
   if (const auto alternatives = direct.find("anyOf"); alternatives != direct.end()) {
     return std::ranges::any_of(
         *alternatives, [&](const Json& alternative) { return has_type_of(value, alternative); });
   }
-  if (direct.contains("enum")) {
-    return value.is_string();
+  if (const auto choices = direct.find("enum"); choices != direct.end()) {
+    return std::ranges::any_of(*choices, [&](const Json& choice) {
+      return std::string_view(choice.type_name()) == value.type_name();
+    });
+  }
+  if (!direct.contains("type")) {
+    return true;
   }
   const auto types = texts_of(direct.at("type"));
   return std::ranges::any_of(types,
@@ -137,7 +161,7 @@ void Checker::check_alternatives(const Place& place, const Json& alternatives) c
     } catch (const InputError& error) {
       // Of several objects the one that shares a required key is meant.
       const Json& direct = followed(alternative);
-      const Json keys = direct.value("required", Json::array());
+      const Json keys = direct.is_object() ? direct.value("required", Json::array()) : Json::array();
       const bool meant = std::ranges::any_of(
           keys, [&](const Json& key) { return place.json.contains(key.get<std::string>()); });
       if (!nearest || meant) {
@@ -182,37 +206,43 @@ void Checker::check_items(const Place& place, const Json& schema) const {
                : size < least ? "is empty"
                               : "is too long");
   }
-  for (std::size_t k = 0; k < size; ++k) {
-    check(place.at(k), schema.at("items"));
+  const auto items = schema.find("items");
+  for (std::size_t k = 0; k < size && items != schema.end(); ++k) {
+    check(place.at(k), *items);
   }
 }
 
 void Checker::check(const Place& place, const Json& schema) const {
+  if (schema.is_boolean()) {
+    if (!schema.get<bool>()) {
+      place.fail("is not taken here");
+    }
+    return;
+  }
   for (const auto& [keyword, value] : schema.items()) {
     expects(std::ranges::find(understood, keyword) != understood.end(),
             "a schema keeps to the keywords that are checked");
   }
   if (schema.contains("$ref")) {
     check(place, followed(schema));
-    return;
   }
   if (const auto alternatives = schema.find("anyOf"); alternatives != schema.end()) {
     check_alternatives(place, *alternatives);
-    return;
   }
   if (const auto choices = schema.find("enum"); choices != schema.end()) {
     check_choice(place, *choices);
-    return;
   }
-  check_type(place, schema.at("type"));
+  if (const auto type = schema.find("type"); type != schema.end()) {
+    check_type(place, *type);
+  }
   if (place.json.is_object()) {
     check_members(place, schema);
   } else if (place.json.is_array()) {
     check_items(place, schema);
   } else if (place.json.is_number()) {
     check_number(place, schema);
-  } else if (place.json.is_string() &&
-             place.json.get_ref<const std::string&>().size() < schema.value("minLength", 0U)) {
+  } else if (place.json.is_string() && length_of(place.json.get_ref<const std::string&>()) <
+                                           schema.value("minLength", std::size_t{0})) {
     place.fail("is empty");
   }
 }

@@ -59,16 +59,9 @@ void filter_holes(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-RTCIntersectContextFlags flags_for(Coherence coherence) {
-  return coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                          : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-}
-
-RayContext make_context(const RayRule& rule, RTCIntersectContextFlags flags) {
+RayContext make_context(const RayRule& rule, Coherence coherence) {
   RayContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = flags;
-  context.filter = filter_rays;
+  init_context(context, coherence, filter_rays);
   context.rule = rule;
   return context;
 }

@@ -1,10 +1,9 @@
 // What is behind a RayScene: Embree's own handles. Only this folder sees them.
 #pragma once
 
+#include "scenes/rays/embree_api.h"
 #include "scenes/rays/frame_geometry.h"
 #include "scenes/rays/near_planes.h"
-
-#include <embree3/rtcore.h>
 
 namespace meninas {
 
@@ -25,6 +24,9 @@ struct EmbreeHandles {
   FrameGeometry geometry;
   NearPlanes near_planes;
   float noise = 0.0F; ///< of the geometry, and the lift
+  PacketWidth width = PacketWidth::sixteen;
+
+  TracedScene traced() const { return {scene.get(), width}; }
 };
 
 } // namespace meninas

@@ -59,8 +59,8 @@ LaneHit trace_one(const RayScene& rays, const LaneRay& ray, const RayRule& rule)
                direction.z, 0.0F,     far,      ~0U,  0U,          0U};
   query.hit.primID = no_index;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  auto context = make_context(rule, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
-  rtcIntersect1(rays.impl().scene.get(), &context, &query);
+  auto context = make_context(rule, Coherence::incoherent);
+  trace(rays.impl().scene.get(), context, query);
   const glm::vec3 normal{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
   return {query.hit.primID, query.ray.tfar, query.hit.u, query.hit.v,
           glm::dot(normal, direction) < 0.0F};

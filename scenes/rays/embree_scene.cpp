@@ -55,13 +55,14 @@ RayScene::RayScene(const Scene& scene, const SurfaceModel& surfaces, Holes holes
   impl_->noise = static_cast<float>(impl_->geometry.noise) + lift;
   impl_->device.reset(rtcNewDevice(nullptr));
   check(impl_->device.get());
+  impl_->width = packet_width(impl_->device.get());
   impl_->scene.reset(rtcNewScene(impl_->device.get()));
   check(impl_->device.get());
 
   // Robust traversal is watertight along shared edges.
   rtcSetSceneFlags(
       impl_->scene.get(),
-      static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+      static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | filter_by_query));
   rtcSetSceneBuildQuality(impl_->scene.get(), RTC_BUILD_QUALITY_HIGH);
   if (!impl_->geometry.triangles.empty()) {
     const auto mesh = make_mesh(impl_->device.get(), impl_->geometry);

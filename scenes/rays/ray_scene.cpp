@@ -109,8 +109,8 @@ void trace_through(const EmbreeHandles& impl, const RayPacket& packet, Coherence
   }
   const RayRule rule{
       .geometry = &impl.geometry, .leaving = packet.leaving, .backs = BackRule::ignore};
-  auto context = make_context(rule, flags_for(coherence));
-  rtcIntersect16(valid.data(), impl.scene.get(), &context, &traced);
+  auto context = make_context(rule, coherence);
+  trace(impl.traced(), valid.data(), context, traced);
 }
 
 } // namespace
@@ -123,10 +123,9 @@ void closest_hits(const RayScene& rays, const RayPacket& packet, HitPacket& hits
   load_rays(impl.geometry, packet, valid, traced.ray);
   clear(traced.hit);
 
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = flags_for(coherence);
-  rtcIntersect16(valid.data(), impl.scene.get(), &context, &traced);
+  QueryContext context;
+  init_context(context, coherence, nullptr);
+  trace(impl.traced(), valid.data(), context, traced);
   alignas(64) LaneFlags touching;
   read_hits(traced, impl, hits, touching);
 
@@ -151,13 +150,11 @@ std::uint32_t occluded(const RayScene& rays, const RayPacket& packet, Coherence 
   load_legs(impl.geometry, packet, valid, traced);
 
   LegContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = flags_for(coherence);
-  context.filter = filter_legs;
+  init_context(context, coherence, filter_legs);
   context.judge = {.rule = {&impl.geometry, &packet, impl.noise, solids}, .blockers = blockers};
   if (blockers)
     blockers->fill(no_index);
-  rtcOccluded16(valid.data(), impl.scene.get(), &context, &traced);
+  trace(impl.traced(), valid.data(), context, traced);
 
   // Embree marks what is occluded by a far end of minus infinity.
   LaneFlags met;

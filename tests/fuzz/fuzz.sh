@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes the glTF loader: builds the target with clang, makes the seeds, and runs it.
+# Fuzzes the reader of PNGs, then the glTF loader: builds the targets with clang, makes the seeds, and runs them.
 #   tests/fuzz/fuzz.sh FOLDER [--runs N | --seconds S] [FUZZER_OPTIONS]
 #   tests/fuzz/fuzz.sh FOLDER --geometry [OPTIONS]   hostile geometry instead, through everything behind the loader, by hand:
 #                                                    the options are those of tests/hostile/geometry_fuzz.cpp
@@ -46,5 +46,11 @@ $keep || rm -rf "$folder/corpus"
 mkdir -p "$folder/corpus"
 cd "$folder"
 # Left to itself libFuzzer ends with 77 where it finds something, and with 70 and 71 for what takes too long or too much.
-exec build/loader_fuzz -error_exitcode=1 -timeout_exitcode=1 -dict=words.dict -max_len=8192 -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=512 \
+finding=(-error_exitcode=1 -timeout_exitcode=1)
+# libpng's reader is small: a fixed number of files, from the smallest pictures of the documents.
+mkdir -p png_corpus png_seeds
+$keep || rm -f png_corpus/*
+find "$here/../../docs" -name '*.png' -size -10k -exec cp -t png_seeds {} +
+build/png_fuzz "${finding[@]}" -max_len=8192 -timeout=10 -rss_limit_mb=1024 -malloc_limit_mb=128 "${limit[@]}" png_corpus png_seeds
+exec build/loader_fuzz "${finding[@]}" -dict=words.dict -max_len=8192 -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=512 \
   -print_final_stats=1 "${limit[@]}" "$@" corpus seeds

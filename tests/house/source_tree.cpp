@@ -54,7 +54,7 @@ constexpr std::array wrapped_libraries = {
     WrappedLibrary{"meshoptimizer", "meshoptimizer.h", "scenes"},
     WrappedLibrary{"OpenImageIO", "OpenImageIO/", "image"},
     WrappedLibrary{"OpenEXR", "OpenEXR/", "image"},
-    WrappedLibrary{"libpng", "png.h", "image"},
+    WrappedLibrary{"libpng", "png.h", "image", "image/codecs/png_"},
     WrappedLibrary{"CLI11", "CLI/", "cli"},
     WrappedLibrary{"xxHash", "xxhash.h", "scenes"},
     WrappedLibrary{"cpp-httplib", "httplib.h", "runs"},

@@ -81,26 +81,30 @@ TEST(PngRows, BrokenOnesAreOneLine) {
     const char* line;
   };
   const Case cases[] = {
-      {{.width = 0}, "has no size"},
+      {{.width = 0}, "Invalid IHDR data"},
       {{.height = 2000000}, "too many"},
-      {{.depth = 3}, "a header that no PNG may have"},
-      {{.depth = 4, .colour_type = 2}, "a header that no PNG may have"},
-      {{.colour_type = 5}, "a header that no PNG may have"},
-      {{.interlaced = 2}, "a header that no PNG may have"},
-      {{.colour_type = 3}, "has no palette"},
-      {{.colour_type = 3, .before = chunk("PLTE", "four")}, "has no palette"},
-      {{.colour_type = 3, .data = ok, .after = chunk("PLTE", palette)}, "has no palette"},
-      {{.data = ""}, "ends too early"},
-      {{.data = ok.substr(0, 9)}, "ends too early"},
-      {{.data = compressed(std::string(5, '\0'))}, "ends too early"},
-      {{.data = "no deflated data"}, "cannot be decompressed"},
-      {{.data = compressed(std::string("\0\0\0\5\0\0", 6))}, "a filter that does not exist"},
-      {{.interlaced = 1, .data = ok}, "ends too early"},
+      {{.depth = 3}, "Invalid IHDR data"},
+      {{.depth = 4, .colour_type = 2}, "Invalid IHDR data"},
+      {{.colour_type = 5}, "Invalid IHDR data"},
+      {{.interlaced = 2}, "Invalid IHDR data"},
+      {{.colour_type = 3}, "Missing PLTE before IDAT"},
+      {{.colour_type = 3, .before = chunk("PLTE", "four")}, "PLTE: invalid"},
+      {{.colour_type = 3, .data = ok, .after = chunk("PLTE", palette)}, "Missing PLTE before IDAT"},
+      {{.data = ""}, "Not enough image data"},
+      {{.data = ok.substr(0, 9)}, "Not enough image data"},
+      {{.data = compressed(std::string(5, '\0'))}, "Not enough image data"},
+      {{.data = "no deflated data"}, "IDAT: incorrect header check"},
+      {{.data = compressed(std::string("\0\0\0\5\0\0", 6))}, "bad adaptive filter value"},
+      {{.interlaced = 1, .data = ok}, "Not enough image data"},
+      {{.before = chunk("IHDR", std::string(13, '\1'))}, "IHDR: out of place"},
+      {{.colour_type = 3, .before = chunk("PLTE", palette) + chunk("PLTE", palette), .data = ok},
+       "PLTE: duplicate"},
   };
-  for (const Case& each : cases)
+  for (const Case& each : cases) {
     EXPECT_THAT(decoded(each.png), HasSubstr(each.line));
-  for (const Case& each : cases)
     EXPECT_EQ(decoded(each.png).find("libpng"), std::string::npos) << decoded(each.png);
+    EXPECT_EQ(decoded(each.png).find('\n'), std::string::npos);
+  }
 }
 
 TEST(PngRows, SloppyOnesArePixels) {
@@ -109,18 +113,61 @@ TEST(PngRows, SloppyOnesArePixels) {
   const Png sloppy[] = {
       {},
       {.before = chunk("PLTE", palette) + chunk("tRNS", "too long")},
-      {.before = chunk("IHDR", std::string(13, '\1')) + chunk("gAMA", "") + chunk("sBIT", "none")},
+      {.before = chunk("gAMA", "") + chunk("sBIT", "none") + chunk("iCCP", "no profile")},
       {.data = compressed(std::string(20, '\0'))},
       {.after = chunk("IDAT", "") + chunk("tRNS", std::string(2, '\0'))},
       {.colour_type = 3, .before = chunk("PLTE", palette), .data = indices},
       {.colour_type = 3,
-       .before = chunk("PLTE", palette) + chunk("PLTE", palette) + chunk("tRNS", "\x80"),
+       .before = chunk("PLTE", palette) + chunk("tRNS", "\x80"),
        .data = indices},
       // In the passes of Adam7 two by two pixels are one, one and two.
       {.interlaced = 1, .data = compressed(std::string(7, '\0'))},
   };
   for (const Png& png : sloppy)
     EXPECT_EQ(decoded(png), "pixels") << &png - sloppy;
+}
+
+/// A sample of the first pixel of one row of one pixel, its bits at the left end of the row.
+Bitmap one_pixel(char depth, char colour_type, const std::string& row, const std::string& before) {
+  const std::string bytes = bytes_of({.width = 1,
+                                      .height = 1,
+                                      .depth = depth,
+                                      .colour_type = colour_type,
+                                      .before = before,
+                                      .data = compressed('\0' + row)});
+  return decode_image(std::as_bytes(std::span(bytes)), Encoding::linear, "image0");
+}
+
+// Code values over the largest of their depth (PNG specification, 13.12),
+// palettes looked up, clear colours without alpha.
+TEST(PngRows, EveryKindOfPixelIsItsCodeValueOverTheLargest) {
+  const std::string palette("\x33\x66\x99\xff\0\0", 6);
+  struct Case {
+    char depth, colour_type;
+    std::string row, before;
+    glm::vec4 pixel;
+  };
+  const Case cases[] = {
+      {1, 0, "\x80", "", {1, 1, 1, 1}},
+      {2, 0, "\x80", "", {170.0F / 255.0F, 170.0F / 255.0F, 170.0F / 255.0F, 1}},
+      {4, 0, "\x30", "", {51.0F / 255.0F, 51.0F / 255.0F, 51.0F / 255.0F, 1}},
+      {8, 0, "\x33", "", {0.2F, 0.2F, 0.2F, 1}},
+      {8, 0, "\x33", chunk("tRNS", std::string("\0\x33", 2)), {0.2F, 0.2F, 0.2F, 0}},
+      {16, 0, "\x33\x33", "", {0.2F, 0.2F, 0.2F, 1}},
+      {8, 4, "\x33\x66", "", {0.2F, 0.2F, 0.2F, 0.4F}},
+      {8, 2, "\x33\x66\x99", "", {0.2F, 0.4F, 0.6F, 1}},
+      {8, 6, "\x33\x66\x99\xcc", "", {0.2F, 0.4F, 0.6F, 0.8F}},
+      {16, 6, "\x33\x33\x66\x66\x99\x99\xcc\xcc", "", {0.2F, 0.4F, 0.6F, 0.8F}},
+      {1, 3, std::string("\0", 1), chunk("PLTE", palette), {0.2F, 0.4F, 0.6F, 1}},
+      {8, 3, std::string("\0", 1), chunk("PLTE", palette) + chunk("tRNS", "\x66"), {0.2F, 0.4F, 0.6F, 0.4F}},
+  };
+  for (const Case& each : cases) {
+    const Bitmap read = one_pixel(each.depth, each.colour_type, each.row, each.before);
+    ASSERT_EQ(read.pixels.size(), 1U);
+    for (int c = 0; c < 4; ++c)
+      EXPECT_FLOAT_EQ(read.pixels[0][c], each.pixel[c])
+          << int{each.depth} << " bits, colour type " << int{each.colour_type} << ", channel " << c;
+  }
 }
 
 } // namespace
