@@ -32,8 +32,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libmeninas-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
   "meninas (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})" libembree-dev libopenexr-dev libpng-dev zlib1g-dev libglm-dev
-  libtinygltf-dev libdraco-dev libmeshoptimizer-dev libtbb-dev libeigen3-dev libfmt-dev nlohmann-json3-dev
-  libcpp-httplib-dev)
+  libtinygltf-dev libdraco-dev libmeshoptimizer-dev libtbb-dev libeigen3-dev libfmt-dev nlohmann-json3-dev)
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "Static libraries and headers of Meninas, which renders rooms with mirrors by
 radiosity and ray tracing, with the CMake package that finds them.")
 
