@@ -35,7 +35,7 @@ struct RadiositySolution : ElementSolution {
   std::uint64_t shadow_rays = 0;
 };
 
-/// `progressive` can be watched. In scenes of more than `max_direct_unknowns` elements it shoots
+/// `progressive` can be watched, and `jacobi` over rows. In scenes of more than `max_direct_unknowns` elements it shoots
 /// rays, with no transport in memory (progressive.h), unless the form factors are not by rays;
 /// in smaller ones, where they take a few megabytes,
 /// blocks shoot by the columns of the transport that the other solvers have, so that all agree.

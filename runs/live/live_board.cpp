@@ -60,7 +60,7 @@ void LiveBoard::changed() {
   news_.notify_all();
 }
 
-void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLight& light) {
+void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLight& light, ShownMesh mesh) {
   const std::scoped_lock lock(mutex_);
   states_.clear();
   states_.push_back(state_of(light));
@@ -71,6 +71,8 @@ void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLigh
   std::string text = text_of(head);
   text.back() = ','; // in place of its brace
   room_ = std::make_shared<const std::string>(std::move(text) + "\"data\":" + std::move(data) + "}");
+  mesh.room = room_number_;
+  mesh_ = std::make_shared<const ShownMesh>(std::move(mesh));
   changed();
 }
 
@@ -106,6 +108,7 @@ std::string LiveBoard::announcement() const {
                   {"error", known(status_.error)},
                   {"elements", status_.elements},
                   {"paused", status_.paused},
+                  {"gathers", status_.gathers},
                   {"solved", status_.solved},
                   {"problem", status_.problem}});
 }
@@ -121,6 +124,11 @@ std::optional<std::string> LiveBoard::next(std::uint64_t& seen, std::chrono::mil
 std::shared_ptr<const std::string> LiveBoard::room() const {
   const std::scoped_lock lock(mutex_);
   return room_;
+}
+
+std::shared_ptr<const ShownMesh> LiveBoard::mesh() const {
+  const std::scoped_lock lock(mutex_);
+  return mesh_;
 }
 
 std::shared_ptr<const std::string> LiveBoard::light(std::uint64_t base) const {
@@ -152,12 +160,16 @@ std::shared_ptr<const std::string> LiveBoard::light(std::uint64_t base) const {
                                     {"columns", table.columns},
                                     {"bytes", table.bytes_each}});
   const std::vector<std::byte> body = deflated(packed.bytes, PackedSize::quick);
+  return std::make_shared<const std::string>(joined_message(head, body));
+}
+
+std::string joined_message(const std::string& head, const std::vector<std::byte>& body) {
   std::string text;
   for (unsigned k = 0; k < 4; ++k)
     text += static_cast<char>(head.size() >> (8 * k) & 0xffU);
   text += head;
   text.append(reinterpret_cast<const char*>(body.data()), body.size());
-  return std::make_shared<const std::string>(std::move(text));
+  return text;
 }
 
 } // namespace meninas

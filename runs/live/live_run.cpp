@@ -51,6 +51,7 @@ void live_run(const LiveRequest& request, const std::function<void(const std::st
   LiveBoard board;
   ShotSteps steps(request.paused);
   RestingPictures pictures;
+  FactorRows factors;
   const auto tell_problem = [&](const std::string& problem) {
     board.change_status([&](LiveStatus& status) { status.problem = problem; });
     if (!problem.empty())
@@ -58,7 +59,7 @@ void live_run(const LiveRequest& request, const std::function<void(const std::st
   };
   SceneWatch watch(request.scene, request.settings, tell_problem);
   Scene scene = load_relit_scene(request.scene, request.settings);
-  const WebServer server(request.port, LiveAnswers{board, steps, pictures},
+  const WebServer server(request.port, LiveAnswers{board, steps, pictures, factors},
                          [&](std::uint64_t& seen, std::chrono::milliseconds patience) { return board.next(seen, patience); });
   opened(server.address());
 

@@ -14,6 +14,12 @@ namespace meninas {
 
 namespace {
 
+/// Of an element of the coarse mesh, where it gathers: more rays than where it shoots, again and again.
+constexpr int rays_of_coarse_rows = 256;
+
+/// Thrown where the other solver is asked for.
+struct OtherSolver {};
+
 /// Wall-clock time since it was made.
 class SecondsSince {
 public:
@@ -58,7 +64,9 @@ private:
 /// Shows a room whose mesh stays the same while its light changes.
 class ShownRoom {
 public:
-  ShownRoom(const LiveScene& shown, const LiveStage& stage) : shown_(shown), stage_(stage) {}
+  /// `kept`: what the scenes of its fields refer to.
+  ShownRoom(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const void> kept)
+      : shown_(shown), stage_(stage), kept_(std::move(kept)) {}
 
   void show(const IrradianceField& field, const Rgb& ambient) {
     if (room_) {
@@ -69,7 +77,8 @@ public:
     LiveLight light{{}, ambient};
     for (const WalkVertex& vertex : room_->vertices)
       light.irradiance.push_back(vertex.irradiance);
-    stage_.board.show_room(data_of(field, ambient), room_->middle, light);
+    stage_.board.show_room(data_of(field, ambient), room_->middle, light,
+                           {kept_, field.scene, room_->elements, two_pass_settings(shown_.settings).pass_one.form_factors});
   }
 
 private:
@@ -95,14 +104,15 @@ private:
 
   const LiveScene& shown_;
   const LiveStage& stage_;
+  std::shared_ptr<const void> kept_;
   std::optional<WalkRoom> room_;
 };
 
 /// Each shot as a state; waits before the next where somebody wants that.
 class ShownShots {
 public:
-  ShownShots(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const LightScene> light)
-      : shown_(shown), stage_(stage), light_(std::move(light)), room_(shown, stage) {}
+  ShownShots(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const PreparedScene> prepared)
+      : shown_(shown), stage_(stage), prepared_(std::move(prepared)), light_(prepared_->light), room_(shown, stage, prepared_) {}
 
   /// The room before any light, if somebody wants to see that.
   void begin() {
@@ -111,14 +121,14 @@ public:
     stage_.board.change_status([&](LiveStatus& status) { status.stage = "dark"; });
     const std::vector<glm::vec3> dark(light_->mesh.vertices.size(), glm::vec3(0.0F));
     // A room of its own: the exposure of the lit one is another.
-    ShownRoom(shown_, stage_).show({{dark, {}, dark, {}}, light_}, Rgb(0.0));
+    ShownRoom(shown_, stage_, prepared_).show({{dark, {}, dark, {}}, light_}, Rgb(0.0));
     wait();
   }
-  void look(const PassOneSoFar& state) {
+  void look(const PassOneSoFar& state, const char* steps) {
     if (stage_.is_over())
       throw StageOver{};
     stage_.board.change_status([&](LiveStatus& status) {
-      status.stage = "shots";
+      status.stage = steps;
       status.shots = state.shots;
       status.unshot = state.unshot;
       status.elements = element_count(light_->mesh);
@@ -136,24 +146,65 @@ private:
 
   const LiveScene& shown_;
   const LiveStage& stage_;
+  std::shared_ptr<const PreparedScene> prepared_;
   std::shared_ptr<const LightScene> light_;
   ShownRoom room_;
   SecondsSince since_;
 };
 
+/// By shots, or by sweeps; throws OtherSolver.
+void solve_coarse(const LiveScene& shown, const LiveStage& stage, const std::shared_ptr<const PreparedScene>& prepared,
+                  PassOneSettings settings) {
+  const bool gathers = stage.steps.gathers();
+  RunSettings coarse = coarse_settings(shown.settings);
+  if (gathers) {
+    settings.solver.method = coarse.solver = SolverMethod::jacobi;
+    settings.form_factors.rays = rays_of_coarse_rows;
+  }
+  ShownShots shots(shown, stage, prepared);
+  const auto check = [&] {
+    if (stage.steps.gathers() != gathers)
+      throw OtherSolver{};
+  };
+  stage.board.change_status([&](LiveStatus& status) {
+    status.gathers = gathers;
+    status.shots = 0;
+    status.unshot.reset();
+  });
+  shots.begin();
+  check();
+  StageProgress progress(stage, pass_one_stages(coarse));
+  const Progress told = [&](std::string_view name, double fraction) {
+    check();
+    progress.report(name, fraction);
+  };
+  const PassOneWatch watch{1,
+                           [&](const PassOneSoFar& state) {
+                             shots.look(state, gathers ? "sweeps" : "shots");
+                             check();
+                           },
+                           true};
+  if (gathers)
+    solve_pass_one(prepared->light, settings, told, watch);
+  else
+    shoot_pass_one(prepared->light, settings, told, watch);
+}
+
 void show_coarse(const Scene& scene, const LiveScene& shown, const LiveStage& stage) {
-  const RunSettings coarse = coarse_settings(shown.settings);
-  PassOneSettings settings = two_pass_settings(coarse).pass_one;
+  PassOneSettings settings = two_pass_settings(coarse_settings(shown.settings)).pass_one;
   // A mean over an element that is as large as furniture has no sharp shadow anyway.
   settings.direct.points = 4;
   settings.direct.most_points = 16;
   settings.direct.images_in_element = 16;
-  const auto prepared = prepare_scene(scene, settings);
-  ShownShots shots(shown, stage, prepared->light);
-  shots.begin();
-  StageProgress progress(stage, pass_one_stages(coarse));
-  shoot_pass_one(prepared->light, settings, [&](std::string_view name, double fraction) { progress.report(name, fraction); },
-                 {1, [&](const PassOneSoFar& state) { shots.look(state); }, true});
+  const std::shared_ptr<const PreparedScene> prepared = prepare_scene(scene, settings);
+  for (bool done = false; !done;) {
+    try {
+      solve_coarse(shown, stage, prepared, settings);
+      done = true;
+    } catch (const OtherSolver&) {
+      // From the beginning, the other way.
+    }
+  }
 }
 
 /// Shots between states: telling one takes a time in proportion to the elements.
@@ -184,7 +235,7 @@ RunSettings coarse_settings(RunSettings settings) {
 }
 
 void show_solved(const SolvedRoom& room, const LiveScene& shown, const LiveStage& stage) {
-  ShownRoom(shown, stage).show(room.solution.field, Rgb(0.0));
+  ShownRoom(shown, stage, room.lit.prepared).show(room.solution.field, Rgb(0.0));
 }
 
 std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& shown, const LiveStage& stage) {
@@ -195,6 +246,7 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
     status.problem = problem;
     status.stage = "first pictures";
     status.paused = stage.steps.paused();
+    status.gathers = stage.steps.gathers();
   });
   check_memory(scene, shown.settings, std::nullopt);
   show_coarse(scene, shown, stage);
@@ -203,7 +255,8 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
   RunFigures figures;
   const std::uint64_t scene_hash = content_hash(scene);
   const std::shared_ptr<const PreparedScene> prepared = prepare_run(std::move(scene), settings, stage.events, figures);
-  ShownShots shots(shown, stage, prepared->light);
+  ShownShots shots(shown, stage, prepared);
+  const char* const steps = settings.solver.method == SolverMethod::jacobi ? "sweeps" : "shots";
   StageProgress progress(stage, pass_one_stages(shown.settings));
   RadiositySolution solution = solve_pass_one(
       prepared->light, settings,
@@ -211,10 +264,10 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
         progress.report(name, fraction);
         stage.board.change_status([&](LiveStatus& status) { status.seconds = since.seconds(); });
       },
-      {shots_between(element_count(prepared->mesh)), [&](const PassOneSoFar& state) { shots.look(state); }, true});
+      {shots_between(element_count(prepared->mesh)), [&](const PassOneSoFar& state) { shots.look(state, steps); }, true});
   add_solution(figures, solution);
   warn_of_solution(*prepared, figures.solver, figures.closure, stage.events);
-  ShownRoom(shown, stage).show(solution.field, Rgb(0.0));
+  ShownRoom(shown, stage, prepared).show(solution.field, Rgb(0.0));
   const LitScene lit{prepared, solution.field};
   auto room = std::make_shared<SolvedRoom>(SolvedRoom{.lit = lit,
                                                       .solution = std::move(solution),

@@ -1,7 +1,8 @@
 // What is shown of a scene from the first second on, one after another:
 //
 //   coarse   a uniform mesh of few elements, solved by shots (radiosity/solvers/progressive.h), H = D + G + what has been
-//            shot, with the ambient term beside it; every shot is a state
+//            shot, with the ambient term beside it; every shot is a state. Or by gathering, where somebody asks for it:
+//            every sweep of Jacobi's method is a state, H = D + G + T X_k
 //   solution pass one as `solve` has it with the same settings, to the bit, and its field. Where that shoots as well, its shots
 //            are states, too
 //
