@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""A short film of `meninas view`: from the dark by shots to the solution, as an animated PNG.
+"""A short film of `meninas view`: from the dark by shots to the solution, as an animated PNG; or one picture of its page.
 
   bench/view_film.py build/release/cli/meninas scenes/gallery/meninas.gltf docs/view-film.png
+  bench/view_film.py build/release/cli/meninas scenes/gallery/cornell-mirror.gltf docs/view-factors.png --factors 690,250
 
 A headless Chromium shows the page and is told what to do by the DevTools protocol over two pipes (messages are JSON, each ended by a
 zero byte). Its pictures get one palette of 256 colours (median cut), and of each frame only what differs from the one before is kept.
@@ -39,7 +40,7 @@ class Browser:
             preexec_fn=hand_over, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(commands[0])
         os.close(answers[1])
-        self.to, self.source, self.calls, self.received = commands[1], answers[0], 0, b""
+        self.to, self.source, self.calls, self.received, self.blank = commands[1], answers[0], 0, b"", None
 
     def call(self, method, parameters=None, page=None):
         self.calls += 1
@@ -79,9 +80,12 @@ class Browser:
     def picture(self, page):
         return base64.b64decode(self.call("Page.captureScreenshot", {"format": "png"}, page)["data"])
 
-    def pixels(self, page, picture, width):
-        """(width, height, RGB bytes) of a PNG, as the browser scales it."""
-        told = self.run(page, f"""
+    def pixels(self, picture, width):
+        """(width, height, RGB bytes) of a PNG, as the browser scales it, on a page that may fetch it."""
+        if self.blank is None:
+            target = self.call("Target.createTarget", {"url": "about:blank"})["targetId"]
+            self.blank = self.call("Target.attachToTarget", {"targetId": target, "flatten": True})["sessionId"]
+        told = self.run(self.blank, f"""
             const image = await createImageBitmap(await (await fetch('data:image/png;base64,{base64.b64encode(picture).decode()}')).blob());
             const width = {width}, height = Math.round(width * image.height / image.width), canvas = new OffscreenCanvas(width, height), to = canvas.getContext('2d');
             to.imageSmoothingQuality = 'high';
@@ -103,7 +107,7 @@ class Browser:
 HELPERS = """
 const until = async (holds, patience = 60000) => { const end = performance.now() + patience; while (!holds() && performance.now() < end) await new Promise(r => setTimeout(r, 20)); return Boolean(holds()); };
 const press = (key, more = {}) => dispatchEvent(new KeyboardEvent('keydown', { key, ...more }));
-const status = () => JSON.parse(document.body.dataset.status || '{}'), data = document.body.dataset;
+const data = document.body.dataset, status = () => JSON.parse(data.status || '{}');
 const drawn = () => new Promise(r => setTimeout(r, 600));
 """
 
@@ -187,7 +191,7 @@ def take_film(browser, page, width):
     film = []
 
     def keep(milliseconds):
-        film.append((browser.pixels(page, browser.picture(page), width), milliseconds))
+        film.append((browser.pixels(browser.picture(page), width), milliseconds))
 
     browser.run(page, "await until(() => data.state === '1' && status().stage === 'dark'); await drawn();")
     keep(1200)
@@ -204,6 +208,15 @@ def take_film(browser, page, width):
     return film
 
 
+def show_factors(browser, page, place):
+    """The page when the room is solved, with the form factors of what is at a place of it, as PNG."""
+    x, y = place.split(",")
+    browser.run(page, f"""press('p'); await until(() => status().solved && status().state === Number(data.state), 600000);
+        document.getElementById('view').dispatchEvent(new PointerEvent('pointermove', {{ clientX: {x}, clientY: {y}, pointerId: 1 }}));
+        press('g'); await until(() => data.factors); await new Promise(r => setTimeout(r, 4000));""")
+    return browser.picture(page)
+
+
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("program")
@@ -211,13 +224,18 @@ def main():
     options.add_argument("picture", type=pathlib.Path)
     options.add_argument("--window", default="960,640", help="pixels of the browser's window")
     options.add_argument("--width", type=int, default=480, help="pixels of the film")
+    options.add_argument("--factors", metavar="X,Y", help="in place of a film, the form factors of what is seen there in the window")
     chosen = options.parse_args()
     view = subprocess.Popen([chosen.program, "view", chosen.scene, "--no-open", "--quiet", "--paused"], stdout=subprocess.PIPE, text=True)
     try:
         address = view.stdout.readline().strip()
         browser = Browser(chosen.window)
         try:
-            film = take_film(browser, browser.open(address), chosen.width)
+            page = browser.open(address)
+            if chosen.factors:
+                chosen.picture.write_bytes(show_factors(browser, page, chosen.factors))
+                return
+            film = take_film(browser, page, chosen.width)
         finally:
             browser.end()
     finally:

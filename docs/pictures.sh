@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of README.md, docs/limits.md, docs/lux.md, docs/known_answers.md and docs/solar.md anew: docs/pictures.sh [PROGRAM]
+# Makes the pictures of README.md, docs/limits.md, docs/lux.md, docs/known_answers.md, docs/solar.md and docs/view.md anew: docs/pictures.sh [PROGRAM]
 # From a checkout; PROGRAM is ./meninas unless another one is named. It takes some minutes.
 set -euo pipefail
 
@@ -24,3 +24,9 @@ picture roughness-sweep roughness-sweep --size 512x256
 picture globillum globillum-2 --size 480x300
 picture solar-row solar-row --size 480x300 --background 30
 picture illuminance cornell-mirror --size 512x512 --view illuminance
+
+# The page of `view`, where there is a Chromium to draw it.
+if command -v chromium >/dev/null; then
+  "$root/bench/view_film.py" "$program" "$root/scenes/gallery/meninas.gltf" "$root/docs/view-film.png"
+  "$root/bench/view_film.py" "$program" "$root/scenes/gallery/cornell-mirror.gltf" "$root/docs/view-factors.png" --factors 690,250
+fi

@@ -45,6 +45,9 @@ RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress = {},
                                  const PassOneWatch& watch = {});
 
+/// Pass one of such a scene is dark, and needs no form factors.
+bool nothing_emits(const LightScene& light);
+
 /// What of pass one a view shows, by ElementId of the mesh.
 struct SeenElements {
   std::vector<std::uint8_t> elements; ///< 1: the element is seen; empty: every one is

@@ -63,7 +63,7 @@ std::vector<SeenPoint> seen_points(const LightScene& light, const Camera& camera
 } // namespace
 
 ViewLight light_for_view(const IrradianceField& field, const Camera& camera,
-                         const RenderSettings& settings) {
+                         const RenderSettings& settings, const Progress& progress) {
   constexpr double most_points = 1 << 22;
   if (settings.diffuse.term != DiffuseTerm::direct)
     return {nullptr, settings, 0};
@@ -72,7 +72,7 @@ ViewLight light_for_view(const IrradianceField& field, const Camera& camera,
   const double pixels = double(settings.width) * settings.height;
   const double apart = std::max(wanted, std::sqrt(pixels / most_points));
   ViewField finer = view_field(field, seen_points(*field.scene, camera, settings, apart), apart,
-                               settings.diffuse.refinement);
+                               settings.diffuse.refinement, progress);
   ViewLight light{std::make_shared<const IrradianceField>(std::move(finer.field)), settings,
                   finer.shadow_rays};
   light.settings.diffuse.term = DiffuseTerm::interpolated;

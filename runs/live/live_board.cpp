@@ -41,17 +41,15 @@ std::string text_of(const json& object) {
 
 } // namespace
 
-std::shared_ptr<const LiveBoard::State> LiveBoard::state_of(const LiveLight& light) {
+std::shared_ptr<LiveBoard::State> LiveBoard::state_of(const LiveLight& light, std::optional<float> scale_before) {
   auto state = std::make_shared<State>();
-  state->scale = states_.empty() ? scale_of_halves(light.irradiance)
-                                 : scale_for(light.irradiance, states_.back()->scale);
+  state->scale = scale_before ? scale_for(light.irradiance, *scale_before) : scale_of_halves(light.irradiance);
   state->top = shown_top(light.irradiance, light.ambient);
   state->ambient = light.ambient;
   state->halves.reserve(3 * light.irradiance.size());
   for (const glm::vec3& value : light.irradiance)
     for (int band = 0; band < 3; ++band)
       state->halves.push_back(static_cast<std::uint16_t>(half_bits(value[band] / state->scale)));
-  state->number = ++state_number_;
   return state;
 }
 
@@ -61,11 +59,13 @@ void LiveBoard::changed() {
 }
 
 void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLight& light, ShownMesh mesh) {
+  const auto state = state_of(light, std::nullopt);
   const std::scoped_lock lock(mutex_);
+  state->number = ++state_number_;
   states_.clear();
-  states_.push_back(state_of(light));
+  states_.push_back(state);
   const json head{{"room", ++room_number_},
-                  {"state", states_.back()->number},
+                  {"state", state->number},
                   {"ambient", array_of(light.ambient)},
                   {"middle", array_of(middle)}};
   std::string text = text_of(head);
@@ -77,8 +77,13 @@ void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLigh
 }
 
 void LiveBoard::show_light(const LiveLight& light) {
+  std::optional<float> scale;
+  if (const std::scoped_lock lock(mutex_); !states_.empty())
+    scale = states_.back()->scale;
+  const auto state = state_of(light, scale); // nobody waits for that
   const std::scoped_lock lock(mutex_);
-  states_.push_back(state_of(light));
+  state->number = ++state_number_;
+  states_.push_back(state);
   if (states_.size() > kept_states)
     states_.pop_front();
   changed();
@@ -110,6 +115,7 @@ std::string LiveBoard::announcement() const {
                   {"paused", status_.paused},
                   {"gathers", status_.gathers},
                   {"solved", status_.solved},
+                  {"keepsRows", status_.keeps_rows},
                   {"problem", status_.problem}});
 }
 

@@ -40,6 +40,7 @@ struct LiveStatus {
   bool paused = false; ///< no shot is made without a step
   bool gathers = false; ///< shots are sweeps
   bool solved = false;
+  bool keeps_rows = false; ///< under other light alone it is relit
   std::string problem; ///< why the file is not shown as it is now
 };
 
@@ -58,6 +59,7 @@ struct ShownMesh {
   std::uint64_t room = 0; ///< which room it is of
 };
 
+/// One writes; any number read.
 class LiveBoard {
 public:
   /// Another room: the JSON of walk_page_data(), in whose coordinates `middle` is 0, with its light.
@@ -85,7 +87,7 @@ private:
     Rgb ambient{0.0};
     std::vector<std::uint16_t> halves;
   };
-  std::shared_ptr<const State> state_of(const LiveLight& light);
+  static std::shared_ptr<State> state_of(const LiveLight& light, std::optional<float> scale_before);
   std::string announcement() const;
   void changed();
 

@@ -64,8 +64,10 @@ void live_run(const LiveRequest& request, const std::function<void(const std::st
   opened(server.address());
 
   const LiveScene shown{request.scene, request.settings, request.transform, request.exposure};
+  KeptOfScene kept;
   const LiveStage stage{board, steps, [&] { return watch.has_changed(); },
                         [&](std::shared_ptr<const SolvedRoom> room) { pictures.show(std::move(room)); },
+                        kept,
                         {events.warning, {}, {}, {}}};
   LastSolved last;
   for (bool first = true;; first = false) {
@@ -73,6 +75,7 @@ void live_run(const LiveRequest& request, const std::function<void(const std::st
       last.room = show_stages(std::move(scene), shown, stage);
       last.status = board.status();
       note(events, figures_of(last.room->solution));
+      keep_rows(stage);
     } catch (const StageOver&) {
       // Another scene waits.
     } catch (const std::exception& error) {

@@ -1,5 +1,6 @@
 #include "runs/live/live_stages.h"
 
+#include "radiosity/solvers/solve.h"
 #include "runs/preparation.h"
 #include "runs/report/run_progress.h"
 #include "runs/run_stages.h"
@@ -7,6 +8,8 @@
 #include "runs/walk/walk_cameras.h"
 #include "scenes/content_hash.h"
 
+#include <algorithm>
+#include <bit>
 #include <chrono>
 #include <mutex>
 
@@ -14,8 +17,12 @@ namespace meninas {
 
 namespace {
 
-/// Of an element of the coarse mesh, where it gathers: more rays than where it shoots, again and again.
-constexpr int rays_of_coarse_rows = 256;
+/// Of an element of the coarse mesh, where it gathers: more rays than where it shoots, again and again; fewer where there
+/// are many patches, so that rows take megabytes.
+int rays_of_coarse_rows(std::size_t elements) {
+  constexpr std::size_t all = 1 << 21, most = 256, least = 16;
+  return static_cast<int>(std::bit_floor(std::clamp(all / std::max<std::size_t>(1, elements), least, most)));
+}
 
 /// Thrown where the other solver is asked for.
 struct OtherSolver {};
@@ -159,7 +166,7 @@ void solve_coarse(const LiveScene& shown, const LiveStage& stage, const std::sha
   RunSettings coarse = coarse_settings(shown.settings);
   if (gathers) {
     settings.solver.method = coarse.solver = SolverMethod::jacobi;
-    settings.form_factors.rays = rays_of_coarse_rows;
+    settings.form_factors.rays = rays_of_coarse_rows(element_count(prepared->mesh));
   }
   ShownShots shots(shown, stage, prepared);
   const auto check = [&] {
@@ -185,9 +192,20 @@ void solve_coarse(const LiveScene& shown, const LiveStage& stage, const std::sha
                            },
                            true};
   if (gathers)
-    solve_pass_one(prepared->light, settings, told, watch);
+    solve_pass_one(prepared->light, rows_of(stage.kept.coarse, *prepared->light, settings.form_factors, told), settings, told, watch);
   else
     shoot_pass_one(prepared->light, settings, told, watch);
+}
+
+/// By rows that are there: one state, with all light.
+void relight_coarse(const LiveScene& shown, const LiveStage& stage) {
+  const auto& [prepared, settings, rows, whole] = stage.kept;
+  const RadiositySolution solution = solve_pass_one(prepared->light, rows.factors, settings);
+  stage.board.change_status([&](LiveStatus& status) {
+    status.stage = "relit";
+    status.elements = element_count(prepared->mesh);
+  });
+  ShownRoom(shown, stage, prepared).show(solution.field, Rgb(0.0));
 }
 
 void show_coarse(const Scene& scene, const LiveScene& shown, const LiveStage& stage) {
@@ -197,6 +215,12 @@ void show_coarse(const Scene& scene, const LiveScene& shown, const LiveStage& st
   settings.direct.most_points = 16;
   settings.direct.images_in_element = 16;
   const std::shared_ptr<const PreparedScene> prepared = prepare_scene(scene, settings);
+  stage.kept.coarse_scene = prepared;
+  stage.kept.coarse_settings = settings;
+  stage.kept.coarse_settings.solver.method = SolverMethod::jacobi;
+  stage.kept.coarse_settings.form_factors.rays = rays_of_coarse_rows(element_count(prepared->mesh));
+  if (!stage.steps.paused() && are_of(stage.kept.coarse, *prepared->light, stage.kept.coarse_settings.form_factors))
+    return relight_coarse(shown, stage);
   for (bool done = false; !done;) {
     try {
       solve_coarse(shown, stage, prepared, settings);
@@ -211,6 +235,15 @@ void show_coarse(const Scene& scene, const LiveScene& shown, const LiveStage& st
 int shots_between(std::size_t elements) {
   constexpr std::size_t few = 2000;
   return static_cast<int>(1 + elements / few);
+}
+
+/// As `solve` has it; rows of elements, where there are some, are kept.
+RadiositySolution solve_whole(KeptOfScene& kept, const std::shared_ptr<const LightScene>& light, const PassOneSettings& settings,
+                              const Progress& progress, const PassOneWatch& watch) {
+  if (settings.cut == MeshCut::hierarchical || nothing_emits(*light) || shoots_rays(settings, element_count(light->mesh)))
+    return solve_pass_one(light, settings, progress, watch);
+  check_size(settings.solver.method, element_count(light->mesh));
+  return solve_pass_one(light, rows_of(kept.whole, *light, settings.form_factors, progress), settings, progress, watch);
 }
 
 } // namespace
@@ -232,6 +265,18 @@ RunSettings coarse_settings(RunSettings settings) {
   settings.interpolation = Interpolation::average;
   settings.lamps.reset();
   return settings;
+}
+
+void keep_rows(const LiveStage& stage) {
+  constexpr std::size_t most_elements = 1 << 14; // of more, rows would take seconds and tell little
+  const std::shared_ptr<const PreparedScene> prepared = stage.kept.coarse_scene;
+  if (element_count(prepared->mesh) > most_elements)
+    return;
+  rows_of(stage.kept.coarse, *prepared->light, stage.kept.coarse_settings.form_factors, [&](std::string_view, double) {
+    if (stage.is_over())
+      throw StageOver{};
+  });
+  stage.board.change_status([](LiveStatus& status) { status.keeps_rows = true; });
 }
 
 void show_solved(const SolvedRoom& room, const LiveScene& shown, const LiveStage& stage) {
@@ -258,8 +303,8 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
   ShownShots shots(shown, stage, prepared);
   const char* const steps = settings.solver.method == SolverMethod::jacobi ? "sweeps" : "shots";
   StageProgress progress(stage, pass_one_stages(shown.settings));
-  RadiositySolution solution = solve_pass_one(
-      prepared->light, settings,
+  RadiositySolution solution = solve_whole(
+      stage.kept, prepared->light, settings,
       [&](std::string_view name, double fraction) {
         progress.report(name, fraction);
         stage.board.change_status([&](LiveStatus& status) { status.seconds = since.seconds(); });

@@ -122,6 +122,7 @@ async function openLive() {
   function showLight() {
     if (!page || !light) return;
     const { tables } = page.room, numbers = lightOf(light, shows.withAmbient);
+    if (tables.from) document.body.dataset.apart = "yes";
     if (tables.from) numbers.irradiance = atOwnVertices(tables, numbers.irradiance, 3);
     page.shows.constant = shows.constant;
     if (shows.constant && tables.from) numbers.irradiance = meansOfElements(tables, numbers.irradiance);
