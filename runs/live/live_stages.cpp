@@ -118,8 +118,10 @@ private:
 /// Each shot as a state; waits before the next where somebody wants that.
 class ShownShots {
 public:
-  ShownShots(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const PreparedScene> prepared)
-      : shown_(shown), stage_(stage), prepared_(std::move(prepared)), light_(prepared_->light), room_(shown, stage, prepared_) {}
+  /// `gathers`: how these steps are made, where they may be made the other way.
+  ShownShots(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const PreparedScene> prepared,
+             std::optional<bool> gathers = std::nullopt)
+      : gathers_(gathers), shown_(shown), stage_(stage), prepared_(std::move(prepared)), light_(prepared_->light), room_(shown, stage, prepared_) {}
 
   /// The room before any light, if somebody wants to see that.
   void begin() {
@@ -148,9 +150,10 @@ public:
 private:
   void wait() {
     if (stage_.steps.paused())
-      stage_.steps.wait(stage_.is_over);
+      stage_.steps.wait(stage_.is_over, gathers_);
   }
 
+  std::optional<bool> gathers_;
   const LiveScene& shown_;
   const LiveStage& stage_;
   std::shared_ptr<const PreparedScene> prepared_;
@@ -168,7 +171,7 @@ void solve_coarse(const LiveScene& shown, const LiveStage& stage, const std::sha
     settings.solver.method = coarse.solver = SolverMethod::jacobi;
     settings.form_factors.rays = rays_of_coarse_rows(element_count(prepared->mesh));
   }
-  ShownShots shots(shown, stage, prepared);
+  ShownShots shots(shown, stage, prepared, gathers);
   const auto check = [&] {
     if (stage.steps.gathers() != gathers)
       throw OtherSolver{};

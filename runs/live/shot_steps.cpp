@@ -31,11 +31,10 @@ void ShotSteps::step() {
   goes_on_.notify_all();
 }
 
-void ShotSteps::wait(const std::function<bool()>& is_over) {
+void ShotSteps::wait(const std::function<bool()>& is_over, std::optional<bool> gathers) {
   constexpr std::chrono::milliseconds patience(100);
   std::unique_lock lock(mutex_);
-  const bool gathers = gathers_;
-  while (!goes_on_.wait_for(lock, patience, [&] { return !paused_ || steps_ > 0 || gathers_ != gathers; })) {
+  while (!goes_on_.wait_for(lock, patience, [&] { return !paused_ || steps_ > 0 || (gathers && gathers_ != *gathers); })) {
     lock.unlock();
     const bool over = is_over();
     lock.lock();

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <optional>
 
 namespace meninas {
 
@@ -22,8 +23,8 @@ public:
   void pause(bool paused);
   /// One shot more, and then none.
   void step();
-  /// Returns when the next shot may be made, or when it is to be done the other way. Meanwhile `is_over` is asked ten times a second, and ends it.
-  void wait(const std::function<bool()>& is_over);
+  /// Returns when the next shot may be made, or at once where elements do not gather as `gathers` has it. Meanwhile `is_over` is asked ten times a second, and ends it.
+  void wait(const std::function<bool()>& is_over, std::optional<bool> gathers = std::nullopt);
 
 private:
   mutable std::mutex mutex_;

@@ -93,6 +93,16 @@ TEST(ShotSteps, WaitForEachStepUntilTheyGoOn) {
   EXPECT_EQ(made, 4);
 }
 
+// Also where that was asked for just before it waits.
+TEST(ShotSteps, EndWhenTheOtherSolverIsAskedFor) {
+  ShotSteps steps(true);
+  steps.gather(true);
+  steps.wait([] { return false; }, false);
+  EXPECT_TRUE(steps.paused());
+  steps.step();
+  steps.wait([] { return false; }, true);
+}
+
 TEST(ShotSteps, EndWhenTheStageIsOver) {
   ShotSteps steps(true);
   steps.wait([] { return true; });
