@@ -67,7 +67,7 @@ function(meninas_library folder)
   install(TARGETS meninas_${folder} EXPORT meninas-targets ARCHIVE COMPONENT library)
 endfunction()
 
-# meninas_module(decoder a.cpp b.cpp): meninas_decoder.so, which the program opens where it is first used (scenes/module_file.h).
+# meninas_module(decoder a.cpp b.cpp): meninas_decoder.so, which the program opens where it is first used (image/module_file.h).
 function(meninas_module name)
   add_library(meninas_${name} MODULE ${ARGN})
   target_include_directories(meninas_${name} PRIVATE ${PROJECT_SOURCE_DIR})

@@ -1,6 +1,6 @@
 #include "image/codecs/decoder_loader.h"
 
-#include "scenes/module_file.h"
+#include "image/module_file.h"
 
 #include <oneapi/tbb/global_control.h>
 

@@ -1,7 +1,7 @@
 // The seam between the program and the shared module that holds cpp-httplib.
 //
 // Linking it maps OpenSSL and Brotli, too, at every start: 4 ms in 13 of `meninas version`. So one source file uses it,
-// compiled into a module of its own, and `view` opens that (scenes/module_file.h). Both sides are compiled
+// compiled into a module of its own, and `view` opens that (image/module_file.h). Both sides are compiled
 // with one standard library in one build, so that its types may cross; exceptions do not.
 #pragma once
 

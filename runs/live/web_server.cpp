@@ -2,7 +2,7 @@
 
 #include "runs/live/server_seam.h"
 #include "scenes/errors.h"
-#include "scenes/module_file.h"
+#include "image/module_file.h"
 
 #include <fmt/format.h>
 

@@ -215,7 +215,7 @@ TEST_F(ViewBrowser, FormFactorsAreShownInPlaceOfTheLight) {
   const double lit = mean_of_picture();
   const json said = run(R"(
     const report = { title: text('legend') }, canvas = document.getElementById('view');
-    canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: 0.8 * canvas.clientWidth, clientY: 0.4 * canvas.clientHeight, pointerId: 1 }));
+    canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: 0.7 * canvas.clientWidth, clientY: 0.4 * canvas.clientHeight, pointerId: 1 }));
     press('g'); report.shown = await until(() => data.factors); report.all = JSON.parse(data.factors || '{}');
     report.legend = !document.getElementById('legend').hidden; report.other = text('legend') !== report.title; report.resting = data.resting || '';
     const answer = await askFor(`factors?room=${status().room}&element=${report.all.element}`), row = await readFactors(await answer.arrayBuffer());

@@ -1,4 +1,4 @@
-#include "scenes/module_file.h"
+#include "image/module_file.h"
 
 #include "scenes/errors.h"
 
