@@ -217,7 +217,7 @@ TEST_F(ViewBrowser, FormFactorsAreShownInPlaceOfTheLight) {
     const report = { title: text('legend') }, canvas = document.getElementById('view');
     canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: 0.7 * canvas.clientWidth, clientY: 0.4 * canvas.clientHeight, pointerId: 1 }));
     press('g'); report.shown = await until(() => data.factors); report.all = JSON.parse(data.factors || '{}');
-    report.legend = !document.getElementById('legend').hidden; report.other = text('legend') !== report.title; report.resting = data.resting || '';
+    report.legend = await until(() => !document.getElementById('legend').hidden); report.other = text('legend') !== report.title; report.resting = data.resting || '';
     const answer = await askFor(`factors?room=${status().room}&element=${report.all.element}`), row = await readFactors(await answer.arrayBuffer());
     report.sum = row.direct.reduce((a, b) => a + b) + row.mirrored.reduce((a, b) => a + b); report.said = row.sums[0] + row.sums[1];
     await new Promise(r => setTimeout(r, 1200)); report.text = text('said');
@@ -235,8 +235,8 @@ TEST_F(ViewBrowser, FormFactorsAreShownInPlaceOfTheLight) {
   EXPECT_GT(std::abs(coloured - lit), 0.02) << "another picture is shown";
   const json after = run(R"(
     const report = {};
-    press('g'); report.part = JSON.parse(data.factors).part; await new Promise(r => setTimeout(r, 500));
-    press('g'); report.gone = data.factors === undefined; report.again = await until(() => data.resting === 'whole'); report.hidden = document.getElementById('legend').hidden;
+    press('g'); await until(() => data.factors.includes('mirrored"')); report.part = JSON.parse(data.factors).part; await new Promise(r => setTimeout(r, 500));
+    press('g'); report.gone = await until(() => data.factors === undefined); report.again = await until(() => data.resting === 'whole'); report.hidden = document.getElementById('legend').hidden;
     press('g'); await until(() => data.factors); press('Escape'); report.escaped = data.factors === undefined; report.problem = data.problem || '';
     return report;)");
   ASSERT_TRUE(after.is_object());

@@ -177,7 +177,7 @@ TEST_F(ViewTeaching, NoStepsAtAllAreOfViewAlone) {
 
 // The way back from a picture that nobody wants any more takes no longer than a few vertices.
 TEST_F(ViewTeaching, APictureUnderWayEndsWhenItsCameraMoves) {
-  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft", "--samples", "4096"});
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft", "--samples", "256"});
   ASSERT_TRUE(view.status_when_solved().is_object());
   const std::string seen = "&exposure=0&size=1200x900&camera=camera&step=whole";
   std::atomic<int> status{0};
