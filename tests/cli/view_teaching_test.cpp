@@ -177,9 +177,9 @@ TEST_F(ViewTeaching, NoStepsAtAllAreOfViewAlone) {
 
 // The way back from a picture that nobody wants any more takes no longer than a few vertices.
 TEST_F(ViewTeaching, APictureUnderWayEndsWhenItsCameraMoves) {
-  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft", "--samples", "256"});
+  const ViewProgram view(folder_.path(), {"room.glb"});
   ASSERT_TRUE(view.status_when_solved().is_object());
-  const std::string seen = "&exposure=0&size=1200x900&camera=camera&step=whole";
+  const std::string seen = "&exposure=0&size=3000x2400&camera=camera&step=whole";
   std::atomic<int> status{0};
   std::thread asks([&] { status = view.get("picture?viewer=a&number=1" + seen).status; });
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
