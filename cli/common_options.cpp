@@ -12,6 +12,7 @@ namespace meninas {
 namespace {
 
 constexpr const char* pass_one_group = "Accuracy of pass one";
+constexpr int most_steps = 1'000'000'000;
 
 const Choices<Quality> qualities{
     {"draft", Quality::draft}, {"normal", Quality::normal}, {"fine", Quality::fine}};
@@ -193,7 +194,7 @@ static void add_solver_options(Options& command, CommonOptions& options) {
   command
       .add("--steps", "N", "stop --solver progressive after N shots [at --tolerance]",
            [&](const std::string& text) {
-             settings.steps = static_cast<int>(parse_integer("--steps", text, 1, 1'000'000'000));
+             settings.steps = static_cast<int>(parse_integer("--steps", text, 0, most_steps));
            })
       .group(study_group);
 }
@@ -298,6 +299,9 @@ void check_pass_one_options(const Options& command, const RunSettings& settings)
   }
   if (!by_cubes && command.given("--hemicube-resolution")) {
     throw UsageError("--hemicube-resolution", "has no effect without --form-factors hemicube");
+  }
+  if (settings.steps == 0) { // `view` alone takes that
+    throw UsageError("--steps", fmt::format("'0' is not a whole number from 1 to {}", most_steps));
   }
   if (settings.steps && settings.solver != SolverMethod::progressive) {
     throw UsageError("--steps", "has no effect without --solver progressive");

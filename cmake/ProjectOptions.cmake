@@ -64,6 +64,18 @@ function(meninas_library folder)
   target_precompile_headers(meninas_${folder} PRIVATE ${MENINAS_COMMON_HEADERS})
 endfunction()
 
+# meninas_module(decoder a.cpp b.cpp): meninas_decoder.so, which the program opens where it is first used (image/module_file.h).
+function(meninas_module name)
+  add_library(meninas_${name} MODULE ${ARGN})
+  target_include_directories(meninas_${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(meninas_${name} PRIVATE meninas_options)
+  set_target_properties(meninas_${name} PROPERTIES
+    PREFIX ""
+    CXX_VISIBILITY_PRESET hidden
+    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/meninas)
+  install(TARGETS meninas_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/meninas COMPONENT program)
+endfunction()
+
 # meninas_tests(scenes a_test.cpp): the tests of one folder, one executable, found by CTest one by one.
 function(meninas_tests folder)
   add_executable(${folder}_tests ${ARGN})

@@ -86,3 +86,9 @@ row option-mode cornell-mirror --mode radiosity -- --mode hybrid -- --mode refer
 row error-steps sunbeam --mesh uniform --elements 1000 --diffuse interpolated -- --elements 16000 --diffuse interpolated -- --diffuse direct
 render "$scratch/error-map.exr" sunbeam --size 240x180 --error-map --diffuse interpolated
 oiiotool "$scratch/error-map.exr" --ch error.R --chnames Y --mulc 4 --colormap inferno --clamp:min=0:max=1 -d uint8 -o "$root/docs/error-map.png"
+
+# The page of `view`, where there is a Chromium to draw it.
+if command -v chromium >/dev/null; then
+  "$root/bench/view_film.py" "$program" "$root/scenes/gallery/meninas.gltf" "$root/docs/view-film.png"
+  "$root/bench/view_film.py" "$program" "$root/scenes/gallery/cornell-mirror.gltf" "$root/docs/view-factors.png" --factors 690,250
+fi

@@ -77,13 +77,6 @@ RadiositySolution field_of(const std::shared_ptr<const LightScene>& light,
   return solution;
 }
 
-bool nothing_emits(const LightScene& light) {
-  return light.emitters.empty() && light.punctual.empty() && light.background == Rgb(0.0) &&
-         light.sky == nullptr &&
-         std::ranges::all_of(light.mesh.emission,
-                             [](const Rgb& emission) { return emission == Rgb(0.0); });
-}
-
 /// E = 0, and so B = H = 0 without a row.
 RadiositySolution darkness(const std::shared_ptr<const LightScene>& light,
                            const PassOneSettings& settings) {
@@ -103,6 +96,13 @@ RadiositySolution darkness(const std::shared_ptr<const LightScene>& light,
 }
 
 } // namespace
+
+bool nothing_emits(const LightScene& light) {
+  return light.emitters.empty() && light.punctual.empty() && light.background == Rgb(0.0) &&
+         light.sky == nullptr &&
+         std::ranges::all_of(light.mesh.emission,
+                             [](const Rgb& emission) { return emission == Rgb(0.0); });
+}
 
 RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress,

@@ -35,7 +35,7 @@ struct RadiositySolution : ElementSolution {
   std::uint64_t shadow_rays = 0;
 };
 
-/// `progressive` can be watched. In scenes of more than `max_direct_unknowns` elements it shoots
+/// `progressive` can be watched, and `jacobi` over rows. In scenes of more than `max_direct_unknowns` elements it shoots
 /// rays, with no transport in memory (progressive.h), unless the form factors are not by rays;
 /// in smaller ones, where they take a few megabytes,
 /// blocks shoot by the columns of the transport that the other solvers have, so that all agree.
@@ -44,6 +44,9 @@ struct RadiositySolution : ElementSolution {
 RadiositySolution solve_pass_one(const std::shared_ptr<const LightScene>& light,
                                  const PassOneSettings& settings, const Progress& progress = {},
                                  const PassOneWatch& watch = {});
+
+/// Pass one of such a scene is dark, and needs no form factors.
+bool nothing_emits(const LightScene& light);
 
 /// What of pass one a view shows, by ElementId of the mesh.
 struct SeenElements {

@@ -1,5 +1,5 @@
-// What pass one shows while light is still being shot: the field there is so far, for pictures along
-// the way. Irradiance in W/m^2.
+// What pass one shows while light is still being shot, or gathered sweep by sweep: the field there is so far, for
+// pictures along the way. Irradiance in W/m^2.
 #pragma once
 
 #include "radiosity/field/irradiance_field.h"
@@ -8,10 +8,10 @@
 
 namespace meninas {
 
-/// What shots have brought so far, as averages over elements at the vertices of the mesh that is
+/// What shots, or sweeps, have brought so far, as averages over elements at the vertices of the mesh that is
 /// solved (field/interpolation.h), and what the light yet to be shot may add to it.
 struct PassOneSoFar {
-  int shots = 0;
+  int shots = 0; ///< of `jacobi` sweeps
   VertexIrradiance field;
   Rgb ambient{0.0}; ///< irradiance, everywhere
   double unshot = 0.0; ///< the power that is left to shoot, in that of the first light, luminance
@@ -19,7 +19,7 @@ struct PassOneSoFar {
 struct PassOneWatch {
   int every = 0; ///< shots, and after the last; 0: never
   std::function<void(const PassOneSoFar&)> look;
-  bool before_shots = false; ///< what the first light alone brings, too, where rays are shot
+  bool before_shots = false; ///< what the first light alone brings, too
 };
 
 } // namespace meninas

@@ -75,6 +75,10 @@ ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& fac
   ShotPlan plan;
   if (settings.solver.method == SolverMethod::progressive)
     plan = {make_shooting_blocks(light.mesh, factors.exposed), shown(watched, watch)};
+  else if (settings.solver.method == SolverMethod::jacobi && watch.every > 0)
+    plan.watch = shown(watched, watch);
+  if (watch.before_shots && plan.watch.look)
+    plan.watch.look({0, std::vector<Rgb>(solved.first.source.size(), Rgb(0.0)), solved.first.source});
   solved.solver =
       solve(factors.transport, solved.first.source,
             {solved.first.reflectance, solved.first.translucent}, settings.solver, plan);

@@ -34,7 +34,7 @@ struct ReflectedLight {
 };
 
 /// `factors` are those of the scene, also of an earlier run under other light.
-/// Watched while the solver is `progressive`, which shoots by their columns.
+/// Watched while the solver is `progressive`, which shoots by their columns, or `jacobi`, whose sweeps count as shots.
 ReflectedLight reflected_by_rows(const LightScene& light, const FormFactors& factors,
                                  const PassOneSettings& settings, const Progress& progress,
                                  const PassOneWatch& watch);

@@ -22,7 +22,7 @@ static std::vector<SampleRound> chosen_samples(const IrradianceField& field,
 Rendering render_layers(const IrradianceField& coarse, const Camera& camera,
                         const RenderSettings& asked, const Progress& progress) {
   expects(asked.width > 0 && asked.height > 0, "a picture has at least one pixel");
-  const ViewLight light = light_for_view(coarse, camera, asked);
+  const ViewLight light = light_for_view(coarse, camera, asked, progress);
   const IrradianceField& field = light.field ? *light.field : coarse;
   const RenderSettings& settings = light.settings;
   expects(field.mirrored.size() == field.irradiance.size(), "the field knows its mirrored part");

@@ -32,9 +32,17 @@ static Rendering render_light(const IrradianceField& field,
   return result;
 }
 
+/// Where a display would show it.
+struct EdgesShown {
+  const IrradianceField& field;
+  const Camera& camera;
+  const RenderSettings& settings;
+  Progress progress; ///< told that the picture is done but for them
+};
+
 /// What a display shows at the edges of bright things, at an exposure.
-static ShownPixels edges_at(double exposure, const IrradianceField& field, const Camera& camera,
-                            const RenderSettings& settings, Rendering& result) {
+static ShownPixels edges_at(double exposure, const EdgesShown& shown, Rendering& result) {
+  const auto& [field, camera, settings, progress] = shown;
   ShownPixels edges{exposure, settings.display->transform, {}};
   PixelMask pixels = bright_edges(result.image, exposure);
   const PictureWindow* window = settings.window ? &*settings.window : nullptr;
@@ -51,7 +59,7 @@ static ShownPixels edges_at(double exposure, const IrradianceField& field, const
       result.image, pixels, std::min(settings.samples, enough),
       [&](const SampleShare& share, const StorePixel& store) {
         add(result, trace_picture({*field.scene, all, nullptr, camera, straight},
-                                  {share.samples, share.pixels, window}, {}, store));
+                                  {share.samples, share.pixels, window}, shown.progress, store));
       },
       edges);
   return edges;
@@ -81,32 +89,33 @@ static double expected_exposure(const IrradianceField& field, const Camera& came
 }
 
 /// Of the whole picture; of a window for exposures around that which the whole may have.
-static void show_edges(const IrradianceField& field, const Camera& camera,
-                       const RenderSettings& settings, Rendering& result) {
+static void show_edges(const EdgesShown& shown, Rendering& result) {
+  const auto& [field, camera, settings, progress] = shown;
   const std::optional<double> given = settings.display->exposure;
   if (!settings.window) {
-    result.edges = edges_at(given.value_or(automatic_exposure(result.image)), field, camera,
-                            settings, result);
+    result.edges = edges_at(given.value_or(automatic_exposure(result.image)), shown, result);
     return;
   }
   constexpr int steps_around = 6;
   constexpr double step = 1.0 / 16.0; // of automatic_exposure
   const double middle = given ? *given : expected_exposure(field, camera, settings, result);
   for (int k = given ? 0 : -steps_around; k <= (given ? 0 : steps_around); ++k)
-    result.likely_edges.push_back(
-        edges_at(middle + k * step, field, camera, settings, result));
+    result.likely_edges.push_back(edges_at(middle + k * step, shown, result));
 }
 
 Rendering render(const IrradianceField& field, const Camera& camera,
                  const RenderSettings& settings, const Progress& progress) {
   expects(settings.width > 0 && settings.height > 0, "a picture has at least one pixel");
-  const ViewLight light = light_for_view(field, camera, settings);
+  const ViewLight light = light_for_view(field, camera, settings, progress);
   const IrradianceField& shown = light.field ? *light.field : field;
   Rendering result = settings.layers == WithLayers::yes
                          ? render_layers(shown, camera, light.settings, progress)
                          : render_light(shown, camera, light.settings, progress);
+  Progress but_for_edges;
+  if (progress)
+    but_for_edges = [&](std::string_view stage, double) { progress(stage, 1.0); };
   if (settings.display)
-    show_edges(shown, camera, light.settings, result);
+    show_edges({shown, camera, light.settings, but_for_edges}, result);
   std::ranges::move(render_features(field, camera, settings),
                     std::back_inserter(result.layers));
   result.finer = light.field;

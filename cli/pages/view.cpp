@@ -65,6 +65,10 @@ void open_browser(std::string address, const RunEvents& events) {
 }
 
 void run(const Options& command, ViewOptions& options) {
+  if (options.common.settings.steps == 0) { // what the first stage has then is the dark
+    options.common.settings.steps.reset();
+    options.request.paused = true;
+  }
   check_pass_one_options(command, options.common.settings);
   options.request.scene = options.common.scene;
   options.request.settings = options.common.settings;

@@ -1,4 +1,5 @@
 #include "radiosity/solvers/error_bound.h"
+#include "radiosity/solvers/report.h"
 #include "radiosity/solvers/solvers.h"
 
 #include <algorithm>
@@ -14,14 +15,27 @@ static std::size_t rows_per_step(Relaxation order, std::size_t rows) {
              : std::max(least, (rows + gauss_seidel_steps - 1) / gauss_seidel_steps);
 }
 
+/// After a sweep that began with x_{k-1} = `before`.
+template <typename Value>
+static void tell(const ShotWatch& watch, int sweep, const LinearSystem<Value>& system,
+                 const std::vector<Value>& before, const std::vector<Value>& x) {
+  std::vector<Value> unshot = x;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    unshot[i] -= before[i];
+  watch.look({sweep, colours_of(transport_product(system.transport, before)), colours_of(unshot)});
+}
+
 template <typename Value>
 void relax(const LinearSystem<Value>& system, Relaxation order, std::vector<Value>& x,
-           Convergence<Value>& convergence) {
+           Convergence<Value>& convergence, const ShotWatch& watch) {
+  std::vector<Value> before;
   const std::size_t step = rows_per_step(order, x.size());
   const Value kept = contraction(system);
   std::vector<Value> scratch(x.size());
   record(convergence, maximum_norm(residual_of(system, x)), maximum_norm(x));
   while (!finished(convergence)) {
+    if (watch.every > 0)
+      before = x;
     Value change(0.0);
     for (std::size_t begin = 0; begin < x.size(); begin += step)
       change =
@@ -33,11 +47,14 @@ void relax(const LinearSystem<Value>& system, Relaxation order, std::vector<Valu
     // What may be the last word is measured.
     if (finished(convergence))
       record_again(convergence, maximum_norm(residual_of(system, x)), size);
+    if (watch.every > 0 && (finished(convergence) || convergence.iterations % watch.every == 0))
+      tell(watch, convergence.iterations, system, before, x);
   }
 }
 
-template void relax(const LinearSystem<Rgb>&, Relaxation, std::vector<Rgb>&, Convergence<Rgb>&);
+template void relax(const LinearSystem<Rgb>&, Relaxation, std::vector<Rgb>&, Convergence<Rgb>&,
+                    const ShotWatch&);
 template void relax(const LinearSystem<double>&, Relaxation, std::vector<double>&,
-                    Convergence<double>&);
+                    Convergence<double>&, const ShotWatch&);
 
 } // namespace meninas

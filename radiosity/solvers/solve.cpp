@@ -22,7 +22,7 @@ void run(SolverMethod method, const LinearSystem<Value>& system, const ShotPlan&
   case SolverMethod::direct:
     return factorise_and_solve(system, x, convergence);
   case SolverMethod::jacobi:
-    return relax(system, Relaxation::jacobi, x, convergence);
+    return relax(system, Relaxation::jacobi, x, convergence, plan.watch);
   case SolverMethod::gauss_seidel:
     return relax(system, Relaxation::gauss_seidel, x, convergence);
   case SolverMethod::bicgstab:

@@ -15,9 +15,11 @@ enum class Relaxation { jacobi, gauss_seidel };
 /// A sweep that changes x by d leaves a residual of at most ||rho T|| ||d||,
 /// since every row met values that were at most d away from the last ones:
 /// that is what is recorded, at no cost, and the residual itself when it may have sufficed.
+/// A watch is told of Jacobi's sweeps k = 1, 2, ... as if they were shots: T B_{k-1} has arrived, and
+/// U = B_k - B_{k-1} is still to be sent on, so that B = S + rho T (B - U) at any time.
 template <typename Value>
 void relax(const LinearSystem<Value>& system, Relaxation order, std::vector<Value>& x,
-           Convergence<Value>& convergence);
+           Convergence<Value>& convergence, const ShotWatch& watch = {});
 
 /// Told ||r|| and ||x|| of an iterate,
 /// answers 1 for every channel that needs more and 0 for the others.

@@ -16,6 +16,8 @@ struct FactorKey {
   std::uint64_t mesh = 0;     ///< sides and elements
   std::uint64_t sky = 0;      ///< of a picture of the sky: rows hold what windows and rays have seen of it
   std::uint64_t sampling = 0; ///< all of FormFactorSettings
+
+  bool operator==(const FactorKey&) const = default;
 };
 FactorKey factor_key(const LightScene& light, const FormFactorSettings& settings);
 

@@ -32,12 +32,14 @@ void add_seen(const LightScene& light, const Sight& sight, float width,
 
 /// The points at the corners of each pixel and, where they are less than a pixel apart, between these.
 std::vector<SeenPoint> seen_points(const LightScene& light, const Camera& camera,
-                                   const RenderSettings& settings, double apart) {
+                                   const RenderSettings& settings, double apart, const Progress& progress) {
   const int width = settings.width, height = settings.height;
   const double aspect = double(width) / height;
   const auto columns = static_cast<std::size_t>(std::ceil(width / apart)) + 1;
   std::vector<std::vector<SeenPoint>> rows(static_cast<std::size_t>(std::ceil(height / apart)) + 1);
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
+    if (progress)
+      progress("render", 0.0);
     const double y = std::min(double(row) * apart / height, 1.0);
     for (std::size_t column = 0; column < columns; ++column) {
       const Vec2 at(std::min(double(column) * apart / width, 1.0), y);
@@ -63,7 +65,7 @@ std::vector<SeenPoint> seen_points(const LightScene& light, const Camera& camera
 } // namespace
 
 ViewLight light_for_view(const IrradianceField& field, const Camera& camera,
-                         const RenderSettings& settings) {
+                         const RenderSettings& settings, const Progress& progress) {
   constexpr double most_points = 1 << 22;
   if (settings.diffuse.term != DiffuseTerm::direct)
     return {nullptr, settings, 0};
@@ -71,8 +73,8 @@ ViewLight light_for_view(const IrradianceField& field, const Camera& camera,
   const double wanted = field.scene->punctual.empty() ? 1.0 : 0.5;
   const double pixels = double(settings.width) * settings.height;
   const double apart = std::max(wanted, std::sqrt(pixels / most_points));
-  ViewField finer = view_field(field, seen_points(*field.scene, camera, settings, apart), apart,
-                               settings.diffuse.refinement);
+  ViewField finer = view_field(field, seen_points(*field.scene, camera, settings, apart, progress), apart,
+                               settings.diffuse.refinement, progress);
   ViewLight light{std::make_shared<const IrradianceField>(std::move(finer.field)), settings,
                   finer.shadow_rays};
   light.settings.diffuse.term = DiffuseTerm::interpolated;

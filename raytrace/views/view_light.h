@@ -12,6 +12,7 @@
 #include "radiosity/field/irradiance_field.h"
 #include "raytrace/render_settings.h"
 #include "scenes/camera.h"
+#include "scenes/progress.h"
 
 #include <memory>
 
@@ -27,8 +28,8 @@ struct ViewLight {
   std::uint64_t shadow_rays = 0;
 };
 
-/// Finer where the settings ask for direct light, which then is in the field.
+/// Finer where the settings ask for direct light, which then is in the field. `progress` is that of view_field().
 ViewLight light_for_view(const IrradianceField& field, const Camera& camera,
-                         const RenderSettings& settings);
+                         const RenderSettings& settings, const Progress& progress = {});
 
 } // namespace meninas

@@ -124,6 +124,34 @@ WebReply solution_reply(const RestingPictures& pictures) {
                                     two_pass_settings(room->settings).pass_one.mesh, room->scene.string()));
 }
 
+WebReply factors_reply(const LiveBoard& board, FactorRows& factors, const Query& query) {
+  const auto room = number_in<std::uint64_t>(value_in(query, "room")), element = number_in<std::uint64_t>(value_in(query, "element"));
+  if (!room || !element)
+    return text_reply(400, "text/plain", "no element of a room\n");
+  const auto mesh = board.mesh();
+  if (!mesh || mesh->room != *room)
+    return not_now("Another room is shown by now.");
+  try {
+    return text_reply(200, "application/octet-stream", factors.row(*mesh, *element));
+  } catch (const UserError& error) {
+    return text_reply(400, "text/plain", std::string(error.what()) + "\n");
+  }
+}
+
+/// POST
+WebReply change(const LiveAnswers& all, const WebRequest& request) {
+  const auto number = number_in<std::uint64_t>(value_in(request.query, "number"));
+  if (request.path == "step" || request.path == "pause" || request.path == "go-on")
+    change_steps(all.board, all.steps, request.path);
+  else if (request.path == "gather" || request.path == "shoot")
+    all.steps.gather(request.path == "gather");
+  else if (request.path == "moved" && number)
+    all.pictures.moved(value_in(request.query, "viewer").substr(0, 32), *number);
+  else
+    return text_reply(404, "text/plain", "404\n");
+  return {204, "", nullptr};
+}
+
 } // namespace
 
 std::optional<RestingView> view_of(const Query& query) {
@@ -146,15 +174,8 @@ std::optional<RestingView> view_of(const Query& query) {
 }
 
 WebReply LiveAnswers::operator()(const WebRequest& request) const {
-  if (request.changes_something) {
-    if (request.path == "step" || request.path == "pause" || request.path == "go-on")
-      change_steps(board, steps, request.path);
-    else if (const auto number = number_in<std::uint64_t>(value_in(request.query, "number")); request.path == "moved" && number)
-      pictures.moved(value_in(request.query, "viewer").substr(0, 32), *number);
-    else
-      return text_reply(404, "text/plain", "404\n");
-    return {204, "", nullptr};
-  }
+  if (request.changes_something)
+    return change(*this, request);
   if (request.path.empty())
     return text_reply(200, "text/html; charset=utf-8", fill_page(view_page, "null"));
   if (request.path == "room")
@@ -164,6 +185,8 @@ WebReply LiveAnswers::operator()(const WebRequest& request) const {
                         board.light(number_in<std::uint64_t>(value_in(request.query, "base")).value_or(0)));
   if (request.path == "picture" || request.path == "save.exr" || request.path == "save.png")
     return picture_reply(pictures, request);
+  if (request.path == "factors")
+    return factors_reply(board, factors, request.query);
   if (request.path == "command")
     return command_reply(pictures, request);
   if (request.path == "solution")

@@ -1,6 +1,7 @@
-// What the server of `view` answers (live_run.h): what is newest, pictures of a view, and how shots go on.
+// What the server of `view` answers (live_run.h): what is newest, pictures of a view, form factors, and how shots go on.
 #pragma once
 
+#include "runs/live/factor_rows.h"
 #include "runs/live/live_board.h"
 #include "runs/live/resting_pictures.h"
 #include "runs/live/shot_steps.h"
@@ -8,11 +9,12 @@
 
 namespace meninas {
 
-/// Answers any number of requests at once; refers to all three.
+/// Answers any number of requests at once; refers to all of these.
 struct LiveAnswers {
   LiveBoard& board;
   ShotSteps& steps;
   RestingPictures& pictures;
+  FactorRows& factors;
 
   WebReply operator()(const WebRequest& request) const;
 };

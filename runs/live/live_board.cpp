@@ -41,17 +41,15 @@ std::string text_of(const json& object) {
 
 } // namespace
 
-std::shared_ptr<const LiveBoard::State> LiveBoard::state_of(const LiveLight& light) {
+std::shared_ptr<LiveBoard::State> LiveBoard::state_of(const LiveLight& light, std::optional<float> scale_before) {
   auto state = std::make_shared<State>();
-  state->scale = states_.empty() ? scale_of_halves(light.irradiance)
-                                 : scale_for(light.irradiance, states_.back()->scale);
+  state->scale = scale_before ? scale_for(light.irradiance, *scale_before) : scale_of_halves(light.irradiance);
   state->top = shown_top(light.irradiance, light.ambient);
   state->ambient = light.ambient;
   state->halves.reserve(3 * light.irradiance.size());
   for (const glm::vec3& value : light.irradiance)
     for (int band = 0; band < 3; ++band)
       state->halves.push_back(static_cast<std::uint16_t>(half_bits(value[band] / state->scale)));
-  state->number = ++state_number_;
   return state;
 }
 
@@ -60,23 +58,32 @@ void LiveBoard::changed() {
   news_.notify_all();
 }
 
-void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLight& light) {
+void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLight& light, ShownMesh mesh) {
+  const auto state = state_of(light, std::nullopt);
   const std::scoped_lock lock(mutex_);
+  state->number = ++state_number_;
   states_.clear();
-  states_.push_back(state_of(light));
+  states_.push_back(state);
   const json head{{"room", ++room_number_},
-                  {"state", states_.back()->number},
+                  {"state", state->number},
                   {"ambient", array_of(light.ambient)},
                   {"middle", array_of(middle)}};
   std::string text = text_of(head);
   text.back() = ','; // in place of its brace
   room_ = std::make_shared<const std::string>(std::move(text) + "\"data\":" + std::move(data) + "}");
+  mesh.room = room_number_;
+  mesh_ = std::make_shared<const ShownMesh>(std::move(mesh));
   changed();
 }
 
 void LiveBoard::show_light(const LiveLight& light) {
+  std::optional<float> scale;
+  if (const std::scoped_lock lock(mutex_); !states_.empty())
+    scale = states_.back()->scale;
+  const auto state = state_of(light, scale); // nobody waits for that
   const std::scoped_lock lock(mutex_);
-  states_.push_back(state_of(light));
+  state->number = ++state_number_;
+  states_.push_back(state);
   if (states_.size() > kept_states)
     states_.pop_front();
   changed();
@@ -106,7 +113,9 @@ std::string LiveBoard::announcement() const {
                   {"error", known(status_.error)},
                   {"elements", status_.elements},
                   {"paused", status_.paused},
+                  {"gathers", status_.gathers},
                   {"solved", status_.solved},
+                  {"keepsRows", status_.keeps_rows},
                   {"problem", status_.problem}});
 }
 
@@ -121,6 +130,11 @@ std::optional<std::string> LiveBoard::next(std::uint64_t& seen, std::chrono::mil
 std::shared_ptr<const std::string> LiveBoard::room() const {
   const std::scoped_lock lock(mutex_);
   return room_;
+}
+
+std::shared_ptr<const ShownMesh> LiveBoard::mesh() const {
+  const std::scoped_lock lock(mutex_);
+  return mesh_;
 }
 
 std::shared_ptr<const std::string> LiveBoard::light(std::uint64_t base) const {
@@ -152,12 +166,16 @@ std::shared_ptr<const std::string> LiveBoard::light(std::uint64_t base) const {
                                     {"columns", table.columns},
                                     {"bytes", table.bytes_each}});
   const std::vector<std::byte> body = deflated(packed.bytes, PackedSize::quick);
+  return std::make_shared<const std::string>(joined_message(head, body));
+}
+
+std::string joined_message(const std::string& head, const std::vector<std::byte>& body) {
   std::string text;
   for (unsigned k = 0; k < 4; ++k)
     text += static_cast<char>(head.size() >> (8 * k) & 0xffU);
   text += head;
   text.append(reinterpret_cast<const char*>(body.data()), body.size());
-  return std::make_shared<const std::string>(std::move(text));
+  return text;
 }
 
 } // namespace meninas

@@ -11,7 +11,8 @@
 // from; whoever has an older one gets all of it.
 #pragma once
 
-#include "scenes/types.h"
+#include "radiosity/scene/light_scene.h"
+#include "radiosity/transport/form_factor_rows.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -37,7 +38,9 @@ struct LiveStatus {
   std::optional<double> error;  ///< ||B - B_k|| / ||B||, at the most
   std::size_t elements = 0;
   bool paused = false; ///< no shot is made without a step
+  bool gathers = false; ///< shots are sweeps
   bool solved = false;
+  bool keeps_rows = false; ///< under other light alone it is relit
   std::string problem; ///< why the file is not shown as it is now
 };
 
@@ -47,10 +50,20 @@ struct LiveLight {
   Rgb ambient{0.0};                  ///< irradiance that light still to be shot would bring, everywhere
 };
 
+/// The mesh that is shown, for who asks of its elements.
+struct ShownMesh {
+  std::shared_ptr<const void> kept; ///< what the scene refers to
+  std::shared_ptr<const LightScene> light;
+  std::vector<ElementId> elements; ///< by element of the page (walk_room.h)
+  FormFactorSettings form_factors;
+  std::uint64_t room = 0; ///< which room it is of
+};
+
+/// One writes; any number read.
 class LiveBoard {
 public:
   /// Another room: the JSON of walk_page_data(), in whose coordinates `middle` is 0, with its light.
-  void show_room(std::string data, const Point3& middle, const LiveLight& light);
+  void show_room(std::string data, const Point3& middle, const LiveLight& light, ShownMesh mesh = {});
   /// Other light of that room.
   void show_light(const LiveLight& light);
   /// `change` may not ask the board.
@@ -61,8 +74,9 @@ public:
   std::optional<std::string> next(std::uint64_t& seen, std::chrono::milliseconds patience) const;
   /// JSON of the room; null before there is one.
   std::shared_ptr<const std::string> room() const;
-  /// The newest light: four bytes with the length of some JSON, lowest first, that, and a deflated table of the
-  /// bits, or of their differences since the state `base`. Null before there is a room.
+  /// What that room's elements are; null before there is one.
+  std::shared_ptr<const ShownMesh> mesh() const;
+  /// The newest light, as joined_message(): bits, or their differences since the state `base`. Null before there is a room.
   std::shared_ptr<const std::string> light(std::uint64_t base) const;
 
 private:
@@ -73,7 +87,7 @@ private:
     Rgb ambient{0.0};
     std::vector<std::uint16_t> halves;
   };
-  std::shared_ptr<const State> state_of(const LiveLight& light);
+  static std::shared_ptr<State> state_of(const LiveLight& light, std::optional<float> scale_before);
   std::string announcement() const;
   void changed();
 
@@ -81,8 +95,12 @@ private:
   mutable std::condition_variable news_;
   std::uint64_t version_ = 0, room_number_ = 0, state_number_ = 0;
   std::shared_ptr<const std::string> room_;
+  std::shared_ptr<const ShownMesh> mesh_;
   std::deque<std::shared_ptr<const State>> states_; ///< of this room, newest last
   LiveStatus status_;
 };
+
+/// Four bytes with the length of some JSON, lowest first, that, and a deflated table.
+std::string joined_message(const std::string& head, const std::vector<std::byte>& body);
 
 } // namespace meninas

@@ -51,6 +51,7 @@ void live_run(const LiveRequest& request, const std::function<void(const std::st
   LiveBoard board;
   ShotSteps steps(request.paused);
   RestingPictures pictures;
+  FactorRows factors;
   const auto tell_problem = [&](const std::string& problem) {
     board.change_status([&](LiveStatus& status) { status.problem = problem; });
     if (!problem.empty())
@@ -58,13 +59,15 @@ void live_run(const LiveRequest& request, const std::function<void(const std::st
   };
   SceneWatch watch(request.scene, request.settings, tell_problem);
   Scene scene = load_relit_scene(request.scene, request.settings);
-  const WebServer server(request.port, LiveAnswers{board, steps, pictures},
+  const WebServer server(request.port, LiveAnswers{board, steps, pictures, factors},
                          [&](std::uint64_t& seen, std::chrono::milliseconds patience) { return board.next(seen, patience); });
   opened(server.address());
 
   const LiveScene shown{request.scene, request.settings, request.transform, request.exposure};
+  KeptOfScene kept;
   const LiveStage stage{board, steps, [&] { return watch.has_changed(); },
                         [&](std::shared_ptr<const SolvedRoom> room) { pictures.show(std::move(room)); },
+                        kept,
                         {events.warning, {}, {}, {}}};
   LastSolved last;
   for (bool first = true;; first = false) {
@@ -72,6 +75,7 @@ void live_run(const LiveRequest& request, const std::function<void(const std::st
       last.room = show_stages(std::move(scene), shown, stage);
       last.status = board.status();
       note(events, figures_of(last.room->solution));
+      keep_rows(stage);
     } catch (const StageOver&) {
       // Another scene waits.
     } catch (const std::exception& error) {

@@ -11,7 +11,8 @@
 //   save.exr, save.png  ?VIEW                  the whole picture as files
 //   command     ?VIEW                          the line that makes these files again
 //   solution    what `solve` writes
-//   moved, step, pause, go-on                  POST
+//   factors     ?room=N&element=K              form factors of an element of the page (factor_rows.h); 503 of another room
+//   moved, step, pause, go-on, shoot, gather   POST
 //
 // VIEW: viewer, number, camera or eye, target and angle, size, exposure.
 #pragma once

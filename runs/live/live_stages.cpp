@@ -1,5 +1,6 @@
 #include "runs/live/live_stages.h"
 
+#include "radiosity/solvers/solve.h"
 #include "runs/preparation.h"
 #include "runs/report/run_progress.h"
 #include "runs/run_stages.h"
@@ -7,12 +8,24 @@
 #include "runs/walk/walk_cameras.h"
 #include "scenes/content_hash.h"
 
+#include <algorithm>
+#include <bit>
 #include <chrono>
 #include <mutex>
 
 namespace meninas {
 
 namespace {
+
+/// Of an element of the coarse mesh, where it gathers: more rays than where it shoots, again and again; fewer where there
+/// are many patches, so that rows take megabytes.
+int rays_of_coarse_rows(std::size_t elements) {
+  constexpr std::size_t all = 1 << 21, most = 256, least = 16;
+  return static_cast<int>(std::bit_floor(std::clamp(all / std::max<std::size_t>(1, elements), least, most)));
+}
+
+/// Thrown where the other solver is asked for.
+struct OtherSolver {};
 
 /// Wall-clock time since it was made.
 class SecondsSince {
@@ -58,7 +71,9 @@ private:
 /// Shows a room whose mesh stays the same while its light changes.
 class ShownRoom {
 public:
-  ShownRoom(const LiveScene& shown, const LiveStage& stage) : shown_(shown), stage_(stage) {}
+  /// `kept`: what the scenes of its fields refer to.
+  ShownRoom(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const void> kept)
+      : shown_(shown), stage_(stage), kept_(std::move(kept)) {}
 
   void show(const IrradianceField& field, const Rgb& ambient) {
     if (room_) {
@@ -69,7 +84,8 @@ public:
     LiveLight light{{}, ambient};
     for (const WalkVertex& vertex : room_->vertices)
       light.irradiance.push_back(vertex.irradiance);
-    stage_.board.show_room(data_of(field, ambient), room_->middle, light);
+    stage_.board.show_room(data_of(field, ambient), room_->middle, light,
+                           {kept_, field.scene, room_->elements, two_pass_settings(shown_.settings).pass_one.form_factors});
   }
 
 private:
@@ -95,14 +111,17 @@ private:
 
   const LiveScene& shown_;
   const LiveStage& stage_;
+  std::shared_ptr<const void> kept_;
   std::optional<WalkRoom> room_;
 };
 
 /// Each shot as a state; waits before the next where somebody wants that.
 class ShownShots {
 public:
-  ShownShots(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const LightScene> light)
-      : shown_(shown), stage_(stage), light_(std::move(light)), room_(shown, stage) {}
+  /// `gathers`: how these steps are made, where they may be made the other way.
+  ShownShots(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const PreparedScene> prepared,
+             std::optional<bool> gathers = std::nullopt)
+      : gathers_(gathers), shown_(shown), stage_(stage), prepared_(std::move(prepared)), light_(prepared_->light), room_(shown, stage, prepared_) {}
 
   /// The room before any light, if somebody wants to see that.
   void begin() {
@@ -111,14 +130,14 @@ public:
     stage_.board.change_status([&](LiveStatus& status) { status.stage = "dark"; });
     const std::vector<glm::vec3> dark(light_->mesh.vertices.size(), glm::vec3(0.0F));
     // A room of its own: the exposure of the lit one is another.
-    ShownRoom(shown_, stage_).show({{dark, {}, dark, {}}, light_}, Rgb(0.0));
+    ShownRoom(shown_, stage_, prepared_).show({{dark, {}, dark, {}}, light_}, Rgb(0.0));
     wait();
   }
-  void look(const PassOneSoFar& state) {
+  void look(const PassOneSoFar& state, const char* steps) {
     if (stage_.is_over())
       throw StageOver{};
     stage_.board.change_status([&](LiveStatus& status) {
-      status.stage = "shots";
+      status.stage = steps;
       status.shots = state.shots;
       status.unshot = state.unshot;
       status.elements = element_count(light_->mesh);
@@ -131,35 +150,103 @@ public:
 private:
   void wait() {
     if (stage_.steps.paused())
-      stage_.steps.wait(stage_.is_over);
+      stage_.steps.wait(stage_.is_over, gathers_);
   }
 
+  std::optional<bool> gathers_;
   const LiveScene& shown_;
   const LiveStage& stage_;
+  std::shared_ptr<const PreparedScene> prepared_;
   std::shared_ptr<const LightScene> light_;
   ShownRoom room_;
   SecondsSince since_;
 };
 
+/// By shots, or by sweeps; throws OtherSolver.
+void solve_coarse(const LiveScene& shown, const LiveStage& stage, const std::shared_ptr<const PreparedScene>& prepared,
+                  PassOneSettings settings) {
+  const bool gathers = stage.steps.gathers();
+  RunSettings coarse = coarse_settings(shown.settings);
+  if (gathers) {
+    settings.solver.method = coarse.solver = SolverMethod::jacobi;
+    settings.form_factors.rays = rays_of_coarse_rows(element_count(prepared->mesh));
+  }
+  ShownShots shots(shown, stage, prepared, gathers);
+  const auto check = [&] {
+    if (stage.steps.gathers() != gathers)
+      throw OtherSolver{};
+  };
+  stage.board.change_status([&](LiveStatus& status) {
+    status.gathers = gathers;
+    status.shots = 0;
+    status.unshot.reset();
+  });
+  shots.begin();
+  check();
+  StageProgress progress(stage, pass_one_stages(coarse));
+  const Progress told = [&](std::string_view name, double fraction) {
+    check();
+    progress.report(name, fraction);
+  };
+  const PassOneWatch watch{1,
+                           [&](const PassOneSoFar& state) {
+                             shots.look(state, gathers ? "sweeps" : "shots");
+                             check();
+                           },
+                           true};
+  if (gathers)
+    solve_pass_one(prepared->light, rows_of(stage.kept.coarse, *prepared->light, settings.form_factors, told), settings, told, watch);
+  else
+    shoot_pass_one(prepared->light, settings, told, watch);
+}
+
+/// By rows that are there: one state, with all light.
+void relight_coarse(const LiveScene& shown, const LiveStage& stage) {
+  const auto& [prepared, settings, rows, whole] = stage.kept;
+  const RadiositySolution solution = solve_pass_one(prepared->light, rows.factors, settings);
+  stage.board.change_status([&](LiveStatus& status) {
+    status.stage = "relit";
+    status.elements = element_count(prepared->mesh);
+  });
+  ShownRoom(shown, stage, prepared).show(solution.field, Rgb(0.0));
+}
+
 void show_coarse(const Scene& scene, const LiveScene& shown, const LiveStage& stage) {
-  const RunSettings coarse = coarse_settings(shown.settings);
-  PassOneSettings settings = two_pass_settings(coarse).pass_one;
+  PassOneSettings settings = two_pass_settings(coarse_settings(shown.settings)).pass_one;
   // A mean over an element that is as large as furniture has no sharp shadow anyway.
   settings.direct.points = 4;
   settings.direct.most_points = 16;
   settings.direct.images_in_element = 16;
-  const auto prepared = prepare_scene(scene, settings);
-  ShownShots shots(shown, stage, prepared->light);
-  shots.begin();
-  StageProgress progress(stage, pass_one_stages(coarse));
-  shoot_pass_one(prepared->light, settings, [&](std::string_view name, double fraction) { progress.report(name, fraction); },
-                 {1, [&](const PassOneSoFar& state) { shots.look(state); }, true});
+  const std::shared_ptr<const PreparedScene> prepared = prepare_scene(scene, settings);
+  stage.kept.coarse_scene = prepared;
+  stage.kept.coarse_settings = settings;
+  stage.kept.coarse_settings.solver.method = SolverMethod::jacobi;
+  stage.kept.coarse_settings.form_factors.rays = rays_of_coarse_rows(element_count(prepared->mesh));
+  if (!stage.steps.paused() && are_of(stage.kept.coarse, *prepared->light, stage.kept.coarse_settings.form_factors))
+    return relight_coarse(shown, stage);
+  for (bool done = false; !done;) {
+    try {
+      solve_coarse(shown, stage, prepared, settings);
+      done = true;
+    } catch (const OtherSolver&) {
+      // From the beginning, the other way.
+    }
+  }
 }
 
 /// Shots between states: telling one takes a time in proportion to the elements.
 int shots_between(std::size_t elements) {
   constexpr std::size_t few = 2000;
   return static_cast<int>(1 + elements / few);
+}
+
+/// As `solve` has it; rows of elements, where there are some, are kept.
+RadiositySolution solve_whole(KeptOfScene& kept, const std::shared_ptr<const LightScene>& light, const PassOneSettings& settings,
+                              const Progress& progress, const PassOneWatch& watch) {
+  if (settings.cut == MeshCut::hierarchical || nothing_emits(*light) || shoots_rays(settings, element_count(light->mesh)))
+    return solve_pass_one(light, settings, progress, watch);
+  check_size(settings.solver.method, element_count(light->mesh));
+  return solve_pass_one(light, rows_of(kept.whole, *light, settings.form_factors, progress), settings, progress, watch);
 }
 
 } // namespace
@@ -183,8 +270,20 @@ RunSettings coarse_settings(RunSettings settings) {
   return settings;
 }
 
+void keep_rows(const LiveStage& stage) {
+  constexpr std::size_t most_elements = 1 << 14; // of more, rows would take seconds and tell little
+  const std::shared_ptr<const PreparedScene> prepared = stage.kept.coarse_scene;
+  if (element_count(prepared->mesh) > most_elements)
+    return;
+  rows_of(stage.kept.coarse, *prepared->light, stage.kept.coarse_settings.form_factors, [&](std::string_view, double) {
+    if (stage.is_over())
+      throw StageOver{};
+  });
+  stage.board.change_status([](LiveStatus& status) { status.keeps_rows = true; });
+}
+
 void show_solved(const SolvedRoom& room, const LiveScene& shown, const LiveStage& stage) {
-  ShownRoom(shown, stage).show(room.solution.field, Rgb(0.0));
+  ShownRoom(shown, stage, room.lit.prepared).show(room.solution.field, Rgb(0.0));
 }
 
 std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& shown, const LiveStage& stage) {
@@ -195,6 +294,7 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
     status.problem = problem;
     status.stage = "first pictures";
     status.paused = stage.steps.paused();
+    status.gathers = stage.steps.gathers();
   });
   check_memory(scene, shown.settings, std::nullopt);
   show_coarse(scene, shown, stage);
@@ -203,18 +303,19 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
   RunFigures figures;
   const std::uint64_t scene_hash = content_hash(scene);
   const std::shared_ptr<const PreparedScene> prepared = prepare_run(std::move(scene), settings, stage.events, figures);
-  ShownShots shots(shown, stage, prepared->light);
+  ShownShots shots(shown, stage, prepared);
+  const char* const steps = settings.solver.method == SolverMethod::jacobi ? "sweeps" : "shots";
   StageProgress progress(stage, pass_one_stages(shown.settings));
-  RadiositySolution solution = solve_pass_one(
-      prepared->light, settings,
+  RadiositySolution solution = solve_whole(
+      stage.kept, prepared->light, settings,
       [&](std::string_view name, double fraction) {
         progress.report(name, fraction);
         stage.board.change_status([&](LiveStatus& status) { status.seconds = since.seconds(); });
       },
-      {shots_between(element_count(prepared->mesh)), [&](const PassOneSoFar& state) { shots.look(state); }, true});
+      {shots_between(element_count(prepared->mesh)), [&](const PassOneSoFar& state) { shots.look(state, steps); }, true});
   add_solution(figures, solution);
   warn_of_solution(*prepared, figures.solver, figures.closure, stage.events);
-  ShownRoom(shown, stage).show(solution.field, Rgb(0.0));
+  ShownRoom(shown, stage, prepared).show(solution.field, Rgb(0.0));
   const LitScene lit{prepared, solution.field};
   auto room = std::make_shared<SolvedRoom>(SolvedRoom{.lit = lit,
                                                       .solution = std::move(solution),

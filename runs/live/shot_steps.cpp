@@ -16,6 +16,12 @@ void ShotSteps::pause(bool paused) {
   goes_on_.notify_all();
 }
 
+void ShotSteps::gather(bool gathers) {
+  const std::scoped_lock lock(mutex_);
+  gathers_ = gathers;
+  goes_on_.notify_all();
+}
+
 void ShotSteps::step() {
   constexpr int most = 1000;
   const std::scoped_lock lock(mutex_);
@@ -25,17 +31,17 @@ void ShotSteps::step() {
   goes_on_.notify_all();
 }
 
-void ShotSteps::wait(const std::function<bool()>& is_over) {
+void ShotSteps::wait(const std::function<bool()>& is_over, std::optional<bool> gathers) {
   constexpr std::chrono::milliseconds patience(100);
   std::unique_lock lock(mutex_);
-  while (!goes_on_.wait_for(lock, patience, [this] { return !paused_ || steps_ > 0; })) {
+  while (!goes_on_.wait_for(lock, patience, [&] { return !paused_ || steps_ > 0 || (gathers && gathers_ != *gathers); })) {
     lock.unlock();
     const bool over = is_over();
     lock.lock();
     if (over)
       return;
   }
-  if (paused_)
+  if (paused_ && steps_ > 0)
     --steps_;
 }
 

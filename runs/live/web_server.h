@@ -9,40 +9,14 @@
 // waits in a queue. Each connection is a thread; there are so many and no more.
 #pragma once
 
-#include <chrono>
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
+#include "runs/live/server_seam.h"
 
 namespace meninas {
-
-/// What is asked for, below the token.
-struct WebRequest {
-  std::string path;                         ///< "" is the page
-  std::map<std::string, std::string> query; ///< the last of each name
-  bool changes_something = false;           ///< POST
-};
-
-struct WebReply {
-  int status = 200;
-  std::string type; ///< of its media, such as "text/html"
-  std::shared_ptr<const std::string> body;
-};
-
-/// Called by any thread, for many requests at once.
-using AnswerRequest = std::function<WebReply(const WebRequest&)>;
-
-/// What is newer than `seen`, which it sets; nothing where nothing is after so long.
-using NextEvent =
-    std::function<std::optional<std::string>(std::uint64_t& seen, std::chrono::milliseconds patience)>;
 
 class WebServer {
 public:
   /// Listens from now on. `port` 0: any that is free. `events` are sent below the token as "events".
-  /// Throws OutputError where the port is taken or may not be used.
+  /// Throws OutputError where the port is taken or may not be used, and InputError where the module that serves is not there.
   WebServer(int port, AnswerRequest answer, NextEvent events);
   ~WebServer();
   WebServer(const WebServer&) = delete;
@@ -53,8 +27,9 @@ public:
   std::string address() const;
 
 private:
-  struct State;
-  std::unique_ptr<State> state_;
+  const web::Table* table_;
+  web::Place place_;
+  void* server_ = nullptr;
 };
 
 } // namespace meninas

@@ -25,6 +25,7 @@ struct Piece {
   WalkBatch key;
   std::vector<Corners> triangles;
   std::vector<std::uint32_t> ends; ///< of elements, in triangles
+  std::vector<ElementId> elements;
 };
 
 auto order_of(const WalkBatch& b) {
@@ -241,6 +242,7 @@ private:
       else
         triangles.insert(triangles.end(), fan.begin(), fan.end());
       piece.ends.push_back(static_cast<std::uint32_t>(triangles.size()));
+      piece.elements.push_back(element);
     }
     known_.clear();
   }
@@ -251,7 +253,7 @@ private:
       const Face face{side.patch, side.facing};
       look_of_side_.push_back(look_of(face));
       pieces.push_back(pieces_.size());
-      pieces_.push_back({key_of(face, look_of_side_.back()), {}, {}});
+      pieces_.push_back({key_of(face, look_of_side_.back()), {}, {}, {}});
     }
     return pieces;
   }
@@ -275,7 +277,7 @@ private:
     const Material& material = material_of_patch(patch);
     const bool shows = is_mirror(material) || is_glass(material);
     const std::uint32_t look = shows ? look_of(face) : black_look();
-    Piece piece{key_of(face, look), {}, {}};
+    Piece piece{key_of(face, look), {}, {}, {none<ElementId>}};
     for (const TriangleId id : patch.triangles) {
       if (id == none<TriangleId>)
         continue;
@@ -306,6 +308,7 @@ private:
       room_.indices.insert(room_.indices.end(), triangle.begin(), triangle.end());
     for (const std::uint32_t end : piece.ends)
       room_.element_ends.push_back(first + end);
+    room_.elements.insert(room_.elements.end(), piece.elements.begin(), piece.elements.end());
     if (!room_.batches.empty() && order_of(room_.batches.back()) == order_of(piece.key)) {
       room_.batches.back().count += count;
       return;

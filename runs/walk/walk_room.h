@@ -52,6 +52,7 @@ struct WalkRoom {
   std::vector<LightOrigin> origins; ///< by vertex
   std::vector<std::uint32_t> indices; ///< three to a triangle
   std::vector<std::uint32_t> element_ends; ///< triangles of an element follow one another: where they end
+  std::vector<ElementId> elements; ///< by entry of `element_ends`; none of faces without a field
   std::vector<WalkBatch> batches;
   std::vector<WalkLook> looks;
   std::vector<std::vector<glm::vec3>> irradiance_by_lamp; ///< by lamp and vertex; empty: not known apart

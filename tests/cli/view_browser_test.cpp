@@ -207,6 +207,86 @@ TEST_F(ViewBrowser, PassTwosPictureGoesWithItsRoom) {
   EXPECT_EQ(said.at("wrong"), 0);
 }
 
+// G: all factors of what is under the cursor, those by mirrors, none; the page's sums are the server's, and its numbers add up to them.
+TEST_F(ViewBrowser, FormFactorsAreShownInPlaceOfTheLight) {
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft"});
+  OPEN_OR_SKIP(view);
+  ASSERT_EQ(run("return until(() => data.resting === 'whole' && Number(data.state) === status().state);"), true);
+  const double lit = mean_of_picture();
+  const json said = run(R"(
+    const report = { title: text('legend') }, canvas = document.getElementById('view');
+    canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: 0.7 * canvas.clientWidth, clientY: 0.4 * canvas.clientHeight, pointerId: 1 }));
+    press('g'); report.shown = await until(() => data.factors); report.all = JSON.parse(data.factors || '{}');
+    report.legend = await until(() => !document.getElementById('legend').hidden); report.other = text('legend') !== report.title; report.resting = data.resting || '';
+    const answer = await askFor(`factors?room=${status().room}&element=${report.all.element}`), row = await readFactors(await answer.arrayBuffer());
+    report.sum = row.direct.reduce((a, b) => a + b) + row.mirrored.reduce((a, b) => a + b); report.said = row.sums[0] + row.sums[1];
+    await new Promise(r => setTimeout(r, 1200)); report.text = text('said');
+    return report;)");
+  ASSERT_TRUE(said.is_object());
+  EXPECT_EQ(said.at("shown"), true);
+  ASSERT_EQ(said.at("all").value("part", ""), "all");
+  for (const char* what : {"legend", "other"})
+    EXPECT_EQ(said.at(what), true) << what;
+  EXPECT_EQ(said.at("resting"), "") << "pass two's picture does not hide them";
+  EXPECT_NEAR(said.at("sum").get<double>(), said.at("said").get<double>(), 1e-3); // halves
+  EXPECT_GT(said.at("all").at("mirrored").get<double>(), 0.0);
+  EXPECT_THAT(said.at("text").get<std::string>(), HasSubstr("by way of mirrors"));
+  const double coloured = mean_of_picture();
+  EXPECT_GT(std::abs(coloured - lit), 0.02) << "another picture is shown";
+  const json after = run(R"(
+    const report = {};
+    press('g'); await until(() => data.factors.includes('mirrored"')); report.part = JSON.parse(data.factors).part; await new Promise(r => setTimeout(r, 500));
+    press('g'); report.gone = await until(() => data.factors === undefined); report.again = await until(() => data.resting === 'whole'); report.hidden = document.getElementById('legend').hidden;
+    press('g'); await until(() => data.factors); press('Escape'); report.escaped = data.factors === undefined; report.problem = data.problem || '';
+    return report;)");
+  ASSERT_TRUE(after.is_object());
+  EXPECT_EQ(after.at("problem"), "");
+  EXPECT_EQ(after.at("part"), "mirrored");
+  for (const char* what : {"gone", "again", "hidden", "escaped"})
+    EXPECT_EQ(after.at(what), true) << what;
+}
+
+TEST_F(ViewBrowser, GatheringAndConstantElementsByKey) {
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft", "--paused"});
+  OPEN_OR_SKIP(view);
+  const json said = run(R"(
+    const report = {};
+    press('v'); report.gathers = await until(() => status().gathers && status().stage === 'dark' && Number(data.state) === status().state);
+    press('n'); await until(() => status().stage === 'sweeps'); press('n');
+    report.sweeps = await until(() => status().shots === 1 && Number(data.state) === status().state); report.text = text('live-status'); report.button = text('live-solver');
+    press('i'); report.constant = await until(() => document.getElementById('live-constant').getAttribute('aria-pressed') === 'true' && data.apart && Number(data.state) === status().state);
+    press('i'); press('v'); report.shoots = await until(() => !status().gathers && status().stage === 'dark');
+    press('p'); report.solved = await until(() => status().solved && Number(data.state) === status().state); report.problem = data.problem || '';
+    return report;)");
+  ASSERT_TRUE(said.is_object());
+  EXPECT_EQ(said.at("problem"), "");
+  for (const char* what : {"gathers", "sweeps", "constant", "shoots", "solved"})
+    EXPECT_EQ(said.at(what), true) << what;
+  EXPECT_THAT(said.at("text").get<std::string>(), HasSubstr("1 sweeps"));
+  EXPECT_THAT(said.at("button").get<std::string>(), HasSubstr("gathering"));
+}
+
+// The mean of its corners everywhere on an element, and the light as it was again; elements have the vertices of no other.
+TEST_F(ViewBrowser, ElementsApartShowTheSameLight) {
+  const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft"});
+  OPEN_OR_SKIP(view);
+  const json said = run(R"(
+    await until(() => status().solved && Number(data.state) === status().state);
+    const { data: room } = await (await fetch(location.pathname + 'room')).json(), whole = await readTables(room), tables = await readTables(room);
+    splitElements(tables);
+    const report = { same: tables.triangles.every((v, k) => tables.from[v] === whole.triangles[k]), once: true, constant: true, mean: 0 }, seen = new Map();
+    tables.triangles.forEach((v, k) => { const e = elementOfTriangle(tables, Math.floor(k / 3)); if (seen.has(v) && seen.get(v) !== e) report.once = false; seen.set(v, e); });
+    report.bits = atOwnVertices(tables, whole.irradiance, 3).every((x, k) => x === tables.irradiance[k]);
+    const values = Float32Array.from(tables.irradiance), means = meansOfElements(tables, values), first = new Map();
+    tables.elementOf.forEach((e, v) => { if (!first.has(e)) first.set(e, v); if (means[3 * v] !== means[3 * first.get(e)]) report.constant = false; });
+    report.mean = Math.abs(means.reduce((a, b) => a + b, 0) / values.reduce((a, b) => a + b, 0) - 1);
+    return report;)");
+  ASSERT_TRUE(said.is_object());
+  for (const char* what : {"same", "once", "constant", "bits"})
+    EXPECT_EQ(said.at(what), true) << what;
+  EXPECT_LT(said.at("mean").get<double>(), 1e-5) << "single precision";
+}
+
 TEST_F(ViewBrowser, ThreeBrowsersSeeTheSame) {
   const ViewProgram view(folder_.path(), {"room.glb", "--quality", "draft", "--paused"});
   OPEN_OR_SKIP(view);

@@ -27,6 +27,17 @@ if [[ -n $sanitize ]]; then
   LD_LIBRARY_PATH=$(dirname "$(find "$prefix" -name meninas_decoder.so)")
   export LD_LIBRARY_PATH
 fi
+# The server of `view` is a module, too.
+"$prefix/bin/meninas" view "$root/scenes/gallery/furnace.gltf" --no-open --quiet >"$scratch/address" &
+view=$!
+for _ in $(seq 600); do
+  [[ -s $scratch/address ]] && break
+  sleep 0.1
+done
+kill -TERM $view
+wait $view || true
+grep -q '^http://127.0.0.1:' "$scratch/address"
+
 cmake -S "$scratch/consumer" -B "$scratch/consumer/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
   -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >/dev/null
 ninja -C "$scratch/consumer/build" --quiet

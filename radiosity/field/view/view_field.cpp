@@ -64,8 +64,8 @@ VertexRows rows_from(std::size_t first, const std::vector<LatticeVertex>& all) {
 
 class ViewRefiner {
 public:
-  ViewRefiner(const IrradianceField& field, SeenCells seen, const ViewRefinement& how)
-      : field_(field), mesh_(field.mesh()), light_(*field.scene), how_(how), seen_(std::move(seen)),
+  ViewRefiner(const IrradianceField& field, SeenCells seen, const ViewRefinement& how, const Progress& progress)
+      : progress_(progress), field_(field), mesh_(field.mesh()), light_(*field.scene), how_(how), seen_(std::move(seen)),
         cells_(seen_.lattice()), blockers_(seen_.roots()) {}
 
   ViewField refined() {
@@ -98,8 +98,12 @@ private:
       const std::size_t begin = rows.begin[row], end = rows.begin[row + 1];
       OccludersOfImages& known = blockers_[seen_.root_of(vertices[rows.vertices[begin]].element)];
       std::swap(work.blockers_of, known);
-      for (std::size_t k = begin; k < end; ++k)
+      for (std::size_t k = begin; k < end; ++k) {
+        constexpr std::size_t often = 16;
+        if (progress_ && (k - begin) % often == 0)
+          progress_("render", 0.0);
         light_vertex(rows.vertices[k], work);
+      }
       // What nothing has been learned of takes room alone, and so do more images than few vertices need.
       std::erase_if(work.blockers_of, [](const auto& image) { return image.second.learned == 0; });
       if (work.blockers_of.size() > most_kept)
@@ -327,6 +331,7 @@ private:
     return result;
   }
 
+  const Progress& progress_;
   const IrradianceField& field_;
   const ElementMesh& mesh_;
   const LightScene& light_;
@@ -343,7 +348,7 @@ private:
 } // namespace
 
 ViewField view_field(const IrradianceField& field, std::vector<SeenPoint> seen, double apart,
-                     const ViewRefinement& how) {
+                     const ViewRefinement& how, const Progress& progress) {
   expects(field.indirect.size() == field.irradiance.size(), "the field knows its indirect part");
   const LightScene& light = *field.scene;
   Workspaces workspaces;
@@ -358,7 +363,7 @@ ViewField view_field(const IrradianceField& field, std::vector<SeenPoint> seen, 
       return static_cast<float>(largest(sum));
     };
   ViewField result =
-      ViewRefiner(field, SeenCells(light.mesh, std::move(seen), apart, lit), how).refined();
+      ViewRefiner(field, SeenCells(light.mesh, std::move(seen), apart, lit), how, progress).refined();
   for (const SharedLightWorkspace& work : workspaces)
     result.shadow_rays += work.point.shadow_rays;
   return result;

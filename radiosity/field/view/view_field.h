@@ -25,6 +25,7 @@
 
 #include "radiosity/field/irradiance_field.h"
 #include "radiosity/field/view/seen_cells.h"
+#include "scenes/progress.h"
 
 #include <vector>
 
@@ -47,8 +48,9 @@ struct ViewField {
   std::uint64_t shadow_rays = 0;
 };
 
-/// Points are a pixel apart, or `apart` pixels. Precondition: the field knows its indirect part.
+/// Points are a pixel apart, or `apart` pixels. Precondition: the field knows its indirect part. How far it is nobody
+/// can tell beforehand: `progress` is told 0 of "render", often, and may end it by throwing.
 ViewField view_field(const IrradianceField& field, std::vector<SeenPoint> seen, double apart,
-                     const ViewRefinement& how);
+                     const ViewRefinement& how, const Progress& progress = {});
 
 } // namespace meninas

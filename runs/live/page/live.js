@@ -5,7 +5,7 @@
 "use strict";
 
 const liveStyle = `
-#live { left: 50%; top: 10px; transform: translateX(-50%); max-width: calc(100% - 20px); font-variant-numeric: tabular-nums; z-index: 2; }
+#live { left: 50%; top: 10px; transform: translateX(-50%); max-width: max(24rem, calc(100% - 36rem)); font-variant-numeric: tabular-nums; z-index: 2; }
 #live progress { width: 9rem; height: .6rem; vertical-align: middle; accent-color: var(--accent); } #live code { user-select: all; overflow-wrap: anywhere; font-size: .85em; }
 #live p { margin: .2rem 0 0; } #live .wrong { color: var(--accent); }
 #live .teach { margin-left: .4rem; }
@@ -23,13 +23,27 @@ async function askServer(path, options = {}) {
 }
 const tellServer = path => askServer(path, { method: "POST" }).catch(() => {});
 
-/// Bits of halves from the message of live_board.h, and what it says of them. `before`: those of the state it differs from.
-async function readLight(buffer, before) {
+/// What the server sends of numbers (live_board.h): what it says of them, and `values`.
+async function readMessage(buffer) {
   const length = new DataView(buffer).getUint32(0, true), bytes = new Uint8Array(buffer);
   const head = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
-  const bits = readTable(await inflated(bytes.subarray(4 + length)), 0, head);
+  return { ...head, values: readTable(await inflated(bytes.subarray(4 + length)), 0, head) };
+}
+
+/// Bits of halves. `before`: those of the state they differ from.
+async function readLight(buffer, before) {
+  const { values: bits, ...head } = await readMessage(buffer);
   if (head.base) for (let k = 0; k < bits.length; ++k) bits[k] += before[k];
   return { ...head, bits };
+}
+
+/// What the server has for a request; throws a sentence where that is nothing.
+async function askFor(path) {
+  const reply = await askServer(path);
+  if (reply.status === 200) return reply;
+  if (reply.status === 204) throw new Error("Another picture was asked for before this one was there.");
+  const said = reply.status === 400 || reply.status === 503 ? (await reply.text()).trim() : "";
+  throw new Error(said || `The program could not answer (${reply.status}).`);
 }
 
 /// Numbers for the page, with the ambient term or without.
@@ -50,7 +64,9 @@ function makeStatusCard(actions) {
   text.setAttribute("role", "status");
   card.append(bar, " ", text);
   for (const [id, label, key, title] of [["pause", "pause", "P", "stop after the next shot"], ["step", "one shot", "N", "the next shot, and then stop"],
-    ["ambient", "ambient", "T", "light still to be shot, spread evenly"], ["save", "save", "Ctrl+S", "the picture of this view as EXR and PNG"]]) {
+    ["ambient", "ambient", "T", "light still to be shot, spread evenly"],
+    ["solver", "shooting", "V", "shooting or gathering, from the beginning"], ["constant", "constant", "I", "elements as constant, or interpolated"],
+    ["factors", "factors", "G", "form factors of the element under the cursor; again: those by mirrors"], ["save", "save", "Ctrl+S", "the picture of this view as EXR and PNG"]]) {
     const button = madeElement("button", { id: "live-" + id, type: "button", title, className: "teach" }, label + " ");
     button.append(madeElement("kbd", {}, key));
     button.addEventListener("click", () => actions[id]());
@@ -59,11 +75,11 @@ function makeStatusCard(actions) {
   card.append(problem, said);
   document.body.append(card);
   return {
-    show(status, withAmbient) {
+    show(status, { withAmbient, constant }) {
       const left = status.secondsLeft === null || status.solved ? "" : `, ${Math.ceil(status.secondsLeft)} s left`;
-      const parts = [status.stage + (!status.paused ? left : ["shots", "dark"].includes(status.stage) ? ", stopped" : ", stops at the next shot"), `${status.elements} elements`];
-      if (!status.solved && status.shots) parts.push(`${status.shots} shots`);
-      if (status.unshot !== null) parts.push(`unshot ${shares(status.unshot)}`);
+      const parts = [status.stage + (!status.paused ? left : ["shots", "sweeps", "dark"].includes(status.stage) ? ", stopped" : ", stops at the next step"), `${status.elements} elements`];
+      if (!status.solved && status.shots) parts.push(`${status.shots} ${status.gathers ? "sweeps" : "shots"}`);
+      if (status.unshot !== null) parts.push(`${status.gathers ? "last change" : "unshot"} ${shares(status.unshot)}`);
       if (status.error !== null) parts.push(`error below ${shares(status.error)}`);
       parts.push(`${status.seconds.toFixed(1)} s`);
       text.textContent = parts.join("; ");
@@ -72,10 +88,13 @@ function makeStatusCard(actions) {
       problem.hidden = !status.problem;
       problem.textContent = status.problem;
       const shoots = !status.solved;
-      for (const id of ["pause", "step", "ambient"]) element("live-" + id).hidden = !shoots;
+      for (const id of ["pause", "step", "ambient", "solver"]) element("live-" + id).hidden = !shoots;
       element("live-save").hidden = !status.solved;
       element("live-pause").firstChild.textContent = status.paused ? "go on " : "pause ";
+      element("live-step").firstChild.textContent = status.gathers ? "one sweep " : "one shot ";
+      element("live-solver").firstChild.textContent = status.gathers ? "gathering " : "shooting ";
       element("live-ambient").setAttribute("aria-pressed", withAmbient);
+      element("live-constant").setAttribute("aria-pressed", constant);
       document.body.dataset.status = JSON.stringify(status);
     },
     say(line, code) {
@@ -86,17 +105,40 @@ function makeStatusCard(actions) {
 }
 
 async function openLive() {
-  let status = null, page = null, resting = null, room = 0, failed = 0, light = null, middle = [0, 0, 0], busy = false, withAmbient = true, name = "view";
+  let status = null, page = null, resting = null, room = 0, failed = 0, light = null, middle = [0, 0, 0], busy = false, factors = null, apart = false, name = "view";
+  const shows = { withAmbient: true, constant: false };
   const shoots = () => status && !status.solved, say = problem => problem.name === "NoAnswer" ? card.say(problem.message) : showProblem(problem);
   const actions = { pause: () => { if (shoots()) tellServer(status.paused ? "go-on" : "pause"); }, step: () => { if (shoots()) tellServer("step"); },
-    ambient: () => { withAmbient = !withAmbient; if (page && light) page.takeLight(lightOf(light, withAmbient)); card.show(status, withAmbient); },
+    ambient: () => { shows.withAmbient = !shows.withAmbient; showLight(); },
+    solver: () => { if (shoots()) tellServer(status.gathers ? "shoot" : "gather"); },
+    constant: () => { shows.constant = !shows.constant; withElementsApart().then(showLight).catch(say); },
+    factors: () => withElementsApart().then(() => factors.press(room)).catch(problem => card.say(problem.message)),
     save: async () => {
       if (!resting || !status.solved) { card.say("The room is not solved yet."); return; }
       card.say("making the picture ...");
       try { card.say("saved; again by ", await resting.save(name)); } catch (problem) { card.say(problem.message); }
     } };
   const card = makeStatusCard(actions);
-  const told = { moved: () => { if (resting) resting.moved(); }, rested: () => { if (resting && status.solved) resting.rested().catch(say); } };
+  function showLight() {
+    if (!page || !light) return;
+    const { tables } = page.room, numbers = lightOf(light, shows.withAmbient);
+    if (tables.from) document.body.dataset.apart = "yes";
+    if (tables.from) numbers.irradiance = atOwnVertices(tables, numbers.irradiance, 3);
+    page.shows.constant = shows.constant;
+    if (shows.constant && tables.from) numbers.irradiance = meansOfElements(tables, numbers.irradiance);
+    if (resting) resting.moved();
+    page.takeLight(numbers);
+    card.show(status, shows);
+  }
+  /// From now on; the room that is there is fetched again for it.
+  async function withElementsApart() {
+    if (apart) return;
+    apart = true;
+    room = 0;
+    await follow();
+    for (let k = 0; k < 400 && !(page && page.room.tables.from); ++k) await new Promise(resolve => setTimeout(resolve, 25)); // where it followed already
+  }
+  const told = { tables: tables => { if (apart) splitElements(tables); }, moved: () => { if (resting) resting.moved(); }, rested: () => { if (resting && status.solved) resting.rested().catch(say); } };
 
   async function takeRoom() {
     const reply = await askServer("room");
@@ -106,13 +148,16 @@ async function openLive() {
     if (page) await page.takeRoom(fresh.data, shift);
     else {
       page = await openPage(fresh.data, told);
-      Object.assign(page.keys, { n: actions.step, p: actions.pause, t: actions.ambient });
+      const { step, pause, ambient, solver, constant } = actions, escape = page.keys.escape;
+      Object.assign(page.keys, { n: step, p: pause, t: ambient, v: solver, i: constant, g: actions.factors, escape: () => { escape(); factors.hide(); } });
+      factors = makeFactors(page, askFor, card.say);
       resting = makeResting(page, () => middle, askServer);
     }
     [room, middle] = [fresh.room, fresh.middle];
     name = fresh.data.title.replace(/\.[^.]*$/, "") || "view";
-    light = { bits: Int32Array.from(page.room.tables.irradiance), scale: fresh.data.light, ambient: fresh.ambient, top: fresh.data.top, state: fresh.state };
-    page.takeLight(lightOf(light, withAmbient));
+    factors.hide();
+    light = { bits: Int32Array.from(page.room.tables.bits || page.room.tables.irradiance), scale: fresh.data.light, ambient: fresh.ambient, top: fresh.data.top, state: fresh.state };
+    showLight();
   }
   async function takeLight() {
     const reply = await askServer(`light?base=${light.state}`);
@@ -120,7 +165,7 @@ async function openLive() {
     const fresh = await readLight(await reply.arrayBuffer(), light.bits);
     if (fresh.room !== room) return;
     light = fresh;
-    page.takeLight(lightOf(light, withAmbient));
+    showLight();
   }
   /// One thing after another, the newest alone.
   async function follow() {
@@ -151,7 +196,7 @@ async function openLive() {
   events.addEventListener("message", event => {
     const before = status;
     status = JSON.parse(event.data);
-    card.show(status, withAmbient);
+    card.show(status, shows);
     if (before && before.solved && !status.solved && resting) resting.moved();
     if (before && status.solved && !before.solved && page) page.redraw();
     follow();

@@ -47,7 +47,7 @@ function makeResting(page, middle, ask) {
     isThere = true;
     document.body.dataset.resting = step;
   }
-  const isPlain = () => !page.shows.falseColours && !page.shows.lines && page.shows.mirrors;
+  const isPlain = () => !page.shows.falseColours && !page.shows.lines && page.shows.mirrors && !page.shows.constant && !page.room.instead;
 
   async function rested() {
     moved();
@@ -75,22 +75,14 @@ function makeResting(page, middle, ask) {
     if (isThere) hide();
   }
 
-  /// What the server has for it; throws a sentence where that is nothing.
-  async function given(path) {
-    const reply = await ask(path);
-    if (reply.status === 200) return reply;
-    if (reply.status === 204) throw new Error("Another picture was asked for before this one was there.");
-    const said = reply.status === 400 || reply.status === 503 ? (await reply.text()).trim() : "";
-    throw new Error(said || `The program could not make the picture (${reply.status}).`);
-  }
   /// EXR and PNG into the browser's downloads, both or neither; returns the command that makes them again. It goes on
   /// while the camera moves. Throws a sentence where there are none.
   async function save(name) {
     const query = viewNow();
     query.set("viewer", `${viewer}-save`);
     query.set("number", ++saves);
-    const command = await (await given(`command?${query}&name=${encodeURIComponent(name)}`)).text(), files = [];
-    for (const kind of ["exr", "png"]) files.push([kind, await (await given(`save.${kind}?${query}`)).blob()]);
+    const command = await (await askFor(`command?${query}&name=${encodeURIComponent(name)}`)).text(), files = [];
+    for (const kind of ["exr", "png"]) files.push([kind, await (await askFor(`save.${kind}?${query}`)).blob()]);
     for (const [kind, blob] of files) {
       const link = madeElement("a", { href: URL.createObjectURL(blob), download: `${name}.${kind}` });
       document.body.append(link);

@@ -13,6 +13,7 @@ function makePainter(gl, data, room, textures) {
   const screenProgram = makeProgram(gl, wholeVertex, screenFragment);
   const { array, light, buffers } = makeRoomArrays(gl, data, room.tables, room.lamps.irradiance()), looks = gl.createTexture();
   const nothing = gl.createVertexArray(), scale = makeScale(gl, data.falseColours), targets = [];
+  const { probes } = room; // its own, when another room is shown
   const black = gl.createTexture(), blackCube = gl.createTexture();
   for (const [kind, texture] of [[gl.TEXTURE_2D, black], [gl.TEXTURE_CUBE_MAP, blackCube]]) {
     gl.bindTexture(kind, texture);
@@ -21,7 +22,7 @@ function makePainter(gl, data, room, textures) {
     setFilters(gl, gl.NEAREST, gl.NEAREST, kind);
   }
   const probeExposed = 2 ** data.cameras[0].exposure;
-  let lines = null, options, draws, drawn, at = roomProgram.at, state = -1;
+  let lines = null, instead = null, options, draws, drawn, at = roomProgram.at, state = -1;
 
   const bind = (unit, texture, kind = gl.TEXTURE_2D) => { gl.activeTexture(gl.TEXTURE0 + unit); gl.bindTexture(kind, texture); };
   const scissor = (rectangle, { width, height }) => {
@@ -112,6 +113,19 @@ function makePainter(gl, data, room, textures) {
     }
     drawRuns(options.without ? room.opaque.filter(run => !options.without.has(run)) : room.opaque, shown.own);
     if (options.lines) drawLines();
+    if (instead) drawInsteadLines();
+  }
+  /// Of what is shown in place of light.
+  function drawInsteadLines() {
+    if (instead !== room.instead) return;
+    gl.bindVertexArray(instead.array);
+    gl.uniform1i(at.shows, shown.lines);
+    gl.uniform4f(at.lineColour, 0.6, 1, 1, 0.7);
+    blend(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    gl.drawArrays(gl.LINES, 0, instead.count);
+    blend();
+    gl.bindVertexArray(array);
+    ++draws;
   }
   function drawLines() {
     if (!lines) {
@@ -119,6 +133,7 @@ function makePainter(gl, data, room, textures) {
       lines = { count: ends.length, triangles, ends: makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, ends) };
     }
     gl.uniform1i(at.shows, shown.lines);
+    gl.uniform4f(at.lineColour, 0, 0, 0, 0.45);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, lines.ends);
     blend(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.drawElements(gl.LINES, lines.count, gl.UNSIGNED_INT, 0);
@@ -262,9 +277,9 @@ function makePainter(gl, data, room, textures) {
     bind(5, blackCube, gl.TEXTURE_CUBE_MAP);
     gl.uniform1i(at.falseColours, options.falseColours);
     gl.uniform1i(at.facets, options.facets || 8);
-    gl.uniform1f(at.lightScale, data.light);
+    gl.uniform1f(at.lightScale, room.instead ? 1 : data.light);
     gl.uniform1f(at.exposed, exposed);
-    gl.uniform1f(at.topIrradiance, data.top);
+    gl.uniform1f(at.topIrradiance, room.instead ? room.instead.top : data.top);
     gl.uniform3fv(at.ambient, room.ambient);
     gl.uniform3fv(at.lowest, room.low);
     gl.uniform3fv(at.highest, room.high);
@@ -290,12 +305,29 @@ function makePainter(gl, data, room, textures) {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  /// The room under its lamps as they are now.
+  function takeInsteadLines() {
+    if (instead) freeInstead();
+    if (!room.instead || !room.instead.lines.length) return;
+    instead = Object.assign(room.instead, { array: gl.createVertexArray(), count: room.instead.lines.length });
+    gl.bindVertexArray(instead.array);
+    instead.buffer = makeBuffer(gl, gl.ARRAY_BUFFER, Float32Array.from(instead.lines.flat()));
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
+    gl.bindVertexArray(null);
+    gl.vertexAttribI4ui(5, 0, 0, 0, 0); // what the shader wants of a line besides is a whole number
+  }
+  function freeInstead() {
+    gl.deleteVertexArray(instead.array);
+    gl.deleteBuffer(instead.buffer);
+    instead = null;
+  }
+  /// The room under its lamps as they are now, or what is shown in place of that.
   function relight() {
     if (state === room.lamps.state) return;
     state = room.lamps.state;
     const irradiance = room.lamps.irradiance();
-    setValues(gl, light, irradiance);
+    setValues(gl, light, room.instead ? room.instead.values : irradiance);
+    takeInsteadLines();
     gl.activeTexture(gl.TEXTURE0);
     setLooks(gl, looks, room.lamps.looks());
     if (textures.sky) setSky(gl, textures.sky, room.lamps.of(data.skyLamp), room.lamps.of(data.sunLamp));
@@ -333,7 +365,7 @@ function makePainter(gl, data, room, textures) {
   /// `wanted`: width and height in pixels of the screen, block, exposure, lines, falseColours, mirrors,
   /// and how many worlds at most. Returns figures of the frame.
   function paint(camera, wanted) {
-    options = { ...wanted, width: wanted.width * wanted.block, height: wanted.height * wanted.block };
+    options = { ...wanted, width: wanted.width * wanted.block, height: wanted.height * wanted.block, falseColours: wanted.falseColours || Boolean(room.instead) };
     draws = 0;
     const follows = (mirror, world) => options.mirrors && (mirror.kind === "mirror" || !options.falseColours)
       && (!(mirror.kind === "pane" || mirror.rough) || world.asides < 2);
@@ -350,7 +382,8 @@ function makePainter(gl, data, room, textures) {
     targets.forEach(target => target && freeTarget(gl, target));
     buffers.forEach(buffer => gl.deleteBuffer(buffer));
     if (lines) gl.deleteBuffer(lines.ends);
-    [...textures, ...(textures.sky ? [textures.sky.texture] : []), ...room.probes.map(probe => probe.texture || null), looks, scale, black, blackCube]
+    if (instead) freeInstead();
+    [...textures, ...(textures.sky ? [textures.sky.texture] : []), ...probes.map(probe => probe.texture || null), looks, scale, black, blackCube]
       .forEach(texture => gl.deleteTexture(texture));
     [array, nothing].forEach(made => gl.deleteVertexArray(made));
   }

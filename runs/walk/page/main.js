@@ -7,9 +7,11 @@ const facetsFor = block => block > 2 ? 48 : block > 1 ? 24 : 12;
 /// More worlds than that make no frame slow on a plain graphics card; slow ones have fewer.
 const mostWorlds = 128, mostWorldsOfShot = 1024, slowFrame = 80, mostPixels = 1 << 24;
 
-/// The room of some data, and its images for the graphics card.
-async function readShown(gl, data) {
-  const room = readRoom(data, await readTables(data)), images = await Promise.all(data.images.map(readImage));
+/// The room of some data, and its images for the graphics card. `change` gets its tables first.
+async function readShown(gl, data, change) {
+  const tables = await readTables(data);
+  if (change) change(tables);
+  const room = readRoom(data, tables), images = await Promise.all(data.images.map(readImage));
   const textures = data.textures.map(use => makeTexture(gl, images[use.image], use));
   if (data.sky) textures.sky = await makeSky(gl, data.sky);
   return { room, textures };
@@ -19,9 +21,12 @@ async function readShown(gl, data) {
 ///   keys           by name, what they do; others may be added
 ///   takeRoom(data, shift)  shows another room, or another mesh of it, from where the eye is; its points are those before plus `shift`
 ///   takeLight({ irradiance, scale, top })  shows the room under other light: numbers by vertex, times scale W/m^2
+///   showInstead({ values, top, title, lines })  numbers by vertex in false colours in place of the light, 0 to `top`, and points of lines in pairs; null: the light
+///   triangleAtCursor()  what is seen there, by mirrors too; null where that is nothing
 ///   redraw()       after a change of something beside the camera
+/// `told.tables` may change the tables of a room before it is shown.
 async function openPage(data, told = {}) {
-  const canvas = element("view"), gl = openGpu(canvas), { room, textures } = await readShown(gl, data);
+  const canvas = element("view"), gl = openGpu(canvas), { room, textures } = await readShown(gl, data, told.tables);
   let painter = makePainter(gl, data, room, textures);
   const rays = raysWhenAsked(room), motion = makeMotion(room, rays);
   const asked = readAddress(), mostWide = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE);
@@ -84,7 +89,7 @@ async function openPage(data, told = {}) {
     if (!moving && painter.fillNextProbe()) setTimeout(() => askForFrame(false), 0);
     panel.figures(figures);
     dimmers.show();
-    panel.show({ ...shows, mode: motion.state.mode, exposure: motion.state.exposure });
+    panel.show({ ...shows, instead: Boolean(room.instead), mode: motion.state.mode, exposure: motion.state.exposure });
     clearTimeout(rest);
     if (goesOn) moved();
     else if (moving) rest = setTimeout(() => { saveAddress(); askForFrame(false); if (told.rested) told.rested(); }, 250);
@@ -126,15 +131,25 @@ async function openPage(data, told = {}) {
   } });
   let met = null; // the ray of a click
   const tellMet = () => panel.met(met && lightMet(room, rays, ...met));
-  const meet = (x, y) => {
+  const rayAt = (x, y) => {
     const camera = motion.view(canvas.clientWidth / canvas.clientHeight);
     const [i, j] = [2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight];
     const direction = unit(plus(plus(camera.forward, camera.right, i * camera.half * camera.aspect), camera.up, j * camera.half));
     // What the section plane cuts away is not met.
     const past = camera.near / Math.max(1e-6, dot(direction, camera.forward));
-    met = [plus(camera.eye, direction, past), direction];
+    return [plus(camera.eye, direction, past), direction];
+  };
+  const meet = (x, y) => {
+    met = rayAt(x, y);
     tellMet();
   };
+  let cursor = null;
+  canvas.addEventListener("pointermove", event => { cursor = [event.offsetX, event.offsetY]; });
+  canvas.addEventListener("pointerleave", () => { cursor = null; });
+  function triangleAtCursor() {
+    const { hit } = followRay(room, rays, ...rayAt(...(cursor || [canvas.clientWidth / 2, canvas.clientHeight / 2])));
+    return hit && hit.triangle;
+  }
   keys.enter = () => meet(canvas.clientWidth / 2, canvas.clientHeight / 2);
   keys.escape = () => { met = null; tellMet(); };
   const dimmers = makeDimmers(room.lamps, () => { room.lamps.looks(); tellMet(); moved(); });
@@ -150,12 +165,21 @@ async function openPage(data, told = {}) {
   canvas.addEventListener("webglcontextlost", () => showProblem(new Error("The graphics card has dropped this page: load it again.")));
 
   async function takeRoom(other, shift) {
-    const next = await readShown(gl, other), { camera, exposure } = motion.state;
-    painter.free();
-    for (const name of Object.keys(data)) delete data[name];
-    Object.assign(data, other);
-    Object.assign(room, next.room, { data });
-    painter = makePainter(gl, data, room, next.textures);
+    const next = await readShown(gl, other, told.tables), { camera, exposure } = motion.state;
+    const before = painter, [dataBefore, roomBefore] = [{ ...data }, { ...room }];
+    const become = (itsData, itsRoom) => {
+      for (const [one, its] of [[data, itsData], [room, itsRoom]]) {
+        for (const name of Object.keys(one)) delete one[name];
+        Object.assign(one, its);
+      }
+      room.data = data;
+    };
+    become(other, next.room);
+    try { painter = makePainter(gl, data, room, next.textures); } catch (problem) {
+      become(dataBefore, roomBefore);
+      throw problem;
+    }
+    before.free();
     panel.room();
     const same = data.cameras.findIndex(one => camera && one.name === camera.name);
     if (same >= 0) {
@@ -172,13 +196,20 @@ async function openPage(data, told = {}) {
   function takeLight({ irradiance, scale, top }) {
     [data.light, data.top] = [scale, top];
     room.lamps.receive(irradiance);
-    panel.scale();
+    panel.scale(room.instead);
     tellMet();
     redraw();
   }
 
+  function showInstead(instead) {
+    room.instead = instead;
+    ++room.lamps.state;
+    panel.scale(instead);
+    redraw();
+  }
+
   followAddress();
-  const page = { keys, takeRoom, takeLight, redraw, motion, shows, canvas, room, rays };
+  const page = { keys, showInstead, triangleAtCursor, takeRoom, takeLight, redraw, motion, shows, canvas, room, rays };
   if (!asked.shot) return page;
   canvas.style.width = canvas.style.height = "auto";
   for (let k = 0; k < mostProbes && painter.fillNextProbe();) ++k;

@@ -18,9 +18,12 @@ function makePanel(data, actions) {
     cameras.replaceChildren(...data.cameras.map((camera, k) => new Option(`${camera.name}${k < 9 ? ` (${k + 1})` : ""}`, k)));
     showScale();
   }
-  function showScale() {
-    element("scale-top").textContent = figure(data.top);
-    element("scale-middle").textContent = figure(data.top / 2);
+  const whatScale = element("legend").firstElementChild, irradianceTitle = whatScale.textContent;
+  function showScale(instead = null) {
+    const top = instead ? instead.top : data.top;
+    element("scale-top").textContent = figure(top);
+    element("scale-middle").textContent = figure(top / 2);
+    whatScale.textContent = instead ? instead.title : irradianceTitle;
   }
   cameras.addEventListener("change", () => { actions.camera(Number(cameras.value)); element("view").focus(); });
   const switches = [["mode", "o"], ["mirrors", "m"], ["falseColours", "f"], ["elements", "e"], ["lamps-button", "l"]];
@@ -41,12 +44,12 @@ function makePanel(data, actions) {
   return {
     room: showRoom,
     scale: showScale,
-    show({ camera, mode, mirrors, falseColours, lines, exposure }) {
+    show({ camera, mode, mirrors, falseColours, instead, lines, exposure }) {
       cameras.value = camera;
       element("mode").textContent = mode === "walk" ? "walk" : "orbit";
       for (const [id, on] of [["mirrors", mirrors], ["falseColours", falseColours], ["elements", lines]])
         element(id).setAttribute("aria-pressed", on);
-      element("legend").hidden = !falseColours;
+      element("legend").hidden = !falseColours && !instead;
       element("exposure").textContent = `${exposure >= 0 ? "+" : ""}${exposure.toFixed(1)} EV`;
     },
     figures({ worlds, cut, depth, draws, milliseconds }) {

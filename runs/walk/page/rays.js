@@ -73,26 +73,29 @@ function raysWhenAsked(room) {
   };
 }
 
+/// The way of a ray by mirrors: its points, and the hit on what is none, with its part of the room; null where it leaves.
+function followRay(room, rays, origin, direction) {
+  const points = [origin];
+  for (let mirrors = 0;; ++mirrors) {
+    const hit = rays(origin, direction);
+    if (!hit) return { points, hit: null };
+    const part = partOf(room, hit.triangle), at = plus(origin, direction, hit.distance);
+    points.push(at);
+    if (mirrors === 31 || !room.mirrors.some(m => m.number === part.mirror && m.kind === "mirror")) return { points, hit, part };
+    direction = reflected(direction, hit.normal, 0);
+    origin = plus(at, hit.normal, 1e-5 * room.size);
+  }
+}
+
 /// What a ray meets, by way of mirrors: the part of the room, its light there, and how many mirrors.
 function lightMet(room, rays, origin, direction) {
-  for (let mirrors = 0; mirrors < 32; ++mirrors) {
-    const hit = rays(origin, direction);
-    if (!hit) return null;
-    const part = partOf(room, hit.triangle), at = plus(origin, direction, hit.distance);
-    const mirror = room.mirrors.find(m => m.number === part.mirror && m.kind === "mirror");
-    if (mirror && mirrors < 31) {
-      direction = reflected(direction, hit.normal, 0);
-      origin = plus(at, hit.normal, 1e-5 * room.size);
-      if (mirrors === 0) room.firstMirror = part.node;
-      continue;
-    }
-    const weights = [1 - hit.u - hit.v, hit.u, hit.v], irradiance = [0, 0, 0];
-    weights.forEach((w, k) => {
-      const v = room.tables.triangles[3 * hit.triangle + k];
-      for (let band = 0; band < 3; ++band)
-        irradiance[band] += w * room.lamps.irradiance()[3 * v + band] * room.data.light;
-    });
-    return { ...part, at, irradiance, mirrors };
-  }
-  return null;
+  const { points, hit, part } = followRay(room, rays, origin, direction);
+  if (!hit) return null;
+  const weights = [1 - hit.u - hit.v, hit.u, hit.v], irradiance = [0, 0, 0];
+  weights.forEach((w, k) => {
+    const v = room.tables.triangles[3 * hit.triangle + k];
+    for (let band = 0; band < 3; ++band)
+      irradiance[band] += w * room.lamps.irradiance()[3 * v + band] * room.data.light;
+  });
+  return { ...part, at: points[points.length - 1], irradiance, mirrors: points.length - 2 };
 }

@@ -43,6 +43,7 @@ in vec4 onTextures, colour;
 flat in int look;
 uniform int shows, facets;
 uniform mat4 asideProjection;
+uniform vec4 lineColour;
 uniform bool aside, falseColours, hasColour, hasEmission, hasProbe;
 uniform vec3 eye, asideEye, ambient, lowest, highest, probePlace, probeScale;
 uniform vec4 clip; // the room is where dot(clip.xyz, x) > clip.w
@@ -174,7 +175,7 @@ vec3 seenBySolid(vec3 n, vec3 towards) {
 
 void main() {
   if (dot(clip.xyz, place) <= clip.w) discard;
-  if (shows == ${shown.lines}) { result = vec4(0.0, 0.0, 0.0, 0.45); return; }
+  if (shows == ${shown.lines}) { result = lineColour; return; }
   vec4 first = NUMBERS(0), second = NUMBERS(1), third = NUMBERS(2);
   int kind = int(third.w);
   vec4 texel = hasColour ? texture(colourTexture, onTextures.xy) : vec4(1.0);

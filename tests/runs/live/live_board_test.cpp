@@ -2,11 +2,11 @@
 #include "runs/live/live_board.h"
 #include "runs/live/scene_watch.h"
 #include "runs/live/shot_steps.h"
+#include "tests/runs/live/live_message.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <zlib.h>
 
 #include <atomic>
 #include <chrono>
@@ -25,40 +25,6 @@ LiveLight light_of(float brightness, std::size_t vertices = 1000) {
   for (std::size_t v = 0; v < vertices; ++v)
     light.irradiance.emplace_back(brightness * (1.0F + 0.001F * float(v)), brightness, 0.0F);
   return light;
-}
-
-struct Message {
-  json head;
-  std::vector<int> bits; ///< by vertex and channel
-};
-
-/// As page/live.js reads it; the table is that of walk/packed_numbers.h.
-Message read(const std::string& text, const Message* before = nullptr) {
-  std::size_t length = 0;
-  for (unsigned k = 0; k < 4; ++k)
-    length |= std::size_t{static_cast<unsigned char>(text[k])} << (8 * k);
-  Message message{json::parse(text.substr(4, length)), {}};
-  const std::size_t rows = message.head.at("rows"), bytes = message.head.at("bytes");
-  std::vector<unsigned char> table(3 * rows * bytes);
-  uLongf size = table.size();
-  EXPECT_EQ(uncompress(table.data(), &size, reinterpret_cast<const Bytef*>(text.data()) + 4 + length, text.size() - 4 - length), Z_OK);
-  std::vector<std::uint32_t> folded(3 * rows, 0);
-  std::size_t place = 0;
-  for (unsigned byte = 0; byte < bytes; ++byte)
-    for (std::size_t column = 0; column < 3; ++column)
-      for (std::size_t row = 0; row < rows; ++row)
-        folded[3 * row + column] |= std::uint32_t{table[place++]} << (8 * byte);
-  for (std::size_t k = 0; k < folded.size(); ++k) {
-    const std::uint32_t f = folded[k];
-    const int difference = static_cast<int>(f & 1U ? ~(f >> 1U) : f >> 1U);
-    message.bits.push_back(difference);
-  }
-  for (std::size_t k = 3; k < message.bits.size(); ++k)
-    message.bits[k] += message.bits[k - 3];
-  if (message.head.at("base") != 0)
-    for (std::size_t k = 0; k < message.bits.size(); ++k)
-      message.bits[k] += before->bits[k];
-  return message;
 }
 
 TEST(LiveBoard, DifferencesAddUpToTheWhole) {
@@ -125,6 +91,16 @@ TEST(ShotSteps, WaitForEachStepUntilTheyGoOn) {
   steps.pause(false);
   solver.join();
   EXPECT_EQ(made, 4);
+}
+
+// Also where that was asked for just before it waits.
+TEST(ShotSteps, EndWhenTheOtherSolverIsAskedFor) {
+  ShotSteps steps(true);
+  steps.gather(true);
+  steps.wait([] { return false; }, false);
+  EXPECT_TRUE(steps.paused());
+  steps.step();
+  steps.wait([] { return false; }, true);
 }
 
 TEST(ShotSteps, EndWhenTheStageIsOver) {

@@ -9,6 +9,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -99,6 +100,19 @@ TEST(ViewField, IsTheClosedFormWithinItsTolerance) {
   }
   EXPECT_GT(coarse, 0.1) << "or else nothing is tested";
   EXPECT_LT(fine, 0.02) << "the tolerance";
+}
+
+// Whoever has moved on does not wait for it: it is asked every few vertices.
+TEST(ViewField, EndsWhereItsProgressThrows) {
+  struct Over {};
+  Scene scene;
+  add_floor(scene);
+  add_polygon(scene, "lamp", lamp_over_the_floor(), diffuse(0.0, 10.0));
+  const SolvedFloor floor(std::move(scene), 2.0);
+  std::atomic<std::size_t> told{0};
+  const ViewField whole = view_field(floor.field(), floor.square({0, 0, 0}, 1.5, 64), 1.0, {}, [&](std::string_view, double) { ++told; });
+  EXPECT_GE(16 * told.load() + 64, whole.field.irradiance.size() - floor.field().irradiance.size());
+  EXPECT_THROW(view_field(floor.field(), floor.square({0, 0, 0}, 1.5, 64), 1.0, {}, [](std::string_view, double) { throw Over{}; }), Over);
 }
 
 /// The same by a lamp of 1 m, whose light is curved everywhere.

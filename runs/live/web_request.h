@@ -1,0 +1,34 @@
+// What a server of one page is asked and answers (web_server.h).
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace meninas {
+
+/// What is asked for, below the token.
+struct WebRequest {
+  std::string path;                         ///< "" is the page
+  std::map<std::string, std::string> query; ///< the last of each name
+  bool changes_something = false;           ///< POST
+};
+
+struct WebReply {
+  int status = 200;
+  std::string type; ///< of its media, such as "text/html"
+  std::shared_ptr<const std::string> body;
+};
+
+/// Called by any thread, for many requests at once.
+using AnswerRequest = std::function<WebReply(const WebRequest&)>;
+
+/// What is newer than `seen`, which it sets; nothing where nothing is after so long.
+using NextEvent =
+    std::function<std::optional<std::string>(std::uint64_t& seen, std::chrono::milliseconds patience)>;
+
+} // namespace meninas
