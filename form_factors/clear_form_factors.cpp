@@ -3,6 +3,7 @@
 #include "form_factors/area_form_factor.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 
@@ -41,6 +42,8 @@ ClearFormFactors clear_form_factors(const WorldView& view, const std::vector<Fac
     area += face.area;
   std::vector<std::vector<Estimate>> factors(from.size(),
                                              std::vector<Estimate>(view.targets.size()));
+  // Whoever cancels what this is a part of, it is done whole: half of it would be read.
+  tbb::task_group_context alone(tbb::task_group_context::isolated);
   tbb::parallel_for(std::size_t{0}, from.size() * view.targets.size(), [&](std::size_t k) {
     const std::size_t a = k / view.targets.size(), b = k % view.targets.size();
     const Face& target = view.targets[b];
@@ -49,7 +52,7 @@ ClearFormFactors clear_form_factors(const WorldView& view, const std::vector<Fac
     clear.known[a][b] = 1;
     if (from[a].plane_class != target.plane_class)
       factors[a][b] = area_form_factor(from[a].polygon, target.polygon);
-  });
+  }, alone);
   for (std::size_t a = 0; a < from.size(); ++a)
     for (std::size_t b = 0; b < view.targets.size(); ++b)
       clear.factors[view.groups[b]] =

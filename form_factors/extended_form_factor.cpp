@@ -7,6 +7,7 @@
 #include "form_factors/world_shares.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <queue>
@@ -139,11 +140,13 @@ private:
     for (std::size_t first = 0; first < regions.size(); first += batch_) {
       const std::size_t count = std::min(batch_, regions.size() - first);
       std::vector<WalkResult> walks(count * radon.size());
+      // Whoever cancels what this is a part of, it is done whole: half of it would be read.
+      tbb::task_group_context alone(tbb::task_group_context::isolated);
       tbb::parallel_for(std::size_t{0}, walks.size(), [&](std::size_t k) {
         const Region& region = regions[first + k / radon.size()];
         walks[k] = walk_worlds(view_, point_of(region, radon[k % radon.size()]), walk_,
                                clear_.known[region.face]);
-      });
+      }, alone);
       for (std::size_t k = 0; k < walks.size(); ++k) {
         Region& region = regions[first + k / radon.size()];
         const double weight = radon[k % radon.size()].weight * region.area / area_;

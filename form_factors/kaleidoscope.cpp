@@ -4,6 +4,7 @@
 #include "form_factors/world_shares.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cmath>
@@ -141,8 +142,10 @@ private:
       chosen.push_back(image);
     }
     std::vector<Visit> found(chosen.size());
+    // Whoever cancels what this is a part of, it is done whole: half of it would be read.
+    tbb::task_group_context alone(tbb::task_group_context::isolated);
     tbb::parallel_for(std::size_t{0}, chosen.size(),
-                      [&](std::size_t k) { found[k] = visit(images_[chosen[k]]); });
+                      [&](std::size_t k) { found[k] = visit(images_[chosen[k]]); }, alone);
     for (std::size_t k = 0; k < chosen.size(); ++k)
       add(chosen[k], found[k]);
     visited_ += chosen.size();

@@ -7,7 +7,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <numeric>
 
 namespace meninas {
 
@@ -22,17 +23,37 @@ static void take_back_what_was_cut(FormFactors& factors) {
             1.0F - factors.closure[row].cut_light[band];
 }
 
+/// By column, as others expect it.
+static void sort_rows(Transport& rows) {
+  const auto bands = static_cast<std::size_t>(rows.bands);
+  std::vector<std::uint64_t> order;
+  for (std::size_t row = 0; row < rows.size; ++row) {
+    const std::uint64_t begin = rows.row_begin[row], end = rows.row_begin[row + 1];
+    order.resize(end - begin);
+    std::iota(order.begin(), order.end(), begin);
+    std::ranges::sort(order, {}, [&](std::uint64_t k) { return rows.columns[k]; });
+    std::vector<std::uint32_t> columns;
+    std::vector<float> weights;
+    for (const std::uint64_t k : order) {
+      columns.push_back(rows.columns[k]);
+      for (std::size_t band = 0; band < bands; ++band)
+        weights.push_back(rows.weights[k * bands + band]);
+    }
+    std::ranges::copy(columns, rows.columns.begin() + static_cast<std::ptrdiff_t>(begin));
+    std::ranges::copy(weights, rows.weights.begin() + static_cast<std::ptrdiff_t>(begin * bands));
+  }
+}
+
 RoomFactors Room::form_factors(const Settings& settings, const Listener& listener) const {
   return guarded([&] {
-    RunSettings chosen = call_of(*impl_, settings).request.settings;
-    check_reading(*impl_, chosen);
+    RunSettings chosen = call_of(*impl_, settings, CallKind::form_factors).request.settings;
     chosen.mesh = MeshCut::uniform; // nodes of a hierarchy have no rows of their own
     const ThreadLimit limit(chosen.threads);
     const RunEvents events = events_of(listener);
     const PassOneSettings of_pass_one = two_pass_settings(chosen).pass_one;
     RunFigures figures;
     check_memory(impl_->scene, chosen, std::nullopt);
-    const auto prepared = prepare_run(impl_->scene, of_pass_one, events, figures);
+    const auto prepared = prepare_run(scene_under_lamps(*impl_, chosen), of_pass_one, events, figures);
     const LightScene& light = *prepared->light;
     const ElementMesh& mesh = light.mesh;
     auto impl = std::make_shared<RoomFactors::Impl>();
@@ -40,7 +61,8 @@ RoomFactors Room::form_factors(const Settings& settings, const Listener& listene
     impl->factors = assemble_transport(light, of_pass_one.form_factors, events.progress);
     if (of_pass_one.form_factors.method != FormFactorMethod::analytic) // has not shared out anything
       take_back_what_was_cut(impl->factors);
-    impl->solver = of_pass_one.solver;
+    sort_rows(impl->factors.transport);
+    impl->settings = settings;
     impl->area = mesh.area;
     impl->reflectance = flat<double>(mesh.reflectance);
     impl->emission = flat<double>(mesh.emission);
@@ -73,11 +95,12 @@ static std::vector<Rgb> colours_at(std::span<const double> values, std::size_t e
   if (values.size() != 3 * elements)
     throw UsageError("emission", fmt::format("has {} numbers, not three for each of {} elements",
                                              values.size(), elements));
+  constexpr double brightest = 1e30; // of which sums are finite
   std::vector<Rgb> colours;
   for (std::size_t e = 0; e < elements; ++e) {
     const Rgb colour(values[3 * e], values[3 * e + 1], values[3 * e + 2]);
     for (int c = 0; c < 3; ++c)
-      if (!std::isfinite(colour[c]) || colour[c] < 0.0)
+      if (!(colour[c] >= 0.0) || colour[c] > brightest)
         throw UsageError("emission", fmt::format("{} of element {} is no light", colour[c], e));
     colours.push_back(colour);
   }
@@ -87,11 +110,14 @@ static std::vector<Rgb> colours_at(std::span<const double> values, std::size_t e
 RoomFactors::Solved RoomFactors::solve(std::span<const double> emission,
                                        const Settings& settings) const {
   return guarded([&] {
-    SolverSettings how = impl_->solver;
-    if (!settings.empty()) {
-      const RunSettings chosen = call_of(*impl_->room, settings).request.settings;
-      how = two_pass_settings(chosen).pass_one.solver;
-    }
+    // Of the call that has made the rows what is said of solving them is kept; the rest is done.
+    Settings before = impl_->settings;
+    std::erase_if(before, [](const auto& setting) { return setting.first != "threads"; });
+    call_of(*impl_->room, settings, CallKind::solve_rows); // refuses what has no effect
+    const RunSettings chosen =
+        call_of(*impl_->room, merged(before, settings), CallKind::solve_rows).request.settings;
+    const ThreadLimit limit(chosen.threads);
+    const SolverSettings how = two_pass_settings(chosen).pass_one.solver;
     const auto own = std::span<const double>(impl_->emission);
     check_size(how.method, size());
     const SolverResult result =

@@ -16,13 +16,15 @@ struct Room::Impl {
   std::filesystem::path file;
   Settings settings;   ///< of all calls
   RunSettings loaded;  ///< with which the file was read
-  Scene scene;
+  Scene scene;         ///< without the warnings that were told
 };
 
 struct RoomPicture::Impl {
   ViewPicture picture;
+  Encoding encoding = Encoding::linear; ///< of the file that it was read from
   PictureSettings shown; ///< what the settings said of files
   std::string stats;
+  std::vector<std::filesystem::path> inputs; ///< files that it comes of
 };
 
 struct RoomSolution::Impl {
@@ -31,6 +33,7 @@ struct RoomSolution::Impl {
   RadiositySolution solution; ///< its field is that of the solution
   MeshSettings mesh;
   PassOneSettings settings;
+  bool is_relit = false; ///< and so does not know its lamps
   RunFigures figures;
   std::vector<float> vertices;
   std::vector<std::uint32_t> elements, nodes;
@@ -38,8 +41,8 @@ struct RoomSolution::Impl {
 
 struct RoomFactors::Impl {
   std::shared_ptr<const Room::Impl> room;
+  Settings settings; ///< of the call
   FormFactors factors;
-  SolverSettings solver;
   std::vector<float> centre, normal;
   std::vector<double> area, reflectance, emission;
   std::vector<std::uint32_t> nodes;
@@ -50,11 +53,22 @@ struct Call {
   RenderRequest request;
   std::optional<LampGrouping> by_lamp; ///< of a solution
 };
-/// Throws UsageError; of what only a room can say, `loaded` is what it said.
-Call call_of(const Room::Impl& room, const Settings& settings);
 
-/// Throws UsageError where a call wants the file read in another way than the room has.
-void check_reading(const Room::Impl& room, const RunSettings& settings);
+/// What a call is of. Its own settings that have no effect there are refused; those of its room are left aside.
+enum class CallKind { room, plan, picture, solution, picture_of_solution, form_factors, solve_rows };
+
+/// Throws UsageError; also where a call wants the file read in another way than the room has.
+Call call_of(const Room::Impl& room, const Settings& settings, CallKind kind);
+
+/// The settings, of which some stand for others with the same name further ahead.
+Settings merged(const Settings& before, const Settings& after);
+
+/// How a file of pixels is written: what is said over what was.
+PictureSettings picture_settings(PictureSettings before, const Settings& settings);
+
+/// The scene with lamps as bright as the call says, and the files it has been read from.
+Scene scene_under_lamps(const Room::Impl& room, const RunSettings& settings);
+std::vector<std::filesystem::path> files_of(const Room::Impl& room);
 
 /// The listener as runs know it. What it throws, and Cancelled where it says so, ends the work.
 RunEvents events_of(const Listener& listener);

@@ -8,11 +8,13 @@
 //
 // Settings are the options of `meninas render` by their names without dashes, with the values that they have on
 // the command line (docs/options.md): {{"quality", "draft"}, {"size", "640x480"}}. Those of a call go over those of
-// its room; what is not said has the values of a preset. `threads` limits the threads of one call, `error` and `time` choose
-// the rest of a picture's settings.
+// its room; what is not said has the values of a preset. A call refuses what has no effect on it and leaves aside what
+// its room says for others. `threads` limits the threads of the process while the call goes on, `error` and `time` choose
+// the rest of a picture's settings, and `png` makes a picture for PNGs: edges get the rays that the command gives them.
 //
 // Objects are handles of what does not change: copies share it, and any thread may use them. Spans live as long as
-// the object that they are of. Results are the same bits for any number of threads, and those of the commands.
+// the object that they are of. Results are the same bits for any number of threads, and those of the commands for an EXR,
+// with `png` for a PNG.
 //
 // What a user can cause is thrown as Error, one line as the program says it. This header needs the standard
 // library alone.
@@ -80,13 +82,14 @@ public:
   /// Figures of the run as JSON (docs/stats.md), with the estimated error of the picture; empty of one that was read.
   std::string stats() const;
 
-  /// .exr and .hdr linear, .png displayed. Settings: exposure, view-transform, depth, float.
+  /// .exr and .hdr linear, .png displayed. Settings go over those of the render: exposure, view-transform, depth, float.
   void write(const std::filesystem::path& file, const Settings& settings = {}) const;
 
   struct Impl;
   explicit RoomPicture(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
 private:
+  friend MENINAS_API struct PictureDistance distance(const RoomPicture& picture, const RoomPicture& reference);
   std::shared_ptr<const Impl> impl_;
 };
 
@@ -116,7 +119,7 @@ public:
   RoomPicture render(const Settings& settings = {}, const Listener& listener = {}) const;
   /// The same room with lamps so many times as bright, exact by linearity. Needs a solution with the setting `by-lamp`.
   RoomSolution relit(const std::vector<std::pair<std::string, Colour>>& factors) const;
-  /// Irradiance anywhere in the room, by eight times the rays of a vertex.
+  /// Irradiance anywhere in the room, by eight times the rays of a vertex. Points are within 1e6 m.
   std::vector<Arriving> irradiance_at(std::span<const MeasuringPoint> points) const;
 
   /// The field, by vertex: three floats each, metres and W/m^2. Between vertices it is bilinear in quads, linear in triangles.
@@ -158,7 +161,7 @@ public:
     double residual = 0.0, error_bound = 0.0; ///< relative, in the maximum norm; infinite without a bound
     bool converged = false;
   };
-  /// B = E + rho T B of the elements, by the settings `solver` and `tolerance`. E three each, W/m^2; of the scene where it is empty.
+  /// B = E + rho T B of the elements, by the settings `solver`, `tolerance` and `steps`. E three each, W/m^2; of the scene where it is empty.
   Solved solve(std::span<const double> emission = {}, const Settings& settings = {}) const;
 
   struct Impl;
@@ -178,6 +181,7 @@ public:
   std::vector<std::string> nodes() const;
   std::vector<std::string> lamps() const; ///< as the setting `lamp` names them
   /// What the room contains, what will be modelled and what is odd about it, as JSON (`meninas plan --json`).
+  /// Reads the file anew.
   std::string plan(const Settings& settings = {}) const;
 
   /// Both passes for one camera, as `meninas render` does them; also by `mode` reference, `error` and `time`.
@@ -185,7 +189,7 @@ public:
   /// Pass one for any number of pictures, as `meninas solve`. `by-lamp` (node or material) tells lamps apart.
   RoomSolution solve(const Settings& settings = {}, const Listener& listener = {}) const;
   RoomSolution read_solution(const std::filesystem::path& file, const Listener& listener = {}) const;
-  /// Settings: form-factors, rays, hemicube, elements, element-size, mirror-depth (0: without mirrors), seed.
+  /// Settings: form-factors, rays, hemicube-resolution, elements, element-size, mirror-depth (0: without mirrors), seed, quality, lamp.
   RoomFactors form_factors(const Settings& settings = {}, const Listener& listener = {}) const;
 
   struct Impl;

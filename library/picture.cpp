@@ -17,6 +17,12 @@ RoomPicture RoomPicture::read(const std::filesystem::path& file) {
     impl->picture.image = std::move(read.picture);
     impl->picture.layers = std::move(read.layers);
     impl->picture.attributes = std::move(read.attributes);
+    impl->encoding = read.encoding;
+    impl->inputs = {file};
+    if (read.encoding == Encoding::srgb) { // shown as it was
+      impl->shown.exposure = 0.0;
+      impl->shown.transform = ViewTransform::srgb;
+    }
     return RoomPicture(std::move(impl));
   });
 }
@@ -44,15 +50,8 @@ std::string RoomPicture::stats() const { return impl_->stats; }
 
 void RoomPicture::write(const std::filesystem::path& file, const Settings& settings) const {
   guarded([&] {
-    PictureSettings shown = impl_->shown;
-    if (!settings.empty()) {
-      std::vector<Setting> named;
-      for (const auto& [name, value] : settings)
-        named.push_back({name, value.empty() ? std::nullopt : std::optional(value)});
-      shown = parse_render_settings({}, named).picture;
-      shown.exr_type = std::max(shown.exr_type, impl_->shown.exr_type);
-    }
-    check_outputs({.pictures = {file}, .solution = {}, .texts = {}}, {});
+    const PictureSettings shown = picture_settings(impl_->shown, settings);
+    check_outputs({.pictures = {file}, .solution = {}, .texts = {}}, impl_->inputs);
     const ViewPicture& picture = impl_->picture;
     write_pictures({file}, {picture.image, picture.layers, &picture.edges, picture.unit}, shown,
                    picture.attributes, {});
@@ -61,17 +60,13 @@ void RoomPicture::write(const std::filesystem::path& file, const Settings& setti
 
 PictureDistance distance(const RoomPicture& picture, const RoomPicture& reference) {
   return guarded([&] {
-    const auto image_of = [](const RoomPicture& from) {
-      Image image(from.width(), from.height());
-      const auto floats = from.pixels();
-      for (std::size_t k = 0; k < image.pixels.size(); ++k)
-        image.pixels[k] = {floats[3 * k], floats[3 * k + 1], floats[3 * k + 2]};
-      return image;
-    };
-    const Image a = image_of(picture);
-    const ComparedPicture b{image_of(reference), Encoding::linear, {}, {}};
+    const Image& a = picture.impl_->picture.image;
+    const ComparedPicture b{reference.impl_->picture.image, reference.impl_->encoding, {}, {}};
     if (a.width != b.image.width || a.height != b.image.height)
       throw UsageError("distance", "the pictures are not of one size");
+    for (const Image* image : {&a, &b.image})
+      if (const auto bad = first_bad_pixel(*image))
+        throw InputError("", "distance", *bad);
     const PictureDifference d = compare_pictures(a, b.image, metric_settings(b, std::nullopt));
     return PictureDistance{d.rmse, d.relmse, d.mae, d.psnr, d.max_abs, d.ssim, d.flip};
   });

@@ -2,24 +2,22 @@
 
 #include "runs/plan_run.h"
 #include "runs/resources.h"
-#include "scenes/errors.h"
 #include "scenes/lamps.h"
 #include "raytrace/scene_textures.h"
+#include "scenes/stopwatch.h"
 #include "scenes/version.h"
 
 namespace meninas {
 
-void check_reading(const Room::Impl& room, const RunSettings& settings) {
-  const RunSettings& loaded = room.loaded;
-  if (settings.gltf.scene != loaded.gltf.scene || settings.gltf.state != loaded.gltf.state ||
-      settings.gltf.external_files != loaded.gltf.external_files ||
-      settings.background != loaded.background || settings.environment != loaded.environment)
-    throw UsageError("", "how the scene is read, and what surrounds it, is said where the room is loaded");
+Scene scene_under_lamps(const Room::Impl& room, const RunSettings& settings) {
+  // Of layers by lamp they come later.
+  return settings.lamp_layers ? room.scene : under_lamps(room.scene, settings);
 }
 
-/// The scene under the lamps of a call, unless they come later.
-static Scene scene_of(const Room::Impl& room, const RunSettings& settings) {
-  return settings.lamp_layers ? room.scene : under_lamps(room.scene, settings);
+std::vector<std::filesystem::path> files_of(const Room::Impl& room) {
+  std::vector<std::filesystem::path> files = files_beside_scene(room.loaded);
+  files.push_back(room.file);
+  return files;
 }
 
 Room::Room(const std::filesystem::path& file, const Settings& settings, const Listener& listener) {
@@ -27,11 +25,15 @@ Room::Room(const std::filesystem::path& file, const Settings& settings, const Li
     auto impl = std::make_shared<Impl>();
     impl->file = file;
     impl->settings = settings;
-    impl->loaded = call_of(*impl, {}).request.settings;
+    impl->loaded = call_of(*impl, {}, CallKind::room).request.settings;
+    const ThreadLimit limit(impl->loaded.threads);
     impl->scene = load_scene(file, impl->loaded);
-    for (const std::string& warning : impl->scene.warnings)
-      if (listener.warning)
+    impl->file = std::filesystem::absolute(file);
+    if (listener.warning) { // once
+      for (const std::string& warning : impl->scene.warnings)
         listener.warning(warning);
+      impl->scene.warnings.clear();
+    }
     impl_ = std::move(impl);
   });
 }
@@ -61,25 +63,27 @@ std::vector<std::string> Room::lamps() const {
 
 std::string Room::plan(const Settings& settings) const {
   return guarded([&] {
-    const RenderRequest request = call_of(*impl_, settings).request;
-    check_reading(*impl_, request.settings);
+    const RenderRequest request = call_of(*impl_, settings, CallKind::plan).request;
     return plan_run({impl_->file, PlanFormat::json, request.camera, request.size, request.settings});
   });
 }
 
 RoomPicture Room::render(const Settings& settings, const Listener& listener) const {
   return guarded([&] {
-    const RenderRequest request = call_of(*impl_, settings).request;
-    check_reading(*impl_, request.settings);
+    const RenderRequest request = call_of(*impl_, settings, CallKind::picture).request;
     const ThreadLimit limit(request.settings.threads);
+    Stopwatch total;
     RunFigures figures;
     figures.threads = limit.threads();
     auto impl = std::make_shared<RoomPicture::Impl>();
-    impl->picture = requested_picture(request, scene_of(*impl_, request.settings),
+    impl->picture = requested_picture(request, scene_under_lamps(*impl_, request.settings),
                                       events_of(listener), figures)
                         .picture;
     impl->picture.finer.reset();
     impl->shown = request.picture;
+    impl->inputs = files_of(*impl_);
+    figures.seconds.total = total.lap();
+    figures.peak_memory_bytes = peak_memory_bytes();
     impl->stats = stats_json(figures);
     return RoomPicture(std::move(impl));
   });

@@ -8,11 +8,11 @@
 #include "runs/solve_run.h"
 #include "scenes/content_hash.h"
 #include "scenes/errors.h"
+#include "scenes/stopwatch.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace meninas {
 
@@ -24,23 +24,38 @@ static std::shared_ptr<const RoomSolution::Impl> described(std::shared_ptr<RoomS
   return impl;
 }
 
-/// Settings that a solution has no use for.
-static void check_pass_one(const Settings& settings) {
-  for (const char* name : {"lamp", "camera", "size", "layers", "mode", "view", "error", "time"})
-    if (std::ranges::find(settings, name, &Settings::value_type::first) != settings.end())
-      throw UsageError(name, std::string(name) == "lamp"
-                                 ? "a solution is relit by RoomSolution::relit"
-                                 : "is of pictures, not of a solution");
+/// Whether light of a solution is told apart by lamps; what to do where it is not.
+static void check_lamps_apart(const RoomSolution::Impl& impl, const char* asked) {
+  if (!impl.solution.field.by_lamp.empty())
+    return;
+  if (impl.is_relit)
+    throw UsageError(asked, "a solution that was relit does not know its lamps: relight the one that it was made from");
+  throw UsageError(asked, "the solution does not know its lamps apart: solve with by-lamp");
+}
+
+/// A solution with another field, of which the rest is that of this one.
+static std::shared_ptr<RoomSolution::Impl> with_field(const RoomSolution::Impl& of, IrradianceField field) {
+  auto impl = std::make_shared<RoomSolution::Impl>();
+  impl->room = of.room;
+  impl->prepared = of.prepared;
+  impl->mesh = of.mesh;
+  impl->settings = of.settings;
+  impl->figures = of.figures;
+  impl->is_relit = true;
+  impl->solution.solver = of.solution.solver;
+  impl->solution.links = of.solution.links;
+  impl->solution.energy = of.solution.energy;
+  impl->solution.closure = of.solution.closure;
+  impl->solution.field = std::move(field);
+  return impl;
 }
 
 RoomSolution Room::solve(const Settings& settings, const Listener& listener) const {
   return guarded([&] {
-    check_pass_one(settings);
-    Call call = call_of(*impl_, settings);
+    Call call = call_of(*impl_, settings, CallKind::solution);
     RunSettings& chosen = call.request.settings;
-    check_reading(*impl_, chosen);
     chosen.lamps = call.by_lamp;
-    chosen.lamp_factors.clear();
+    Stopwatch total;
     const ThreadLimit limit(chosen.threads);
     const RunEvents events = events_of(listener);
     auto impl = std::make_shared<RoomSolution::Impl>();
@@ -52,6 +67,8 @@ RoomSolution Room::solve(const Settings& settings, const Listener& listener) con
     impl->prepared = prepare_run(impl_->scene, impl->settings, events, impl->figures);
     impl->solution = solve_pass_one(impl->prepared->light, impl->settings, events.progress);
     add_solution(impl->figures, impl->solution);
+    impl->figures.seconds.total = total.lap();
+    impl->figures.peak_memory_bytes = peak_memory_bytes();
     warn_of_solution(*impl->prepared, impl->figures.solver, impl->figures.closure, events);
     return RoomSolution(described(std::move(impl)));
   });
@@ -59,7 +76,7 @@ RoomSolution Room::solve(const Settings& settings, const Listener& listener) con
 
 RoomSolution Room::read_solution(const std::filesystem::path& file, const Listener& listener) const {
   return guarded([&] {
-    const Call call = call_of(*impl_, {});
+    const Call call = call_of(*impl_, {}, CallKind::solution);
     const ThreadLimit limit(call.request.settings.threads);
     auto impl = std::make_shared<RoomSolution::Impl>();
     impl->room = impl_;
@@ -81,7 +98,7 @@ RoomSolution Room::read_solution(const std::filesystem::path& file, const Listen
 
 void RoomSolution::write(const std::filesystem::path& file) const {
   guarded([&] {
-    check_outputs({.pictures = {}, .solution = file, .texts = {}}, {impl_->room->file});
+    check_outputs({.pictures = {}, .solution = file, .texts = {}}, files_of(*impl_->room));
     write_solution(file, content_hash(impl_->room->scene), impl_->prepared->mesh, impl_->solution,
                    impl_->mesh);
   });
@@ -90,13 +107,15 @@ void RoomSolution::write(const std::filesystem::path& file) const {
 RoomPicture RoomSolution::render(const Settings& settings, const Listener& listener) const {
   return guarded([&] {
     const Room::Impl& room = *impl_->room;
-    RenderRequest request = call_of(room, settings).request;
-    check_reading(room, request.settings);
-    if (request.settings.mode == PictureMode::reference || request.goal)
-      throw UsageError("mode", "reference, error and time are of Room::render");
+    const RenderRequest request = call_of(room, settings, CallKind::picture_of_solution).request;
+    if (request.settings.mode == PictureMode::reference)
+      throw UsageError("mode", "a reference has no solution: it is of Room::render");
     const auto& lamps = request.settings.lamp_factors;
-    if ((!lamps.empty() || request.settings.lamp_layers) && impl_->solution.field.by_lamp.empty())
-      throw UsageError("lamp", "the solution does not know its lamps apart: solve with by-lamp");
+    if (!lamps.empty() || request.settings.lamp_layers)
+      check_lamps_apart(*impl_, lamps.empty() ? "layers" : "lamp");
+    if (request.settings.layers == WithLayers::yes && (impl_->is_relit || !lamps.empty()))
+      throw UsageError("layers", "what mirrors bring is not known of lamps: light does not go with other lamps than all at 1");
+    Stopwatch total;
     const ThreadLimit limit(request.settings.threads);
     const RunEvents events = events_of(listener);
     const Camera chosen = choose_camera(impl_->prepared->scene, request.camera, request.settings, events);
@@ -110,6 +129,9 @@ RoomPicture RoomSolution::render(const Settings& settings, const Listener& liste
     auto impl = std::make_shared<RoomPicture::Impl>();
     impl->picture = picture_of_solution(request, lit, camera, size, events, figures);
     impl->shown = request.picture;
+    impl->inputs = files_of(room);
+    figures.seconds.total = total.lap();
+    figures.peak_memory_bytes = peak_memory_bytes();
     impl->stats = stats_json(figures);
     return RoomPicture(std::move(impl));
   });
@@ -117,42 +139,32 @@ RoomPicture RoomSolution::render(const Settings& settings, const Listener& liste
 
 RoomSolution RoomSolution::relit(const std::vector<std::pair<std::string, Colour>>& factors) const {
   return guarded([&] {
-    if (impl_->solution.field.by_lamp.empty())
-      throw UsageError("relit", "the solution does not know its lamps apart: solve with by-lamp");
+    constexpr double brightest = 1e6; // as on the command line
+    check_lamps_apart(*impl_, "relit");
     std::vector<LampFactor> given;
     for (const auto& [lamp, factor] : factors) {
       for (const double channel : factor)
-        if (!(channel >= 0.0) || channel > std::numeric_limits<float>::max())
-          throw UsageError("relit", fmt::format("{} is no factor of lamp '{}'", channel, lamp));
+        if (!(channel >= 0.0) || channel > brightest)
+          throw UsageError("relit", fmt::format("{} is no factor of lamp '{}': it is from 0 to {:g}", channel, lamp, brightest));
       given.push_back({lamp, Rgb(factor[0], factor[1], factor[2])});
     }
     const auto& field = impl_->solution.field;
-    auto impl = std::make_shared<Impl>();
-    impl->room = impl_->room;
-    impl->prepared = impl_->prepared;
-    impl->mesh = impl_->mesh;
-    impl->settings = impl_->settings;
-    impl->figures = impl_->figures;
-    impl->solution.solver = impl_->solution.solver;
-    impl->solution.links = impl_->solution.links;
-    impl->solution.energy = impl_->solution.energy;
-    impl->solution.closure = impl_->solution.closure;
-    impl->solution.field =
-        meninas::relit(field, factors_of_lamps(field.scene->lamp_groups->names, given));
-    return RoomSolution(described(std::move(impl)));
+    return RoomSolution(described(
+        with_field(*impl_, meninas::relit(field, factors_of_lamps(field.scene->lamp_groups->names, given)))));
   });
 }
 
 std::vector<Arriving> RoomSolution::irradiance_at(std::span<const MeasuringPoint> points) const {
   return guarded([&] {
+    constexpr double farthest = 1e6; // m, as where cameras may stand
     std::vector<QueryPoint> queries;
     for (const MeasuringPoint& point : points) {
       const Vec3 normal(point.normal[0], point.normal[1], point.normal[2]);
       const Point3 position(point.position[0], point.position[1], point.position[2]);
       const double length = glm::length(normal);
-      if (!(length > 0.0) || !std::isfinite(length) ||
-          !std::isfinite(position.x + position.y + position.z))
-        throw UsageError("irradiance_at", fmt::format("point {} is not finite, or its normal has no length", queries.size()));
+      if (!(glm::length(position) <= farthest) || !(length > 0.0) || !std::isfinite(length))
+        throw UsageError("irradiance_at", fmt::format("point {} is no place within {:g} m, or its normal has no length",
+                                                      queries.size(), farthest));
       queries.push_back({position, normal / length});
     }
     const auto& field = impl_->solution.field;

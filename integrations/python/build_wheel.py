@@ -48,6 +48,8 @@ def _files(scratch):
     _run("cmake", "--build", scratch / "build")
     files = {f"meninas/{file.name}": file for file in sorted((HERE / "src" / "meninas").iterdir()) if file.is_file()}
     files.update({f"meninas/{file.name}": file for file in (scratch / "build").glob("_meninas*.so")})
+    if (ROOT / "LICENSE").exists():
+        files["meninas/LICENSE"] = ROOT / "LICENSE"
     if tree:
         library = next(file for file in tree.rglob("libmeninas.so.*") if not file.is_symlink())
         soname = ".".join(library.name.split(".")[:4])
@@ -66,6 +68,14 @@ def _version():
     return subprocess.run(["meninas", "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
 
 
+class UnsupportedOperation(Exception):
+    """As PEP 517 asks for it."""
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    raise UnsupportedOperation("the sources are the whole checkout")
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     version = _version()
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
@@ -74,7 +84,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     name = f"meninas-{version}-{python}-{python}-{platform}.whl"
     texts = {
         f"{info}/METADATA": f"Metadata-Version: 2.1\nName: meninas\nVersion: {version}\n"
-                            "Summary: Noise-free rendering of rooms with mirrors\nRequires-Python: >=3.9\nRequires-Dist: numpy\n",
+                            "Summary: Noise-free rendering of rooms with mirrors\nRequires-Python: >=3.9\nRequires-Dist: numpy<2\n",
         f"{info}/WHEEL": f"Wheel-Version: 1.0\nGenerator: meninas\nRoot-Is-Purelib: false\nTag: {python}-{python}-{platform}\n",
     }
     with tempfile.TemporaryDirectory() as folder:

@@ -16,6 +16,7 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 
 namespace py = pybind11;
@@ -34,6 +35,8 @@ struct Heard {
   std::atomic<bool> is_cancelled{false};
 
   Listener listener() {
+    if (is_cancelled)
+      throw Error(Error::Kind::cancelled, "cancelled");
     return {[this](const std::string& text) {
               const std::lock_guard lock(mutex);
               warnings.push_back(text);
@@ -47,6 +50,37 @@ struct Heard {
             }};
   }
 };
+
+/// The calls that go on. When Python ends they are told to end first: threads that come back from them later would be
+/// stopped by Python where C++ may not be left.
+class RunningCalls {
+public:
+  void add(Heard& heard) {
+    const std::lock_guard lock(mutex_);
+    calls_.insert(&heard);
+    heard.is_cancelled = is_over_;
+  }
+  void remove(Heard& heard) {
+    const std::lock_guard lock(mutex_);
+    calls_.erase(&heard);
+    changed_.notify_all();
+  }
+  /// Without Python's lock.
+  void end() {
+    std::unique_lock lock(mutex_);
+    is_over_ = true;
+    for (Heard* const heard : calls_)
+      heard->is_cancelled = true;
+    changed_.wait(lock, [&] { return calls_.empty(); });
+  }
+
+private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::set<Heard*> calls_;
+  bool is_over_ = false;
+};
+RunningCalls running_calls;
 
 /// Hands on what has been heard. With Python's lock.
 void tell(Heard& heard, const py::object& warning, const py::object& progress) {
@@ -65,7 +99,7 @@ void tell(Heard& heard, const py::object& warning, const py::object& progress) {
     if (!warning.is_none())
       warning(text);
   if (has_progress && !progress.is_none())
-    if (const py::object answer = progress(stage, done); answer.is(py::bool_(false)))
+    if (const py::object answer = progress(stage, done); !answer.is_none() && !answer.cast<bool>())
       heard.is_cancelled = true;
   if (PyErr_CheckSignals() != 0)
     throw py::error_already_set();
@@ -76,6 +110,7 @@ template <typename Work>
 auto listened(const py::object& warning, const py::object& progress, const Work& work) {
   constexpr auto a_while = std::chrono::milliseconds(50);
   Heard heard;
+  running_calls.add(heard);
   std::optional<decltype(work(std::declval<Listener>()))> result;
   std::exception_ptr failure;
   std::thread worker([&] {
@@ -105,6 +140,7 @@ auto listened(const py::object& warning, const py::object& progress, const Work&
     }
   }
   worker.join();
+  running_calls.remove(heard);
   if (interruption)
     std::rethrow_exception(interruption);
   if (failure)
@@ -198,7 +234,7 @@ py::dict solved(const RoomFactors& factors, const std::optional<Numbers>& emissi
 
 void define_picture(py::module_& module) {
   py::class_<RoomPicture>(module, "Picture")
-      .def_static("read", &RoomPicture::read)
+      .def_static("read", &RoomPicture::read, py::call_guard<py::gil_scoped_release>())
       .def("pixels", [](const RoomPicture& picture) { return pixels_of(picture, picture.pixels()); })
       .def("layer",
            [](const RoomPicture& picture, const std::string& name) { return pixels_of(picture, picture.layer(name)); })
@@ -206,7 +242,11 @@ void define_picture(py::module_& module) {
       .def("stats", &RoomPicture::stats)
       .def("write", &RoomPicture::write, py::call_guard<py::gil_scoped_release>());
   module.def("distance", [](const RoomPicture& picture, const RoomPicture& reference) {
-    const PictureDistance d = distance(picture, reference);
+    PictureDistance d;
+    {
+      const py::gil_scoped_release unlocked;
+      d = distance(picture, reference);
+    }
     return py::dict(py::arg("rmse") = d.rmse, py::arg("relmse") = d.relmse, py::arg("mae") = d.mae,
                     py::arg("psnr") = d.psnr, py::arg("max_abs") = d.max_abs, py::arg("ssim") = d.ssim,
                     py::arg("flip") = d.flip);
@@ -220,7 +260,7 @@ void define_solution(py::module_& module) {
            [](const RoomSolution& solution, const Settings& settings, const py::object& warning, const py::object& progress) {
              return listened(warning, progress, [&](const Listener& listener) { return solution.render(settings, listener); });
            })
-      .def("relit", &RoomSolution::relit)
+      .def("relit", &RoomSolution::relit, py::call_guard<py::gil_scoped_release>())
       .def("irradiance_at", &arriving)
       .def("vertices", [](const RoomSolution& s) { return rows(s, &RoomSolution::vertices, 3); })
       .def("irradiance", [](const RoomSolution& s) { return rows(s, &RoomSolution::irradiance, 3); })
@@ -280,7 +320,9 @@ PYBIND11_MODULE(_meninas, module) {
     } catch (const Error& error) {
       constexpr std::array names{"UsageError", "InputError", "OutputError", "Cancelled"};
       const py::object type = py::module_::import("meninas").attr(names[static_cast<std::size_t>(error.kind())]);
-      PyErr_SetString(type.ptr(), error.what());
+      // Names of files may be no UTF-8.
+      const py::object text = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(error.what()));
+      PyErr_SetObject(type.ptr(), text.ptr());
     }
   });
   define_picture(module);
@@ -288,4 +330,8 @@ PYBIND11_MODULE(_meninas, module) {
   define_factors(module);
   define_room(module);
   module.def("version", &version);
+  py::module_::import("atexit").attr("register")(py::cpp_function([] {
+    const py::gil_scoped_release unlocked;
+    running_calls.end();
+  }));
 }

@@ -162,11 +162,19 @@ TEST(Library, ErrorsAreOneLineAndSayWhoIsToBlame) {
       {error_of([&] { room.render({{"size", "4"}}); }), Error::Kind::usage, "size"},
       {error_of([&] { room.render({{"threads", "none"}}); }), Error::Kind::usage, "threads"},
       {error_of([&] { room.render({{"at", "1"}}); }), Error::Kind::usage, "where the room is loaded"},
-      {error_of([&] { room.solve({{"lamp", "all=2"}}); }), Error::Kind::usage, "relit"},
+      {error_of([&] { room.solve({{"lamp", "all=2"}}); }), Error::Kind::usage, "lamp: has no effect on a solution"},
+      {error_of([&] { room.form_factors({{"samples", "4"}}); }), Error::Kind::usage, "samples: has no effect on form factors"},
+      {error_of([&] { room.solve().render({{"rays", "64"}}); }), Error::Kind::usage, "rays: has no effect"},
+      {error_of([&] { room.render({{"by-lamp", ""}}); }), Error::Kind::usage, "by-lamp: has no effect"},
+      {error_of([&] { room.render({{"mode", "reference"}, {"error", "0.1"}}); }), Error::Kind::usage, "error: is of the two passes"},
+      {error_of([&] { picture.write("room.png", {{"camera", "main"}}); }), Error::Kind::usage, "camera: has no effect"},
+      {error_of([&] { room.solve({{"by-lamp", ""}}).relit({{"all", {2, 2, 2}}}).relit({{"all", {2, 2, 2}}}); }), Error::Kind::usage, "relight the one"},
+      {error_of([&] { room.solve({{"by-lamp", ""}}).relit({{"all", {1e38, 0, 0}}}); }), Error::Kind::usage, "from 0 to 1e+06"},
+      {error_of([&] { const MeasuringPoint far{{1e18, 0, 0}, {0, 1, 0}}; room.solve().irradiance_at({&far, 1}); }), Error::Kind::usage, "within 1e+06 m"},
       {error_of([&] { room.solve().relit({{"all", {2, 2, 2}}}); }), Error::Kind::usage, "by-lamp"},
       {error_of([&] { room.solve({{"by-lamp", ""}}).relit({{"all", {-1, 2, 2}}}); }), Error::Kind::usage, "-1"},
       {error_of([&] { room.solve({{"by-lamp", "colour"}}); }), Error::Kind::usage, "colour"},
-      {error_of([&] { room.solve().render({{"mode", "reference"}}); }), Error::Kind::usage, "Room::render"},
+      {error_of([&] { room.solve().render({{"mode", "reference"}}); }), Error::Kind::usage, "a reference has no solution"},
       {error_of([&] { picture.layer("nobody"); }), Error::Kind::usage, "nobody"},
       {error_of([&] { distance(picture, room.render({{"size", "5x4"}})); }), Error::Kind::usage, "one size"},
       {error_of([&] { room.form_factors({{"elements", "20"}}).solve(std::vector<double>(3, 1.0)); }), Error::Kind::usage, "emission"},
@@ -181,6 +189,47 @@ TEST(Library, ErrorsAreOneLineAndSayWhoIsToBlame) {
     EXPECT_THAT(one.error.what(), HasSubstr(one.part));
     EXPECT_THAT(one.error.what(), Not(HasSubstr("\n")));
   }
+}
+
+TEST(Library, CallsHeedWhatTheirRoomSaysAndLeaveTheRestAside) {
+  const Room plain = gallery("cornell-mirror");
+  const Room room = gallery("cornell-mirror", {{"lamp", "all=2"}, {"error", "0.2"}, {"samples", "4"}, {"size", "8x8"}});
+  EXPECT_EQ(copied(room.solve().irradiance()), copied(plain.solve().irradiance()));
+  const RoomFactors bright = room.form_factors({{"elements", "20"}}), as_it_is = plain.form_factors({{"elements", "20"}});
+  for (std::size_t k = 0; k < bright.emission().size(); ++k)
+    EXPECT_EQ(bright.emission()[k], 2.0 * as_it_is.emission()[k]);
+}
+
+TEST(Library, RowsAreInTheOrderOfTheirColumns) {
+  const RoomFactors factors = gallery("cornell-mirror").form_factors({{"elements", "60"}});
+  for (std::size_t row = 0; row < factors.size(); ++row)
+    EXPECT_TRUE(std::ranges::is_sorted(
+        factors.columns().subspan(factors.row_begin()[row], factors.row_begin()[row + 1] - factors.row_begin()[row])));
+}
+
+TEST(Library, WhatIsSaidOfAFileGoesOverWhatTheRenderSaid) {
+  const RoomPicture picture = gallery("furnace", {{"size", "4x4"}}).render({{"exposure", "-3"}});
+  const std::string file = testing::TempDir() + "meninas-library-test.png";
+  picture.write(file);
+  const float dim = RoomPicture::read(file).pixels()[0];
+  picture.write(file, {{"depth", "16"}});
+  const RoomPicture deep = RoomPicture::read(file);
+  EXPECT_NEAR(deep.pixels()[0], dim, 0.01F); // the exposure is still that of the render; steps of 8 bits
+  EXPECT_THAT(error_of([&] { deep.write(file); }).what(), HasSubstr("input")); // and what was read is kept
+  picture.write(file, {{"exposure", "0"}});
+  EXPECT_GT(RoomPicture::read(file).pixels()[0], 4.0F * dim);
+  std::filesystem::remove(file);
+}
+
+TEST(Library, EndingACallOfNestedTasksLeavesNothingHalfDone) {
+  // The analytic rows of a room with mirrors: tasks in tasks, ended at many places.
+  const Room room = gallery("cornell-mirror");
+  for (const int last : {1, 2, 3}) {
+    std::atomic<int> calls{0};
+    const Listener listener{{}, [&](const std::string&, double) { return ++calls < last; }};
+    error_of([&] { room.form_factors({{"form-factors", "analytic"}, {"elements", "16"}}, listener); });
+  }
+  EXPECT_GT(room.form_factors({{"elements", "30"}}).size(), 0U);
 }
 
 TEST(Library, AListenerHearsAndMayEndACall) {

@@ -3,10 +3,12 @@
 Run by python_test.sh with the folder of gallery scenes and the program in MENINAS_GALLERY and MENINAS_PROGRAM.
 """
 
+import json
 import os
 import pathlib
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -41,12 +43,23 @@ class Pictures(unittest.TestCase):
             picture.write(pathlib.Path(folder) / "again.exr")
             self.assertEqual((pathlib.Path(folder) / "again.exr").read_bytes(), by_program.read_bytes())
 
+    def test_a_png_is_that_of_the_program_where_it_is_asked_for(self):
+        with tempfile.TemporaryDirectory() as folder:
+            by_program = pathlib.Path(folder) / "room.png"
+            subprocess.run([PROGRAM, "render", GALLERY / "cornell-mirror.gltf", "--quality", "draft", "--size", "48x48",
+                            "-o", by_program, "--quiet"], check=True)
+            gallery("cornell-mirror").render(size="48x48", png=True).write(pathlib.Path(folder) / "again.png")
+            self.assertEqual((pathlib.Path(folder) / "again.png").read_bytes(), by_program.read_bytes())
+
     def test_what_is_computed_from_a_picture_is_an_array_and_outlives_it(self):
         half = gallery("furnace").render(size="8x8")[:4] * 0.5
         self.assertEqual(half.shape, (4, 8, 3))
         self.assertTrue(numpy.isfinite(half).all())
+        whole = gallery("furnace").render(size="8x8")
+        for computed in (whole + 1, whole.copy(), whole.mean(axis=0), -whole):
+            self.assertIs(type(computed), numpy.ndarray)
         with self.assertRaises(meninas.UsageError):
-            half.write("half.png")
+            whole[:4].write("half.png")
 
     def test_arrays_cannot_be_written(self):
         with self.assertRaises(ValueError):
@@ -109,6 +122,9 @@ class Factors(unittest.TestCase):
         rows = scipy.sparse.csr_matrix(factors.arrays(), shape=factors.shape).toarray()
         floor, back = factors.elements_of("floor"), factors.elements_of("back")
         numpy.testing.assert_array_equal(factors.between("floor", "back"), rows[numpy.ix_(floor, back)])
+        scipy_rows = scipy.sparse.csr_matrix(factors.arrays(), shape=factors.shape)
+        scipy_rows.sort_indices()  # writes into what it was given
+        self.assertEqual(scipy_rows.max(axis=1).shape, (len(factors), 1))
 
     def test_arrays_keep_their_object_alive(self):
         data, indices, indptr = gallery("furnace").form_factors(elements=50).arrays()
@@ -129,6 +145,13 @@ class Failures(unittest.TestCase):
             (meninas.UsageError, "lamps: 'all'", lambda: room.solve(by_lamp=True).relight({"all": [1, 2]})),
             (meninas.UsageError, "there is no 'nobody'", lambda: room.form_factors(elements=20).between("nobody", 0)),
             (meninas.UsageError, "of one size", lambda: meninas.diff(picture, room.render(size="9x8"))),
+            (meninas.UsageError, "size", lambda: room.render(size=5)),
+            (meninas.UsageError, "no dict", lambda: room.solve(by_lamp=True).relight("all")),
+            (meninas.UsageError, "there is no -1", lambda: room.form_factors(elements=20).elements_of(-1)),
+            (meninas.UsageError, "pictures are wanted", lambda: meninas.diff(numpy.ones((8, 8, 3)), picture)),
+            (meninas.UsageError, "no path", lambda: meninas.load(None)),
+            (meninas.UsageError, "within 1e+06 m", lambda: room.solve().irradiance_at([[1e18, 0, 0]], [[0, 1, 0]])),
+            (meninas.InputError, "caf", lambda: meninas.load(b"/nowhere/caf\xe9.gltf")),
             (meninas.InputError, "nowhere.gltf", lambda: meninas.load("nowhere.gltf")),
             (meninas.OutputError, "no such folder", lambda: picture.write("/nowhere at all/room.png")),
             (meninas.Cancelled, "cancelled", lambda: room.render(progress=lambda stage, done: False)),
@@ -140,10 +163,29 @@ class Failures(unittest.TestCase):
 
     def test_warnings_and_progress_are_told(self):
         warnings, stages = [], []
-        room = meninas.load(GALLERY / "furnace.gltf", quality="draft")
+        room = meninas.load(self.without_camera(), quality="draft", warning=warnings.append)
         room.render(size="64x64", warning=warnings.append, progress=lambda stage, done: stages.append((stage, done)))
+        self.assertEqual([text for text in warnings if "no camera" in text], ["no camera: a default view of the whole scene is used"])
         self.assertTrue(stages)
         self.assertTrue(all(0.0 <= done <= 1.0 for _, done in stages))
+
+    def without_camera(self):
+        scene = json.loads((GALLERY / "furnace.gltf").read_text())
+        del scene["cameras"]
+        for node in scene["nodes"]:
+            node.pop("camera", None)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        for file in GALLERY.glob("furnace*"):
+            (pathlib.Path(folder.name) / file.name).write_bytes(file.read_bytes())
+        (pathlib.Path(folder.name) / "furnace.gltf").write_text(json.dumps(scene))
+        return pathlib.Path(folder.name) / "furnace.gltf"
+
+    def test_python_ends_while_a_call_goes_on(self):
+        code = ("import meninas, sys, threading, time; room = meninas.load(sys.argv[1]);"
+                "threading.Thread(target=lambda: room.render(size='2000x2000', quality='fine'), daemon=True).start(); time.sleep(0.3)")
+        ended = subprocess.run([sys.executable, "-c", code, GALLERY / "meninas.gltf"], capture_output=True, text=True)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
 
     def test_an_error_of_a_listener_ends_the_call(self):
         def fail(stage, done):

@@ -14,6 +14,7 @@ False, or on Ctrl-C, the call ends. What goes wrong is an Error of one line, as 
 """
 
 import json
+import os
 import sys
 
 import numpy
@@ -51,11 +52,24 @@ def _warn(text):
     print("meninas: warning:", text, file=sys.stderr)
 
 
+def _file(value):
+    """A path as text."""
+    try:
+        text = os.fsdecode(value)
+    except (TypeError, UnicodeError):
+        raise UsageError(f"file: {value!r} is no path") from None
+    if "\0" in text:
+        raise UsageError(f"file: {text!r} is no path")
+    return text
+
+
 def _text(value):
     if isinstance(value, (list, tuple, numpy.ndarray)):
         return ",".join(_text(part) for part in value)
-    if isinstance(value, float):
-        return repr(value)
+    if isinstance(value, (float, numpy.floating)):
+        return repr(float(value))
+    if isinstance(value, os.PathLike):
+        return _file(value)
     return str(value)
 
 
@@ -63,19 +77,31 @@ def _text(value):
 _JOINED = {"layers", "background", "sun", "place"}
 
 
+def _size(value):
+    try:
+        width, height = value
+        if int(width) == width and int(height) == height:
+            return f"{int(width)}x{int(height)}"
+    except (TypeError, ValueError):
+        pass
+    raise UsageError(f"size: {value!r} is not (width, height)")
+
+
 def _settings(named):
-    """Pairs of names and texts; None and False are left out."""
+    """Pairs of names and texts; None, False and empty lists are left out."""
     pairs = []
     for name, value in named.items():
         option = name.replace("_", "-")
-        if value is None or value is False:
+        if value is None or (isinstance(value, (bool, numpy.bool_)) and not value):
             continue
-        if value is True:
+        if isinstance(value, (bool, numpy.bool_)):
             pairs.append((option, ""))
         elif option == "size" and not isinstance(value, str):
-            pairs.append((option, "x".join(str(int(side)) for side in value)))
+            pairs.append((option, _size(value)))
         elif option == "lamp" and isinstance(value, dict):
             pairs.extend((option, f"{lamp}={_text(factor)}") for lamp, factor in value.items())
+        elif isinstance(value, (list, tuple)) and len(value) == 0:
+            continue
         elif isinstance(value, (list, tuple)) and option not in _JOINED:
             pairs.extend((option, _text(one)) for one in value)
         else:
@@ -85,20 +111,32 @@ def _settings(named):
 
 def _factors(lamps):
     """Lamps with three factors each: a number stands for a grey one."""
+    if not isinstance(lamps, dict):
+        raise UsageError(f"lamps: {lamps!r} is no dict of lamps and factors")
     pairs = []
     for lamp, factor in lamps.items():
-        three = numpy.broadcast_to(numpy.asarray(factor, dtype=float), (3,)) if numpy.size(factor) in (1, 3) else None
-        if three is None:
+        try:
+            three = numpy.asarray(factor, dtype=float)
+        except (TypeError, ValueError):
+            three = numpy.zeros(2)
+        if not isinstance(lamp, str) or three.shape not in ((), (1,), (3,)):
             raise UsageError(f"lamps: {lamp!r} takes a number, or red, green and blue")
-        pairs.append((lamp, [float(channel) for channel in three]))
+        pairs.append((lamp, [float(channel) for channel in numpy.broadcast_to(three, (3,))]))
     return pairs
+
+
+def _array(values, name):
+    try:
+        return numpy.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise UsageError(f"{name}: numbers are wanted") from None
 
 
 class Picture(numpy.ndarray):
     """Linear radiance, shape (height, width, 3), float32, W/m^2/sr, rows from the top.
 
     `layers` is a dict of arrays of the same shape, `stats` the figures of the run (docs/stats.md). What is computed from
-    a picture is an ordinary array, without these.
+    a picture is an ordinary array, and a part of one has no layers, figures or file.
     """
 
     def __new__(cls, inner):
@@ -108,6 +146,12 @@ class Picture(numpy.ndarray):
 
     def __array_finalize__(self, other):
         self._inner = None
+
+    def __array_wrap__(self, result, context=None, return_scalar=False):
+        return numpy.asarray(result)[()]
+
+    def copy(self, order="C"):
+        return numpy.array(self, order=order, subok=False)
 
     def _whole(self):
         if self._inner is None:
@@ -126,7 +170,7 @@ class Picture(numpy.ndarray):
 
     def write(self, file, **settings):
         """Writes .exr or .hdr, which are linear, or .png. Settings: exposure, view_transform, depth, float."""
-        self._whole().write(file, _settings(settings))
+        self._whole().write(_file(file), _settings(settings))
 
 
 class Solution:
@@ -148,7 +192,7 @@ class Solution:
 
     def write(self, file):
         """Writes a .glb that any viewer shows, and that `Room.read_solution` and `meninas render --solution` take."""
-        self._inner.write(file)
+        self._inner.write(_file(file))
 
     def render(self, camera=None, warning=_warn, progress=None, **settings):
         """Pass two: the picture of a camera, the first one of the file unless it is named."""
@@ -162,8 +206,8 @@ class Solution:
     def irradiance_at(self, points, normals):
         """What arrives at points, (n, 3) in metres, on the side of their normals: a dict of `total`, `direct` and
         `by_mirrors`, (n, 3) W/m^2, and `inside`, (n,), true where a point is inside of something."""
-        points = numpy.atleast_2d(numpy.asarray(points, dtype=float))
-        normals = numpy.atleast_2d(numpy.asarray(normals, dtype=float))
+        points = numpy.atleast_2d(_array(points, "points"))
+        normals = numpy.atleast_2d(_array(normals, "normals"))
         if normals.shape[0] == 1 and points.ndim == 2 and points.shape[0] > 1:
             normals = numpy.repeat(normals, points.shape[0], axis=0)
         return self._inner.irradiance_at(points, normals)
@@ -191,12 +235,16 @@ class FormFactors:
         return self._inner.size()
 
     def arrays(self, channel=0):
-        """(data, indices, indptr) of compressed sparse rows: scipy.sparse.csr_matrix(f.arrays(), shape=f.shape)."""
+        """(data, indices, indptr) of compressed sparse rows, by column: scipy.sparse.csr_matrix(f.arrays(), shape=f.shape).
+        They are copies, for SciPy writes into what it is given."""
         channels = self._inner.channels()
         if channel not in (0, 1, 2):
             raise UsageError(f"channel: {channel!r} is not 0, 1 or 2")
         weights = self._inner.weights()
-        return (weights if channels == 1 else weights[:, channel]), self._inner.columns(), self._inner.row_begin()
+        data = weights if channels == 1 else weights[:, channel]
+        begin = self._inner.row_begin()
+        index = numpy.int32 if begin[-1] < 2**31 else numpy.int64
+        return numpy.array(data), self._inner.columns().astype(index), begin.astype(index)
 
     @property
     def shape(self):
@@ -204,12 +252,11 @@ class FormFactors:
 
     def elements_of(self, node):
         """The elements of a node, by its name or place."""
-        if isinstance(node, str):
-            if node not in self._names:
-                raise UsageError(f"node: there is no {node!r}")
-            places = [place for place, name in enumerate(self._names) if name == node]
-        else:
+        places = [place for place, name in enumerate(self._names) if name == node]
+        if not isinstance(node, (str, bytes)) and isinstance(node, (int, numpy.integer)) and 0 <= node < len(self._names):
             places = [node]
+        if not places:
+            raise UsageError(f"node: there is no {node!r}")
         return numpy.flatnonzero(numpy.isin(self.nodes, places))
 
     def between(self, node, other, channel=0):
@@ -228,7 +275,7 @@ class FormFactors:
     def solve(self, emission=None, **settings):
         """B = E + rho T B: a dict of `radiosity` (n, 3) W/m^2, `iterations`, `residual`, `error_bound`, `converged`.
         Emission (n, 3) W/m^2, of the scene where it is left out. Settings: solver, tolerance."""
-        return self._inner.solve(emission, _settings(settings))
+        return self._inner.solve(None if emission is None else _array(emission, "emission"), _settings(settings))
 
 
 class Room:
@@ -258,7 +305,7 @@ class Room:
 
     def read_solution(self, file, warning=_warn):
         """A Solution that `write` or `meninas solve` has made of this scene."""
-        return Solution(self._inner.read_solution(file, warning))
+        return Solution(self._inner.read_solution(_file(file), warning))
 
     def form_factors(self, method="rays", worlds=True, warning=_warn, progress=None, **settings):
         """FormFactors by rays, hemicube or analytic; without light by way of mirrors where `worlds` is False.
@@ -272,14 +319,17 @@ class Room:
 def load(file, warning=_warn, **settings):
     """A Room from a .gltf or .glb file. Settings hold for all its calls; which state of the file is shown, its units
     and what surrounds it (variant, at, environment, sky, background, ...) can be said here alone."""
-    return Room(_meninas.Room(file, _settings(settings), warning))
+    return Room(_meninas.Room(_file(file), _settings(settings), warning))
 
 
 def read_picture(file):
     """A Picture from an EXR, HDR, PNG, JPEG, WebP or TIFF file."""
-    return Picture(_meninas.Picture.read(file))
+    return Picture(_meninas.Picture.read(_file(file)))
 
 
 def diff(picture, reference):
     """How far a picture is from its reference: a dict of rmse, relmse, mae, psnr, max_abs, ssim and flip."""
+    for given in (picture, reference):
+        if not isinstance(given, Picture):
+            raise UsageError("diff: pictures are wanted, as render and read_picture give them")
     return _meninas.distance(picture._whole(), reference._whole())
