@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace meninas {
 
@@ -48,13 +49,17 @@ public:
         step_(1.0 / Vec2(glm::max(texels.intervals, glm::ivec2(1)))) {}
 
   void fill(Lightmap& map) const {
-    if (texels_.intervals.x == 0)
-      return fill_at(map, texels_.first, Vec2(chart_.triangle ? 1.0 / 3.0 : 0.5));
-    const glm::ivec2 n = texels_.intervals;
-    for (int j = 0; j <= n.y; ++j)
-      for (int i = 0; i <= n.x; ++i)
-        if (!chart_.triangle || i + j <= n.x)
-          fill_at(map, texels_.first + glm::ivec2(i, j), Vec2(i, j) * step_);
+    const bool single = texels_.intervals.x == 0;
+    const Vec2 middle(chart_.triangle ? 1.0 / 3.0 : 0.5);
+    const auto place_at = [&](glm::ivec2 k) {
+      return place_in_scene(*field_.scene, chart_, single ? middle : Vec2(k) * step_);
+    };
+    each_own([&](glm::ivec2 k) { at(map.irradiance, k) = irradiance_at(field_, values_, chart_, place_at(k)); });
+    light_what_is_covered(map.irradiance);
+    if (!map.shown.pixels.empty())
+      each_own([&](glm::ivec2 k) { at(map.shown, k) = shown_at(place_at(k), at(map.irradiance, k)); });
+    if (single)
+      return;
     for (Image* image : {&map.irradiance, &map.shown})
       if (!image->pixels.empty()) {
         if (chart_.triangle)
@@ -64,27 +69,59 @@ public:
   }
 
 private:
-  void fill_at(Lightmap& map, glm::ivec2 texel, Vec2 at) const {
+  glm::vec3& at(Image& image, glm::ivec2 k) const {
+    return image.at(texels_.first.x + k.x, texels_.first.y + k.y);
+  }
+
+  bool is_own(glm::ivec2 k) const {
+    const glm::ivec2 n = texels_.intervals;
+    return k.x >= 0 && k.y >= 0 && k.x <= n.x && k.y <= n.y && (!chart_.triangle || k.x + k.y <= n.x);
+  }
+
+  template <typename Visit>
+  void each_own(Visit visit) const {
+    for (int j = 0; j <= texels_.intervals.y; ++j)
+      for (int i = 0; i <= texels_.intervals.x; ++i)
+        if (is_own({i, j}))
+          visit(glm::ivec2(i, j));
+  }
+
+  glm::vec3 shown_at(const ChartPlace& place, const glm::vec3& received) const {
     const LightScene& light = *field_.scene;
-    const ChartPlace place = place_in_scene(light, chart_, at);
-    const glm::vec3 received = irradiance_at(field_, values_, chart_, place);
-    map.irradiance.at(texel.x, texel.y) = received;
-    if (!map.shown.pixels.empty())
-      map.shown.at(texel.x, texel.y) =
-          radiance_of(light, chart_, place, step_, received) / colour_of_vertices(light, place);
+    return radiance_of(light, chart_, place, step_, received) / colour_of_vertices(light, place);
+  }
+
+  /// Below what stands on a face nothing is received and nothing seen: beside what is seen such texels take
+  /// the mean of their neighbours, for filtering would make a dark edge of them.
+  void light_what_is_covered(Image& image) const {
+    std::vector<std::pair<glm::ivec2, glm::vec3>> lit;
+    each_own([&](glm::ivec2 k) {
+      if (at(image, k) != glm::vec3(0.0F))
+        return;
+      glm::vec3 sum(0.0F);
+      float count = 0.0F;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          if (const glm::ivec2 beside = k + glm::ivec2(dx, dy);
+              is_own(beside) && at(image, beside) != glm::vec3(0.0F)) {
+            sum += at(image, beside);
+            count += 1.0F;
+          }
+      if (count > 0.0F)
+        lit.emplace_back(k, sum / count);
+    });
+    for (const auto& [k, value] : lit)
+      at(image, k) = value;
   }
 
   /// f(i, j) = f(i - 1, j) + f(i, j - 1) - f(i - 1, j - 1) beside the edge i + j = n.
   void extend_triangle(Image& image) const {
     const int n = texels_.intervals.x;
-    const auto at = [&](int i, int j) -> glm::vec3& {
-      return image.at(texels_.first.x + i, texels_.first.y + j);
-    };
     for (int j = 1; j <= n; ++j) {
-      const int beside = n + 1 - j;
-      at(beside, j) = glm::max(at(beside - 1, j) + at(beside, j - 1) - at(beside - 1, j - 1), glm::vec3(0.0F));
-      for (int i = beside + 1; i <= n; ++i)
-        at(i, j) = at(beside, j);
+      const int i = n + 1 - j;
+      const glm::vec3 next = at(image, {i - 1, j}) + at(image, {i, j - 1}) - at(image, {i - 1, j - 1});
+      for (int k = i; k <= n; ++k)
+        at(image, {k, j}) = glm::max(next, glm::vec3(0.0F));
     }
   }
 
@@ -92,8 +129,7 @@ private:
     const glm::ivec2 n = texels_.intervals;
     for (int j = -lightmap_gutter; j <= n.y + lightmap_gutter; ++j)
       for (int i = -lightmap_gutter; i <= n.x + lightmap_gutter; ++i) {
-        const glm::ivec2 from = texels_.first + glm::clamp(glm::ivec2(i, j), glm::ivec2(0), n);
-        image.at(texels_.first.x + i, texels_.first.y + j) = image.at(from.x, from.y);
+        at(image, {i, j}) = at(image, glm::clamp(glm::ivec2(i, j), glm::ivec2(0), n));
       }
   }
 

@@ -4,6 +4,7 @@
 //   shown        2^exposure L / c in [0, 1], L = (E + rho H) / pi, W/m^2/sr: what an unlit surface whose vertices have
 //                the colours c shows, with the scene's textures as fine as the map
 //
+// Where nothing at all is received, as below what stands on a face, texels beside others take their mean.
 // Texels of gutters repeat the nearest of their chart. Beyond the slanted edge of a triangle the next texels go on
 // linearly, so that filtering between the four of a square that the edge cuts is linear up to it.
 #pragma once
