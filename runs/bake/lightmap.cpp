@@ -185,6 +185,14 @@ void choose_factor(Lightmap& map, const std::vector<Chart>& charts, const Lightm
 
 } // namespace
 
+/// Where texels are rounded up, of a sequence that is even over any neighbourhood (R2: Roberts 2018, The Unreasonable
+/// Effectiveness of Quasirandom Sequences): dark gradients have no bands, for filtering shows the mean.
+static float rounding_threshold(int x, int y) {
+  constexpr double a = 0.7548776662466927, b = 0.5698402909980532;
+  const double t = a * x + b * y;
+  return static_cast<float>(t - std::floor(t));
+}
+
 Lightmap fill_lightmap(const IrradianceField& field, const VertexIrradiance& values,
                        const std::vector<Chart>& charts, const LightmapLayout& layout,
                        WithShown with_shown) {
@@ -205,9 +213,13 @@ std::vector<std::byte> irradiance_png(const Lightmap& map) {
   std::vector<std::uint8_t> codes;
   codes.reserve(3 * map.irradiance.pixels.size());
   const float scale = static_cast<float>(255.0 / map.factor);
-  for (const glm::vec3& pixel : map.irradiance.pixels)
-    for (int c = 0; c < 3; ++c)
-      codes.push_back(static_cast<std::uint8_t>(std::lround(std::clamp(scale * pixel[c], 0.0F, 255.0F))));
+  for (int y = 0; y < map.irradiance.height; ++y)
+    for (int x = 0; x < map.irradiance.width; ++x) {
+      const float threshold = rounding_threshold(x, y);
+      for (int c = 0; c < 3; ++c)
+        codes.push_back(static_cast<std::uint8_t>(
+            std::clamp(scale * map.irradiance.at(x, y)[c] + threshold, 0.0F, 255.0F)));
+    }
   return encode_png(map.irradiance.width, map.irradiance.height, codes, Compression::small,
                     {"Comment", fmt::format("linear; irradiance in W/m^2 is {:.9g} code / 255", map.factor)});
 }
