@@ -25,5 +25,6 @@ Command add_merge_command(Options& program);
 Command add_trade_command(Options& program);
 Command add_walk_command(Options& program);
 Command add_view_command(Options& program);
+Command add_bake_command(Options& program);
 
 } // namespace meninas

@@ -135,7 +135,8 @@ std::vector<Command> add_commands(Options& program) {
       add_render_command(program),  add_solve_command(program), add_plan_command(program),
       add_compare_command(program), add_batch_command(program), add_diff_command(program),
       add_regress_command(program), add_trade_command(program), add_formfactors_command(program),
-      add_walk_command(program),    add_view_command(program), add_merge_command(program)};
+      add_walk_command(program),    add_view_command(program), add_bake_command(program),
+      add_merge_command(program)};
 }
 
 void run_chosen(const Options& program, const std::vector<Command>& commands,

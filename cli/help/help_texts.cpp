@@ -52,6 +52,9 @@ const std::map<std::string_view, std::vector<Example>>& all_examples() {
         {"meninas walk room.gltf --by-lamp -o room.html", "with a dimmer for each lamp"},
         {"meninas walk room.gltf --solution room.glb -o room.html",
          "shows a solution that `meninas solve` has written"}}},
+      {"bake",
+       {{"meninas bake room.gltf -o baked.glb", "then load baked.glb with the lightmap extension of three.js"},
+        {"meninas bake room.gltf --direct off -o indirect.glb", "for an engine that lights the lamps itself"}}},
       {"view",
        {{"meninas view room.gltf", "prints the address, and opens it where there is a display"},
         {"meninas view room.gltf --paused --no-open", "begins in the dark; N in the browser makes the next shot"}}},
@@ -70,6 +73,7 @@ const std::map<std::string_view, std::vector<std::string_view>>& first_options()
       {"solve",
        {"output", "quality", "elements", "background", "per-node", "points", "grid", "units", "stats"}},
       {"walk", {"output", "quality", "solution", "by-lamp", "exposure", "elements", "background"}},
+      {"bake", {"output", "lightmap-size", "direct", "solution", "quality", "elements", "background"}},
       {"view", {"port", "no-open", "paused", "quality", "exposure", "elements", "solver", "background"}},
       {"plan", {"json", "quality", "size", "camera", "background"}},
       {"compare", {"output", "quality", "reference", "max-seconds", "size", "camera", "exposure"}}};

@@ -297,4 +297,25 @@ std::vector<std::uint32_t> decode_indices(const Document& document, std::size_t 
   return indices;
 }
 
+StoredElements stored_elements(const Document& document, std::size_t accessor) {
+  const Reader reader(document, accessor);
+  if (reader.width() == 0)
+    reader.fail(fmt::format("type '{}' is not read", one_line(reader.type())));
+  StoredElements stored{.width = reader.width(),
+                        .component_size = size_of(reader.component()),
+                        .component = static_cast<std::uint32_t>(reader.component()),
+                        .bytes = {}};
+  stored.bytes.resize(reader.count() * stored.size());
+  reader.each([&](std::uint64_t at, const unsigned char* bytes) {
+    std::memcpy(stored.bytes.data() + at * stored.size(), bytes, stored.size());
+  });
+  return stored;
+}
+
+double stored_number(const StoredElements& elements, std::size_t element, std::size_t component) {
+  return read_number(elements.bytes.data() + element * elements.size() +
+                         component * elements.component_size,
+                     static_cast<Component>(elements.component));
+}
+
 } // namespace meninas::gltf

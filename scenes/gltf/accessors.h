@@ -33,4 +33,17 @@ double step_of_values(const Document& document, std::size_t accessor);
 /// Unsigned integers of one component.
 std::vector<std::uint32_t> decode_indices(const Document& document, std::size_t accessor);
 
+/// The elements of any accessor as they are stored, one after the other without gaps; zeros where none is.
+struct StoredElements {
+  std::size_t width = 0;          ///< components of an element
+  std::size_t component_size = 0; ///< bytes
+  std::uint32_t component = 0;    ///< glTF's code of their type
+  std::vector<unsigned char> bytes;
+  std::size_t size() const { return width * component_size; }
+};
+StoredElements stored_elements(const Document& document, std::size_t accessor);
+
+/// A component of an element as a number, not normalised.
+double stored_number(const StoredElements& elements, std::size_t element, std::size_t component);
+
 } // namespace meninas::gltf

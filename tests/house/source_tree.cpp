@@ -58,6 +58,7 @@ constexpr std::array wrapped_libraries = {
     WrappedLibrary{"CLI11", "CLI/", "cli"},
     WrappedLibrary{"xxHash", "xxhash.h", "scenes"},
     WrappedLibrary{"cpp-httplib", "httplib.h", "runs"},
+    WrappedLibrary{"stb_rect_pack", "stb/", "runs"},
 };
 
 /// What things were called before they had the field's names.

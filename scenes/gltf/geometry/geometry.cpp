@@ -1,6 +1,7 @@
 // Triangles of every mesh node, in world space.
 #include "scenes/gltf/accessors.h"
 #include "scenes/gltf/geometry/deformation.h"
+#include "scenes/gltf/geometry/file_triangles.h"
 #include "scenes/gltf/geometry/instances.h"
 #include "scenes/gltf/geometry/part.h"
 #include "scenes/shading_normal.h"
@@ -26,19 +27,6 @@ struct Geometry {
 constexpr double largest_coordinate = 1e60;
 
 } // namespace
-
-static std::vector<Vec3> decode_positions(const PrimitivePlace& at, std::size_t accessor) {
-  const auto decoded = decode_vectors(at.document, accessor, 3);
-  std::vector<Vec3> positions(decoded.size());
-  for (std::size_t k = 0; k < positions.size(); ++k) {
-    const auto* p = &decoded.values[3 * k];
-    positions[k] = {p[0], p[1], p[2]};
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-      at.fail(fmt::format("POSITION {} (of {}) is not finite", k,
-                          place(at.document.root, "accessors", accessor)));
-  }
-  return positions;
-}
 
 static std::vector<std::array<glm::vec2, 2>>
 decode_texcoords(const PrimitivePlace& at, std::size_t count, Findings& findings) {
@@ -99,40 +87,6 @@ static void check_attribute_counts(const PrimitivePlace& at, std::size_t positio
     if (count != expected)
       at.fail(fmt::format("{} has {} elements, POSITION has {}", one_line(name), count, expected));
   }
-}
-
-static std::vector<std::uint32_t> decode_corners(const PrimitivePlace& at, std::size_t vertices) {
-  std::vector<std::uint32_t> corners;
-  const auto accessor = index_at(at.json, "indices");
-  if (!accessor) {
-    corners.resize(vertices);
-    for (std::size_t k = 0; k < vertices; ++k)
-      corners[k] = static_cast<std::uint32_t>(k);
-    return corners;
-  }
-  corners = decode_indices(at.document, *accessor);
-  const auto outside =
-      std::ranges::find_if(corners, [&](std::uint32_t corner) { return corner >= vertices; });
-  if (outside != corners.end())
-    at.fail(fmt::format("index {} ({} of {}) is out of range: there are {} vertices", *outside,
-                        outside - corners.begin(), place(at.document.root, "accessors", *accessor),
-                        vertices));
-  return corners;
-}
-
-/// glTF 2.0, 3.7.2.1:
-/// every second triangle of a strip is turned round, so that all face the same way.
-static std::vector<Corners> triangulate(Mode mode, std::span<const std::uint32_t> corners) {
-  std::vector<Corners> triangles(triangles_in(mode, corners.size()));
-  for (std::size_t k = 0; k < triangles.size(); ++k) {
-    if (mode == Mode::triangles)
-      triangles[k] = {corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]};
-    else if (mode == Mode::strip)
-      triangles[k] = {corners[k], corners[k + 1 + k % 2], corners[k + 2 - k % 2]};
-    else
-      triangles[k] = {corners[k + 1], corners[k + 2], corners[0]};
-  }
-  return triangles;
 }
 
 static std::optional<Part> decode_primitive(const PrimitivePlace& at, Findings& findings) {
@@ -215,15 +169,6 @@ public:
 private:
   double stretch_ = 0.0, away_ = 0.0;
 };
-
-/// A mirrored node shows its triangles turned round,
-/// unless they are turned round once more (glTF 2.0, 3.7.4).
-static bool is_mirrored(const glm::dmat4& world) {
-  const glm::dmat3 linear(world);
-  const auto largest =
-      std::max({largest_of(linear[0]), largest_of(linear[1]), largest_of(linear[2])});
-  return largest > 0.0 && glm::determinant(linear / largest) < 0.0;
-}
 
 /// Its shortest height is below the error of the corners: neither a plane nor a front can be told.
 static bool is_degenerate(const std::array<Point3, 3>& p, double error) {

@@ -1,6 +1,7 @@
 // One primitive as it stands in the file, in the coordinates of its mesh; its node places it.
 #pragma once
 
+#include "scenes/gltf/geometry/file_triangles.h"
 #include "scenes/gltf/geometry/normals.h"
 #include "scenes/gltf/geometry/tangents.h"
 #include "scenes/types.h"
@@ -10,8 +11,6 @@
 #include <vector>
 
 namespace meninas::gltf {
-
-using Corners = std::array<std::uint32_t, 3>; ///< of a triangle, by vertex of its part
 
 struct Part {
   std::vector<Vec3> positions;
