@@ -38,7 +38,7 @@ PassOneQuality pass_one_quality(Quality quality) {
             .hemicube_resolution = 32,
             .link_error = 0.02,
             .penumbra_rays = 32,
-            .images = 64,
+            .images = 96,
             .images_in_element = 8};
   case Quality::normal:
     return {.target_elements = 16'000,
