@@ -266,6 +266,12 @@ class Scenes(unittest.TestCase):
         smooth.keyframe_insert("location", frame=1)
         smooth.location.x = 1.0
         smooth.keyframe_insert("location", frame=11)
+        glow = rooms.emission("glow", 2.0)
+        rooms.box("glowing", (3, 3, 2), (3.1, 3.1, 2.1), glow, inward=False)
+        strength = glow.node_tree.nodes["Emission"].inputs["Strength"]
+        strength.keyframe_insert("default_value", frame=1)
+        strength.default_value = 7.0
+        strength.keyframe_insert("default_value", frame=11)
         scene.frame_set(3)
         before = sorted(thing.name for thing in bpy.data.objects), scene.frame_current
         files, made = self.nodes_of(scene, [(1, 0.0), (11, 0.0)])
@@ -277,6 +283,10 @@ class Scenes(unittest.TestCase):
         self.assertEqual(self.corners(files[0], "smooth"), 6 * 16 * 2 * 3)
         places = [next(n for n in gltf["nodes"] if n["name"] == "smooth").get("translation", [0, 0, 0])[0] for gltf in files]
         self.assertEqual(places, [0.0, 1.0])
+        glows = [next(m for m in gltf["materials"] if m["name"] == "glow") for gltf in files]
+        strengths = [m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] for m in glows]
+        np.testing.assert_allclose(strengths, [2.0, 7.0], rtol=1e-6)
+        np.testing.assert_allclose([m["pbrMetallicRoughness"]["baseColorFactor"][:3] for m in glows], 0.0)
 
     def test_lens(self):
         scene = rooms.cornell()

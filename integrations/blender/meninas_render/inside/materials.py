@@ -80,29 +80,44 @@ def _rewrite(tree, shader):
 
 
 def _prepare(material, warnings):
+    """What undoes it, or None: the shader's own values may be animated, and the next frame looks at them again."""
     output = _output(material)
     if output is None or not output.inputs["Surface"].is_linked:
-        return
+        return None
     if output.inputs["Volume"].is_linked and output.inputs["Volume"].links[0].from_node.type != "VOLUME_ABSORPTION":
         warnings.append(f"material '{material.name}': its volume is left out")
-    shader = output.inputs["Surface"].links[0].from_node
+    socket = output.inputs["Surface"].links[0].from_socket
+    shader = socket.node
     if shader.type == "BSDF_PRINCIPLED":
-        return
+        return None
     tree = material.node_tree
     node = _rewrite(tree, shader)
     if node is None:
         warnings.append(f"material '{material.name}': {shader.bl_label or shader.name} is not understood, "
                         "only what Blender's glTF exporter makes of it; a Principled BSDF is")
-        return
+        return None
     tree.links.new(node.outputs["BSDF"], output.inputs["Surface"])
-    tree.nodes.remove(shader)
+
+    def undo():
+        tree.links.new(socket, output.inputs["Surface"])
+        tree.nodes.remove(node)
+
+    return undo
 
 
 def prepare(items, warnings):
-    done = set()
+    """Rewrites the materials of meshes; returns what undoes it."""
+    done, undone = set(), []
     for item in items:
         mesh = item.get("mesh")
         for material in mesh.materials if mesh else []:
             if material and material.name not in done:
                 done.add(material.name)
-                _prepare(material, warnings)
+                undone.append(_prepare(material, warnings))
+
+    def undo():
+        for step in undone:
+            if step:
+                step()
+
+    return undo

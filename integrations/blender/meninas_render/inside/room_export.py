@@ -204,15 +204,19 @@ def export_frame(job, scene, frame, subframe, number):
     taken = Snapshot.taken
     warnings = taken["warnings"]
     room, names = room_scene(taken, scene)
-    materials.prepare(names.values(), warnings)
+    restore = materials.prepare(names.values(), warnings)
     path = os.path.join(job["folder"], f"room-{number:04d}.gltf")
     bpy.context.window.scene = room
     write_gltf(path)
+    restore()
     bpy.context.window.scene = scene
     finish(path, names)
     options = sky.options(taken["world"], os.path.join(job["folder"], f"sky-{number:04d}.exr"), warnings)
     for thing in list(room.objects):
+        data = thing.data
         bpy.data.objects.remove(thing)
+        if isinstance(data, bpy.types.Mesh) and data.users == 0:
+            bpy.data.meshes.remove(data)
     bpy.data.scenes.remove(room)
     percentage = scene.render.resolution_percentage / 100.0
     size = [max(1, int(scene.render.resolution_x * percentage)), max(1, int(scene.render.resolution_y * percentage))]
