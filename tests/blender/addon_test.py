@@ -158,10 +158,10 @@ class Units(unittest.TestCase):
 
 
 class Rooms(unittest.TestCase):
-    """The means of 8x8 patches: within 1 % of Cycles, beyond four standard errors of Cycles' own noise and the error that the
-    run estimates of itself over the 64 pixels of a patch."""
+    """The mean of all patches is within 1 % of Cycles', and each patch within 1 % and four standard errors of Cycles' own
+    noise, which two seeds tell."""
 
-    def compare(self, name, samples):
+    def compare(self, name, samples, size=8):
         scene = rooms.ROOMS[name]()
         ours = by_meninas(scene, name)
         seeds = [by_cycles(scene, name, samples, seed) for seed in (1, 2)]
@@ -170,16 +170,15 @@ class Rooms(unittest.TestCase):
         scale = 0.4 / theirs.mean()
         png(os.path.join(WORK, f"{name}.png"), np.concatenate([combined, theirs], axis=1) * scale)
         # Cycles hides lamps from the camera, Meninas shows them.
-        lit = (patches(theirs) > 0.05 * theirs.mean()) & (patches(ours["Emission"]) <= 1.001 * patches(theirs))
-        if bpy.context.scene.world is None:
-            lit &= patches(ours["Emission"]) == 0.0
-        noise = (patches(seeds[0]) - patches(seeds[1])) / (2.0 * patches(theirs).clip(1e-9))
+        mine, cycles, glow = (patches(picture, size) for picture in (combined, theirs, ours["Emission"]))
+        lit = (cycles > 0.05 * theirs.mean()) & ((glow == 0.0) if scene.world is None else True)
+        noise = (patches(seeds[0], size) - patches(seeds[1], size)) / (2.0 * cycles.clip(1e-9))
         sigma = math.sqrt((noise[lit] ** 2).mean())
-        ratio = patches(combined)[lit] / patches(theirs)[lit]
-        mean = patches(combined)[lit].mean() / patches(theirs)[lit].mean()
+        ratio = mine[lit] / cycles[lit]
+        mean = mine[lit].mean() / cycles[lit].mean()
         print(f"{name}: mean {mean:.4f} of Cycles; {lit.sum()} patches {ratio.min():.3f} to {ratio.max():.3f}, "
               f"rms {math.sqrt(((ratio - 1) ** 2).mean()):.4f}, of which noise of Cycles {sigma:.4f}")
-        self.assertGreater(lit.sum(), 40)
+        self.assertGreater(lit.sum(), 0.6 * lit.size)
         self.assertAlmostEqual(mean, 1.0, delta=0.01)
         self.assertLess(abs(ratio - 1.0).max(), 0.01 + 4.0 * sigma)
         return ours
@@ -192,7 +191,7 @@ class Rooms(unittest.TestCase):
         np.testing.assert_allclose(total, ours["Combined"][..., :3], rtol=1e-5, atol=1e-6)
 
     def test_mirror_that_lights_a_wall(self):
-        ours = self.compare("mirror_room", 2048)
+        ours = self.compare("mirror_room", 2048, 16)  # caustics are noisy in Cycles
         self.assertGreater(ours["Mirrored"].sum(), 0.3 * ours["Combined"][..., :3].sum())
         self.assertGreater(ours["Direct by Mirror"].sum() + ours["Mirrored by Mirror"].sum(), 0.0)
 
@@ -350,6 +349,28 @@ class Program(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "Meninas: room.gltf: /meshes/0: too odd"):
             bpy.ops.render.render()
         self.assert_nothing_is_left()
+
+    def test_a_process_ends_with_its_steps(self):
+        """Escape in a bake closes the generator."""
+        began = []
+        original = program.subprocess.Popen
+        program.subprocess.Popen = lambda *a, **k: began.append(original(*a, **k)) or began[-1]
+        try:
+            steps = program.steps(["sleep", "600"], "sleep")
+            self.assertEqual(next(steps), (0.0, "sleep"))
+            steps.close()
+        finally:
+            program.subprocess.Popen = original
+        self.assertIsNotNone(began[0].returncode)
+
+    def test_progress_lines(self):
+        output = program.Output("picture")
+        output.take("meninas: 43 %, 1 min 05 s left: direct light")
+        self.assertEqual((output.fraction, output.text()), (0.43, "picture, direct light, 43 %, 1 min 05 s left"))
+        output.take("meninas: 98 %: error estimate")
+        self.assertEqual((output.fraction, output.text()), (0.98, "picture, error estimate, 98 %"))
+        output.take("meninas: warning: 'A lamp': odd")
+        self.assertEqual(output.warnings, ["'A lamp': odd"])
 
     def test_cancel(self):
         """Blender without windows takes Ctrl-C for Escape. The program would run for minutes."""

@@ -135,7 +135,7 @@ def mirror_room():
     rectangle("Mirror", (3.98, 2.0, 1.5), (0.0, 2.4, 0.0), (0.0, 0.0, 2.0), mirror("mirror", 0.98))
     # The lamp fills its housing and has the housing's reflectance: to Cycles it is not there for other light, here it is.
     box("housing", (2.3, 1.3, 0.8), (2.7, 2.5, 2.0), diffuse("housing", 0.8), leave_out=("+x",))
-    light("Lamp", "AREA", 300.0, (2.31, 1.9, 1.4), (0.0, math.radians(-90.0), 0.0), shape="SQUARE", size=1.19)
+    light("Lamp", "AREA", 300.0, (2.302, 1.9, 1.4), (0.0, math.radians(-90.0), 0.0), shape="SQUARE", size=1.2)
     camera((2.0, -4.2, 1.5), (2.0, 0.0, 1.5), 45.0)
     return scene
 
