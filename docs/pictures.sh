@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of README.md, docs/limits.md, docs/lux.md, docs/known_answers.md and docs/solar.md anew: docs/pictures.sh [PROGRAM]
+# Makes the pictures of README.md, docs/limits.md, docs/lux.md, docs/known_answers.md, docs/solar.md and docs/bake.md anew: docs/pictures.sh [PROGRAM]
 # From a checkout; PROGRAM is ./meninas unless another one is named. It takes some minutes.
 set -euo pipefail
 
@@ -24,3 +24,10 @@ picture roughness-sweep roughness-sweep --size 512x256
 picture globillum globillum-2 --size 480x300
 picture solar-row solar-row --size 480x300 --background 30
 picture illuminance cornell-mirror --size 512x512 --view illuminance
+
+# The variant of a baked scene: all that is seen of its light is its textures.
+baked=$(mktemp -d)
+trap 'rm -rf "$baked"' EXIT
+printf '%s\n' bake >&2
+"$program" bake "$root/scenes/gallery/meninas.gltf" -o "$baked/baked.glb" --quiet
+"$program" render "$baked/baked.glb" --variant baked --size 360x400 --exposure 0 --view-transform srgb -o "$root/docs/bake.png" --quiet
