@@ -13,6 +13,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace meninas {
@@ -120,11 +121,23 @@ Scene floor_of_two_boards() {
   return scene;
 }
 
+/// A disc of slivers, which the solver has triangulated anew.
+Scene room_with_disc() {
+  Scene scene = floor_of_two_boards();
+  std::vector<Point3> rim;
+  for (int k = 0; k < 96; ++k) {
+    const double angle = std::numbers::pi / 48.0 * k;
+    rim.push_back({1.0 + 0.7 * std::cos(angle), 0.4, 1.0 - 0.7 * std::sin(angle)});
+  }
+  test::add_polygon(scene, "disc", rim, test::diffuse(0.6));
+  return scene;
+}
+
 // Texture coordinates are floats: of some thousand texels a side they are off by 1e-4 texels at most.
 constexpr float rounding = 2e-4F;
 
 TEST(Lightmap, ALinearFieldIsExactEverywhere) {
-  for (const Scene& scene : {test::half_room_with_small_mirror(), floor_of_two_boards()}) {
+  for (const Scene& scene : {test::half_room_with_small_mirror(), floor_of_two_boards(), room_with_disc()}) {
     const BakedRoom room = baked(scene, linear);
     std::size_t points = 0;
     each_point(room, [&](glm::vec2 uv, const Point3& x, std::uint32_t) {
@@ -149,6 +162,18 @@ TEST(Lightmap, FilteringIsTheInterpolationOfTheField) {
         irradiance_at(room.prepared->mesh, room.field, side, uv_at(surfaces.patches[index(patch)], x)).r;
     EXPECT_NEAR(filtered(room.map.irradiance, uv), field, rounding * 5.0F);
   });
+}
+
+TEST(Lightmap, WhatTheSolverTriangulatesAnewIsLitByTheFilesOwnTriangles) {
+  const BakedRoom room = baked(room_with_disc(), linear);
+  const auto& disc = room.charts.corners.back();
+  ASSERT_EQ(disc.size(), 94U);
+  std::size_t faces = 0;
+  for (const auto& corners : disc) {
+    ASSERT_NE(corners[0].chart, no_chart);
+    faces += room.charts.charts[corners[0].chart].face ? 1 : 0;
+  }
+  EXPECT_GT(faces, 47U) << "most of its slivers are no patches";
 }
 
 TEST(Lightmap, HasNoSeamBetweenPatchesOfASurface) {
