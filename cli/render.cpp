@@ -197,6 +197,9 @@ void check_goal(const Options& command, const RenderOptions& options) {
   }
   refuse(command, {"--quality", "--solution", "--snapshots", "--error-map"},
          std::string("does not go with ") + goal + ", which chooses for itself");
+  if (options.common.settings.lamp_layers)
+    throw UsageError("--layers", std::string("lamps does not go with ") + goal +
+                                     ": render once more, with the options that --stats says it has chosen");
 }
 
 /// A part is an EXR of floats, of what is known pixel by pixel.

@@ -26,7 +26,8 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Meninas renders rooms from glTF files, with the light that mirrors throw:
 radiosity extended with mirror worlds, then a ray tracer that follows what
 mirrors and glass show. It also solves once for any number of views, runs
-batches, writes a solved room as a web page to walk through, shows in a
+batches, writes a solved room as a web page to walk through or as lightmaps
+in its own file, shows in a
 browser how a room is solved, compares pictures, and computes form factors
 and illuminance in lux.")
 

@@ -92,3 +92,10 @@ if command -v chromium >/dev/null; then
   "$root/bench/view_film.py" "$program" "$root/scenes/gallery/meninas.gltf" "$root/docs/view-film.png"
   "$root/bench/view_film.py" "$program" "$root/scenes/gallery/cornell-mirror.gltf" "$root/docs/view-factors.png" --factors 690,250
 fi
+
+# The variant of a baked scene: all that is seen of its light is its textures.
+baked=$(mktemp -d)
+trap 'rm -rf "$baked"' EXIT
+printf '%s\n' bake >&2
+"$program" bake "$root/scenes/gallery/meninas.gltf" -o "$baked/baked.glb" --quiet
+"$program" render "$baked/baked.glb" --variant baked --size 360x400 --exposure 0 --view-transform srgb -o "$root/docs/bake.png" --quiet

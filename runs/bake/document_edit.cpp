@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <string_view>
 
 namespace meninas {
@@ -78,6 +79,35 @@ std::string mime_type_of(std::span<const unsigned char> bytes) {
   return text.starts_with("\xabKTX 20") ? "image/ktx2" : "";
 }
 
+/// The bounds of these elements, where an accessor states any.
+void restate_bounds(Json& accessor, const gltf::StoredElements& stored, std::span<const std::uint32_t> elements) {
+  if (!accessor.contains("min") && !accessor.contains("max"))
+    return;
+  std::vector<double> low(stored.width, std::numeric_limits<double>::infinity()),
+      high(stored.width, -std::numeric_limits<double>::infinity());
+  for (const std::uint32_t element : elements)
+    for (std::size_t c = 0; c < stored.width; ++c) {
+      const double value = gltf::stored_number(stored, element, c);
+      low[c] = std::min(low[c], value);
+      high[c] = std::max(high[c], value);
+    }
+  if (stored.component == floats) {
+    accessor["min"] = low;
+    accessor["max"] = high;
+  } else {
+    accessor["min"] = std::vector<std::int64_t>(low.begin(), low.end());
+    accessor["max"] = std::vector<std::int64_t>(high.begin(), high.end());
+  }
+}
+
+/// What Draco has decoded is not quite within what was encoded.
+void restate_bounds(Json& root, const gltf::Document& file, std::size_t accessor) {
+  const gltf::StoredElements stored = gltf::stored_elements(file, accessor);
+  std::vector<std::uint32_t> all(gltf::accessor_count(file, accessor));
+  std::iota(all.begin(), all.end(), 0U);
+  restate_bounds(root["accessors"][accessor], stored, all);
+}
+
 void erase_extension(Json& object, const char* name) {
   const auto extensions = object.find("extensions");
   if (extensions == object.end())
@@ -98,8 +128,11 @@ DocumentEdit::DocumentEdit(const gltf::Document& file,
       if (!rewritten.contains({m, p}))
         add_accessors(primitives[p], kept_);
       const auto position = gltf::index_at(primitives[p]["attributes"], "POSITION");
-      if (position && gltf::element(root_, "accessors", *position).contains("bufferView"))
+      if (position && gltf::element(root_, "accessors", *position).contains("bufferView") &&
+          gltf::find(primitives[p], {"extensions", "KHR_draco_mesh_compression"})) {
+        restate_bounds(root_, file_, *position);
         erase_extension(primitives[p], "KHR_draco_mesh_compression");
+      }
     }
   }
   for (std::size_t k = 0; k < gltf::count_of(root_, "bufferViews"); ++k)
@@ -141,23 +174,7 @@ std::size_t DocumentEdit::gathered(std::size_t accessor, std::span<const std::ui
     json.erase(key);
   json["bufferView"] = add_view(std::move(bytes), stride, array_buffer);
   json["count"] = elements.size();
-  if (json.contains("min") || json.contains("max")) {
-    std::vector<double> low(stored.width, std::numeric_limits<double>::infinity()),
-        high(stored.width, -std::numeric_limits<double>::infinity());
-    for (const std::uint32_t element : elements)
-      for (std::size_t c = 0; c < stored.width; ++c) {
-        const double value = gltf::stored_number(stored, element, c);
-        low[c] = std::min(low[c], value);
-        high[c] = std::max(high[c], value);
-      }
-    if (stored.component == floats) {
-      json["min"] = low;
-      json["max"] = high;
-    } else {
-      json["min"] = std::vector<std::int64_t>(low.begin(), low.end());
-      json["max"] = std::vector<std::int64_t>(high.begin(), high.end());
-    }
-  }
+  restate_bounds(json, stored, elements);
   return put(accessor, std::move(json));
 }
 

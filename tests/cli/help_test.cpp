@@ -68,7 +68,8 @@ TEST(Help, ShowsWhatMattersFirst) {
 }
 
 const std::vector<std::string> commands{"render", "solve",   "plan",  "compare",    "batch",
-                                        "diff",   "regress", "trade", "formfactors", "walk", "merge"};
+                                        "diff",   "regress", "trade", "formfactors", "walk", "bake",
+                                        "merge"};
 
 TEST(Help, FitsTheTerminal) {
   const TemporaryFolder folder;

@@ -71,7 +71,7 @@ protected:
 };
 
 TEST_F(Manuals, HaveEveryOptionOfEveryCommand) {
-  ASSERT_EQ(options_.size(), 12U);
+  ASSERT_EQ(options_.size(), 13U);
   const std::string program = page({"--man"});
   for (const auto& [command, options] : options_) {
     EXPECT_THAT(program, HasSubstr(".BR meninas\\-" + command + " (1)\n"))

@@ -1,4 +1,5 @@
 // `solve -o SOLUTION.glb` as others see it: the Khronos validator, and our own reader.
+#include "tests/cli/gltf_validator.h"
 #include "tests/cli/program.h"
 #include "tests/support/source_dir.h"
 
@@ -15,20 +16,6 @@ namespace meninas::test {
 namespace {
 
 using nlohmann::json;
-
-/// `npm install --global gltf-validator` has put it beside the other packages of Node.
-constexpr const char* validate = R"(
-const fs = require('fs'), { execSync } = require('child_process');
-let validator;
-try { validator = require('gltf-validator'); } catch {
-  try { validator = require(execSync('npm root --global').toString().trim() + '/gltf-validator'); }
-  catch { console.log('null'); process.exit(0); }
-}
-Promise.all(process.argv.slice(1).map(async file => {
-  const { issues } = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)), { maxIssues: 0 });
-  return [file, issues.numErrors, issues.numWarnings, issues.messages.filter(m => m.severity < 2).map(m => `${m.code} ${m.pointer}`).join('; ')];
-})).then(said => console.log(JSON.stringify(said)));
-)";
 
 std::vector<std::string> gallery() {
   std::vector<std::string> names;
@@ -56,21 +43,15 @@ protected:
 };
 
 TEST_F(SolutionViewers, TheKhronosValidatorFindsNothing) {
-  const std::vector<std::string> names = gallery();
-  std::vector<std::string> arguments{"-e", validate};
-  // The first alone tells whether the validator is there.
-  Outcome said = run_other_program("node", folder_.path(), arguments);
-  if (said.code != 0 || said.out == "null\n")
+  if (!has_gltf_validator(folder_.path()))
     GTEST_SKIP() << "no gltf-validator here (npm install --global gltf-validator): solutions are "
                     "not validated";
-  for (const std::string& name : names) {
+  std::vector<std::string> solutions;
+  for (const std::string& name : gallery()) {
     solve(name, {"--elements", "1000"});
-    arguments.push_back(solution_of(name));
+    solutions.push_back(solution_of(name));
   }
-  said = run_other_program("node", folder_.path(), arguments);
-  const json findings = json::parse(said.out);
-  ASSERT_EQ(findings.size(), names.size()) << said.err;
-  for (const json& file : findings) {
+  for (const json& file : validator_findings(folder_.path(), solutions)) {
     EXPECT_EQ(file.at(1), 0) << file;
     EXPECT_EQ(file.at(2), 0) << file;
   }
