@@ -94,8 +94,7 @@ if command -v chromium >/dev/null; then
 fi
 
 # The variant of a baked scene: all that is seen of its light is its textures.
-baked=$(mktemp -d)
-trap 'rm -rf "$baked"' EXIT
+baked=$scratch
 printf '%s\n' bake >&2
 "$program" bake "$root/scenes/gallery/meninas.gltf" -o "$baked/baked.glb" --quiet
 "$program" render "$baked/baked.glb" --variant baked --size 360x400 --exposure 0 --view-transform srgb -o "$root/docs/bake.png" --quiet

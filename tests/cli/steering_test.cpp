@@ -96,6 +96,9 @@ TEST_F(Steering, RefusesWhatItWouldNotHeed) {
     arguments.insert(arguments.end(), other.begin(), other.end());
     EXPECT_EQ(render(arguments).code, 2) << other.front();
   }
+  const Outcome lamps = render({"-o", "out.exr", "--error", "0.1", "--layers", "lamps"});
+  EXPECT_EQ(lamps.code, 2);
+  EXPECT_NE(lamps.err.find("lamps does not go with --error"), std::string::npos) << lamps.err;
   EXPECT_EQ(render({"-o", "out.exr", "--error", "0"}).code, 2);
   EXPECT_EQ(render({"-o", "out.exr", "--time", "-1"}).code, 2);
 }
