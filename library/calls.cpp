@@ -191,6 +191,8 @@ Call call_of(const Room::Impl& room, const Settings& settings, CallKind kind) {
     check_reading(room.loaded, chosen);
   if (goal && chosen.mode == PictureMode::reference)
     throw UsageError(goal->error ? "error" : "time", "is of the two passes: a reference has max-error and max-seconds");
+  if (goal && chosen.lamp_layers)
+    throw UsageError("layers", "lamps does not go with error or time, which choose for themselves");
   call.request.goal = goal;
   if (by_lamp)
     call.by_lamp = grouping_of(*by_lamp);
