@@ -211,7 +211,8 @@ def take_film(browser, page, width):
 def show_factors(browser, page, place):
     """The page when the room is solved, with the form factors of what is at a place of it, as PNG."""
     x, y = place.split(",")
-    browser.run(page, f"""press('p'); await until(() => status().solved && status().state === Number(data.state), 600000);
+    browser.run(page, f"""await until(() => data.state === '1' && status().stage === 'dark'); press('p');
+        await until(() => status().solved && status().state === Number(data.state), 600000);
         document.getElementById('view').dispatchEvent(new PointerEvent('pointermove', {{ clientX: {x}, clientY: {y}, pointerId: 1 }}));
         press('g'); await until(() => data.factors); await new Promise(r => setTimeout(r, 4000));""")
     return browser.picture(page)
