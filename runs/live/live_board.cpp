@@ -53,12 +53,14 @@ std::shared_ptr<LiveBoard::State> LiveBoard::state_of(const LiveLight& light, st
   return state;
 }
 
-void LiveBoard::changed() {
+void LiveBoard::changed(const StatusChange& change) {
+  if (change)
+    change(status_);
   ++version_;
   news_.notify_all();
 }
 
-void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLight& light, ShownMesh mesh) {
+void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLight& light, ShownMesh mesh, const StatusChange& change) {
   const auto state = state_of(light, std::nullopt);
   state->number = state_number_ + 1; // nobody else writes
   const json head{{"room", room_number_ + 1},
@@ -83,10 +85,10 @@ void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLigh
   room_ = std::move(room);
   mesh.room = room_number_;
   mesh_ = std::make_shared<const ShownMesh>(std::move(mesh));
-  changed();
+  changed(change);
 }
 
-void LiveBoard::show_light(const LiveLight& light) {
+void LiveBoard::show_light(const LiveLight& light, const StatusChange& change) {
   std::optional<float> scale;
   if (const std::scoped_lock lock(mutex_); !states_.empty())
     scale = states_.back()->scale;
@@ -96,13 +98,12 @@ void LiveBoard::show_light(const LiveLight& light) {
   states_.push_back(state);
   if (states_.size() > kept_states)
     states_.pop_front();
-  changed();
+  changed(change);
 }
 
-void LiveBoard::change_status(const std::function<void(LiveStatus&)>& change) {
+void LiveBoard::change_status(const StatusChange& change) {
   const std::scoped_lock lock(mutex_);
-  change(status_);
-  changed();
+  changed(change);
 }
 
 LiveStatus LiveBoard::status() const {

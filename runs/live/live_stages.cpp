@@ -64,7 +64,7 @@ private:
   const LiveStage& stage_;
   std::mutex mutex_;
   SecondsSince since_;
-  double told_ = -1.0;
+  double told_ = 0.0; // what was shown before is left long enough to be told
   RunProgress progress_;
 };
 
@@ -75,9 +75,9 @@ public:
   ShownRoom(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const void> kept)
       : shown_(shown), stage_(stage), kept_(std::move(kept)) {}
 
-  void show(const IrradianceField& field, const Rgb& ambient) {
+  void show(const IrradianceField& field, const Rgb& ambient, const StatusChange& change = {}) {
     if (room_) {
-      stage_.board.show_light({irradiance_from(*field.scene, field, room_->origins), ambient});
+      stage_.board.show_light({irradiance_from(*field.scene, field, room_->origins), ambient}, change);
       return;
     }
     room_ = walk_room(field);
@@ -85,7 +85,7 @@ public:
     for (const WalkVertex& vertex : room_->vertices)
       light.irradiance.push_back(vertex.irradiance);
     stage_.board.show_room(data_of(field, ambient), room_->middle, light,
-                           {kept_, field.scene, room_->elements, two_pass_settings(shown_.settings).pass_one.form_factors});
+                           {kept_, field.scene, room_->elements, two_pass_settings(shown_.settings).pass_one.form_factors}, change);
   }
 
 private:
@@ -136,9 +136,7 @@ public:
   void look(const PassOneSoFar& state, const char* steps) {
     if (stage_.is_over())
       throw StageOver{};
-    room_.show({state.field, light_}, state.ambient);
-    // Of a large room that takes a while, and is part of the time until it is seen.
-    stage_.board.change_status([&](LiveStatus& status) {
+    room_.show({state.field, light_}, state.ambient, [&](LiveStatus& status) {
       status.stage = steps;
       status.shots = state.shots;
       status.unshot = state.unshot;
@@ -217,12 +215,11 @@ void solve_coarse(const LiveScene& shown, const LiveStage& stage, const SecondsS
 void relight_coarse(const LiveScene& shown, const LiveStage& stage, const SecondsSince& since) {
   const auto& [prepared, settings, rows, whole] = stage.kept;
   const RadiositySolution solution = solve_pass_one(prepared->light, rows.factors, settings);
-  stage.board.change_status([&](LiveStatus& status) {
+  ShownRoom(shown, stage, prepared).show(solution.field, Rgb(0.0), [&](LiveStatus& status) {
     status.stage = "relit";
     status.elements = element_count(prepared->mesh);
     status.seconds = since.seconds();
   });
-  ShownRoom(shown, stage, prepared).show(solution.field, Rgb(0.0));
 }
 
 void show_coarse(const Scene& scene, const LiveScene& shown, const LiveStage& stage, const SecondsSince& since) {
