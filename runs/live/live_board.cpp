@@ -53,30 +53,42 @@ std::shared_ptr<LiveBoard::State> LiveBoard::state_of(const LiveLight& light, st
   return state;
 }
 
-void LiveBoard::changed() {
+void LiveBoard::changed(const StatusChange& change) {
+  if (change)
+    change(status_);
   ++version_;
   news_.notify_all();
 }
 
-void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLight& light, ShownMesh mesh) {
+void LiveBoard::show_room(std::string data, const Point3& middle, const LiveLight& light, ShownMesh mesh, const StatusChange& change) {
   const auto state = state_of(light, std::nullopt);
-  const std::scoped_lock lock(mutex_);
-  state->number = ++state_number_;
-  states_.clear();
-  states_.push_back(state);
-  const json head{{"room", ++room_number_},
+  state->number = state_number_ + 1; // nobody else writes
+  const json head{{"room", room_number_ + 1},
                   {"state", state->number},
                   {"ambient", array_of(light.ambient)},
                   {"middle", array_of(middle)}};
   std::string text = text_of(head);
   text.back() = ','; // in place of its brace
-  room_ = std::make_shared<const std::string>(std::move(text) + "\"data\":" + std::move(data) + "}");
+  auto room = std::make_shared<const std::string>(std::move(text) + "\"data\":" + std::move(data) + "}");
+
+  // Rooms may be large: this one is joined before readers wait, and the one before goes when they no longer do.
+  decltype(states_) states_before;
+  std::shared_ptr<const std::string> room_before;
+  std::shared_ptr<const ShownMesh> mesh_before;
+  const std::scoped_lock lock(mutex_);
+  states_before.swap(states_);
+  room_before.swap(room_);
+  mesh_before.swap(mesh_);
+  ++room_number_;
+  ++state_number_;
+  states_.push_back(state);
+  room_ = std::move(room);
   mesh.room = room_number_;
   mesh_ = std::make_shared<const ShownMesh>(std::move(mesh));
-  changed();
+  changed(change);
 }
 
-void LiveBoard::show_light(const LiveLight& light) {
+void LiveBoard::show_light(const LiveLight& light, const StatusChange& change) {
   std::optional<float> scale;
   if (const std::scoped_lock lock(mutex_); !states_.empty())
     scale = states_.back()->scale;
@@ -86,13 +98,12 @@ void LiveBoard::show_light(const LiveLight& light) {
   states_.push_back(state);
   if (states_.size() > kept_states)
     states_.pop_front();
-  changed();
+  changed(change);
 }
 
-void LiveBoard::change_status(const std::function<void(LiveStatus&)>& change) {
+void LiveBoard::change_status(const StatusChange& change) {
   const std::scoped_lock lock(mutex_);
-  change(status_);
-  changed();
+  changed(change);
 }
 
 LiveStatus LiveBoard::status() const {

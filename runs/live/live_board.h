@@ -59,15 +59,17 @@ struct ShownMesh {
   std::uint64_t room = 0; ///< which room it is of
 };
 
+using StatusChange = std::function<void(LiveStatus&)>;
+
 /// One writes; any number read.
 class LiveBoard {
 public:
-  /// Another room: the JSON of walk_page_data(), in whose coordinates `middle` is 0, with its light.
-  void show_room(std::string data, const Point3& middle, const LiveLight& light, ShownMesh mesh = {});
+  /// Another room: the JSON of walk_page_data(), in whose coordinates `middle` is 0, with its light. `change` is told
+  /// with it, not before, and may not ask the board.
+  void show_room(std::string data, const Point3& middle, const LiveLight& light, ShownMesh mesh = {}, const StatusChange& change = {});
   /// Other light of that room.
-  void show_light(const LiveLight& light);
-  /// `change` may not ask the board.
-  void change_status(const std::function<void(LiveStatus&)>& change);
+  void show_light(const LiveLight& light, const StatusChange& change = {});
+  void change_status(const StatusChange& change);
   LiveStatus status() const;
 
   /// JSON of what there is, once it is newer than `seen`; nothing where it is not after so long.
@@ -89,7 +91,7 @@ private:
   };
   static std::shared_ptr<State> state_of(const LiveLight& light, std::optional<float> scale_before);
   std::string announcement() const;
-  void changed();
+  void changed(const StatusChange& change);
 
   mutable std::mutex mutex_;
   mutable std::condition_variable news_;

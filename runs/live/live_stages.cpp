@@ -64,7 +64,7 @@ private:
   const LiveStage& stage_;
   std::mutex mutex_;
   SecondsSince since_;
-  double told_ = -1.0;
+  double told_ = 0.0; // what was shown before is left long enough to be told
   RunProgress progress_;
 };
 
@@ -75,9 +75,9 @@ public:
   ShownRoom(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const void> kept)
       : shown_(shown), stage_(stage), kept_(std::move(kept)) {}
 
-  void show(const IrradianceField& field, const Rgb& ambient) {
+  void show(const IrradianceField& field, const Rgb& ambient, const StatusChange& change = {}) {
     if (room_) {
-      stage_.board.show_light({irradiance_from(*field.scene, field, room_->origins), ambient});
+      stage_.board.show_light({irradiance_from(*field.scene, field, room_->origins), ambient}, change);
       return;
     }
     room_ = walk_room(field);
@@ -85,7 +85,7 @@ public:
     for (const WalkVertex& vertex : room_->vertices)
       light.irradiance.push_back(vertex.irradiance);
     stage_.board.show_room(data_of(field, ambient), room_->middle, light,
-                           {kept_, field.scene, room_->elements, two_pass_settings(shown_.settings).pass_one.form_factors});
+                           {kept_, field.scene, room_->elements, two_pass_settings(shown_.settings).pass_one.form_factors}, change);
   }
 
 private:
@@ -119,9 +119,9 @@ private:
 class ShownShots {
 public:
   /// `gathers`: how these steps are made, where they may be made the other way.
-  ShownShots(const LiveScene& shown, const LiveStage& stage, std::shared_ptr<const PreparedScene> prepared,
-             std::optional<bool> gathers = std::nullopt)
-      : gathers_(gathers), shown_(shown), stage_(stage), prepared_(std::move(prepared)), light_(prepared_->light), room_(shown, stage, prepared_) {}
+  ShownShots(const LiveScene& shown, const LiveStage& stage, const SecondsSince& since,
+             std::shared_ptr<const PreparedScene> prepared, std::optional<bool> gathers = std::nullopt)
+      : gathers_(gathers), since_(since), shown_(shown), stage_(stage), prepared_(std::move(prepared)), light_(prepared_->light), room_(shown, stage, prepared_) {}
 
   /// The room before any light, if somebody wants to see that.
   void begin() {
@@ -136,14 +136,13 @@ public:
   void look(const PassOneSoFar& state, const char* steps) {
     if (stage_.is_over())
       throw StageOver{};
-    stage_.board.change_status([&](LiveStatus& status) {
+    room_.show({state.field, light_}, state.ambient, [&](LiveStatus& status) {
       status.stage = steps;
       status.shots = state.shots;
       status.unshot = state.unshot;
       status.elements = element_count(light_->mesh);
       status.seconds = since_.seconds();
     });
-    room_.show({state.field, light_}, state.ambient);
     wait();
   }
 
@@ -154,24 +153,36 @@ private:
   }
 
   std::optional<bool> gathers_;
+  const SecondsSince& since_; ///< the scene was read
   const LiveScene& shown_;
   const LiveStage& stage_;
   std::shared_ptr<const PreparedScene> prepared_;
   std::shared_ptr<const LightScene> light_;
   ShownRoom room_;
-  SecondsSince since_;
 };
 
+/// Shots between states: telling one takes a time in proportion to the elements.
+int shots_between(std::size_t elements) {
+  constexpr std::size_t few = 2000;
+  return static_cast<int>(1 + elements / few);
+}
+
+/// Of the coarse mesh each is a state, but where patches are many.
+int coarse_shots_between(std::size_t elements) {
+  constexpr std::size_t many = 1 << 14;
+  return elements > many ? shots_between(elements) : 1;
+}
+
 /// By shots, or by sweeps; throws OtherSolver.
-void solve_coarse(const LiveScene& shown, const LiveStage& stage, const std::shared_ptr<const PreparedScene>& prepared,
-                  PassOneSettings settings) {
+void solve_coarse(const LiveScene& shown, const LiveStage& stage, const SecondsSince& since,
+                  const std::shared_ptr<const PreparedScene>& prepared, PassOneSettings settings) {
   const bool gathers = stage.steps.gathers();
   RunSettings coarse = coarse_settings(shown.settings);
   if (gathers) {
     settings.solver.method = coarse.solver = SolverMethod::jacobi;
     settings.form_factors.rays = rays_of_coarse_rows(element_count(prepared->mesh));
   }
-  ShownShots shots(shown, stage, prepared, gathers);
+  ShownShots shots(shown, stage, since, prepared, gathers);
   const auto check = [&] {
     if (stage.steps.gathers() != gathers)
       throw OtherSolver{};
@@ -188,7 +199,7 @@ void solve_coarse(const LiveScene& shown, const LiveStage& stage, const std::sha
     check();
     progress.report(name, fraction);
   };
-  const PassOneWatch watch{1,
+  const PassOneWatch watch{gathers ? 1 : coarse_shots_between(element_count(prepared->mesh)),
                            [&](const PassOneSoFar& state) {
                              shots.look(state, gathers ? "sweeps" : "shots");
                              check();
@@ -201,17 +212,17 @@ void solve_coarse(const LiveScene& shown, const LiveStage& stage, const std::sha
 }
 
 /// By rows that are there: one state, with all light.
-void relight_coarse(const LiveScene& shown, const LiveStage& stage) {
+void relight_coarse(const LiveScene& shown, const LiveStage& stage, const SecondsSince& since) {
   const auto& [prepared, settings, rows, whole] = stage.kept;
   const RadiositySolution solution = solve_pass_one(prepared->light, rows.factors, settings);
-  stage.board.change_status([&](LiveStatus& status) {
+  ShownRoom(shown, stage, prepared).show(solution.field, Rgb(0.0), [&](LiveStatus& status) {
     status.stage = "relit";
     status.elements = element_count(prepared->mesh);
+    status.seconds = since.seconds();
   });
-  ShownRoom(shown, stage, prepared).show(solution.field, Rgb(0.0));
 }
 
-void show_coarse(const Scene& scene, const LiveScene& shown, const LiveStage& stage) {
+void show_coarse(const Scene& scene, const LiveScene& shown, const LiveStage& stage, const SecondsSince& since) {
   PassOneSettings settings = two_pass_settings(coarse_settings(shown.settings)).pass_one;
   // A mean over an element that is as large as furniture has no sharp shadow anyway.
   settings.direct.points = 4;
@@ -223,21 +234,15 @@ void show_coarse(const Scene& scene, const LiveScene& shown, const LiveStage& st
   stage.kept.coarse_settings.solver.method = SolverMethod::jacobi;
   stage.kept.coarse_settings.form_factors.rays = rays_of_coarse_rows(element_count(prepared->mesh));
   if (!stage.steps.paused() && are_of(stage.kept.coarse, *prepared->light, stage.kept.coarse_settings.form_factors))
-    return relight_coarse(shown, stage);
+    return relight_coarse(shown, stage, since);
   for (bool done = false; !done;) {
     try {
-      solve_coarse(shown, stage, prepared, settings);
+      solve_coarse(shown, stage, since, prepared, settings);
       done = true;
     } catch (const OtherSolver&) {
       // From the beginning, the other way.
     }
   }
-}
-
-/// Shots between states: telling one takes a time in proportion to the elements.
-int shots_between(std::size_t elements) {
-  constexpr std::size_t few = 2000;
-  return static_cast<int>(1 + elements / few);
 }
 
 /// As `solve` has it; rows of elements, where there are some, are kept.
@@ -297,13 +302,13 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
     status.gathers = stage.steps.gathers();
   });
   check_memory(scene, shown.settings, std::nullopt);
-  show_coarse(scene, shown, stage);
+  show_coarse(scene, shown, stage, since);
 
   const PassOneSettings settings = two_pass_settings(shown.settings).pass_one;
   RunFigures figures;
   const std::uint64_t scene_hash = content_hash(scene);
   const std::shared_ptr<const PreparedScene> prepared = prepare_run(std::move(scene), settings, stage.events, figures);
-  ShownShots shots(shown, stage, prepared);
+  ShownShots shots(shown, stage, since, prepared);
   const char* const steps = settings.solver.method == SolverMethod::jacobi ? "sweeps" : "shots";
   StageProgress progress(stage, pass_one_stages(shown.settings));
   RadiositySolution solution = solve_whole(

@@ -1,7 +1,7 @@
 // What is shown of a scene from the first second on, one after another:
 //
 //   coarse   a uniform mesh of few elements, solved by shots (radiosity/solvers/progressive.h), H = D + G + what has been
-//            shot, with the ambient term beside it; every shot is a state. Or by gathering, where somebody asks for it:
+//            shot, with the ambient term beside it; every shot is a state, of many patches every so many. Or by gathering, where somebody asks for it:
 //            every sweep of Jacobi's method is a state, H = D + G + T X_k. Or at once, by rows that are kept (kept_rows.h)
 //   solution pass one as `solve` has it with the same settings, to the bit, and its field. Where that shoots as well, its shots
 //            are states, too

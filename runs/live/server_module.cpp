@@ -107,6 +107,8 @@ struct Listening {
     if (request.get_header_value_count("Host") != 1 || !is_here(request.get_header_value("Host")))
       return false;
     const std::string origin = request.get_header_value("Origin");
+    if (request.get_header_value_count("Origin") > 1)
+      return false;
     if (request.has_header("Origin") && (!origin.starts_with("http://") || !is_here(origin.substr(7))))
       return false;
     // What changes something says where it comes from.

@@ -53,7 +53,7 @@ function lightOf({ bits, scale, ambient, top }, withAmbient) {
   return { irradiance, scale, top };
 }
 
-const shares = x => x === null ? "-" : x >= 0.0095 ? `${(100 * x).toPrecision(2)} %` : x.toExponential(1);
+const shares = x => x === null ? "-" : x >= 0.0095 ? `${Number((100 * x).toPrecision(2))} %` : x.toExponential(1);
 
 /// The card with the status; `actions` are what its buttons do. Returns { show, say }.
 function makeStatusCard(actions) {
