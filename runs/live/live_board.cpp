@@ -127,6 +127,7 @@ std::string LiveBoard::announcement() const {
                   {"gathers", status_.gathers},
                   {"solved", status_.solved},
                   {"keepsRows", status_.keeps_rows},
+                  {"relit", status_.is_relit},
                   {"problem", status_.problem}});
 }
 

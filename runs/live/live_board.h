@@ -41,6 +41,7 @@ struct LiveStatus {
   bool gathers = false; ///< shots are sweeps
   bool solved = false;
   bool keeps_rows = false; ///< under other light alone it is relit
+  bool is_relit = false;   ///< it was shown by kept rows, before it was solved anew
   std::string problem; ///< why the file is not shown as it is now
 };
 

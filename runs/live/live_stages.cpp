@@ -217,6 +217,7 @@ void relight_coarse(const LiveScene& shown, const LiveStage& stage, const Second
   const RadiositySolution solution = solve_pass_one(prepared->light, rows.factors, settings);
   ShownRoom(shown, stage, prepared).show(solution.field, Rgb(0.0), [&](LiveStatus& status) {
     status.stage = "relit";
+    status.is_relit = true;
     status.elements = element_count(prepared->mesh);
     status.seconds = since.seconds();
   });
@@ -342,6 +343,7 @@ std::shared_ptr<const SolvedRoom> show_stages(Scene scene, const LiveScene& show
               .error = figures.solver.error_bound,
               .elements = figures.elements,
               .solved = true,
+              .is_relit = status.is_relit,
               .problem = status.problem};
   });
   return room;

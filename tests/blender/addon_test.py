@@ -20,7 +20,7 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import rooms  # noqa: E402
 from in_blender import (  # noqa: E402
-    PREFERENCES, PROGRAM, SAID, WORK, by_cycles, by_meninas, engine, exr, floor_under, meninas_render, patches, png, program,
+    PREFERENCES, PROGRAM, SAID, WORK, by_cycles, by_meninas, engine, exr, floor_under, patches, png, program,
     rendered, room)
 
 
