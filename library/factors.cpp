@@ -110,7 +110,7 @@ static std::vector<Rgb> colours_at(std::span<const double> values, std::size_t e
 RoomFactors::Solved RoomFactors::solve(std::span<const double> emission,
                                        const Settings& settings) const {
   return guarded([&] {
-    // Of the call that has made the rows what is said of solving them is kept; the rest is done.
+    // Of the call that has made the rows only the number of threads still matters.
     Settings before = impl_->settings;
     std::erase_if(before, [](const auto& setting) { return setting.first != "threads"; });
     call_of(*impl_->room, settings, CallKind::solve_rows); // refuses what has no effect
