@@ -54,6 +54,25 @@ target_compile_definitions(meninas_options INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_
 set(MENINAS_COMMON_HEADERS <glm/glm.hpp> <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <numeric> <optional> <span>
   <string> <string_view> <utility> <vector>)
 
+# A release reads the headers of a chapter once: the sources of one folder are compiled as one. Where single sources change all day,
+# -DMENINAS_UNITY_BUILD=OFF compiles each by itself; the presets with debug information do, so each source includes what it needs.
+if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+  option(MENINAS_UNITY_BUILD "Compile the sources of one folder as one" OFF)
+else()
+  option(MENINAS_UNITY_BUILD "Compile the sources of one folder as one" ON)
+endif()
+
+# meninas_chapters(meninas_scenes): the sources of each folder of that library are compiled as one.
+function(meninas_chapters target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${MENINAS_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH chapter)
+    string(REPLACE "/" "_" chapter "chapter_${chapter}")
+    set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${chapter})
+  endforeach()
+endfunction()
+
 # meninas_library(scenes a.cpp b.cpp): the library of one folder; includes are written from the project's root.
 function(meninas_library folder)
   add_library(meninas_${folder} STATIC ${ARGN})
@@ -62,6 +81,7 @@ function(meninas_library folder)
   target_compile_features(meninas_${folder} PUBLIC cxx_std_20)
   target_link_libraries(meninas_${folder} PRIVATE meninas_options)
   target_precompile_headers(meninas_${folder} PRIVATE ${MENINAS_COMMON_HEADERS})
+  meninas_chapters(meninas_${folder})
 endfunction()
 
 # meninas_module(decoder a.cpp b.cpp): meninas_decoder.so, which the program opens where it is first used (image/module_file.h).

@@ -16,7 +16,7 @@ namespace {
 
 /// Reflected an odd number of times,
 /// a polygon shows its front with its corners in the opposite order.
-ConvexPolygon image_of(const Isometry& map, const ConvexPolygon& polygon) {
+ConvexPolygon facing_image(const Isometry& map, const ConvexPolygon& polygon) {
   ConvexPolygon image;
   const bool turned = glm::determinant(map.linear) < 0.0;
   for (std::size_t k = 0; k < polygon.size; ++k)
@@ -104,7 +104,7 @@ private:
     for (std::size_t t = 0; t < view_.targets.size(); ++t) {
       if (signed_distance(view_.targets[t].plane, cell_.inside) <= view_.tolerance)
         continue; // it shows its front to the outside
-      const ConvexPolygon target = image_of(image.map, view_.targets[t].polygon);
+      const ConvexPolygon target = facing_image(image.map, view_.targets[t].polygon);
       for (const Face& face : from_)
         if (image.depth > 0 || face.plane_class != view_.targets[t].plane_class)
           found.to_targets[t] =
@@ -115,7 +115,7 @@ private:
       if (wall != image.mirror && image.depth < settings_.max_depth)
         for (const ConvexPolygon& part : view_.mirrors.mirrors[index(wall)].window)
           for (const Face& face : from_) {
-            const Estimate factor = area_form_factor(face.polygon, image_of(image.map, part));
+            const Estimate factor = area_form_factor(face.polygon, facing_image(image.map, part));
             out += face.area / area_ * (factor.value + factor.error);
           }
       found.through_walls.push_back(out);

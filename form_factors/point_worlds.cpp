@@ -8,13 +8,6 @@ namespace meninas {
 
 namespace {
 
-ConvexPolygon image_of(const Isometry& map, const ConvexPolygon& polygon) {
-  ConvexPolygon image;
-  for (const auto& vertex : polygon.span())
-    image.push_back(apply(map, vertex));
-  return image;
-}
-
 /// Polygons in as little room as they need, for the many that wait.
 struct PackedPolygons {
   std::vector<Point3> vertices;
@@ -206,7 +199,7 @@ private:
         continue;
       if (std::abs(signed_distance(apply(station.image, face.plane), point_.x)) <= view_.tolerance)
         continue;
-      ConvexPolygon image = clip(image_of(station.image, face.polygon), point_.x, point_.normal);
+      ConvexPolygon image = clip(apply(station.image, face.polygon), point_.x, point_.normal);
       if (station.depth > 0)
         clip_in_place(image, origin_of(station.plane), -station.plane.normal);
       if (!image.empty())
@@ -266,7 +259,7 @@ private:
       if (signed_distance(plane, point_.x) <= view_.tolerance)
         continue;
       std::vector<ConvexPolygon> visible;
-      append_visible(station, image_of(station.image, target.polygon), plane, target.plane_class,
+      append_visible(station, apply(station.image, target.polygon), plane, target.plane_class,
                      obstacles, visible);
       const double factor = factor_of(visible);
       if (factor > 0.0)
@@ -289,7 +282,7 @@ private:
       return;
     std::vector<ConvexPolygon> openings;
     for (const auto& part : mirror.window)
-      append_visible(station, image_of(station.image, part), plane, mirror.plane_class, obstacles,
+      append_visible(station, apply(station.image, part), plane, mirror.plane_class, obstacles,
                      openings);
     const double bound = throughput * factor_of(openings);
     if (bound <= 0.0)

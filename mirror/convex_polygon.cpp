@@ -136,6 +136,13 @@ ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
   return has_edges ? part : ConvexPolygon();
 }
 
+ConvexPolygon apply(const Isometry& map, const ConvexPolygon& polygon) {
+  ConvexPolygon image;
+  for (const auto& vertex : polygon.span())
+    image.push_back(apply(map, vertex));
+  return image;
+}
+
 Vec3 area_vector(std::span<const Point3> polygon) {
   Vec3 sum(0.0);
   for (std::size_t k = 2; k < polygon.size(); ++k)

@@ -1,6 +1,7 @@
 // Convex polygons in space and their clipping (Sutherland and Hodgman 1974), without allocation.
 #pragma once
 
+#include "mirror/reflection.h"
 #include "scenes/surfaces/surfaces.h"
 
 #include <array>
@@ -48,6 +49,9 @@ ConvexPolygon clip_to_cone(const ConvexPolygon& polygon, const Point3& apex,
 /// Whether all edges are as short as their rounding,
 /// as what is left of a polygon that a cone only touches: nothing is seen through it.
 bool is_point(const ConvexPolygon& polygon, const Point3& apex);
+
+/// Where the polygon appears, with its corners in the same order.
+ConvexPolygon apply(const Isometry& map, const ConvexPolygon& polygon);
 
 /// Half the sum of the cross products of the edges: its length is the area.
 Vec3 area_vector(std::span<const Point3> polygon);

@@ -49,11 +49,8 @@ void seen_worlds(const WorldTree& tree, const Observer& observer, SeenWorlds& se
 }
 
 /// Where a polygon of the real room appears.
-static ConvexPolygon image_of(ConvexPolygon polygon, const MirrorWorld& world) {
-  if (world.depth > 0)
-    for (std::size_t k = 0; k < polygon.size; ++k)
-      polygon.vertices[k] = apply(world.image, polygon.vertices[k]);
-  return polygon;
+static ConvexPolygon image_of(const ConvexPolygon& polygon, const MirrorWorld& world) {
+  return world.depth > 0 ? apply(world.image, polygon) : polygon;
 }
 
 void add_images(const WorldSight& sight, std::span<const Emitter> emitters, std::uint32_t emitter,

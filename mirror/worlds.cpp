@@ -9,13 +9,6 @@ namespace meninas {
 
 namespace {
 
-ConvexPolygon image_of(const Isometry& map, const ConvexPolygon& polygon) {
-  ConvexPolygon image;
-  for (const auto& vertex : polygon.span())
-    image.push_back(apply(map, vertex));
-  return image;
-}
-
 /// What of the window lies in front of the plane, by more than the rounding of their coordinates.
 std::vector<ConvexPolygon> in_front(std::span<const ConvexPolygon> window, const Plane& plane) {
   constexpr double rounding = 1e-13;
@@ -81,7 +74,7 @@ std::vector<ConvexPolygon> open_parts(const WorldTree& tree, const OpenParts& op
 std::vector<ConvexPolygon> window_in_world(const MirrorWorld& world, const Mirror& mirror) {
   std::vector<ConvexPolygon> window;
   for (const auto& part : mirror.window) {
-    ConvexPolygon image = image_of(world.image, part);
+    ConvexPolygon image = apply(world.image, part);
     if (world.depth > 0)
       image = clip(image, origin_of(world.plane), -world.plane.normal);
     if (!image.empty())

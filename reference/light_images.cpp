@@ -34,8 +34,8 @@ bool is_within(const Bounds& bounds, const Point3& x) {
          glm::all(glm::lessThanEqual(x, bounds.high));
 }
 
-PunctualLight reflected_in(const Plane& plane, PunctualLight light) {
-  light.position = reference::reflected_in(plane, light.position);
+PunctualLight mirrored(const Plane& plane, PunctualLight light) {
+  light.position = reflected_in(plane, light.position);
   light.direction -= 2.0 * glm::dot(light.direction, plane.normal) * plane.normal;
   for (int axis = 0; axis < 3; ++axis)
     light.frame[axis] -= 2.0 * glm::dot(light.frame[axis], plane.normal) * plane.normal;
@@ -52,7 +52,7 @@ bool passes_mirrors(const TracedScene& traced, const LightImage& image, Point3 x
     x += before / (before - behind) * (target - x);
     if (!is_within(image.extents[k], x))
       return false;
-    target = reference::reflected_in(plane, target);
+    target = reflected_in(plane, target);
   }
   return true;
 }
@@ -105,7 +105,7 @@ std::vector<LightImage> make_light_images(const Scene& scene, const SurfaceModel
         if (!image.planes.empty() && image.planes.front() == mirror_planes[m])
           continue;
         image.light =
-            reflected_in(surfaces.planes[index(mirror_planes[m])], std::move(image.light));
+            mirrored(surfaces.planes[index(mirror_planes[m])], std::move(image.light));
         image.planes.insert(image.planes.begin(), mirror_planes[m]);
         image.extents.insert(image.extents.begin(), extents[m]);
         images.push_back(std::move(image));

@@ -113,7 +113,7 @@ int about_half(int resolution) { return resolution / 8 * 4 + 2; }
 /// and with four times as many of these. The error of the cells is of order one or more:
 /// with half the resolution it at least doubles, unless it changes its sign.
 /// The error of the pieces is at worst, at kinks, of order 1/2: halving them takes 0.3 of it away.
-Estimate estimate_of(std::span<const double> values, double unseen) {
+Estimate cube_estimate(std::span<const double> values, double unseen) {
   const double cells = std::abs(values[0] - values[1]), pieces = std::abs(values[2] - values[1]);
   return {values[0], 2.0 * cells + 4.0 * pieces + unseen};
 }
@@ -138,7 +138,7 @@ std::vector<ExtendedFactor> hemicube_form_factors(const Scene& scene, const Surf
   const double largest_cell = 4.0 / (std::numbers::pi * settings.resolution * settings.resolution);
   const double unseen = 3.0 * largest_cell / std::sqrt(static_cast<double>(places.size()));
   return node_factors_of(node_scene, tallies, [unseen](std::span<const double> values) {
-    return estimate_of(values, unseen);
+    return cube_estimate(values, unseen);
   });
 }
 

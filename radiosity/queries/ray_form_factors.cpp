@@ -60,7 +60,7 @@ NodeTally run_replica(const NodeScene& scene, const std::vector<Sender>& senders
 
 /// The mean of the replicas and the standard error of that mean. That all replicas agree, because
 /// none of their rays was the odd one out, is no proof: the share of one ray is the least error.
-Estimate estimate_of(std::span<const double> values, double one_ray) {
+Estimate replica_estimate(std::span<const double> values, double one_ray) {
   double mean = 0.0, squares = 0.0;
   for (const double value : values)
     mean += value / replicas;
@@ -85,7 +85,7 @@ std::vector<ExtendedFactor> ray_form_factors(const Scene& scene, const SurfaceMo
   });
   const double one_ray = 1.0 / settings.rays;
   return node_factors_of(node_scene, runs, [one_ray](std::span<const double> values) {
-    return estimate_of(values, one_ray);
+    return replica_estimate(values, one_ray);
   });
 }
 

@@ -9,15 +9,15 @@ namespace meninas {
 namespace {
 
 /// T by columns.
-struct Columns {
+struct NodeColumns {
   std::vector<std::uint64_t> begin; ///< unknowns + 1
   std::vector<std::uint32_t> rows;
   std::vector<float> weights;
 };
 
-Columns columns_of(const Transport& transport) {
+NodeColumns columns_of(const Transport& transport) {
   const auto bands = static_cast<std::size_t>(transport.bands);
-  Columns columns;
+  NodeColumns columns;
   columns.begin.assign(transport.size + 1, 0);
   for (const auto column : transport.columns)
     ++columns.begin[column + 1];
@@ -64,7 +64,7 @@ private:
     return double{columns_.weights[entry]} * value;
   }
 
-  Columns columns_;
+  NodeColumns columns_;
   int bands_;
 };
 

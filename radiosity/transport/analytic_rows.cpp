@@ -110,13 +110,13 @@ Surroundings surroundings_of(const LightScene& light) {
 }
 
 /// A cell that holds everything, if mirrors are whole walls of it.
-std::optional<KaleidoscopeCell> cell_of(const Surroundings& around, double tolerance) {
+std::optional<KaleidoscopeCell> kaleidoscope_cell_of(const Surroundings& around, double tolerance) {
   const WorldView whole{around.mirrors, around.blockers, around.blockers, {}, tolerance};
   return find_kaleidoscope(whole, {});
 }
 
 /// What the rows share.
-struct Assembly {
+struct AnalyticAssembly {
   const LightScene& light;
   const Surroundings& around;
   const WorldView view;
@@ -127,7 +127,7 @@ struct Assembly {
 
 /// Whether nothing but black is seen from the middle of the part: something stands on it.
 /// What shows itself only to the outside of a closed scene sees nothing at all.
-bool is_covered(const Assembly& assembly, const Face& part) {
+bool is_covered(const AnalyticAssembly& assembly, const Face& part) {
   constexpr double whole = 1.0 - 1e-6;
   WalkSettings real_world;
   real_world.max_depth = 0;
@@ -142,7 +142,7 @@ bool is_covered(const Assembly& assembly, const Face& part) {
 }
 
 /// The parts of an element on which nothing stands.
-std::vector<Face> exposed_parts(const Assembly& assembly, const Face& element) {
+std::vector<Face> exposed_parts(const AnalyticAssembly& assembly, const Face& element) {
   std::vector<Face> parts;
   for (const ConvexPolygon& polygon :
        cut_at_contacts(element, assembly.around.blockers, assembly.view.tolerance)) {
@@ -158,7 +158,7 @@ struct Row {
   std::vector<float> weights;
 };
 
-RowClosure closure_of(const Assembly& assembly, const ExtendedFactors& factors) {
+RowClosure closure_of(const AnalyticAssembly& assembly, const ExtendedFactors& factors) {
   const Surroundings& around = assembly.around;
   Rgb landed(0.0), absorbed(0.0);
   for (std::uint32_t e = 0; e < around.black; ++e) {
@@ -186,7 +186,7 @@ RowClosure closure_of(const Assembly& assembly, const ExtendedFactors& factors) 
   return closure;
 }
 
-void assemble_row(const Assembly& assembly, std::size_t i, Row& row, FormFactors& result) {
+void assemble_row(const AnalyticAssembly& assembly, std::size_t i, Row& row, FormFactors& result) {
   const ElementMesh& mesh = assembly.light.mesh;
   std::vector<Face> exposed;
   for (const Face& face : faces_of(mesh, i))
@@ -216,10 +216,10 @@ void assemble_row(const Assembly& assembly, std::size_t i, Row& row, FormFactors
   }
 }
 
-Assembly make_assembly(const LightScene& light, const Surroundings& around,
+AnalyticAssembly make_assembly(const LightScene& light, const Surroundings& around,
                        const FormFactorSettings& settings) {
   const double tolerance = light.surfaces.tolerance;
-  Assembly assembly{light,
+  AnalyticAssembly assembly{light,
                     around,
                     {around.mirrors, around.blockers, around.targets, around.groups, tolerance},
                     {},
@@ -230,7 +230,7 @@ Assembly make_assembly(const LightScene& light, const Surroundings& around,
   assembly.extended.shadow_lines /= std::max<std::size_t>(1, element_count(light.mesh));
   assembly.depth_capped = settings.max_bounces < FormFactorSettings{}.max_bounces;
   assembly.closed = is_closed(light.scene, 0.5 * tolerance);
-  assembly.cell = cell_of(around, tolerance);
+  assembly.cell = kaleidoscope_cell_of(around, tolerance);
   assembly.extended.importance.assign(around.group_count, 0.0);
   for (std::uint32_t e = 0; e < around.black; ++e)
     assembly.extended.importance[e] = mean_of(light.mesh.emission[e]);
@@ -267,7 +267,7 @@ FormFactors analytic_transport(const LightScene& light, const FormFactorSettings
                     "grows with their square; larger elements (--element-size) or rays would do",
                     most_elements, size));
   const Surroundings around = surroundings_of(light);
-  const Assembly assembly = make_assembly(light, around, settings);
+  const AnalyticAssembly assembly = make_assembly(light, around, settings);
   FormFactors result;
   result.closure.resize(size);
   result.covered.resize(size);

@@ -7,7 +7,6 @@ namespace meninas {
 
 namespace {
 
-constexpr double margin = frustum_margin;
 constexpr double min_slope = 0.02; ///< cosine at which faces are met
 
 AffineForm operator+(const AffineForm& a, const AffineForm& b) {
@@ -66,7 +65,7 @@ void include(const PictureRays& rays, const ToPicture& to, const Point3& p, Vec2
   const auto& [depth, across, down] = to.rows;
   const double t = to.perspective ? glm::dot(depth, from) : 1.0;
   // Next to the eye a point may be anywhere.
-  if (to.perspective && !(t > 1e3 * margin * glm::length(depth))) {
+  if (to.perspective && !(t > 1e3 * frustum_margin * glm::length(depth))) {
     least = Vec2(-std::numeric_limits<double>::infinity());
     most = -least;
     return;
@@ -74,7 +73,7 @@ void include(const PictureRays& rays, const ToPicture& to, const Point3& p, Vec2
   const auto widen = [&](const Vec3& row, double& low, double& high) {
     const double at = glm::dot(row, from) / t;
     const Vec3 gradient = (to.perspective ? row - at * depth : row) / t;
-    const double near = 2.0 * margin * glm::length(gradient);
+    const double near = 2.0 * frustum_margin * glm::length(gradient);
     low = std::min(low, at - near);
     high = std::max(high, at + near);
   };
@@ -120,7 +119,7 @@ bool is_outside(const FaceView& view, const PictureBlock& block, double longest)
   return sign != 0.0 &&
          std::ranges::any_of(std::span(view.edges).first(view.edge_count),
                              [&](const AffineForm& edge) {
-                               return min_over(-sign, edge, block) > margin * longest;
+                               return min_over(-sign, edge, block) > frustum_margin * longest;
                              });
 }
 
@@ -128,10 +127,10 @@ bool covers(const FaceView& view, const PictureBlock& block, double longest) {
   const double sign = sign_over(view.slope, block);
   // The foot's height over an edge is its distance by the cosine at which rays of that length come.
   return sign != 0.0 && min_over(sign, view.slope, block) > min_slope * longest &&
-         min_over(sign, view.near + (-margin) * view.slope, block) > 0.0 &&
+         min_over(sign, view.near + (-frustum_margin) * view.slope, block) > 0.0 &&
          std::ranges::all_of(std::span(view.edges).first(view.edge_count),
                              [&](const AffineForm& edge) {
-                               return min_over(sign, edge, block) > margin * longest;
+                               return min_over(sign, edge, block) > frustum_margin * longest;
                              });
 }
 
@@ -142,8 +141,8 @@ bool is_behind(const FaceView& face, const FaceView& other, const PictureBlock& 
   const AffineForm farther = other.height * face.slope + (-1.0) * (face.height * other.slope);
   const AffineForm apart = sign * theirs * farther;
   return sign * theirs != 0.0 &&
-         min_over(1.0, apart + (-margin * theirs) * other.slope, block) > 0.0 &&
-         min_over(1.0, apart + (-margin * sign) * face.slope, block) > 0.0;
+         min_over(1.0, apart + (-frustum_margin * theirs) * other.slope, block) > 0.0 &&
+         min_over(1.0, apart + (-frustum_margin * sign) * face.slope, block) > 0.0;
 }
 
 } // namespace meninas

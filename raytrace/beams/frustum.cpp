@@ -9,7 +9,6 @@ namespace meninas {
 
 namespace {
 
-constexpr double margin = frustum_margin;
 
 double height_over(const HalfSpace& half, const Point3& p) {
   return glm::dot(half.normal, p) - half.offset;
@@ -42,7 +41,7 @@ std::array<Weight, 2> weights_of(const std::array<Point3, 3>& corners) {
 
 bool reaches_out(const HalfSpace& half, std::span<const Point3> polygon) {
   return std::ranges::any_of(polygon,
-                             [&](const Point3& p) { return height_over(half, p) < -margin; });
+                             [&](const Point3& p) { return height_over(half, p) < -frustum_margin; });
 }
 
 Ball ball_around(std::span<const Point3> polygon) {
@@ -98,7 +97,7 @@ const Patch* whole_patch_of(const LightScene& light, std::uint32_t triangle) {
 std::vector<FrustumFace> frustum_faces(const LightScene& light, std::size_t most) {
   std::vector<FrustumFace> faces;
   const FrameGeometry& geometry = light.rays.geometry();
-  if (light.has_glass || geometry.noise > 0.25 * margin || geometry.detail < 1.0F ||
+  if (light.has_glass || geometry.noise > 0.25 * frustum_margin || geometry.detail < 1.0F ||
       geometry.triangles.size() > most)
     return faces;
   for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
@@ -145,14 +144,14 @@ Frustum frustum_of(const PictureRays& rays, Vec2 to) {
 
 bool is_outside(const Frustum& f, const Ball& ball) {
   return std::ranges::any_of(f.bounds, [&](const HalfSpace& half) {
-    return height_over(half, ball.centre) < -margin - ball.radius;
+    return height_over(half, ball.centre) < -frustum_margin - ball.radius;
   });
 }
 
 ConvexPolygon clip_to(const Frustum& f, ConvexPolygon part) {
   for (const HalfSpace& half : f.bounds)
     if (reaches_out(half, part.span()))
-      clip_in_place(part, (half.offset - margin) * half.normal, half.normal);
+      clip_in_place(part, (half.offset - frustum_margin) * half.normal, half.normal);
   return part;
 }
 

@@ -32,7 +32,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> common_at
     {"tileExposure", "exposure"},
 }};
 
-std::string value_of(const Attributes& attributes, std::string_view key) {
+std::string attribute_or_none(const Attributes& attributes, std::string_view key) {
   const auto found = std::ranges::find(attributes, key, &Attributes::value_type::first);
   return found == attributes.end() ? "none" : found->second;
 }
@@ -114,7 +114,7 @@ private:
                                    first_->string(), what));
     };
     for (const auto& [key, word] : common_attributes)
-      if (const std::string a = value_of(tile.attributes, key), b = value_of(header_.attributes, key);
+      if (const std::string a = attribute_or_none(tile.attributes, key), b = attribute_or_none(header_.attributes, key);
           a != b)
         refuse(fmt::format("another {} ({} and {})", word, a, b));
     if (tile.window.picture_width != picture_.width ||

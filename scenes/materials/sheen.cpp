@@ -11,7 +11,7 @@ namespace meninas {
 
 namespace {
 
-constexpr int roughness_steps = 16, cosine_steps = 32; // of the square root of the cosine
+constexpr int sheen_roughness_steps = 16, sheen_cosine_steps = 32; // of the square root of the cosine
 constexpr double least_roughness = 0.1;                ///< smoother fibres are as those
 
 /// The fit of Conty and Kulla: its parameters between those for a = 0 and a = 1.
@@ -59,25 +59,25 @@ double integrated_albedo(double roughness, double cos_out) {
   return std::min(1.0, sum * (2.0 + 1.0 / alpha) / (4.0 * cos_out));
 }
 
-struct Table {
-  std::array<std::array<double, cosine_steps + 1>, roughness_steps + 1> at;
-  std::array<double, roughness_steps + 1> mean;
+struct SheenTable {
+  std::array<std::array<double, sheen_cosine_steps + 1>, sheen_roughness_steps + 1> at;
+  std::array<double, sheen_roughness_steps + 1> mean;
 };
 
-Table make_table() {
-  Table table{};
-  for (std::size_t r = 0; r <= roughness_steps; ++r) {
+SheenTable make_sheen_table() {
+  SheenTable table{};
+  for (std::size_t r = 0; r <= sheen_roughness_steps; ++r) {
     auto& row = table.at[r];
     const double roughness =
-        std::lerp(least_roughness, 1.0, static_cast<double>(r) / roughness_steps);
-    for (std::size_t c = 0; c <= cosine_steps; ++c) {
-      const double root = std::max(0.03, static_cast<double>(c) / cosine_steps);
+        std::lerp(least_roughness, 1.0, static_cast<double>(r) / sheen_roughness_steps);
+    for (std::size_t c = 0; c <= sheen_cosine_steps; ++c) {
+      const double root = std::max(0.03, static_cast<double>(c) / sheen_cosine_steps);
       row[c] = integrated_albedo(roughness, root * root);
     }
     // 2 integral of E(w) w dw = 4 integral of E(s) s^3 ds, exactly of what is linear in s between
     // the steps: so the mean is that of what is looked up.
-    constexpr double h = 1.0 / cosine_steps;
-    for (std::size_t c = 0; c < cosine_steps; ++c) {
+    constexpr double h = 1.0 / sheen_cosine_steps;
+    for (std::size_t c = 0; c < sheen_cosine_steps; ++c) {
       const double s = static_cast<double>(c) * h, t = s + h;
       const double cubes = 0.25 * (std::pow(t, 4) - std::pow(s, 4));
       const double fourths = 0.2 * (std::pow(t, 5) - std::pow(s, 5));
@@ -88,21 +88,21 @@ Table make_table() {
   return table;
 }
 
-const Table& sheen_table() {
-  static const Table table = make_table();
+const SheenTable& sheen_table() {
+  static const SheenTable table = make_sheen_table();
   return table;
 }
 
-TableCell roughness_cell(double roughness) {
-  return table_cell((roughness - least_roughness) / (1.0 - least_roughness), roughness_steps);
+TableCell sheen_roughness_cell(double roughness) {
+  return table_cell((roughness - least_roughness) / (1.0 - least_roughness), sheen_roughness_steps);
 }
 
 } // namespace
 
 double sheen_albedo(double roughness, double cosine) {
-  const Table& table = sheen_table();
-  const TableCell r = roughness_cell(roughness),
-                  c = table_cell(std::sqrt(std::max(0.0, cosine)), cosine_steps);
+  const SheenTable& table = sheen_table();
+  const TableCell r = sheen_roughness_cell(roughness),
+                  c = table_cell(std::sqrt(std::max(0.0, cosine)), sheen_cosine_steps);
   const auto along = [&](const auto& row) {
     return std::lerp(row[c.first], row[c.first + 1], c.place);
   };
@@ -110,8 +110,8 @@ double sheen_albedo(double roughness, double cosine) {
 }
 
 double mean_sheen_albedo(double roughness) {
-  const Table& table = sheen_table();
-  const TableCell r = roughness_cell(roughness);
+  const SheenTable& table = sheen_table();
+  const TableCell r = sheen_roughness_cell(roughness);
   return std::lerp(table.mean[r.first], table.mean[r.first + 1], r.place);
 }
 

@@ -8,7 +8,7 @@
 namespace meninas {
 
 /// Surfaces nearer to an origin than this times its grain touch it.
-inline constexpr double reach = 2e-6;
+inline constexpr double contact_reach = 2e-6;
 
 struct Release {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }

@@ -51,7 +51,7 @@ Owned<RTCGeometry> make_mesh(RTCDevice device, const FrameGeometry& geometry) {
 RayScene::RayScene(const Scene& scene, const SurfaceModel& surfaces, Holes holes)
     : impl_(std::make_unique<EmbreeHandles>()) {
   impl_->geometry = make_frame_geometry(scene, surfaces, std::move(holes));
-  impl_->near_planes = find_near_planes(impl_->geometry, reach);
+  impl_->near_planes = find_near_planes(impl_->geometry, contact_reach);
   impl_->noise = static_cast<float>(impl_->geometry.noise) + lift;
   impl_->device.reset(rtcNewDevice(nullptr));
   check(impl_->device.get());

@@ -29,13 +29,13 @@ bool is_in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return sum > 1e-10 * scale;
 }
 
-struct Edge {
+struct Side {
   std::uint32_t triangle, side;
 };
 
 struct Editor {
   PlaneMesh& mesh;
-  std::vector<Edge> suspects{};         ///< edges that may have to be flipped
+  std::vector<Side> suspects{};         ///< edges that may have to be flipped
   std::vector<std::uint32_t> changed{}; ///< triangles that are new since this was cleared
 
   const Vec2& point(std::uint32_t p) const { return mesh.points[p]; }
@@ -54,7 +54,7 @@ struct Editor {
   }
 
   /// Flips the edge if that makes the two triangles Delaunay. Both new ones must have area.
-  void settle(const Edge& edge) {
+  void settle(const Side& edge) {
     const std::uint32_t t = edge.triangle;
     const std::uint32_t k = edge.side;
     const std::uint32_t u = mesh.triangles[t].neighbours[k];
@@ -92,7 +92,7 @@ struct Editor {
     // circles by the bound.
     std::size_t left = 64 + 16 * mesh.triangles.size() * 64;
     while (!suspects.empty() && left-- > 0) {
-      const Edge edge = suspects.back();
+      const Side edge = suspects.back();
       suspects.pop_back();
       settle(edge);
     }

@@ -14,7 +14,7 @@
 namespace meninas {
 namespace {
 
-constexpr double max_wanted = 3.0; ///< of a surface's area
+constexpr double max_wanted_of_surface = 3.0; ///< of a surface's area
 constexpr double worth_it = 0.6;    ///< of what it took before
 
 /// What a patch takes, in units of an element's area.
@@ -249,7 +249,7 @@ std::vector<SurfaceId> wasteful_surfaces(const Scene& scene, const SurfaceModel&
   for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
     const Surface& surface = model.surfaces[s];
     if (surface.patches.size() >= few && is_meshed(scene.materials[index(surface.material)]) &&
-        wanted_by(model, surface) > max_wanted * surface.area && is_in_detail(model, surface))
+        wanted_by(model, surface) > max_wanted_of_surface * surface.area && is_in_detail(model, surface))
       wasteful.push_back(static_cast<SurfaceId>(s));
   }
   return wasteful;

@@ -178,10 +178,10 @@ std::vector<TriangleId> seed_order(const Scene& scene, const std::vector<Triangl
 }
 
 /// No region begins at a triangle.
-constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_region = std::numeric_limits<std::uint32_t>::max();
 
 Regions in_order_of_triangles(const Regions& grown, std::size_t triangle_count) {
-  std::vector<std::uint32_t> begun_at(triangle_count, nothing);
+  std::vector<std::uint32_t> begun_at(triangle_count, no_region);
   for (std::size_t r = 0; r < grown.regions.size(); ++r) {
     begun_at[index(grown.members[grown.regions[r].first])] = static_cast<std::uint32_t>(r);
   }
@@ -189,7 +189,7 @@ Regions in_order_of_triangles(const Regions& grown, std::size_t triangle_count) 
   ordered.regions.reserve(grown.regions.size());
   ordered.members.reserve(grown.members.size());
   for (const std::uint32_t r : begun_at) {
-    if (r == nothing) {
+    if (r == no_region) {
       continue;
     }
     Region region = grown.regions[r];

@@ -12,7 +12,7 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_group = std::numeric_limits<std::uint32_t>::max();
 
 Vec3 unit_or_zero(const Vec3& v) {
   const double length = glm::length(v);
@@ -33,8 +33,8 @@ struct Face {
   bool tells = false;       ///< its coordinates change both ways
   bool is_mirrored = false; ///< sign < 0; where it does not tell, that of those it goes with
   Corners points{};         ///< equal where corners are one
-  Corners neighbours{nobody, nobody, nobody}; ///< across the edges from corner k to k + 1
-  Corners groups{nobody, nobody, nobody};
+  Corners neighbours{no_group, no_group, no_group}; ///< across the edges from corner k to k + 1
+  Corners groups{no_group, no_group, no_group};
 };
 
 class Groups {
@@ -46,7 +46,7 @@ public:
     find_neighbours();
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
       for (std::size_t k = 0; k < 3; ++k)
-        if (faces_[f].tells && faces_[f].groups[k] == nobody)
+        if (faces_[f].tells && faces_[f].groups[k] == no_group)
           fill(f, k);
   }
 
@@ -55,7 +55,7 @@ public:
     std::vector<glm::dvec4> sums(count_, glm::dvec4(0.0));
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
       for (std::size_t k = 0; k < 3; ++k)
-        if (faces_[f].tells && faces_[f].groups[k] != nobody)
+        if (faces_[f].tells && faces_[f].groups[k] != no_group)
           sums[faces_[f].groups[k]] +=
               angle(f, k) * glm::dvec4(projected(faces_[f].along_u, normal(f, k)), 1.0);
     std::vector<std::array<glm::vec4, 3>> tangents(faces_.size());
@@ -63,7 +63,7 @@ public:
       for (std::size_t k = 0; k < 3; ++k) {
         constexpr double cancelled = 1e-9;
         const std::uint32_t group = faces_[f].groups[k];
-        const glm::dvec4 sum = group == nobody ? glm::dvec4(0.0) : sums[group];
+        const glm::dvec4 sum = group == no_group ? glm::dvec4(0.0) : sums[group];
         const double length = glm::length(Vec3(sum));
         tangents[f][k] = length > cancelled * sum.w
                              ? glm::vec4(Vec3(sum) / length, faces_[f].is_mirrored ? 1.0 : -1.0)
@@ -183,15 +183,15 @@ private:
       reached.pop_back();
       const auto corner =
           static_cast<std::size_t>(std::ranges::find(face.points, point) - face.points.begin());
-      if (face.groups[corner] != nobody)
+      if (face.groups[corner] != no_group)
         continue;
-      if (!face.tells && face.groups == Corners{nobody, nobody, nobody})
+      if (!face.tells && face.groups == Corners{no_group, no_group, no_group})
         face.is_mirrored = is_mirrored;
       if (face.is_mirrored != is_mirrored)
         continue;
       face.groups[corner] = group;
       for (const std::size_t side : {(corner + 2) % 3, corner})
-        if (face.neighbours[side] != nobody)
+        if (face.neighbours[side] != no_group)
           reached.push_back(face.neighbours[side]);
     }
   }

@@ -11,7 +11,7 @@ namespace meninas::gltf {
 
 namespace {
 
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_corner = std::numeric_limits<std::uint32_t>::max();
 
 template <typename T>
 void repeat(std::vector<T>& values, std::uint32_t k) {
@@ -26,11 +26,11 @@ class Division {
 public:
   explicit Division(Part& part)
       : part_(part), tangents_(part.positions.size(), glm::vec4(0.0F)),
-        next_(part.positions.size(), nobody) {}
+        next_(part.positions.size(), no_corner) {}
 
   void give(std::uint32_t& corner, const glm::vec4& tangent) {
     while (tangents_[corner] != glm::vec4(0.0F) && tangents_[corner] != tangent) {
-      if (next_[corner] == nobody) {
+      if (next_[corner] == no_corner) {
         next_[corner] = static_cast<std::uint32_t>(tangents_.size());
         divide(corner);
       }
@@ -48,7 +48,7 @@ private:
     repeat(part_.colors, vertex);
     repeat(part_.normals.values, vertex);
     tangents_.emplace_back(0.0F);
-    next_.push_back(nobody);
+    next_.push_back(no_corner);
   }
 
   Part& part_;
