@@ -34,7 +34,7 @@ PictureFormat picture_format(const std::filesystem::path& file);
 
 /// Linear EXR of one part:
 /// R, G, B of the picture, then NAME.R, NAME.G, NAME.B of each layer, compressed without loss.
-/// Layers `depth` and `normal` have the channels that compositors expect: depth.Z; normal.X, .Y, .Z.
+/// Layers `depth` and `normal` have the channels that compositors expect: depth.Z; normal.X, .Y, .Z. `alpha` is A beside R, G, B.
 /// Layers have the picture's size and names of their own. No value may be NaN; values beyond
 /// the largest of the type (65504 for half), infinities too, become that largest value.
 void write_exr(const std::filesystem::path& file, const Image& picture,

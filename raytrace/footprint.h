@@ -14,7 +14,7 @@
 // With an orthographic camera s does not grow with t.
 #pragma once
 
-#include "raytrace/tile.h"
+#include "raytrace/beams/lane_state.h"
 
 namespace meninas {
 

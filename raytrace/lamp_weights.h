@@ -5,7 +5,8 @@
 // p is the density per steradian with which rays of the lobe find the direction, q that of the points.
 #pragma once
 
-#include "raytrace/tile.h"
+#include "raytrace/beams/lane_state.h"
+#include "raytrace/pixels/render_context.h"
 
 namespace meninas {
 

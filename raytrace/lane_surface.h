@@ -5,6 +5,8 @@
 // with H the irradiance there and, of translucent surfaces, H_behind that of the other side, W/m^2.
 #pragma once
 
+#include "raytrace/beams/lane_state.h"
+#include "raytrace/pixels/render_context.h"
 #include "raytrace/tile.h"
 
 namespace meninas {

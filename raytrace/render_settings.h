@@ -20,9 +20,9 @@ enum class RenderMode {
 };
 
 /// What layers beside those of light show (features.h).
-enum class Feature { depth, normal, albedo, element, irradiance };
+enum class Feature { depth, normal, albedo, element, irradiance, alpha };
 inline constexpr std::array all_features{Feature::depth, Feature::normal, Feature::albedo,
-                                         Feature::element, Feature::irradiance};
+                                         Feature::element, Feature::irradiance, Feature::alpha};
 /// "depth"
 std::string_view name_of(Feature feature);
 

@@ -26,6 +26,8 @@
 // and panes what is straight behind them.
 #pragma once
 
+#include "raytrace/beams/lane_state.h"
+#include "raytrace/pixels/render_context.h"
 #include "raytrace/tile.h"
 #include "scenes/materials/lobes.h"
 

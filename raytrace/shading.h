@@ -2,6 +2,8 @@
 // the field's radiance, added to their pixels; mirrors queue the rays that go on.
 #pragma once
 
+#include "raytrace/beams/lane_state.h"
+#include "raytrace/pixels/render_context.h"
 #include "raytrace/tile.h"
 
 namespace meninas {

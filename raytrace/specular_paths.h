@@ -4,6 +4,7 @@
 // or when its throughput falls below `RenderSettings::min_throughput`.
 #pragma once
 
+#include "raytrace/pixels/render_context.h"
 #include "raytrace/tile.h"
 
 namespace meninas {

@@ -4,6 +4,8 @@
 // On a curved surface n turns from point to point (scenes/shading_normal.h).
 #pragma once
 
+#include "raytrace/beams/lane_state.h"
+#include "raytrace/pixels/render_context.h"
 #include "raytrace/tile.h"
 
 namespace meninas {

@@ -1,11 +1,8 @@
-// What a tile of the picture is made with: what all tiles share, and the storage of one.
+// The storage of one tile of the picture: sums by way of seeing, and the specular paths that go on.
 #pragma once
 
 #include "radiosity/light/light_samples.h"
-#include "raytrace/pixels/camera_rays.h"
-#include "raytrace/diffuse_term.h"
 #include "raytrace/lobe_grid.h"
-#include "raytrace/render_settings.h"
 #include "raytrace/beams/coherent_beam.h"
 #include "scenes/sampling.h"
 
@@ -68,96 +65,6 @@ inline std::uint32_t pixel_seed(const TileArea& area, std::uint32_t pixel, std::
   const auto width = static_cast<std::uint32_t>(area.width);
   return hash(static_cast<std::uint32_t>(area.x0) + pixel % width,
               static_cast<std::uint32_t>(area.y0) + pixel / width, hash(seed, 0x10be));
-}
-
-/// 1 for pixels that are meant, row by row.
-using PixelMask = std::vector<std::uint8_t>;
-
-/// Samples by their number: any first 2^k of a pixel are stratified, and so are the 2^k after 2^k.
-struct SampleRange {
-  int first = 0, count = 1;
-};
-
-/// Everything the tiles share.
-struct RenderContext {
-  const LightScene& light;
-  const VisibleLight& visible;
-  const PointGathering* gathering; ///< of the diffuse term `gather`, else null
-  const RenderSettings& settings;
-  CameraFrame camera;
-  std::vector<std::uint32_t> net_x, net_y; ///< stratified points of the pixel, as integers
-  const PixelMask* chosen = nullptr;       ///< pixels of the picture to be traced; null: all
-  const FilterPlaces* filter = nullptr;    ///< null: the box, whose points are where they are
-  double footprint_samples = 1.0;          ///< that share a pixel: these and those before
-  std::uint32_t first_sample = 0;          ///< number of the first of these points
-  std::vector<Bsdf>
-      bsdfs; ///< by MaterialId, of those with lobes and without textures; empty where none has lobes
-  DiffuseSettings behind_lobes; ///< where many rays of a pixel land by way of one
-  std::vector<std::uint8_t>
-      blurred; ///< by WorldId: 1 where one of its mirrors has a lobe of its own, which rays follow
-  std::vector<FrustumFace> frustum_faces; ///< for coherent_beams.h; empty: all rays are traced
-  std::vector<std::uint32_t> net_u, net_v; ///< likewise of the lens; empty where there is none
-};
-
-inline bool is_chosen(const RenderContext& context, int x, int y) {
-  return !context.chosen || (*context.chosen)[static_cast<std::size_t>(y) *
-                                                  static_cast<std::size_t>(context.settings.width) +
-                                              static_cast<std::size_t>(x)] != 0;
-}
-
-/// Sixteen camera rays behind the mirrors that all of them have met (packet_reflection.h),
-/// in the frame of the ray scene.
-struct alignas(64) MirrorBeam {
-  double origin_x[packet_size], origin_y[packet_size], origin_z[packet_size];
-  double direction_x[packet_size], direction_y[packet_size], direction_z[packet_size];
-  float travelled[packet_size]; ///< as of SpecularRay
-  glm::vec3 throughput{1.0F};
-  std::uint16_t way = 0;    ///< as of SpecularRay
-  std::int32_t bounces = 0; ///< off mirrors
-};
-
-/// What the rays of a packet carry: camera rays their pixel and sample,
-/// and what mirrors they have met together; specular rays their record.
-struct LaneState {
-  const std::uint32_t* pixel;
-  const SpecularRay* specular; ///< of lane 0; null for camera rays
-  const std::uint32_t*
-      sample; ///< numbers that tell the samples of a pixel apart; null for specular rays
-  const std::uint32_t* number;      ///< of the sample in its pixel; null for specular rays
-  const MirrorBeam* beam = nullptr; ///< of camera rays behind mirrors
-
-  /// Of the samples taken where lane k lands.
-  std::uint32_t key(std::uint32_t k, std::uint32_t seed) const {
-    return specular ? specular[k].key : hash(sample[k], pixel[k], seed);
-  }
-  std::size_t way(std::uint32_t k) const {
-    return specular ? specular[k].way : beam ? beam->way : 0;
-  }
-  glm::vec3 throughput(std::uint32_t k) const {
-    return specular ? specular[k].throughput : beam ? beam->throughput : glm::vec3(1.0F);
-  }
-  float travelled(std::uint32_t k) const {
-    return specular ? specular[k].travelled : beam ? beam->travelled[k] : 0.0F;
-  }
-  std::uint32_t number_of(std::uint32_t k) const {
-    return specular ? specular[k].number : number[k];
-  }
-};
-
-/// Lane k of a packet where it has met a face, with what it carries and what all tiles share.
-struct LandedLane {
-  const RenderContext& context;
-  const RayPacket& packet;
-  const LaneState& state;
-  const FaceRecord& face;
-  const HitPacket& hits;
-  std::uint32_t k;
-};
-
-/// The face of its triangle that lane k has hit.
-inline const FaceRecord& face_of(const LandingTable& landing, const HitPacket& hits,
-                                 std::uint32_t k) {
-  return landing.faces[2 * hits.triangle[k] + (hits.front[k] != 0 ? 0 : 1)];
 }
 
 } // namespace meninas

@@ -1,6 +1,7 @@
 // The picture tile by tile: tiles run in parallel, and each writes its own pixels.
 #pragma once
 
+#include "raytrace/pixels/render_context.h"
 #include "raytrace/tile.h"
 
 #include <functional>

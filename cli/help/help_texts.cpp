@@ -142,7 +142,8 @@ const std::map<std::string_view, std::string_view>& other_details() {
        "came by way of mirrors), each seen straight, in one mirror (`.mirror`) and in several "
        "(`.mirrors`). `depth` (metres along the view axis; from the eye in panoramas), `normal` (world space, towards the eye), "
        "`albedo` (diffuse), `element` (counted from 1) and `irradiance` (of pass one, W/m²) are those "
-       "of the first surface at the middle of each pixel, a mirror among them; 0 where there is none."},
+       "of the first surface at the middle of each pixel, a mirror among them; 0 where there is none. "
+       "`alpha` is the share of the pixel in which there is one, channel `A` beside `R`, `G`, `B`."},
       {"--mesh",
        "`hierarchical` gathers light on parts of surfaces as large as accuracy allows (after Hanrahan, "
        "Salzman and Aupperle 1991) and is the fastest for a given accuracy in most scenes. `uniform` has "

@@ -53,11 +53,14 @@ struct Planes {
 constexpr std::array colour = {"R", "G", "B"};
 constexpr std::array vector = {"X", "Y", "Z"};
 constexpr std::array depth = {"Z"};
+constexpr std::array alpha = {"A"};
 
-/// What compositors know a layer's channels by. Of a depth R is written.
+/// What compositors know a layer's channels by. Of depth and alpha R is written.
 std::span<const char* const> components_of(std::string_view layer) {
   if (layer == "depth")
     return depth;
+  if (layer == "alpha")
+    return alpha;
   if (layer == "normal")
     return vector;
   return colour;
@@ -75,8 +78,11 @@ static std::vector<Planes> planes_of(const Image& picture, std::span<const Layer
                                      LayerChannels channels) {
   std::vector<Planes> planes{{"", &picture, colour}};
   for (const Layer& layer : layers)
-    planes.push_back({layer.name + ".", &layer.image,
-                      channels == LayerChannels::known ? components_of(layer.name) : colour});
+    if (channels == LayerChannels::known) // the alpha is that of the picture itself: A
+      planes.push_back({layer.name == "alpha" ? "" : layer.name + ".", &layer.image,
+                        components_of(layer.name)});
+    else
+      planes.push_back({layer.name + ".", &layer.image, colour});
   return planes;
 }
 

@@ -2,6 +2,7 @@
 
 #include "raytrace/scattering.h"
 #include "raytrace/specular_rays.h"
+#include "raytrace/pixels/render_context.h"
 #include "raytrace/tile.h"
 #include "raytrace/wide_lanes.h"
 #include "scenes/rays/frame_geometry.h"

@@ -6,6 +6,8 @@
 // Where they part, what they have met tells (shade_packet): those that go on are queued one by one.
 #pragma once
 
+#include "raytrace/beams/lane_state.h"
+#include "raytrace/pixels/render_context.h"
 #include "raytrace/tile.h"
 
 namespace meninas {

@@ -6,7 +6,7 @@
 // (a k-d tree, Bentley 1975); numbers of parts are without unit, places in pixels.
 #pragma once
 
-#include "raytrace/tile.h"
+#include "raytrace/pixels/render_context.h"
 
 namespace meninas {
 

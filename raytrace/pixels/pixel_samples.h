@@ -2,6 +2,7 @@
 // time, traced and shaded.
 #pragma once
 
+#include "raytrace/pixels/render_context.h"
 #include "raytrace/tile.h"
 
 namespace meninas {

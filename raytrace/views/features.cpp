@@ -16,6 +16,8 @@ std::string_view name_of(Feature feature) {
     return "albedo";
   case Feature::element:
     return "element";
+  case Feature::alpha:
+    return "alpha";
   case Feature::irradiance:
     break;
   }
@@ -38,12 +40,27 @@ static glm::vec3 value_of(Feature feature, const IrradianceField& field,
     return albedo_at(light, sight);
   case Feature::element:
     return glm::vec3(on_field ? static_cast<float>(sight.place.element) + 1.0F : 0.0F);
+  case Feature::alpha:
   case Feature::irradiance:
     break;
   }
   return on_field ? field_irradiance(light.mesh.corners, field.irradiance, sight.place.element,
                                      sight.place.place)
                   : glm::vec3(0.0F);
+}
+
+/// By sixteen points, each in a square of its own.
+static float coverage(const LightScene& light, const Camera& camera, const RenderSettings& settings,
+                      int x, int y) {
+  constexpr int side = 4;
+  const double aspect = double(settings.width) / settings.height;
+  int met = 0;
+  for (int k = 0; k < side * side; ++k) {
+    const Vec2 at((x + (k % side + 0.5) / side) / settings.width,
+                  (y + (k / side + 0.5) / side) / settings.height);
+    met += look(light, camera, aspect, at, 0).triangle != none<TriangleId> ? 1 : 0;
+  }
+  return static_cast<float>(met) / (side * side);
 }
 
 std::vector<Layer> render_features(const IrradianceField& field,
@@ -54,12 +71,16 @@ std::vector<Layer> render_features(const IrradianceField& field,
   const double aspect = double(settings.width) / settings.height;
   tbb::parallel_for(0, settings.features.empty() ? 0 : settings.height, [&](int y) {
     for (int x = 0; x < settings.width; ++x) {
+      for (std::size_t k = 0; k < layers.size(); ++k)
+        if (settings.features[k] == Feature::alpha)
+          layers[k].image.at(x, y) = glm::vec3(coverage(*field.scene, camera, settings, x, y));
       const Vec2 middle((x + 0.5) / settings.width, (y + 0.5) / settings.height);
       const Sight sight = look(*field.scene, camera, aspect, middle, 0);
       if (sight.triangle == none<TriangleId>)
         continue;
       for (std::size_t k = 0; k < layers.size(); ++k)
-        layers[k].image.at(x, y) = value_of(settings.features[k], field, camera, sight);
+        if (settings.features[k] != Feature::alpha)
+          layers[k].image.at(x, y) = value_of(settings.features[k], field, camera, sight);
     }
   });
   return layers;

@@ -1,6 +1,7 @@
 // Layers that show the scene instead of its light, for compositing and denoising.
-// All of them are samples at the middle of each pixel,
+// All but alpha are samples at the middle of each pixel,
 // of the first surface the eye meets there, a mirror among them; 0 where there is none.
+// Alpha is the share of the pixel in which there is one, by 16 points.
 #pragma once
 
 #include "raytrace/render_settings.h"

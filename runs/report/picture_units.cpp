@@ -13,6 +13,7 @@ std::string unit_of_layer(std::string_view name) {
   };
   static constexpr std::array others{Unit{"depth", "m"},      Unit{"normal", "1"},
                                      Unit{"albedo", "1"},     Unit{"element", "1"},
+                                     Unit{"alpha", "1"},
                                      Unit{"elements", "1"},   Unit{"closure", "1"},
                                      Unit{"mirror-depth", "1"}, Unit{"irradiance", "W/m^2"},
                                      Unit{"illuminance", "lx"}, Unit{"luminance", "cd/m^2"},

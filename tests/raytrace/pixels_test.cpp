@@ -261,7 +261,7 @@ TEST(Features, AreTheSceneAtTheMiddleOfThePixel) {
   RenderSettings settings = pixels(24, 24, 1);
   settings.features = {all_features.begin(), all_features.end()};
   const Rendering rendering = render(lit.solution.field, camera, settings);
-  ASSERT_EQ(rendering.layers.size(), 5U);
+  ASSERT_EQ(rendering.layers.size(), 6U);
   const auto layer = [&](Feature feature) -> const Image& {
     const auto& found = rendering.layers[static_cast<std::size_t>(feature)];
     EXPECT_EQ(found.name, name_of(feature));
@@ -289,12 +289,29 @@ TEST(Features, AreTheSceneAtTheMiddleOfThePixel) {
           EXPECT_EQ(layer(feature).at(x, y), glm::vec3(0.0F));
         ++on_mirror;
       } else {
-        for (const Feature feature : all_features)
+        for (const Feature feature : {Feature::depth, Feature::normal, Feature::albedo,
+                                      Feature::element, Feature::irradiance})
           EXPECT_EQ(layer(feature).at(x, y), glm::vec3(0.0F)) << x << ' ' << y;
         ++missed;
       }
     }
   EXPECT_GT(std::min({floor, on_mirror, missed}), 20);
+}
+
+// Four columns of points in a pixel tell where an upright edge crosses it to an eighth.
+TEST(Features, AlphaIsTheShareOfThePixelInWhichThereIsSomething) {
+  Scene scene;
+  add_polygon(scene, "sheet", {{0.07, -9, 0}, {9, -9, 0}, {9, 9, 0}, {0.07, 9, 0}}, diffuse(0.5));
+  scene.background = Rgb(1.0);
+  const Taken lit = lit_up(scene, coarse());
+  RenderSettings settings = pixels(8, 4, 1);
+  settings.features = {Feature::depth, Feature::alpha};
+  const Rendering rendering = render(lit.solution.field, look_at({0, 0, 1}, {0, 0, 0}, 0.5), settings);
+  ASSERT_EQ(rendering.layers[1].name, "alpha");
+  const double edge = 4.0 + 0.07 / (4.0 * std::tan(0.25)) * 8.0; // in pixels; the picture is twice as wide as high
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 8; ++x)
+      EXPECT_NEAR(rendering.layers[1].image.at(x, y).r, std::clamp(x + 1 - edge, 0.0, 1.0), 0.125);
 }
 
 } // namespace

@@ -116,18 +116,19 @@ TEST_F(Exr, LayersComeBackByName) {
 TEST_F(Exr, DepthsAndVectorsHaveTheNamesThatCompositorsKnow) {
   const auto picture = random_picture(9, 5);
   const std::vector<Layer> layers{{"depth", random_picture(9, 5, 2)},
-                                  {"normal", random_picture(9, 5, 3)}};
+                                  {"normal", random_picture(9, 5, 3)},
+                                  {"alpha", random_picture(9, 5, 4)}};
   write_exr(folder / "a.exr", picture, layers, PixelType::float32);
   std::ifstream file(folder / "a.exr", std::ios::binary);
   std::string header(1000, '\0');
   file.read(header.data(), 1000);
-  for (const std::string name : {"depth.Z", "normal.X", "normal.Y", "normal.Z"})
+  for (const std::string name : {"A", "depth.Z", "normal.X", "normal.Y", "normal.Z"})
     EXPECT_NE(header.find(name + '\0'), std::string::npos) << name;
   EXPECT_EQ(header.find("depth.R"), std::string::npos);
 
   const auto read = read_image(folder / "a.exr");
   EXPECT_EQ(read.picture.pixels, picture.pixels);
-  EXPECT_TRUE(read.ignored_channels.empty());
+  EXPECT_EQ(read.ignored_channels, std::vector<std::string>{"A"}) << "a picture is compared without its alpha";
   ASSERT_EQ(read.layers.size(), 2U);
   EXPECT_EQ(read.layers[1].image.pixels, layers[1].image.pixels);
   for (std::size_t k = 0; k < picture.pixels.size(); ++k)
