@@ -44,14 +44,16 @@ void RunProgress::report(std::string_view stage, double fraction, double now) {
   const std::size_t k = stage_of_report(stage, fraction);
   if (k == stages_.size())
     return;
-  current_ = k;
-  is_new_ = false;
-  fraction_ = std::clamp(fraction, 0.0, 1.0);
-  const double done = share_before(k) + stages_[k].share * fraction_;
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  const double done = share_before(k) + stages_[k].share * fraction;
   if (done > done_) {
+    shown_ = std::max(done, state(now).done);
     done_ = done;
     reported_ = now;
   }
+  current_ = k;
+  is_new_ = false;
+  fraction_ = fraction;
   if (fraction_ >= 1.0 && k + 1 < stages_.size()) {
     current_ = k + 1;
     fraction_ = 0.0;
@@ -62,8 +64,8 @@ void RunProgress::report(std::string_view stage, double fraction, double now) {
 RunState RunProgress::state(double now) const {
   if (stages_.empty())
     return {};
-  RunState state{stages_[current_].name, done_, std::nullopt};
-  const double elapsed = now - begin_, room = share_before(current_) + stages_[current_].share - done_;
+  RunState state{stages_[current_].name, shown_, std::nullopt};
+  const double elapsed = now - begin_, room = share_before(current_) + stages_[current_].share - shown_;
   if (reported_ > begin_ && room > 0.0) {
     const double rate = done_ / (reported_ - begin_);
     state.done += room * (1.0 - std::exp(-rate * (now - reported_) / room));

@@ -6,8 +6,9 @@
 // before them is complete. With the elapsed time t and the fraction d that is done by reports,
 //   rate = d / t,
 // and between reports the fraction goes on at this rate, ever more slowly towards the end of the
-// stage, which it does not reach:  d + r (1 - exp(-rate dt / r)), r what is left of the stage.
-// So no stage stands still, and none claims to be complete before it is.
+// stage, which it does not reach:  s + r (1 - exp(-rate dt / r)), r what is left of the stage after s,
+// d or what was shown at the last report, whichever is more.
+// So no stage stands still or falls back, and none claims to be complete before it is.
 #pragma once
 
 #include "runs/run_events.h"
@@ -43,6 +44,7 @@ private:
   double fraction_ = 0.0; ///< of the current stage, as last reported
   bool is_new_ = false;   ///< the current stage follows a complete one and has not reported yet
   double done_ = 0.0;     ///< of the run, at `reported_`
+  double shown_ = 0.0;    ///< s, at `reported_`
   double begin_ = 0.0, reported_ = 0.0;
 };
 

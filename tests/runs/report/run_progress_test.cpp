@@ -49,6 +49,22 @@ TEST(RunProgress, NeverGoesBack) {
   EXPECT_GE(progress.state(7.0).done, 0.5) << "a round more of a stage that is over";
 }
 
+TEST(RunProgress, DoesNotFallBackWhereAStageSlowsDown) {
+  RunProgress progress;
+  progress.begin(stages, 0.0);
+  progress.report("form factors", 0.5, 1.0);
+  double shown = 0.0;
+  for (int tick = 10; tick < 200; ++tick) { // a hundredth of the pace
+    const double now = 0.1 * tick;
+    if (tick % 20 == 0)
+      progress.report("form factors", 0.5 + 0.0005 * tick, now);
+    const double done = progress.state(now).done;
+    EXPECT_GE(done, shown) << now;
+    EXPECT_LE(done, 0.5) << "the stage is not over at " << now;
+    shown = done;
+  }
+}
+
 TEST(RunProgress, TellsStagesOfOneNameApart) {
   RunProgress progress;
   progress.begin({{"render", 1.0}, {"render", 1.0}}, 0.0);
