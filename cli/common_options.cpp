@@ -334,4 +334,13 @@ void refuse_pass_one_options(const Options& command, const std::string& reason) 
   }
 }
 
+void add_solve_options(Options& command, CommonOptions& options) {
+  add_quality(command, options);
+  add_state_options(command, options);
+  add_light_options(command, options);
+  add_mesh_options(command, options);
+  add_pass_one_options(command, options);
+  add_run_options(command, options);
+}
+
 } // namespace meninas

@@ -55,6 +55,9 @@ void check_pass_one_options(const Options& command, const RunSettings& settings)
 /// Threads, seed, quiet.
 void add_run_options(Options& command, CommonOptions& options);
 
+/// All of the above but the scene, in the order of the help: what `solve` asks for.
+void add_solve_options(Options& command, CommonOptions& options);
+
 Option add_file(Options& command, const std::string& option,
                 std::optional<std::filesystem::path>& file, const std::string& description);
 

@@ -107,12 +107,7 @@ Command add_solve_command(Options& program) {
               "change it without solving [by node]",
               options->common.settings.lamps);
   add_point_options(command, options->request.points);
-  add_quality(command, options->common);
-  add_state_options(command, options->common);
-  add_light_options(command, options->common);
-  add_mesh_options(command, options->common);
-  add_pass_one_options(command, options->common);
-  add_run_options(command, options->common);
+  add_solve_options(command, options->common);
   return {&command, [=, &command] { run(command, *options); }};
 }
 

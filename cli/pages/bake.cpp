@@ -57,12 +57,7 @@ Command add_bake_command(Options& program) {
               [=](const std::string& text) { options->request.direct = parse_direct(text); });
   add_file(command, "--solution", options->request.solution,
            "bake a solution written by `meninas solve` instead of solving");
-  add_quality(command, options->common);
-  add_state_options(command, options->common);
-  add_light_options(command, options->common);
-  add_mesh_options(command, options->common);
-  add_pass_one_options(command, options->common);
-  add_run_options(command, options->common);
+  add_solve_options(command, options->common);
   return {&command, [=, &command] { run(command, *options); }};
 }
 

@@ -103,12 +103,7 @@ Command add_view_command(Options& program) {
                 options->request.exposure = parse_number("--exposure", text, Sign::any);
               });
   add_view_transform(command, "how the page shows what is brighter than a display", options->request.transform, "Page");
-  add_quality(command, options->common);
-  add_state_options(command, options->common);
-  add_light_options(command, options->common);
-  add_mesh_options(command, options->common);
-  add_pass_one_options(command, options->common);
-  add_run_options(command, options->common);
+  add_solve_options(command, options->common);
   return {&command, [=, &command] { run(command, *options); }};
 }
 
