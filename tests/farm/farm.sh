@@ -3,8 +3,10 @@
 skip() { printf 'skipped: %s\n' "$1" && exit 77; }
 fail() { printf 'FAILED: %s\n' "$1" && exit 1; }
 
+# prepare [SETTINGS]
 pictures=12
 prepare() {
+  local settings=${1:-'"size": "64x48"'}
   rm -rf "$work" && mkdir -p "$work/bin"
   ln -s "$program" "$work/bin/meninas"
   export PATH="$work/bin:$PATH"
@@ -12,7 +14,7 @@ prepare() {
   cp "$source/scenes/gallery/cornell-mirror.gltf" room.gltf
   cat > jobs.json << END
 {"jobs": [{"scenes": "room.gltf", "cameras": {"name": "turn", "orbit": {"radius": 2.5}, "frames": $pictures},
-  "settings": {"quality": "draft", "size": "64x48"}, "outputs": ["{frame}.exr", "{frame}.png"]}]}
+  "settings": {"quality": "draft", $settings}, "outputs": ["{frame}.exr", "{frame}.png"]}]}
 END
   meninas batch jobs.json -o alone --quiet
 }
