@@ -30,7 +30,7 @@ install(FILES docs/regress.schema.json ${CMAKE_BINARY_DIR}/batch.schema.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/meninas COMPONENT program)
 
 install(PROGRAMS integrations/slurm/meninas-slurm DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-install(DIRECTORY integrations/openjd DESTINATION ${CMAKE_INSTALL_DATADIR}/meninas COMPONENT program
+install(DIRECTORY integrations/openjd integrations/kubernetes DESTINATION ${CMAKE_INSTALL_DATADIR}/meninas COMPONENT program
   FILES_MATCHING PATTERN "*.yaml")
 
 # In the places they have here, so that their links lead somewhere.

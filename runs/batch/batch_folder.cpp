@@ -167,6 +167,10 @@ std::optional<PictureRecord> BatchFolder::record(const BatchPicture& picture) co
 }
 
 std::optional<PictureRecord> BatchFolder::done(const BatchPicture& picture) const {
+  // Another machine may have written what was missing when this one looked last.
+  look_anew(state_ / "done");
+  for (const fs::path& output : picture.outputs)
+    look_anew((folder_ / output).parent_path());
   auto found = record(picture);
   const bool counts = found && (resume_ == Resume::yes || found->session == session_);
   return counts && has_its_files(folder_, *found, picture) ? found : std::nullopt;
@@ -185,12 +189,16 @@ std::optional<FileLock> BatchFolder::try_lock_picture(const BatchPicture& pictur
 }
 
 std::optional<FileLock> BatchFolder::try_lock_solution(const std::string& key) const {
-  return try_lock(cache_ / (key + ".lock"));
+  return try_lock(cache_ / (key + ".lock")); // which has looked anew what is in the folder
 }
 
 fs::path BatchFolder::solution(const std::string& key) const { return cache_ / (key + ".glb"); }
 
-FileLock BatchFolder::lock_reports() const { return wait_for_lock(state_ / "reports.lock"); }
+FileLock BatchFolder::lock_reports() const {
+  FileLock lock = wait_for_lock(state_ / "reports.lock");
+  look_anew(state_ / "done");
+  return lock;
+}
 
 bool is_done(const fs::path& folder, const BatchPicture& picture) {
   const auto found = read_record(state_of(folder), picture);

@@ -36,6 +36,7 @@ static void say_owner(int descriptor) {
 
 /// Whoever had it before may have removed the file between our opening and locking it.
 static bool is_still_there(const fs::path& file, int descriptor) {
+  look_anew(file.parent_path());
   struct stat named {
   }, held{};
   return ::fstat(descriptor, &held) == 0 && ::stat(file.c_str(), &named) == 0 &&
@@ -76,6 +77,12 @@ std::optional<FileLock> try_lock(const fs::path& file) {
     }
     ::close(descriptor);
   }
+}
+
+void look_anew(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor >= 0)
+    ::close(descriptor);
 }
 
 FileLock wait_for_lock(const fs::path& file) {
